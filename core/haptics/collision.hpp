@@ -1,0 +1,23 @@
+// Where a straight path first meets the surface: walks the cells under the segment.
+#pragma once
+
+#include <optional>
+
+#include "core/haptics/primitive.hpp"
+#include "core/haptics/surface.hpp"
+#include "core/haptics/vec.hpp"
+
+namespace dibhr {
+
+struct Hit {
+    Vec3 position{0.0};
+    Primitive triangle{};
+};
+
+/// The first point at which the segment dives below the surface, or nothing. Both ends are in grid
+/// space with (x, y) inside the image rectangle; a start on the surface counts as outside. Cost:
+/// one visit a cell crossed, only where the segment is below the surface's ceiling.
+[[nodiscard]] std::optional<Hit> first_hit(const DepthSurface& surface, Vec3 from,
+                                           Vec3 to) noexcept;
+
+}  // namespace dibhr

@@ -1,0 +1,33 @@
+// One depth image in its source's own levels: what the surface is made of.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace dibhr {
+
+/// Depth levels, rows x columns, row-major; brighter = nearer to the camera = higher.
+/// A float holds 16 bits exactly, so nothing of the source is lost. At least 2 x 2 when touched.
+struct DepthImage {
+    int columns{0};
+    int rows{0};
+    double highest_level{
+        255.0};  ///< the level of depth 1.0: 255 for 8-bit, 65535 for 16-bit sources
+    std::vector<float> levels{};
+
+    [[nodiscard]] float& at(int i, int j) { return levels[index(i, j)]; }
+    [[nodiscard]] float at(int i, int j) const { return levels[index(i, j)]; }
+    [[nodiscard]] std::size_t index(int i, int j) const {
+        return static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) +
+               static_cast<std::size_t>(i);
+    }
+};
+
+/// Fine relief laid over the whole depth image: rows x columns, row-major, heights in [0, 1].
+struct BumpMap {
+    int columns{0};
+    int rows{0};
+    std::vector<float> heights{};
+};
+
+}  // namespace dibhr

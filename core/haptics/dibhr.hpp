@@ -1,0 +1,31 @@
+// Depth Image-Based Haptic Rendering: the proxy follows the correct path over the depth image
+// itself.
+#pragma once
+
+#include "core/haptics/proxy.hpp"
+
+namespace dibhr {
+
+/// Cha, Eid and El Saddik, "DIBHR: Depth Image-Based Haptic Rendering", EuroHaptics 2008,
+/// section 3.
+///
+/// The walk ends where the distance to the goal has a local minimum over the surface (no friction),
+/// or on or in the friction cone of the piece it was on. Cost: a fraction of a microsecond for a
+/// hand's step; proportional to the cells crossed.
+class Dibhr final : public ProxyAlgorithm {
+  public:
+    const Proxy& update(const DepthSurface& surface, Vec3 goal,
+                        const Friction& friction) noexcept override;
+    void restart() noexcept override { started_ = false; }
+
+  private:
+    void start_above(const DepthSurface& surface, Vec3 goal) noexcept;
+    void follow_surface(const DepthSurface& surface) noexcept;
+
+    Proxy proxy_{};
+    int columns_{0};
+    int rows_{0};
+    bool started_{false};
+};
+
+}  // namespace dibhr

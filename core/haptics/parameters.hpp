@@ -1,0 +1,41 @@
+// What people tune while they touch; plain data, handed over whole to the next tick.
+#pragma once
+
+namespace dibhr {
+
+/// How depth becomes elevation: relief * depth + roughness * bump, pixels.
+struct SurfaceShape {
+    double relief_px{
+        255.0};  ///< elevation of depth 1.0 [px]; 255 makes a grey level a pixel, as in the paper
+    double roughness_px{0.0};  ///< elevation of bump height 1.0 [px]
+
+    bool operator==(const SurfaceShape&) const = default;
+};
+
+/// Coulomb friction; static_coefficient >= dynamic_coefficient >= 0.
+struct Friction {
+    double static_coefficient{0.4};   ///< while the contact sticks
+    double dynamic_coefficient{0.4};  ///< once it slips
+
+    bool operator==(const Friction&) const = default;
+};
+
+/// The spring and damper between proxy and goal, and the size of a pixel under the hand.
+struct Coupling {
+    double stiffness_newton_per_mm{0.5};
+    double damping_newton_s_per_m{0.0};
+    double pixel_pitch_mm{101.6 /
+                          720.0};  ///< the Falcon's 4 inches over 720 columns, as in the paper
+
+    bool operator==(const Coupling&) const = default;
+};
+
+struct TouchParameters {
+    SurfaceShape shape{};
+    Friction friction{};
+    Coupling coupling{};
+
+    bool operator==(const TouchParameters&) const = default;
+};
+
+}  // namespace dibhr

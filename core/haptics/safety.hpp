@@ -1,0 +1,56 @@
+// The last stage of every tick, whatever the algorithm gave: a force the hand can be trusted to.
+#pragma once
+
+#include <cstdint>
+
+#include "core/haptics/vec.hpp"
+
+namespace dibhr {
+
+struct SafetyLimits {
+    double max_force_newton{4.0};          ///< the smaller of the device's limit and the user's
+    double max_change_newton_per_ms{0.5};  ///< Falcon fact sheet, section 11: suggested slew limit
+    double ramp_s{0.5};                    ///< from zero to full force after a restart
+    double max_tick_s{0.020};  ///< a longer tick is late: no force (reply older than 20 ms)
+    double max_goal_speed_mm_per_ms{10.0};  ///< a faster goal is a jump, not a hand (10 m/s)
+};
+
+/// Why the last force was cut, or `none`.
+enum class SafetyCut : std::uint8_t {
+    none,
+    not_finite,
+    off,
+    device_not_ready,
+    late_tick,
+    goal_jump
+};
+
+/// "", "not finite", "force off", ...: for the panel.
+[[nodiscard]] const char* name_of(SafetyCut cut) noexcept;
+
+/// What one tick knows besides the force.
+struct SafetyInput {
+    double dt_s{0.001};
+    double goal_step_mm{0.0};  ///< how far the goal moved since the last tick
+    bool force_enabled{true};  ///< the user's switch
+    bool device_ready{true};   ///< attached and homed
+    bool restart{false};       ///< start, engaging, seek, loop, new file or parameters: ramp again
+};
+
+/// Finite? -> length <= limit -> ramp -> change per millisecond <= limit -> zero when it must not
+/// act.
+class SafetyStage {
+  public:
+    /// The force to send [N]. |result| <= limits.max_force_newton, and always finite.
+    [[nodiscard]] Vec3 limit(Vec3 force_newton, const SafetyInput& input,
+                             const SafetyLimits& limits) noexcept;
+
+    [[nodiscard]] SafetyCut last_cut() const noexcept { return cut_; }
+
+  private:
+    Vec3 sent_newton_{0.0};
+    double ramp_age_s_{0.0};
+    SafetyCut cut_{SafetyCut::none};
+};
+
+}  // namespace dibhr

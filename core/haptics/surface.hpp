@@ -1,0 +1,64 @@
+// The touchable surface at one moment: two depth images, a blend and a bump map, read at the
+// vertex.
+#pragma once
+
+#include <cstddef>
+
+#include "core/haptics/depth_image.hpp"
+#include "core/haptics/parameters.hpp"
+#include "core/haptics/primitive.hpp"
+#include "core/haptics/vec.hpp"
+
+namespace dibhr {
+
+/// A view that owns nothing and costs nothing to make: elevations are evaluated when they are asked
+/// for, `relief * lerp(from, to, blend) / highest level + roughness * bump(u, v)`. The images must
+/// outlive it, have the same size and highest level, and be at least 2 x 2.
+class DepthSurface {
+  public:
+    /// `blend` in [0, 1] (clamped): 0 is `from`, 1 is `to`. `bump` may be null.
+    DepthSurface(const DepthImage& from, const DepthImage& to, double blend, SurfaceShape shape,
+                 const BumpMap* bump = nullptr) noexcept;
+
+    [[nodiscard]] int columns() const noexcept { return columns_; }
+    [[nodiscard]] int rows() const noexcept { return rows_; }
+
+    /// Elevation of vertex (i, j) [px]; 0 <= i < columns, 0 <= j < rows.
+    [[nodiscard]] double elevation(int i, int j) const noexcept {
+        const std::size_t k = static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
+                              static_cast<std::size_t>(i);
+        double level = static_cast<double>(from_[k]);
+        if (to_ != from_) level += blend_ * (static_cast<double>(to_[k]) - level);
+        // Dividing last keeps whole levels exact: relief * level / highest level.
+        const double z = relief_px_ * level / highest_level_;
+        return bump_ == nullptr ? z : z + roughness_px_ * bump_height(i, j);
+    }
+
+    /// Elevation of the triangulated surface under (x, y) [px], clamped to the image rectangle.
+    [[nodiscard]] double elevation_at(double x, double y) const noexcept;
+
+    /// The TRIANGLE under (x, y), clamped to the image rectangle; either one where two meet.
+    [[nodiscard]] Primitive triangle_at(double x, double y) const noexcept;
+
+    /// No vertex is higher than this [px], as long as no level exceeds the highest.
+    [[nodiscard]] double ceiling() const noexcept;
+
+    /// (x, y) moved into the image rectangle [0, columns-1] x [0, rows-1]; z stays.
+    [[nodiscard]] Vec3 clamped_to_frame(Vec3 p) const noexcept;
+
+  private:
+    /// Bilinear height of the bump map, stretched over the image, at vertex (i, j), in [0, 1].
+    [[nodiscard]] double bump_height(int i, int j) const noexcept;
+
+    const float* from_{nullptr};
+    const float* to_{nullptr};
+    int columns_{0};
+    int rows_{0};
+    double blend_{0.0};
+    double relief_px_{0.0};
+    double highest_level_{255.0};
+    double roughness_px_{0.0};
+    const BumpMap* bump_{nullptr};
+};
+
+}  // namespace dibhr

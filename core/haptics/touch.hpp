@@ -1,0 +1,46 @@
+// One haptic update as one sentence: goal -> proxy -> spring force -> safe force.
+#pragma once
+
+#include <memory>
+
+#include "core/haptics/proxy.hpp"
+#include "core/haptics/safety.hpp"
+
+namespace dibhr {
+
+/// One tick's result: the columns of the output rows, in grid space and newtons.
+struct Touch {
+    Vec3 goal{0.0};
+    Proxy proxy{};
+    Vec3 spring_force_newton{0.0};  ///< before the safety stage
+    Vec3 sent_force_newton{0.0};    ///< after it
+    SafetyCut cut{SafetyCut::none};
+};
+
+/// Spring to the proxy and damping of the goal's velocity [N]; zero out of contact.
+/// `goal_velocity` in px/s.
+[[nodiscard]] Vec3 coupling_force(const Proxy& proxy, Vec3 goal, Vec3 goal_velocity,
+                                  const Coupling& coupling) noexcept;
+
+/// Runs a proxy algorithm, the coupling and the safety stage on a stream of goals.
+class TouchRenderer {
+  public:
+    explicit TouchRenderer(std::unique_ptr<ProxyAlgorithm> algorithm);
+
+    /// One update. A non-finite goal is refused: the last state stands and the force is zero.
+    /// `input.goal_step_mm` is worked out here. No allocation.
+    const Touch& update(const DepthSurface& surface, Vec3 goal, const TouchParameters& parameters,
+                        SafetyInput input, const SafetyLimits& limits) noexcept;
+
+  private:
+    std::unique_ptr<ProxyAlgorithm> algorithm_;
+    SafetyStage safety_{};
+    Touch last_{};
+    bool started_{false};
+};
+
+/// The names `--algorithm` takes.
+enum class Algorithm { dibhr };
+[[nodiscard]] std::unique_ptr<ProxyAlgorithm> make_algorithm(Algorithm algorithm);
+
+}  // namespace dibhr

@@ -1,0 +1,18 @@
+// The vectors of grid space: x = column, y = row (down), z = elevation towards the viewer, pixels.
+#pragma once
+
+#include <cmath>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace dibhr {
+
+using Vec2 = glm::dvec2;
+using Vec3 = glm::dvec3;
+
+[[nodiscard]] inline bool is_finite(Vec3 v) noexcept {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+}  // namespace dibhr

@@ -1,0 +1,166 @@
+// The safety stage and the coupling: what may reach a hand.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <glm/geometric.hpp>
+
+#include "core/haptics/touch.hpp"
+#include "tests/core/haptics/surfaces.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace dibhr;
+using Catch::Matchers::WithinAbs;
+
+namespace {
+
+/// A stage whose ramp is over and whose last force was `force`.
+SafetyStage warmed_up(Vec3 force, const SafetyLimits& limits) {
+    SafetyStage stage;
+    for (int k = 0; k < 2000; ++k) static_cast<void>(stage.limit(force, {}, limits));
+    return stage;
+}
+
+}  // namespace
+
+TEST_CASE("no force longer than the limit is ever sent, and none that is not finite", "[safety]") {
+    const SafetyLimits limits;
+    SafetyStage stage;
+    test::Dice dice(41);
+    const double odd[] = {0.0,
+                          1e308,
+                          -1e308,
+                          std::numeric_limits<double>::infinity(),
+                          std::numeric_limits<double>::quiet_NaN(),
+                          5e-324};
+    for (int k = 0; k < 20000; ++k) {
+        Vec3 force(dice.uniform(-20.0, 20.0), dice.uniform(-20.0, 20.0), dice.uniform(-20.0, 20.0));
+        if (k % 7 == 0) force[k % 3] = odd[(k / 7) % 6];
+        SafetyInput input;
+        input.dt_s = k % 11 == 0 ? dice.uniform(-0.01, 0.05) : 0.001;
+        const Vec3 sent = stage.limit(force, input, limits);
+        REQUIRE(is_finite(sent));
+        REQUIRE(glm::length(sent) <= limits.max_force_newton * (1.0 + 1e-12));
+    }
+}
+
+TEST_CASE("the sent force changes by no more than the limit per millisecond, except to zero",
+          "[safety]") {
+    const SafetyLimits limits;
+    SafetyStage stage;
+    test::Dice dice(43);
+    Vec3 last(0.0);
+    for (int k = 0; k < 20000; ++k) {
+        const Vec3 force(dice.uniform(-9.0, 9.0), dice.uniform(-9.0, 9.0), dice.uniform(-9.0, 9.0));
+        SafetyInput input;
+        input.dt_s = 0.002;
+        const Vec3 sent = stage.limit(force, input, limits);
+        REQUIRE(glm::length(sent - last) <= 2.0 * limits.max_change_newton_per_ms + 1e-12);
+        last = sent;
+    }
+}
+
+TEST_CASE("a force within all limits passes unchanged", "[safety]") {
+    const SafetyLimits limits;
+    SafetyStage stage = warmed_up({1.0, 0.0, 2.0}, limits);
+    CHECK(stage.limit({1.1, 0.0, 2.1}, {}, limits) == Vec3(1.1, 0.0, 2.1));
+    CHECK(stage.last_cut() == SafetyCut::none);
+}
+
+TEST_CASE("a force that is too long keeps its direction", "[safety]") {
+    const SafetyLimits limits;
+    const Vec3 force(30.0, -40.0, 120.0);
+    SafetyStage stage = warmed_up(force, limits);
+    const Vec3 sent = stage.limit(force, {}, limits);
+    CHECK_THAT(glm::length(sent), WithinAbs(limits.max_force_newton, 1e-9));
+    CHECK_THAT(glm::length(glm::cross(sent, force)), WithinAbs(0.0, 1e-6));
+}
+
+TEST_CASE("after a restart the force ramps up from zero", "[safety]") {
+    const SafetyLimits limits;
+    const Vec3 force(0.0, 0.0, 2.0);
+    SafetyStage stage = warmed_up(force, limits);
+    SafetyInput restart;
+    restart.restart = true;
+    for (int k = 0; k < 4; ++k) static_cast<void>(stage.limit(force, restart, limits));
+    double last = stage.limit(force, restart, limits).z;
+    CHECK_THAT(last, WithinAbs(0.0, 1e-12));
+    for (int k = 1; k <= 500; ++k) {
+        const double now = stage.limit(force, {}, limits).z;
+        REQUIRE(now >= last);
+        REQUIRE(now <= 2.0 * (k + 0.5) / 500.0);
+        last = now;
+    }
+    CHECK_THAT(last, WithinAbs(2.0, 1e-9));
+}
+
+TEST_CASE("each reason to stop sends zero at once, says why, and ramps up again", "[safety]") {
+    struct Reason {
+        SafetyCut cut;
+        void (*apply)(SafetyInput&, Vec3&);
+    };
+    const Reason reason = GENERATE(values<Reason>({
+        {SafetyCut::off, [](SafetyInput& input, Vec3&) { input.force_enabled = false; }},
+        {SafetyCut::device_not_ready,
+         [](SafetyInput& input, Vec3&) { input.device_ready = false; }},
+        {SafetyCut::late_tick, [](SafetyInput& input, Vec3&) { input.dt_s = 0.021; }},
+        {SafetyCut::goal_jump, [](SafetyInput& input, Vec3&) { input.goal_step_mm = 10.1; }},
+        {SafetyCut::not_finite, [](SafetyInput&, Vec3& force) { force.x = std::nan(""); }},
+    }));
+    const SafetyLimits limits;
+    const Vec3 force(0.0, 0.0, 2.0);
+    SafetyStage stage = warmed_up(force, limits);
+    SafetyInput input;
+    Vec3 asked = force;
+    reason.apply(input, asked);
+    CHECK(stage.limit(asked, input, limits) == Vec3(0.0));
+    CHECK(stage.last_cut() == reason.cut);
+    CHECK(std::string(name_of(reason.cut)) != "");
+    CHECK(glm::length(stage.limit(force, {}, limits)) <= 2.0 * 0.001 / limits.ramp_s + 1e-12);
+}
+
+TEST_CASE("the spring force is stiffness times the way from goal to proxy, in millimetres",
+          "[coupling]") {
+    Proxy proxy;
+    proxy.contact = true;
+    proxy.position = {10.0, 20.0, 100.0};
+    Coupling coupling;
+    coupling.stiffness_newton_per_mm = 0.7;
+    coupling.pixel_pitch_mm = 0.2;
+    CHECK_THAT(coupling_force(proxy, {10.0, 20.0, 90.0}, Vec3(0.0), coupling).z,
+               WithinAbs(1.4, 1e-12));
+    coupling.damping_newton_s_per_m = 5.0;
+    const Vec3 damped = coupling_force(proxy, {10.0, 20.0, 90.0}, {100.0, 0.0, 0.0}, coupling);
+    CHECK_THAT(damped.x, WithinAbs(-5.0 * 0.02, 1e-12));  // 100 px/s = 20 mm/s
+    proxy.contact = false;
+    CHECK(coupling_force(proxy, {10.0, 20.0, 90.0}, {100.0, 0.0, 0.0}, coupling) == Vec3(0.0));
+}
+
+TEST_CASE("a goal that is not a number is refused: the last state stands and the force is zero",
+          "[touch]") {
+    const DepthImage image = test::flat(40, 40, 100.0);
+    const DepthSurface surface(image, image, 0.0, {255.0, 0.0});
+    TouchRenderer renderer(make_algorithm(Algorithm::dibhr));
+    for (int k = 0; k < 600; ++k) renderer.update(surface, {20.0, 20.0, 90.0}, {}, {}, {});
+    const Touch before = renderer.update(surface, {20.0, 20.0, 90.0}, {}, {}, {});
+    REQUIRE(glm::length(before.sent_force_newton) > 0.1);
+    const Touch refused = renderer.update(surface, {20.0, std::nan(""), 90.0}, {}, {}, {});
+    CHECK(refused.goal == before.goal);
+    CHECK(refused.proxy.position == before.proxy.position);
+    CHECK(refused.spring_force_newton == Vec3(0.0));
+    CHECK(refused.sent_force_newton == Vec3(0.0));
+    CHECK(refused.cut == SafetyCut::not_finite);
+    CHECK(is_finite(renderer.update(surface, {20.5, 20.0, 90.0}, {}, {}, {}).proxy.position));
+}
+
+TEST_CASE("starting inside the surface, the force fades in", "[touch]") {
+    const DepthImage image = test::flat(40, 40, 100.0);
+    const DepthSurface surface(image, image, 0.0, {255.0, 0.0});
+    TouchRenderer renderer(make_algorithm(Algorithm::dibhr));
+    const Touch first = renderer.update(surface, {20.0, 20.0, 50.0}, {}, {}, {});
+    CHECK(first.proxy.contact);
+    CHECK(first.sent_force_newton == Vec3(0.0));
+    const Touch second = renderer.update(surface, {20.0, 20.0, 50.0}, {}, {}, {});
+    CHECK(glm::length(second.sent_force_newton) <= 4.0 * 0.002);
+}

@@ -1,0 +1,116 @@
+// The surface: elevations, triangulation, bump map, frame.
+#include "core/haptics/surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/haptics/neighbours.hpp"
+#include "tests/core/haptics/surfaces.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace dibhr;
+using Catch::Matchers::WithinAbs;
+
+TEST_CASE("an elevation is relief times level over the highest level, exactly", "[surface]") {
+    const double level = GENERATE(0.0, 1.0, 77.0, 254.0, 255.0);
+    const double relief = GENERATE(255.0, 100.0, 33.3);
+    const DepthImage image = test::flat(3, 2, level);
+    const DepthSurface surface(image, image, 0.0, {relief, 0.0});
+    CHECK(surface.elevation(2, 1) == relief * level / 255.0);
+}
+
+TEST_CASE("the blend moves every vertex linearly from one depth image to the other", "[surface]") {
+    const DepthImage from = test::flat(4, 4, 10.0);
+    const DepthImage to = test::flat(4, 4, 30.0);
+    const double blend = GENERATE(0.0, 0.25, 0.5, 1.0);
+    const DepthSurface surface(from, to, blend, {255.0, 0.0});
+    CHECK_THAT(surface.elevation(1, 2), WithinAbs(10.0 + 20.0 * blend, 1e-12));
+}
+
+TEST_CASE("a blend outside 0 to 1 is held at the nearer image", "[surface]") {
+    const DepthImage from = test::flat(2, 2, 10.0);
+    const DepthImage to = test::flat(2, 2, 30.0);
+    CHECK_THAT(DepthSurface(from, to, -1.0, {255.0, 0.0}).elevation(0, 0), WithinAbs(10.0, 1e-12));
+    CHECK_THAT(DepthSurface(from, to, 7.0, {255.0, 0.0}).elevation(0, 0), WithinAbs(30.0, 1e-12));
+}
+
+TEST_CASE("the diagonal of a cell joins its right and its lower corner", "[surface]") {
+    DepthImage image = test::flat(2, 2, 0.0);
+    image.at(1, 0) = 100.0F;
+    image.at(0, 1) = 100.0F;
+    const DepthSurface surface(image, image, 0.0, {255.0, 0.0});
+    CHECK_THAT(surface.elevation_at(0.5, 0.5), WithinAbs(100.0, 1e-12));
+    CHECK_THAT(surface.elevation_at(0.25, 0.25), WithinAbs(50.0, 1e-12));
+    CHECK_THAT(surface.elevation_at(0.75, 0.75), WithinAbs(50.0, 1e-12));
+}
+
+TEST_CASE("the surface between the vertices is continuous and between its corners", "[surface]") {
+    const auto surfaces = test::hostile_surfaces(12, 9);
+    test::Dice dice(3);
+    for (const auto& [name, image] : surfaces) {
+        CAPTURE(name);
+        const DepthSurface surface(image, image, 0.0, {255.0, 0.0});
+        for (int k = 0; k < 500; ++k) {
+            const double x = dice.uniform(0.0, 11.0);
+            const double y = dice.uniform(0.0, 8.0);
+            const double z = surface.elevation_at(x, y);
+            const double near = surface.elevation_at(x + 1e-7, y - 1e-7);
+            REQUIRE_THAT(near, WithinAbs(z, 1e-7 * 2.0 * 512.0));
+            REQUIRE(z >= 0.0);
+            REQUIRE(z <= surface.ceiling());
+        }
+    }
+}
+
+TEST_CASE("a bump map as large as the image adds roughness times its height at each vertex",
+          "[surface]") {
+    const DepthImage image = test::flat(3, 3, 50.0);
+    BumpMap bump{3, 3, {0.0F, 0.5F, 1.0F, 0.25F, 0.0F, 0.75F, 1.0F, 0.0F, 0.5F}};
+    const DepthSurface surface(image, image, 0.0, {255.0, 4.0}, &bump);
+    CHECK_THAT(surface.elevation(2, 0), WithinAbs(54.0, 1e-12));
+    CHECK_THAT(surface.elevation(0, 1), WithinAbs(51.0, 1e-12));
+    CHECK(surface.ceiling() >= 259.0);
+}
+
+TEST_CASE("without roughness a bump map is not felt", "[surface]") {
+    const DepthImage image = test::flat(3, 3, 50.0);
+    const BumpMap bump{1, 1, {1.0F}};
+    CHECK(DepthSurface(image, image, 0.0, {255.0, 0.0}, &bump).elevation(1, 1) == 50.0);
+}
+
+TEST_CASE("a point outside the image rectangle is moved onto its border", "[surface]") {
+    const DepthImage image = test::flat(5, 4, 0.0);
+    const DepthSurface surface(image, image, 0.0, {});
+    CHECK(surface.clamped_to_frame({-3.0, 9.0, 7.0}) == Vec3(0.0, 3.0, 7.0));
+    CHECK(surface.clamped_to_frame({4.5, 1.5, -1.0}) == Vec3(4.0, 1.5, -1.0));
+}
+
+TEST_CASE("an edge's triangles have that edge, and an inner edge has two", "[primitives]") {
+    const DepthImage image = test::flat(4, 4, 0.0);
+    const DepthSurface surface(image, image, 0.0, {});
+    for (const auto direction :
+         {EdgeDirection::along_row, EdgeDirection::along_column, EdgeDirection::diagonal}) {
+        const Primitive inner = edge(direction, 1, 1);
+        const TrianglePair pair = triangles_of(surface, inner);
+        REQUIRE(pair.first);
+        REQUIRE(pair.second);
+        CHECK(edge_of(*pair.first, direction) == inner);
+        CHECK(edge_of(*pair.second, direction) == inner);
+    }
+    CHECK_FALSE(triangles_of(surface, edge(EdgeDirection::along_row, 0, 0)).second);
+    CHECK_FALSE(triangles_of(surface, edge(EdgeDirection::along_row, 0, 3)).first);
+    CHECK_FALSE(triangles_of(surface, edge(EdgeDirection::along_column, 0, 0)).second);
+    CHECK_FALSE(triangles_of(surface, edge(EdgeDirection::along_column, 3, 0)).first);
+}
+
+TEST_CASE("a vertex's six edges all end in it", "[primitives]") {
+    const Primitive centre = vertex(2, 2);
+    for (const VertexSpoke& spoke : spokes_of(centre)) {
+        const EdgeEnds ends = ends_of(spoke.edge);
+        const bool begins = ends.begin_i == 2 && ends.begin_j == 2;
+        const bool finishes = ends.end_i == 2 && ends.end_j == 2;
+        CHECK(begins != finishes);
+        CHECK((begins ? ends.end_i : ends.begin_i) == spoke.far_i);
+        CHECK((begins ? ends.end_j : ends.begin_j) == spoke.far_j);
+    }
+}
