@@ -1,0 +1,92 @@
+// The 1 kHz loop's timing: absolute deadlines, how late each tick was, never waiting to catch up.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
+namespace dibhr {
+
+/// Lateness of ticks: how long after its deadline each began. Fixed memory.
+class LatenessHistogram {
+  public:
+    static constexpr std::size_t kBins = 32;  ///< bin k: [2^(k-1), 2^k) microseconds; bin 0: < 1 us
+
+    /// A negative lateness counts as none.
+    void add(std::chrono::nanoseconds lateness) noexcept;
+    [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
+    /// k < kBins; the last bin also holds everything later.
+    [[nodiscard]] std::uint64_t in_bin(std::size_t k) const noexcept { return bins_[k]; }
+    [[nodiscard]] std::chrono::nanoseconds worst() const noexcept { return worst_; }
+    /// The upper end of the bin that holds quantile q in [0, 1]; zero while nothing was added.
+    [[nodiscard]] std::chrono::nanoseconds quantile(double q) const noexcept;
+
+  private:
+    std::array<std::uint64_t, kBins> bins_{};
+    std::uint64_t count_{0};
+    std::chrono::nanoseconds worst_{0};
+};
+
+/// One tick as the timer saw it.
+struct TickTiming {
+    std::chrono::steady_clock::time_point begin{};
+    double dt_s{0.001};  ///< since the last tick began, the true one
+    std::chrono::nanoseconds lateness{0};
+    bool late{false};  ///< began a whole period or more after its deadline
+};
+
+/// The book-keeping of a periodic loop, without a clock of its own: which deadline is next, and
+/// what a tick that began then means. After a late tick the next deadline is the next one in the
+/// future.
+class TickSchedule {
+  public:
+    using TimePoint = std::chrono::steady_clock::time_point;
+
+    explicit TickSchedule(std::chrono::nanoseconds period) noexcept : period_(period) {}
+
+    /// Sets the first deadline to one period after `now`; keeps the counts.
+    void start(TimePoint now) noexcept;
+    [[nodiscard]] TimePoint next_deadline() const noexcept { return deadline_ + period_; }
+    /// Books the tick that began at `begin` for the next deadline.
+    TickTiming begin_tick(TimePoint begin) noexcept;
+
+    [[nodiscard]] std::uint64_t ticks() const noexcept { return ticks_; }
+    [[nodiscard]] std::uint64_t late_ticks() const noexcept { return late_ticks_; }
+    [[nodiscard]] std::uint64_t skipped() const noexcept { return skipped_; }
+    [[nodiscard]] const LatenessHistogram& lateness() const noexcept { return histogram_; }
+
+  private:
+    std::chrono::nanoseconds period_;
+    TimePoint deadline_{};  // the last one met or skipped
+    TimePoint last_begin_{};
+    std::uint64_t ticks_{0};
+    std::uint64_t late_ticks_{0};
+    std::uint64_t skipped_{0};
+    LatenessHistogram histogram_{};
+};
+
+/// Sleeps to absolute deadlines (clock_nanosleep on CLOCK_MONOTONIC). Deadlines that pass during a
+/// late tick are counted, not made up for.
+class TickTimer {
+  public:
+    explicit TickTimer(std::chrono::nanoseconds period = std::chrono::milliseconds(1)) noexcept;
+
+    /// Waits for the next deadline; the only wait of a haptic thread. The clock starts with the
+    /// first call.
+    TickTiming wait() noexcept;
+
+    [[nodiscard]] std::uint64_t ticks() const noexcept { return schedule_.ticks(); }
+    [[nodiscard]] std::uint64_t late_ticks() const noexcept { return schedule_.late_ticks(); }
+    /// Deadlines that passed without a tick of their own.
+    [[nodiscard]] std::uint64_t skipped() const noexcept { return schedule_.skipped(); }
+    [[nodiscard]] const LatenessHistogram& lateness() const noexcept {
+        return schedule_.lateness();
+    }
+
+  private:
+    TickSchedule schedule_;
+    bool started_{false};
+};
+
+}  // namespace dibhr

@@ -1,0 +1,136 @@
+// The loop's timing: deadlines stand on a fixed grid, late ticks are counted and never made up for.
+#include "core/realtime/tick_timer.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <thread>
+
+#include "tests/support/catch.hpp"
+
+namespace {
+
+using namespace std::chrono_literals;
+using Catch::Matchers::WithinAbs;
+using dibhr::LatenessHistogram;
+using dibhr::TickSchedule;
+using dibhr::TickTimer;
+
+const TickSchedule::TimePoint kStart{std::chrono::hours(5)};
+
+TickSchedule started_schedule() {
+    TickSchedule schedule(1ms);
+    schedule.start(kStart);
+    return schedule;
+}
+
+}  // namespace
+
+TEST_CASE("deadlines stand on the grid of the first one, however unsteady the ticks",
+          "[realtime]") {
+    TickSchedule schedule = started_schedule();
+    for (int k = 1; k <= 1000; ++k) {
+        REQUIRE(schedule.next_deadline() == kStart + k * 1ms);
+        schedule.begin_tick(schedule.next_deadline() + (k * 37 % 900) * 1us);
+    }
+    CHECK(schedule.ticks() == 1000);
+    CHECK(schedule.late_ticks() == 0);
+    CHECK(schedule.skipped() == 0);
+}
+
+TEST_CASE("a tick's dt is the true time since the last tick began", "[realtime]") {
+    TickSchedule schedule = started_schedule();
+    CHECK_THAT(schedule.begin_tick(kStart + 1100us).dt_s, WithinAbs(0.0011, 1e-12));
+    CHECK_THAT(schedule.begin_tick(kStart + 2000us).dt_s, WithinAbs(0.0009, 1e-12));
+    CHECK_THAT(schedule.begin_tick(kStart + 9000us).dt_s, WithinAbs(0.0070, 1e-12));
+}
+
+TEST_CASE("a tick is late when it begins a whole period after its deadline, not before",
+          "[realtime]") {
+    const auto after = GENERATE(0us, 1us, 999us, 1000us, 1001us, 5300us);
+    TickSchedule schedule = started_schedule();
+    const auto timing = schedule.begin_tick(kStart + 1ms + after);
+    CHECK(timing.lateness == after);
+    CHECK(timing.late == (after >= 1ms));
+    CHECK(schedule.late_ticks() == (after >= 1ms ? 1U : 0U));
+}
+
+TEST_CASE("deadlines missed by a late tick are counted and not made up for", "[realtime]") {
+    TickSchedule schedule = started_schedule();
+    schedule.begin_tick(kStart + 6300us);  // meant for 1 ms
+    CHECK(schedule.ticks() == 1);
+    CHECK(schedule.late_ticks() == 1);
+    CHECK(schedule.skipped() == 5);
+    CHECK(schedule.next_deadline() == kStart + 7ms);
+    CHECK_FALSE(schedule.begin_tick(kStart + 7ms).late);
+}
+
+TEST_CASE("ticks and skipped deadlines together are the deadlines that passed", "[realtime]") {
+    TickSchedule schedule = started_schedule();
+    auto now = kStart;
+    for (int k = 0; k < 500; ++k) {
+        now = std::max(now + (k * 613 % 4100) * 1us, schedule.next_deadline());
+        schedule.begin_tick(now);
+        REQUIRE(schedule.next_deadline() > now - 1ms);
+    }
+    const auto passed = static_cast<std::uint64_t>((schedule.next_deadline() - kStart) / 1ms - 1);
+    CHECK(schedule.ticks() + schedule.skipped() == passed);
+}
+
+TEST_CASE("the timer never begins a tick before its deadline", "[realtime]") {
+    TickTimer timer(1ms);
+    auto before = std::chrono::steady_clock::now();
+    for (int k = 1; k <= 50; ++k) {
+        const auto timing = timer.wait();
+        REQUIRE(timing.begin >= before + k * 1ms);
+        REQUIRE(timing.lateness >= 0ns);
+        REQUIRE(timing.dt_s > 0.0);
+    }
+    CHECK(timer.ticks() == 50);
+    CHECK(timer.lateness().count() == 50);
+}
+
+TEST_CASE("a tick that overran is followed by a late one with the true dt", "[realtime]") {
+    TickTimer timer(1ms);
+    timer.wait();
+    std::this_thread::sleep_for(20ms);
+    const auto timing = timer.wait();
+    CHECK(timing.late);
+    CHECK(timing.dt_s >= 0.020);
+    CHECK(timer.late_ticks() >= 1);
+    CHECK(timer.skipped() >= 18);
+}
+
+TEST_CASE("lateness falls into bins that double", "[realtime]") {
+    LatenessHistogram histogram;
+    histogram.add(-5us);
+    histogram.add(999ns);
+    histogram.add(1us);
+    histogram.add(2us);
+    histogram.add(3us);
+    histogram.add(1024us);
+    CHECK(histogram.in_bin(0) == 2);
+    CHECK(histogram.in_bin(1) == 1);
+    CHECK(histogram.in_bin(2) == 2);
+    CHECK(histogram.in_bin(11) == 1);
+    CHECK(histogram.count() == 6);
+    CHECK(histogram.worst() == 1024us);
+}
+
+TEST_CASE("an absurd lateness stays in the last bin", "[realtime]") {
+    LatenessHistogram histogram;
+    histogram.add(std::chrono::hours(100));
+    CHECK(histogram.in_bin(LatenessHistogram::kBins - 1) == 1);
+    CHECK(histogram.quantile(1.0) == std::chrono::hours(100));
+}
+
+TEST_CASE("a quantile is the upper end of the bin that holds it", "[realtime]") {
+    LatenessHistogram histogram;
+    CHECK(histogram.quantile(0.5) == 0ns);
+    for (int k = 0; k < 99; ++k) histogram.add(5us);
+    histogram.add(700us);
+    CHECK(histogram.quantile(0.0) == 8us);
+    CHECK(histogram.quantile(0.5) == 8us);
+    CHECK(histogram.quantile(0.99) == 8us);
+    CHECK(histogram.quantile(1.0) == 1024us);
+}
