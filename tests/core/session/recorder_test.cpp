@@ -1,0 +1,213 @@
+// The recorder: every tick once, in order, in a file that SQLite's own shell reads.
+#include "core/session/recorder.hpp"
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "tests/core/session/session_folder.hpp"
+#include "tests/support/catch.hpp"
+
+namespace {
+
+using dibhr::Recorder;
+using dibhr::TickRecord;
+using dibhr::TickRing;
+using dibhr::test::answer;
+using dibhr::test::eventually;
+using dibhr::test::push;
+using dibhr::test::query;
+using dibhr::test::Row;
+using dibhr::test::SessionFolder;
+using dibhr::test::tick_record;
+
+std::vector<std::string> files_in(const std::filesystem::path& folder) {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        names.push_back(entry.path().filename().string());
+    }
+    return names;
+}
+
+std::string output_of(const std::string& command) {
+    std::string text;
+    FILE* pipe = popen(command.c_str(), "r");
+    if (pipe == nullptr) return text;
+    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) text += static_cast<char>(c);
+    pclose(pipe);
+    return text;
+}
+
+}  // namespace
+
+TEST_CASE("ticks pushed at full speed in bursts are all recorded, in order", "[session]") {
+    constexpr std::int64_t kBursts = 8;
+    constexpr std::int64_t kBurst = 5000;
+    const SessionFolder folder;
+    const auto ring = std::make_unique<TickRing>();
+    {
+        const Recorder recorder(folder.file(), *ring, {});
+        std::thread producer([&] {
+            for (std::int64_t burst = 0; burst < kBursts; ++burst) {
+                for (std::int64_t n = 0; n < kBurst; ++n) {
+                    push(*ring, tick_record(burst * kBurst + n));
+                }
+                std::this_thread::sleep_for(std::chrono::milliseconds(10));
+            }
+        });
+        producer.join();
+    }
+    const auto all = std::to_string(kBursts * kBurst);
+    CHECK(answer(folder.file(), "SELECT count(*) FROM tick") == all);
+    CHECK(answer(folder.file(), "SELECT count(*) FROM tick WHERE tick = rowid - 1") == all);
+    CHECK(answer(folder.file(), "SELECT value FROM session WHERE key = 'row_count'") == all);
+    CHECK(answer(folder.file(), "PRAGMA integrity_check") == "ok");
+}
+
+TEST_CASE("every field of a tick comes back under the output rows' names", "[session]") {
+    const SessionFolder folder;
+    const auto ring = std::make_unique<TickRing>();
+    TickRecord record;
+    record.tick = 7;
+    record.t_s = 0.1;
+    record.playback_s = 2.5;
+    record.blend = 0.25;
+    record.frame = 75;
+    double next = 1.0 / 3.0;
+    for (auto* vector : {&record.goal, &record.proxy, &record.spring_newton, &record.sent_newton}) {
+        for (double& value : *vector) value = next += 1.0;
+    }
+    record.dt_s = 0.0011;
+    record.lateness_us = 12.5;
+    record.update_us = 0.25;
+    record.moves = 3;
+    record.i = 17;
+    record.j = 18;
+    record.contact = 1;
+    record.primitive = 2;
+    record.buttons = 1;
+    record.cut = 5;
+    push(*ring, record);
+    { const Recorder recorder(folder.file(), *ring, {}); }
+    CHECK(
+        query(
+            folder.file(),
+            "SELECT tick, contact, primitive, i, j, moves, ns, frame, buttons, tick.cut, cut.name "
+            "FROM tick JOIN cut ON code = tick.cut") ==
+        std::vector<Row>{
+            {"7", "1", "edge", "17", "18", "3", "250", "75", "1", "5", "goal jumped"}});
+    CHECK(answer(folder.file(),
+                 "SELECT t = 0.1 AND playback_s = 2.5 AND blend = 0.25 AND dt_s = 0.0011 "
+                 "AND lateness_us = 12.5 FROM tick") == "1");
+    // 1/3 + 1, + 1, ... in the same order of additions, so that not a bit may be lost.
+    std::string condition;
+    double value = 1.0 / 3.0;
+    for (const char* name :
+         {"gx", "gy", "gz", "px", "py", "pz", "fx", "fy", "fz", "cx", "cy", "cz"}) {
+        value += 1.0;
+        std::array<char, 64> text{};
+        std::snprintf(text.data(), text.size(), "%s%s = %.17g", condition.empty() ? "" : " AND ",
+                      name, value);
+        condition += text.data();
+    }
+    CAPTURE(condition);
+    CHECK(answer(folder.file(), "SELECT " + condition + " FROM tick") == "1");
+}
+
+TEST_CASE("a primitive is recorded by its name, and one that is none of them as none",
+          "[session]") {
+    const SessionFolder folder;
+    const auto ring = std::make_unique<TickRing>();
+    for (const int primitive : {0, 1, 2, 3, 200}) {
+        TickRecord record;
+        record.primitive = static_cast<std::uint8_t>(primitive);
+        push(*ring, record);
+    }
+    { const Recorder recorder(folder.file(), *ring, {}); }
+    CHECK(answer(folder.file(), "SELECT group_concat(primitive, ' ') FROM tick") ==
+          "none triangle edge vertex none");
+}
+
+TEST_CASE("the session says what it is, its schema, its units and the facts it was given",
+          "[session]") {
+    const SessionFolder folder;
+    const auto ring = std::make_unique<TickRing>();
+    {
+        const Recorder recorder(
+            folder.file(), *ring,
+            {{"program", "dibhr 0.1.0"}, {"device", "mouse'); DROP TABLE tick"}});
+        CHECK(answer(folder.file(), "SELECT value FROM session WHERE key = 'complete'") == "0");
+    }
+    const auto fact = [&](const std::string& key) {
+        return answer(folder.file(), "SELECT value FROM session WHERE key = '" + key + "'");
+    };
+    CHECK(fact("program") == "dibhr 0.1.0");
+    CHECK(fact("device") == "mouse'); DROP TABLE tick");
+    CHECK(fact("schema_version") == "1");
+    CHECK(fact("complete") == "1");
+    CHECK(fact("units").find("newtons") != std::string::npos);
+    CHECK(answer(folder.file(), "PRAGMA application_id") == std::to_string(0x64686170));
+    CHECK(answer(folder.file(), "PRAGMA user_version") == "1");
+    // Every column of tick is explained, and nothing else is.
+    CHECK(answer(folder.file(),
+                 "SELECT count(*) FROM pragma_table_info('tick') JOIN tick_column USING (name)") ==
+          answer(folder.file(), "SELECT count(*) FROM tick_column"));
+    CHECK(answer(folder.file(), "SELECT count(*) FROM pragma_table_info('tick')") ==
+          answer(folder.file(), "SELECT count(*) FROM tick_column"));
+}
+
+TEST_CASE("a closed session is one file, which SQLite's own shell reads", "[session]") {
+    const SessionFolder folder;
+    const auto ring = std::make_unique<TickRing>();
+    push(*ring, tick_record(41));
+    { const Recorder recorder(folder.file(), *ring, {}); }
+    CHECK(files_in(folder.path()) == std::vector<std::string>{"touch.dibhr"});
+    if (output_of("command -v sqlite3").empty()) {
+        WARN("the sqlite3 shell is not installed: read through its library only");
+        return;
+    }
+    CHECK(output_of("sqlite3 -readonly '" + folder.file().string() +
+                    "' 'select tick, gx, gy from tick'") == "41|41.0|41.1\n");
+}
+
+TEST_CASE("ticks are in the file within a moment, while the recording goes on", "[session]") {
+    const SessionFolder folder;
+    const auto ring = std::make_unique<TickRing>();
+    const Recorder recorder(folder.file(), *ring, {});
+    CHECK(recorder.status().recording);
+    push(*ring, tick_record(1));
+    CHECK(eventually([&] { return answer(folder.file(), "SELECT count(*) FROM tick") == "1"; }));
+    CHECK(eventually([&] { return recorder.status().rows == 1; }));
+    CHECK(recorder.status().bytes > 0);
+    CHECK(recorder.status().failure.empty());
+}
+
+TEST_CASE("a tick the ring had no room for is counted, in the status and in the file",
+          "[session]") {
+    const SessionFolder folder;
+    const auto ring = std::make_unique<TickRing>();
+    while (ring->push({})) {
+    }
+    const auto before = ring->dropped();
+    std::optional<Recorder> recorder(std::in_place, folder.file(), *ring,
+                                     std::map<std::string, std::string>{});
+    CHECK(eventually([&] { return recorder->status().rows == 16384; }));
+    std::uint64_t dropped = 0;
+    for (std::int64_t n = 0; n < 200000; ++n) dropped += ring->push(tick_record(n)) ? 0 : 1;
+    CHECK(eventually([&] { return recorder->status().dropped == dropped; }));
+    recorder.reset();
+    CHECK(ring->dropped() - before == dropped);
+    CHECK(answer(folder.file(), "SELECT value FROM session WHERE key = 'dropped_count'") ==
+          std::to_string(dropped));
+    CHECK(answer(folder.file(), "SELECT count(*) FROM tick") ==
+          std::to_string(16384 + 200000 - dropped));
+}

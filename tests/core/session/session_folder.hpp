@@ -1,0 +1,98 @@
+// A folder of a test's own, ticks to record in it, and SQLite's own eyes to read them.
+#pragma once
+
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include "core/session/recorder.hpp"
+
+namespace dibhr::test {
+
+/// Gone with the test.
+class SessionFolder {
+  public:
+    SessionFolder() {
+        std::string name =
+            (std::filesystem::temp_directory_path() / "dibhr_session_XXXXXX").string();
+        path_ = mkdtemp(name.data());
+    }
+    ~SessionFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    SessionFolder(const SessionFolder&) = delete;
+    SessionFolder& operator=(const SessionFolder&) = delete;
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    [[nodiscard]] std::filesystem::path file() const { return path_ / "touch.dibhr"; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+using Row = std::vector<std::string>;
+
+/// Runs a query read-only, past all of our own code; the first cell of an error is SQLite's
+/// message.
+inline std::vector<Row> query(const std::filesystem::path& file, const std::string& sql) {
+    std::vector<Row> rows;
+    sqlite3* database = nullptr;
+    sqlite3_open_v2(file.c_str(), &database, SQLITE_OPEN_READONLY, nullptr);
+    const auto keep = [](void* all, int count, char** cells, char**) {
+        Row row;
+        for (int k = 0; k < count; ++k) row.emplace_back(cells[k] == nullptr ? "NULL" : cells[k]);
+        static_cast<std::vector<Row>*>(all)->push_back(row);
+        return 0;
+    };
+    if (sqlite3_exec(database, sql.c_str(), keep, &rows, nullptr) != SQLITE_OK) {
+        rows.push_back({sqlite3_errmsg(database)});
+    }
+    sqlite3_close(database);
+    return rows;
+}
+
+/// The one cell of a query that gives one.
+inline std::string answer(const std::filesystem::path& file, const std::string& sql) {
+    const auto rows = query(file, sql);
+    return rows.empty() || rows[0].empty() ? "" : rows[0][0];
+}
+
+/// A record whose every field follows from its number.
+inline TickRecord tick_record(std::int64_t number) {
+    TickRecord record;
+    const auto n = static_cast<double>(number);
+    record.tick = number;
+    record.t_s = 0.001 * n;
+    for (int axis = 0; axis < 3; ++axis) {
+        record.goal[axis] = n + 0.1 * axis;
+        record.proxy[axis] = n + 0.2 * axis;
+        record.spring_newton[axis] = 0.3 * axis;
+        record.sent_newton[axis] = 0.4 * axis;
+    }
+    return record;
+}
+
+/// Pushes a record for certain, as a producer that may wait.
+inline void push(TickRing& ring, const TickRecord& record) {
+    while (!ring.push(record)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+/// Waits until `condition` holds; false after ten seconds.
+template <typename Condition>
+bool eventually(Condition condition) {
+    for (int k = 0; k < 2000; ++k) {
+        if (condition()) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return false;
+}
+
+}  // namespace dibhr::test
