@@ -1,0 +1,45 @@
+// What touches: a force device, the mouse's virtual hand, or a recorded stream of goals.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/haptics/surface.hpp"
+#include "core/haptics/vec.hpp"
+
+namespace dibhr {
+
+/// A device's abilities as data.
+struct DeviceSpecification {
+    std::string name{};  ///< "mouse", "goals:FILE", "Novint Falcon (serial)"
+    double max_force_newton{8.0};
+    double max_stiffness_newton_per_mm{1.0};
+    Vec3 workspace_mm{101.6};  ///< extents of the volume it reaches
+};
+
+/// What a device may need to know of the tick it is read in.
+struct HandContext {
+    double dt_s{0.001};
+    const DepthSurface& surface;
+    double pixel_pitch_mm{101.6 / 720.0};
+};
+
+/// One reading, already in grid space: only `device` knows its own millimetres.
+struct HandReading {
+    Vec3 goal_in_grid{0.0};
+    std::uint8_t buttons{0};  ///< bit 0: the main button
+    bool ready{true};         ///< attached, homed, and giving poses; false: no force
+};
+
+/// Read once and sent to once a tick, by the haptic thread alone. Neither call allocates, locks or
+/// throws.
+class Device {
+  public:
+    virtual ~Device() = default;
+    [[nodiscard]] virtual const DeviceSpecification& specification() const noexcept = 0;
+    virtual HandReading read(const HandContext& context) noexcept = 0;
+    /// Force on the hand [N], axes of grid space.
+    virtual void send(Vec3 force_newton) noexcept = 0;
+};
+
+}  // namespace dibhr

@@ -1,0 +1,75 @@
+// The mouse as a virtual hand: a mass on a spring to the cursor, pushed back by the rendered force.
+#pragma once
+
+#include <limits>
+
+#include "core/realtime/triple_buffer.hpp"
+#include "device/device.hpp"
+
+namespace dibhr {
+
+/// Where the cursor points, written by the window thread.
+struct MouseTarget {
+    Vec2 cursor_in_grid{0.0};
+    bool pointing{false};  ///< the cursor has been over the relief
+    bool pressed{false};   ///< left button: press in; the longer, the deeper
+    double wheel_px{0.0};  ///< depth added by the wheel while pressed [px], >= 0
+};
+
+/// The hand's feel. Its spring and the rendered one share the way: pressing against a surface as
+/// stiff as the hand, the goal rests at half the depth that is pressed for.
+struct MouseHandOptions {
+    double hover_px{6.0};         ///< height above the surface while the button is up
+    double press_px_per_s{60.0};  ///< how fast a held button deepens
+    double deepest_px{40.0};      ///< where it stops; the wheel adds to it
+    double mass_kg{0.2};          ///< with the stiffness: 1/w = 20 ms, the cursor leads by 40 ms
+    double hand_stiffness_newton_per_mm{0.5};
+    double damping_ratio{1.0};  ///< 1: critical
+    /// However far the cursor jumps; the safety stage takes 10 m/s for a jump of the goal.
+    double max_speed_mm_per_s{3000.0};
+};
+
+/// Follows the cursor over the surface. Stable for ticks up to 20 ms against 2 N/mm.
+///
+/// Hovering, the hand rises before it moves on, so that it does not bump into cliffs. Pressing
+/// begins when the hand has come to the cursor; from then on its depth is measured from the surface
+/// under the hand itself, so that a drag across a cliff does not dig into it.
+class MouseHand final : public Device {
+  public:
+    explicit MouseHand(MouseHandOptions options = {});
+    [[nodiscard]] const DeviceSpecification& specification() const noexcept override {
+        return specification_;
+    }
+    /// Before the cursor has pointed anywhere the hand waits above the middle, higher than
+    /// everything.
+    HandReading read(const HandContext& context) noexcept override;
+    /// A force that is not finite counts as none.
+    void send(Vec3 force_newton) noexcept override;
+
+    /// The window thread's end.
+    [[nodiscard]] TripleBuffer<MouseTarget>& target() noexcept { return target_; }
+
+  private:
+    void take_target(const DepthSurface& surface) noexcept;
+    void press(double dt_s) noexcept;
+    [[nodiscard]] Vec3 rest_in_grid(const DepthSurface& surface) const noexcept;
+    void move(Vec3 rest, double dt_s, double pixel_pitch_mm) noexcept;
+    void keep_clear_of_cliffs(const DepthSurface& surface, Vec3 before) noexcept;
+
+    DeviceSpecification specification_{};
+    MouseHandOptions options_{};
+    TripleBuffer<MouseTarget> target_{};
+
+    // All of the haptic thread.
+    MouseTarget wanted_{};  // the newest one that makes sense
+    Vec3 position_in_grid_{0.0};
+    Vec3 velocity_px_per_s_{0.0};
+    Vec3 force_newton_{0.0};
+    double depth_px_{0.0};  // pressed for, below the surface; -hover_px while the button is up
+    // Elevation of where the hovering hand wanted to go last.
+    double obstacle_px_{-std::numeric_limits<double>::infinity()};
+    bool pressing_{false};
+    bool placed_{false};
+};
+
+}  // namespace dibhr
