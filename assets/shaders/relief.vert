@@ -1,0 +1,79 @@
+#version 330 core
+// The relief: one corner of the drawn grid, lifted by the two depth images, the blend and the bump map.
+// Defines: ROUGH (there is a bump map), WALL (the sides that close the relief; every second vertex is
+// on the ground).
+
+layout(location = 0) in uvec2 corner;  // column and row in the drawn grid
+
+uniform sampler2D depth_from;  // levels
+uniform sampler2D depth_to;
+uniform sampler2D bump;  // height in [0, 1]
+uniform float blend;
+uniform float px_per_level;
+uniform float roughness_px;
+uniform float slope_limit;  // steeper is a silhouette, and no guide to the light
+uniform float ground_px;
+uniform int grid_step;
+uniform ivec2 drawn;  // columns and rows of the drawn grid
+uniform ivec2 image;  // columns and rows of the depth image
+uniform float light;
+uniform mat4 clip_from_world;
+
+out vec3 lifted;  // normalised place in the picture, elevation
+out float shade;  // factor on the colour; on walls, height over the ground in [0, 1]
+
+const vec3 kKey = vec3(-0.46, 0.55, 0.70);  // from the upper left, towards the viewer
+const vec3 kFill = vec3(0.64, -0.10, 0.76);
+const vec3 kGloss = vec3(-0.25, 0.30, 0.92);  // half way between key and eye
+
+float elevation(ivec2 at) {
+    float level = texelFetch(depth_from, at, 0).r * (1.0 - blend) + texelFetch(depth_to, at, 0).r * blend;
+#ifdef ROUGH
+    return px_per_level * level + roughness_px * texelFetch(bump, at, 0).r;
+#else
+    return px_per_level * level;
+#endif
+}
+
+vec2 in_image(ivec2 at) { return vec2(min(at * grid_step, image - 1)); }
+
+// The slope of the gentler side where the other is a silhouette: its rim keeps the light of its face.
+float slope(float before, float here, float after, vec2 reach) {
+    float left = (here - before) / max(reach.x, 1.0);
+    float right = (after - here) / max(reach.y, 1.0);
+    float both = (after - before) / (reach.x + reach.y);
+    if (abs(left) > slope_limit && reach.y > 0.0) return right;
+    if (abs(right) > slope_limit && reach.x > 0.0) return left;
+    return both;
+}
+
+// The factor on the picture's own colour; a flat relief facing the viewer keeps it unchanged.
+float lit(vec3 normal) {
+    float gloss = pow(max(dot(normal, normalize(kGloss)), 0.0), 24.0);
+    return 0.16 + 0.95 * max(dot(normal, kKey), 0.0) + 0.22 * max(dot(normal, kFill), 0.0) + 0.12 * gloss;
+}
+float brightness(vec3 normal) { return mix(1.0, lit(normal) / lit(vec3(0.0, 0.0, 1.0)), light); }
+
+void main() {
+    ivec2 at = ivec2(corner);
+    vec2 here = in_image(at);
+    float z = elevation(at);
+#ifdef WALL
+    bool ground = (gl_VertexID & 1) == 1;
+    if (ground) z = ground_px;
+    shade = ground ? 0.0 : 1.0;
+#else
+    ivec2 low = max(at - 1, ivec2(0));
+    ivec2 high = min(at + 1, drawn - 1);
+    vec2 to_low = here - in_image(low);
+    vec2 to_high = in_image(high) - here;
+    float dx = slope(elevation(ivec2(low.x, at.y)), z, elevation(ivec2(high.x, at.y)),
+                     vec2(to_low.x, to_high.x));
+    float dy = slope(elevation(ivec2(at.x, low.y)), z, elevation(ivec2(at.x, high.y)),
+                     vec2(to_low.y, to_high.y));
+    shade = brightness(normalize(vec3(-dx, dy, 1.0)));
+#endif
+    lifted = vec3((here + 0.5) / vec2(image), z);
+    vec3 world = vec3(here.x - 0.5 * float(image.x - 1), 0.5 * float(image.y - 1) - here.y, z);
+    gl_Position = clip_from_world * vec4(world, 1.0);
+}

@@ -1,0 +1,39 @@
+#version 330 core
+// A marker's pixel: soft edge, dark outline (legible over any picture), lit as round.
+
+flat in vec4 a_px;
+flat in vec4 b_px;
+flat in vec4 colour;
+
+uniform float opacity;
+
+out vec4 pixel;
+
+const float kOutline_px = 1.25;
+const vec3 kOutline = vec3(0.04, 0.04, 0.05);
+const vec3 kKey = vec3(-0.46, 0.55, 0.70);
+
+void main() {
+    vec2 axis = b_px.xy - a_px.xy;
+    float h = clamp(dot(gl_FragCoord.xy - a_px.xy, axis) / max(dot(axis, axis), 1e-6), 0.0, 1.0);
+    vec2 from_axis = gl_FragCoord.xy - mix(a_px.xy, b_px.xy, h);
+    float radius = mix(a_px.z, b_px.z, h);
+    float distance_px = length(from_axis) - radius;
+    vec2 round_xy = from_axis / max(radius, 0.5);
+    if (a_px.w > 0.0) {
+        float middle = radius * 0.5 * (1.0 + a_px.w);
+        float thick = radius * 0.5 * (1.0 - a_px.w);
+        float off = length(from_axis) - middle;
+        distance_px = abs(off) - thick;
+        round_xy = normalize(from_axis + 1e-4) * off / max(thick, 0.5);
+    }
+    float coverage = clamp(0.5 + kOutline_px - distance_px, 0.0, 1.0);
+    if (coverage <= 0.0) discard;
+    float facing = sqrt(max(1.0 - dot(round_xy, round_xy), 0.0));
+    vec3 normal = vec3(round_xy, facing);
+    float lit = 0.55 + 0.55 * max(dot(normal, kKey), 0.0);
+    float gloss = 0.35 * pow(max(dot(normal, normalize(kKey + vec3(0.0, 0.0, 1.0))), 0.0), 30.0);
+    vec3 body = colour.rgb * lit + gloss;
+    float inside = clamp(0.5 - distance_px, 0.0, 1.0);
+    pixel = vec4(mix(kOutline, body, inside), coverage * colour.a * opacity);
+}

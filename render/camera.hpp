@@ -1,0 +1,63 @@
+// The eye: orbit, pan and zoom around the relief, or straight down as the recording camera saw it.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+
+#include "core/haptics/vec.hpp"
+
+namespace dibhr {
+
+/// World space is grid space centred and turned upright: x right, y up, z to the viewer, pixels.
+/// `world = (x - (columns-1)/2, (rows-1)/2 - y, z)`.
+class Camera {
+  public:
+    enum class Projection {
+        perspective,
+        straight
+    };  ///< straight: orthographic, along the recording axis
+
+    /// Puts the whole relief of this size into view, from the default three-quarter angle. It is in
+    /// view whatever the window's proportions.
+    void frame_relief(int columns, int rows, double relief_px);
+    void reset();  ///< back to what frame_relief() set; the projection stays
+
+    /// Turns the near side of the relief to the right and down, as a hand that drags it there
+    /// would. Pitch stays within +-85 degrees. Not seen in the straight projection.
+    void orbit(double yaw_rad, double pitch_rad);
+
+    /// Moves the picture by so many screen pixels (in the plane through the middle of the relief;
+    /// exact in a window no narrower, in proportion, than the relief).
+    void pan(double right_px, double up_px, int viewport_height);
+
+    /// > 1: larger. A lens, not a walk: the eye never enters the relief. Bounded.
+    void zoom(double factor);
+
+    void set_projection(Projection projection) { projection_ = projection; }
+    [[nodiscard]] Projection projection() const { return projection_; }
+
+    [[nodiscard]] glm::dmat4 view_from_world() const;
+    [[nodiscard]] glm::dmat4 clip_from_view(double aspect) const;  ///< aspect = width / height
+    [[nodiscard]] Vec3 grid_from_world(Vec3 world) const;
+    [[nodiscard]] Vec3 world_from_grid(Vec3 grid) const;
+
+    /// The segment under a screen position (pixels from the upper left), in grid space, from near
+    /// to far.
+    struct Ray {
+        Vec3 near_in_grid{0.0}, far_in_grid{0.0};
+    };
+    [[nodiscard]] Ray ray_under(glm::dvec2 screen_px, glm::ivec2 viewport) const;
+
+  private:
+    [[nodiscard]] double radius_px() const;
+    [[nodiscard]] double distance_px() const;
+    [[nodiscard]] glm::dvec2 half_extent() const;
+
+    int columns_{2}, rows_{2};
+    double relief_px_{0.0};
+    Projection projection_{Projection::perspective};
+    double yaw_rad_{0.0}, pitch_rad_{0.0}, zoom_{1.0};
+    Vec3 centre_in_world_{0.0};
+};
+
+}  // namespace dibhr

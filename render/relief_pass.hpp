@@ -1,0 +1,53 @@
+// Draws the textured relief and its walls.
+#pragma once
+
+#include <compare>
+#include <glm/mat4x4.hpp>
+#include <map>
+#include <memory>
+
+#include "render/gl_objects.hpp"
+#include "render/relief_grid.hpp"
+#include "render/scene_view.hpp"
+#include "render/textures.hpp"
+
+namespace dibhr {
+
+class ReliefPass {
+  public:
+    explicit ReliefPass(const GlLimits& limits) : limits_(limits) {}
+
+    /// `content.depth` names two frames with depth images of the same size.
+    void draw(const SceneContent& content, const glm::mat4& clip_from_world);
+
+  private:
+    /// What differs between shader programs.
+    struct Variant {
+        bool wall{false};
+        bool rough{false};
+        bool textured{false};
+        bool silhouettes{false};
+        auto operator<=>(const Variant&) const = default;
+    };
+
+    void build(const ReliefGrid& grid);
+    void bind_textures(const SceneContent& content, const Variant& variant);
+    const ShaderProgram& prepared(const Variant& variant, const SceneContent& content,
+                                  const glm::mat4& clip_from_world);
+
+    GlLimits limits_{};
+    std::map<Variant, std::unique_ptr<ShaderProgram>> programs_{};
+    DepthTextures depth_{};
+    BumpTexture bump_{};
+    ColourTexture colour_{};
+    ReliefGrid grid_{};
+    GlVertexArray surface_{};
+    GlBuffer surface_vertices_{};
+    GlBuffer surface_indices_{};
+    GlVertexArray wall_{};
+    GlBuffer wall_vertices_{};
+    GLsizei index_count_{0};
+    GLsizei wall_count_{0};
+};
+
+}  // namespace dibhr

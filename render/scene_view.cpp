@@ -1,0 +1,98 @@
+// One picture: backdrop, relief, markers, in the bound framebuffer or off-screen.
+#include "render/scene_view.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "render/gl_objects.hpp"
+#include "render/marker_pass.hpp"
+#include "render/offscreen.hpp"
+#include "render/relief_pass.hpp"
+#include "shader_sources.hpp"
+
+namespace dibhr {
+namespace {
+
+constexpr int kSamples =
+    4;  // a pixel, off-screen; none on software, where they cost four times the work
+
+bool has_relief(const DepthBlend& depth) {
+    if (!depth.from || !depth.to || !depth.from->depth || !depth.to->depth) return false;
+    const DepthImage& from = *depth.from->depth;
+    const DepthImage& to = *depth.to->depth;
+    return from.columns == to.columns && from.rows == to.rows && from.highest_level > 0.0;
+}
+
+}  // namespace
+
+struct SceneView::Objects {
+    GlLimits limits{read_limits()};
+    ReliefPass relief{limits};
+    MarkerPass markers{};
+    ShaderProgram backdrop{shaders::kBackdropVert, shaders::kBackdropFrag};
+    GlVertexArray no_vertices{};
+};
+
+SceneView::SceneView() : objects_(std::make_unique<Objects>()) {}
+SceneView::~SceneView() = default;
+
+void SceneView::draw(const SceneContent& content, const Camera& camera, glm::ivec2 size) {
+    if (size.x <= 0 || size.y <= 0) return;
+    glViewport(0, 0, size.x, size.y);
+    glScissor(0, 0, size.x, size.y);
+    glEnable(GL_SCISSOR_TEST);
+    glDisable(GL_BLEND);
+    glDisable(GL_CULL_FACE);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LEQUAL);
+    glDepthMask(GL_TRUE);
+    glClear(GL_DEPTH_BUFFER_BIT);
+
+    if (has_relief(content.depth)) {
+        const double aspect = static_cast<double>(size.x) / size.y;
+        objects_->relief.draw(content,
+                              glm::mat4(camera.clip_from_view(aspect) * camera.view_from_world()));
+    }
+    // After the relief, so that only what stays empty is filled.
+    objects_->backdrop.use();
+    objects_->backdrop.set("height_px", static_cast<float>(size.y));
+    glBindVertexArray(objects_->no_vertices.get());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    objects_->markers.draw(content.markers, camera, size);
+
+    glBindVertexArray(0);
+    glUseProgram(0);
+    glDepthFunc(GL_LESS);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_SCISSOR_TEST);
+}
+
+ColourImage SceneView::capture(const SceneContent& content, const Camera& camera, glm::ivec2 size) {
+    const int samples =
+        objects_->limits.software ? 0 : std::min(kSamples, objects_->limits.samples);
+    Offscreen offscreen(size, samples);
+    draw(content, camera, size);
+    offscreen.resolve();
+    return read_framebuffer(size);
+}
+
+ColourImage read_framebuffer(glm::ivec2 size) {
+    ColourImage image;
+    image.columns = std::max(size.x, 0);
+    image.rows = std::max(size.y, 0);
+    const std::size_t row_bytes = static_cast<std::size_t>(image.columns) * 3;
+    image.rgb.resize(row_bytes * static_cast<std::size_t>(image.rows));
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, image.columns, image.rows, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    // OpenGL counts rows from the bottom.
+    for (int j = 0; j < image.rows / 2; ++j) {
+        const auto top = image.rgb.begin() + static_cast<std::ptrdiff_t>(row_bytes) * j;
+        const auto bottom =
+            image.rgb.begin() + static_cast<std::ptrdiff_t>(row_bytes) * (image.rows - 1 - j);
+        std::swap_ranges(top, top + static_cast<std::ptrdiff_t>(row_bytes), bottom);
+    }
+    return image;
+}
+
+}  // namespace dibhr

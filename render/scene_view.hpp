@@ -1,0 +1,71 @@
+// Draws one picture of the scene: the textured relief, and the markers of the touch.
+#pragma once
+
+#include <memory>
+
+#include "core/haptics/depth_image.hpp"
+#include "core/haptics/parameters.hpp"
+#include "core/haptics/vec.hpp"
+#include "core/video/frame_window.hpp"
+#include "render/camera.hpp"
+
+namespace dibhr {
+
+/// How the relief is drawn.
+struct ReliefLook {
+    bool discard_silhouettes{true};  ///< leave out triangles steeper than `silhouette_slope`
+    double silhouette_slope{12.0};   ///< elevation change per pixel [px/px]
+    bool textured{true};             ///< false: plain clay, which shows the shape
+    double light{0.6};               ///< 0: flat colour, 1: strong shading
+    bool coarse{false};  ///< half as many columns and rows as this machine would draw otherwise
+};
+
+/// What the hand does, for the markers. Grid space.
+struct TouchMarkers {
+    bool visible{false};
+    bool contact{false};
+    Vec3 goal{0.0}, proxy{0.0};
+    Vec3 normal{0.0, 0.0, 1.0};  ///< of the surface under the proxy
+    double friction{0.4};        ///< the cone's coefficient in force
+    Vec3 force_newton{0.0};      ///< as sent
+    double newton_per_px{0.02};  ///< length of the force arrow
+};
+
+/// Everything one picture needs; a view that owns nothing.
+struct SceneContent {
+    DepthBlend depth{};            ///< from/to may be null: nothing is drawn but the backdrop
+    const Frame* colour{nullptr};  ///< the frame whose colour is shown
+    SurfaceShape shape{};
+    const BumpMap* bump{nullptr};
+    ReliefLook look{};
+    TouchMarkers markers{};
+};
+
+/// Owns the OpenGL objects; needs a current OpenGL 3.3 core context from construction to
+/// destruction. Throws DeviceError when the driver offers less. Large images are thinned out, more
+/// on software OpenGL. Depth and colour are uploaded only when the frame's images changed.
+class SceneView {
+  public:
+    SceneView();
+    ~SceneView();
+    SceneView(const SceneView&) = delete;
+    SceneView& operator=(const SceneView&) = delete;
+
+    /// Into the bound framebuffer, viewport `size` pixels from its lower left corner. Leaves depth
+    /// test, blending and scissors off and nothing bound but the textures.
+    void draw(const SceneContent& content, const Camera& camera, glm::ivec2 size);
+
+    /// The same picture drawn off-screen; rows from the top. Throws DeviceError when the driver
+    /// cannot make a picture of this size.
+    [[nodiscard]] ColourImage capture(const SceneContent& content, const Camera& camera,
+                                      glm::ivec2 size);
+
+  private:
+    struct Objects;
+    std::unique_ptr<Objects> objects_;
+};
+
+/// What the bound framebuffer shows, rows from the top (screenshots with panels).
+[[nodiscard]] ColourImage read_framebuffer(glm::ivec2 size);
+
+}  // namespace dibhr

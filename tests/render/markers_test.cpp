@@ -1,0 +1,100 @@
+// The markers tell the truth about the touch.
+#include "render/markers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "tests/support/catch.hpp"
+
+namespace dibhr {
+namespace {
+
+using Catch::Matchers::WithinAbs;
+
+TouchMarkers pressed() {
+    TouchMarkers touch;
+    touch.visible = true;
+    touch.contact = true;
+    touch.proxy = {300.0, 200.0, 80.0};
+    touch.normal = glm::normalize(Vec3(0.3, -0.2, 1.0));
+    touch.goal = touch.proxy - touch.normal * 25.0;
+    touch.friction = 0.4;
+    touch.force_newton = {0.3, 0.6, 1.2};
+    touch.newton_per_px = 0.02;
+    return touch;
+}
+
+Camera camera_640x480() {
+    Camera camera;
+    camera.frame_relief(640, 480, 255.0);
+    return camera;
+}
+
+TEST_CASE("markers that are not visible, or not finite, are not drawn") {
+    TouchMarkers touch = pressed();
+    touch.visible = false;
+    CHECK(touch_strokes(touch, camera_640x480(), 1.0).empty());
+    CHECK_FALSE(friction_cone(touch, camera_640x480()).has_value());
+    touch = pressed();
+    touch.goal.x = std::numeric_limits<double>::quiet_NaN();
+    CHECK(touch_strokes(touch, camera_640x480(), 1.0).empty());
+    CHECK_FALSE(friction_cone(touch, camera_640x480()).has_value());
+}
+
+TEST_CASE("out of contact only proxy and goal are shown, a ball and a ring") {
+    TouchMarkers touch = pressed();
+    touch.contact = false;
+    touch.force_newton = {};
+    const std::vector<Stroke> strokes = touch_strokes(touch, camera_640x480(), 1.0);
+    REQUIRE(strokes.size() == 2);
+    const auto rings = std::count_if(strokes.begin(), strokes.end(),
+                                     [](const Stroke& s) { return s.hollow > 0.0F; });
+    CHECK(rings == 1);
+    CHECK_FALSE(friction_cone(touch, camera_640x480()).has_value());
+}
+
+TEST_CASE(
+    "the force arrow starts at the proxy, points along the force and is as long as it is strong") {
+    const TouchMarkers touch = pressed();
+    const Camera camera = camera_640x480();
+    const std::vector<Stroke> with = touch_strokes(touch, camera, 1.0);
+    const Vec3 tip = touch.proxy + touch.force_newton / touch.newton_per_px;
+    const glm::vec3 tip_in_world(camera.world_from_grid(tip));
+    const auto reaches_tip = [&](const Stroke& s) {
+        return glm::length(glm::vec3(s.ball_b) - tip_in_world) < 1e-3F;
+    };
+    CHECK(std::count_if(with.begin(), with.end(), reaches_tip) == 1);
+    TouchMarkers calm = touch;
+    calm.force_newton = {};
+    CHECK(touch_strokes(calm, camera, 1.0).size() + 2 == with.size());
+}
+
+TEST_CASE("the friction cone has its apex at the goal and opens by atan(mu) about the normal") {
+    const TouchMarkers touch = pressed();
+    const Camera camera = camera_640x480();
+    const auto cone = friction_cone(touch, camera);
+    REQUIRE(cone.has_value());
+    CHECK_THAT(glm::length(cone->apex - glm::vec3(camera.world_from_grid(touch.goal))),
+               WithinAbs(0.0, 1e-4));
+    const glm::vec3 top(camera.world_from_grid(touch.proxy));
+    CHECK_THAT(glm::length(cone->apex + cone->axis - top), WithinAbs(0.0, 1e-3));
+    for (const glm::vec3 radius : {cone->rim_u, cone->rim_v}) {
+        CHECK_THAT(glm::length(radius) / glm::length(cone->axis), WithinAbs(0.4, 1e-5));
+        CHECK_THAT(glm::dot(radius, cone->axis), WithinAbs(0.0, 1e-2));
+    }
+    CHECK_THAT(glm::dot(cone->rim_u, cone->rim_v), WithinAbs(0.0, 1e-2));
+}
+
+TEST_CASE("without friction, or with the goal above the surface, there is no cone") {
+    TouchMarkers touch = pressed();
+    touch.friction = 0.0;
+    CHECK_FALSE(friction_cone(touch, camera_640x480()).has_value());
+    touch = pressed();
+    touch.goal = touch.proxy + touch.normal * 3.0;
+    CHECK_FALSE(friction_cone(touch, camera_640x480()).has_value());
+}
+
+}  // namespace
+}  // namespace dibhr

@@ -1,0 +1,365 @@
+// The picture, drawn by a real OpenGL: what is seen is what is felt.
+#include "render/scene_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
+#include <random>
+#include <vector>
+
+#include "core/haptics/surface.hpp"
+#include "render/offscreen.hpp"
+#include "tests/render/hidden_window.hpp"
+#include "tests/render/scenes.hpp"
+#include "tests/support/catch.hpp"
+
+namespace dibhr {
+namespace {
+
+using Catch::Matchers::WithinAbs;
+
+Camera straight(int columns, int rows, double relief_px = 255.0) {
+    Camera camera;
+    camera.frame_relief(columns, rows, relief_px);
+    camera.set_projection(Camera::Projection::straight);
+    return camera;
+}
+
+/// The screen pixel that shows a grid point.
+glm::ivec2 pixel_of(const Camera& camera, Vec3 grid, glm::ivec2 size) {
+    return glm::ivec2(glm::floor(on_screen(camera, grid, size)));
+}
+
+/// What the drawn depth of each pixel means in grid space; only points well inside the image.
+std::vector<Vec3> visible_points(const Camera& camera, glm::ivec2 size, glm::ivec2 image) {
+    std::vector<float> depth(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
+    glReadPixels(0, 0, size.x, size.y, GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
+    const double aspect = static_cast<double>(size.x) / size.y;
+    const glm::dmat4 world_from_clip =
+        glm::inverse(camera.clip_from_view(aspect) * camera.view_from_world());
+    std::vector<Vec3> points;
+    for (int y = 0; y < size.y; ++y) {
+        for (int x = 0; x < size.x; ++x) {
+            const auto at = static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x) +
+                            static_cast<std::size_t>(x);
+            const glm::dvec4 clip(2.0 * (x + 0.5) / size.x - 1.0, 2.0 * (y + 0.5) / size.y - 1.0,
+                                  2.0 * static_cast<double>(depth[at]) - 1.0, 1.0);
+            const glm::dvec4 world = world_from_clip * clip;
+            const Vec3 p = camera.grid_from_world(Vec3(world) / world.w);
+            if (p.x > 0.05 && p.y > 0.05 && p.x < image.x - 1.05 && p.y < image.y - 1.05 &&
+                depth[at] < 1.0F) {
+                points.push_back(p);
+            }
+        }
+    }
+    return points;
+}
+
+TEST_CASE("every pixel of the relief shows a point of the surface that the hand feels") {
+    const auto projection = GENERATE(Camera::Projection::perspective, Camera::Projection::straight);
+    const double roughness_px = GENERATE(0.0, 2.0);
+    HiddenWindow window;
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> level(0.0, 255.0);
+    const auto any = [&](int, int) { return level(random); };
+    const Frame from = frame(depth_image(9, 7, any));
+    const Frame to = frame(depth_image(9, 7, any));
+    const BumpMap bump{3, 2, {0.0F, 1.0F, 0.5F, 0.25F, 0.75F, 0.1F}};
+    SceneContent content = still(from);
+    content.depth = {&from, &to, 0.3};
+    content.shape = {4.0, roughness_px};
+    content.bump = &bump;
+    content.look.discard_silhouettes = false;
+    Camera camera;
+    camera.frame_relief(9, 7, 4.0);
+    camera.set_projection(projection);
+
+    const glm::ivec2 size(320, 240);
+    SceneView view;
+    const Offscreen offscreen(size, 0);
+    view.draw(content, camera, size);
+    const DepthSurface felt(*from.depth, *to.depth, 0.3, content.shape, &bump);
+    const std::vector<Vec3> points = visible_points(camera, size, {9, 7});
+    CHECK(points.size() > 15'000);
+    double worst_px = 0.0;
+    for (const Vec3& p : points) {
+        worst_px = std::max(worst_px, std::abs(p.z - felt.elevation_at(p.x, p.y)));
+    }
+    CHECK_THAT(worst_px, WithinAbs(0.0, 2e-3));
+    CHECK(window.errors().empty());
+}
+
+TEST_CASE("a cell with two high corners on its diagonal is a ridge, not a valley") {
+    HiddenWindow window;
+    const Frame shown = frame(depth_image(2, 2, [](int i, int j) { return i == j ? 0.0 : 255.0; }));
+    SceneContent content = still(shown);
+    content.shape.relief_px = 1.0;
+    const Camera camera = straight(2, 2, 1.0);
+    const glm::ivec2 size(101, 101);
+    SceneView view;
+    const Offscreen offscreen(size, 0);
+    view.draw(content, camera, size);
+    for (const Vec3& p : visible_points(camera, size, {2, 2})) {
+        CHECK_THAT(p.z, WithinAbs(1.0 - std::abs(p.x + p.y - 1.0), 1e-3));
+    }
+}
+
+TEST_CASE("the picture lies the right way round on the relief, in its own colours") {
+    HiddenWindow window;
+    const Rgb upper_left{250, 10, 10};
+    const Rgb upper_right{10, 250, 10};
+    const Rgb lower_left{10, 10, 250};
+    const Rgb lower_right{240, 240, 20};
+    const auto quarters = colour_image(16, 64, [&](int i, int j) {
+        if (j < 32) return i < 8 ? upper_left : upper_right;
+        return i < 8 ? lower_left : lower_right;
+    });
+    // Colour and depth differ in size and proportion: they meet by normalised coordinates.
+    const Frame shown = frame(depth_image(40, 30, [](int, int) { return 100.0; }), quarters);
+    SceneContent content = still(shown);
+    content.look.light = GENERATE(0.0, 0.6, 1.0);  // a flat relief keeps the colours in any light
+    const Camera camera = straight(40, 30);
+    const glm::ivec2 size(200, 150);
+    SceneView view;
+    const ColourImage picture = view.capture(content, camera, size);
+    const auto seen = [&](double x, double y) {
+        return pixel(picture, pixel_of(camera, {x, y, 0.0}, size));
+    };
+    CHECK(difference(seen(5.0, 5.0), upper_left) <= 2);
+    CHECK(difference(seen(35.0, 5.0), upper_right) <= 2);
+    CHECK(difference(seen(5.0, 25.0), lower_left) <= 2);
+    CHECK(difference(seen(35.0, 25.0), lower_right) <= 2);
+    CHECK(window.errors().empty());
+}
+
+TEST_CASE("a vertex has the colour of the picture's pixel of the same column and row") {
+    HiddenWindow window;
+    const auto colour_of = [](int i, int j) {
+        return Rgb{60 * (i % 4), 60 * (j % 4), 25 * (i + j)};
+    };
+    const Frame shown =
+        frame(depth_image(5, 4, [](int, int) { return 0.0; }), colour_image(5, 4, colour_of));
+    const Camera camera = straight(5, 4);
+    const glm::ivec2 size(1000, 800);
+    SceneView view;
+    const ColourImage picture = view.capture(still(shown), camera, size);
+    for (int j = 1; j < 3; ++j) {
+        for (int i = 1; i < 4; ++i) {
+            const Rgb seen = pixel(picture, pixel_of(camera, Vec3(i, j, 0.0), size));
+            CHECK(difference(seen, colour_of(i, j)) <= 2);
+        }
+    }
+}
+
+TEST_CASE("the light comes from the upper left, and without light there is none") {
+    HiddenWindow window;
+    const Frame shown =
+        frame(depth_image(40, 30, [](int i, int) { return i < 20 ? 4.0 * i : 4.0 * (39 - i); }));
+    SceneContent content = still(shown);
+    const Camera camera = straight(40, 30);
+    const glm::ivec2 size(200, 150);
+    SceneView view;
+    const auto brightness = [&](double x) {
+        const ColourImage picture = view.capture(content, camera, size);
+        return pixel(picture, pixel_of(camera, {x, 15.0, 0.0}, size))[0];
+    };
+    CHECK(brightness(8.0) > brightness(31.0) + 20);
+    content.look.light = 0.0;
+    CHECK(std::abs(brightness(8.0) - brightness(31.0)) <= 1);
+}
+
+TEST_CASE("triangles steeper than the silhouette slope are left out, when asked") {
+    HiddenWindow window;
+    const Frame shown = frame(depth_image(6, 6, [](int i, int) { return i < 3 ? 10.0 : 210.0; }));
+    SceneContent content = still(shown);
+    const Camera camera = straight(6, 6);
+    const glm::ivec2 size(300, 300);
+    SceneView view;
+    const ColourImage backdrop = view.capture({}, camera, size);
+    const glm::ivec2 step = pixel_of(camera, {2.5, 2.3, 0.0}, size);
+    const glm::ivec2 face = pixel_of(camera, {1.5, 2.3, 0.0}, size);
+    const ColourImage cut = view.capture(content, camera, size);
+    CHECK(pixel(cut, step) == pixel(backdrop, step));
+    CHECK(pixel(cut, face) != pixel(backdrop, face));
+    content.look.discard_silhouettes = false;
+    const ColourImage whole = view.capture(content, camera, size);
+    CHECK(difference(pixel(whole, step), pixel(backdrop, step)) > 20);
+    content.look.discard_silhouettes = true;
+    content.look.silhouette_slope = 250.0;
+    const ColourImage lenient = view.capture(content, camera, size);
+    CHECK(difference(pixel(lenient, step), pixel(backdrop, step)) > 20);
+}
+
+TEST_CASE("without frames, or with an image of one pixel, there is only the backdrop") {
+    HiddenWindow window;
+    const Camera camera = straight(6, 6);
+    const glm::ivec2 size(64, 48);
+    SceneView view;
+    const ColourImage backdrop = view.capture({}, camera, size);
+    const Frame empty;
+    const Frame dot = frame(depth_image(1, 1, [](int, int) { return 100.0; }));
+    const Frame row = frame(depth_image(64, 1, [](int, int) { return 100.0; }));
+    const Frame other = frame(depth_image(6, 6, [](int, int) { return 100.0; }));
+    for (const Frame* shown : {&empty, &dot, &row}) {
+        CHECK(view.capture(still(*shown), camera, size).rgb == backdrop.rgb);
+    }
+    SceneContent mixed;
+    mixed.depth = {&other, &dot, 0.5};  // sizes that do not match
+    CHECK(view.capture(mixed, camera, size).rgb == backdrop.rgb);
+    CHECK(view.capture(still(other), camera, size).rgb != backdrop.rgb);
+    CHECK(window.errors().empty());
+}
+
+TEST_CASE("a view that has shown other frames draws the same as a fresh one") {
+    HiddenWindow window;
+    const glm::ivec2 size(160, 120);
+    Camera camera;
+    camera.frame_relief(32, 24, 60.0);
+    SceneView used;
+    std::mt19937 random(3);
+    BumpMap bump{4, 4, std::vector<float>(16, 0.0F)};
+    for (int k = 0; k < 12; ++k) {
+        // Frames are freed in every round, so that new ones may come to lie at their addresses.
+        const auto noise = [&](int, int) { return static_cast<double>(random() % 256U); };
+        const auto colours = [&](int, int) {
+            return Rgb{static_cast<int>(random() % 256U), 90, 0};
+        };
+        const Frame a = frame(depth_image(32, 24, noise), colour_image(8, 6, colours));
+        const Frame b = frame(depth_image(32, 24, noise), colour_image(8, 6, colours));
+        const Frame c = frame(depth_image(32, 24, noise), colour_image(8, 6, colours));
+        bump.heights[static_cast<std::size_t>(k)] = 1.0F;
+        SceneContent content;
+        content.shape = {60.0, 20.0};
+        content.bump = &bump;
+        content.look.coarse = k % 4 == 3;
+        const Frame* const order[] = {&a, &b, &c, &a, &a};
+        for (int step = 0; step < 4; ++step) {
+            content.depth = {order[step], order[step + 1], 0.25};
+            content.colour = order[step];
+            SceneView fresh;
+            const ColourImage expected = fresh.capture(content, camera, size);
+            CAPTURE(k, step);
+            CHECK(used.capture(content, camera, size).rgb == expected.rgb);
+        }
+    }
+    CHECK(window.errors().empty());
+}
+
+TEST_CASE("the force arrow points on the screen where the force points in the grid") {
+    HiddenWindow window;
+    const Frame shown =
+        frame(depth_image(64, 48, [](int, int) { return 0.0; }), colour_image(1, 1, [](int, int) {
+                  return Rgb{60, 60, 60};
+              }));
+    SceneContent content = still(shown);
+    const Camera camera = straight(64, 48, 100.0);
+    const glm::ivec2 size(640, 480);
+    const Vec3 direction =
+        GENERATE(Vec3(1.0, 0.0, 0.0), Vec3(0.0, 1.0, 0.0), Vec3(-0.6, -0.8, 0.0));
+    content.markers.visible = true;
+    content.markers.proxy = {32.0, 24.0, 50.0};
+    content.markers.goal = content.markers.proxy;
+    content.markers.force_newton = direction;
+    content.markers.newton_per_px = 1.0 / 20.0;
+    SceneView view;
+    const ColourImage picture = view.capture(content, camera, size);
+    const auto yellow = [&](double along_px) {
+        const Vec3 p = content.markers.proxy + direction * along_px;
+        const Rgb seen = pixel(picture, pixel_of(camera, p, size));
+        return seen[0] > 120 && seen[1] > 110 && seen[2] < seen[0] - 50;
+    };
+    CHECK(yellow(7.0));
+    CHECK(yellow(15.0));
+    CHECK_FALSE(yellow(23.0));
+    CHECK_FALSE(yellow(-7.0));
+    CHECK(window.errors().empty());
+}
+
+TEST_CASE("the goal below the surface is still seen, fainter than one above it") {
+    HiddenWindow window;
+    const Frame shown =
+        frame(depth_image(64, 48, [](int, int) { return 128.0; }), colour_image(1, 1, [](int, int) {
+                  return Rgb{20, 40, 90};
+              }));
+    SceneContent content = still(shown);
+    const Camera camera = straight(64, 48);
+    const glm::ivec2 size(640, 480);
+    SceneView view;
+    const ColourImage without = view.capture(content, camera, size);
+    content.markers.visible = true;
+    content.markers.proxy = {50.0, 24.0, 128.5};
+    const glm::ivec2 ring = pixel_of(camera, {20.0, 24.0, 0.0}, size) + glm::ivec2(6, 0);
+    const auto redness = [&](double goal_z) {
+        content.markers.goal = {20.0, 24.0, goal_z};
+        return pixel(view.capture(content, camera, size), ring)[0];
+    };
+    const int plain = pixel(without, ring)[0];
+    const int above = redness(160.0);
+    const int below = redness(100.0);
+    CHECK(below > plain + 20);
+    CHECK(above > below + 20);
+}
+
+TEST_CASE("an image of 33 million pixels is drawn, thinned out") {
+    HiddenWindow window;
+    const Frame shown =
+        frame(depth_image(7680, 4320, [](int i, int) { return i < 3840 ? 50 : 200; }),
+              colour_image(2, 1, [](int i, int) {
+                  return Rgb{i * 200, 100, 0};
+              }));
+    SceneContent content = still(shown);
+    const Camera camera = straight(7680, 4320);
+    const glm::ivec2 size(192, 108);
+    SceneView view;
+    const ColourImage picture = view.capture(content, camera, size);
+    CHECK(difference(pixel(picture, {20, 54}), {0, 100, 0}) <= 2);
+    CHECK(difference(pixel(picture, {170, 54}), {200, 100, 0}) <= 2);
+    CHECK(window.errors().empty());
+}
+
+TEST_CASE("drawing leaves the framebuffer to others: no depth test, blending or scissors") {
+    HiddenWindow window;
+    const Frame shown = frame(depth_image(8, 8, [](int, int) { return 9.0; }));
+    SceneContent content = still(shown);
+    content.markers.visible = true;
+    content.markers.contact = true;
+    content.markers.goal = {4.0, 4.0, -20.0};
+    SceneView view;
+    glViewport(1, 2, 30, 20);
+    const ColourImage picture = view.capture(content, straight(8, 8), {50, 40});
+    CHECK(picture.columns == 50);
+    CHECK(picture.rows == 40);
+    GLint viewport[4] = {};
+    GLint framebuffer = -1;
+    glGetIntegerv(GL_VIEWPORT, viewport);
+    glGetIntegerv(GL_FRAMEBUFFER_BINDING, &framebuffer);
+    CHECK(viewport[2] == 30);
+    CHECK(framebuffer == 0);
+    for (const GLenum state : {GL_DEPTH_TEST, GL_BLEND, GL_SCISSOR_TEST, GL_CULL_FACE}) {
+        CHECK(glIsEnabled(state) == GL_FALSE);
+    }
+    view.draw(content, straight(8, 8), {0, 0});  // a minimised window
+    CHECK(window.errors().empty());
+}
+
+TEST_CASE("a screenshot's first row is the upper one") {
+    HiddenWindow window;
+    const Offscreen offscreen({5, 4}, 0);
+    glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
+    glClear(GL_COLOR_BUFFER_BIT);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, 3, 5, 1);
+    glClearColor(1.0F, 0.0F, 0.0F, 1.0F);
+    glClear(GL_COLOR_BUFFER_BIT);
+    const ColourImage picture = read_framebuffer({5, 4});
+    for (int x = 0; x < 5; ++x) {
+        CHECK(pixel(picture, {x, 0}) == Rgb{255, 0, 0});
+        CHECK(pixel(picture, {x, 1}) == Rgb{0, 0, 0});
+        CHECK(pixel(picture, {x, 3}) == Rgb{0, 0, 0});
+    }
+}
+
+}  // namespace
+}  // namespace dibhr
