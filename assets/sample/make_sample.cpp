@@ -1,0 +1,104 @@
+// make_sample: renders the built-in sample and the bump maps, or one frame of it as PNG.
+#include <algorithm>
+#include <csignal>
+#include <cstdint>
+#include <exception>
+#include <filesystem>
+#include <future>
+#include <iostream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "assets/sample/bump.hpp"
+#include "assets/sample/encode.hpp"
+#include "assets/sample/picture.hpp"
+#include "core/error.hpp"
+
+namespace {
+
+using dibhr::sample::Picture;
+
+constexpr auto kUsage =
+    "usage: make_sample DIR            color.mp4 and depth.mp4\n"
+    "       make_sample --bump DIR     linen.png and grain.png\n"
+    "       make_sample --frame N DIR  color-N.png and depth-N.png\n";
+
+void write_png(const std::filesystem::path& file, int columns, int rows, int type,
+               std::vector<std::uint8_t> bytes) {
+    if (!cv::imwrite(file.string(), cv::Mat{rows, columns, type, bytes.data()}))
+        throw dibhr::InputError("cannot write " + file.string() +
+                                ": choose a folder that can be written");
+}
+
+void make_video(const std::filesystem::path& folder) {
+    namespace sample = dibhr::sample;
+    auto colour = sample::VideoFile::colour(folder / "color.mp4");
+    auto depth = sample::VideoFile::depth(folder / "depth.mp4");
+    const int workers = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    for (int first = 0; first < sample::kFrames; first += workers) {
+        std::vector<std::future<Picture>> pictures;
+        for (int frame = first; frame < std::min(first + workers, sample::kFrames); ++frame)
+            pictures.push_back(std::async(std::launch::async, sample::picture_of, frame));
+        for (auto& pending : pictures) {
+            const Picture picture = pending.get();
+            colour.write(picture.bgr);
+            depth.write(sample::rounded(picture.level));
+        }
+        std::cerr << "\rframe " << std::min(first + workers, sample::kFrames) << " of "
+                  << sample::kFrames << std::flush;
+    }
+    std::cerr << '\n';
+    colour.finish();
+    depth.finish();
+}
+
+void make_bumps(const std::filesystem::path& folder) {
+    namespace sample = dibhr::sample;
+    write_png(folder / "linen.png", sample::kBumpSide, sample::kBumpSide, CV_8UC1, sample::linen());
+    write_png(folder / "grain.png", sample::kBumpSide, sample::kBumpSide, CV_8UC1, sample::grain());
+}
+
+void make_frame(int frame, const std::filesystem::path& folder) {
+    namespace sample = dibhr::sample;
+    const Picture picture = sample::picture_of(frame);
+    const std::string end = "-" + std::to_string(frame) + ".png";
+    write_png(folder / ("color" + end), sample::kColumns, sample::kRows, CV_8UC3, picture.bgr);
+    write_png(folder / ("depth" + end), sample::kColumns, sample::kRows, CV_8UC1,
+              sample::rounded(picture.level));
+}
+
+bool is_number(const std::string& word) {
+    return !word.empty() && word.size() < 7 &&
+           word.find_first_not_of("0123456789") == std::string::npos;
+}
+
+/// False when the words make no sense.
+bool obey(const std::vector<std::string>& words) {
+    if (words.size() == 1 && !words[0].starts_with("-")) {
+        make_video(words[0]);
+    } else if (words.size() == 2 && words[0] == "--bump") {
+        make_bumps(words[1]);
+    } else if (words.size() == 3 && words[0] == "--frame" && is_number(words[1])) {
+        make_frame(std::stoi(words[1]), words[2]);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+    std::signal(SIGPIPE, SIG_IGN);  // an ffmpeg that ends early is then an error we can explain
+    try {
+        if (obey({arguments + 1, arguments + count})) return 0;
+        std::cerr << kUsage;
+        return 2;
+    } catch (const std::exception& error) {
+        std::cerr << "make_sample: " << error.what() << '\n';
+        return 1;
+    }
+}
