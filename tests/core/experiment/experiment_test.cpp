@@ -1,0 +1,64 @@
+// The paper's goals, the statistics, and that the walk's cost stays where it belongs.
+#include <cmath>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "core/experiment/goal_paths.hpp"
+#include "core/experiment/sample_statistics.hpp"
+#include "core/experiment/update_timing.hpp"
+#include "core/haptics/dibhr.hpp"
+#include "tests/core/haptics/surfaces.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace dibhr;
+using Catch::Matchers::WithinAbs;
+
+TEST_CASE("goals move 4.961 px an update on the line and along the circle", "[paths]") {
+    const PathPlace place{360.0, 243.0, 100.0, 20.0};
+    CHECK_THAT(kHandStep_px, WithinAbs(4.961, 5e-4));
+    int reversals = 0;
+    for (int k = 1; k < 2000; ++k) {
+        const double line = glm::length(linear_goal(place, k) - linear_goal(place, k - 1));
+        REQUIRE(line <= kHandStep_px + 1e-9);
+        if (line < kHandStep_px - 1e-9) ++reversals;
+        const Vec3 on_circle = circle_goal(place, k);
+        REQUIRE_THAT(std::hypot(on_circle.x - 360.0, on_circle.y - 243.0), WithinAbs(200.0, 1e-9));
+        REQUIRE(on_circle.z == 80.0);
+        REQUIRE(std::abs(linear_goal(place, k).x - 360.0) <= 300.0);
+    }
+    CHECK(reversals <= 17);
+    CHECK(reversals >= 15);
+}
+
+TEST_CASE("quantiles are samples by nearest rank", "[statistics]") {
+    std::vector<double> samples;
+    for (int k = 1000; k >= 1; --k) samples.push_back(k);
+    const SampleStatistics s = statistics_of(samples);
+    CHECK(s.count == 1000);
+    CHECK_THAT(s.mean, WithinAbs(500.5, 1e-9));
+    CHECK(s.median == 500.0);
+    CHECK(s.p99 == 990.0);
+    CHECK(s.p999 == 999.0);
+    CHECK(s.highest == 1000.0);
+    CHECK(statistics_of({}).count == 0);
+}
+
+TEST_CASE("an update visits as many primitives on a large image as on a small one", "[cost]") {
+    // The cost in primitives, not in seconds: it does not depend on the machine.
+    const auto moves_on = [](int columns, int rows) {
+        const DepthImage image = test::flat(columns, rows, 100.0);
+        const DepthSurface surface(image, image, 0.0, {255.0, 0.0});
+        std::vector<Vec3> goals;
+        for (int k = 0; k < 2000; ++k) {
+            goals.push_back(circle_goal({columns / 2.0, rows / 2.0, 100.0, 20.0}, k));
+        }
+        Dibhr dibhr;
+        return time_updates(dibhr, surface, goals, {0.4, 0.4});
+    };
+    const UpdateTiming small = moves_on(720, 486);
+    const UpdateTiming large = moves_on(2160, 1458);
+    CHECK_THAT(large.moves_per_update, WithinAbs(small.moves_per_update, 0.01));
+    CHECK(small.moves_per_update < 30.0);
+    CHECK_FALSE(large.bound_met);
+}

@@ -1,0 +1,165 @@
+// The rooms' one-way arrows: which room may include which, and which room owns which library.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tests/support/catch.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Include {
+    std::string file;  ///< "core/video/player.cpp", from the source root
+    std::string path;  ///< what it includes, as written
+    bool quoted{false};
+};
+
+/// A room and the prefixes of what it may include from this tree.
+struct Room {
+    std::string folder;
+    std::vector<std::string> may_include;
+};
+
+const std::vector<Room> kRooms{
+    {"core/haptics/", {"core/haptics/"}},
+    {"core/realtime/", {"core/realtime/"}},
+    {"core/video/", {"core/video/", "core/haptics/", "core/realtime/", "core/error.hpp"}},
+    {"core/session/", {"core/session/", "core/haptics/", "core/realtime/", "core/error.hpp"}},
+    {"core/experiment/", {"core/"}},
+    {"core/", {}},
+    {"device/", {"device/", "core/"}},
+    {"render/", {"render/", "core/"}},
+    {"assets/", {"assets/", "core/"}},
+    {"app/", {"app/", "render/", "device/", "core/", "assets/"}},
+};
+
+/// A library only some rooms may include.
+struct Ownership {
+    std::string prefix;
+    std::vector<std::string> rooms;
+};
+
+const std::vector<Ownership> kOwnerships{
+    {"epoxy/", {"render/"}}, {"GL/", {"render/"}},
+    {"libusb", {"device/"}}, {"sqlite3", {"core/session/"}},
+    {"imgui", {"app/"}},     {"GLFW/", {"app/"}},
+    {"CLI/", {"app/"}},      {"toml", {"app/"}},
+};
+
+// No file, clock, thread, log or picture library: numbers in, numbers out.
+const std::vector<std::string> kNotInHaptics{"opencv2/", "chrono",   "thread",     "mutex",
+                                             "fstream",  "iostream", "filesystem", "ctime"};
+
+bool starts_with_any(const std::string& text, const std::vector<std::string>& prefixes) {
+    return std::any_of(prefixes.begin(), prefixes.end(),
+                       [&](const std::string& prefix) { return text.starts_with(prefix); });
+}
+
+/// The first of kRooms that holds the file; null for none.
+const Room* room_of(const std::string& file) {
+    const auto room = std::find_if(kRooms.begin(), kRooms.end(), [&](const Room& candidate) {
+        return file.starts_with(candidate.folder);
+    });
+    return room == kRooms.end() ? nullptr : &*room;
+}
+
+std::vector<Include> includes_of(const fs::path& path, const std::string& name) {
+    constexpr std::string_view kDirective = "#include";
+    std::vector<Include> includes;
+    std::ifstream stream(path);
+    for (std::string line; std::getline(stream, line);) {
+        if (!line.starts_with(kDirective)) continue;
+        const auto begin = line.find_first_of("<\"", kDirective.size());
+        const auto end = line.find_first_of(">\"", begin + 1);
+        if (begin == std::string::npos || end == std::string::npos) continue;
+        includes.push_back({name, line.substr(begin + 1, end - begin - 1), line[begin] == '"'});
+    }
+    return includes;
+}
+
+/// Every include of every C++ file of the rooms.
+std::vector<Include> all_includes() {
+    const fs::path root = DIBHR_SOURCE_DIR;
+    std::vector<Include> all;
+    for (const char* folder : {"core", "device", "render", "assets", "app"}) {
+        for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+            const auto ending = entry.path().extension();
+            if (ending != ".hpp" && ending != ".cpp") continue;
+            const auto name = entry.path().lexically_relative(root).generic_string();
+            const auto includes = includes_of(entry.path(), name);
+            all.insert(all.end(), includes.begin(), includes.end());
+        }
+    }
+    return all;
+}
+
+std::string as_text(const Include& include) {
+    return include.file + " includes " + include.path;
+}
+
+/// The includes for which `forbidden` holds, as text: empty is as it should be.
+template <typename Forbidden>
+std::vector<std::string> offences(Forbidden forbidden) {
+    std::vector<std::string> found;
+    for (const Include& include : all_includes()) {
+        if (forbidden(include)) found.push_back(as_text(include));
+    }
+    return found;
+}
+
+// A name without a folder is a room's own generated header.
+bool breaks_arrow(const Include& include) {
+    const Room* room = room_of(include.file);
+    const bool names_a_folder = include.path.find('/') != std::string::npos;
+    return include.quoted && names_a_folder &&
+           (room == nullptr || !starts_with_any(include.path, room->may_include));
+}
+
+bool breaks_ownership(const Include& include) {
+    return std::any_of(kOwnerships.begin(), kOwnerships.end(), [&](const Ownership& ownership) {
+        return include.path.starts_with(ownership.prefix) &&
+               !starts_with_any(include.file, ownership.rooms);
+    });
+}
+
+bool breaks_numbers_only(const Include& include) {
+    return include.file.starts_with("core/haptics/") &&
+           starts_with_any(include.path, kNotInHaptics);
+}
+
+const std::vector<std::string> kNone{};
+
+}  // namespace
+
+TEST_CASE("a room includes only the rooms its arrows point to", "[rooms]") {
+    REQUIRE(all_includes().size() > 100);
+    CHECK(offences(breaks_arrow) == kNone);
+}
+
+TEST_CASE("only render calls OpenGL, device the USB, app the window and its panels, session SQLite",
+          "[rooms]") {
+    CHECK(offences(breaks_ownership) == kNone);
+}
+
+TEST_CASE("the haptic core knows no file, clock, thread or picture library", "[rooms]") {
+    CHECK(offences(breaks_numbers_only) == kNone);
+}
+
+TEST_CASE("the checks of the arrows find what they are there to find", "[rooms]") {
+    CHECK(breaks_arrow({"core/haptics/proxy.cpp", "core/error.hpp", true}));
+    CHECK(breaks_arrow({"core/video/player.cpp", "render/camera.hpp", true}));
+    CHECK(breaks_arrow({"device/falcon.cpp", "app/options.hpp", true}));
+    CHECK(breaks_arrow({"core/error.hpp", "core/haptics/vec.hpp", true}));
+    CHECK(breaks_arrow({"app/main.cpp", "tests/support/catch.hpp", true}));
+    CHECK(breaks_arrow({"core/video/player.cpp", "../../render/camera.hpp", true}));
+    CHECK_FALSE(breaks_arrow({"app/main.cpp", "core/error.hpp", true}));
+    CHECK_FALSE(breaks_arrow({"render/relief_pass.cpp", "shader_sources.hpp", true}));
+    CHECK(breaks_ownership({"app/window.cpp", "epoxy/gl.h", false}));
+    CHECK(breaks_ownership({"render/relief.cpp", "GLFW/glfw3.h", false}));
+    CHECK(breaks_numbers_only({"core/haptics/dibhr.cpp", "chrono", false}));
+    CHECK_FALSE(breaks_numbers_only({"core/realtime/tick_timer.hpp", "chrono", false}));
+}
