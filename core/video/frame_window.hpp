@@ -1,0 +1,67 @@
+// What the player hands to the haptic thread and to the window: a few frames around now, and the
+// clock.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/haptics/depth_image.hpp"
+
+namespace dibhr {
+
+/// Colour picture, rows x columns, row-major, 3 bytes a pixel: red, green, blue.
+struct ColourImage {
+    int columns{0};
+    int rows{0};
+    std::vector<std::uint8_t> rgb{};
+};
+
+/// One colour + depth frame, cleaned and ready to touch. Immutable once published.
+struct Frame {
+    std::shared_ptr<const DepthImage> depth{};
+    std::shared_ptr<const ColourImage> colour{};
+    double time_s{0.0};  ///< on the playback timeline, which goes on across loops and never repeats
+    double media_s{0.0};    ///< presentation time in the file
+    std::int64_t index{0};  ///< number of the frame in the file, from 0
+};
+
+/// Maps the monotonic clock to the playback timeline.
+struct PlaybackClock {
+    std::chrono::steady_clock::time_point anchor{};
+    double anchor_s{0.0};  ///< playback time at `anchor`
+    double speed{0.0};     ///< 0 when paused
+
+    [[nodiscard]] double playback_s(std::chrono::steady_clock::time_point now) const noexcept {
+        return anchor_s + speed * std::chrono::duration<double>(now - anchor).count();
+    }
+};
+
+/// The two depth images a moment lies between.
+struct DepthBlend {
+    const Frame* from{nullptr};
+    const Frame* to{nullptr};
+    double blend{0.0};  ///< 0: from, 1: to
+};
+
+/// Travels whole through a triple buffer, so a tick never mixes frames or clocks. Frames are in
+/// order of time and a few ahead, so that the reader crosses from one pair to the next by its own
+/// clock.
+struct FrameWindow {
+    static constexpr std::size_t kFrames = 4;
+
+    std::array<Frame, kFrames> frames{};
+    std::size_t count{0};
+    PlaybackClock clock{};
+    std::uint64_t discontinuity{
+        0};  ///< counts seeks, jumps and new files: the force ramps after each
+
+    /// The pair around playback time `s`, held at the first and last frame. Null when there is
+    /// none.
+    [[nodiscard]] DepthBlend at(double playback_s) const noexcept;
+};
+
+}  // namespace dibhr

@@ -1,0 +1,139 @@
+// What can be said about a given file before any decoder sees it.
+#include "core/video/input_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstddef>
+#include <fstream>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/video/media.hpp"
+
+namespace dibhr {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+/// Whether the file begins like text: no zero and no control bytes. Playlists are text, too, and
+/// would make the decoder open other files. Text pictures (PNM) are not refused.
+bool begins_like_text(std::ifstream& in) {
+    std::array<char, 512> head{};
+    in.read(head.data(), static_cast<std::streamsize>(head.size()));
+    const auto count = static_cast<std::size_t>(in.gcount());
+    if (count >= 2 && head[0] == 'P' && head[1] >= '1' && head[1] <= '7') return false;
+    return std::all_of(head.begin(), head.begin() + static_cast<std::ptrdiff_t>(count), [](char c) {
+        const auto byte = static_cast<unsigned char>(c);
+        return byte >= 32 || (byte >= '\t' && byte <= '\r') || byte == 27;
+    });
+}
+
+/// `stem` with its first colour word replaced by "depth", for each word it holds.
+std::vector<std::string> depth_stems(const std::string& stem) {
+    std::vector<std::string> stems;
+    const std::string low = lower(stem);
+    for (const std::string_view word : {"colour", "color", "rgb"}) {
+        const auto at = low.find(word);
+        if (at == std::string::npos) continue;
+        std::string_view depth = "depth";
+        if (std::isupper(static_cast<unsigned char>(stem[at])) != 0)
+            depth = std::isupper(static_cast<unsigned char>(stem[at + 1])) != 0 ? "DEPTH" : "Depth";
+        std::string changed = stem;
+        stems.push_back(changed.replace(at, word.size(), depth));
+    }
+    return stems;
+}
+
+bool is_file(const fs::path& file) {
+    std::error_code ignored;
+    return fs::is_regular_file(file, ignored);
+}
+
+/// The file of that stem in that folder, whatever its extension; the first by name. Nothing when
+/// none.
+std::optional<fs::path> with_any_extension(const fs::path& folder, const std::string& stem) {
+    static constexpr std::array<std::string_view, 18> kExtensions{
+        ".avi", ".bmp", ".jpeg", ".jpg", ".m4v", ".mkv", ".mov",  ".mp4",  ".mpg",
+        ".ogv", ".pgm", ".png",  ".ppm", ".tif", ".ts",  ".tiff", ".webm", ".webp"};
+    std::set<fs::path> found;
+    std::error_code failed;
+    for (fs::directory_iterator entry(folder.empty() ? "." : folder, failed), end;
+         !failed && entry != end; entry.increment(failed)) {
+        const auto& file = entry->path();
+        const auto extension = lower(file.extension().string());
+        if (file.stem() == stem &&
+            std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end() &&
+            is_file(file))
+            found.insert(folder / file.filename());
+    }
+    if (found.empty()) return std::nullopt;
+    return *found.begin();
+}
+
+}  // namespace
+
+std::string shown(const fs::path& file) {
+    std::string text = file.string();
+    std::replace_if(
+        text.begin(), text.end(),
+        [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; }, '?');
+    return "'" + text + "'";
+}
+
+bool named_depth(const fs::path& file) {
+    return lower(file.stem().string()).find("depth") != std::string::npos;
+}
+
+void require_readable(const fs::path& file) {
+    std::error_code failed;
+    const auto status = fs::status(file, failed);
+    if (status.type() == fs::file_type::not_found)
+        throw InputError(shown(file) + " does not exist: check the name and the folder");
+    if (failed)
+        throw InputError(shown(file) + " cannot be reached (" + failed.message() +
+                         "): check the name and the permissions of its folder");
+    if (fs::is_directory(status))
+        throw InputError(shown(file) + " is a folder: give the video or picture file in it");
+    if (!fs::is_regular_file(status))
+        throw InputError(shown(file) + " is a pipe or a device: save its data to a file first");
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw InputError(shown(file) + " cannot be read: check its permissions (chmod u+r)");
+    if (fs::file_size(file, failed) == 0)
+        throw InputError(shown(file) + " is empty: record or copy it again");
+    if (begins_like_text(in))
+        throw InputError(shown(file) + " holds text, not a video or a picture: give another file");
+}
+
+void require_size(const fs::path& file, int columns, int rows) {
+    if (columns >= 2 && rows >= 2) return;
+    throw InputError(shown(file) + " is only " + std::to_string(columns) + " x " +
+                     std::to_string(rows) + " pixels: give one of at least 2 x 2");
+}
+
+std::optional<fs::path> find_depth_beside(const fs::path& colour, std::string& looked_for) {
+    looked_for.clear();
+    const auto folder = colour.parent_path();
+    for (const auto& stem : depth_stems(colour.stem().string())) {
+        const auto same = folder / (stem + colour.extension().string());
+        if (!looked_for.empty()) looked_for += ", ";
+        looked_for += shown(same) + " (or another extension)";
+        if (is_file(same)) return same;
+        if (auto other = with_any_extension(folder, stem)) return other;
+    }
+    if (looked_for.empty())
+        looked_for = "nothing, because the name holds neither color, colour nor rgb";
+    return std::nullopt;
+}
+
+}  // namespace dibhr

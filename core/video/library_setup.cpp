@@ -1,0 +1,45 @@
+// Brings OpenCV and FFmpeg into the state this room needs: silent, and on our own threads only.
+#include "core/video/library_setup.hpp"
+
+#include <fcntl.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <mutex>
+#include <opencv2/core.hpp>
+#include <opencv2/core/utils/logger.hpp>
+
+namespace dibhr {
+
+void set_up_libraries() {
+    static std::once_flag once;
+    std::call_once(once, [] {
+        if (std::getenv("OPENCV_LOG_LEVEL") == nullptr)
+            cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+        ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // AV_LOG_QUIET; 0: never over the user's
+        // A pool of workers would wake on every conversion and push the haptic thread from its
+        // core.
+        cv::setNumThreads(1);
+    });
+}
+
+QuietErrors::QuietErrors() {
+    if (std::getenv("OPENCV_LOG_LEVEL") != nullptr) return;
+    const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (nowhere < 0) return;
+    std::fflush(stderr);
+    kept_ = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 0);
+    if (kept_ >= 0) ::dup2(nowhere, STDERR_FILENO);
+    ::close(nowhere);
+}
+
+QuietErrors::~QuietErrors() {
+    if (kept_ < 0) return;
+    std::fflush(stderr);
+    ::dup2(kept_, STDERR_FILENO);
+    ::close(kept_);
+}
+
+}  // namespace dibhr

@@ -1,0 +1,24 @@
+// Brings OpenCV and FFmpeg into the state this room needs: silent, and on our own threads only.
+#pragma once
+
+namespace dibhr {
+
+/// Once per process, before the first file is opened. The user's own OPENCV_LOG_LEVEL and
+/// OPENCV_FFMPEG_LOGLEVEL stand. Call it from one thread before others read the environment.
+void set_up_libraries();
+
+/// While it lives, the standard error stream goes nowhere: the picture decoders under OpenCV
+/// (libpng, libjpeg) write to it themselves, and what is wrong is said by our own line. For the
+/// whole process, so only around one decoding; not with OPENCV_LOG_LEVEL set, which asks for words.
+class QuietErrors {
+  public:
+    QuietErrors();
+    ~QuietErrors();
+    QuietErrors(const QuietErrors&) = delete;
+    QuietErrors& operator=(const QuietErrors&) = delete;
+
+  private:
+    int kept_{-1};  ///< the stream's own descriptor
+};
+
+}  // namespace dibhr

@@ -1,0 +1,78 @@
+// Opens what people bring: a colour and a depth video or image, paired by presentation time.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/video/frame_window.hpp"
+
+namespace dibhr {
+
+/// A decoded, not yet cleaned pair.
+struct RawFrame {
+    DepthImage depth{};
+    ColourImage colour{};
+    double media_s{0.0};
+    std::int64_t index{0};
+};
+
+/// For `dibhr info` and the Video panel.
+struct MediaDescription {
+    std::filesystem::path colour_path{};
+    std::filesystem::path depth_path{};
+    int colour_columns{0}, colour_rows{0};
+    int depth_columns{0}, depth_rows{0};
+    std::string colour_codec{}, depth_codec{};
+    int depth_bits{8};
+    double duration_s{0.0};
+    double frames_per_s{0.0};  ///< average of the real intervals as far as known; 0 for a still
+    std::int64_t frames{0};    ///< an estimate until the end was reached
+    bool frames_exact{false};  ///< the end was reached: frames and duration are those of the file
+    bool still{false};
+    std::string remark{};  ///< what reading loses, in plain words; empty when nothing
+};
+
+/// Containers round times to milliseconds: a time asked for matches a frame's within half of one.
+inline constexpr double kTimeTolerance_s = 0.0005;
+
+/// One opened colour + depth pair. Frames come in order; depth drives, colour is the one shown at
+/// its time.
+class Media {
+  public:
+    virtual ~Media() = default;
+    [[nodiscard]] virtual const MediaDescription& description() const = 0;
+    /// The next frame, or nothing at the end. Throws InputError when the file breaks off.
+    virtual std::optional<RawFrame> next() = 0;
+    /// The next frame returned is the one shown at `media_s`.
+    virtual void seek(double media_s) = 0;
+};
+
+/// The depth file that belongs to a colour file: `*color*` -> `*depth*` (also colour, rgb) beside
+/// it. Nothing when there is none; `looked_for` then says what was tried, for the message.
+[[nodiscard]] std::optional<std::filesystem::path> find_depth_beside(
+    const std::filesystem::path& colour, std::string& looked_for);
+
+/// Opens a pair; an empty depth path is found beside the colour file. Throws InputError: what,
+/// which file, what to do next.
+[[nodiscard]] std::unique_ptr<Media> open_media(const std::filesystem::path& colour,
+                                                const std::filesystem::path& depth = {});
+
+/// Opens a depth video or image alone (`dibhr touch --depth`); its colour is empty.
+[[nodiscard]] std::unique_ptr<Media> open_depth(const std::filesystem::path& depth);
+
+/// Describes one media file of any kind without needing its partner (`dibhr info FILE`): what looks
+/// like depth (by name, or grey, or 16 bits) fills the depth fields, other files the colour fields.
+/// Videos of up to a few thousand frames are read to their end, so that the numbers are exact.
+[[nodiscard]] MediaDescription describe_media(const std::filesystem::path& file);
+
+/// A bump map from an 8- or 16-bit image, normalised so that its lowest level is 0 and its
+/// highest 1.
+[[nodiscard]] BumpMap read_bump_map(const std::filesystem::path& file);
+
+/// Writes an RGB picture as PNG, whole or not at all. Throws InputError.
+void write_png(const ColourImage& picture, const std::filesystem::path& file);
+
+}  // namespace dibhr

@@ -1,0 +1,142 @@
+// Still pictures and the way from OpenCV's pictures to ours.
+#include "core/video/pictures.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/video/input_file.hpp"
+#include "core/video/library_setup.hpp"
+#include "core/video/media.hpp"
+
+namespace dibhr {
+namespace {
+
+namespace fs = std::filesystem;
+
+cv::Mat read_picture(const fs::path& file, int flags) {
+    set_up_libraries();
+    require_readable(file);
+    cv::Mat picture;
+    try {
+        const QuietErrors quiet;
+        picture = cv::imread(file.string(), flags);
+    } catch (const cv::Exception&) {
+        picture.release();  // refused, for example as too large: said below
+    }
+    if (picture.empty())
+        throw InputError(shown(file) +
+                         " cannot be decoded as a picture: it may be damaged, export it again");
+    return picture;
+}
+
+/// One channel of the same bits. The weights of luma sum to one in OpenCV's fixed point, so equal
+/// channels keep their level exactly.
+cv::Mat grey_of(const cv::Mat& picture) {
+    cv::Mat grey;
+    if (picture.channels() == 3)
+        cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);
+    else if (picture.channels() == 4)
+        cv::cvtColor(picture, grey, cv::COLOR_BGRA2GRAY);
+    else if (picture.channels() == 2)
+        cv::extractChannel(picture, grey, 0);
+    else
+        grey = picture;
+    return grey;
+}
+
+}  // namespace
+
+cv::Mat read_picture_unchanged(const fs::path& file) {
+    cv::Mat picture = read_picture(file, cv::IMREAD_UNCHANGED);
+    if (picture.depth() != CV_8U && picture.depth() != CV_16U)
+        throw InputError(shown(file) +
+                         " does not hold 8- or 16-bit levels: save it as a 16-bit PNG");
+    return picture;
+}
+
+cv::Mat read_colour_picture(const fs::path& file) {
+    return read_picture(file, cv::IMREAD_COLOR);
+}
+
+DepthImage depth_of(const cv::Mat& picture) {
+    const cv::Mat grey = grey_of(picture);
+    DepthImage depth;
+    depth.columns = grey.cols;
+    depth.rows = grey.rows;
+    depth.highest_level = grey.depth() == CV_16U ? 65535.0 : 255.0;
+    depth.levels.resize(grey.total());
+    cv::Mat levels(grey.rows, grey.cols, CV_32FC1, depth.levels.data());
+    grey.convertTo(levels, CV_32F);
+    return depth;
+}
+
+ColourImage colour_of(const cv::Mat& picture) {
+    ColourImage colour;
+    colour.columns = picture.cols;
+    colour.rows = picture.rows;
+    colour.rgb.resize(picture.total() * 3);
+    cv::Mat rgb(picture.rows, picture.cols, CV_8UC3, colour.rgb.data());
+    cv::cvtColor(picture, rgb, cv::COLOR_BGR2RGB);
+    return colour;
+}
+
+BumpMap read_bump_map(const fs::path& file) {
+    const cv::Mat picture = read_picture_unchanged(file);
+    require_size(file, picture.cols, picture.rows);
+    DepthImage depth = depth_of(picture);
+    BumpMap bump{depth.columns, depth.rows, std::move(depth.levels)};
+    cv::Mat heights(bump.rows, bump.columns, CV_32FC1, bump.heights.data());
+    double lowest = 0.0;
+    double highest = 0.0;
+    cv::minMaxLoc(heights, &lowest, &highest);
+    const auto low = static_cast<float>(lowest);
+    const auto range = static_cast<float>(highest - lowest);
+    for (float& height : bump.heights) height = range > 0.0F ? (height - low) / range : 0.0F;
+    return bump;
+}
+
+void write_png(const ColourImage& picture, const fs::path& file) {
+    set_up_libraries();
+    const auto bytes =
+        static_cast<std::size_t>(picture.columns) * static_cast<std::size_t>(picture.rows) * 3;
+    if (bytes == 0 || picture.rgb.size() != bytes)
+        throw InputError(shown(file) + " cannot be written: the picture is empty");
+    const cv::Mat rgb(picture.rows, picture.columns, CV_8UC3,
+                      const_cast<std::uint8_t*>(picture.rgb.data()));  // only read
+    cv::Mat bgr;
+    cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+    std::vector<std::uint8_t> png;
+    cv::imencode(".png", bgr, png);
+
+    fs::path part = file;
+    part += ".part-" + std::to_string(::getpid());
+    std::ofstream out(part, std::ios::binary | std::ios::trunc);
+    out.write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+    out.close();
+    int cause = out ? 0 : errno;
+    std::error_code failed;
+    if (cause == 0) {
+        fs::rename(part, file, failed);
+        cause = failed.value();
+    }
+    if (cause == 0) return;
+    std::error_code ignored;
+    fs::remove(part, ignored);
+    throw InputError(shown(file) + " cannot be written (" + std::strerror(cause) +
+                     "): choose a folder you may write to");
+}
+
+}  // namespace dibhr

@@ -1,0 +1,223 @@
+// Plays a colour + depth pair on its own thread: decodes ahead, cleans, pairs by time, publishes.
+#include "core/video/player.hpp"
+
+#include <pthread.h>
+
+#include <algorithm>
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/video/frame_reader.hpp"
+#include "core/video/playback.hpp"
+
+namespace dibhr {
+namespace {
+
+using Time = Playback::Time;
+
+/// What a method asks of the player's thread. Of seeks in a row only the last one counts.
+struct Command {
+    std::function<void(Playback&, Time)> action{};
+    bool seek{false};
+};
+
+}  // namespace
+
+struct Player::Implementation {
+    void ask(Command command);
+    void run();
+
+    bool wait_for_work(std::vector<Command>& taken);
+    void work(const std::vector<Command>& taken);
+    template <typename Action>
+    bool attempt(Action action);
+    void publish();
+
+    TripleBuffer<FrameWindow> haptics{};
+    TripleBuffer<FrameWindow> picture{};
+
+    // The player thread's.
+    Playback playback{};
+    Time handed_over{};  ///< `cleaned` of the last frame whose hand-over was measured
+    std::string failure{};
+
+    // Everybody's, under the mutex.
+    std::mutex mutex{};
+    std::condition_variable asked{};
+    std::vector<Command> commands{};
+    PlaybackStatus status{};
+    FrameWindow shown{};  ///< as last published, for the time line
+    bool leaving{false};
+
+    std::thread thread{};
+};
+
+void Player::Implementation::ask(Command command) {
+    {
+        const std::lock_guard lock(mutex);
+        if (command.seek && !commands.empty() && commands.back().seek) commands.pop_back();
+        commands.push_back(std::move(command));
+    }
+    asked.notify_one();
+}
+
+/// False when the player is to end.
+bool Player::Implementation::wait_for_work(std::vector<Command>& taken) {
+    const bool hungry = playback.hungry();
+    const Time due = playback.next_due();
+    std::unique_lock lock(mutex);
+    const auto called = [this] { return leaving || !commands.empty(); };
+    if (!hungry && due == Time::max())
+        asked.wait(lock, called);
+    else if (!hungry)
+        asked.wait_until(lock, due, called);
+    taken.swap(commands);
+    return !leaving;
+}
+
+/// Obeys, or, with nothing to obey, decodes one frame ahead: commands wait for one frame at most.
+void Player::Implementation::work(const std::vector<Command>& taken) {
+    bool changed = playback.advance(std::chrono::steady_clock::now());
+    for (const Command& command : taken) {
+        failure.clear();
+        attempt([&] { command.action(playback, std::chrono::steady_clock::now()); });
+        changed = true;
+    }
+    if (!changed && playback.hungry()) {
+        const bool readable = attempt([&] {
+            if (playback.feed()) playback.hold_if_starved(std::chrono::steady_clock::now());
+        });
+        if (!readable) playback.end_here();
+        changed = true;
+    }
+    if (changed) publish();
+}
+
+/// False when a file could not be read: the failure is kept for the status, and what is shown
+/// stays.
+template <typename Action>
+bool Player::Implementation::attempt(Action action) {
+    try {
+        action();
+        return true;
+    } catch (const Error& error) {
+        failure = error.what();
+    } catch (const std::exception& error) {
+        failure = std::string("playing broke off (") + error.what() + "): open the file again";
+    }
+    return false;
+}
+
+void Player::Implementation::run() {
+    pthread_setname_np(pthread_self(), "dibhr-video");
+    std::vector<Command> taken;
+    while (wait_for_work(taken)) {
+        work(taken);
+        taken.clear();
+    }
+}
+
+/// Both readers get the same window; what the old ones held is freed here.
+void Player::Implementation::publish() {
+    const FrameWindow window = playback.window();
+    haptics.publish(window);
+    const Time published = std::chrono::steady_clock::now();
+    picture.publish(window);
+    const std::lock_guard lock(mutex);
+    shown = window;
+    status.failure = failure;
+    if (!playback.is_open()) return;
+    status.open = true;
+    status.playing = playback.playing();
+    status.looping = playback.looping();
+    status.speed = playback.speed();
+    status.duration_s = playback.description().duration_s;
+    status.frames = playback.description().frames;
+    const FrameCost& cost = playback.cost();
+    status.decode_ms = cost.decode_ms + cost.clean_ms;
+    status.clean_ms = cost.clean_ms;
+    if (cost.cleaned == handed_over) return;
+    handed_over = cost.cleaned;
+    status.handover_us =
+        std::chrono::duration<double, std::micro>(published - cost.cleaned).count();
+}
+
+Player::Player() : implementation_(std::make_unique<Implementation>()) {
+    implementation_->thread = std::thread([this] { implementation_->run(); });
+}
+
+Player::~Player() {
+    {
+        const std::lock_guard lock(implementation_->mutex);
+        implementation_->leaving = true;
+    }
+    implementation_->asked.notify_one();
+    implementation_->thread.join();
+}
+
+void Player::play_media(std::unique_ptr<Media> media) {
+    // std::function wants to be copyable, hence shared; the reader moves on when the command runs.
+    auto reader = std::make_shared<std::unique_ptr<FrameReader>>(
+        std::make_unique<FrameReader>(std::move(media)));
+    implementation_->ask(
+        {[reader](Playback& playback, Time now) { playback.open(std::move(*reader), now); }});
+}
+
+void Player::play() {
+    implementation_->ask({[](Playback& playback, Time now) { playback.play(now); }});
+}
+
+void Player::pause() {
+    implementation_->ask({[](Playback& playback, Time now) { playback.pause(now); }});
+}
+
+void Player::seek(double media_s) {
+    implementation_->ask(
+        {[media_s](Playback& playback, Time now) { playback.seek(media_s, now); }, true});
+}
+
+void Player::step(int frames) {
+    implementation_->ask({[frames](Playback& playback, Time now) { playback.step(frames, now); }});
+}
+
+void Player::set_looping(bool looping) {
+    implementation_->ask({[looping](Playback& playback, Time) { playback.set_looping(looping); }});
+}
+
+void Player::set_speed(double speed) {
+    implementation_->ask(
+        {[speed](Playback& playback, Time now) { playback.set_speed(speed, now); }});
+}
+
+void Player::set_cleaning(const CleaningOptions& options) {
+    implementation_->ask({[options](Playback& playback, Time) { playback.set_cleaning(options); }});
+}
+
+PlaybackStatus Player::status() const {
+    const std::lock_guard lock(implementation_->mutex);
+    PlaybackStatus status = implementation_->status;
+    const FrameWindow& shown = implementation_->shown;
+    const double moment_s = shown.clock.playback_s(std::chrono::steady_clock::now());
+    const DepthBlend pair = shown.at(moment_s);
+    if (pair.from == nullptr) return status;
+    // Between two frames the media time moves on, up to the end of the file at the loop's seam.
+    const double passed_s = pair.blend * (pair.to->time_s - pair.from->time_s);
+    status.frame = pair.from->index;
+    status.media_s = pair.from->media_s + passed_s;
+    return status;
+}
+
+TripleBuffer<FrameWindow>& Player::haptics() noexcept {
+    return implementation_->haptics;
+}
+TripleBuffer<FrameWindow>& Player::picture() noexcept {
+    return implementation_->picture;
+}
+
+}  // namespace dibhr

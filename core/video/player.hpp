@@ -1,0 +1,63 @@
+// Plays a colour + depth pair on its own thread: decodes ahead, cleans, pairs by time, publishes.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "core/realtime/triple_buffer.hpp"
+#include "core/video/depth_cleaning.hpp"
+#include "core/video/frame_window.hpp"
+#include "core/video/media.hpp"
+
+namespace dibhr {
+
+/// What the window shows of playback.
+struct PlaybackStatus {
+    bool open{false};
+    bool playing{false};
+    bool looping{true};
+    double speed{1.0};
+    double media_s{0.0};
+    double duration_s{0.0};
+    std::int64_t frame{0};
+    std::int64_t frames{0};
+    double decode_ms{0.0};  ///< decoding and cleaning of the last frame
+    double clean_ms{0.0};
+    double handover_us{0.0};  ///< from the last frame being cleaned to its being published
+    std::string failure{};    ///< a plain sentence when reading broke off; empty otherwise
+};
+
+/// Every method may be called from the window thread; none waits for decoding. The two frame
+/// windows are the readers' ends: `haptics()` belongs to the haptic thread, `picture()` to the
+/// window thread.
+class Player {
+  public:
+    Player();
+    ~Player();  ///< stops the thread
+    Player(const Player&) = delete;
+    Player& operator=(const Player&) = delete;
+
+    /// Takes an opened pair over, from its first frame, playing.
+    void play_media(std::unique_ptr<Media> media);
+
+    void play();
+    void pause();
+    void seek(double media_s);  ///< to the frame shown at that time; keeps playing or paused
+    void step(int frames);      ///< pauses, then moves by whole frames, back or forth
+    void set_looping(bool looping);
+    void set_speed(double speed);  ///< 0.1 .. 4
+    void set_cleaning(const CleaningOptions& options);
+
+    [[nodiscard]] PlaybackStatus status() const;
+
+    [[nodiscard]] TripleBuffer<FrameWindow>& haptics() noexcept;
+    [[nodiscard]] TripleBuffer<FrameWindow>& picture() noexcept;
+
+  private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace dibhr

@@ -1,0 +1,233 @@
+// A video file as pictures in order of presentation time, with an exact seek.
+#include "core/video/video_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/video/input_file.hpp"
+#include "core/video/library_setup.hpp"
+#include "core/video/media.hpp"
+
+namespace dibhr {
+namespace {
+
+constexpr double kNearAhead_s = 1.0;  ///< up to here decoding on is as quick as a jump
+constexpr double kLongest_s = 1e6;    ///< bounds a seek into a file of unknown length
+
+std::string text_of_fourcc(int fourcc) {
+    std::string text;
+    for (int shift = 0; shift < 32; shift += 8) {
+        const char c = static_cast<char>((fourcc >> shift) & 0xff);
+        if (c > ' ' && c < 127) text += c;
+    }
+    return text;
+}
+
+/// Matroska and WebM have no four-letter code; they name the codec in their header.
+std::string matroska_codec(const std::filesystem::path& file) {
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kNames{
+        {{"V_VP8", "VP8"},
+         {"V_VP9", "VP9"},
+         {"V_AV1", "AV1"},
+         {"V_FFV1", "FFV1"},
+         {"V_MPEG4/ISO/AVC", "H.264"},
+         {"V_MPEGH/ISO/HEVC", "HEVC"},
+         {"V_MJPEG", "MJPEG"},
+         {"V_THEORA", "Theora"},
+         {"V_PNG", "PNG"}}};
+    std::string head(16384, '\0');
+    std::ifstream in(file, std::ios::binary);
+    in.read(head.data(), static_cast<std::streamsize>(head.size()));
+    for (const auto& [key, name] : kNames)
+        if (head.find(key) != std::string::npos) return std::string(name);
+    return {};
+}
+
+bool is_sixteen_bit_grey(int pixel_format) {
+    // 'Y' '1' 0 16 (little endian) and 16 0 '1' 'Y' (big endian), FFmpeg's codes of gray16.
+    return pixel_format == 0x10003159 || pixel_format == 0x59310010;
+}
+
+}  // namespace
+
+VideoFile::VideoFile(const std::filesystem::path& file) {
+    set_up_libraries();
+    facts_.file = file;
+    open();
+    read_facts();
+    if (!grab())
+        throw InputError(shown(file) + " holds no picture that can be decoded: record it again");
+    ahead_.push_back({retrieve(), time_s_, index_});
+    facts_.columns = ahead_.front().picture.cols;
+    facts_.rows = ahead_.front().picture.rows;
+    require_size(file, facts_.columns, facts_.rows);
+}
+
+void VideoFile::open() {
+    bool opened = false;
+    try {
+        // Absolute, so that a colon in a name is no protocol.
+        const auto path = std::filesystem::absolute(facts_.file).string();
+        opened = capture_.open(path, cv::CAP_FFMPEG);
+    } catch (const cv::Exception&) {
+        opened = false;
+    }
+    if (!opened)
+        throw InputError(
+            shown(facts_.file) +
+            " cannot be opened as a video: it is cut off, has no video stream or is of "
+            "an unknown kind; record or convert it again");
+    index_ = -1;
+    time_s_ = 0.0;
+    grabbed_ = false;
+    jumped_ = false;
+    counted_ = true;
+    ended_ = false;
+}
+
+void VideoFile::read_facts() {
+    const double rate = capture_.get(cv::CAP_PROP_FPS);
+    if (rate > 0.0 && rate <= 1000.0) interval_s_ = 1.0 / rate;
+    facts_.frames_per_s = 1.0 / interval_s_;
+    const double count = capture_.get(cv::CAP_PROP_FRAME_COUNT);
+    if (count >= 1.0 && count < 1e9) {  // unknown lengths show as huge or negative
+        facts_.frames = static_cast<std::int64_t>(count);
+        facts_.duration_s = count * interval_s_;
+    }
+    facts_.codec = text_of_fourcc(static_cast<int>(capture_.get(cv::CAP_PROP_FOURCC)));
+    if (facts_.codec.empty()) facts_.codec = matroska_codec(facts_.file);
+    const auto format = static_cast<int>(capture_.get(cv::CAP_PROP_CODEC_PIXEL_FORMAT));
+    if (is_sixteen_bit_grey(format)) facts_.remark = "16-bit levels are read as 8 bits";
+}
+
+bool VideoFile::grab() {
+    if (grabbed_) {
+        grabbed_ = false;
+        return true;
+    }
+    ended_ = !capture_.grab();
+    if (ended_) {
+        if (!jumped_ && counted_ && index_ >= 0 &&
+            index_ + 1 == static_cast<std::int64_t>(times_.size())) {
+            facts_.frames = index_ + 1;
+            facts_.frames_exact = true;
+            learn();
+        }
+        return false;
+    }
+    const double last_s = time_s_;
+    const bool follows = index_ >= 0 && !jumped_;
+    time_s_ = capture_.get(cv::CAP_PROP_POS_MSEC) / 1000.0;
+    if (index_ < 0 && !(time_s_ >= 0.0)) time_s_ = 0.0;
+    if (follows && !(time_s_ > last_s)) {
+        timed_ = false;
+        time_s_ = last_s + interval_s_;
+    }
+    if (jumped_)
+        place_at(time_s_);
+    else
+        ++index_;
+    jumped_ = false;
+    if (counted_ && index_ == static_cast<std::int64_t>(times_.size())) {
+        times_.push_back(time_s_);
+        learn();
+    }
+    return true;
+}
+
+cv::Mat VideoFile::retrieve() {
+    cv::Mat picture;
+    if (!capture_.retrieve(picture) || picture.empty())
+        throw InputError(shown(facts_.file) + " breaks off at " + std::to_string(time_s_) +
+                         " s: record or convert it again");
+    return picture;
+}
+
+void VideoFile::learn() {
+    const auto known = static_cast<std::int64_t>(times_.size());
+    const double span = times_.back() - times_.front();
+    if (known >= 2 && span > 0.0) facts_.frames_per_s = static_cast<double>(known - 1) / span;
+    const double last_interval =
+        known >= 2 ? times_.back() - times_[times_.size() - 2] : interval_s_;
+    const double end_s = times_.back() + last_interval;
+    facts_.duration_s = facts_.frames_exact ? end_s : std::max(facts_.duration_s, end_s);
+    if (!facts_.frames_exact) facts_.frames = std::max(facts_.frames, known);
+}
+
+void VideoFile::place_at(double time_s) {
+    const auto at = std::lower_bound(times_.begin(), times_.end(), time_s - kTimeTolerance_s);
+    counted_ = at != times_.end();
+    if (counted_) {
+        index_ = at - times_.begin();
+        return;
+    }
+    // Beyond what was read without a gap: an estimate until the gap is read.
+    const double frames_on = std::round((time_s - times_.back()) * facts_.frames_per_s);
+    index_ = static_cast<std::int64_t>(times_.size()) - 1 +
+             std::max<std::int64_t>(1, static_cast<std::int64_t>(frames_on));
+}
+
+std::optional<TimedPicture> VideoFile::next() {
+    if (!ahead_.empty()) {
+        TimedPicture first = std::move(ahead_.front());
+        ahead_.pop_front();
+        return first;
+    }
+    if (!grab()) return std::nullopt;
+    return TimedPicture{retrieve(), time_s_, index_};
+}
+
+void VideoFile::rewind_before(double time_s) {
+    for (double margin_s = 0.25; timed_ && time_s - margin_s > 0.0; margin_s *= 4.0) {
+        capture_.set(cv::CAP_PROP_POS_MSEC, (time_s - margin_s) * 1000.0);
+        jumped_ = true;
+        if (!grab()) continue;
+        grabbed_ = time_s_ <= time_s;
+        if (grabbed_) return;
+    }
+    if (timed_) {
+        capture_.set(cv::CAP_PROP_POS_MSEC, 0.0);
+        jumped_ = true;
+        grabbed_ = grab() && index_ == 0;
+        if (grabbed_) return;
+    }
+    capture_.release();
+    open();
+}
+
+void VideoFile::seek(double time_s) {
+    const double latest_s = facts_.frames_exact ? facts_.duration_s : kLongest_s;
+    const double wanted_s = (time_s > 0.0 ? std::min(time_s, latest_s) : 0.0) + kTimeTolerance_s;
+    const bool near_ahead =
+        !ended_ && ahead_.empty() && time_s_ <= wanted_s && wanted_s < time_s_ + kNearAhead_s;
+    std::optional<TimedPicture> shown_then;
+    ahead_.clear();
+    if (near_ahead)
+        shown_then = TimedPicture{retrieve(), time_s_, index_};
+    else
+        rewind_before(wanted_s);
+    while (grab()) {
+        if (time_s_ > wanted_s && shown_then) {
+            ahead_.push_back({retrieve(), time_s_, index_});
+            break;
+        }
+        const auto follower = static_cast<std::size_t>(index_) + 1;
+        const bool passed = counted_ && follower < times_.size() && times_[follower] <= wanted_s;
+        if (!passed) shown_then = TimedPicture{retrieve(), time_s_, index_};
+        if (time_s_ > wanted_s) break;
+    }
+    if (shown_then) ahead_.push_front(std::move(*shown_then));
+}
+
+void VideoFile::count_frames(std::int64_t most) {
+    for (std::int64_t read = 0; read < most && grab(); ++read) {
+    }
+}
+
+}  // namespace dibhr

@@ -1,0 +1,54 @@
+// A video file as pictures in order of presentation time, with an exact seek.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <opencv2/videoio.hpp>
+#include <optional>
+#include <vector>
+
+#include "core/video/picture_source.hpp"
+
+namespace dibhr {
+
+/// Frame counts and rates of containers are estimates, so neither is ever used to find a frame:
+/// times are those of the decoded frames, and a seek goes before the wanted time and decodes
+/// forward.
+class VideoFile : public PictureSource {
+  public:
+    /// Reads the first frame. Throws InputError when the file cannot be opened or holds none.
+    explicit VideoFile(const std::filesystem::path& file);
+
+    [[nodiscard]] const SourceFacts& facts() const override { return facts_; }
+    std::optional<TimedPicture> next() override;
+    void seek(double time_s) override;
+
+    /// Decodes on without pictures, at most `most` frames, so that the facts become exact.
+    void count_frames(std::int64_t most);
+
+  private:
+    void open();
+    void read_facts();
+    bool grab();         ///< decodes one frame: its time and index; false at the end
+    cv::Mat retrieve();  ///< the picture of the grabbed frame
+    void rewind_before(double time_s);
+    void place_at(double time_s);  ///< index of a frame reached by a jump
+    void learn();                  ///< rate and duration from the times read so far
+
+    SourceFacts facts_{};
+    cv::VideoCapture capture_{};
+    std::deque<TimedPicture> ahead_{};  ///< decoded already, given out next
+    std::vector<double> times_{};       ///< of all frames from the first without a gap
+    double interval_s_{1.0 / 30.0};     ///< as the container says; for frames without a time
+    double time_s_{0.0};                ///< of the grabbed frame
+    std::int64_t index_{-1};            ///< of the grabbed frame
+    bool grabbed_{false};               ///< a jump left a decoded frame that `grab` gives first
+    bool jumped_{false};                ///< times before the next frame are unknown
+    bool counted_{true};                ///< index_ is exact
+    bool ended_{false};                 ///< the last grab found no frame
+    bool timed_{true};                  ///< false: the file has no usable times, so it cannot jump
+};
+
+}  // namespace dibhr

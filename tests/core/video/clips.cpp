@@ -1,0 +1,77 @@
+// Tiny clips and pictures, made at test time in a folder that goes with the test.
+#include "tests/core/video/clips.hpp"
+
+#include <stdlib.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+#include <system_error>
+
+#include "core/error.hpp"
+
+namespace dibhr::test {
+
+TemporaryFolder::TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "dibhr-test-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+}
+
+void ffmpeg(const std::string& arguments) {
+    const std::string command = "ffmpeg -nostdin -v quiet -y " + arguments;
+    if (std::system(command.c_str()) != 0) throw std::runtime_error("failed: " + command);
+}
+
+void make_flat_clip(const std::filesystem::path& file, int frames, int frames_per_s,
+                    const std::string& encoding, const std::string& filter, int width, int height) {
+    ffmpeg("-f lavfi -i \"color=black:s=" + std::to_string(width) + "x" + std::to_string(height) +
+           ":r=" + std::to_string(frames_per_s) + ",format=gray,geq=lum='5*N'" +
+           (filter.empty() ? "" : "," + filter) + "\" -frames:v " + std::to_string(frames) +
+           " -fps_mode passthrough " + encoding + " '" + file.string() + "'");
+}
+
+void write_picture(const std::filesystem::path& file, int columns, int rows, int bits, int channels,
+                   const std::function<int(int, int, int)>& level) {
+    cv::Mat picture(rows, columns, CV_MAKETYPE(bits == 16 ? CV_16U : CV_8U, channels));
+    for (int j = 0; j < rows; ++j)
+        for (int i = 0; i < columns; ++i)
+            for (int c = 0; c < channels; ++c) {
+                const int at = i * channels + c;
+                if (bits == 16)
+                    picture.ptr<std::uint16_t>(j)[at] = static_cast<std::uint16_t>(level(i, j, c));
+                else
+                    picture.ptr<std::uint8_t>(j)[at] = static_cast<std::uint8_t>(level(i, j, c));
+            }
+    if (!cv::imwrite(file.string(), picture))
+        throw std::runtime_error("not written: " + file.string());
+}
+
+void write_text(const std::filesystem::path& file, const std::string& text) {
+    std::ofstream(file) << text;
+}
+
+void cut(const std::filesystem::path& file, const std::filesystem::path& cut_file,
+         std::uintmax_t bytes) {
+    std::filesystem::copy_file(file, cut_file);
+    std::filesystem::resize_file(cut_file, bytes);
+}
+
+std::string refusal(const std::function<void()>& call) {
+    try {
+        call();
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return {};
+}
+
+}  // namespace dibhr::test

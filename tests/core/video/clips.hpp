@@ -1,0 +1,56 @@
+// Tiny clips and pictures, made at test time in a folder that goes with the test.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace dibhr::test {
+
+/// A fresh folder, removed with all in it.
+class TemporaryFolder {
+  public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
+        return path_ / name;
+    }
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_{};
+};
+
+/// Runs the ffmpeg program; its own words go nowhere. Throws when it fails.
+void ffmpeg(const std::string& arguments);
+
+/// A flat clip whose frame n has level 5 n (luma), so that a picture tells which frame it is.
+/// `encoding`: ffmpeg's output options; `filter`: appended to the source's filters.
+void make_flat_clip(const std::filesystem::path& file, int frames, int frames_per_s,
+                    const std::string& encoding, const std::string& filter = "", int width = 64,
+                    int height = 48);
+
+inline const std::string kLossless = "-c:v ffv1 -pix_fmt gray";
+inline const std::string kH264 = "-c:v libx264 -crf 8 -bf 2 -g 12 -pix_fmt yuv420p";
+inline const std::string kVp9 =
+    "-c:v libvpx-vp9 -crf 8 -b:v 0 -deadline realtime -g 12 -pix_fmt yuv420p";
+
+/// A PNG of the given bits and channels, level(column, row, channel).
+void write_picture(const std::filesystem::path& file, int columns, int rows, int bits, int channels,
+                   const std::function<int(int, int, int)>& level);
+
+void write_text(const std::filesystem::path& file, const std::string& text);
+
+/// The first `bytes` of a file as another file.
+void cut(const std::filesystem::path& file, const std::filesystem::path& cut_file,
+         std::uintmax_t bytes);
+
+/// What the call throws as an InputError; empty when it throws none.
+std::string refusal(const std::function<void()>& call);
+
+}  // namespace dibhr::test

@@ -1,0 +1,245 @@
+// Cleaning: holes, spikes and 8-bit steps, and what cleaning must never do.
+#include "core/video/depth_cleaning.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <random>
+
+#include "tests/support/catch.hpp"
+
+using namespace dibhr;
+using Catch::Matchers::WithinAbs;
+
+namespace {
+
+constexpr CleaningOptions kHolesOnly{true, false, false};
+constexpr CleaningOptions kSpikesOnly{false, true, false};
+constexpr CleaningOptions kStepsOnly{false, false, true};
+
+DepthImage image_of(int columns, int rows, const std::function<double(int, int)>& level,
+                    double highest_level = 255.0) {
+    DepthImage image{columns, rows, highest_level, {}};
+    image.levels.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+    for (int j = 0; j < rows; ++j)
+        for (int i = 0; i < columns; ++i) image.at(i, j) = static_cast<float>(level(i, j));
+    return image;
+}
+
+DepthImage cleaned(DepthImage image, const CleaningOptions& options) {
+    DepthCleaner cleaner;
+    cleaner.clean(image, options);
+    return image;
+}
+
+double largest_difference(const DepthImage& a, const DepthImage& b) {
+    double largest = 0.0;
+    for (std::size_t k = 0; k < a.levels.size(); ++k)
+        largest = std::max(largest, static_cast<double>(std::fabs(a.levels[k] - b.levels[k])));
+    return largest;
+}
+
+/// Root mean square of how far the slopes along rows and columns are from the plane's.
+double slope_error(const DepthImage& image, double along_row, double along_column) {
+    double sum = 0.0;
+    int count = 0;
+    for (int j = 0; j + 1 < image.rows; ++j)
+        for (int i = 0; i + 1 < image.columns; ++i, count += 2) {
+            const double here = image.at(i, j);
+            const double across = image.at(i + 1, j) - here - along_row;
+            const double down = image.at(i, j + 1) - here - along_column;
+            sum += across * across + down * down;
+        }
+    return std::sqrt(sum / count);
+}
+
+/// Everything real depth has: slopes, cliffs, noise, spikes, small and large holes.
+DepthImage hostile(unsigned seed, double highest_level = 255.0) {
+    std::mt19937 random(seed);
+    const double scale = highest_level / 255.0;
+    return image_of(
+        97, 61,
+        [&](int i, int j) {
+            if (random() % 20 == 0 || (i > 60 && j > 40)) return 0.0;
+            if (random() % 50 == 0) return highest_level;
+            const double level =
+                60.0 + 0.3 * i + 30.0 * std::sin(0.1 * j) + (i / 30 == 1 ? 90.0 : 0.0);
+            return std::round(scale * (level + static_cast<double>(random() % 3)));
+        },
+        highest_level);
+}
+
+}  // namespace
+
+TEST_CASE("cleaning that is off leaves every bit as it is", "[cleaning]") {
+    const double highest = GENERATE(255.0, 65535.0);
+    const DepthImage image = hostile(1, highest);
+    CHECK(cleaned(image, {false, false, false}).levels == image.levels);
+}
+
+TEST_CASE("the same image always gives the same bits", "[cleaning]") {
+    const DepthImage image = hostile(2);
+    DepthCleaner used;
+    DepthImage other = hostile(3);
+    used.clean(other, {});
+    DepthImage again = image;
+    used.clean(again, {});
+    CHECK(again.levels == cleaned(image, {}).levels);
+}
+
+TEST_CASE("smoothing keeps every pixel within half a level, in range, and no data no data",
+          "[cleaning]") {
+    const unsigned seed = GENERATE(range(10U, 20U));
+    CAPTURE(seed);
+    const DepthImage image = hostile(seed);
+    const DepthImage smooth = cleaned(image, kStepsOnly);
+    CHECK(largest_difference(image, smooth) <= 0.5);
+    CHECK(largest_difference(image, smooth) > 0.0);
+    bool in_range = true;
+    bool holes_kept = true;
+    for (std::size_t k = 0; k < image.levels.size(); ++k) {
+        in_range = in_range && smooth.levels[k] >= 0.0F && smooth.levels[k] <= 255.0F;
+        holes_kept = holes_kept && (image.levels[k] != 0.0F || smooth.levels[k] == 0.0F);
+    }
+    CHECK(in_range);
+    CHECK(holes_kept);
+}
+
+TEST_CASE("smoothing adds at most half a level to what filling and spike removal gave",
+          "[cleaning]") {
+    const DepthImage image = hostile(GENERATE(range(30U, 35U)));
+    CHECK(largest_difference(cleaned(image, {true, true, false}), cleaned(image, {})) <= 0.5);
+}
+
+TEST_CASE("a flat image stays flat, however often it is cleaned", "[cleaning]") {
+    const double level = GENERATE(0.0, 1.0, 128.0, 255.0);
+    const DepthImage flat = image_of(50, 40, [&](int, int) { return level; });
+    CHECK(cleaned(cleaned(flat, {}), {}).levels == flat.levels);
+}
+
+TEST_CASE("a plane cut into 8-bit terraces becomes a slope again", "[cleaning]") {
+    const auto [across, down] =
+        GENERATE(table<double, double>({{0.1, 0.05}, {0.3, 0.0}, {0.0, 0.07}, {0.2, -0.13}}));
+    CAPTURE(across, down);
+    const auto plane = [across = across, down = down](int i, int j) {
+        return std::round(100.0 + across * i + down * j);
+    };
+    const DepthImage stepped = image_of(200, 160, plane);
+    const DepthImage smooth = cleaned(stepped, kStepsOnly);
+    CHECK(slope_error(smooth, across, down) < 0.25 * slope_error(stepped, across, down));
+    CHECK(slope_error(smooth, across, down) < 0.05);
+}
+
+TEST_CASE("a curved surface in 8 bits becomes smoother, too", "[cleaning]") {
+    const auto wave = [](int i, int j) {
+        return 128.0 + 90.0 * std::sin(0.02 * i) * std::cos(0.017 * j);
+    };
+    const DepthImage exact = image_of(320, 240, wave);
+    const DepthImage stepped =
+        image_of(320, 240, [&](int i, int j) { return std::round(wave(i, j)); });
+    const auto roughness = [&](const DepthImage& image) {
+        DepthImage difference = image;
+        for (std::size_t k = 0; k < difference.levels.size(); ++k)
+            difference.levels[k] -= exact.levels[k];
+        return slope_error(difference, 0.0, 0.0);
+    };
+    CHECK(roughness(cleaned(stepped, kStepsOnly)) < 0.25 * roughness(stepped));
+}
+
+TEST_CASE("a real edge keeps its height and its place", "[cleaning]") {
+    const DepthImage cliff = image_of(60, 40, [](int i, int) { return i < 30 ? 50.0 : 150.0; });
+    CHECK(cleaned(cliff, {}).levels == cliff.levels);
+}
+
+TEST_CASE("16-bit levels are small: they are not smoothed", "[cleaning]") {
+    const DepthImage image = hostile(4, 65535.0);
+    CHECK(cleaned(image, kStepsOnly).levels == image.levels);
+}
+
+TEST_CASE("a small hole in a plane is filled with the plane", "[cleaning]") {
+    const auto [left, top, width, height] = GENERATE(table<int, int, int, int>(
+        {{50, 40, 1, 1}, {50, 40, 7, 7}, {50, 40, 10, 3}, {30, 20, 2, 10}}));
+    CAPTURE(width, height);
+    const auto plane = [](int i, int j) { return 80.0 + 0.25 * i + 0.5 * j; };
+    const DepthImage whole = image_of(200, 100, plane);
+    DepthImage holed = whole;
+    for (int j = top; j < top + height; ++j)
+        for (int i = left; i < left + width; ++i) holed.at(i, j) = 0.0F;
+    CHECK_THAT(largest_difference(cleaned(holed, kHolesOnly), whole), WithinAbs(0.0, 1e-4));
+}
+
+TEST_CASE("small holes are filled from within the levels around them, at the border too",
+          "[cleaning]") {
+    std::mt19937 random(5);
+    DepthImage image = image_of(160, 90, [](int i, int j) { return 90.0 + (i + 2 * j) % 60; });
+    for (int k = 0; k < 40; ++k) {
+        const int i = static_cast<int>(random() % 157);
+        const int j = static_cast<int>(random() % 87);
+        for (int n = 0; n < 9; ++n) image.at(i + n % 3, j + n / 3) = 0.0F;
+    }
+    for (int i = 0; i < 5; ++i) image.at(i, 0) = 0.0F;
+    const DepthImage filled = cleaned(image, kHolesOnly);
+    const auto [low, high] = std::minmax_element(filled.levels.begin(), filled.levels.end());
+    CHECK(*low >= 90.0F);
+    CHECK(*high <= 149.0F);
+}
+
+TEST_CASE("large empty areas stay empty, also where they are narrow", "[cleaning]") {
+    // A figure before nothing: two pillars with a gap of 5, the gap open to the background.
+    const DepthImage figure = image_of(200, 150, [](int i, int j) {
+        const bool pillar = (i >= 80 && i < 95) || (i >= 100 && i < 115);
+        return pillar && j > 40 ? 120.0 : 0.0;
+    });
+    CHECK(cleaned(figure, {}).levels == figure.levels);
+    const DepthImage window = image_of(200, 150, [](int i, int j) {
+        return i >= 90 && i < 101 && j >= 70 && j < 75 ? 0.0 : 120.0;  // 11 > 200 / 20 wide
+    });
+    CHECK(cleaned(window, kHolesOnly).levels == window.levels);
+}
+
+TEST_CASE("an image without any data stays as it is", "[cleaning]") {
+    const DepthImage nothing = image_of(30, 30, [](int, int) { return 0.0; });
+    CHECK(cleaned(nothing, {}).levels == nothing.levels);
+}
+
+TEST_CASE("a single pixel that stands out of all its neighbours takes their median", "[cleaning]") {
+    const auto [highest, level, spike] =
+        GENERATE(table<double, double, double>({{255.0, 100.0, 130.0},
+                                                {255.0, 100.0, 5.0},
+                                                {65535.0, 1500.0, 65535.0},
+                                                {65535.0, 1500.0, 900.0}}));
+    CAPTURE(highest, spike);
+    const DepthImage clean = image_of(
+        20, 20, [level = level](int i, int j) { return level + (i + j) % 2; }, highest);
+    DepthImage spiked = clean;
+    spiked.at(7, 9) = static_cast<float>(spike);
+    CHECK(largest_difference(cleaned(spiked, kSpikesOnly), clean) <= 1.0);
+    CHECK(cleaned(clean, kSpikesOnly).levels == clean.levels);
+}
+
+TEST_CASE("two pixels side by side are a shape, not a spike", "[cleaning]") {
+    DepthImage image = image_of(20, 20, [](int, int) { return 100.0; });
+    image.at(7, 9) = image.at(8, 9) = 140.0F;
+    CHECK(cleaned(image, kSpikesOnly).levels == image.levels);
+}
+
+TEST_CASE("a speck of depth in empty background is removed, not spread", "[cleaning]") {
+    DepthImage image = image_of(100, 100, [](int, int) { return 0.0; });
+    image.at(50, 50) = 200.0F;
+    const DepthImage clean = cleaned(image, {});
+    CHECK(std::count(clean.levels.begin(), clean.levels.end(), 0.0F) == 10000);
+}
+
+TEST_CASE("images of any small size are cleaned without reading beside them", "[cleaning]") {
+    const auto [columns, rows] =
+        GENERATE(table<int, int>({{1, 1}, {2, 2}, {1, 9}, {3, 2}, {9, 3}, {2, 40}, {17, 16}}));
+    CAPTURE(columns, rows);
+    std::mt19937 random(6);
+    const DepthImage image =
+        image_of(columns, rows, [&](int, int) { return static_cast<double>(random() % 4 * 60); });
+    const DepthImage clean = cleaned(image, {});
+    REQUIRE(clean.levels.size() == image.levels.size());
+    CHECK(std::all_of(clean.levels.begin(), clean.levels.end(),
+                      [](float level) { return level >= 0.0F && level <= 255.0F; }));
+}

@@ -1,0 +1,309 @@
+// The playback timeline: loops, jumps, speed and pauses, with time as an argument.
+#include "core/video/playback.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace dibhr;
+using Catch::Matchers::WithinAbs;
+using Time = Playback::Time;
+
+namespace {
+
+/// Flat frames at given times: frame n has level n + 1. `breaks_at`: this frame cannot be read.
+class FlatMedia : public Media {
+  public:
+    explicit FlatMedia(std::vector<double> times, int breaks_at = -1)
+        : times_(std::move(times)), breaks_at_(breaks_at) {
+        description_.frames = static_cast<std::int64_t>(times_.size());
+        description_.frames_per_s = 10.0;
+    }
+    [[nodiscard]] const MediaDescription& description() const override { return description_; }
+    std::optional<RawFrame> next() override {
+        if (position_ == times_.size()) return std::nullopt;
+        if (static_cast<int>(position_) == breaks_at_)
+            throw InputError("'clip' breaks off: record it again");
+        RawFrame frame;
+        frame.depth = {4, 4, 255.0, std::vector<float>(16, static_cast<float>(position_ + 1))};
+        frame.media_s = times_[position_];
+        frame.index = static_cast<std::int64_t>(position_++);
+        return frame;
+    }
+    void seek(double media_s) override {
+        position_ = 0;
+        while (position_ + 1 < times_.size() && times_[position_ + 1] <= media_s + kTimeTolerance_s)
+            ++position_;
+    }
+
+  private:
+    std::vector<double> times_;
+    int breaks_at_;
+    std::size_t position_{0};
+    MediaDescription description_{};
+};
+
+/// A playback whose clock is moved by hand.
+struct Scene {
+    explicit Scene(const std::vector<double>& times) {
+        playback.open(std::make_unique<FrameReader>(std::make_unique<FlatMedia>(times)), now);
+        settle();
+    }
+    /// As the player's thread: leaves past frames and decodes ahead until the window is full.
+    void settle() {
+        playback.advance(now);
+        while (playback.hungry())
+            if (playback.feed()) playback.hold_if_starved(now);
+        playback.advance(now);
+    }
+    /// In small steps: the thread is never late.
+    void pass(double seconds) {
+        const Time until =
+            now + std::chrono::round<Time::duration>(std::chrono::duration<double>(seconds));
+        while (now < until) {
+            now = std::min(now + std::chrono::milliseconds(10), until);
+            settle();
+        }
+    }
+    [[nodiscard]] double moment_s() const { return playback.window().clock.playback_s(now); }
+    /// Position between frames, as a number: 2.25 is a quarter of the way from frame 2 to its
+    /// follower.
+    [[nodiscard]] double shown() const {
+        const FrameWindow window = playback.window();
+        const DepthBlend pair = window.at(moment_s());
+        return static_cast<double>(pair.from->index) + pair.blend;
+    }
+
+    Time now{std::chrono::hours(1)};
+    Playback playback{};
+};
+
+const std::vector<double> kTenths{0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7};
+
+}  // namespace
+
+TEST_CASE("a new media plays from its first frame, and the window is filled ahead", "[playback]") {
+    const Scene scene(kTenths);
+    CHECK(scene.playback.playing());
+    CHECK_THAT(scene.shown(), WithinAbs(0.0, 1e-6));
+    CHECK(scene.playback.window().count == FrameWindow::kFrames);
+}
+
+TEST_CASE("frames are shown at their own times, also uneven ones", "[playback]") {
+    Scene scene({0.0, 0.1, 0.5, 0.55, 1.0});
+    const auto [at_s, shown] = GENERATE(
+        table<double, double>({{0.05, 0.5}, {0.3, 1.5}, {0.525, 2.5}, {0.55, 3.0}, {0.91, 3.8}}));
+    scene.pass(at_s);
+    CHECK_THAT(scene.shown(), WithinAbs(shown, 1e-6));
+}
+
+TEST_CASE("the pair around now and one more frame are always in the window", "[playback]") {
+    Scene scene(kTenths);
+    for (int k = 0; k < 300; ++k) {
+        scene.pass(0.013);
+        const FrameWindow window = scene.playback.window();
+        REQUIRE(window.count >= 3);
+        REQUIRE(window.frames[0].time_s <= scene.moment_s());
+        REQUIRE(window.frames[1].time_s > scene.moment_s());
+    }
+}
+
+TEST_CASE("a loop has no seam: time goes on and the last frame blends into the first",
+          "[playback]") {
+    Scene scene(kTenths);
+    scene.pass(0.75);
+    const FrameWindow window = scene.playback.window();
+    CHECK_THAT(scene.shown(), WithinAbs(7.5, 1e-6));
+    CHECK(window.frames[1].index == 0);
+    CHECK_THAT(window.frames[1].time_s, WithinAbs(0.8, 1e-9));
+    scene.pass(0.1);
+    CHECK_THAT(scene.shown(), WithinAbs(0.5, 1e-6));
+    scene.pass(8.0);
+    CHECK_THAT(scene.shown(), WithinAbs(0.5, 1e-5));
+    CHECK(scene.playback.window().discontinuity == window.discontinuity);
+}
+
+TEST_CASE("without looping, playing ends on the last frame, and play begins again", "[playback]") {
+    Scene scene(kTenths);
+    scene.playback.set_looping(false);
+    scene.pass(0.65);
+    CHECK(scene.playback.playing());
+    scene.pass(0.2);
+    CHECK_FALSE(scene.playback.playing());
+    CHECK_THAT(scene.shown(), WithinAbs(7.0, 1e-9));
+    CHECK_THAT(scene.playback.window().clock.speed, WithinAbs(0.0, 0.0));
+    scene.playback.play(scene.now);
+    scene.settle();
+    CHECK(scene.playback.playing());
+    CHECK_THAT(scene.shown(), WithinAbs(0.0, 1e-6));
+}
+
+TEST_CASE("looping switched off near the end forgets the next lap, and on again goes on",
+          "[playback]") {
+    Scene scene(kTenths);
+    scene.pass(0.55);
+    scene.playback.set_looping(false);
+    scene.pass(1.0);
+    CHECK_THAT(scene.shown(), WithinAbs(7.0, 1e-9));
+    scene.playback.set_looping(true);
+    scene.playback.play(scene.now);
+    scene.settle();
+    scene.pass(0.05);
+    CHECK_THAT(scene.shown(), WithinAbs(7.5, 1e-6));
+}
+
+TEST_CASE("a pause keeps the moment exactly, and play goes on from it", "[playback]") {
+    Scene scene(kTenths);
+    scene.pass(0.33);
+    const double moment_s = scene.moment_s();
+    scene.playback.pause(scene.now);
+    scene.pass(5.0);
+    CHECK_THAT(scene.moment_s(), WithinAbs(moment_s, 1e-12));
+    CHECK_THAT(scene.playback.window().clock.speed, WithinAbs(0.0, 0.0));
+    scene.playback.play(scene.now);
+    CHECK_THAT(scene.moment_s(), WithinAbs(moment_s, 1e-12));
+    scene.pass(0.02);
+    CHECK_THAT(scene.shown(), WithinAbs(3.5, 1e-6));
+}
+
+TEST_CASE("a change of speed is no jump, and the speed stays between 0.1 and 4", "[playback]") {
+    Scene scene(kTenths);
+    const auto [asked, given] = GENERATE(
+        table<double, double>({{2.0, 2.0}, {0.5, 0.5}, {9.0, 4.0}, {0.0, 0.1}, {-3.0, 0.1}}));
+    scene.pass(0.15);
+    const double moment_s = scene.moment_s();
+    scene.playback.set_speed(asked, scene.now);
+    CHECK_THAT(scene.moment_s(), WithinAbs(moment_s, 1e-9));
+    scene.pass(0.02);
+    CHECK_THAT(scene.moment_s(), WithinAbs(moment_s + 0.02 * given, 1e-7));
+}
+
+TEST_CASE("steps move by whole frames both ways, paused on exactly the frame's time",
+          "[playback]") {
+    Scene scene(kTenths);
+    scene.pass(0.33);
+    const auto step = [&](int frames) {
+        scene.playback.step(frames, scene.now);
+        scene.settle();
+        CHECK_FALSE(scene.playback.playing());
+        CHECK_THAT(scene.moment_s(), WithinAbs(scene.playback.window().frames[0].time_s, 0.0));
+        return scene.shown();
+    };
+    CHECK_THAT(step(1), WithinAbs(4.0, 0.0));
+    CHECK_THAT(step(-1), WithinAbs(3.0, 0.0));
+    CHECK_THAT(step(-2), WithinAbs(1.0, 0.0));
+    CHECK_THAT(step(-5), WithinAbs(0.0, 0.0));
+    CHECK_THAT(step(6), WithinAbs(6.0, 0.0));
+    CHECK_THAT(step(6), WithinAbs(7.0, 0.0));
+}
+
+TEST_CASE("stepping back through a long film reaches every frame", "[playback]") {
+    std::vector<double> times;
+    for (int n = 0; n < 120; ++n) times.push_back(0.1 * n);
+    Scene scene(times);
+    scene.playback.seek(11.9, scene.now);
+    for (int n = 118; n >= 0; --n) {
+        scene.playback.step(-1, scene.now);
+        scene.settle();
+        REQUIRE_THAT(scene.shown(), WithinAbs(n, 0.0));
+    }
+}
+
+TEST_CASE("a seek shows that frame at once and counts as a discontinuity", "[playback]") {
+    Scene scene(kTenths);
+    const bool paused = GENERATE(false, true);
+    scene.pass(0.25);
+    if (paused) scene.playback.pause(scene.now);
+    const FrameWindow before = scene.playback.window();
+    scene.playback.seek(0.52, scene.now);
+    scene.settle();
+    CHECK_THAT(scene.shown(), WithinAbs(5.0, 0.0));
+    CHECK(scene.playback.window().discontinuity == before.discontinuity + 1);
+    CHECK(scene.playback.playing() == !paused);
+    CHECK(scene.moment_s() > before.clock.playback_s(scene.now));
+}
+
+TEST_CASE("no playback time ever means two frames, whatever is done", "[playback]") {
+    Scene scene(kTenths);
+    double newest_s = scene.moment_s();
+    for (int k = 0; k < 200; ++k) {
+        scene.pass(0.03);
+        REQUIRE(scene.moment_s() >= newest_s);
+        newest_s = scene.moment_s();
+        if (k % 7 == 3) scene.playback.seek(0.1 * (k % 9), scene.now);
+        if (k % 11 == 5) scene.playback.step(k % 2 == 0 ? 1 : -1, scene.now);
+        if (k % 11 == 8) scene.playback.play(scene.now);
+    }
+}
+
+TEST_CASE("when decoding falls behind the surface is held, and goes on without a leap",
+          "[playback]") {
+    Scene scene(kTenths);
+    // The thread was away for 0.6 s: the window ends with frame 3.
+    scene.now += std::chrono::milliseconds(650);
+    CHECK_THAT(scene.shown(), WithinAbs(3.0, 1e-9));
+    scene.settle();
+    CHECK_THAT(scene.shown(), WithinAbs(3.0, 1e-6));
+    scene.pass(0.05);
+    CHECK_THAT(scene.shown(), WithinAbs(3.5, 1e-6));
+}
+
+TEST_CASE("a change of cleaning shows at once, also when paused", "[playback]") {
+    Scene scene(kTenths);
+    scene.pass(0.25);
+    scene.playback.pause(scene.now);
+    const FrameWindow before = scene.playback.window();
+    scene.playback.set_cleaning({false, false, false});
+    const FrameWindow after = scene.playback.window();
+    REQUIRE(after.count == before.count);
+    CHECK(after.discontinuity == before.discontinuity + 1);
+    for (std::size_t k = 0; k < after.count; ++k) {
+        CHECK(after.frames[k].depth != before.frames[k].depth);
+        CHECK(after.frames[k].index == before.frames[k].index);
+        CHECK_THAT(after.frames[k].time_s, WithinAbs(before.frames[k].time_s, 0.0));
+    }
+}
+
+TEST_CASE("one frame is held: nothing plays", "[playback]") {
+    Scene scene({0.0});
+    CHECK_FALSE(scene.playback.playing());
+    CHECK(scene.playback.window().count == 1);
+    scene.playback.play(scene.now);
+    scene.playback.step(1, scene.now);
+    scene.pass(1.0);
+    CHECK_THAT(scene.shown(), WithinAbs(0.0, 0.0));
+    CHECK_FALSE(scene.playback.playing());
+}
+
+TEST_CASE("a media without a frame is refused and the one before plays on", "[playback]") {
+    Scene scene(kTenths);
+    CHECK_THROWS_AS(scene.playback.open(std::make_unique<FrameReader>(
+                                            std::make_unique<FlatMedia>(std::vector<double>{})),
+                                        scene.now),
+                    InputError);
+    scene.pass(0.1);
+    CHECK_THAT(scene.shown(), WithinAbs(1.0, 1e-6));
+}
+
+TEST_CASE("a file that breaks off plays what is there, and stops", "[playback]") {
+    Playback playback;
+    Time now{};
+    playback.open(std::make_unique<FrameReader>(std::make_unique<FlatMedia>(kTenths, 3)), now);
+    CHECK(playback.feed());
+    CHECK(playback.feed());
+    CHECK_THROWS_AS(playback.feed(), InputError);
+    playback.end_here();
+    CHECK_FALSE(playback.hungry());
+    playback.advance(now + std::chrono::seconds(1));
+    CHECK_FALSE(playback.playing());
+    CHECK(playback.window().frames[0].index == 2);
+}
