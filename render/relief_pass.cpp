@@ -13,7 +13,7 @@ namespace dibhr {
 namespace {
 
 constexpr std::size_t kMostVerticesHardware = 1'000'000;
-constexpr std::size_t kMostVerticesSoftware = 50'000;  // llvmpipe: 0.4 us of processor time each
+constexpr std::size_t kMostVerticesSoftware = 80'000;  // llvmpipe: 0.4 us of processor time each
 constexpr int kMostColourSideSoftware = 2048;          // an upload costs processor time there
 constexpr double kGroundDepth = 0.03;                  // of the image's width, below level 0
 

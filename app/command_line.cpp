@@ -1,0 +1,231 @@
+// One table of commands; each entry parses its own options and runs.
+#include "app/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <iomanip>
+#include <iostream>
+#include <string_view>
+#include <system_error>
+
+#include "app/command_bench.hpp"
+#include "app/command_devices.hpp"
+#include "app/command_info.hpp"
+#include "app/command_options.hpp"
+#include "app/command_touch.hpp"
+#include "app/command_view.hpp"
+
+namespace dibhr {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+struct Command {
+    std::string_view name;
+    std::string_view arguments;
+    std::string_view summary;
+    int (*run)(CLI::App&, const Arguments&);
+};
+
+constexpr int kSmallestWindow = 160;
+constexpr int kLargestWindow = 16384;
+constexpr double kLongestRun_s = 1e6;
+
+/// False when the help was asked for, which is then printed.
+bool parse(CLI::App& app, const Arguments& arguments) {
+    try {
+        app.parse(Arguments(arguments.rbegin(), arguments.rend()));
+        return true;
+    } catch (const CLI::CallForHelp&) {
+        std::cout << app.help();
+        return false;
+    } catch (const CLI::ParseError& error) {
+        throw UsageError(std::string(error.what()) + " (see " + app.get_name() + " --help)");
+    }
+}
+
+/// "1280x800" and nothing else.
+std::pair<int, int> parse_size(const std::string& text) {
+    std::array<int, 2> size{};
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    for (std::size_t k = 0; k < size.size(); ++k) {
+        const auto [stop, error] = std::from_chars(at, end, size[k]);
+        const bool ends_well = k == 0 ? stop != end && *stop == 'x' : stop == end;
+        if (error != std::errc{} || !ends_well) {
+            throw CLI::ValidationError("--size", "'" + text + "' is not a size like 1280x800");
+        }
+        if (size[k] < kSmallestWindow || size[k] > kLargestWindow) {
+            throw CLI::ValidationError("--size", text + " is not in " +
+                                                     std::to_string(kSmallestWindow) + " to " +
+                                                     std::to_string(kLargestWindow));
+        }
+        at = stop + 1;
+    }
+    return {size[0], size[1]};
+}
+
+void check_device(const std::string& device) {
+    const bool is_goals = device.starts_with("goals:") && device.size() > 6;
+    if (!is_goals && device != "auto" && device != "falcon" && device != "mouse") {
+        throw CLI::ValidationError("--device",
+                                   "'" + device + "' is none of auto, falcon, mouse, goals:FILE");
+    }
+}
+
+int view(CLI::App& app, const Arguments& arguments) {
+    ViewRequest request;
+    ViewOptions& options = request.options;
+    std::string colour;
+    std::string depth;
+    app.add_option("COLOR", colour, "Colour video or image; none: the built-in sample")
+        ->type_name("");
+    app.add_option("DEPTH", depth, "Depth video or image; none: *color* -> *depth* beside it")
+        ->type_name("");
+    app.add_option_function<std::string>(
+           "--device",
+           [&options](const std::string& device) {
+               check_device(device);
+               options.device = device;
+           },
+           "auto, falcon, mouse or goals:FILE")
+        ->type_name("DEVICE")
+        ->default_str("auto");
+    std::string record;
+    std::string screenshot;
+    app.add_option("--record", record, "Records every tick into a new session file (.dibhr)")
+        ->type_name("FILE");
+    app.add_option("--screenshot", screenshot, "Saves the last picture as PNG")->type_name("FILE");
+    app.add_option_function<std::string>(
+           "--seconds",
+           [&options](const std::string& text) {
+               options.seconds = parse_number("--seconds", text, 0.0, kLongestRun_s);
+           },
+           "Leaves after so long")
+        ->type_name("S");
+    app.add_flag_function(
+        "--no-sync", [&options](std::int64_t) { options.sync = false; },
+        "Does not wait for the display");
+    app.add_option_function<std::string>(
+           "--size", [&request](const std::string& text) { request.size = parse_size(text); },
+           "Size of the window")
+        ->type_name("WxH");
+    add_touch_options(app, request.touch);
+    app.footer(
+        "Examples:\n"
+        "  dibhr                                  the built-in sample\n"
+        "  dibhr color.mp4 depth.mp4 --friction 0.8\n"
+        "  dibhr view touch                       a file that is called like a command\n"
+        "  dibhr color.mp4 --record mine.dibhr --seconds 20 --screenshot last.png");
+    if (!parse(app, arguments)) return 0;
+    options.colour = colour;
+    options.depth = depth;
+    options.record = record;
+    options.screenshot = screenshot;
+    return run_view(request);
+}
+
+int touch(CLI::App& app, const Arguments& arguments) {
+    TouchOptions options;
+    TouchRequest request;
+    std::string depth;
+    std::string goals;
+    std::string out = "-";
+    app.add_option("--depth", depth, "Depth video or image")->type_name("FILE")->required();
+    app.add_option("--goals", goals, "Goals, t,x,y,z a row: seconds and grid-space pixels")
+        ->type_name("GOALS.csv")
+        ->required();
+    app.add_option("--out", out, "One row an update; - is standard output")
+        ->type_name("OUT.csv")
+        ->default_str("-");
+    app.add_flag("--video", options.video, "Blends the frames in time; else the first image");
+    add_touch_options(app, request);
+    app.footer(
+        "Examples:\n"
+        "  dibhr touch --depth depth.png --goals goals.csv --out touched.csv\n"
+        "  dibhr touch --depth depth.mp4 --video --goals goals.csv --friction 0.2 | head");
+    if (!parse(app, arguments)) return 0;
+    options.depth = depth;
+    options.goals = goals;
+    options.out = out;
+    options.bump = request.bump;
+    options.raw_depth = request.raw_depth;
+    request.given.apply(options.parameters);
+    return run_touch(options);
+}
+
+int info(CLI::App& app, const Arguments& arguments) {
+    std::vector<std::string> files;
+    app.add_option("FILE", files, "Videos, images and session files")->type_name("")->required();
+    app.footer("Example:\n  dibhr info color.mp4 depth.mp4 mine.dibhr");
+    if (!parse(app, arguments)) return 0;
+    return run_info({files.begin(), files.end()});
+}
+
+int devices(CLI::App& app, const Arguments& arguments) {
+    return parse(app, arguments) ? run_devices() : 0;
+}
+
+int bench(CLI::App& app, const Arguments& arguments) {
+    std::string json;
+    app.add_option("--json", json, "Writes the numbers as JSON; - is standard output")
+        ->type_name("FILE");
+    if (!parse(app, arguments)) return 0;
+    return run_bench({json});
+}
+
+constexpr std::array kCommands{
+    Command{"view", "[COLOR [DEPTH]]", "The viewer; without files, the built-in sample", view},
+    Command{"touch", "--depth FILE --goals GOALS.csv [--out OUT.csv]",
+            "The core alone, head-less, over a stream of goals", touch},
+    Command{"info", "FILE...", "What a media or session file holds", info},
+    Command{"devices", "", "What is attached, and why it cannot be used", devices},
+    Command{"bench", "[--json FILE]", "Updates, frame hand-over and loop timing on this machine",
+            bench},
+};
+
+void print_help() {
+    std::cout << "Touch recorded 3D video: colour and depth shown as a moving relief that a hand "
+                 "feels.\n\nUsage:\n";
+    for (const Command& command : kCommands) {
+        constexpr int kUsageWidth = 58;
+        const std::string name = command.name == "view" ? "[view]" : std::string(command.name);
+        std::cout << "  dibhr " << std::left << std::setw(kUsageWidth)
+                  << name + ' ' + std::string(command.arguments) << command.summary << '\n';
+    }
+    std::cout
+        << "\n  dibhr COMMAND --help   the options of a command\n"
+           "  dibhr --version        the version\n"
+           "\nExamples:\n"
+           "  dibhr                                the built-in sample, touched by the mouse\n"
+           "  dibhr color.mp4 depth.mp4            a colour and a depth video\n"
+           "  dibhr color.mp4                      the depth video beside it is found\n"
+           "  dibhr touch --depth depth.png --goals goals.csv --out touched.csv\n"
+           "\nEnds with 0 on success, 1 on a failure it explains, 2 on bad usage.\n";
+}
+
+}  // namespace
+
+int run_command_line(const std::vector<std::string>& arguments) {
+    const std::string first = arguments.empty() ? "" : arguments.front();
+    if (first == "--help" || first == "-h") {
+        print_help();
+        return 0;
+    }
+    if (first == "--version") {
+        std::cout << "dibhr " << DIBHR_VERSION << '\n';
+        return 0;
+    }
+    // What is no command is what the viewer, the first of the table, is to show.
+    const auto named =
+        std::find_if(kCommands.begin(), kCommands.end(),
+                     [&first](const Command& command) { return command.name == first; });
+    const bool is_named = named != kCommands.end();
+    const Command& command = is_named ? *named : kCommands.front();
+    CLI::App app(std::string(command.summary), "dibhr " + std::string(command.name));
+    return command.run(app, Arguments(arguments.begin() + (is_named ? 1 : 0), arguments.end()));
+}
+
+}  // namespace dibhr

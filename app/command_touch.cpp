@@ -1,0 +1,114 @@
+// `dibhr touch`: computes first and formats afterwards, block by block, so that the times are the
+// updates' own.
+#include "app/command_touch.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "app/depth_in_time.hpp"
+#include "app/output_file.hpp"
+#include "app/output_rows.hpp"
+#include "core/error.hpp"
+#include "core/haptics/touch.hpp"
+#include "device/goal_stream.hpp"
+
+namespace dibhr {
+namespace {
+
+constexpr std::size_t kBlockRows = 4096;
+constexpr std::size_t kRoomPerRow_bytes = 400;
+constexpr double kFirstTick_s = 0.001;
+
+void refuse_to_overwrite_input(const TouchOptions& options) {
+    for (const auto& input : {options.depth, options.goals, options.bump}) {
+        std::error_code missing;
+        if (std::filesystem::equivalent(input, options.out, missing)) {
+            throw InputError(options.out.string() +
+                             ": is also read by this command; give --out another name");
+        }
+    }
+}
+
+/// Keeps all that an update depends on from one block of goals to the next.
+class TouchRun {
+  public:
+    explicit TouchRun(const TouchOptions& options)
+        : parameters_(options.parameters),
+          depth_(open_depth(options.depth), options.video,
+                 options.raw_depth ? CleaningOptions{false, false, false} : CleaningOptions{}) {
+        if (!options.bump.empty()) bump_ = read_bump_map(options.bump);
+        input_.restart = true;
+    }
+
+    void compute(std::span<const TimedGoal> goals, std::vector<OutputRow>& rows) {
+        rows.clear();
+        for (const TimedGoal& goal : goals) rows.push_back(update(goal));
+    }
+
+  private:
+    OutputRow update(const TimedGoal& goal) {
+        if (depth_.advance_to(goal.t_s)) input_.restart = true;
+        input_.dt_s = last_t_s_ ? goal.t_s - *last_t_s_ : kFirstTick_s;
+        const DepthSurface surface = depth_.surface(parameters_.shape, bump_ ? &*bump_ : nullptr);
+
+        const auto start = std::chrono::steady_clock::now();
+        const Touch& touch =
+            renderer_.update(surface, goal.goal_in_grid, parameters_, input_, limits_);
+        const auto end = std::chrono::steady_clock::now();
+
+        last_t_s_ = goal.t_s;
+        input_.restart = false;
+        OutputRow row;
+        row.t_s = goal.t_s;
+        row.goal = touch.goal;
+        row.proxy = touch.proxy.position;
+        row.spring_newton = touch.spring_force_newton;
+        row.sent_newton = touch.sent_force_newton;
+        row.contact = touch.proxy.contact;
+        row.primitive = touch.proxy.active.kind;
+        row.i = touch.proxy.active.i;
+        row.j = touch.proxy.active.j;
+        row.moves = touch.proxy.moves;
+        row.update_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(end - start).count();
+        return row;
+    }
+
+    TouchParameters parameters_;
+    DepthInTime depth_;
+    std::optional<BumpMap> bump_{};
+    TouchRenderer renderer_{make_algorithm(Algorithm::dibhr)};
+    SafetyInput input_{};
+    SafetyLimits limits_{};
+    std::optional<double> last_t_s_{};
+};
+
+}  // namespace
+
+int run_touch(const TouchOptions& options) {
+    const std::vector<TimedGoal> goals = read_goals(options.goals);
+    TouchRun run(options);
+    refuse_to_overwrite_input(options);
+    OutputFile out(options.out);
+
+    std::vector<OutputRow> rows;
+    rows.reserve(kBlockRows);
+    std::string text(kOutputHeader);
+    text.reserve(kBlockRows * kRoomPerRow_bytes);
+    for (std::size_t done = 0; done < goals.size(); done += kBlockRows) {
+        const std::size_t count = std::min(kBlockRows, goals.size() - done);
+        run.compute(std::span(goals).subspan(done, count), rows);
+        for (const OutputRow& row : rows) append_row(text, row);
+        out.write(text);
+        text.clear();
+    }
+    out.commit();
+    return 0;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,54 @@
+// The one table of keys: it drives what a key does and the help sheet.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace dibhr {
+
+/// What a key can ask for.
+enum class Action {
+    play_or_pause,
+    step_forward,
+    step_back,
+    seek_forward,
+    seek_back,
+    go_to_start,
+    faster,
+    slower,
+    toggle_loop,
+    toggle_force,
+    reset_view,
+    toggle_straight_view,
+    toggle_panels,
+    toggle_full_screen,
+    take_screenshot,
+    open_file,
+    toggle_help,
+    close_topmost,
+    quit,
+};
+
+/// One job and the keys for it. Bound by the character typed where the layout matters, by key
+/// otherwise.
+struct KeyBinding {
+    Action action;
+    std::string_view group;  ///< heading on the help sheet
+    std::string_view shown;  ///< "Space or P"
+    std::string_view help;
+    std::string_view characters;  ///< any of these typed; letters match both cases
+    int keys[2]{0, 0};            ///< GLFW keys; 0: none
+    bool with_control{false};     ///< for `keys`
+    bool while_typing{false};     ///< also acts while a text field has the keyboard
+};
+
+[[nodiscard]] std::span<const KeyBinding> key_bindings();
+
+/// The action of a typed character, a Unicode code point.
+[[nodiscard]] std::optional<Action> action_of_character(unsigned character);
+
+/// The action of a pressed GLFW key. `typing`: a text field has the keyboard.
+[[nodiscard]] std::optional<Action> action_of_key(int key, bool control, bool typing);
+
+}  // namespace dibhr

@@ -1,0 +1,60 @@
+// The program `dibhr`: runs the command line and turns how it ended into an exit code.
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <exception>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "app/command_line.hpp"
+#include "app/command_options.hpp"
+#include "app/error_line.hpp"
+#include "app/output_file.hpp"
+
+namespace {
+
+constexpr int kSuccess = 0;
+constexpr int kFailure = 1;
+constexpr int kBadUsage = 2;
+
+/// errno holds why writing to standard output failed. A reader that went away had enough.
+int exit_code_of_failed_printing() {
+    if (errno == EPIPE) return kSuccess;
+    const std::string reason = std::strerror(errno);
+    dibhr::print_error_line("standard output: cannot be written (" + reason +
+                            "); make room for it or send it elsewhere");
+    return kFailure;
+}
+
+int exit_code_of(const std::vector<std::string>& arguments) {
+    try {
+        const int exit_code = dibhr::run_command_line(arguments);
+        std::cout.flush();
+        return exit_code;
+    } catch (const dibhr::OutputClosed&) {
+        return kSuccess;
+    } catch (const std::ios::failure&) {
+        return exit_code_of_failed_printing();
+    } catch (const dibhr::UsageError& error) {
+        dibhr::print_error_line(error.what());
+        return kBadUsage;
+    } catch (const std::exception& error) {
+        dibhr::print_error_line(error.what());
+        return kFailure;
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    // A closed pipe is an ordinary end, not a signal.
+    std::signal(SIGPIPE, SIG_IGN);
+    std::cout.exceptions(std::ios::badbit);
+    std::cerr.tie(
+        nullptr);  // an error line must not flush, and so throw for, what could not be printed
+    const int exit_code = exit_code_of({argv + 1, argv + argc});
+    // What could not be printed has been told; the last flush at exit has nobody to tell.
+    std::cout.exceptions(std::ios::goodbit);
+    return exit_code;
+}

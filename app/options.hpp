@@ -1,0 +1,28 @@
+// The one table of numeric touch options: it drives the command line, the settings file and the sliders.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "core/haptics/parameters.hpp"
+
+namespace dibhr {
+
+/// One number people tune. Its default is what TouchParameters{} holds.
+struct NumberOption {
+    std::string_view name;   ///< "static-friction": the option is --static-friction, the setting static-friction
+    std::string_view label;  ///< "Static friction", for the panel
+    std::string_view unit;   ///< "N/mm"; empty for a ratio
+    double lowest;
+    double highest;
+    std::string_view help;
+    double& (*in)(TouchParameters&);
+};
+
+/// relief, pixel-pitch, stiffness, damping, static-friction, dynamic-friction, roughness.
+[[nodiscard]] std::span<const NumberOption> number_options();
+
+/// Moves every number into its range and dynamic friction to at most static friction.
+void keep_in_range(TouchParameters& parameters);
+
+}  // namespace dibhr

@@ -1,0 +1,76 @@
+// An output file that appears whole or not at all.
+#include "app/output_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstddef>
+#include <cstring>
+#include <string>
+#include <system_error>
+
+#include "core/error.hpp"
+
+namespace dibhr {
+namespace fs = std::filesystem;
+
+OutputFile::OutputFile(const fs::path& target) : target_(target) {
+    if (target == "-") {
+        file_ = STDOUT_FILENO;
+        return;
+    }
+    owned_ = true;
+    std::error_code ignored;
+    const fs::file_status status = fs::status(target, ignored);
+    if (fs::exists(status) && !fs::is_regular_file(status)) {
+        file_ = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
+        if (file_ < 0) fail("cannot be written");
+        return;
+    }
+    // A link stays a link: what it points to is replaced.
+    if (fs::is_symlink(target, ignored)) target_ = fs::weakly_canonical(target, ignored);
+    temporary_ = target_;
+    temporary_ += ".part" + std::to_string(::getpid());
+    file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file_ < 0) {
+        temporary_.clear();
+        fail("cannot be written");
+    }
+}
+
+OutputFile::~OutputFile() {
+    if (owned_ && file_ >= 0) ::close(file_);
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void OutputFile::write(std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(file_, bytes.data(), bytes.size());
+        if (written < 0) {
+            if (errno == EINTR) continue;
+            if (errno == EPIPE) throw OutputClosed{};
+            fail("cannot be written");
+        }
+        bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+}
+
+void OutputFile::commit() {
+    if (!owned_) return;
+    const int file = file_;
+    file_ = -1;
+    if (::close(file) != 0) fail("cannot be written");
+    if (temporary_.empty()) return;
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot be replaced");
+    temporary_.clear();
+}
+
+void OutputFile::fail(const char* what) const {
+    const std::string reason = std::strerror(errno);
+    const std::string name = owned_ ? target_.string() : "standard output";
+    throw InputError(name + ": " + what + " (" + reason +
+                     "); choose another file or make room for it");
+}
+
+}  // namespace dibhr

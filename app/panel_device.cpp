@@ -1,0 +1,60 @@
+// The Device panel: what touches, its state, and the switch of the force.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "app/panel_list.hpp"
+#include "app/panel_widgets.hpp"
+
+namespace dibhr {
+
+namespace {
+
+std::string point_text(const Vec3& p) {
+    return formatted("%7.1f %7.1f %7.1f px", p.x, p.y, p.z);
+}
+
+std::string state_text(const HapticState& haptic) {
+    if (!haptic.touchable) return "waiting for a surface";
+    if (!haptic.device_ready) return "not ready: no force";
+    return haptic.touch.proxy.contact ? "in contact" : "free";
+}
+
+}  // namespace
+
+void draw_force_switch(ViewerState& state, float width) {
+    const bool on = state.force_enabled;
+    const ImVec4 ground =
+        on ? ImVec4{0.14F, 0.38F, 0.33F, 1.0F} : ImVec4{0.46F, 0.22F, 0.16F, 1.0F};
+    const ImVec4 raised{ground.x * 1.2F, ground.y * 1.2F, ground.z * 1.2F, 1.0F};
+    ImGui::PushStyleColor(ImGuiCol_Button, ground);
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, raised);
+    ImGui::PushStyleColor(ImGuiCol_ButtonActive, raised);
+    if (ImGui::Button(on ? "Force is ON###force" : "Force is OFF###force", {width, 0.0F})) {
+        state.force_enabled = !on;
+    }
+    ImGui::PopStyleColor(3);
+    explain(on ? "Take the force off (F)" : "Put the force on again; it rises slowly (F)");
+}
+
+void draw_device_panel(ViewerState& state) {
+    if (!section(state, "Device", state.settings.panels.device)) return;
+    ImGui::PushID("device");
+    fact_row("Device", state.device.name);
+    fact_row("State", state_text(state.haptic));
+    draw_force_switch(state, -1.0F);
+    const SafetyLimits standard;
+    number_row({"Max force", "%.1f N", 0.0, state.device.max_force_newton,
+                standard.max_force_newton, "No more than this is ever sent"},
+               state.settings.max_force_newton);
+    state.settings.max_force_newton =
+        std::clamp(state.settings.max_force_newton, 0.0, state.device.max_force_newton);
+    const Touch& touch = state.haptic.touch;
+    fact_row("Goal", point_text(touch.goal));
+    fact_row("Proxy", point_text(touch.proxy.position));
+    fact_row("Force", formatted("%.2f N", glm::length(touch.sent_force_newton)));
+    if (touch.cut != SafetyCut::none) fact_row("Cut", name_of(touch.cut));
+    ImGui::PopID();
+}
+
+}  // namespace dibhr

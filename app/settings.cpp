@@ -1,0 +1,308 @@
+// Reads and writes the viewer's settings file.
+#include "app/settings.hpp"
+
+#include <unistd.h>
+
+#include <toml++/toml.h>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <string_view>
+#include <system_error>
+
+#include "app/options.hpp"
+#include "core/error.hpp"
+
+namespace dibhr {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::int64_t kVersion = 1;
+
+constexpr double kDeviceMaxForce_newton = 8.0;  // the mouse's virtual hand and the Falcon alike
+
+struct Range {
+    double lowest;
+    double highest;
+};
+
+/// Every value that a settings file holds, visited with table, name and range: the one list that
+/// reading and writing share. `Visitor` has bool, int and number members.
+template <typename Visitor>
+void visit_settings(Settings& s, Visitor& visit) {
+    visit.integer("window", "width", s.width, {320, 16384});
+    visit.integer("window", "height", s.height, {240, 16384});
+    visit.flag("window", "panels-visible", s.panels_visible);
+    visit.flag("panels", "video", s.panels.video);
+    visit.flag("panels", "surface", s.panels.surface);
+    visit.flag("panels", "touch", s.panels.touch);
+    visit.flag("panels", "device", s.panels.device);
+    visit.flag("panels", "loop", s.panels.loop);
+    for (const NumberOption& option : number_options()) {
+        visit.number("touch", option.name, option.in(s.touch), {option.lowest, option.highest});
+    }
+    visit.number("device", "max-force", s.max_force_newton, {0.0, kDeviceMaxForce_newton});
+    visit.flag("cleaning", "fill-holes", s.cleaning.fill_holes);
+    visit.flag("cleaning", "remove-spikes", s.cleaning.remove_spikes);
+    visit.flag("cleaning", "smooth-steps", s.cleaning.smooth_steps);
+    visit.flag("look", "discard-silhouettes", s.look.discard_silhouettes);
+    visit.number("look", "silhouette-slope", s.look.silhouette_slope, {1.0, 100.0});
+    visit.flag("look", "textured", s.look.textured);
+    visit.number("look", "light", s.look.light, {0.0, 1.0});
+    visit.flag("look", "coarse", s.look.coarse);
+    visit.flag("look", "straight-view", s.straight_view);
+}
+
+/// Takes values out of a parsed file; what does not fit is told with its line and left at its
+/// default.
+class Reading {
+  public:
+    Reading(const toml::table& root, const fs::path& file, std::vector<std::string>& warnings)
+        : root_(root), file_(file), warnings_(warnings) {}
+
+    void flag(std::string_view table, std::string_view name, bool& value) {
+        if (const toml::node* node = find(table, name)) {
+            if (const auto read = node->value_exact<bool>()) {
+                value = *read;
+            } else {
+                warn(*node, table, name, "is not true or false");
+            }
+        }
+    }
+
+    void number(std::string_view table, std::string_view name, double& value, Range range) {
+        if (const toml::node* node = find(table, name)) {
+            const auto read = node->is_number() ? node->value<double>() : std::nullopt;
+            if (read && *read >= range.lowest && *read <= range.highest) {
+                value = *read;
+            } else {
+                std::ostringstream wrong;
+                wrong << "is not a number from " << range.lowest << " to " << range.highest;
+                warn(*node, table, name, wrong.str());
+            }
+        }
+    }
+
+    void integer(std::string_view table, std::string_view name, int& value, Range range) {
+        double read = value;
+        number(table, name, read, range);
+        value = static_cast<int>(std::lround(read));
+    }
+
+    /// After all known values: tells what else stands in the file.
+    void tell_unknown() {
+        for (const auto& [table_key, node] : root_) {
+            if (table_key == "version") continue;
+            const toml::table* table = node.as_table();
+            if (table == nullptr || !known_tables_.contains(std::string(table_key.str()))) {
+                warn(node, "", table_key.str(), "is not a setting");
+                continue;
+            }
+            for (const auto& [key, value] : *table) {
+                const std::string full =
+                    std::string(table_key.str()) + "." + std::string(key.str());
+                if (!known_.contains(full)) {
+                    warn(value, table_key.str(), key.str(), "is not a setting");
+                }
+            }
+        }
+    }
+
+    void warn(const toml::node& node, std::string_view table, std::string_view name,
+              const std::string& what) {
+        std::ostringstream text;
+        text << file_.string() << ":" << node.source().begin.line << ": ";
+        if (!table.empty()) text << table << ".";
+        text << name << " " << what << "; the default is kept";
+        warnings_.push_back(text.str());
+    }
+
+  private:
+    const toml::node* find(std::string_view table, std::string_view name) {
+        known_tables_.emplace(table);
+        known_.insert(std::string(table) + "." + std::string(name));
+        const toml::node* node = root_.get(table);
+        const toml::table* inside = node != nullptr ? node->as_table() : nullptr;
+        return inside != nullptr ? inside->get(name) : nullptr;
+    }
+
+    const toml::table& root_;
+    const fs::path& file_;
+    std::vector<std::string>& warnings_;
+    std::set<std::string> known_{};
+    std::set<std::string> known_tables_{};
+};
+
+/// Writes values as TOML, a heading before each table; numbers as short as they come back the same.
+class Writing {
+  public:
+    void flag(std::string_view table, std::string_view name, bool& value) {
+        line(table, name, value ? "true" : "false");
+    }
+    void number(std::string_view table, std::string_view name, double& value, Range) {
+        char digits[32];
+        const auto end = std::to_chars(digits, digits + sizeof digits, value);
+        line(table, name, {digits, static_cast<std::size_t>(end.ptr - digits)});
+    }
+    void integer(std::string_view table, std::string_view name, int& value, Range) {
+        line(table, name, std::to_string(value));
+    }
+
+    [[nodiscard]] std::string text() const { return text_.str(); }
+
+  private:
+    void line(std::string_view table, std::string_view name, std::string_view value) {
+        if (table != table_) text_ << "\n[" << table << "]\n";
+        table_ = table;
+        text_ << name << " = " << value << "\n";
+    }
+
+    std::ostringstream text_{};
+    std::string table_{};
+};
+
+/// Every value in the list's order, so that two states can be compared one by one.
+class Listing {
+  public:
+    void flag(std::string_view, std::string_view, bool& value) {
+        values.push_back(value ? 1.0 : 0.0);
+    }
+    void number(std::string_view, std::string_view, double& value, Range) {
+        values.push_back(value);
+    }
+    void integer(std::string_view, std::string_view, int& value, Range) { values.push_back(value); }
+
+    std::vector<double> values{};
+};
+
+std::vector<double> values_of(const Settings& settings) {
+    Listing listing;
+    Settings copy = settings;
+    visit_settings(copy, listing);
+    return listing.values;
+}
+
+/// Puts values back in the list's order.
+class Filling {
+  public:
+    explicit Filling(const std::vector<double>& values) : values_(values) {}
+    void flag(std::string_view, std::string_view, bool& value) { value = values_[next_++] > 0.5; }
+    void number(std::string_view, std::string_view, double& value, Range) {
+        value = values_[next_++];
+    }
+    void integer(std::string_view, std::string_view, int& value, Range) {
+        value = static_cast<int>(std::lround(values_[next_++]));
+    }
+
+  private:
+    const std::vector<double>& values_;
+    std::size_t next_{0};
+};
+
+std::string content_of(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream content;
+    if (in && fs::is_regular_file(file)) content << in.rdbuf();
+    if (!in || content.fail() || !fs::is_regular_file(file)) {
+        throw InputError("cannot read the settings file " + file.string() +
+                         ": make it readable or delete it");
+    }
+    return content.str();
+}
+
+toml::table parsed(const fs::path& file) {
+    const std::string content = content_of(file);
+    try {
+        return toml::parse(content);
+    } catch (const toml::parse_error& error) {
+        std::ostringstream text;
+        text << "cannot understand the settings file " << file.string() << " at line "
+             << error.source().begin.line << " (" << error.description() << "): mend or delete it";
+        throw InputError(text.str());
+    }
+}
+
+}  // namespace
+
+fs::path settings_path() {
+    const char* folder = std::getenv("XDG_CONFIG_HOME");
+    if (folder != nullptr && *folder == '/') return fs::path(folder) / "dibhr" / "settings.toml";
+    const char* home = std::getenv("HOME");
+    return fs::path(home != nullptr ? home : "/") / ".config" / "dibhr" / "settings.toml";
+}
+
+Settings load_settings(const fs::path& file, std::vector<std::string>& warnings) {
+    std::error_code failed;
+    if (fs::status(file, failed).type() == fs::file_type::not_found) return {};
+    const toml::table root = parsed(file);
+    Settings settings;
+    Reading reading(root, file, warnings);
+    if (const toml::node* version = root.get("version")) {
+        if (version->value<std::int64_t>() != kVersion) {
+            reading.warn(*version, "", "version", "is not 1, the one this program writes");
+        }
+    }
+    visit_settings(settings, reading);
+    reading.tell_unknown();
+    keep_in_range(settings.touch);
+    return settings;
+}
+
+Settings load_settings(const fs::path& file) {
+    std::vector<std::string> warnings;
+    Settings settings = load_settings(file, warnings);
+    for (const std::string& warning : warnings) std::cerr << "dibhr: " << warning << "\n";
+    return settings;
+}
+
+void save_settings(const Settings& settings, const fs::path& file) {
+    Writing writing;
+    Settings copy = settings;
+    visit_settings(copy, writing);
+    const fs::path unfinished = file.string() + "." + std::to_string(::getpid()) + ".part";
+    std::error_code failed;
+    fs::create_directories(file.parent_path(), failed);
+    {
+        std::ofstream out(unfinished);
+        out << "# dibhr writes this file; change it while it is not running.\n"
+            << "version = " << kVersion << "\n"
+            << writing.text();
+        out.close();
+        if (!out) failed = std::make_error_code(std::errc::io_error);
+    }
+    if (!failed) fs::rename(unfinished, file, failed);
+    if (failed) {
+        std::error_code ignored;
+        fs::remove(unfinished, ignored);
+        throw InputError("cannot write the settings file " + file.string() +
+                         ": make its folder writable");
+    }
+}
+
+Settings changes_kept(const Settings& in_file, const Settings& started, const Settings& now) {
+    std::vector<double> kept = values_of(in_file);
+    const std::vector<double> before = values_of(started);
+    const std::vector<double> after = values_of(now);
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+        if (std::not_equal_to<>{}(before[k], after[k])) kept[k] = after[k];
+    }
+    Settings result = in_file;
+    Filling filling(kept);
+    visit_settings(result, filling);
+    return result;
+}
+
+bool same_settings(const Settings& a, const Settings& b) {
+    return values_of(a) == values_of(b);
+}
+
+}  // namespace dibhr

@@ -1,0 +1,98 @@
+// The viewer: one window, one player, one hand, one haptic loop.
+#pragma once
+
+#include <chrono>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/hand_device.hpp"
+#include "app/haptic_loop.hpp"
+#include "app/view_options.hpp"
+#include "app/viewer_keeping.hpp"
+#include "app/viewer_mouse.hpp"
+#include "app/viewer_opening.hpp"
+#include "app/viewer_state.hpp"
+#include "app/window.hpp"
+#include "app/window_gui.hpp"
+#include "app/window_pace.hpp"
+#include "app/window_signals.hpp"
+#include "core/session/recorder.hpp"
+#include "render/camera.hpp"
+#include "render/scene_view.hpp"
+
+namespace dibhr {
+
+/// What run_viewer() opened before there was a window.
+struct ViewerParts {
+    std::unique_ptr<Media> media{};
+    HandDevice hand{};
+    std::shared_ptr<const BumpMap> bump{};
+};
+
+class Viewer {
+  public:
+    /// Opens the window and starts the loop. `signals` must outlive it. Throws Error.
+    Viewer(const ViewOptions& options, ViewerParts parts, EndingSignals& signals);
+
+    /// Until the window is closed or the asked time is over. Throws InputError when the last
+    /// picture or the settings cannot be written.
+    void run();
+
+  private:
+    void show_one_picture();
+    void take_news();
+    void obey_keys(const WindowInput& input);
+    void move_hand(const WindowInput& input, glm::ivec2 viewport);
+    void draw_scene(glm::ivec2 viewport);
+    void draw_panels();
+    void carry_out_requests();
+    void hand_over_settings();
+    void keep_settings();
+    void show_media(std::unique_ptr<Media> media);
+    void load_bump(const std::filesystem::path& file);
+    void save_screenshot();
+    void collect_screenshots();
+    void write_last_picture();
+    void tell(const std::string& notice);
+    /// A message box when another thread's failure is not the one `told` before.
+    void tell_once(const std::string& failure, std::string& told);
+    [[nodiscard]] double now_s() const;
+    [[nodiscard]] bool over();
+    [[nodiscard]] glm::ivec2 relief_viewport() const;
+
+    // In order of making; the loop goes first, so that the hand is at rest before anything else
+    // ends.
+    ViewOptions options_;
+    EndingSignals& signals_;
+    HandDevice hand_;
+    Window window_;
+    Gui gui_;
+    SceneView scene_{};
+    PicturePace pace_;
+    Camera camera_{};
+    ReliefMouse mouse_{};
+    HandPointer pointer_{};
+    ViewerState state_{};
+    Opening opening_{};
+    std::vector<std::future<std::string>> screenshots_{};
+    SettingsKeeper keeper_;
+    HapticSettings handed_{};
+    CleaningOptions cleaning_handed_{};
+    DepthBlend shown_{};  // of the picture being made
+    float hint_alpha_{1.0F};
+    std::string playback_failure_{};  // as told
+    std::string recording_failure_{};
+    std::chrono::steady_clock::time_point start_{};
+    Player player_{};
+    TripleBuffer<HapticSettings> haptic_settings_{};
+    TripleBuffer<HapticState> haptic_state_{};
+    std::unique_ptr<ForceRing> forces_;
+    std::unique_ptr<TickRing> ticks_;  // null: not recording
+    std::unique_ptr<Recorder> recorder_;
+    std::unique_ptr<HapticLoop> loop_;
+};
+
+}  // namespace dibhr

@@ -1,0 +1,92 @@
+// The scene of one picture, and the facts of a session.
+#include "app/viewer_scene.hpp"
+
+#include <charconv>
+#include <glm/geometric.hpp>
+
+#include "app/options.hpp"
+#include "core/haptics/surface.hpp"
+
+namespace dibhr {
+
+namespace {
+
+Vec3 normal_at(const DepthSurface& surface, Vec3 p) {
+    constexpr double kReach_px = 1.0;
+    const double dx =
+        surface.elevation_at(p.x + kReach_px, p.y) - surface.elevation_at(p.x - kReach_px, p.y);
+    const double dy =
+        surface.elevation_at(p.x, p.y + kReach_px) - surface.elevation_at(p.x, p.y - kReach_px);
+    return glm::normalize(Vec3{-dx, -dy, 2.0 * kReach_px});
+}
+
+TouchMarkers markers_of(const ViewerState& state, const DepthSurface& surface) {
+    const Touch& touch = state.haptic.touch;
+    const Friction& friction = state.settings.touch.friction;
+    TouchMarkers markers;
+    markers.visible = state.haptic.touchable;
+    markers.contact = touch.proxy.contact;
+    markers.goal = touch.goal;
+    markers.proxy = touch.proxy.position;
+    markers.normal = normal_at(surface, touch.proxy.position);
+    markers.friction =
+        touch.proxy.slipping ? friction.dynamic_coefficient : friction.static_coefficient;
+    markers.force_newton = touch.sent_force_newton;
+    return markers;
+}
+
+std::string number_text(double value) {
+    char text[32];
+    const auto end = std::to_chars(text, text + sizeof text, value);
+    return {text, end.ptr};
+}
+
+}  // namespace
+
+bool is_drawable(const DepthBlend& blend) {
+    if (blend.from == nullptr || blend.to == nullptr || !blend.from->depth || !blend.to->depth)
+        return false;
+    const DepthImage& from = *blend.from->depth;
+    const DepthImage& to = *blend.to->depth;
+    return from.columns == to.columns && from.rows == to.rows && from.columns >= 2 &&
+           from.rows >= 2;
+}
+
+SceneContent scene_content(const ViewerState& state, const DepthBlend& shown) {
+    SceneContent content;
+    content.shape = state.settings.touch.shape;
+    content.bump = state.bump.get();
+    content.look = state.settings.look;
+    if (!is_drawable(shown)) return content;
+    content.depth = shown;
+    content.colour = shown.from;
+    const DepthSurface surface(*shown.from->depth, *shown.to->depth, shown.blend, content.shape,
+                               content.bump);
+    content.markers = markers_of(state, surface);
+    return content;
+}
+
+std::map<std::string, std::string> session_facts(const ViewerState& state) {
+    std::map<std::string, std::string> facts{
+        {"program", "dibhr " DIBHR_VERSION},
+        {"device", state.device.name},
+        {"algorithm", "dibhr"},
+        {"colour", state.media.colour_path.string()},
+        {"depth", state.media.depth_path.string()},
+        {"columns", std::to_string(state.media.depth_columns)},
+        {"rows", std::to_string(state.media.depth_rows)},
+        {"bump", state.bump_file.string()},
+        {"max-force", number_text(state.settings.max_force_newton)},
+    };
+    TouchParameters parameters = state.settings.touch;
+    for (const NumberOption& option : number_options()) {
+        facts.emplace(std::string(option.name), number_text(option.in(parameters)));
+    }
+    const CleaningOptions& cleaning = state.settings.cleaning;
+    facts.emplace("fill-holes", cleaning.fill_holes ? "yes" : "no");
+    facts.emplace("remove-spikes", cleaning.remove_spikes ? "yes" : "no");
+    facts.emplace("smooth-steps", cleaning.smooth_steps ? "yes" : "no");
+    return facts;
+}
+
+}  // namespace dibhr

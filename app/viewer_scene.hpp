@@ -1,0 +1,23 @@
+// The scene of one picture from the viewer's state, and the facts of a session.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "app/viewer_state.hpp"
+#include "core/video/frame_window.hpp"
+#include "render/scene_view.hpp"
+
+namespace dibhr {
+
+/// Whether the blend has two depth images of one touchable size.
+[[nodiscard]] bool is_drawable(const DepthBlend& blend);
+
+/// What to draw now. The markers are those of the last tick; the colour is that of the `from`
+/// frame.
+[[nodiscard]] SceneContent scene_content(const ViewerState& state, const DepthBlend& shown);
+
+/// What is kept with a recording: program version, files, parameters, device.
+[[nodiscard]] std::map<std::string, std::string> session_facts(const ViewerState& state);
+
+}  // namespace dibhr

@@ -1,0 +1,22 @@
+// Ctrl+C and a request to end, taken as a wish to close the window, so that the force ends at zero.
+#pragma once
+
+namespace dibhr {
+
+/// While it lives, SIGINT, SIGTERM and SIGHUP do not kill the process. Made before any thread is
+/// started, since threads inherit what is held back.
+class EndingSignals {
+  public:
+    EndingSignals();
+    ~EndingSignals();
+    EndingSignals(const EndingSignals&) = delete;
+    EndingSignals& operator=(const EndingSignals&) = delete;
+
+    /// Whether one has arrived since the last call.
+    [[nodiscard]] bool arrived();
+
+  private:
+    int descriptor_{-1};
+};
+
+}  // namespace dibhr

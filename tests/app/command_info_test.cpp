@@ -1,0 +1,93 @@
+// `dibhr info` and `dibhr devices`: what files hold and what is attached.
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/session/recorder.hpp"
+#include "tests/app/command_program.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+
+namespace {
+
+bool says(const ProgramResult& result, const std::string& words) {
+    return result.output.find(words) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("info describes an image and the depth file beside it", "[info]") {
+    const TemporaryFolder folder;
+    write_depth_png(folder / "my_color.png", 30, 20, 10);
+    write_depth_png(folder / "my_depth.png", 16, 12, 100);
+    const ProgramResult result = run_dibhr(folder, {"info", "my_color.png"});
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 0);
+    CHECK(says(result, "image"));
+    CHECK(says(result, "30x20"));
+    CHECK(says(result, "my_depth.png"));
+}
+
+TEST_CASE("info describes a video", "[info]") {
+    const TemporaryFolder folder;
+    run_shell(folder,
+              "ffmpeg -v error -f lavfi -i testsrc=size=160x120:rate=25:duration=2 "
+              "-pix_fmt yuv420p clip.mp4");
+    const ProgramResult result = run_dibhr(folder, {"info", "clip.mp4"});
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 0);
+    CHECK(says(result, "video"));
+    CHECK(says(result, "160x120"));
+    CHECK((says(result, "avc1") || says(result, "h264")));
+    CHECK(says(result, " 50\n"));
+    CHECK(says(result, "2.000 s"));
+    CHECK(says(result, "25.00 frames/s"));
+    CHECK(says(result, "none found"));
+}
+
+TEST_CASE("info describes a session file", "[info]") {
+    const TemporaryFolder folder;
+    const auto ring = std::make_unique<TickRing>();
+    {
+        const Recorder recorder(folder / "mine.dibhr", *ring, {{"device", "a scripted hand"}});
+        for (int k = 0; k < 251; ++k) {
+            TickRecord record;
+            record.tick = k;
+            record.t_s = 3.0 + 0.001 * k;
+            REQUIRE(ring->push(record));
+        }
+    }
+    const ProgramResult result = run_dibhr(folder, {"info", "mine.dibhr"});
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 0);
+    CHECK(says(result, "session"));
+    CHECK(says(result, "251"));
+    CHECK(says(result, "0.250 s"));
+    CHECK(says(result, "a scripted hand"));
+    CHECK(folder.names() == std::vector<std::string>{"mine.dibhr"});
+}
+
+TEST_CASE("info tells of the file it cannot read and describes the others", "[info]") {
+    const TemporaryFolder folder;
+    write_depth_png(folder / "good.png", 30, 20, 10);
+    write_text(folder / "bad.dibhr", "no session\n");
+    const ProgramResult result = run_dibhr(folder, {"info", "bad.dibhr", "good.png", "none.png"});
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 1);
+    CHECK(says(result, "30x20"));
+    CHECK(split(result.errors, '\n').size() == 3);
+    CHECK(result.errors.find("bad.dibhr") != std::string::npos);
+    CHECK(result.errors.find("none.png") != std::string::npos);
+}
+
+TEST_CASE("devices lists the mouse as usable and says what it knows of a Falcon", "[devices]") {
+    const TemporaryFolder folder;
+    const ProgramResult result = run_dibhr(folder, {"devices"});
+    CHECK(result.exit_code == 0);
+    CHECK(says(result, "mouse: usable"));
+    CHECK(says(result, "Novint Falcon"));
+    CHECK(result.errors.empty());
+}

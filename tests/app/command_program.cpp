@@ -1,0 +1,119 @@
+// Runs the real program from a test and makes its input files.
+#include "tests/app/command_program.hpp"
+
+#include <fcntl.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "core/video/media.hpp"
+#include "tests/support/catch.hpp"
+
+namespace dibhr::test {
+namespace fs = std::filesystem;
+namespace {
+
+int exit_code_of(int status) {
+    return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+}
+
+void redirect(int stream, const fs::path& file, int flags) {
+    const int opened = ::open(file.c_str(), flags, 0600);
+    ::dup2(opened, stream);
+    ::close(opened);
+}
+
+}  // namespace
+
+TemporaryFolder::TemporaryFolder() {
+    std::string pattern = (fs::temp_directory_path() / "dibhr-test-XXXXXX").string();
+    REQUIRE(::mkdtemp(pattern.data()) != nullptr);
+    path_ = pattern;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code ignored;
+    fs::permissions(path_, fs::perms::owner_all, ignored);
+    fs::remove_all(path_, ignored);
+}
+
+std::vector<std::string> TemporaryFolder::names() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(path_)) {
+        names.push_back(entry.path().filename().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+ProgramResult run_dibhr(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
+    const TemporaryFolder told;
+    std::vector<char*> argv;
+    std::string program = DIBHR_PROGRAM;
+    argv.push_back(program.data());
+    std::vector<std::string> copies = arguments;
+    for (std::string& argument : copies) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+
+    const pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        redirect(STDIN_FILENO, "/dev/null", O_RDONLY);
+        redirect(STDOUT_FILENO, told / "output", O_WRONLY | O_CREAT);
+        redirect(STDERR_FILENO, told / "errors", O_WRONLY | O_CREAT);
+        ::unsetenv("DISPLAY");
+        ::unsetenv("WAYLAND_DISPLAY");
+        ::setenv("XDG_CONFIG_HOME", folder.path().c_str(), 1);
+        if (::chdir(folder.path().c_str()) == 0) ::execv(argv[0], argv.data());
+        ::_exit(127);
+    }
+    int status = 0;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    return {exit_code_of(status), read_text(told / "output"), read_text(told / "errors")};
+}
+
+void run_shell(const TemporaryFolder& folder, const std::string& command) {
+    const std::string line = "cd '" + folder.path().string() + "' && " + command + " </dev/null";
+    INFO(line);
+    REQUIRE(exit_code_of(::system(line.c_str())) == 0);
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+    std::ofstream(file, std::ios::binary) << text;
+}
+
+std::string read_text(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts(1);
+    for (const char c : text) {
+        if (c == separator) {
+            parts.emplace_back();
+        } else {
+            parts.back() += c;
+        }
+    }
+    return parts;
+}
+
+void write_depth_png(const fs::path& file, int columns, int rows, int first, int slope) {
+    ColourImage picture{columns, rows, {}};
+    for (int j = 0; j < rows; ++j) {
+        for (int i = 0; i < columns; ++i) {
+            const auto level = static_cast<std::uint8_t>(first + slope * i);
+            picture.rgb.insert(picture.rgb.end(), 3, level);
+        }
+    }
+    write_png(picture, file);
+}
+
+}  // namespace dibhr::test

@@ -1,0 +1,83 @@
+// A virtual display with a pointer and a keyboard, and the real program running on it.
+#pragma once
+
+#include <sys/types.h>
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/haptics/vec.hpp"
+
+namespace dibhr::test {
+
+/// A folder that is empty at first and gone at the end.
+class Folder {
+  public:
+    Folder();
+    ~Folder();
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
+        return path_ / name;
+    }
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+/// A child process; ended at the latest by the destructor.
+class Process {
+  public:
+    /// `environment` entries "NAME=value" come on top of this process's own. `error_file`: its
+    /// stderr.
+    Process(std::vector<std::string> arguments, const std::vector<std::string>& environment,
+            const std::filesystem::path& error_file, int inherited_descriptor = -1);
+    ~Process();
+    Process(const Process&) = delete;
+    Process& operator=(const Process&) = delete;
+
+    /// Waits for its end. The exit code; 128 + signal when it was killed.
+    int wait();
+    void interrupt();  ///< SIGINT, as Ctrl+C does
+
+  private:
+    pid_t child_{-1};
+};
+
+/// An X server of its own, 1280 x 800, without a window manager.
+class Desk {
+  public:
+    Desk();
+
+    /// Starts `dibhr view` with these arguments, settings and current folder inside `folder`.
+    [[nodiscard]] Process start_viewer(const Folder& folder,
+                                       const std::vector<std::string>& arguments) const;
+
+    /// Runs xdotool with one chain of commands; fails the test when it fails.
+    void act(const std::string& commands) const;
+
+  private:
+    std::array<int, 2> numbers_;  // a pipe: the server writes its display's number
+    Folder folder_{};
+    Process server_;
+    std::string display_{};
+};
+
+/// A tick as the session file has it.
+struct Row {
+    double t_s{0.0};
+    Vec3 goal{0.0}, proxy{0.0}, spring_newton{0.0}, sent_newton{0.0};
+    bool contact{false};
+    bool pressed{false};
+    int cut{0};
+};
+
+[[nodiscard]] std::vector<Row> read_session(const std::filesystem::path& file);
+
+/// Runs a command line in a shell; fails the test when it fails.
+void run_shell(const std::string& command);
+
+}  // namespace dibhr::test
