@@ -17,8 +17,10 @@ bool path_field(const char* id, const char* hint, TextFields::Field& field) {
 }
 
 void draw_open(ViewerState& state) {
-    if (state.fields.focus_colour) ImGui::SetKeyboardFocusHere();
-    state.fields.focus_colour = false;
+    if (state.fields.ask_for_keyboard > 0) {
+        ImGui::SetKeyboardFocusHere();
+        --state.fields.ask_for_keyboard;
+    }
     const bool from_colour = path_field("##colour", "Colour file", state.fields.colour);
     explain("Path of a colour video or picture (Ctrl+O)");
     const bool from_depth =

@@ -137,7 +137,9 @@ void Viewer::take_news() {
 }
 
 void Viewer::obey_keys(const WindowInput& input) {
-    const bool typing = gui_.wants_keyboard();
+    if (gui_.wants_keyboard()) state_.fields.ask_for_keyboard = 0;
+    // A name typed right after Ctrl+O is no key, even before the field has the keyboard.
+    const bool typing = gui_.wants_keyboard() || state_.fields.ask_for_keyboard > 0;
     for (const KeyPress& press : input.keys) {
         if (const auto action = action_of_key(press.key, press.control, typing))
             perform(*action, state_, player_);

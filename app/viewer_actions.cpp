@@ -9,6 +9,7 @@ namespace dibhr {
 namespace {
 
 constexpr double kSeekStep_s = 5.0;
+constexpr int kPicturesToFocus = 30;  // it takes two; a field out of sight never gets it
 constexpr double kSpeeds[] = {0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 3.0, 4.0};
 
 void seek_by(double step_s, const PlaybackStatus& playback, Player& player) {
@@ -85,7 +86,7 @@ void perform(Action action, ViewerState& state, Player& player) {
             break;
         case Action::open_file:
             state.settings.panels_visible = state.settings.panels.video = true;
-            state.fields.focus_colour = true;
+            state.fields.ask_for_keyboard = kPicturesToFocus;
             break;
         case Action::toggle_help:
             state.help_open = !state.help_open;

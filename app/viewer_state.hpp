@@ -47,7 +47,7 @@ struct TextFields {
     Field colour{};
     Field depth{};
     Field bump{};
-    bool focus_colour{false};  ///< Ctrl+O: the next picture gives it the keyboard
+    int ask_for_keyboard{0};  ///< Ctrl+O: pictures left in which the colour field asks for the keyboard
 };
 
 /// What a panel asks the viewer to do after the picture.

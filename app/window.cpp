@@ -5,6 +5,7 @@
 #include <GLFW/glfw3.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 
 #include "core/error.hpp"
@@ -25,6 +26,14 @@ bool key_down(GLFWwindow* window, int key) {
     return glfwGetKey(window, key) == GLFW_PRESS;
 }
 
+/// Newer GLFW tries Wayland first and complains on stderr where there is none.
+void choose_display_server() {
+#ifdef GLFW_PLATFORM
+    const char* const wayland = std::getenv("WAYLAND_DISPLAY");
+    if (wayland == nullptr || *wayland == '\0') glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
+}
+
 GLFWwindow* open_window(int width, int height, const std::string& title) {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
@@ -37,6 +46,7 @@ GLFWwindow* open_window(int width, int height, const std::string& title) {
 }  // namespace
 
 Window::Window(int width, int height, bool sync, const std::string& title) : size_{width, height} {
+    choose_display_server();
     if (glfwInit() != GLFW_TRUE) {
         throw DeviceError("no display: set DISPLAY or run ./app/run, which makes a virtual one");
     }

@@ -242,7 +242,7 @@ TEST_CASE("a media file describes itself without its partner", "[media]") {
     make_flat_clip(folder / "clip.mp4", 20, 10, kH264);
     const auto depth = describe_media(folder / "depth.webm");
     CHECK(depth.depth_columns == 64);
-    CHECK(depth.depth_codec == "VP9");
+    CHECK(depth.depth_codec.starts_with("VP9"));  // OpenCV 4.10 says VP90
     CHECK(depth.frames == 20);
     CHECK_THAT(depth.duration_s, WithinAbs(2.0, 0.002));
     CHECK(depth.colour_path.empty());
