@@ -75,11 +75,12 @@ void describe_pictures(const fs::path& file) {
     if (!codec.empty()) print_fact("codec", codec);
     print_fact("bits", std::to_string(media.depth_bits) + " a channel");
     if (!media.still) {
-        print_fact("frames", std::to_string(media.frames));
+        print_fact("frames", (media.frames_exact ? "" : "about ") + std::to_string(media.frames));
         print_fact("duration", rounded(media.duration_s, 3) + " s");
         print_fact("rate", rounded(media.frames_per_s, 2) + " frames/s");
     }
-    describe_partner(file);
+    if (!media.remark.empty()) print_fact("remark", media.remark);
+    if (is_colour) describe_partner(file);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "app/command_options.hpp"
 #include "app/command_touch.hpp"
 #include "app/command_view.hpp"
+#include "app/window.hpp"
 
 namespace dibhr {
 namespace {
@@ -29,8 +30,6 @@ struct Command {
     int (*run)(CLI::App&, const Arguments&);
 };
 
-constexpr int kSmallestWindow = 160;
-constexpr int kLargestWindow = 16384;
 constexpr double kLongestRun_s = 1e6;
 
 /// False when the help was asked for, which is then printed.

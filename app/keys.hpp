@@ -19,6 +19,7 @@ enum class Action {
     slower,
     toggle_loop,
     toggle_force,
+    force_off,
     reset_view,
     toggle_straight_view,
     toggle_panels,
@@ -37,18 +38,20 @@ struct KeyBinding {
     std::string_view group;  ///< heading on the help sheet
     std::string_view shown;  ///< "Space or P"
     std::string_view help;
-    std::string_view characters;  ///< any of these typed; letters match both cases
+    std::string_view characters{};  ///< any of these typed; letters match both cases
     int keys[2]{0, 0};            ///< GLFW keys; 0: none
     bool with_control{false};     ///< for `keys`
     bool while_typing{false};     ///< also acts while a text field has the keyboard
+    bool repeats{false};          ///< acts again and again while held down
 };
 
 [[nodiscard]] std::span<const KeyBinding> key_bindings();
 
-/// The action of a typed character, a Unicode code point.
-[[nodiscard]] std::optional<Action> action_of_character(unsigned character);
+/// The action of a typed character, a Unicode code point; `repeated`: its key is being held down.
+[[nodiscard]] std::optional<Action> action_of_character(unsigned character, bool repeated = false);
 
 /// The action of a pressed GLFW key. `typing`: a text field has the keyboard.
-[[nodiscard]] std::optional<Action> action_of_key(int key, bool control, bool typing);
+[[nodiscard]] std::optional<Action> action_of_key(int key, bool control, bool typing,
+                                                  bool repeated = false);
 
 }  // namespace dibhr

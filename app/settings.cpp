@@ -18,6 +18,8 @@
 #include <system_error>
 
 #include "app/options.hpp"
+#include "app/output_file.hpp"
+#include "app/window.hpp"
 #include "core/error.hpp"
 
 namespace dibhr {
@@ -39,8 +41,8 @@ struct Range {
 /// reading and writing share. `Visitor` has bool, int and number members.
 template <typename Visitor>
 void visit_settings(Settings& s, Visitor& visit) {
-    visit.integer("window", "width", s.width, {320, 16384});
-    visit.integer("window", "height", s.height, {240, 16384});
+    visit.integer("window", "width", s.width, {kSmallestWindow, kLargestWindow});
+    visit.integer("window", "height", s.height, {kSmallestWindow, kLargestWindow});
     visit.flag("window", "panels-visible", s.panels_visible);
     visit.flag("panels", "video", s.panels.video);
     visit.flag("panels", "surface", s.panels.surface);
@@ -268,23 +270,15 @@ void save_settings(const Settings& settings, const fs::path& file) {
     Writing writing;
     Settings copy = settings;
     visit_settings(copy, writing);
-    const fs::path unfinished = file.string() + "." + std::to_string(::getpid()) + ".part";
     std::error_code failed;
     fs::create_directories(file.parent_path(), failed);
-    {
-        std::ofstream out(unfinished);
-        out << "# dibhr writes this file; change it while it is not running.\n"
-            << "version = " << kVersion << "\n"
-            << writing.text();
-        out.close();
-        if (!out) failed = std::make_error_code(std::errc::io_error);
-    }
-    if (!failed) fs::rename(unfinished, file, failed);
-    if (failed) {
-        std::error_code ignored;
-        fs::remove(unfinished, ignored);
-        throw InputError("cannot write the settings file " + file.string() +
-                         ": make its folder writable");
+    try {
+        OutputFile out(file);
+        out.write("# dibhr writes this file; change it while it is not running.\nversion = " +
+                  std::to_string(kVersion) + "\n" + writing.text());
+        out.commit();
+    } catch (const InputError& error) {
+        throw InputError(std::string("the settings are not kept: ") + error.what());
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <ctime>
 #include <exception>
 #include <utility>
@@ -39,22 +40,19 @@ std::chrono::nanoseconds shortest_picture(bool sync) {
     return read_limits().software ? kSoftwarePictureTime : kPictureTime;
 }
 
+/// To the millisecond, so that no two pictures share a name.
 std::string screenshot_name() {
-    const std::time_t now = std::time(nullptr);
+    const auto now = std::chrono::system_clock::now();
+    const std::time_t seconds = std::chrono::system_clock::to_time_t(now);
+    const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch());
     std::tm local{};
-    localtime_r(&now, &local);
+    localtime_r(&seconds, &local);
+    char date[32];
+    std::strftime(date, sizeof date, "%Y%m%d-%H%M%S", &local);
     char name[64];
-    std::strftime(name, sizeof name, "dibhr-%Y%m%d-%H%M%S.png", &local);
+    std::snprintf(name, sizeof name, "dibhr-%s-%03d.png", date,
+                  static_cast<int>(ms.count() % 1000));
     return name;
-}
-
-std::string write_screenshot(const ColourImage& picture, const std::string& file) {
-    try {
-        write_png(picture, file);
-        return "Saved " + file;
-    } catch (const std::exception& error) {
-        return error.what();
-    }
 }
 
 }  // namespace
@@ -92,10 +90,28 @@ void Viewer::run() {
         show_one_picture();
         pace_.wait();
     }
-    write_last_picture();
-    loop_->stop();
-    keeper_.finish(state_.settings);
-    for (auto& screenshot : screenshots_) screenshot.wait();
+    finish();
+}
+
+void Viewer::finish() {
+    loop_->stop();  // the hand is at rest before anything is written
+    std::string failure;
+    const auto attempt = [&failure](auto&& step) {
+        try {
+            step();
+        } catch (const Error& error) {
+            if (failure.empty()) failure = error.what();
+        }
+    };
+    attempt([this] { write_last_picture(); });
+    attempt([this] { keeper_.finish(state_.settings); });
+    for (auto& screenshot : screenshots_) attempt([&screenshot] { screenshot.get(); });
+    if (recorder_)
+        attempt([this] {
+            const RecorderStatus recorded = recorder_->finish();
+            if (!recorded.failure.empty()) throw InputError(recorded.failure);
+        });
+    if (!failure.empty()) throw InputError(failure);
 }
 
 void Viewer::show_one_picture() {
@@ -141,12 +157,13 @@ void Viewer::obey_keys(const WindowInput& input) {
     // A name typed right after Ctrl+O is no key, even before the field has the keyboard.
     const bool typing = gui_.wants_keyboard() || state_.fields.ask_for_keyboard > 0;
     for (const KeyPress& press : input.keys) {
-        if (const auto action = action_of_key(press.key, press.control, typing))
+        if (const auto action = action_of_key(press.key, press.control, typing, press.repeated))
             perform(*action, state_, player_);
     }
     if (typing) return;
-    for (const unsigned character : input.characters) {
-        if (const auto action = action_of_character(character)) perform(*action, state_, player_);
+    for (const TypedCharacter& typed : input.characters) {
+        if (const auto action = action_of_character(typed.code, typed.repeated))
+            perform(*action, state_, player_);
     }
 }
 
@@ -187,7 +204,7 @@ void Viewer::carry_out_requests() {
     const Requests asked = std::exchange(state_.requests, {});
     if (asked.open && !opening_.start(*asked.open)) tell("Still opening the last files");
     if (asked.bump) load_bump(*asked.bump);
-    if (asked.reset_view) camera_.reset();
+    if (asked.reset_view) frame_relief();
     if (asked.full_screen) window_.toggle_full_screen();
     if (asked.screenshot) save_screenshot();
     if (asked.quit) window_.close();
@@ -225,10 +242,14 @@ void Viewer::keep_settings() {
 
 void Viewer::show_media(std::unique_ptr<Media> media) {
     state_.media = media->description();
-    camera_.frame_relief(state_.media.depth_columns, state_.media.depth_rows,
-                         state_.settings.touch.shape.relief_px);
+    frame_relief();
     window_.set_title(state_.media.colour_path.filename().string() + " - dibhr");
     player_.play_media(std::move(media));
+}
+
+void Viewer::frame_relief() {
+    camera_.frame_relief(state_.media.depth_columns, state_.media.depth_rows,
+                         state_.settings.touch.shape.relief_px);
 }
 
 void Viewer::load_bump(const std::filesystem::path& file) {
@@ -241,23 +262,32 @@ void Viewer::load_bump(const std::filesystem::path& file) {
 }
 
 void Viewer::save_screenshot() {
-    screenshots_.push_back(std::async(std::launch::async, write_screenshot,
-                                      read_framebuffer(window_.framebuffer_size()),
-                                      screenshot_name()));
+    const auto write = [picture = read_framebuffer(window_.framebuffer_size()),
+                        file = screenshot_name()] {
+        write_png(picture, file);
+        return "Saved " + file;
+    };
+    screenshots_.push_back(std::async(std::launch::async, write));
 }
 
 void Viewer::collect_screenshots() {
     std::erase_if(screenshots_, [this](auto& screenshot) {
         if (screenshot.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
-        tell(screenshot.get());
+        try {
+            tell(screenshot.get());
+        } catch (const InputError& error) {
+            state_.message = error.what();
+        }
         return true;
     });
 }
 
 void Viewer::write_last_picture() {
-    if (!options_.screenshot.empty()) {
-        write_png(read_framebuffer(window_.framebuffer_size()), options_.screenshot);
-    }
+    if (options_.screenshot.empty()) return;
+    // Drawn again: what a buffer holds after it was shown is up to the driver.
+    draw_scene(relief_viewport());
+    draw_panels();
+    write_png(read_framebuffer(window_.framebuffer_size()), options_.screenshot);
 }
 
 void Viewer::tell_once(const std::string& failure, std::string& told) {

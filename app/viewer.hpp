@@ -52,9 +52,11 @@ class Viewer {
     void hand_over_settings();
     void keep_settings();
     void show_media(std::unique_ptr<Media> media);
+    void frame_relief();
     void load_bump(const std::filesystem::path& file);
     void save_screenshot();
     void collect_screenshots();
+    void finish();
     void write_last_picture();
     void tell(const std::string& notice);
     /// A message box when another thread's failure is not the one `told` before.

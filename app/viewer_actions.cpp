@@ -69,6 +69,9 @@ void perform(Action action, ViewerState& state, Player& player) {
         case Action::toggle_force:
             state.force_enabled = !state.force_enabled;
             break;
+        case Action::force_off:
+            state.force_enabled = false;
+            break;
         case Action::reset_view:
             state.requests.reset_view = true;
             break;

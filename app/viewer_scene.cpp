@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/options.hpp"
+#include "core/haptics/facet.hpp"
 #include "core/haptics/surface.hpp"
 
 namespace dibhr {
@@ -12,12 +13,9 @@ namespace dibhr {
 namespace {
 
 Vec3 normal_at(const DepthSurface& surface, Vec3 p) {
-    constexpr double kReach_px = 1.0;
-    const double dx =
-        surface.elevation_at(p.x + kReach_px, p.y) - surface.elevation_at(p.x - kReach_px, p.y);
-    const double dy =
-        surface.elevation_at(p.x, p.y + kReach_px) - surface.elevation_at(p.x, p.y - kReach_px);
-    return glm::normalize(Vec3{-dx, -dy, 2.0 * kReach_px});
+    const Vec3 inside = surface.clamped_to_frame(p);
+    const Facet facet(surface, surface.triangle_at(inside.x, inside.y));
+    return glm::normalize(Vec3{-facet.slope_x(), -facet.slope_y(), 1.0});
 }
 
 TouchMarkers markers_of(const ViewerState& state, const DepthSurface& surface) {

@@ -48,7 +48,8 @@ GLFWwindow* open_window(int width, int height, const std::string& title) {
 Window::Window(int width, int height, bool sync, const std::string& title) : size_{width, height} {
     choose_display_server();
     if (glfwInit() != GLFW_TRUE) {
-        throw DeviceError("no display: set DISPLAY or run ./app/run, which makes a virtual one");
+        throw DeviceError(
+            "no display: set DISPLAY, or unset it and use ./app/run, which makes a virtual one");
     }
     window_ = open_window(width, height, title);
     if (window_ == nullptr) {
@@ -61,7 +62,8 @@ Window::Window(int width, int height, bool sync, const std::string& title) : siz
     }
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(sync ? 1 : 0);
-    glfwSetWindowSizeLimits(window_, 320, 240, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    glfwSetWindowSizeLimits(window_, kSmallestWindow, kSmallestWindow, GLFW_DONT_CARE,
+                            GLFW_DONT_CARE);
     glfwSetWindowUserPointer(window_, &input_);
     collect_events();
 }
@@ -74,10 +76,14 @@ Window::~Window() {
 void Window::collect_events() {
     glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int mods) {
         if (action == GLFW_RELEASE) return;
-        input_of(window).keys.push_back({key, (mods & GLFW_MOD_CONTROL) != 0});
+        input_of(window).keys.push_back(
+            {key, (mods & GLFW_MOD_CONTROL) != 0, action == GLFW_REPEAT});
     });
     glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned character) {
-        input_of(window).characters.push_back(character);
+        WindowInput& input = input_of(window);
+        // GLFW tells a character right after the key that typed it.
+        const bool repeated = !input.keys.empty() && input.keys.back().repeated;
+        input.characters.push_back({character, repeated});
     });
     glfwSetScrollCallback(
         window_, [](GLFWwindow* window, double, double up) { input_of(window).wheel_steps += up; });

@@ -15,12 +15,18 @@ namespace dibhr {
 struct KeyPress {
     int key{0};
     bool control{false};
+    bool repeated{false};  ///< the key is being held down
+};
+
+struct TypedCharacter {
+    unsigned code{0};  ///< Unicode code point
+    bool repeated{false};
 };
 
 /// What happened since the last call of Window::take_input().
 struct WindowInput {
     std::vector<KeyPress> keys{};
-    std::vector<unsigned> characters{};  ///< Unicode code points
+    std::vector<TypedCharacter> characters{};
     std::vector<std::filesystem::path> dropped{};
     double wheel_steps{0.0};  ///< > 0: away from the person
 };
@@ -33,6 +39,10 @@ struct Pointer {
     bool right{false};
     bool shift{false};
 };
+
+/// Least width and height of a window; on the command line, in the settings and by hand.
+inline constexpr int kSmallestWindow = 160;
+inline constexpr int kLargestWindow = 16384;
 
 /// One window with a current OpenGL 3.3 core context. Belongs to the thread that made it.
 class Window {

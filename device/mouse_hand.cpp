@@ -19,10 +19,6 @@ constexpr double kBeyondFrame_px =
     40.0;                      // how far a pressed hand may lean against the image's border
 constexpr int kLookAhead = 8;  // places looked at between a hovering hand and the cursor
 
-bool finite(Vec3 v) noexcept {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 bool sensible(const MouseTarget& target) noexcept {
     return std::isfinite(target.cursor_in_grid.x) && std::isfinite(target.cursor_in_grid.y) &&
            std::isfinite(target.wheel_px);
@@ -71,7 +67,7 @@ HandReading MouseHand::read(const HandContext& context) noexcept {
 }
 
 void MouseHand::send(Vec3 force_newton) noexcept {
-    force_newton_ = finite(force_newton) ? force_newton : Vec3{0.0};
+    force_newton_ = is_finite(force_newton) ? force_newton : Vec3{0.0};
 }
 
 void MouseHand::take_target(const DepthSurface& surface) noexcept {

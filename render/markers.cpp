@@ -44,10 +44,6 @@ Vec3 perpendicular(Vec3 unit) {
     return glm::normalize(glm::cross(unit, other));
 }
 
-bool finite(Vec3 v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 void add_force_arrow(std::vector<Stroke>& strokes, const TouchMarkers& touch, const Camera& camera,
                      double scale) {
     const double newton = glm::length(touch.force_newton);
@@ -68,7 +64,7 @@ void add_force_arrow(std::vector<Stroke>& strokes, const TouchMarkers& touch, co
 
 std::vector<Stroke> touch_strokes(const TouchMarkers& touch, const Camera& camera, double scale) {
     std::vector<Stroke> strokes;
-    if (!touch.visible || !finite(touch.goal) || !finite(touch.proxy)) return strokes;
+    if (!touch.visible || !is_finite(touch.goal) || !is_finite(touch.proxy)) return strokes;
     const glm::vec4 goal = ball(camera, touch.goal, kGoalRadius * scale);
     const glm::vec4 proxy = ball(camera, touch.proxy, kProxyRadius * scale);
     if (touch.contact) {
@@ -78,7 +74,7 @@ std::vector<Stroke> touch_strokes(const TouchMarkers& touch, const Camera& camer
         strokes.push_back({ball(camera, touch.proxy, kNormalRadius * scale),
                            ball(camera, normal_end, kNormalRadius * scale), kNormalTint});
     }
-    if (finite(touch.force_newton)) add_force_arrow(strokes, touch, camera, scale);
+    if (is_finite(touch.force_newton)) add_force_arrow(strokes, touch, camera, scale);
     strokes.push_back({goal, goal, kGoalTint, kGoalHollow});
     strokes.push_back({proxy, proxy, kProxyTint});
     return strokes;

@@ -10,6 +10,12 @@ namespace dibhr {
 
 namespace {
 
+/// The time a limit per millisecond may count on: a loop that stumbles earns no larger step [ms].
+double bounded_ms(double dt_s) noexcept {
+    constexpr double kLongest_ms = 3.0;
+    return std::min(dt_s * 1e3, kLongest_ms);
+}
+
 /// The vector shortened to `longest`, same direction. Safe for any finite length.
 Vec3 shortened(Vec3 v, double longest) noexcept {
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
@@ -25,7 +31,7 @@ SafetyCut reason_to_cut(Vec3 force_newton, const SafetyInput& input,
     if (!input.force_enabled) return SafetyCut::off;
     if (!input.device_ready) return SafetyCut::device_not_ready;
     if (!(input.dt_s > 0.0 && input.dt_s <= limits.max_tick_s)) return SafetyCut::late_tick;
-    if (!(input.goal_step_mm <= limits.max_goal_speed_mm_per_ms * input.dt_s * 1e3)) {
+    if (!(input.goal_step_mm <= limits.max_goal_speed_mm_per_ms * bounded_ms(input.dt_s))) {
         return SafetyCut::goal_jump;
     }
     return SafetyCut::none;
@@ -62,7 +68,7 @@ Vec3 SafetyStage::limit(Vec3 force_newton, const SafetyInput& input,
     ramp_age_s_ = input.restart ? 0.0 : ramp_age_s_ + input.dt_s;
     const double ramp = limits.ramp_s > 0.0 ? std::min(1.0, ramp_age_s_ / limits.ramp_s) : 1.0;
     const Vec3 wanted = shortened(force_newton, limits.max_force_newton) * ramp;
-    const double most_change = limits.max_change_newton_per_ms * input.dt_s * 1e3;
+    const double most_change = limits.max_change_newton_per_ms * bounded_ms(input.dt_s);
     const Vec3 changed = sent_newton_ + shortened(wanted - sent_newton_, most_change);
     sent_newton_ = shortened(changed, limits.max_force_newton);
     return sent_newton_;

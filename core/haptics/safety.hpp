@@ -37,6 +37,7 @@ struct SafetyInput {
     bool restart{false};       ///< start, engaging, seek, loop, new file or parameters: ramp again
 };
 
+/// Limits per millisecond count at most 3 ms of a late tick.
 /// Finite? -> length <= limit -> ramp -> change per millisecond <= limit -> zero when it must not
 /// act.
 class SafetyStage {

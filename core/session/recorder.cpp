@@ -30,7 +30,10 @@ struct Recorder::Implementation {
         thread = std::thread([this] { run(); });
     }
 
-    ~Implementation() {
+    ~Implementation() { stop(); }
+
+    void stop() {
+        if (!thread.joinable()) return;
         {
             const std::lock_guard lock(mutex);
             stopping = true;
@@ -47,7 +50,7 @@ struct Recorder::Implementation {
     void run() {
         while (!stop_asked()) drain();
         drain();
-        finish();
+        close();
     }
 
     bool stop_asked() {
@@ -90,7 +93,7 @@ struct Recorder::Implementation {
         status.bytes = bytes;
     }
 
-    void finish() {
+    void close() {
         write([&] {
             if (!transaction_begin) session->begin();
             session->set_fact("row_count", std::to_string(status.rows + uncommitted));
@@ -100,6 +103,8 @@ struct Recorder::Implementation {
             session->merge_log();
         });
         session.reset();
+        const std::lock_guard lock(mutex);
+        status.recording = false;
     }
 
     /// Does `step` unless writing broke off; when it breaks off now, says so once and lets the file
@@ -139,6 +144,11 @@ Recorder::Recorder(const std::filesystem::path& file, TickRing& ring,
     : implementation_(std::make_unique<Implementation>(file, ring, facts)) {}
 
 Recorder::~Recorder() = default;
+
+RecorderStatus Recorder::finish() {
+    implementation_->stop();
+    return status();
+}
 
 RecorderStatus Recorder::status() const {
     const std::lock_guard lock(implementation_->mutex);

@@ -54,6 +54,9 @@ class Recorder {
 
     [[nodiscard]] RecorderStatus status() const;
 
+    /// Drains what is left and closes the file; the last word on how it went. May be called twice.
+    RecorderStatus finish();
+
   private:
     struct Implementation;
     std::unique_ptr<Implementation> implementation_;

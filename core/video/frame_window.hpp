@@ -57,7 +57,7 @@ struct FrameWindow {
     std::size_t count{0};
     PlaybackClock clock{};
     std::uint64_t discontinuity{
-        0};  ///< counts seeks, jumps and new files: the force ramps after each
+        0};  ///< counts seeks, loops, jumps and new files: the force ramps after each
 
     /// The pair around playback time `s`, held at the first and last frame. Null when there is
     /// none.

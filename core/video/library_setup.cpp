@@ -13,6 +13,16 @@
 
 namespace dibhr {
 
+namespace {
+
+/// stderr belongs to the whole process: two that silence it at once could leave it silent.
+std::mutex& only_one() {
+    static std::mutex mutex;
+    return mutex;
+}
+
+}  // namespace
+
 void set_up_libraries() {
     static std::once_flag once;
     std::call_once(once, [] {
@@ -25,7 +35,7 @@ void set_up_libraries() {
     });
 }
 
-QuietErrors::QuietErrors() {
+QuietErrors::QuietErrors() : alone_(only_one()) {
     if (std::getenv("OPENCV_LOG_LEVEL") != nullptr) return;
     const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
     if (nowhere < 0) return;

@@ -1,6 +1,8 @@
 // Brings OpenCV and FFmpeg into the state this room needs: silent, and on our own threads only.
 #pragma once
 
+#include <mutex>
+
 namespace dibhr {
 
 /// Once per process, before the first file is opened. The user's own OPENCV_LOG_LEVEL and
@@ -18,6 +20,7 @@ class QuietErrors {
     QuietErrors& operator=(const QuietErrors&) = delete;
 
   private:
+    std::unique_lock<std::mutex> alone_;
     int kept_{-1};  ///< the stream's own descriptor
 };
 

@@ -120,6 +120,7 @@ bool Playback::advance(Time now) {
     while (frames_.size() > 1 && frames_[1].time_s <= playback_s) {
         frames_.pop_front();
         changed = true;
+        if (at_seam()) ++discontinuity_;
     }
     if (complete_ && frames_.size() == 1) {
         playing_ = false;
@@ -148,7 +149,12 @@ bool Playback::feed() {
     if (!next) return false;
     next->time_s = time_s;
     frames_.push_back(std::move(*next));
+    if (frames_.size() == 2 && at_seam()) ++discontinuity_;
     return true;
+}
+
+bool Playback::at_seam() const {
+    return frames_.size() > 1 && frames_[1].media_s <= frames_[0].media_s;
 }
 
 void Playback::hold_if_starved(Time now) {

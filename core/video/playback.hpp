@@ -13,8 +13,9 @@
 namespace dibhr {
 
 /// Belongs to the player's thread; every time comes in as an argument. The timeline only ever
-/// grows: it goes on across loops without a seam, and a jump begins a moment later than all that
-/// was shown.
+/// grows: it goes on across loops, where the last frame blends into the first and the discontinuity
+/// rises (not every recording ends as it began), and a jump begins a moment later than all that was
+/// shown.
 class Playback {
   public:
     using Time = std::chrono::steady_clock::time_point;
@@ -57,7 +58,8 @@ class Playback {
     void jump_to(Frame frame, Time now);
     void anchor(double playback_s, Time now);
     [[nodiscard]] double moment(Time now) const;  ///< playback time, held at the newest frame
-    [[nodiscard]] bool single() const;            ///< one frame is all there is
+    [[nodiscard]] bool at_seam() const;  ///< from the last frame to the first of the next lap
+    [[nodiscard]] bool single() const;   ///< one frame is all there is
 
     std::unique_ptr<FrameReader> reader_{};
     std::deque<Frame> frames_{};  ///< from the shown one on

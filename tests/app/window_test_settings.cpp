@@ -7,8 +7,11 @@
 #include "app/keys.hpp"
 #include "app/options.hpp"
 #include "app/settings.hpp"
+#include "app/viewer_actions.hpp"
 #include "app/viewer_keeping.hpp"
+#include "app/viewer_state.hpp"
 #include "core/error.hpp"
+#include "core/video/player.hpp"
 #include "tests/app/window_test_desk.hpp"
 #include "tests/support/catch.hpp"
 
@@ -149,11 +152,23 @@ TEST_CASE("no key does two things, and every job is on the help sheet", "[keys]"
     }
 }
 
-TEST_CASE("the force can be switched off by a key while text is typed", "[keys]") {
+TEST_CASE("one key takes the force off, also while text is typed, and never puts it on", "[keys]") {
     bool reachable = false;
     for (const KeyBinding& binding : key_bindings()) {
-        if (binding.action == Action::toggle_force) reachable = reachable || binding.while_typing;
+        if (binding.action == Action::force_off) reachable = reachable || binding.while_typing;
     }
     CHECK(reachable);
+    Player player;
+    ViewerState state;
+    perform(Action::force_off, state, player);
+    CHECK_FALSE(state.force_enabled);
+    perform(Action::force_off, state, player);
+    CHECK_FALSE(state.force_enabled);
+}
+
+TEST_CASE("a key held down does not switch anything again and again", "[keys]") {
     CHECK(action_of_character('F') == Action::toggle_force);
+    CHECK_FALSE(action_of_character('F', true));
+    CHECK_FALSE(action_of_character('s', true));
+    CHECK(action_of_character('.', true) == Action::step_forward);
 }

@@ -61,6 +61,19 @@ TEST_CASE("the sent force changes by no more than the limit per millisecond, exc
     }
 }
 
+TEST_CASE("a late tick earns neither a larger step of the force nor a longer way of the goal",
+          "[safety]") {
+    const SafetyLimits limits;
+    SafetyInput input;
+    input.dt_s = 0.015;
+    SafetyStage stage = warmed_up(Vec3(0.0), limits);
+    CHECK(glm::length(stage.limit({0.0, 0.0, 4.0}, input, limits)) <=
+          3.0 * limits.max_change_newton_per_ms + 1e-12);
+    input.goal_step_mm = 31.0;
+    CHECK(stage.limit({0.0, 0.0, 4.0}, input, limits) == Vec3(0.0));
+    CHECK(stage.last_cut() == SafetyCut::goal_jump);
+}
+
 TEST_CASE("a force within all limits passes unchanged", "[safety]") {
     const SafetyLimits limits;
     SafetyStage stage = warmed_up({1.0, 0.0, 2.0}, limits);
