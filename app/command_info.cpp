@@ -23,8 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 void print_fact(std::string_view name, std::string_view value) {
-    constexpr int kNameWidth = 12;
-    std::cout << "  " << std::left << std::setw(kNameWidth) << name << value << '\n';
+    constexpr int kNameWidth = 17;
+    std::cout << "  " << std::left << std::setw(kNameWidth) << name << ' ' << value << '\n';
 }
 
 std::string rounded(double value, int digits) {
@@ -35,6 +35,7 @@ std::string rounded(double value, int digits) {
 
 bool is_session(const fs::path& file) {
     if (file.extension() == ".dibhr") return true;
+    if (!fs::is_regular_file(file)) return false;  // a pipe would be waited for
     constexpr std::string_view kSqliteMagic = "SQLite format 3";
     std::array<char, kSqliteMagic.size()> start{};
     std::ifstream stream(file, std::ios::binary);

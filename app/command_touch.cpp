@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t kBlockRows = 4096;
 constexpr std::size_t kRoomPerRow_bytes = 400;
-constexpr double kFirstTick_s = 0.001;
+constexpr double kUsualTick_s = 0.001;
 
 void refuse_to_overwrite_input(const TouchOptions& options) {
     for (const auto& input : {options.depth, options.goals, options.bump}) {
@@ -54,7 +54,9 @@ class TouchRun {
   private:
     OutputRow update(const TimedGoal& goal) {
         if (depth_.advance_to(goal.t_s)) input_.restart = true;
-        input_.dt_s = last_t_s_ ? goal.t_s - *last_t_s_ : kFirstTick_s;
+        // Recorded hands have equal time stamps: still an update, of the usual length.
+        const double step_s = last_t_s_ ? goal.t_s - *last_t_s_ : 0.0;
+        input_.dt_s = step_s > 0.0 ? step_s : kUsualTick_s;
         const DepthSurface surface = depth_.surface(parameters_.shape, bump_ ? &*bump_ : nullptr);
 
         const auto start = std::chrono::steady_clock::now();

@@ -213,7 +213,7 @@ class Filling {
 std::string content_of(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
     std::ostringstream content;
-    if (in && fs::is_regular_file(file)) content << in.rdbuf();
+    if (in && fs::is_regular_file(file) && fs::file_size(file) > 0) content << in.rdbuf();
     if (!in || content.fail() || !fs::is_regular_file(file)) {
         throw InputError("cannot read the settings file " + file.string() +
                          ": make it readable or delete it");

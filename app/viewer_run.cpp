@@ -29,6 +29,10 @@ void require_writable_outputs(const ViewOptions& options) {
     if (!options.screenshot.empty()) require_writable_folder(options.screenshot, "--screenshot");
     if (options.record.empty()) return;
     require_writable_folder(options.record, "--record");
+    if (options.record == options.screenshot) {
+        throw InputError(options.record.string() +
+                         " cannot be both recording and screenshot: give them two names");
+    }
     if (fs::exists(options.record)) {
         throw InputError(options.record.string() +
                          " exists already: move it away or give --record another name");

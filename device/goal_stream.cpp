@@ -63,6 +63,9 @@ std::string whole_text(const std::filesystem::path& file) {
     if (std::filesystem::is_directory(file, ignored)) {
         throw InputError(file.string() + ": is a folder; give a CSV file with the columns t,x,y,z");
     }
+    if (std::filesystem::is_character_file(file, ignored)) {
+        throw InputError(file.string() + ": is a device; give a CSV file with the columns t,x,y,z");
+    }
     std::ifstream stream(file, std::ios::binary);
     if (!stream) {
         throw InputError(file.string() + ": cannot be opened (" + std::strerror(errno) +

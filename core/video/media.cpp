@@ -170,8 +170,9 @@ std::unique_ptr<Media> open_media(const fs::path& colour, const fs::path& depth)
         throw InputError(shown(depth) +
                          " is depth alone: give the colour file that belongs to it, too");
     require_readable(colour);
-    const fs::path depth_file = depth_file_for(colour, depth);
+    // First, so that a colour file that cannot be read is not blamed on a missing depth file.
     auto colour_source = open_picture_source(colour, PictureRole::colour);
+    const fs::path depth_file = depth_file_for(colour, depth);
     return std::make_unique<PairedMedia>(open_picture_source(depth_file, PictureRole::depth),
                                          ColourTrack(std::move(colour_source)));
 }

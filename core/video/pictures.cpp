@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
@@ -121,20 +122,22 @@ void write_png(const ColourImage& picture, const fs::path& file) {
     std::vector<std::uint8_t> png;
     cv::imencode(".png", bgr, png);
 
-    fs::path part = file;
-    part += ".part-" + std::to_string(::getpid());
+    std::error_code unknown;
+    const bool replaceable = !fs::exists(file, unknown) || fs::is_regular_file(file, unknown);
+    fs::path part = file;  // a device or a pipe is written to, never replaced
+    if (replaceable) part += ".part-" + std::to_string(::getpid());
     std::ofstream out(part, std::ios::binary | std::ios::trunc);
     out.write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
     out.close();
-    int cause = out ? 0 : errno;
+    int cause = out ? 0 : std::max(errno, 1);
     std::error_code failed;
-    if (cause == 0) {
+    if (cause == 0 && replaceable) {
         fs::rename(part, file, failed);
         cause = failed.value();
     }
     if (cause == 0) return;
     std::error_code ignored;
-    fs::remove(part, ignored);
+    if (replaceable) fs::remove(part, ignored);
     throw InputError(shown(file) + " cannot be written (" + std::strerror(cause) +
                      "): choose a folder you may write to");
 }

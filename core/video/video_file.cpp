@@ -5,6 +5,9 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <iomanip>
+#include <optional>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -17,8 +20,11 @@
 namespace dibhr {
 namespace {
 
-constexpr double kNearAhead_s = 1.0;  ///< up to here decoding on is as quick as a jump
-constexpr double kLongest_s = 1e6;    ///< bounds a seek into a file of unknown length
+constexpr double kNearAhead_s = 1.0;   ///< up to here decoding on is as quick as a jump
+constexpr double kMissing_s = 0.5;     ///< less than this at the end is a container's rounding,
+constexpr double kMissingPart = 0.15;  ///< and less than this part may be a long last frame
+constexpr int kMostProbed = 3000;      ///< frames looked through for the end of a file
+constexpr double kLongest_s = 1e6;     ///< bounds a seek into a file of unknown length
 
 std::string text_of_fourcc(int fourcc) {
     std::string text;
@@ -54,6 +60,43 @@ bool is_sixteen_bit_grey(int pixel_format) {
     return pixel_format == 0x10003159 || pixel_format == 0x59310010;
 }
 
+bool open_capture(cv::VideoCapture& capture, const std::filesystem::path& file) {
+    try {
+        // Absolute, so that a colon in a name is no protocol.
+        return capture.open(std::filesystem::absolute(file).string(), cv::CAP_FFMPEG);
+    } catch (const cv::Exception&) {
+        return false;
+    }
+}
+
+/// Time of the last frame from here on; nothing when the end is too far to look for.
+std::optional<double> last_time_s(cv::VideoCapture& capture) {
+    double last_s = -1.0;
+    for (int read = 0; capture.grab(); ++read) {
+        if (read == kMostProbed) return std::nullopt;
+        last_s = std::max(last_s, capture.get(cv::CAP_PROP_POS_MSEC) / 1000.0);
+    }
+    return last_s;
+}
+
+/// A copy that broke off still opens: its header promises more than the file holds.
+void require_whole(const std::filesystem::path& file, double promised_s) {
+    const double least_s = promised_s - std::max(kMissing_s, kMissingPart * promised_s);
+    cv::VideoCapture capture;
+    if (!(least_s > 0.0) || !open_capture(capture, file)) return;
+    capture.set(cv::CAP_PROP_POS_MSEC, least_s * 1000.0);
+    auto last_s = last_time_s(capture);
+    if (last_s && *last_s < least_s) {  // or the file cannot jump: look through it
+        if (!open_capture(capture, file)) return;
+        last_s = last_time_s(capture);
+    }
+    if (!last_s || *last_s >= least_s) return;
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(1) << shown(file) << " is cut off: it ends at "
+         << *last_s << " s of " << promised_s << " s; copy or export it again";
+    throw InputError(text.str());
+}
+
 }  // namespace
 
 VideoFile::VideoFile(const std::filesystem::path& file) {
@@ -61,24 +104,18 @@ VideoFile::VideoFile(const std::filesystem::path& file) {
     facts_.file = file;
     open();
     read_facts();
+    const double promised_s = facts_.duration_s;
     if (!grab())
         throw InputError(shown(file) + " holds no picture that can be decoded: record it again");
     ahead_.push_back({retrieve(), time_s_, index_});
     facts_.columns = ahead_.front().picture.cols;
     facts_.rows = ahead_.front().picture.rows;
     require_size(file, facts_.columns, facts_.rows);
+    require_whole(file, promised_s);
 }
 
 void VideoFile::open() {
-    bool opened = false;
-    try {
-        // Absolute, so that a colon in a name is no protocol.
-        const auto path = std::filesystem::absolute(facts_.file).string();
-        opened = capture_.open(path, cv::CAP_FFMPEG);
-    } catch (const cv::Exception&) {
-        opened = false;
-    }
-    if (!opened)
+    if (!open_capture(capture_, facts_.file))
         throw InputError(
             shown(facts_.file) +
             " cannot be opened as a video: it is cut off, has no video stream or is of "

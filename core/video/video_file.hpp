@@ -18,7 +18,8 @@ namespace dibhr {
 /// forward.
 class VideoFile : public PictureSource {
   public:
-    /// Reads the first frame. Throws InputError when the file cannot be opened or holds none.
+    /// Reads the first frame. Throws InputError when the file cannot be opened, holds none,
+    /// or ends well before its header says.
     explicit VideoFile(const std::filesystem::path& file);
 
     [[nodiscard]] const SourceFacts& facts() const override { return facts_; }
