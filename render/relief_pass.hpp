@@ -5,9 +5,11 @@
 #include <glm/mat4x4.hpp>
 #include <map>
 #include <memory>
+#include <vector>
 
 #include "render/gl_objects.hpp"
 #include "render/relief_grid.hpp"
+#include "render/relief_rims.hpp"
 #include "render/scene_view.hpp"
 #include "render/textures.hpp"
 
@@ -24,6 +26,7 @@ class ReliefPass {
     /// What differs between shader programs.
     struct Variant {
         bool wall{false};
+        bool rim{false};
         bool rough{false};
         bool textured{false};
         bool silhouettes{false};
@@ -31,6 +34,7 @@ class ReliefPass {
     };
 
     void build(const ReliefGrid& grid);
+    void tear(const SceneContent& content);
     void bind_textures(const SceneContent& content, const Variant& variant);
     const ShaderProgram& prepared(const Variant& variant, const SceneContent& content,
                                   const glm::mat4& clip_from_world);
@@ -38,14 +42,21 @@ class ReliefPass {
     GlLimits limits_{};
     std::map<Variant, std::unique_ptr<ShaderProgram>> programs_{};
     DepthTextures depth_{};
+    DepthTextures detail_{};  ///< as fine as can be, for the outlines
     BumpTexture bump_{};
     ColourTexture colour_{};
     ReliefGrid grid_{};
+    ReliefGrid detail_grid_{};
     GlVertexArray surface_{};
     GlBuffer surface_vertices_{};
     GlBuffer surface_indices_{};
     GlVertexArray wall_{};
     GlBuffer wall_vertices_{};
+    GlVertexArray rim_{};
+    GlBuffer rim_vertices_{};
+    std::vector<float> elevations_{};
+    Rims torn_{};
+    GridTexture loose_{};
     GLsizei index_count_{0};
     GLsizei wall_count_{0};
 };

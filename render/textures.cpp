@@ -42,7 +42,7 @@ void GridTexture::upload(int columns, int rows, const float* values) {
         return;
     }
     glTexImage2D(GL_TEXTURE_2D, 0, GL_R32F, columns, rows, 0, GL_RED, GL_FLOAT, values);
-    filter(GL_NEAREST, GL_NEAREST);
+    filter(GL_LINEAR, GL_LINEAR);
     columns_ = columns;
     rows_ = rows;
 }

@@ -13,7 +13,7 @@
 
 namespace dibhr {
 
-/// A texture of one float a vertex of the drawn grid; unfiltered.
+/// A texture of one float a vertex of the grid.
 class GridTexture {
   public:
     /// Row-major, `columns * rows` values.

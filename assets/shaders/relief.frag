@@ -1,8 +1,17 @@
 #version 330 core
-// The relief's colour. Defines: TEXTURED (else clay), SILHOUETTES (leave out what is too steep), WALL.
+// The relief's colour. Defines: TEXTURED (else clay), SILHOUETTES (leave out what is too steep), WALL,
+// RIM (a layer that goes on beyond a silhouette: only what agrees with the depth image is shown).
 
 in vec3 lifted;
 in float shade;
+#ifdef RIM
+in vec2 layer;
+uniform sampler2D detail_from;  // levels, as fine as can be
+uniform sampler2D detail_to;
+uniform float blend;
+uniform float px_per_level;
+uniform int detail_step;
+#endif
 
 uniform sampler2D colour;
 uniform float slope_limit;
@@ -18,6 +27,12 @@ void main() {
 #ifdef WALL
     pixel = vec4(kWall * (0.45 + 0.55 * shade), 1.0);
 #else
+#ifdef RIM
+    vec2 texel = (lifted.xy * vec2(image) - 0.5) / float(detail_step) + 0.5;
+    vec2 at = texel / vec2(textureSize(detail_from, 0));
+    float there = px_per_level * mix(texture(detail_from, at).r, texture(detail_to, at).r, blend);
+    if (abs(there - layer.x) > layer.y) discard;
+#endif
 #ifdef SILHOUETTES
     vec3 in_grid = vec3(lifted.xy * vec2(image), lifted.z);
     vec3 across = cross(dFdx(in_grid), dFdy(in_grid));  // normal of this triangle

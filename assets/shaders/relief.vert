@@ -1,12 +1,19 @@
 #version 330 core
 // The relief: one corner of the drawn grid, lifted by the two depth images, the blend and the bump map.
 // Defines: ROUGH (there is a bump map), WALL (the sides that close the relief; every second vertex is
-// on the ground).
+// on the ground), SILHOUETTES (loose vertices are torn off),
+// RIM (a layer at a silhouette: a corner as high and bright as another vertex).
 
 layout(location = 0) in uvec2 corner;  // column and row in the drawn grid
+#ifdef RIM
+layout(location = 1) in uvec2 source;
+layout(location = 2) in float tolerance_px;
+out vec2 layer;  // elevation without bumps, tolerance
+#endif
 
 uniform sampler2D depth_from;  // levels
 uniform sampler2D depth_to;
+uniform sampler2D loose;  // 1: between two faces, all triangles there are torn
 uniform sampler2D bump;  // height in [0, 1]
 uniform float blend;
 uniform float px_per_level;
@@ -22,16 +29,20 @@ uniform mat4 clip_from_world;
 out vec3 lifted;  // normalised place in the picture, elevation
 out float shade;  // factor on the colour; on walls, height over the ground in [0, 1]
 
+const float kTorn_px = 1e6;  // steeper than any limit
 const vec3 kKey = vec3(-0.46, 0.55, 0.70);  // from the upper left, towards the viewer
 const vec3 kFill = vec3(0.64, -0.10, 0.76);
 const vec3 kGloss = vec3(-0.25, 0.30, 0.92);  // half way between key and eye
 
+float level(ivec2 at) {
+    return texelFetch(depth_from, at, 0).r * (1.0 - blend) + texelFetch(depth_to, at, 0).r * blend;
+}
+
 float elevation(ivec2 at) {
-    float level = texelFetch(depth_from, at, 0).r * (1.0 - blend) + texelFetch(depth_to, at, 0).r * blend;
 #ifdef ROUGH
-    return px_per_level * level + roughness_px * texelFetch(bump, at, 0).r;
+    return px_per_level * level(at) + roughness_px * texelFetch(bump, at, 0).r;
 #else
-    return px_per_level * level;
+    return px_per_level * level(at);
 #endif
 }
 
@@ -55,7 +66,12 @@ float lit(vec3 normal) {
 float brightness(vec3 normal) { return mix(1.0, lit(normal) / lit(vec3(0.0, 0.0, 1.0)), light); }
 
 void main() {
+#ifdef RIM
+    ivec2 at = ivec2(source);
+    layer = vec2(px_per_level * level(at), tolerance_px);
+#else
     ivec2 at = ivec2(corner);
+#endif
     vec2 here = in_image(at);
     float z = elevation(at);
 #ifdef WALL
@@ -73,7 +89,11 @@ void main() {
                      vec2(to_low.y, to_high.y));
     shade = brightness(normalize(vec3(-dx, dy, 1.0)));
 #endif
+    here = in_image(ivec2(corner));
     lifted = vec3((here + 0.5) / vec2(image), z);
+#ifdef SILHOUETTES
+    lifted.z += kTorn_px * texelFetch(loose, at, 0).r;
+#endif
     vec3 world = vec3(here.x - 0.5 * float(image.x - 1), 0.5 * float(image.y - 1) - here.y, z);
     gl_Position = clip_from_world * vec4(world, 1.0);
 }
