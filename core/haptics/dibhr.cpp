@@ -12,8 +12,11 @@ namespace dibhr {
 namespace {
 
 /// Far more primitives than any path of a hand's step visits; grows with the cells it may cross.
+/// The foot of a goal far below a slope lies as far to the side.
 int most_moves(Vec3 proxy, Vec3 goal) noexcept {
-    return 256 + 64 * static_cast<int>(std::abs(goal.x - proxy.x) + std::abs(goal.y - proxy.y));
+    const Vec3 way = goal - proxy;
+    return 256 + static_cast<int>(
+                     64.0 * std::min(std::abs(way.x) + std::abs(way.y) + std::abs(way.z), 1e6));
 }
 
 }  // namespace
@@ -29,6 +32,7 @@ const Proxy& Dibhr::update(const DepthSurface& surface, Vec3 goal,
     }
 
     proxy_.moves = 0;
+    proxy_.bound_met = false;
     SurfaceWalk walk(surface, goal_in_frame, friction, proxy_);
     walk.run(most_moves(proxy_.position, goal_in_frame));
     return proxy_;

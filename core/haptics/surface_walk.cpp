@@ -231,7 +231,7 @@ SurfaceWalk::Next SurfaceWalk::slide_along_edge() noexcept {
     const bool past_begin = foot_along <= 0.0;
     const bool past_an_end = past_begin || foot_along >= 1.0;
     // Without friction a foot at the very end is the VERTEX's to judge.
-    if (piece.sticks && (piece.cone2 > 0.0 || !past_an_end)) return Next::rest;
+    if (piece.sticks && (piece.stick2 > 0.0 || !past_an_end)) return Next::rest;
     if (past_an_end) {
         const Vec3 corner = past_begin ? begin : end;
         const Vec3 beyond = foot - corner;
@@ -273,8 +273,9 @@ SurfaceWalk::Piece SurfaceWalk::piece_to(Vec3 foot, double distance2) const noex
     const double length2 = dot(way, way);
     const double mu_d = friction_.dynamic_coefficient;
     const double mu_now = proxy_.slipping ? mu_d : friction_.static_coefficient;
-    const double sticking2 = square(mu_now) * distance2 * kConeRounding + square(kThere_px);
-    return {foot, length2, square(mu_d) * distance2, length2 <= sticking2};
+    const double stick2 = square(mu_now) * distance2;
+    const bool sticks = length2 <= stick2 * kConeRounding + square(kThere_px);
+    return {foot, length2, square(mu_d) * distance2, stick2, sticks};
 }
 
 SurfaceWalk::Next SurfaceWalk::stop_at_cone(const Piece& piece) noexcept {

@@ -36,6 +36,7 @@ class SurfaceWalk {
         Vec3 foot{0.0};       ///< the goal's foot on the piece's line: the proxy wants to go there
         double length2{0.0};  ///< from the proxy to the foot, squared
         double cone2{0.0};    ///< radius of the cone at the foot for a proxy that moves, squared
+        double stick2{0.0};   ///< of the cone in which the proxy, as it is now, stays; squared
         bool sticks{false};   ///< the proxy is inside the cone already
     };
 

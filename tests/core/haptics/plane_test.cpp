@@ -194,3 +194,30 @@ TEST_CASE("a surface that rises past a free proxy lifts it and makes contact", "
     CHECK_THAT(lifted.position.z, WithinAbs(120.0, 1e-12));
     CHECK_FALSE(dibhr.update({low, high, 0.0, {255.0, 0.0}}, goal, {}).contact);
 }
+
+TEST_CASE("a goal far straight below a slope is followed to its foot in one update", "[plane]") {
+    const double below = GENERATE(60.0, 150.0, 210.0);
+    const DepthImage image = test::tilted(256, 200, 100.0, 100.0, 10000.0);
+    const DepthSurface surface(image, image, 0.0, {655.35, 0.0});
+    Dibhr dibhr;
+    dibhr.update(surface, {240.0, 100.0, 900.0}, {0.0, 0.0});
+    const Proxy& proxy = dibhr.update(surface, {240.0, 100.0, 440.0 - below}, {0.0, 0.0});
+    CHECK_FALSE(proxy.bound_met);
+    // z = x + y + 100: the foot lies a third of the way aside in x and in y.
+    CHECK_THAT(proxy.position.x, WithinAbs(240.0 - below / 3.0, 1e-9));
+    CHECK_THAT(proxy.position.y, WithinAbs(100.0 - below / 3.0, 1e-9));
+}
+
+TEST_CASE("static friction holds in a crease and on a vertex also without dynamic friction",
+          "[friction]") {
+    // A valley along the column x = 20; the goal moves along it under its VERTEXes.
+    const DepthImage image =
+        test::image_of(41, 80, 255.0, [](int i, int) { return 50.0 + 3.0 * std::abs(i - 20); });
+    const DepthSurface surface(image, image, 0.0, {255.0, 0.0});
+    Dibhr dibhr;
+    for (const double y : {10.5, 10.9, 12.0, 14.0, 20.0}) {
+        const Vec3 at = dibhr.update(surface, {20.0, y, 30.0}, {1.0, 0.0}).position;
+        CHECK_THAT(at.y, WithinAbs(10.5, 1e-9));
+    }
+    CHECK(dibhr.update(surface, {20.0, 31.0, 30.0}, {1.0, 0.0}).position.y > 30.0);
+}
