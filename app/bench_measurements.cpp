@@ -12,6 +12,7 @@
 #include "app/haptic_loop.hpp"
 #include "core/experiment/goal_paths.hpp"
 #include "core/haptics/dibhr.hpp"
+#include "core/haptics/touch.hpp"
 #include "core/realtime/tick_timer.hpp"
 #include "core/video/player.hpp"
 #include "device/goal_stream.hpp"
@@ -53,9 +54,11 @@ std::vector<UpdateRun> measure_updates(const BenchResults& settings, int columns
          {std::pair{"linear", &linear_goal}, std::pair{"circle", &circle_goal}}) {
         std::vector<Vec3> goals(kUpdates);
         for (int k = 0; k < kUpdates; ++k) goals[static_cast<std::size_t>(k)] = goal_at(place, k);
-        Dibhr dibhr;
-        runs.push_back(
-            {name, columns, rows, time_updates(dibhr, surface, goals, {settings.mu, settings.mu})});
+        for (const Algorithm algorithm : all_algorithms()) {
+            const auto proxy = make_algorithm(algorithm);
+            runs.push_back({algorithm, name, columns, rows,
+                            time_updates(*proxy, surface, goals, {settings.mu, settings.mu})});
+        }
     }
     return runs;
 }

@@ -7,11 +7,13 @@
 
 #include "core/experiment/sample_statistics.hpp"
 #include "core/experiment/update_timing.hpp"
+#include "core/haptics/algorithm.hpp"
 
 namespace dibhr {
 
 /// One of the paper's runs on one flat image, two depth images blended.
 struct UpdateRun {
+    Algorithm algorithm{};
     std::string path{};  ///< "linear" or "circle"
     int columns{0};
     int rows{0};

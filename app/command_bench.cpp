@@ -41,11 +41,13 @@ std::string table_of(const BenchResults& results) {
     text << "  " << std::left << std::setw(38) << "" << std::right;
     for (const char* head : {"median", "mean", "p99", "p99.9", "max"})
         text << std::setw(11) << head;
-    text << "\n\nDIBHR update, mu " << results.mu << ", depth " << results.depth_px
+    text << "\n\nUpdate, mu " << results.mu << ", depth " << results.depth_px
          << " px, two blended images (reading the clock, " << results.clock_us
          << " us, is part of each)\n";
     for (const UpdateRun& run : results.updates) {
-        text << row(run.path + " " + size_text(run.columns, run.rows), run.timing.update_us, "us");
+        text << row(
+            name_of(run.algorithm) + (" " + run.path) + " " + size_text(run.columns, run.rows),
+            run.timing.update_us, "us");
     }
     text << "\nA goal that jumps from corner to corner\n";
     for (const TeleportRun& run : results.teleports) {
@@ -91,13 +93,13 @@ std::string size_json(int columns, int rows) {
 
 std::string json_of(const BenchResults& results) {
     std::ostringstream json;
-    json << "{\n  \"algorithm\": \"dibhr\", \"mu\": " << results.mu
-         << ", \"depth_px\": " << results.depth_px << ", \"clock_us\": " << results.clock_us
-         << ",\n  \"updates\": [";
+    json << "{\n  \"mu\": " << results.mu << ", \"depth_px\": " << results.depth_px
+         << ", \"clock_us\": " << results.clock_us << ",\n  \"updates\": [";
     const char* separator = "\n    ";
     for (const UpdateRun& run : results.updates) {
-        json << separator << "{\"path\": \"" << run.path << "\", "
-             << size_json(run.columns, run.rows) << ", " << json_of(run.timing.update_us, "us")
+        json << separator << "{\"algorithm\": \"" << name_of(run.algorithm) << "\", \"path\": \""
+             << run.path << "\", " << size_json(run.columns, run.rows) << ", "
+             << json_of(run.timing.update_us, "us")
              << ", \"moves\": " << run.timing.moves_per_update << "}";
         separator = ",\n    ";
     }

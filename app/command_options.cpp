@@ -8,6 +8,8 @@
 #include <sstream>
 #include <system_error>
 
+#include "core/haptics/algorithm.hpp"
+
 namespace dibhr {
 namespace {
 
@@ -33,11 +35,19 @@ std::string placeholder_of(const NumberOption& option) {
     return name;
 }
 
+std::string algorithm_names() {
+    std::string names;
+    for (const Algorithm algorithm : all_algorithms()) {
+        names += (names.empty() ? "" : ", ") + std::string(name_of(algorithm));
+    }
+    return names;
+}
+
 std::string range_of(double lowest, double highest) {
     return text_of(lowest) + " to " + text_of(highest);
 }
 
-void add_number(CLI::App& app, GivenNumbers& given, const NumberOption& option) {
+void add_number(CLI::App& app, GivenParameters& given, const NumberOption& option) {
     const std::string name = "--" + std::string(option.name);
     TouchParameters defaults;
     app.add_option_function<std::string>(
@@ -53,7 +63,8 @@ void add_number(CLI::App& app, GivenNumbers& given, const NumberOption& option) 
 
 }  // namespace
 
-void GivenNumbers::apply(TouchParameters& parameters) const {
+void GivenParameters::apply(TouchParameters& parameters) const {
+    if (algorithm) parameters.algorithm = *algorithm;
     if (friction) parameters.friction = {*friction, *friction};
     const double* dynamic = nullptr;
     for (const auto& [option, value] : numbers) {
@@ -86,14 +97,14 @@ double parse_number(const std::string& option, const std::string& text, double l
 void add_touch_options(CLI::App& app, TouchRequest& request) {
     app.add_option_function<std::string>(
            "--algorithm",
-           [](const std::string& name) {
-               if (name != "dibhr") {
-                   throw CLI::ValidationError(
-                       "--algorithm",
-                       "'" + name + "' is not in this version, which has dibhr only");
+           [&request](const std::string& name) {
+               request.given.algorithm = algorithm_named(name);
+               if (!request.given.algorithm) {
+                   throw CLI::ValidationError("--algorithm",
+                                              "'" + name + "' is none of " + algorithm_names());
                }
            },
-           "How the proxy follows the goal: dibhr")
+           "How the proxy follows the goal: " + algorithm_names())
         ->type_name("NAME")
         ->default_str("dibhr");
     app.add_option_function<std::string>(

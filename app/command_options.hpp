@@ -18,8 +18,10 @@ class UsageError : public Error {
     using Error::Error;
 };
 
-/// The numbers the command line gave: they beat what a settings file or the program's defaults say.
-struct GivenNumbers {
+/// The algorithm and the numbers the command line gave: they beat what a settings file or the
+/// program's defaults say.
+struct GivenParameters {
+    std::optional<Algorithm> algorithm{};
     std::vector<std::pair<const NumberOption*, double>> numbers{};
     std::optional<double>
         friction{};  ///< --friction: both coefficients, unless one is given by itself
@@ -30,7 +32,7 @@ struct GivenNumbers {
 
 /// What all commands that compute forces take.
 struct TouchRequest {
-    GivenNumbers given{};
+    GivenParameters given{};
     std::string bump{};     ///< --bump IMAGE; empty: none
     bool raw_depth{false};  ///< --raw-depth
 };

@@ -84,7 +84,7 @@ class TouchRun {
     TouchParameters parameters_;
     DepthInTime depth_;
     std::optional<BumpMap> bump_{};
-    TouchRenderer renderer_{make_algorithm(Algorithm::dibhr)};
+    TouchRenderer renderer_{};
     SafetyInput input_{};
     SafetyLimits limits_{};
     std::optional<double> last_t_s_{};

@@ -31,8 +31,7 @@ bool same_size(const DepthImage& a, const DepthImage& b) {
 
 }  // namespace
 
-HapticTick::HapticTick(const HapticConnections& connections)
-    : to_(connections), renderer_(make_algorithm(Algorithm::dibhr)) {}
+HapticTick::HapticTick(const HapticConnections& connections) : to_(connections) {}
 
 void HapticTick::run(const TickTiming& timing, std::uint64_t late_ticks) noexcept {
     if (state_.ticks == 0) start_ = second_begin_ = timing.begin;

@@ -91,7 +91,7 @@ class HapticTick {
     void count(const TickTiming& timing, double update_us) noexcept;
 
     HapticConnections to_;
-    TouchRenderer renderer_;
+    TouchRenderer renderer_{};
     HapticState state_{};
     std::uint64_t version_{~0ull};
     std::uint64_t discontinuity_{~0ull};

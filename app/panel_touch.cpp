@@ -1,5 +1,6 @@
 // The Touch panel: what is computed at each tick, from the table of options.
 #include <algorithm>
+#include <array>
 #include <string>
 #include <string_view>
 
@@ -11,6 +12,16 @@
 namespace dibhr {
 
 namespace {
+
+constexpr std::array kAlgorithmLabels{"DIBHR", "Proxy graph (PGA)", "Neighborhood", "God-object"};
+
+void draw_algorithm(Algorithm& algorithm) {
+    int chosen = static_cast<int>(algorithm);
+    choice_row(
+        "Algorithm", kAlgorithmLabels, chosen,
+        "How the proxy follows the goal (--algorithm); another one goes on from where it is");
+    algorithm = static_cast<Algorithm>(chosen);
+}
 
 void draw_bump(ViewerState& state) {
     ImGui::SetNextItemWidth(-1.0F);
@@ -29,7 +40,7 @@ void draw_bump(ViewerState& state) {
 void draw_touch_panel(ViewerState& state) {
     if (!section(state, "Touch", state.settings.panels.touch)) return;
     ImGui::PushID("touch");
-    fact_row("Algorithm", "DIBHR");
+    draw_algorithm(state.settings.touch.algorithm);
     for (const char* name : {"stiffness", "damping", "static-friction", "dynamic-friction"}) {
         draw_option(name, state.settings.touch);
     }

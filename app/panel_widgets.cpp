@@ -135,6 +135,20 @@ bool flag_row(const char* label, bool& value, bool standard, const char* help) {
     return value != before;
 }
 
+bool choice_row(const char* label, std::span<const char* const> names, int& chosen,
+                const char* help) {
+    const int before = chosen;
+    ImGui::PushID(label);
+    row_label(label, help);
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - arrow_width() -
+                            ImGui::GetStyle().ItemInnerSpacing.x);
+    ImGui::Combo("##choice", &chosen, names.data(), static_cast<int>(names.size()));
+    explain(help);
+    if (put_back_arrow(chosen != 0)) chosen = 0;
+    ImGui::PopID();
+    return chosen != before;
+}
+
 void fact_row(const char* label, const std::string& value) {
     const float begin = ImGui::GetCursorPosX();
     const float width = ImGui::GetContentRegionAvail().x;

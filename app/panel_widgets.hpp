@@ -3,6 +3,7 @@
 
 #include <imgui.h>
 
+#include <span>
 #include <string>
 
 #include "app/viewer_state.hpp"
@@ -27,6 +28,11 @@ bool number_row(const NumberRow& row, double& value);
 
 /// Label and tick box, and the arrow. True when it changed.
 bool flag_row(const char* label, bool& value, bool standard, const char* help);
+
+/// Label, a list to choose from, and an arrow back to its first entry. True when the choice
+/// changed.
+bool choice_row(const char* label, std::span<const char* const> names, int& chosen,
+                const char* help);
 
 /// A name and a value to read.
 void fact_row(const char* label, const std::string& value);

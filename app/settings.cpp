@@ -21,6 +21,7 @@
 #include "app/output_file.hpp"
 #include "app/window.hpp"
 #include "core/error.hpp"
+#include "core/haptics/algorithm.hpp"
 
 namespace dibhr {
 
@@ -38,7 +39,7 @@ struct Range {
 };
 
 /// Every value that a settings file holds, visited with table, name and range: the one list that
-/// reading and writing share. `Visitor` has bool, int and number members.
+/// reading and writing share. `Visitor` has a member for each type.
 template <typename Visitor>
 void visit_settings(Settings& s, Visitor& visit) {
     visit.integer("window", "width", s.width, {kSmallestWindow, kLargestWindow});
@@ -49,6 +50,7 @@ void visit_settings(Settings& s, Visitor& visit) {
     visit.flag("panels", "touch", s.panels.touch);
     visit.flag("panels", "device", s.panels.device);
     visit.flag("panels", "loop", s.panels.loop);
+    visit.algorithm("touch", "algorithm", s.touch.algorithm);
     for (const NumberOption& option : number_options()) {
         visit.number("touch", option.name, option.in(s.touch), {option.lowest, option.highest});
     }
@@ -98,6 +100,17 @@ class Reading {
         double read = value;
         number(table, name, read, range);
         value = static_cast<int>(std::lround(read));
+    }
+
+    void algorithm(std::string_view table, std::string_view name, Algorithm& value) {
+        if (const toml::node* node = find(table, name)) {
+            const auto read = algorithm_named(node->value<std::string_view>().value_or(""));
+            if (read) {
+                value = *read;
+            } else {
+                warn(*node, table, name, "is not the name of an algorithm");
+            }
+        }
     }
 
     /// After all known values: tells what else stands in the file.
@@ -158,6 +171,9 @@ class Writing {
     void integer(std::string_view table, std::string_view name, int& value, Range) {
         line(table, name, std::to_string(value));
     }
+    void algorithm(std::string_view table, std::string_view name, Algorithm& value) {
+        line(table, name, '"' + std::string(name_of(value)) + '"');
+    }
 
     [[nodiscard]] std::string text() const { return text_.str(); }
 
@@ -182,6 +198,9 @@ class Listing {
         values.push_back(value);
     }
     void integer(std::string_view, std::string_view, int& value, Range) { values.push_back(value); }
+    void algorithm(std::string_view, std::string_view, Algorithm& value) {
+        values.push_back(static_cast<double>(value));
+    }
 
     std::vector<double> values{};
 };
@@ -203,6 +222,9 @@ class Filling {
     }
     void integer(std::string_view, std::string_view, int& value, Range) {
         value = static_cast<int>(std::lround(values_[next_++]));
+    }
+    void algorithm(std::string_view, std::string_view, Algorithm& value) {
+        value = static_cast<Algorithm>(std::lround(values_[next_++]));
     }
 
   private:

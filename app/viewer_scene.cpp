@@ -68,7 +68,7 @@ std::map<std::string, std::string> session_facts(const ViewerState& state) {
     std::map<std::string, std::string> facts{
         {"program", "dibhr " DIBHR_VERSION},
         {"device", state.device.name},
-        {"algorithm", "dibhr"},
+        {"algorithm", name_of(state.settings.touch.algorithm)},
         {"colour", state.media.colour_path.string()},
         {"depth", state.media.depth_path.string()},
         {"columns", std::to_string(state.media.depth_columns)},

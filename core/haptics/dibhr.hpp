@@ -2,7 +2,7 @@
 // itself.
 #pragma once
 
-#include "core/haptics/proxy.hpp"
+#include "core/haptics/surface_proxy.hpp"
 
 namespace dibhr {
 
@@ -12,20 +12,10 @@ namespace dibhr {
 /// The walk ends where the distance to the goal has a local minimum over the surface (no friction),
 /// or on or in the friction cone of the piece it was on. Cost: a fraction of a microsecond for a
 /// hand's step; proportional to the cells crossed.
-class Dibhr final : public ProxyAlgorithm {
+class Dibhr final : public SurfaceProxy {
   public:
     const Proxy& update(const DepthSurface& surface, Vec3 goal,
                         const Friction& friction) noexcept override;
-    void restart() noexcept override { started_ = false; }
-
-  private:
-    void start_above(const DepthSurface& surface, Vec3 goal) noexcept;
-    void follow_surface(const DepthSurface& surface) noexcept;
-
-    Proxy proxy_{};
-    int columns_{0};
-    int rows_{0};
-    bool started_{false};
 };
 
 }  // namespace dibhr

@@ -29,6 +29,12 @@ struct Barycentric {
     }
 };
 
+/// At the begin and the end of an EDGE, as `ends_of` orders them [px].
+struct EdgeElevations {
+    double begin;
+    double end;
+};
+
 /// A TRIANGLE by the corner of its right angle (i, j) and the side it lies on: towards +x and +y of
 /// that corner (sign +1) or towards -x and -y (sign -1). Both kinds then follow the same formulas.
 class Facet {
@@ -61,6 +67,12 @@ class Facet {
     /// Of the plane over (x, y), inside the TRIANGLE or not [px].
     [[nodiscard]] double elevation_at(double x, double y) const noexcept {
         return corner_ + slope_x() * (x - i_) + slope_y() * (y - j_);
+    }
+
+    [[nodiscard]] EdgeElevations elevations_along(EdgeDirection direction) const noexcept {
+        const double other = direction == EdgeDirection::along_row ? beside_ : below_;
+        const double one = direction == EdgeDirection::diagonal ? beside_ : corner_;
+        return sign_ > 0 ? EdgeElevations{one, other} : EdgeElevations{other, one};
     }
 
     [[nodiscard]] Barycentric barycentric(double x, double y) const noexcept {

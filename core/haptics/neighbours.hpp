@@ -98,6 +98,24 @@ struct TrianglePair {
     return surface.triangle_at(vertex.i + step * dx, vertex.j + step * dy);
 }
 
+/// The VERTEX or EDGE of `active`, a TRIANGLE or an EDGE, that the point (x, y) in it lies on to
+/// within `near_px`; else `active` itself.
+[[nodiscard]] inline Primitive lowest_under(const Primitive& active, double x, double y,
+                                            double near_px) noexcept {
+    const auto is_on_line = [&](double along) {
+        return std::abs(along - std::round(along)) <= near_px;
+    };
+    const bool on_row = is_on_line(y);
+    const bool on_column = is_on_line(x);
+    if (on_row && on_column) {
+        return vertex(static_cast<int>(std::round(x)), static_cast<int>(std::round(y)));
+    }
+    if (active.kind == PrimitiveKind::edge) return active;
+    if (on_row) return edge_of(active, EdgeDirection::along_row);
+    if (on_column) return edge_of(active, EdgeDirection::along_column);
+    return is_on_line(x + y) ? edge_of(active, EdgeDirection::diagonal) : active;
+}
+
 /// One of the six EDGEs of a VERTEX, and the VERTEX at its far end (which may lie outside the
 /// image).
 struct VertexSpoke {

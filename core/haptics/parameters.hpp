@@ -1,6 +1,8 @@
 // What people tune while they touch; plain data, handed over whole to the next tick.
 #pragma once
 
+#include "core/haptics/algorithm.hpp"
+
 namespace dibhr {
 
 /// How depth becomes elevation: relief * depth + roughness * bump, pixels.
@@ -31,6 +33,7 @@ struct Coupling {
 };
 
 struct TouchParameters {
+    Algorithm algorithm{Algorithm::dibhr};
     SurfaceShape shape{};
     Friction friction{};
     Coupling coupling{};

@@ -30,6 +30,9 @@ class ProxyAlgorithm {
 
     /// Forgets everything: the next update is a first one.
     virtual void restart() noexcept = 0;
+
+    /// Goes on from where another algorithm left its proxy on this surface.
+    virtual void resume(const DepthSurface& surface, const Proxy& proxy) noexcept = 0;
 };
 
 }  // namespace dibhr

@@ -10,12 +10,35 @@
 
 namespace dibhr {
 
+/// The EDGE by which a straight way leaves the TRIANGLE it begins in, with its parameter t (0 at
+/// the begin, 1 at the end).
+struct FirstExit {
+    EdgeDirection through{EdgeDirection::diagonal};
+    double t{std::numeric_limits<double>::infinity()};
+};
+
+/// By the shares of the corners: cheaper than a StraightWay where every TRIANGLE is of another
+/// plane, so that no way is longer than this.
+[[nodiscard]] inline FirstExit first_exit(const Facet& facet, Vec3 begin, Vec3 end) noexcept {
+    const Barycentric at_begin = facet.barycentric(begin.x, begin.y);
+    const Barycentric at_end = facet.barycentric(end.x, end.y);
+    FirstExit exit;
+    const auto cross = [&exit](EdgeDirection direction, double share, double share_at_end) {
+        const double fall = share - share_at_end;
+        if (fall > 0.0 && share < exit.t * fall) exit = {direction, share / fall};
+    };
+    cross(EdgeDirection::diagonal, at_begin.diagonal, at_end.diagonal);
+    cross(EdgeDirection::along_column, at_begin.column, at_end.column);
+    cross(EdgeDirection::along_row, at_begin.row, at_end.row);
+    return exit;
+}
+
 /// Seen from above: three families of parallel lines, each crossed at even steps of the way's
 /// parameter (as a ray is walked through voxels: Amanatides and Woo, Eurographics 1987). No
 /// division a TRIANGLE.
 class StraightWay {
   public:
-    /// The way begins in the TRIANGLE `facet`.
+    /// The way goes through the TRIANGLE `facet`; what is before that is left out.
     StraightWay(Vec3 begin, Vec3 end, const Facet& facet) noexcept {
         const double dx = end.x - begin.x;
         const double dy = end.y - begin.y;

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <optional>
 
-#include "core/haptics/collision.hpp"
 #include "core/haptics/neighbours.hpp"
 #include "core/haptics/straight_way.hpp"
 
@@ -14,21 +13,8 @@ namespace dibhr {
 
 namespace {
 
-/// A proxy that stopped on the cone is inside it at the next update whatever the last bit says.
-constexpr double kConeRounding = 1.0 + 1e-12;
-
-/// Nearer than this is there [px]: round-off of an 8K image's coordinates is never walked after.
-constexpr double kThere_px = 1e-11;
-
 /// An EDGE crossed at the foot itself is crossed: the TRIANGLE behind it may lead on.
 constexpr double kPastFoot = 1.0 + 1e-11;
-
-double square(double x) noexcept {
-    return x * x;
-}
-double dot(Vec3 a, Vec3 b) noexcept {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
 
 Vec3 vertex_position(const DepthSurface& surface, int i, int j) noexcept {
     return {i, j, surface.elevation(i, j)};
@@ -36,64 +22,28 @@ Vec3 vertex_position(const DepthSurface& surface, int i, int j) noexcept {
 
 /// The point of an EDGE at `along` in [0, 1]: on the grid line itself, so that round-off never
 /// leaves a point beside the EDGE it is on.
-Vec3 point_on(const DepthSurface& surface, const EdgeEnds& ends, double along) noexcept {
-    const double begin = surface.elevation(ends.begin_i, ends.begin_j);
-    const double end = surface.elevation(ends.end_i, ends.end_j);
+Vec3 point_on(const EdgeEnds& ends, const EdgeElevations& z, double along) noexcept {
     return {ends.begin_i + along * (ends.end_i - ends.begin_i),
-            ends.begin_j + along * (ends.end_j - ends.begin_j), begin + along * (end - begin)};
-}
-
-bool is_above(const DepthSurface& surface, const Primitive& triangle, Vec3 goal) noexcept {
-    return goal.z > Facet(surface, triangle).elevation_at(goal.x, goal.y);
+            ends.begin_j + along * (ends.end_j - ends.begin_j),
+            z.begin + along * (z.end - z.begin)};
 }
 
 }  // namespace
 
 void SurfaceWalk::run(int most_moves) noexcept {
-    most_moves_ = most_moves;
-    Next next = proxy_.contact ? Next::visit : visit_free();
-    while (next == Next::visit) {
-        if (proxy_.moves >= most_moves) {
-            proxy_.bound_met = true;
-            break;
-        }
-        ++proxy_.moves;
+    visit_until_rest(most_moves, [this] {
         switch (proxy_.active.kind) {
             case PrimitiveKind::triangle:
-                next = visit_triangle();
-                break;
+                return visit_triangle();
             case PrimitiveKind::edge:
-                next = visit_edge();
-                break;
+                return visit_edge();
             case PrimitiveKind::vertex:
-                next = visit_vertex();
-                break;
+                return visit_vertex();
             case PrimitiveKind::none:
-                next = visit_free();
                 break;
         }
-    }
-    if (!moved_) proxy_.slipping = false;
-}
-
-SurfaceWalk::Next SurfaceWalk::visit_free() noexcept {
-    const auto hit = first_hit(surface_, proxy_.position, goal_);
-    if (!hit) {
-        proxy_.position = goal_;
-        return Next::rest;
-    }
-    proxy_.position = hit->position;
-    proxy_.contact = true;
-    proxy_.slipping = false;
-    proxy_.active = hit->triangle;
-    return Next::visit;
-}
-
-SurfaceWalk::Next SurfaceWalk::leave() noexcept {
-    proxy_.contact = false;
-    proxy_.slipping = false;
-    proxy_.active = Primitive{};
-    return visit_free();
+        return visit_free();
+    });
 }
 
 SurfaceWalk::Projection SurfaceWalk::project_on(const Facet& facet) const noexcept {
@@ -104,14 +54,14 @@ SurfaceWalk::Projection SurfaceWalk::project_on(const Facet& facet) const noexce
     return {{x, y, facet.elevation_at(x, y)}, rise, rise * fall};
 }
 
-SurfaceWalk::Next SurfaceWalk::visit_triangle() noexcept {
+ProxyWalk::Next SurfaceWalk::visit_triangle() noexcept {
     const Facet facet(surface_, proxy_.active);
     return glide(facet, project_on(facet));
 }
 
 /// Over the active TRIANGLE and on across EDGEs, for as long as the next TRIANGLE leads nearer to
 /// the goal.
-SurfaceWalk::Next SurfaceWalk::glide(Facet facet, Projection goal_on) noexcept {
+ProxyWalk::Next SurfaceWalk::glide(Facet facet, Projection goal_on) noexcept {
     for (;;) {
         if (goal_on.rise > 0.0) return leave();
         const Piece piece = piece_to(goal_on.foot, goal_on.distance2);
@@ -124,7 +74,7 @@ SurfaceWalk::Next SurfaceWalk::glide(Facet facet, Projection goal_on) noexcept {
             proxy_.active = facet.triangle();
             return stop_at_cone(piece);
         }
-        move_to_crossing(edge_of(facet.triangle(), exit.through), piece.foot);
+        move_to_crossing(facet, exit, piece.foot);
         if (exit.reason == PlaneExit::Reason::border) return Next::visit;
         if (proxy_.active.kind == PrimitiveKind::vertex) return Next::visit;
         goal_on = project_on(facet);
@@ -137,48 +87,43 @@ SurfaceWalk::Next SurfaceWalk::glide(Facet facet, Projection goal_on) noexcept {
 /// first TRIANGLE that is not of the plane, or the last one before the border or the cone.
 SurfaceWalk::PlaneExit SurfaceWalk::cross_plane(Facet& facet, const Piece& piece) noexcept {
     using Reason = PlaneExit::Reason;
-    StraightWay way(proxy_.position, piece.foot, facet);
     Facet here = facet;  // a local value stays in registers
     int moves = proxy_.moves;
     PlaneExit exit;
-    while (exit.reason == Reason::none) {
-        exit.reason = way.over_next_edge(here.sign(), [&](auto direction, double t) {
-            exit.through = direction;
-            if (t > kPastFoot) return Reason::rest;
-            if (square(1.0 - t) * piece.length2 < piece.cone2) return Reason::rest;
-            const Facet::Across across = here.step_across(surface_, direction);
-            if (across == Facet::Across::border || moves >= most_moves_) return Reason::border;
-            moves += 2;  // the EDGE, and the TRIANGLE behind it
-            return across == Facet::Across::same_plane ? Reason::none : Reason::other_plane;
-        });
+    const auto cross = [&](auto direction, double t) {
+        exit.through = direction;
+        exit.t = t;
+        if (t > kPastFoot) return Reason::rest;
+        if (square(1.0 - t) * piece.length2 < piece.cone2) return Reason::rest;
+        const Facet::Across across = here.step_across(surface_, direction);
+        if (across == Facet::Across::border || moves >= most_moves_) return Reason::border;
+        moves += 2;  // the EDGE, and the TRIANGLE behind it
+        return across == Facet::Across::same_plane ? Reason::none : Reason::other_plane;
+    };
+    const FirstExit first = first_exit(facet, proxy_.position, piece.foot);
+    exit.reason = cross(first.through, first.t);
+    if (exit.reason == Reason::none) {
+        StraightWay way(proxy_.position, piece.foot, here);
+        while (exit.reason == Reason::none) exit.reason = way.over_next_edge(here.sign(), cross);
     }
     proxy_.moves = moves;
     facet = here;
     return exit;
 }
 
-/// To where the way to the foot crosses the EDGE, or to the VERTEX it hits exactly; makes that
+/// To where the piece leaves the plane: on an EDGE, or the VERTEX it hits exactly; makes that
 /// active. The crossing is snapped to the grid line, so that round-off never leaves a point beside
 /// the EDGE it is on.
-void SurfaceWalk::move_to_crossing(const Primitive& border, Vec3 foot) noexcept {
+void SurfaceWalk::move_to_crossing(const Facet& beside, const PlaneExit& exit, Vec3 foot) noexcept {
+    const Primitive border = edge_of(beside.triangle(), exit.through);
     const EdgeEnds ends = ends_of(border);
     const Vec3& p = proxy_.position;
-    const double dx = foot.x - p.x;
-    const double dy = foot.y - p.y;
-    double along = 0.0;
-    switch (border.direction) {
-        case EdgeDirection::along_row:
-            along = p.x + dx * ((border.j - p.y) / dy) - ends.begin_i;
-            break;
-        case EdgeDirection::along_column:
-            along = p.y + dy * ((border.i - p.x) / dx) - ends.begin_j;
-            break;
-        case EdgeDirection::diagonal:
-            along =
-                ends.begin_i - (p.x + dx * ((border.i - p.x + (border.j - p.y) + 1.0) / (dx + dy)));
-            break;
-    }
-    move_to(point_on(surface_, ends, std::clamp(along, 0.0, 1.0)));
+    const double x = p.x + exit.t * (foot.x - p.x);
+    const double y = p.y + exit.t * (foot.y - p.y);
+    const double along = exit.through == EdgeDirection::along_row      ? x - ends.begin_i
+                         : exit.through == EdgeDirection::along_column ? y - ends.begin_j
+                                                                       : ends.begin_i - x;
+    move_to(point_on(ends, beside.elevations_along(exit.through), std::clamp(along, 0.0, 1.0)));
     if (along <= 0.0) {
         proxy_.active = vertex(ends.begin_i, ends.begin_j);
     } else if (along >= 1.0) {
@@ -188,7 +133,7 @@ void SurfaceWalk::move_to_crossing(const Primitive& border, Vec3 foot) noexcept 
     }
 }
 
-SurfaceWalk::Next SurfaceWalk::visit_edge() noexcept {
+ProxyWalk::Next SurfaceWalk::visit_edge() noexcept {
     const EdgeDirection direction = proxy_.active.direction;
     const TrianglePair sides = triangles_of(surface_, proxy_.active);
     std::optional<Facet> steepest;
@@ -214,15 +159,15 @@ SurfaceWalk::Next SurfaceWalk::visit_edge() noexcept {
     return glide(*steepest, goal_on_steepest);
 }
 
-SurfaceWalk::Next SurfaceWalk::slide_along_edge() noexcept {
+ProxyWalk::Next SurfaceWalk::slide_along_edge() noexcept {
     const Primitive active = proxy_.active;
     const EdgeEnds ends = ends_of(active);
-    if (is_above(surface_, triangle_towards(surface_, active, goal_.x, goal_.y), goal_)) {
+    if (is_above(triangle_towards(surface_, active, goal_.x, goal_.y))) {
         return leave();
     }
 
-    const Vec3 begin = point_on(surface_, ends, 0.0);
-    const Vec3 end = point_on(surface_, ends, 1.0);
+    const Vec3 begin = vertex_position(surface_, ends.begin_i, ends.begin_j);
+    const Vec3 end = vertex_position(surface_, ends.end_i, ends.end_j);
     const Vec3 along = end - begin;
     const double foot_along = dot(goal_ - begin, along) / dot(along, along);
     const Vec3 foot = begin + foot_along * along;
@@ -245,7 +190,7 @@ SurfaceWalk::Next SurfaceWalk::slide_along_edge() noexcept {
     return stop_at_cone(piece);
 }
 
-SurfaceWalk::Next SurfaceWalk::visit_vertex() noexcept {
+ProxyWalk::Next SurfaceWalk::visit_vertex() noexcept {
     const Primitive active = proxy_.active;
     const Vec3 to_goal = goal_ - proxy_.position;
     std::optional<Primitive> steepest;
@@ -264,31 +209,22 @@ SurfaceWalk::Next SurfaceWalk::visit_vertex() noexcept {
         proxy_.active = *steepest;
         return Next::visit;
     }
-    const Primitive below = triangle_around(surface_, active, goal_.x, goal_.y);
-    return is_above(surface_, below, goal_) ? leave() : Next::rest;
+    return rest_or_leave();
 }
 
 SurfaceWalk::Piece SurfaceWalk::piece_to(Vec3 foot, double distance2) const noexcept {
     const Vec3 way = foot - proxy_.position;
     const double length2 = dot(way, way);
     const double mu_d = friction_.dynamic_coefficient;
-    const double mu_now = proxy_.slipping ? mu_d : friction_.static_coefficient;
-    const double stick2 = square(mu_now) * distance2;
+    const double stick2 = square(holding_coefficient()) * distance2;
     const bool sticks = length2 <= stick2 * kConeRounding + square(kThere_px);
     return {foot, length2, square(mu_d) * distance2, stick2, sticks};
 }
 
-SurfaceWalk::Next SurfaceWalk::stop_at_cone(const Piece& piece) noexcept {
+ProxyWalk::Next SurfaceWalk::stop_at_cone(const Piece& piece) noexcept {
     const double back = std::sqrt(piece.cone2 / piece.length2);
     move_to(piece.foot + back * (proxy_.position - piece.foot));
     return Next::rest;
-}
-
-void SurfaceWalk::move_to(Vec3 position) noexcept {
-    if (position == proxy_.position) return;
-    proxy_.position = position;
-    proxy_.slipping = true;
-    moved_ = true;
 }
 
 }  // namespace dibhr

@@ -4,6 +4,7 @@
 #include "core/haptics/facet.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/proxy.hpp"
+#include "core/haptics/proxy_walk.hpp"
 #include "core/haptics/surface.hpp"
 
 namespace dibhr {
@@ -11,19 +12,17 @@ namespace dibhr {
 /// Moves `proxy` over `surface` towards `goal`, which lies inside the image rectangle. Every move
 /// is along one straight piece, on the surface or in free space, and ends nearer to the goal than
 /// it began.
-class SurfaceWalk {
+class SurfaceWalk : private ProxyWalk {
   public:
     SurfaceWalk(const DepthSurface& surface, Vec3 goal, const Friction& friction,
                 Proxy& proxy) noexcept
-        : surface_(surface), goal_(goal), friction_(friction), proxy_(proxy) {}
+        : ProxyWalk(surface, goal, friction, proxy) {}
 
     /// Walks until the proxy rests or `most_moves` primitives were visited (then `bound_met` is
     /// set).
     void run(int most_moves) noexcept;
 
   private:
-    enum class Next { visit, rest };
-
     /// The goal as the plane of one TRIANGLE sees it.
     struct Projection {
         Vec3 foot{0.0};         ///< the nearest point of the plane: where the proxy wants to go
@@ -45,14 +44,13 @@ class SurfaceWalk {
         enum class Reason { none, other_plane, border, rest };
         Reason reason{Reason::none};
         EdgeDirection through{EdgeDirection::diagonal};
+        double t{0.0};  ///< of the piece, where it crosses
     };
 
-    Next visit_free() noexcept;
     Next visit_triangle() noexcept;
     Next visit_edge() noexcept;
     Next visit_vertex() noexcept;
 
-    Next leave() noexcept;
     Next glide(Facet facet, Projection goal_on) noexcept;
     PlaneExit cross_plane(Facet& facet, const Piece& piece) noexcept;
     Next slide_along_edge() noexcept;
@@ -60,15 +58,7 @@ class SurfaceWalk {
     [[nodiscard]] Projection project_on(const Facet& facet) const noexcept;
     [[nodiscard]] Piece piece_to(Vec3 foot, double distance2) const noexcept;
     Next stop_at_cone(const Piece& piece) noexcept;
-    void move_to_crossing(const Primitive& border, Vec3 foot) noexcept;
-    void move_to(Vec3 position) noexcept;
-
-    const DepthSurface& surface_;
-    const Vec3 goal_;
-    const Friction friction_;
-    Proxy& proxy_;
-    int most_moves_{0};
-    bool moved_{false};
+    void move_to_crossing(const Facet& beside, const PlaneExit& exit, Vec3 foot) noexcept;
 };
 
 }  // namespace dibhr

@@ -2,15 +2,16 @@
 #include "core/haptics/touch.hpp"
 
 #include <cmath>
-#include <utility>
+#include <cstddef>
 
 #include <glm/geometric.hpp>
 
 #include "core/haptics/dibhr.hpp"
+#include "core/haptics/god_object.hpp"
+#include "core/haptics/neighborhood.hpp"
+#include "core/haptics/pga.hpp"
 
 namespace dibhr {
-
-namespace {}  // namespace
 
 Vec3 coupling_force(const Proxy& proxy, Vec3 goal, Vec3 goal_velocity,
                     const Coupling& coupling) noexcept {
@@ -20,8 +21,32 @@ Vec3 coupling_force(const Proxy& proxy, Vec3 goal, Vec3 goal_velocity,
            coupling.damping_newton_s_per_m * 1e-3 * mm * goal_velocity;
 }
 
-TouchRenderer::TouchRenderer(std::unique_ptr<ProxyAlgorithm> algorithm)
-    : algorithm_(std::move(algorithm)) {}
+std::unique_ptr<ProxyAlgorithm> make_algorithm(Algorithm algorithm) {
+    switch (algorithm) {
+        case Algorithm::dibhr:
+            break;
+        case Algorithm::pga:
+            return std::make_unique<Pga>();
+        case Algorithm::neighborhood:
+            return std::make_unique<Neighborhood>();
+        case Algorithm::god_object:
+            return std::make_unique<GodObject>();
+    }
+    return std::make_unique<Dibhr>();
+}
+
+TouchRenderer::TouchRenderer() {
+    for (const Algorithm algorithm : all_algorithms()) {
+        algorithms_.push_back(make_algorithm(algorithm));
+    }
+}
+
+bool TouchRenderer::run_with(Algorithm algorithm, const DepthSurface& surface) noexcept {
+    if (algorithm == running_) return false;
+    running_ = algorithm;
+    if (started_) algorithms_[static_cast<std::size_t>(algorithm)]->resume(surface, last_.proxy);
+    return true;
+}
 
 const Touch& TouchRenderer::update(const DepthSurface& surface, Vec3 goal,
                                    const TouchParameters& parameters, SafetyInput input,
@@ -34,25 +59,19 @@ const Touch& TouchRenderer::update(const DepthSurface& surface, Vec3 goal,
     }
     const Vec3 goal_step = started_ ? goal - last_.goal : Vec3(0.0);
     input.goal_step_mm = glm::length(goal_step) * parameters.coupling.pixel_pitch_mm;
-    input.restart = input.restart || !started_;
+    const bool changed = run_with(parameters.algorithm, surface);
+    input.restart = input.restart || changed || !started_;
     started_ = true;
 
     last_.goal = goal;
-    last_.proxy = algorithm_->update(surface, goal, parameters.friction);
+    last_.proxy =
+        algorithms_[static_cast<std::size_t>(running_)]->update(surface, goal, parameters.friction);
     const Vec3 goal_velocity = input.dt_s > 0.0 ? goal_step / input.dt_s : Vec3(0.0);
     last_.spring_force_newton =
         coupling_force(last_.proxy, goal, goal_velocity, parameters.coupling);
     last_.sent_force_newton = safety_.limit(last_.spring_force_newton, input, limits);
     last_.cut = safety_.last_cut();
     return last_;
-}
-
-std::unique_ptr<ProxyAlgorithm> make_algorithm(Algorithm algorithm) {
-    switch (algorithm) {
-        case Algorithm::dibhr:
-            break;
-    }
-    return std::make_unique<Dibhr>();
 }
 
 }  // namespace dibhr

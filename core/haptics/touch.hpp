@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
+#include "core/haptics/algorithm.hpp"
 #include "core/haptics/proxy.hpp"
 #include "core/haptics/safety.hpp"
 
@@ -22,25 +24,30 @@ struct Touch {
 [[nodiscard]] Vec3 coupling_force(const Proxy& proxy, Vec3 goal, Vec3 goal_velocity,
                                   const Coupling& coupling) noexcept;
 
-/// Runs a proxy algorithm, the coupling and the safety stage on a stream of goals.
+/// A proxy that has not been anywhere yet.
+[[nodiscard]] std::unique_ptr<ProxyAlgorithm> make_algorithm(Algorithm algorithm);
+
+/// Runs a proxy algorithm, the coupling and the safety stage on a stream of goals. It has all
+/// algorithms ready, so that another one can go on from where the proxy is, at any update.
 class TouchRenderer {
   public:
-    explicit TouchRenderer(std::unique_ptr<ProxyAlgorithm> algorithm);
+    TouchRenderer();
 
     /// One update. A non-finite goal is refused: the last state stands and the force is zero.
-    /// `input.goal_step_mm` is worked out here. No allocation.
+    /// `input.goal_step_mm` is worked out here; another algorithm than before makes the force ramp.
+    /// No allocation.
     const Touch& update(const DepthSurface& surface, Vec3 goal, const TouchParameters& parameters,
                         SafetyInput input, const SafetyLimits& limits) noexcept;
 
   private:
-    std::unique_ptr<ProxyAlgorithm> algorithm_;
+    /// Makes the algorithm the running one; true when it was not.
+    bool run_with(Algorithm algorithm, const DepthSurface& surface) noexcept;
+
+    std::vector<std::unique_ptr<ProxyAlgorithm>> algorithms_{};  ///< by their enumeration
+    Algorithm running_{Algorithm::dibhr};
     SafetyStage safety_{};
     Touch last_{};
     bool started_{false};
 };
-
-/// The names `--algorithm` takes.
-enum class Algorithm { dibhr };
-[[nodiscard]] std::unique_ptr<ProxyAlgorithm> make_algorithm(Algorithm algorithm);
 
 }  // namespace dibhr

@@ -36,6 +36,7 @@ Settings unusual_settings() {
     settings.panels.touch = false;
     settings.panels_visible = false;
     settings.touch.shape.relief_px = 123.456789012345;
+    settings.touch.algorithm = Algorithm::neighborhood;
     settings.touch.friction = {0.7, 0.3};
     settings.cleaning.fill_holes = false;
     settings.look.light = 0.125;

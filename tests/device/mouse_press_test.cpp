@@ -177,7 +177,7 @@ TEST_CASE("through the whole touch, safety stage included, the pressed hand come
     const auto relief = flat();
     const auto surface = relief.surface();
     dibhr::MouseHand hand;
-    dibhr::TouchRenderer touch(dibhr::make_algorithm(dibhr::Algorithm::dibhr));
+    dibhr::TouchRenderer touch;
     dibhr::TouchParameters parameters;
     parameters.coupling.stiffness_newton_per_mm = k;
     const dibhr::SafetyLimits limits;

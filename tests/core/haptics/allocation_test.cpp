@@ -45,9 +45,12 @@ TEST_CASE("no tick allocates, in contact, in the air, on a bad goal or when the 
     const auto surfaces = test::hostile_surfaces(50, 40);
     const DepthImage other = test::flat(64, 64, 90.0);
     const BumpMap bump{2, 2, {0.0F, 1.0F, 1.0F, 0.0F}};
-    TouchRenderer renderer(make_algorithm(Algorithm::dibhr));
+    TouchRenderer renderer;
     TouchParameters parameters;
+    parameters.algorithm =
+        GENERATE(Algorithm::dibhr, Algorithm::pga, Algorithm::neighborhood, Algorithm::god_object);
     parameters.shape.roughness_px = 2.0;
+    CAPTURE(name_of(parameters.algorithm));
     test::Dice dice(47);
     int contacts = 0;
     ++no_alloc_depth;

@@ -10,6 +10,7 @@
 #include "core/haptics/dibhr.hpp"
 #include "core/haptics/facet.hpp"
 #include "core/haptics/neighbours.hpp"
+#include "core/haptics/touch.hpp"
 #include "tests/core/haptics/surfaces.hpp"
 #include "tests/support/catch.hpp"
 
@@ -116,24 +117,32 @@ long long_updates() {
     return asked == nullptr ? 1'000'000 : std::atol(asked);
 }
 
+Algorithm each_algorithm() {
+    return GENERATE(Algorithm::dibhr, Algorithm::pga, Algorithm::neighborhood,
+                    Algorithm::god_object);
+}
+
 }  // namespace
 
 TEST_CASE(
     "on every surface the proxy stays finite, on or above the surface, and the walk ends by itself",
     "[property]") {
     const auto surfaces = test::hostile_surfaces(kColumns, kRows);
-    const long updates = long_updates() / static_cast<long>(surfaces.size()) / 3;
+    const Algorithm algorithm = each_algorithm();
+    const long in_all = algorithm == Algorithm::dibhr ? long_updates() : long_updates() / 10;
+    const long updates = in_all / static_cast<long>(surfaces.size()) / 3;
     for (const auto& [name, image] : surfaces) {
         for (const double mu : {0.0, 0.3, 1.0}) {
-            CAPTURE(name, mu);
+            CAPTURE(name_of(algorithm), name, mu);
             const DepthSurface surface(image, image, 0.0, {255.0, 0.0});
             NastyHand hand(17);
-            Dibhr dibhr;
+            const auto proxy = make_algorithm(algorithm);
             for (long k = 0; k < updates; ++k) {
                 const Vec3 goal = hand.next();
-                const Proxy& p = dibhr.update(surface, goal, {mu, mu});
+                const Proxy& p = proxy->update(surface, goal, {mu, mu});
                 const Vec3 at = p.position;
-                if (!(is_finite(at) && at.z >= surface.elevation_at(at.x, at.y) - 1e-9 &&
+                const double height = at.z - surface.elevation_at(at.x, at.y);
+                if (!(is_finite(at) && height >= -1e-9 && (!p.contact || height <= 1e-8) &&
                       !p.bound_met && at.x >= 0.0 && at.y >= 0.0 && at.x <= kColumns - 1 &&
                       at.y <= kRows - 1)) {
                     CAPTURE(k, goal.x, goal.y, goal.z, at.x, at.y, at.z, p.moves, p.bound_met);
@@ -145,16 +154,17 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("without friction the proxy rests at a local minimum of the distance to the goal",
+TEST_CASE("without friction DIBHR and neighborhood rest at a local minimum of the distance",
           "[property]") {
+    const Algorithm algorithm = GENERATE(Algorithm::dibhr, Algorithm::neighborhood);
     for (const auto& [name, image] : test::hostile_surfaces(kColumns, kRows)) {
-        CAPTURE(name);
+        CAPTURE(name_of(algorithm), name);
         const DepthSurface surface(image, image, 0.0, {255.0, 0.0});
         NastyHand hand(23);
-        Dibhr dibhr;
+        const auto proxy = make_algorithm(algorithm);
         for (int k = 0; k < 20000; ++k) {
             const Vec3 goal = hand.next();
-            const Proxy& p = dibhr.update(surface, goal, {0.0, 0.0});
+            const Proxy& p = proxy->update(surface, goal, {0.0, 0.0});
             if (!p.contact) continue;
             const Vec3 clamped = surface.clamped_to_frame(goal);
             const double distance = glm::length(clamped - p.position);
@@ -187,16 +197,17 @@ TEST_CASE("with friction the proxy rests at a local minimum or in the cone of it
 }
 
 TEST_CASE("the distance to the goal never grows in an update", "[property]") {
+    const Algorithm algorithm = each_algorithm();
     const double mu = GENERATE(0.0, 0.5);
     for (const auto& [name, image] : test::hostile_surfaces(kColumns, kRows)) {
-        CAPTURE(name, mu);
+        CAPTURE(name_of(algorithm), name, mu);
         const DepthSurface surface(image, image, 0.0, {255.0, 0.0});
         NastyHand hand(31);
-        Dibhr dibhr;
-        Vec3 before = dibhr.update(surface, hand.next(), {mu, mu}).position;
+        const auto proxy = make_algorithm(algorithm);
+        Vec3 before = proxy->update(surface, hand.next(), {mu, mu}).position;
         for (int k = 0; k < 20000; ++k) {
             const Vec3 goal = surface.clamped_to_frame(hand.next());
-            const Vec3 after = dibhr.update(surface, goal, {mu, mu}).position;
+            const Vec3 after = proxy->update(surface, goal, {mu, mu}).position;
             REQUIRE(glm::length(goal - after) <= glm::length(goal - before) + 1e-9);
             before = after;
         }
@@ -231,14 +242,15 @@ TEST_CASE("a proxy in contact goes where a hand a hundred times slower takes it"
 
 TEST_CASE("the same goals give the same bits twice", "[property]") {
     const auto surfaces = test::hostile_surfaces(kColumns, kRows);
+    const Algorithm algorithm = each_algorithm();
     const auto run = [&] {
         std::vector<Vec3> path;
         for (const auto& named : surfaces) {
             const DepthSurface surface(named.image, surfaces.back().image, 0.3, {255.0, 0.0});
             NastyHand hand(37);
-            Dibhr dibhr;
+            const auto proxy = make_algorithm(algorithm);
             for (int k = 0; k < 3000; ++k)
-                path.push_back(dibhr.update(surface, hand.next(), {}).position);
+                path.push_back(proxy->update(surface, hand.next(), {}).position);
         }
         return path;
     };

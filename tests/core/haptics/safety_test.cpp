@@ -154,7 +154,7 @@ TEST_CASE("a goal that is not a number is refused: the last state stands and the
           "[touch]") {
     const DepthImage image = test::flat(40, 40, 100.0);
     const DepthSurface surface(image, image, 0.0, {255.0, 0.0});
-    TouchRenderer renderer(make_algorithm(Algorithm::dibhr));
+    TouchRenderer renderer;
     for (int k = 0; k < 600; ++k) renderer.update(surface, {20.0, 20.0, 90.0}, {}, {}, {});
     const Touch before = renderer.update(surface, {20.0, 20.0, 90.0}, {}, {}, {});
     REQUIRE(glm::length(before.sent_force_newton) > 0.1);
@@ -170,7 +170,7 @@ TEST_CASE("a goal that is not a number is refused: the last state stands and the
 TEST_CASE("starting inside the surface, the force fades in", "[touch]") {
     const DepthImage image = test::flat(40, 40, 100.0);
     const DepthSurface surface(image, image, 0.0, {255.0, 0.0});
-    TouchRenderer renderer(make_algorithm(Algorithm::dibhr));
+    TouchRenderer renderer;
     const Touch first = renderer.update(surface, {20.0, 20.0, 50.0}, {}, {}, {});
     CHECK(first.proxy.contact);
     CHECK(first.sent_force_newton == Vec3(0.0));

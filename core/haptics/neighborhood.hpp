@@ -1,0 +1,32 @@
+// Neighborhood search: the proxy goes to the nearest point of the nearest neighbouring primitive.
+#pragma once
+
+#include "core/haptics/surface_proxy.hpp"
+
+namespace dibhr {
+
+/// Ho, Basdogan and Srinivasan, "Efficient Point-Based Rendering Techniques for Haptic Display of
+/// Virtual Objects", Presence 8(5), 1999.
+///
+/// Among the active primitive and its neighbours the one whose nearest point to the goal is nearest
+/// becomes active and the proxy goes there, again and again while the distance falls. Neighbours:
+/// of a TRIANGLE its EDGEs and VERTEXes; of an EDGE or VERTEX the TRIANGLEs around it. (The nearest
+/// point of a TRIANGLE covers its EDGEs and VERTEXes, so those need no look of their own.) Where
+/// the publication is silent:
+/// - The path is the straight line from nearest point to nearest point. It always lies in the
+///   TRIANGLE of the next point, so the proxy is never off the surface.
+/// - A proxy that friction stops on its way goes on from there: in the TRIANGLE, or on the EDGE if
+///   its way ran along one.
+/// - A nearest point that friction holds the proxy back from is passed over: it goes to the next
+///   nearest it is free to go to. (Held by the nearest one it would stick more often and for
+///   longer.)
+/// - It leaves as DIBHR does: where it would rest, if the goal is above the plane there.
+/// Guaranteed: the distance to the goal never grows; without friction the resting place is a local
+/// minimum of the distance over the surface.
+class Neighborhood final : public SurfaceProxy {
+  public:
+    const Proxy& update(const DepthSurface& surface, Vec3 goal,
+                        const Friction& friction) noexcept override;
+};
+
+}  // namespace dibhr
