@@ -12,10 +12,12 @@
 
 #include "app/command_bench.hpp"
 #include "app/command_devices.hpp"
+#include "app/command_experiment.hpp"
 #include "app/command_info.hpp"
 #include "app/command_options.hpp"
 #include "app/command_touch.hpp"
 #include "app/command_view.hpp"
+#include "app/experiment_request.hpp"
 #include "app/window.hpp"
 
 namespace dibhr {
@@ -175,10 +177,19 @@ int bench(CLI::App& app, const Arguments& arguments) {
     return run_bench({json});
 }
 
+int experiment(CLI::App& app, const Arguments& arguments) {
+    ExperimentRequest request;
+    add_experiment_options(app, request);
+    if (!parse(app, arguments)) return 0;
+    return run_experiment(experiment_options(request));
+}
+
 constexpr std::array kCommands{
     Command{"view", "[COLOR [DEPTH]]", "The viewer; without files, the built-in sample", view},
     Command{"touch", "--depth FILE --goals GOALS.csv [--out OUT.csv]",
             "The core alone, head-less, over a stream of goals", touch},
+    Command{"experiment", "[linear|circle|human|all|sweep]",
+            "The paper's table, all algorithms side by side", experiment},
     Command{"info", "FILE...", "What a media or session file holds", info},
     Command{"devices", "", "What is attached, and why it cannot be used", devices},
     Command{"bench", "[--json FILE]", "Updates, frame hand-over and loop timing on this machine",

@@ -1,0 +1,48 @@
+// What the human path needs: the built-in sample in memory, and a hand's goals over it.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/experiment/experiment.hpp"
+#include "core/experiment/hand_trace.hpp"
+#include "core/haptics/parameters.hpp"
+#include "core/session/session_goals.hpp"
+#include "core/video/frame_window.hpp"
+
+namespace dibhr {
+
+struct HumanOptions {
+    std::filesystem::path session{};  ///< goals of a recorded session; empty: none
+    std::filesystem::path trace{};    ///< a person's pen or mouse; empty: none
+    double mu{0.4};
+    bool raw_depth{false};  ///< no cleaning
+    SurfaceShape shape{};
+};
+
+/// What moves the hand, read and checked as far as it can be without the sample.
+struct HandInput {
+    std::string name{};  ///< the file, for messages; empty: the modelled hand
+    std::optional<RecordedGoals> session{};
+    std::vector<TraceSample> trace{};
+};
+
+/// Throws InputError for a session or trace that cannot be used.
+[[nodiscard]] HandInput read_hand(const HumanOptions& options);
+
+/// The depth of the sample, cleaned, and its first colour picture.
+struct SampleClip {
+    DepthClip depth;
+    ColourImage colour{};
+};
+
+/// Decodes the sample. Throws InputError when it cannot be read.
+[[nodiscard]] SampleClip read_sample(const HumanOptions& options, const Progress& progress);
+
+/// The goals over the sample: the session's, the trace's, or a modelled hand's. Throws InputError
+/// for a trace that does not move.
+[[nodiscard]] PathRun human_goals(const HandInput& hand, const SampleClip& sample, double mu);
+
+}  // namespace dibhr

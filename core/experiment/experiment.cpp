@@ -1,0 +1,200 @@
+// Runs the algorithms over a path and measures them.
+#include "core/experiment/experiment.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <numeric>
+#include <utility>
+
+#include "core/experiment/exact_plane.hpp"
+#include "core/experiment/force_variation.hpp"
+#include "core/experiment/goal_paths.hpp"
+
+namespace dibhr {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kColumns = 720;
+constexpr int kRows = 486;
+constexpr double kLevel = 100.0;
+constexpr double kRadius_px = 200.0;
+constexpr double kTwoPi = 6.283185307179586;
+constexpr double kUpdate_s = 1e-3;
+constexpr int kWholeRuns = 5;
+constexpr const char* kPlaneSource = "the paper's goals, 4961 px/s on a flat image";
+
+double us_between(Clock::time_point begin, Clock::time_point end) {
+    return std::chrono::duration<double, std::micro>(end - begin).count();
+}
+
+/// One path ready to be run, and what is the same for every algorithm.
+class Course {
+  public:
+    Course(const PathRun& path, const DepthClip& clip)
+        : path_(path), clip_(clip), friction_{path.mu, path.mu} {}
+
+    /// A pass without a clock in it: an update's share [us].
+    double whole_us(ProxyAlgorithm& algorithm) const {
+        algorithm.restart();
+        const auto begin = Clock::now();
+        for (std::size_t k = 0; k < path_.goals.size(); ++k) {
+            algorithm.update(surface(k), path_.goals[k], friction_);
+        }
+        const double share = static_cast<double>(std::max<std::size_t>(path_.goals.size(), 1));
+        return us_between(begin, Clock::now()) / share;
+    }
+
+    /// A pass that keeps every update.
+    AlgorithmRun recorded(Algorithm which, ProxyAlgorithm& algorithm) const {
+        AlgorithmRun run;
+        run.algorithm = which;
+        const std::size_t count = path_.goals.size();
+        run.proxies.resize(count);
+        run.update_us.resize(count);
+        run.moves.resize(count);
+        run.contact.resize(count);
+        algorithm.restart();
+        for (std::size_t k = 0; k < count; ++k) {
+            const DepthSurface now = surface(k);
+            const auto begin = Clock::now();
+            const Proxy& proxy = algorithm.update(now, path_.goals[k], friction_);
+            run.update_us[k] = us_between(begin, Clock::now());
+            run.proxies[k] = proxy.position;
+            run.moves[k] = proxy.moves;
+            run.contact[k] = proxy.contact ? 1 : 0;
+            run.bounds_met += proxy.bound_met ? 1 : 0;
+        }
+        return run;
+    }
+
+  private:
+    [[nodiscard]] DepthSurface surface(std::size_t k) const noexcept {
+        return clip_.at(path_.times_s.empty() ? kUpdate_s * static_cast<double>(k)
+                                              : path_.times_s[k]);
+    }
+
+    const PathRun& path_;
+    const DepthClip& clip_;
+    Friction friction_;
+};
+
+void evaluate(AlgorithmRun& run, const PathRun& path) {
+    run.time_us = statistics_of(run.update_us);
+    const double moves = std::accumulate(run.moves.begin(), run.moves.end(), 0.0);
+    run.moves_per_update = run.moves.empty() ? 0.0 : moves / static_cast<double>(run.moves.size());
+    run.variation = force_variation(path.goals, run.proxies, run.contact, path.reversal,
+                                    static_cast<std::size_t>(path.settling_updates));
+    if (!path.exact_proxies.empty()) {
+        run.error = error_against(path.exact_proxies, path.goals, run.proxies, run.contact);
+    }
+}
+
+PathRun plane_path(const char* name, Vec3 (*goal_at)(const PathPlace&, int) noexcept, double mu,
+                   double depth_px, int updates) {
+    PathRun path;
+    path.name = name;
+    path.source = kPlaneSource;
+    path.mu = mu;
+    path.depth_px = depth_px;
+    path.columns = kColumns;
+    path.rows = kRows;
+    const PathPlace place{0.5 * kColumns, 0.5 * kRows, kLevel, depth_px};
+    for (int k = 0; k < updates; ++k) path.goals.push_back(goal_at(place, k));
+    path.reversal =
+        reversal_updates(path.goals, std::vector<double>(path.goals.size(), depth_px), mu);
+    path.exact_proxies = exact_plane_proxies(path.goals, kLevel, mu);
+    return path;
+}
+
+void finish_exact(PathRun& path) {
+    const std::vector<char> contact(path.goals.size(), 1);
+    path.exact_variation = force_variation(path.goals, path.exact_proxies, contact, path.reversal,
+                                           static_cast<std::size_t>(path.settling_updates));
+}
+
+double median_of(std::vector<double> values) {
+    return statistics_of(std::move(values)).median;
+}
+
+}  // namespace
+
+DepthClip paper_plane() {
+    DepthImage image{kColumns, kRows, 255.0, {}};
+    image.levels.assign(std::size_t{kColumns} * std::size_t{kRows}, static_cast<float>(kLevel));
+    std::vector<DepthClip::TimedDepth> frames;
+    frames.push_back({std::move(image), 0.0});
+    return {std::move(frames), SurfaceShape{}};
+}
+
+PathRun linear_path(double mu, double depth_px, int updates) {
+    PathRun path = plane_path("linear", &linear_goal, mu, depth_px, updates);
+    finish_exact(path);
+    return path;
+}
+
+PathRun circle_path(double mu, double depth_px, int updates) {
+    PathRun path = plane_path("circle", &circle_goal, mu, depth_px, updates);
+    // The first revolution: until then the proxy spirals into its orbit.
+    path.settling_updates = static_cast<int>(std::ceil(kTwoPi * kRadius_px / kHandStep_px)) + 1;
+    finish_exact(path);
+    return path;
+}
+
+void survey_path(PathRun& path, const DepthClip& clip) {
+    path.columns = clip.columns();
+    path.rows = clip.rows();
+    std::vector<double> depths_px(path.goals.size());
+    double sum_px = 0.0;
+    std::size_t below = 0;
+    for (std::size_t k = 0; k < path.goals.size(); ++k) {
+        const double t_s =
+            path.times_s.empty() ? kUpdate_s * static_cast<double>(k) : path.times_s[k];
+        const Vec3& goal = path.goals[k];
+        depths_px[k] = clip.at(t_s).elevation_at(goal.x, goal.y) - goal.z;
+        if (depths_px[k] <= 0.0) continue;
+        sum_px += depths_px[k];
+        ++below;
+    }
+    path.depth_px = below == 0 ? 0.0 : sum_px / static_cast<double>(below);
+    path.reversal = reversal_updates(path.goals, depths_px, path.mu);
+}
+
+void run_algorithms(PathRun& path, const DepthClip& clip, std::span<const Algorithm> algorithms,
+                    Timing timing, const Progress& progress) {
+    const Course course(path, clip);
+    const bool careful = timing == Timing::careful;
+    const int rounds = careful ? kWholeRuns : 0;
+    const std::size_t passes = algorithms.size() * static_cast<std::size_t>(1 + rounds);
+    std::size_t done = 0;
+    const auto tell = [&] {
+        if (progress) progress(static_cast<double>(++done) / static_cast<double>(passes));
+    };
+
+    std::vector<std::unique_ptr<ProxyAlgorithm>> walkers;
+    std::vector<AlgorithmRun> runs;
+    for (const Algorithm which : algorithms) {
+        ProxyAlgorithm& walker = *walkers.emplace_back(make_algorithm(which));
+        if (careful) static_cast<void>(course.whole_us(walker));
+        runs.push_back(course.recorded(which, walker));
+        tell();
+    }
+    std::vector<std::vector<double>> whole_us(algorithms.size());
+    for (int round = 0; round < rounds; ++round) {
+        for (std::size_t a = 0; a < algorithms.size(); ++a) {
+            whole_us[a].push_back(course.whole_us(*walkers[a]));
+            tell();
+        }
+    }
+    for (std::size_t a = 0; a < algorithms.size(); ++a) {
+        runs[a].whole_run_us = median_of(whole_us[a]);
+        evaluate(runs[a], path);
+    }
+    path.runs = std::move(runs);
+}
+
+}  // namespace dibhr

@@ -1,0 +1,110 @@
+// The paper's evaluation: the same goals through several proxy algorithms, side by side, and what
+// came out.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/experiment/depth_clip.hpp"
+#include "core/experiment/sample_statistics.hpp"
+#include "core/haptics/touch.hpp"
+#include "core/haptics/vec.hpp"
+
+namespace dibhr {
+
+/// The paper's 20 s at 1 kHz.
+inline constexpr int kExperimentUpdates = 20000;
+
+/// How the direction of the force turned from one update to the next, both in contact [deg].
+struct VariationStatistics {
+    double mean_deg{0.0};
+    double sd_deg{0.0};
+    /// While it slides: without the updates in which the goal reverses, and without the path's
+    /// settling.
+    double mean_without_reversals_deg{0.0};
+    double sd_without_reversals_deg{0.0};
+    std::uint64_t pairs{0};                    ///< of updates the first two are taken over
+    std::uint64_t pairs_without_reversals{0};  ///< and the last two
+};
+
+/// Distance from the exact answer over all updates in contact.
+struct ExactError {
+    double max_px{0.0};  ///< of the proxy
+    double mean_px{0.0};
+    double max_rad{0.0};  ///< of the force's direction
+    double mean_rad{0.0};
+};
+
+/// One algorithm's way along one path; one entry an update in each vector.
+struct AlgorithmRun {
+    Algorithm algorithm{Algorithm::dibhr};
+    std::vector<Vec3> proxies{};      ///< grid space
+    std::vector<double> update_us{};  ///< each includes one reading of the clock
+    std::vector<int> moves{};         ///< primitives visited
+    std::vector<char> contact{};      ///< 1: the proxy touched the surface
+    std::uint64_t bounds_met{0};      ///< walks stopped by their bound: faults
+
+    SampleStatistics time_us{};  ///< of update_us
+    double whole_run_us{0.0};    ///< an update's share of a run timed as a whole, no clock in it
+    double moves_per_update{0.0};
+    VariationStatistics variation{};
+    std::optional<ExactError> error{};  ///< where there is an exact answer
+};
+
+/// One path of the evaluation, its goals, and every algorithm's run over them.
+struct PathRun {
+    std::string name{};             ///< linear, circle, human
+    std::string source{};           ///< what the goals are, for the report
+    std::vector<Vec3> goals{};      ///< grid space, one a millisecond
+    std::vector<double> times_s{};  ///< of the clip at each update; empty: a millisecond apart
+    double mu{0.4};
+    double depth_px{20.0};  ///< of the goals below the surface; their mean while in it for human
+    int columns{0};         ///< of the depth image
+    int rows{0};
+    int settling_updates{0};       ///< the first ones, left out of the variation while it slides
+    std::vector<char> reversal{};  ///< 1: the goal's motion reverses in this update
+    std::vector<Vec3> exact_proxies{};  ///< empty where no exact answer is known
+    VariationStatistics exact_variation{};
+    std::vector<AlgorithmRun> runs{};
+};
+
+/// One cell of the sweep.
+struct SweepPoint {
+    std::string path{};  ///< linear, circle
+    double mu{0.0};
+    double depth_px{0.0};
+    Algorithm algorithm{Algorithm::dibhr};
+    VariationStatistics variation{};
+    ExactError error{};
+    double median_us{0.0};
+    double moves_per_update{0.0};
+    std::uint64_t bounds_met{0};
+};
+
+/// Told the share done, 0 to 1, now and then.
+using Progress = std::function<void(double)>;
+
+/// The flat image of the paper's linear and circle: 720 x 486.
+[[nodiscard]] DepthClip paper_plane();
+
+/// The paper's goals `depth_px` below that plane, with their exact answer.
+[[nodiscard]] PathRun linear_path(double mu, double depth_px, int updates = kExperimentUpdates);
+[[nodiscard]] PathRun circle_path(double mu, double depth_px, int updates = kExperimentUpdates);
+
+/// Names, goals and times of `path` are given: works out its depth below the surface of `clip`,
+/// where its motion reverses, and nothing else.
+void survey_path(PathRun& path, const DepthClip& clip);
+
+/// How carefully updates are timed. Careful: a pass before that warms the caches, and a few passes
+/// timed as a whole, by turns with the other algorithms. Quick: one pass, timed update by update.
+enum class Timing { quick, careful };
+
+/// Runs the goals of a surveyed path through the algorithms over `clip` and fills in `path.runs`.
+void run_algorithms(PathRun& path, const DepthClip& clip, std::span<const Algorithm> algorithms,
+                    Timing timing, const Progress& progress = {});
+
+}  // namespace dibhr

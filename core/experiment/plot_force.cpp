@@ -1,0 +1,127 @@
+// The force over time: its direction, how much it turns in each update, how far it is from exact.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/experiment/force_variation.hpp"
+#include "core/experiment/plot_axes.hpp"
+#include "core/experiment/plot_settings.hpp"
+#include "core/experiment/plot_style.hpp"
+#include "core/experiment/plot_turning.hpp"
+#include "core/experiment/plots.hpp"
+
+namespace dibhr {
+namespace {
+
+constexpr double kDegPerRad = 180.0 / 3.14159265358979323846;
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double kLeastError_deg = 1e-15;  // drawn for less: an error of 0 has no logarithm
+// Directions from -90 to 270 degrees: the line's 0 and 180 are away from the ends.
+constexpr ValueSpan kDirections_deg{-90.0, 270.0};
+
+/// Direction of the force along the image, 0 to the right, 90 down [deg].
+double direction_deg(Vec3 force) {
+    const double deg = kDegPerRad * std::atan2(force.y, force.x);
+    return deg < kDirections_deg.low ? deg + 360.0 : deg;
+}
+
+std::vector<Vec2> directions(const PathRun& path, std::span<const Vec3> proxies,
+                             std::span<const char> contact, UpdateSpan updates) {
+    constexpr double kNoDirection_px = 1e-9;
+    std::vector<Vec2> series;
+    double last_deg = kNothing;
+    for (std::size_t k = updates.first; k < updates.end; ++k) {
+        const Vec3 force = proxies[k] - path.goals[k];
+        const bool directed = std::hypot(force.x, force.y) > kNoDirection_px;
+        const bool touching = contact.empty() || contact[k] != 0;
+        const double deg = touching && directed ? direction_deg(force) : kNothing;
+        if (std::abs(deg - last_deg) > 185.0) series.emplace_back(seconds_of(k), kNothing);
+        series.emplace_back(seconds_of(k), deg);
+        last_deg = deg;
+    }
+    return series;
+}
+
+void draw_directions(Canvas& canvas, Box area, const PathRun& path, const AlgorithmRun& run,
+                     bool lowest) {
+    const UpdateSpan updates = shown_updates(path);
+    Axis y{kDirections_deg, "direction [deg]"};
+    y.ticks = {-90.0, 0.0, 90.0, 180.0, 270.0};
+    const Axes axes(area, time_axis(updates, lowest), y);
+    axes.draw_ground(canvas);
+    if (!path.exact_proxies.empty()) {
+        axes.draw_series(canvas, directions(path, path.exact_proxies, {}, updates),
+                         look_of_exact().stroke);
+    }
+    Stroke stroke{look_of(run.algorithm).stroke.ink, 1.5, Dash::solid};
+    axes.draw_series(canvas, directions(path, run.proxies, run.contact, updates), stroke);
+    axes.draw_frame(canvas);
+}
+
+std::vector<Vec2> errors_deg(const PathRun& path, const AlgorithmRun& run, UpdateSpan updates) {
+    std::vector<Vec2> series;
+    for (std::size_t k = updates.first; k < updates.end; ++k) {
+        const double error = kDegPerRad * angle_between_rad(path.exact_proxies[k] - path.goals[k],
+                                                            run.proxies[k] - path.goals[k]);
+        series.emplace_back(seconds_of(k),
+                            run.contact[k] != 0 ? std::max(error, kLeastError_deg) : kNothing);
+    }
+    return series;
+}
+
+}  // namespace
+
+ColourImage plot_force(const PathRun& path) {
+    constexpr double kTop_px = 118.0;
+    constexpr double kGap_px = 44.0;
+    const auto panels = static_cast<double>(std::max<std::size_t>(path.runs.size(), 1));
+    const double each = (800.0 - kTop_px - 56.0 - kGap_px * (panels - 1.0)) / panels;
+    Canvas canvas(1200, 800, kPaper);
+    draw_title(canvas, "How the force turned: " + path.name, settings_of(path));
+    const double highest = highest_turn_deg(path);
+    double top = kTop_px;
+    for (const AlgorithmRun& run : path.runs) {
+        const bool lowest = &run == &path.runs.back();
+        const Box left{100.0, top, 570.0, top + each};
+        const Box right{690.0, top, 1160.0, top + each};
+        canvas.text({left.left, top - 10.0},
+                    look_of(run.algorithm).name + ": direction along the image",
+                    {kTextInk, kLabelCap_px, Align::left, true});
+        canvas.text({right.left, top - 10.0}, turning_words(run.variation),
+                    {kTextInk, kLabelCap_px});
+        draw_directions(canvas, left, path, run, lowest);
+        draw_turning(canvas, right, path, run, {highest, lowest});
+        top += each + kGap_px;
+    }
+    return canvas.finished();
+}
+
+ColourImage plot_error(const PathRun& path) {
+    constexpr Box kArea{110.0, 110.0, 930.0, 730.0};
+    Canvas canvas(1200, 800, kPaper);
+    draw_title(canvas, "How far the force was from exact: " + path.name, settings_of(path));
+    const UpdateSpan updates = shown_updates(path);
+    Axis y{{kLeastError_deg / 5.0, 100.0}, "angle to the exact force [deg]", true};
+    y.most_ticks = 9;
+    const Axes axes(kArea, time_axis(updates, true), y);
+    axes.draw_ground(canvas);
+    std::vector<SeriesLook> entries;
+    for (const AlgorithmRun& run : path.runs) {
+        SeriesLook look = look_of(run.algorithm);
+        axes.draw_series(canvas, errors_deg(path, run, updates), look.stroke);
+        look.marker = Marker::none;
+        entries.push_back(look);
+    }
+    axes.draw_frame(canvas);
+    draw_legend(canvas, {kArea.right + 24.0, kArea.top}, entries);
+    const double least_y = axes.at(0.0, kLeastError_deg).y;
+    canvas.text({kArea.right + 12.0, least_y + kNumberCap_px / 2.0}, "0, or 1e-15 at most",
+                {kQuietInk, kNumberCap_px});
+    return canvas.finished();
+}
+
+}  // namespace dibhr

@@ -1,0 +1,194 @@
+// A few pixels of a path magnified: grid, goals, exact orbit, proxies and one update's springs.
+#include "core/experiment/plot_magnified.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "core/experiment/plot_axes.hpp"
+#include "core/experiment/plot_style.hpp"
+#include "core/experiment/plot_turning.hpp"
+
+namespace dibhr {
+namespace {
+
+constexpr std::size_t kAround = 60;  // updates before and after: less than half a lap of the circle
+constexpr double kWidest_px = 160.0;
+constexpr double kWidestWithCells_px = 64.0;
+
+Vec2 from_above(Vec3 p) {
+    return {p.x, p.y};
+}
+
+Axes axes_of(Box area, const MagnifiedPlace& place) {
+    const double half = place.side_px / 2.0;
+    return {area, Axis{{place.centre.x - half, place.centre.x + half}, "x [px]"},
+            Axis{{place.centre.y + half, place.centre.y - half}, "y [px]"}};
+}
+
+/// The image's pixels are centred on whole numbers.
+Box box_of_image(const Axes& axes, const PathRun& path) {
+    const Vec2 first = axes.at(-0.5, -0.5);
+    const Vec2 last = axes.at(path.columns - 0.5, path.rows - 0.5);
+    return {first.x, first.y, last.x, last.y};
+}
+
+/// The cells' edges, the diagonals as the surface has them, and the vertices PGA lives on.
+void draw_cells(Canvas& canvas, const Axes& axes, const MagnifiedPlace& place, bool over_picture) {
+    const Stroke edge =
+        over_picture ? Stroke{kPaper, 0.5, Dash::solid} : Stroke{kGridInk, 1.0, Dash::solid};
+    const int reach = static_cast<int>(place.side_px / 2.0) + 2;
+    const int i0 = static_cast<int>(place.centre.x) - reach;
+    const int j0 = static_cast<int>(place.centre.y) - reach;
+    const int many = 2 * reach + 1;
+    for (int k = 0; k <= many; ++k) {
+        canvas.line(axes.at(i0 + k, j0), axes.at(i0 + k, j0 + many), edge);
+        canvas.line(axes.at(i0, j0 + k), axes.at(i0 + many, j0 + k), edge);
+        canvas.line(axes.at(i0 + k, j0), axes.at(i0, j0 + k), edge);
+        canvas.line(axes.at(i0 + many, j0 + k), axes.at(i0 + k, j0 + many), edge);
+    }
+}
+
+std::vector<Vec2> way_of(const Axes& axes, std::span<const Vec3> points,
+                         const MagnifiedPlace& place) {
+    std::vector<Vec2> way;
+    const std::size_t first = place.update > kAround ? place.update - kAround : 0;
+    const std::size_t end = std::min(points.size(), place.update + kAround + 1);
+    for (std::size_t k = first; k < end; ++k) way.push_back(axes.at(from_above(points[k])));
+    return way;
+}
+
+/// Those drawn first are larger, so that markers on one another all show.
+double marker_px(Marker marker) {
+    switch (marker) {
+        case Marker::square:
+            return 17.0;
+        case Marker::diamond:
+            return 13.0;
+        case Marker::triangle:
+            return 11.0;
+        case Marker::circle:
+        case Marker::none:
+            break;
+    }
+    return 8.0;
+}
+
+void draw_way(Canvas& canvas, const std::vector<Vec2>& way, const SeriesLook& look,
+              std::size_t step) {
+    canvas.polyline(way, look.stroke);
+    const double size = marker_px(look.marker);
+    for (std::size_t k = 0; k < way.size(); k += step) {
+        canvas.marker(way[k], look.marker, size, look.stroke.ink, kPaper);
+    }
+}
+
+/// From the goal of one update to where each proxy was, and the disc friction lets it rest in.
+void draw_springs(Canvas& canvas, const Axes& axes, const PathRun& path, std::size_t update) {
+    const Vec2 goal = axes.at(from_above(path.goals[update]));
+    for (auto run = path.runs.rbegin(); run != path.runs.rend(); ++run) {  // the first on top
+        canvas.line(goal, axes.at(from_above(run->proxies[update])),
+                    {look_of(run->algorithm).stroke.ink, 1.5, Dash::solid});
+    }
+    if (!path.exact_proxies.empty()) {
+        const double radius = path.mu * path.depth_px;
+        canvas.ring(goal, radius * (axes.at(1.0, 0.0).x - axes.at(0.0, 0.0).x),
+                    {kQuietInk, 1.0, Dash::dashed});
+    }
+    canvas.marker(goal, Marker::circle, 11.0, kGoalInk, kPaper);
+}
+
+bool all_in_contact(const PathRun& path, std::size_t update) {
+    return std::all_of(path.runs.begin(), path.runs.end(),
+                       [&](const AlgorithmRun& run) { return run.contact[update] != 0; });
+}
+
+double mean_step_px(const PathRun& path, UpdateSpan updates) {
+    double gone = 0.0;
+    for (std::size_t k = updates.first + 1; k < updates.end; ++k) {
+        gone += glm::distance(path.goals[k - 1], path.goals[k]);
+    }
+    return gone / static_cast<double>(std::max<std::size_t>(updates.end - updates.first, 2) - 1);
+}
+
+/// Centres the place on the goal and the proxies of its update, with room around them.
+void frame(const PathRun& path, MagnifiedPlace& place) {
+    Vec2 low = from_above(path.goals[place.update]);
+    Vec2 high = low;
+    for (const AlgorithmRun& run : path.runs) {
+        low = glm::min(low, from_above(run.proxies[place.update]));
+        high = glm::max(high, from_above(run.proxies[place.update]));
+    }
+    place.centre = (low + high) / 2.0;
+    const double extent = std::max(high.x - low.x, high.y - low.y);
+    place.side_px = std::clamp(std::ceil(1.7 * extent), place.side_px, kWidest_px);
+}
+
+}  // namespace
+
+MagnifiedPlace typical_place(const PathRun& path) {
+    std::vector<std::pair<double, std::size_t>> apart;
+    const UpdateSpan shown = shown_updates(path);
+    const double at_least_px = 0.9 * mean_step_px(path, shown);  // strokes, not pauses
+    for (std::size_t k = shown.first; k + 1 < shown.end; ++k) {
+        const bool moving = glm::distance(path.goals[k], path.goals[k + 1]) > at_least_px;
+        if (moving && all_in_contact(path, k)) apart.emplace_back(separation_px(path, k), k);
+    }
+    MagnifiedPlace place;
+    place.update = shown.first;
+    if (!apart.empty()) {
+        const auto middle = apart.begin() + static_cast<std::ptrdiff_t>(apart.size() / 2);
+        std::nth_element(apart.begin(), middle, apart.end());
+        place.update = middle->second;
+    }
+    frame(path, place);
+    return place;
+}
+
+double separation_px(const PathRun& path, std::size_t update) {
+    double apart = 0.0;
+    for (const AlgorithmRun& run : path.runs) {
+        apart += glm::distance(from_above(run.proxies[update]),
+                               from_above(path.runs.front().proxies[update]));
+    }
+    return apart;
+}
+
+std::size_t updates_a_marker(const PathRun& path, const MagnifiedPlace& place) {
+    constexpr double kMarkersAcross = 28.0;
+    const std::size_t end = std::min(path.goals.size(), place.update + kAround + 1);
+    double gone = 0.0;
+    for (std::size_t k = place.update + 1; k < end; ++k) {
+        gone += glm::distance(from_above(path.goals[k - 1]), from_above(path.goals[k]));
+    }
+    const double apart = place.side_px / kMarkersAcross;
+    const double steps = static_cast<double>(std::max<std::size_t>(end - place.update, 2) - 1);
+    const double wanted = gone > 0.0 ? apart * steps / gone : 1.0;
+    return static_cast<std::size_t>(std::clamp(std::ceil(wanted), 1.0, 20.0));
+}
+
+void draw_magnified(Canvas& canvas, Box area, const PathRun& path, const MagnifiedPlace& place,
+                    const ColourImage* under) {
+    const std::size_t step = updates_a_marker(path, place);
+    const Axes axes = axes_of(area, place);
+    canvas.clip_to(area);
+    canvas.fill(area, kPlotGround);
+    if (under != nullptr) canvas.picture(*under, box_of_image(axes, path), 0.55);
+    if (place.side_px <= kWidestWithCells_px) draw_cells(canvas, axes, place, under != nullptr);
+    canvas.polyline(way_of(axes, path.exact_proxies, place), look_of_exact().stroke);
+    draw_way(canvas, way_of(axes, path.goals, place), look_of_goal(), step);
+    draw_springs(canvas, axes, path, place.update);
+    for (auto run = path.runs.rbegin(); run != path.runs.rend(); ++run) {
+        draw_way(canvas, way_of(axes, run->proxies, place), look_of(run->algorithm), step);
+    }
+    canvas.clip_to_whole();
+    axes.draw_frame(canvas);
+}
+
+}  // namespace dibhr

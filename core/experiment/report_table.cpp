@@ -1,0 +1,224 @@
+// The rows of the tables.
+#include "core/experiment/report_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iomanip>
+#include <sstream>
+
+#include "core/experiment/paper_table.hpp"
+#include "core/experiment/sweep.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr double kDegPerRad = 180.0 / 3.14159265358979323846;
+constexpr int kNameWidth = 16;
+constexpr int kPaperWidth = 15;
+
+std::string fixed(double value, int digits) {
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(digits) << value;
+    return text.str();
+}
+
+/// Short for the large, telling for the small: 0, 3.1e-14, 0.0123, 12.3.
+std::string short_number(double value) {
+    std::ostringstream text;
+    const double size = std::abs(value);
+    if (size == 0.0) return "0";
+    if (size < 1e-3) {
+        text << std::scientific << std::setprecision(1) << value;
+    } else {
+        text << std::setprecision(3) << value;
+    }
+    return text.str();
+}
+
+/// "0.528 (0.003)"; round-off is shown as 0.
+std::string mean_and_sd(double mean, double sd) {
+    constexpr double kShown = 1e-9;
+    const auto digits = [](double value) {
+        return value < kShown ? std::string("0") : fixed(value, 3);
+    };
+    return digits(mean) + " (" + digits(sd) + ")";
+}
+
+std::string right(const std::string& text, int width) {
+    const auto size = static_cast<int>(text.size());
+    return size >= width ? " " + text
+                         : std::string(static_cast<std::size_t>(width - size), ' ') + text;
+}
+
+std::string left(const std::string& text, int width) {
+    const auto size = static_cast<int>(text.size());
+    return size >= width ? text + " "
+                         : text + std::string(static_cast<std::size_t>(width - size), ' ');
+}
+
+std::string name_cell(const AlgorithmRun& run) {
+    return "  " + left(name_of(run.algorithm), kNameWidth);
+}
+
+std::string heading_of(const PathRun& path) {
+    std::ostringstream text;
+    text << path.name << ": " << path.source << ", " << path.columns << "x" << path.rows << ", "
+         << path.goals.size() << " updates, mu " << short_number(path.mu) << ", depth "
+         << (path.exact_proxies.empty() ? "on average " : "") << short_number(path.depth_px)
+         << " px\n";
+    return text.str();
+}
+
+std::string time_row(const PathRun& path, const AlgorithmRun& run) {
+    const auto paper = paper_result(path.name, run.algorithm);
+    std::string row = name_cell(run) + right(paper ? fixed(paper->update_us, 2) : "-", 9);
+    for (const double us : {run.time_us.mean, run.time_us.median, run.time_us.p99, run.time_us.p999,
+                            run.time_us.highest, run.whole_run_us}) {
+        row += right(fixed(us, 3), 9);
+    }
+    return row + right(fixed(run.moves_per_update, 2), 9) +
+           right(std::to_string(run.bounds_met), 8) + "\n";
+}
+
+std::string variation_row(const PathRun& path, const AlgorithmRun& run) {
+    const auto paper = paper_result(path.name, run.algorithm);
+    const VariationStatistics& v = run.variation;
+    std::string paper_cell = "-";
+    if (paper) {
+        paper_cell = short_number(paper->variation_mean_deg) + " (" +
+                     short_number(paper->variation_sd_deg) + ")";
+    }
+    std::string row =
+        name_cell(run) + right(paper_cell, kPaperWidth) +
+        right(mean_and_sd(v.mean_deg, v.sd_deg), 18) +
+        right(mean_and_sd(v.mean_without_reversals_deg, v.sd_without_reversals_deg), 18);
+    if (run.error) {
+        row += right(short_number(run.error->max_px), 12) +
+               right(short_number(kDegPerRad * run.error->mean_rad), 11) +
+               right(short_number(kDegPerRad * run.error->max_rad), 11);
+    } else {
+        row += right("-", 12) + right("-", 11) + right("-", 11);
+    }
+    return row + "\n";
+}
+
+std::string exact_row(const PathRun& path) {
+    const VariationStatistics& v = path.exact_variation;
+    return "  " + left("exact answer", kNameWidth) + right("", kPaperWidth) +
+           right(mean_and_sd(v.mean_deg, v.sd_deg), 18) +
+           right(mean_and_sd(v.mean_without_reversals_deg, v.sd_without_reversals_deg), 18) + "\n";
+}
+
+std::string time_table(std::span<const PathRun> paths) {
+    std::string text = "\nTime of an update [us]\n" + left("", kNameWidth + 2);
+    for (const char* head : {"paper", "mean", "median", "p99", "p99.9", "max", "whole", "moves"}) {
+        text += right(head, 9);
+    }
+    text += right("bound", 8) + "\n";
+    for (const PathRun& path : paths) {
+        text += path.name + "\n";
+        for (const AlgorithmRun& run : path.runs) text += time_row(path, run);
+    }
+    return text;
+}
+
+std::string variation_table(std::span<const PathRun> paths) {
+    std::string text =
+        "\nForce variation [degrees an update], mean (sd), and the error against the exact "
+        "answer\n" +
+        left("", kNameWidth + 2) + right("paper", kPaperWidth) + right("all", 18) +
+        right("sliding", 18) + right("max px", 12) + right("mean deg", 11) + right("max deg", 11) +
+        "\n";
+    for (const PathRun& path : paths) {
+        text += path.name + "\n";
+        for (const AlgorithmRun& run : path.runs) text += variation_row(path, run);
+        if (!path.exact_proxies.empty()) text += exact_row(path);
+    }
+    return text;
+}
+
+/// All that the sweep found for one path and algorithm.
+struct SweepSummary {
+    double least_deg{INFINITY};
+    double most_deg{0.0};
+    double most_px{0.0};
+    double most_error_deg{0.0};
+    std::uint64_t bounds_met{0};
+
+    void add(const SweepPoint& point) {
+        least_deg = std::min(least_deg, point.variation.mean_without_reversals_deg);
+        most_deg = std::max(most_deg, point.variation.mean_without_reversals_deg);
+        most_px = std::max(most_px, point.error.max_px);
+        most_error_deg = std::max(most_error_deg, kDegPerRad * point.error.max_rad);
+        bounds_met += point.bounds_met;
+    }
+};
+
+/// How many of `points` are of one path and algorithm.
+std::size_t count_of(const char* path, Algorithm algorithm, std::span<const SweepPoint> points) {
+    const auto count = std::count_if(points.begin(), points.end(), [&](const SweepPoint& point) {
+        return point.path == path && point.algorithm == algorithm;
+    });
+    return static_cast<std::size_t>(count);
+}
+
+std::string sweep_row(const char* path, Algorithm algorithm, std::span<const SweepPoint> points,
+                      std::span<const SweepPoint> smooth) {
+    SweepSummary summary;
+    for (const SweepPoint& point : points) {
+        if (point.path == path && point.algorithm == algorithm) summary.add(point);
+    }
+    const std::size_t cells = count_of(path, algorithm, points);
+    if (cells == 0) return {};
+    const std::size_t rougher = cells - count_of(path, algorithm, smooth);
+    const std::string rougher_cell =
+        algorithm == Algorithm::dibhr ? "-" : std::to_string(rougher) + "/" + std::to_string(cells);
+    const auto degrees = [](double value) {
+        return value < 1e-9 ? std::string("0") : fixed(value, 3);
+    };
+    return "  " + left(path, 8) + left(name_of(algorithm), kNameWidth) +
+           right(degrees(summary.least_deg), 10) + right(degrees(summary.most_deg), 10) +
+           right(rougher_cell, 10) + right(short_number(summary.most_px), 12) +
+           right(short_number(summary.most_error_deg), 12) +
+           right(std::to_string(summary.bounds_met), 8) + "\n";
+}
+
+}  // namespace
+
+std::string table_of(std::span<const PathRun> paths, double clock_us) {
+    std::string text;
+    for (const PathRun& path : paths) text += heading_of(path);
+    text += time_table(paths);
+    text += "  Reading the clock, " + fixed(clock_us, 3) +
+            " us, is part of each time but of \"whole\": runs timed as a whole, for each update,\n"
+            "  which hold making the surface of the moment instead. Moves: primitives visited; "
+            "bound: walks\n  stopped by their bound. Paper: a Pentium D, 3.4 GHz.\n";
+    text += variation_table(paths);
+    text +=
+        "  Sliding: without the updates in which the goal's motion turns by more than 90 degrees "
+        "and those\n  until it drags the proxy again, and without the circle's first revolution. "
+        "The error is that of\n  the proxy [px] and of the force's direction [degrees].\n";
+    return text;
+}
+
+std::string sweep_table_of(std::span<const SweepPoint> points, double clock_us) {
+    std::string text =
+        "Force variation while sliding [degrees an update], over all frictions and depths\n  " +
+        left("", 8 + kNameWidth) + right("least", 10) + right("most", 10) + right("rougher", 10) +
+        right("max px", 12) + right("max deg", 12) + right("bound", 8) + "\n";
+    const auto smooth = not_rougher_than_dibhr(points);
+    for (const char* path : {"linear", "circle"}) {
+        for (const Algorithm algorithm : all_algorithms()) {
+            text += sweep_row(path, algorithm, points, smooth);
+        }
+    }
+    return text +
+           "  Rougher: in how many of the cells the force turns more than dibhr's, which is exact: "
+           "nothing can be\n  smoother and right. Max px, max deg: worst error of proxy and force "
+           "direction against the exact answer.\n  Reading the clock, " +
+           fixed(clock_us, 3) + " us, is part of the times in the JSON file.\n";
+}
+
+}  // namespace dibhr

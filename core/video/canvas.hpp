@@ -1,0 +1,99 @@
+// A small drawing surface for plots: anti-aliased lines, shapes, pictures and text.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/haptics/vec.hpp"
+#include "core/video/frame_window.hpp"
+
+namespace dibhr {
+
+/// A colour to draw with, 8 bits a channel; opacity in [0, 1].
+struct Ink {
+    std::uint8_t red{0};
+    std::uint8_t green{0};
+    std::uint8_t blue{0};
+    double opacity{1.0};
+};
+
+/// The same colour, as opaque as asked.
+[[nodiscard]] constexpr Ink with_opacity(Ink ink, double opacity) noexcept {
+    ink.opacity = opacity;
+    return ink;
+}
+
+enum class Dash { solid, dashed, dotted, dash_dot };
+enum class Marker { none, circle, square, triangle, diamond };
+enum class Align { left, centre, right };
+
+struct Stroke {
+    Ink ink{};
+    double width_px{1.5};  ///< drawn in steps of half a pixel
+    Dash dash{Dash::solid};
+};
+
+/// Pixels of the canvas, y down; a pixel's corners are whole numbers.
+struct Box {
+    double left{0.0};
+    double top{0.0};
+    double right{0.0};
+    double bottom{0.0};
+
+    [[nodiscard]] double width() const noexcept { return right - left; }
+    [[nodiscard]] double height() const noexcept { return bottom - top; }
+    [[nodiscard]] bool holds(Vec2 p) const noexcept {
+        return p.x >= left && p.x <= right && p.y >= top && p.y <= bottom;
+    }
+};
+
+struct TextStyle {
+    Ink ink{};
+    double cap_px{9.0};  ///< height of a capital letter
+    Align align{Align::left};
+    bool bold{false};
+    bool upwards{false};  ///< reads from the bottom to the top
+};
+
+/// Drawn at twice the size and reduced at the end, so that thin lines and small letters are even.
+/// What lies outside the clip (at first everything is inside) is not drawn; points may be any
+/// finite number. Later strokes cover earlier ones.
+class Canvas {
+  public:
+    /// Throws InputError for a size that is not positive or beyond 16384.
+    Canvas(int columns, int rows, Ink paper);
+
+    [[nodiscard]] Box whole() const noexcept;
+    void clip_to(Box box) noexcept;
+    void clip_to_whole() noexcept { clip_to(whole()); }
+
+    void line(Vec2 from, Vec2 to, const Stroke& stroke);
+    void polyline(std::span<const Vec2> points, const Stroke& stroke);
+    void polygon(std::span<const Vec2> corners, Ink ink);
+    void fill(Box box, Ink ink);
+    void outline(Box box, const Stroke& stroke);
+    void disc(Vec2 centre, double radius_px, Ink ink);
+    void ring(Vec2 centre, double radius_px, const Stroke& stroke);
+    /// A small shape of about `size_px` across, with a thin rim of `rim` around it.
+    void marker(Vec2 centre, Marker marker, double size_px, Ink ink, Ink rim);
+    /// The picture stretched over the box, its pixels kept as squares when enlarged.
+    void picture(const ColourImage& picture, Box box, double opacity);
+    /// One line of ASCII; `where` is the baseline's left end, middle or right end, as aligned.
+    void text(Vec2 where, std::string_view text, const TextStyle& style);
+
+    /// The drawing so far, at the canvas's size.
+    [[nodiscard]] ColourImage finished() const;
+
+  private:
+    int columns_;
+    int rows_;
+    std::vector<std::uint8_t> rgb_;  ///< at twice the size
+    Box clip_{};
+};
+
+/// How wide the text will be [px].
+[[nodiscard]] double text_width(std::string_view text, const TextStyle& style);
+
+}  // namespace dibhr
