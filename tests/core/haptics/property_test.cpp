@@ -154,6 +154,33 @@ TEST_CASE(
     }
 }
 
+TEST_CASE(
+    "while the surface moves the proxy stays on it, and a goal deep below never loses contact",
+    "[property]") {
+    const Algorithm algorithm = each_algorithm();
+    const auto surfaces = test::hostile_surfaces(kColumns, kRows);
+    for (std::size_t from = 0; from < surfaces.size(); ++from) {
+        const auto& to = surfaces[(from + 3) % surfaces.size()];
+        CAPTURE(name_of(algorithm), surfaces[from].name, to.name);
+        NastyHand hand(53);
+        const auto proxy = make_algorithm(algorithm);
+        for (int k = 0; k < 3000; ++k) {
+            const double blend = 0.5 - 0.5 * std::cos(0.05 * k);
+            const DepthSurface surface(surfaces[from].image, to.image, blend, {255.0, 0.0});
+            Vec3 goal = hand.next();
+            if (k % 1000 >= 500) goal.z = -80.0;  // below every surface
+            const Proxy& p = proxy->update(surface, goal, {0.8, 0.3});
+            const double height = p.position.z - surface.elevation_at(p.position.x, p.position.y);
+            CAPTURE(k, height);
+            REQUIRE(is_finite(p.position));
+            REQUIRE(height >= -1e-9);
+            REQUIRE_FALSE(p.bound_met);
+            if (goal.z < 0.0) REQUIRE(p.contact);
+            if (p.contact) REQUIRE(height <= 1e-8);
+        }
+    }
+}
+
 TEST_CASE("without friction DIBHR and neighborhood rest at a local minimum of the distance",
           "[property]") {
     const Algorithm algorithm = GENERATE(Algorithm::dibhr, Algorithm::neighborhood);
