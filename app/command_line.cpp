@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <string_view>
@@ -121,6 +122,12 @@ int view(CLI::App& app, const Arguments& arguments) {
         "  dibhr view touch                       a file that is called like a command\n"
         "  dibhr color.mp4 --record mine.dibhr --seconds 20 --screenshot last.png");
     if (!parse(app, arguments)) return 0;
+    std::error_code unknown;
+    if (colour.find_first_of("./") == std::string::npos && !colour.empty() &&
+        !std::filesystem::exists(colour, unknown)) {
+        throw UsageError("neither a command nor a file is called '" + colour +
+                         "'; see dibhr --help");
+    }
     options.colour = colour;
     options.depth = depth;
     options.record = record;

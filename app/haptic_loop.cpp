@@ -67,6 +67,7 @@ void HapticTick::touch_surface(const DepthBlend& pair, const HapticSettings& set
     const HandReading hand =
         to_.device.read({timing.dt_s, surface, settings.parameters.coupling.pixel_pitch_mm});
     const SafetyInput input{timing.dt_s, 0.0, settings.force_enabled, hand.ready, restart_};
+    if (hand.lifted && state_.touch.proxy.contact) renderer_.let_go();
     const auto begin = std::chrono::steady_clock::now();
     state_.touch =
         renderer_.update(surface, hand.goal_in_grid, settings.parameters, input, settings.limits);

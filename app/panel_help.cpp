@@ -10,15 +10,24 @@ namespace dibhr {
 
 namespace {
 
-struct MouseUse {
-    const char* gesture;
+struct Explained {
+    const char* what;
     const char* help;
 };
 
-constexpr MouseUse kMouse[] = {
+constexpr Explained kMarks[] = {
+    {"Orange ring", "The goal: where the hand is"},
+    {"Blue ball", "The proxy: stays on the surface"},
+    {"Line between", "The spring that pulls the hand"},
+    {"Yellow arrow", "The force on the hand"},
+    {"Green rod", "The surface's normal"},
+    {"Pale cone", "The friction cone: a proxy inside it sticks"},
+};
+
+constexpr Explained kMouse[] = {
     {"Move", "The hand hovers over the surface"},
-    {"Hold left", "Press in: the longer, the deeper"},
-    {"Hold left + wheel", "Deeper, less deep"},
+    {"Hold left", "Press in, deeper for the first second"},
+    {"Hold left + wheel", "Deeper still, less deep"},
     {"Drag right", "Turn the view"},
     {"Drag middle, Shift + right", "Shift the view"},
     {"Wheel", "Nearer, farther"},
@@ -65,7 +74,9 @@ void draw_help_sheet(ViewerState& state) {
                      ImGuiWindowFlags_NoSavedSettings);
     if (ImGui::BeginTable("sheet", 2, ImGuiTableFlags_SizingFixedFit)) {
         heading(state, "Mouse");
-        for (const MouseUse& use : kMouse) row(use.gesture, use.help);
+        for (const Explained& use : kMouse) row(use.what, use.help);
+        heading(state, "Marks");
+        for (const Explained& mark : kMarks) row(mark.what, mark.help);
         draw_keys(state);
         ImGui::EndTable();
     }

@@ -46,7 +46,9 @@ std::string touch_text(const ViewerState& state) {
         return std::string("No force: ") + name_of(haptic.touch.cut);
     if (!haptic.touch.proxy.contact) return "Free";
     const Vec3& f = haptic.touch.sent_force_newton;
-    return formatted("Touching   %.2f N   (%+.2f, %+.2f, %+.2f)", glm::length(f), f.x, f.y, f.z);
+    const bool limited = glm::length(haptic.touch.spring_force_newton) > 1.001 * glm::length(f);
+    return formatted("Touching   %.2f N%s   (%+.2f, %+.2f, %+.2f)", glm::length(f),
+                     limited ? ", limited" : "", f.x, f.y, f.z);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace dibhr {
 /// Which panels stand open.
 struct PanelsOpen {
     bool video{true};
-    bool surface{true};
+    bool surface{false};
     bool touch{true};
     bool device{true};
     bool loop{false};

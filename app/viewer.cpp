@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <ctime>
 #include <exception>
+#include <filesystem>
 #include <utility>
 
 #include "app/keys.hpp"
@@ -52,7 +53,7 @@ std::string screenshot_name() {
     char name[64];
     std::snprintf(name, sizeof name, "dibhr-%s-%03d.png", date,
                   static_cast<int>(ms.count() % 1000));
-    return name;
+    return std::filesystem::absolute(name).string();
 }
 
 }  // namespace

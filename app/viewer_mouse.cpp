@@ -26,6 +26,7 @@ PointerUse ReliefMouse::use(const Pointer& pointer, double wheel_steps, bool ove
                 : pointer.left                                       ? Drag::touch
                 : pointer.middle || (pointer.right && pointer.shift) ? Drag::pan
                                                                      : Drag::orbit;
+        last_px_ = pointer.position_px;  // how the pointer came here turns nothing
     }
     const glm::dvec2 moved = pointer.position_px - last_px_;
     last_px_ = pointer.position_px;

@@ -29,6 +29,7 @@ struct HandReading {
     Vec3 goal_in_grid{0.0};
     std::uint8_t buttons{0};  ///< bit 0: the main button
     bool ready{true};         ///< attached, homed, and giving poses; false: no force
+    bool lifted{false};       ///< taken off the surface: a proxy that still touches lets go
 };
 
 /// Read once and sent to once a tick, by the haptic thread alone. Neither call allocates, locks or

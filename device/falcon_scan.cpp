@@ -28,7 +28,8 @@ struct CloseDevice {
 
 std::string problem_of(int error) {
     if (error == LIBUSB_ERROR_ACCESS) {
-        return "no permission to open it: copy assets/70-dibhr-falcon.rules to /etc/udev/rules.d, then plug "
+        return "no permission to open it: copy assets/70-dibhr-falcon.rules to /etc/udev/rules.d, "
+               "then plug "
                "it in again";
     }
     return std::string("cannot be opened: ") + libusb_strerror(static_cast<libusb_error>(error));

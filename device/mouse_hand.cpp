@@ -63,6 +63,10 @@ HandReading MouseHand::read(const HandContext& context) noexcept {
     HandReading reading;
     reading.goal_in_grid = position_in_grid_;
     reading.buttons = wanted_.pressed ? 1 : 0;
+    // A cursor may leave by a way that no proxy can follow, from under a chin say.
+    reading.lifted =
+        !pressing_ && position_in_grid_.z >
+                          context.surface.elevation_at(position_in_grid_.x, position_in_grid_.y);
     return reading;
 }
 
@@ -110,7 +114,9 @@ void MouseHand::move(Vec3 rest, double dt_s, double pixel_pitch_mm) noexcept {
     const double stiffness = 1000.0 * options_.hand_stiffness_newton_per_mm;
     const double damping = 2.0 * options_.damping_ratio * std::sqrt(stiffness * mass);
 
-    const Vec3 push = stiffness * (rest - position_in_grid_) + force_newton_ * px_per_m;
+    // Only a pressing hand is held back: released, it comes off whatever it touched.
+    const Vec3 felt_newton = pressing_ ? force_newton_ : Vec3{0.0};
+    const Vec3 push = stiffness * (rest - position_in_grid_) + felt_newton * px_per_m;
     velocity_px_per_s_ = (mass * velocity_px_per_s_ + dt_s * push) /
                          (mass + dt_s * damping + dt_s * dt_s * stiffness);
     const double fastest = options_.max_speed_mm_per_s / pixel_pitch_mm;

@@ -41,6 +41,10 @@ TouchRenderer::TouchRenderer() {
     }
 }
 
+void TouchRenderer::let_go() noexcept {
+    algorithms_[static_cast<std::size_t>(running_)]->restart();
+}
+
 bool TouchRenderer::run_with(Algorithm algorithm, const DepthSurface& surface) noexcept {
     if (algorithm == running_) return false;
     running_ = algorithm;

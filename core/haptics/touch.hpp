@@ -39,6 +39,9 @@ class TouchRenderer {
     const Touch& update(const DepthSurface& surface, Vec3 goal, const TouchParameters& parameters,
                         SafetyInput input, const SafetyLimits& limits) noexcept;
 
+    /// The proxy lets go of what it touches: the next update begins above its goal, in free space.
+    void let_go() noexcept;
+
   private:
     /// Makes the algorithm the running one; true when it was not.
     bool run_with(Algorithm algorithm, const DepthSurface& surface) noexcept;

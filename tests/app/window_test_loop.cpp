@@ -26,13 +26,14 @@ class TestHand final : public Device {
     [[nodiscard]] const DeviceSpecification& specification() const noexcept override {
         return specification_;
     }
-    HandReading read(const HandContext&) noexcept override { return {goal, 1, true}; }
+    HandReading read(const HandContext&) noexcept override { return {goal, 1, true, lifted}; }
     void send(Vec3 force_newton) noexcept override {
         sent = force_newton;
         strongest = std::max(strongest, glm::length(force_newton));
     }
 
     Vec3 goal{20.0, 10.0, 90.0};
+    bool lifted{false};
     Vec3 sent{-1.0};
     double strongest{0.0};
 
@@ -184,6 +185,29 @@ TEST_CASE("a smaller film under a pressed hand leaves the proxy on the new surfa
     CHECK(proxy.position.x <= 15.0);
     CHECK(proxy.position.y <= 7.0);
     CHECK_THAT(proxy.position.z, WithinAbs(100.0, 1e-9));
+}
+
+TEST_CASE("a hand that is lifted lets go where its way out is barred", "[loop]") {
+    // A wall between proxy and hand: the proxy pressed into its foot cannot follow over it.
+    Bench bench;
+    bench.hand_over();
+    FrameWindow window = flat_window(64, 48, 0);
+    auto wall = std::make_shared<DepthImage>(*window.frames[0].depth);
+    for (int j = 0; j < 48; ++j) wall->at(30, j) = 250.0F;
+    window.frames[0].depth = wall;
+    bench.frames.publish(window);
+    HapticTick tick(bench.connections());
+    run_ticks(tick, 100);
+    bench.hand.goal = {40.0, 10.0, 110.0};  // beyond the wall, above the ground there
+    run_ticks(tick, 100);
+    REQUIRE(bench.state.front().touch.proxy.contact);
+    bench.hand.lifted = true;
+    run_ticks(tick, 2);
+    CHECK_FALSE(bench.state.front().touch.proxy.contact);
+    CHECK_THAT(glm::length(bench.hand.sent),
+               WithinAbs(0.0, 0.6));  // no more than a step of the slew limit
+    run_ticks(tick, 20);
+    CHECK_THAT(glm::length(bench.hand.sent), WithinAbs(0.0, 1e-12));
 }
 
 TEST_CASE("force off is zero on the next tick", "[loop]") {

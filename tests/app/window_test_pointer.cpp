@@ -5,6 +5,7 @@
 
 #include "app/hand_device.hpp"
 #include "app/hand_pointer.hpp"
+#include "app/viewer_mouse.hpp"
 #include "app/viewer_opening.hpp"
 #include "core/error.hpp"
 #include "tests/app/window_test_desk.hpp"
@@ -127,4 +128,24 @@ TEST_CASE("a device that cannot be used says what to do", "[device]") {
     CHECK_THROWS_AS(make_hand_device("glove"), DeviceError);
     CHECK_THROWS_AS(make_hand_device("goals:/nowhere.csv"), InputError);
     CHECK(make_hand_device("auto").mouse != nullptr);
+}
+
+TEST_CASE("a drag turns the view by its own way, not by how the pointer came to its begin",
+          "[pointer]") {
+    const auto eye_after = [](glm::dvec2 before) {
+        Camera camera;
+        camera.frame_relief(64, 48, 20.0);
+        ReliefMouse mouse;
+        Pointer pointer;
+        pointer.position_px = before;
+        mouse.use(pointer, 0.0, false, {640, 480}, camera);
+        pointer.right = true;
+        for (const double x : {300.0, 310.0, 330.0}) {
+            pointer.position_px = {x, 200.0};
+            mouse.use(pointer, 0.0, false, {640, 480}, camera);
+        }
+        return camera.view_from_world();
+    };
+    CHECK(eye_after({20.0, 400.0}) == eye_after({300.0, 200.0}));
+    CHECK_FALSE(eye_after({300.0, 200.0}) == Camera().view_from_world());
 }

@@ -52,6 +52,22 @@ TEST_CASE("the wheel presses deeper at once, and never pulls", "[mouse]") {
     CHECK_THAT(loop.depth_px(loop.run(0.4).goal_in_grid), WithinAbs(kOptions.deepest_px, 0.01));
 }
 
+TEST_CASE("a released hand comes off the surface whatever pulls it, and says that it is lifted",
+          "[mouse]") {
+    HandInLoop loop(flat(), 0.5);
+    settle(loop);
+    loop.cursor.pressed = true;
+    CHECK_FALSE(loop.run(1.0).lifted);
+    loop.cursor.pressed = false;
+    dibhr::HandReading reading;
+    for (int k = 0; k < 500; ++k) {
+        loop.hand.send({3.0, 0.0, -3.0});  // a proxy held back under an overhang
+        reading = loop.tick();
+    }
+    CHECK(reading.lifted);
+    CHECK(loop.depth_px(reading.goal_in_grid) < 0.0);
+}
+
 TEST_CASE("a released hand is back at its hover height within a quarter of a second", "[mouse]") {
     HandInLoop loop(flat(), 0.5);
     settle(loop);

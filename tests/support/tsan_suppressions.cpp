@@ -1,4 +1,4 @@
-// What the thread sanitizer is to pass over in this test program, with the reason of each line.
+// What the thread sanitizer is to pass over in test programs that use OpenCV, with the reasons.
 
 // libavcodec and libavutil are the distribution's, built without the sanitizer: it sees their
 // memory but not the atomics that order it between their decoding threads. libgdal comes with
