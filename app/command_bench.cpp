@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "app/bench_measurements.hpp"
-#include "app/output_file.hpp"
+#include "core/files/output_file.hpp"
 
 namespace dibhr {
 

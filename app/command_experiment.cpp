@@ -7,7 +7,7 @@
 #include <system_error>
 #include <utility>
 
-#include "app/output_file.hpp"
+#include "core/files/output_file.hpp"
 #include "app/progress_bar.hpp"
 #include "core/error.hpp"
 #include "core/experiment/plots.hpp"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "app/depth_in_time.hpp"
-#include "app/output_file.hpp"
+#include "core/files/output_file.hpp"
 #include "app/output_rows.hpp"
 #include "core/error.hpp"
 #include "core/haptics/touch.hpp"

@@ -10,7 +10,7 @@
 #include "app/command_line.hpp"
 #include "app/command_options.hpp"
 #include "app/error_line.hpp"
-#include "app/output_file.hpp"
+#include "core/files/output_file.hpp"
 
 namespace {
 

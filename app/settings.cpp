@@ -18,7 +18,7 @@
 #include <system_error>
 
 #include "app/options.hpp"
-#include "app/output_file.hpp"
+#include "core/files/output_file.hpp"
 #include "app/window.hpp"
 #include "core/error.hpp"
 #include "core/haptics/algorithm.hpp"

@@ -4,17 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/files/csv_text.hpp"
 
 namespace dibhr {
 
@@ -22,7 +19,6 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kColumns{"t", "x", "y", "z"};
 constexpr std::size_t kAbsent = static_cast<std::size_t>(-1);
-constexpr std::size_t kLongestQuote = 40;
 
 /// Where in the file a value stands, for messages.
 struct Place {
@@ -34,46 +30,12 @@ struct Place {
     throw InputError(place.file + ":" + std::to_string(place.line) + ": " + what);
 }
 
-// Whatever the file holds, the message stays one short line.
-std::string quoted(std::string_view text) {
-    std::string result = "'" + std::string(text.substr(0, kLongestQuote));
-    std::replace_if(
-        result.begin(), result.end(),
-        [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
-    return result + (text.size() > kLongestQuote ? "...'" : "'");
-}
-
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view kSpace = " \t\r";
-    const auto first = text.find_first_not_of(kSpace);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(kSpace) - first + 1);
-}
-
 /// Takes the text up to `separator` off the front of `rest`.
 std::string_view taken(std::string_view& rest, char separator) {
     const auto end = rest.find(separator);
     const auto part = rest.substr(0, end);
     rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
     return part;
-}
-
-std::string whole_text(const std::filesystem::path& file) {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(file, ignored)) {
-        throw InputError(file.string() + ": is a folder; give a CSV file with the columns t,x,y,z");
-    }
-    if (std::filesystem::is_character_file(file, ignored)) {
-        throw InputError(file.string() + ": is a device; give a CSV file with the columns t,x,y,z");
-    }
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) {
-        throw InputError(file.string() + ": cannot be opened (" + std::strerror(errno) +
-                         "); give a CSV file with the columns t,x,y,z");
-    }
-    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    if (stream.bad()) throw InputError(file.string() + ": cannot be read; check the disk");
-    return text;
 }
 
 using ColumnIndices = std::array<std::size_t, kColumns.size()>;
@@ -106,10 +68,10 @@ double read_number(std::string_view text, std::string_view column, const Place& 
     const char* end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, value);
     if (error == std::errc::result_out_of_range) {
-        refuse(place, which + quoted(text) + " is out of range; give a smaller number");
+        refuse(place, which + in_quotes(text) + " is out of range; give a smaller number");
     }
     if (error != std::errc() || stop != end || !std::isfinite(value)) {
-        refuse(place, which + quoted(text) + " is no finite number; give one such as 12.5");
+        refuse(place, which + in_quotes(text) + " is no finite number; give one such as 12.5");
     }
     return value;
 }
@@ -133,10 +95,8 @@ TimedGoal read_row(std::string_view row, const ColumnIndices& indices, const Pla
 }  // namespace
 
 std::vector<TimedGoal> read_goals(const std::filesystem::path& file) {
-    const std::string text = whole_text(file);
-    std::string_view rest = text;
-    if (rest.starts_with("\xEF\xBB\xBF"))
-        rest.remove_prefix(3);  // the mark some editors write first
+    const std::string text = text_of_file(file, "give a CSV file with the columns t,x,y,z");
+    std::string_view rest = without_mark(text);
 
     const std::string name = file.string();
     Place place{name, 1};

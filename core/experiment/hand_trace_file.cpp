@@ -15,15 +15,15 @@
 
 #include "core/error.hpp"
 #include "core/experiment/hand_trace.hpp"
+#include "core/files/csv_text.hpp"
 
 namespace dibhr {
 
 namespace {
 
 constexpr double kNoPressure = 0.5;
-constexpr std::size_t kLongestQuote = 40;
 constexpr const char* kWanted =
-    "; give a CSV file with columns like t_s,x_mm,y_mm and, if known, pressure01,pen_down";
+    "give a CSV file with columns like t_s,x_mm,y_mm and, if known, pressure01,pen_down";
 
 using Names = std::span<const std::string_view>;
 constexpr std::array<std::string_view, 4> kSeconds{"t_s", "time_s", "t", "time"};
@@ -34,42 +34,17 @@ constexpr std::array<std::array<std::string_view, 2>, 3> kPlaces{
     {{"x_mm", "y_mm"}, {"x", "y"}, {"x01", "y01"}}};
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
-    throw InputError(file.string() + ": " + what + kWanted);
-}
-
-// Whatever the file holds, the message stays one short line.
-std::string quoted(std::string_view text) {
-    std::string result = "'" + std::string(text.substr(0, kLongestQuote));
-    std::replace_if(
-        result.begin(), result.end(),
-        [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
-    return result + (text.size() > kLongestQuote ? "...'" : "'");
+    throw InputError(file.string() + ": " + what + "; " + kWanted);
 }
 
 std::vector<std::string_view> split_row(std::string_view row) {
-    constexpr std::string_view kSpace = " \t\r\"";
     std::vector<std::string_view> cells;
     for (std::size_t begin = 0; begin <= row.size();) {
         const std::size_t end = std::min(row.find(',', begin), row.size());
-        std::string_view cell = row.substr(begin, end - begin);
-        const auto first = cell.find_first_not_of(kSpace);
-        cell = first == std::string_view::npos
-                   ? std::string_view{}
-                   : cell.substr(first, cell.find_last_not_of(kSpace) - first + 1);
-        cells.push_back(cell);
+        cells.push_back(trimmed(row.substr(begin, end - begin)));
         begin = end + 1;
     }
     return cells;
-}
-
-std::string text_of(const std::filesystem::path& file) {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(file, ignored)) refuse(file, "is a folder");
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) refuse(file, std::string("cannot be opened (") + std::strerror(errno) + ")");
-    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    if (stream.bad()) refuse(file, "cannot be read");
-    return text;
 }
 
 /// Where each of a sample's values stands in a row.
@@ -77,8 +52,6 @@ class TraceColumns {
   public:
     TraceColumns(const std::filesystem::path& file, std::string_view header)
         : file_(file), cells_(split_row(header)) {
-        constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-        if (cells_[0].starts_with(kByteOrderMark)) cells_[0].remove_prefix(kByteOrderMark.size());
         time_ = find(kSeconds);
         if (!time_) {
             time_ = find(kMilliseconds);
@@ -122,8 +95,8 @@ class TraceColumns {
         const char* const end = cell.data() + cell.size();
         const auto [stop, error] = std::from_chars(cell.data(), end, value);
         if (cell.empty() || error != std::errc{} || stop != end || !std::isfinite(value)) {
-            refuse(file_, "line " + std::to_string(line) + ": " + quoted(cell) + " in column " +
-                              quoted(cells_[column]) + " is no finite number");
+            refuse(file_, "line " + std::to_string(line) + ": " + in_quotes(cell) + " in column " +
+                              in_quotes(cells_[column]) + " is no finite number");
         }
         return value;
     }
@@ -141,8 +114,8 @@ class TraceColumns {
 }  // namespace
 
 std::vector<TraceSample> read_trace(const std::filesystem::path& file) {
-    const std::string text = text_of(file);
-    std::string_view rest = text;
+    const std::string text = text_of_file(file, kWanted);
+    std::string_view rest = without_mark(text);
     const auto next_line = [&rest] {
         const auto end = std::min(rest.find('\n'), rest.size());
         const std::string_view row = rest.substr(0, end);

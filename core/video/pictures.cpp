@@ -1,23 +1,17 @@
 // Still pictures and the way from OpenCV's pictures to ours.
 #include "core/video/pictures.hpp"
 
-#include <unistd.h>
-
-#include <algorithm>
-#include <cerrno>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
-#include <fstream>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/files/output_file.hpp"
 #include "core/video/input_file.hpp"
 #include "core/video/library_setup.hpp"
 #include "core/video/media.hpp"
@@ -122,24 +116,9 @@ void write_png(const ColourImage& picture, const fs::path& file) {
     std::vector<std::uint8_t> png;
     cv::imencode(".png", bgr, png);
 
-    std::error_code unknown;
-    const bool replaceable = !fs::exists(file, unknown) || fs::is_regular_file(file, unknown);
-    fs::path part = file;  // a device or a pipe is written to, never replaced
-    if (replaceable) part += ".part-" + std::to_string(::getpid());
-    std::ofstream out(part, std::ios::binary | std::ios::trunc);
-    out.write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
-    out.close();
-    int cause = out ? 0 : std::max(errno, 1);
-    std::error_code failed;
-    if (cause == 0 && replaceable) {
-        fs::rename(part, file, failed);
-        cause = failed.value();
-    }
-    if (cause == 0) return;
-    std::error_code ignored;
-    if (replaceable) fs::remove(part, ignored);
-    throw InputError(shown(file) + " cannot be written (" + std::strerror(cause) +
-                     "): choose a folder you may write to");
+    OutputFile out(file);
+    out.write({reinterpret_cast<const char*>(png.data()), png.size()});
+    out.commit();
 }
 
 }  // namespace dibhr

@@ -27,7 +27,9 @@ struct Room {
 const std::vector<Room> kRooms{
     {"core/haptics/", {"core/haptics/"}},
     {"core/realtime/", {"core/realtime/"}},
-    {"core/video/", {"core/video/", "core/haptics/", "core/realtime/", "core/error.hpp"}},
+    {"core/files/", {"core/files/", "core/error.hpp"}},
+    {"core/video/",
+     {"core/video/", "core/files/", "core/haptics/", "core/realtime/", "core/error.hpp"}},
     {"core/session/", {"core/session/", "core/haptics/", "core/realtime/", "core/error.hpp"}},
     {"core/experiment/", {"core/"}},
     {"core/", {}},
@@ -44,10 +46,15 @@ struct Ownership {
 };
 
 const std::vector<Ownership> kOwnerships{
-    {"epoxy/", {"render/"}}, {"GL/", {"render/"}},
-    {"libusb", {"device/"}}, {"sqlite3", {"core/session/"}},
-    {"imgui", {"app/"}},     {"GLFW/", {"app/"}},
-    {"CLI/", {"app/"}},      {"toml", {"app/"}},
+    {"epoxy/", {"render/"}},
+    {"GL/", {"render/"}},
+    {"libusb", {"device/"}},
+    {"sqlite3", {"core/session/"}},
+    {"imgui", {"app/"}},
+    {"GLFW/", {"app/"}},
+    {"CLI/", {"app/"}},
+    {"toml", {"app/"}},
+    {"opencv2/", {"core/video/", "assets/"}},
 };
 
 // No file, clock, thread, log or picture library: numbers in, numbers out.

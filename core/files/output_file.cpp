@@ -1,5 +1,5 @@
 // An output file that appears whole or not at all.
-#include "app/output_file.hpp"
+#include "core/files/output_file.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -29,7 +29,10 @@ OutputFile::OutputFile(const fs::path& target) : target_(target) {
         return;
     }
     // A link stays a link: what it points to is replaced.
-    if (fs::is_symlink(target, ignored)) target_ = fs::weakly_canonical(target, ignored);
+    constexpr int kMostLinks = 40;
+    for (int links = 0; links < kMostLinks && fs::is_symlink(target_, ignored); ++links) {
+        target_ = target_.parent_path() / fs::read_symlink(target_, ignored);
+    }
     temporary_ = target_;
     temporary_ += ".part" + std::to_string(::getpid());
     file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);

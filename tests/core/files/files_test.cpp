@@ -1,0 +1,105 @@
+// Output that appears whole or not at all, and the words for what people wrote.
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/files/csv_text.hpp"
+#include "core/files/output_file.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace dibhr;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder of this process, gone with the test.
+class Folder {
+  public:
+    Folder() : path_(fs::temp_directory_path() / ("dibhr-files-" + std::to_string(::getpid()))) {
+        fs::create_directories(path_);
+    }
+    ~Folder() { fs::remove_all(path_); }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    [[nodiscard]] fs::path operator/(const char* name) const { return path_ / name; }
+
+  private:
+    fs::path path_;
+};
+
+std::string content_of(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace
+
+TEST_CASE("an output file is there after commit, and nothing is without it", "[files]") {
+    const Folder folder;
+    const fs::path file = folder / "out.csv";
+    {
+        OutputFile out(file);
+        out.write("half");
+    }
+    CHECK_FALSE(fs::exists(file));
+    {
+        OutputFile out(file);
+        out.write("the ");
+        out.write("whole");
+        out.commit();
+    }
+    CHECK(content_of(file) == "the whole");
+    { OutputFile(file).write("broken off"); }
+    CHECK(content_of(file) == "the whole");
+    CHECK(std::distance(fs::directory_iterator(file.parent_path()), {}) == 1);
+}
+
+TEST_CASE("a link stays a link and a pipe stays a pipe", "[files]") {
+    const Folder folder;
+    fs::create_symlink(folder / "real", folder / "link");
+    OutputFile out(folder / "link");
+    out.write("x");
+    out.commit();
+    CHECK(fs::is_symlink(folder / "link"));
+    CHECK(content_of(folder / "real") == "x");
+    OutputFile nowhere("/dev/null");
+    nowhere.write("y");
+    nowhere.commit();
+    CHECK(fs::is_character_file("/dev/null"));
+}
+
+TEST_CASE("a target that cannot be written is refused by name before anything is written",
+          "[files]") {
+    const Folder folder;
+    CHECK_THROWS_AS(OutputFile(folder / "missing" / "out.csv"), InputError);
+    CHECK_THROWS_AS(OutputFile(folder / ""), InputError);
+}
+
+TEST_CASE("text is quoted short and on one line, and cells lose what stands around them",
+          "[files]") {
+    CHECK(in_quotes("a\nb\tc") == "'a?b?c'");
+    CHECK(in_quotes(std::string(100, 'x')).size() == 45);
+    CHECK(trimmed(" \t\"x y\" \r") == "x y");
+    CHECK(trimmed(" \r").empty());
+    CHECK(without_mark("\xEF\xBB\xBFt,x") == "t,x");
+    CHECK(without_mark("t,x") == "t,x");
+}
+
+TEST_CASE("a folder, a device or a missing file is refused with what to give instead", "[files]") {
+    const Folder folder;
+    for (const fs::path& file : {folder / "", folder / "missing.csv", fs::path("/dev/zero")}) {
+        try {
+            static_cast<void>(text_of_file(file, "give something else"));
+            FAIL("not refused: " << file);
+        } catch (const InputError& error) {
+            const std::string words = error.what();
+            CHECK(words.find(file.string()) != std::string::npos);
+            CHECK(words.find("give something else") != std::string::npos);
+        }
+    }
+}
