@@ -20,15 +20,6 @@ void copy(const Vec3& from, double (&to)[3]) {
     for (int axis = 0; axis < 3; ++axis) to[axis] = from[axis];
 }
 
-bool can_be_touched(const DepthBlend& pair) {
-    return pair.from != nullptr && pair.to != nullptr && pair.from->depth && pair.to->depth &&
-           pair.from->depth->columns >= 2 && pair.from->depth->rows >= 2;
-}
-
-bool same_size(const DepthImage& a, const DepthImage& b) {
-    return a.columns == b.columns && a.rows == b.rows;
-}
-
 }  // namespace
 
 HapticTick::HapticTick(const HapticConnections& connections) : to_(connections) {}
@@ -40,7 +31,7 @@ void HapticTick::run(const TickTiming& timing, std::uint64_t late_ticks) noexcep
     state_.playback_s = frames.clock.playback_s(timing.begin);
     const DepthBlend pair = frames.at(state_.playback_s);
     restart_ = begins_again(settings, frames) || restart_;
-    state_.touchable = can_be_touched(pair);
+    state_.touchable = pair.makes_surface();
     state_.late_ticks = late_ticks;
     if (state_.touchable) {
         touch_surface(pair, settings, timing);
@@ -60,10 +51,8 @@ void HapticTick::rest() noexcept {
 
 void HapticTick::touch_surface(const DepthBlend& pair, const HapticSettings& settings,
                                const TickTiming& timing) noexcept {
-    const DepthImage& from = *pair.from->depth;
-    const DepthImage& to = same_size(from, *pair.to->depth) ? *pair.to->depth : from;
-    const DepthSurface surface(from, to, pair.blend, settings.parameters.shape,
-                               settings.bump.get());
+    const DepthSurface surface(*pair.from->depth, *pair.to->depth, pair.blend,
+                               settings.parameters.shape, settings.bump.get());
     const HandReading hand =
         to_.device.read({timing.dt_s, surface, settings.parameters.coupling.pixel_pitch_mm});
     const SafetyInput input{timing.dt_s, 0.0, settings.force_enabled, hand.ready, restart_};

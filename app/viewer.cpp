@@ -174,7 +174,7 @@ void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {
     const Pointer pointer = window_.pointer();
     const PointerUse use =
         mouse_.use(pointer, input.wheel_steps, gui_.wants_pointer(), viewport, camera_);
-    if (hand_.mouse == nullptr || !is_drawable(shown_)) return;
+    if (hand_.mouse == nullptr || !shown_.makes_surface()) return;
     const DepthSurface surface(*shown_.from->depth, *shown_.to->depth, shown_.blend,
                                state_.settings.touch.shape, state_.bump.get());
     const Camera::Ray ray = camera_.ray_under(pointer.position_px, viewport);

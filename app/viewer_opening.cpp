@@ -1,14 +1,12 @@
 // Opening files in the background, and telling colour from depth.
 #include "app/viewer_opening.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <cstdlib>
-#include <string_view>
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/video/input_file.hpp"
 
 namespace dibhr {
 
@@ -18,17 +16,6 @@ namespace {
 
 constexpr int kGreyTolerance =
     12;  // levels between channels that video compression leaves in a grey picture
-
-std::string lower_name(const fs::path& file) {
-    std::string name = file.filename().string();
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return name;
-}
-
-bool named_depth(const fs::path& file) {
-    return lower_name(file).find("depth") != std::string::npos;
-}
 
 bool is_grey(const ColourImage& picture) {
     std::size_t coloured = 0;
@@ -46,18 +33,6 @@ bool shows_grey(const fs::path& colour, const fs::path& depth) {
     return first && is_grey(first->colour);
 }
 
-/// `clip_depth.mp4` -> `clip_color.mp4` beside it, when there is one.
-std::optional<fs::path> colour_beside(const fs::path& depth) {
-    const std::string name = depth.filename().string();
-    const std::size_t at = lower_name(depth).find("depth");
-    if (at == std::string::npos) return {};
-    for (const char* word : {"color", "colour", "rgb", "Color", "RGB"}) {
-        const fs::path colour = depth.parent_path() / std::string(name).replace(at, 5, word);
-        if (fs::exists(colour)) return colour;
-    }
-    return {};
-}
-
 Opened try_open(const OpenRequest& request) {
     try {
         return {open_request(request), {}};
@@ -72,7 +47,7 @@ std::unique_ptr<Media> open_request(const OpenRequest& request) {
     fs::path colour = request.colour;
     fs::path depth = request.depth;
     if (request.in_any_order && depth.empty() && named_depth(colour)) {
-        if (const auto found = colour_beside(colour)) depth = std::exchange(colour, *found);
+        if (const auto found = find_colour_beside(colour)) depth = std::exchange(colour, *found);
     } else if (request.in_any_order && !depth.empty()) {
         const bool by_name = named_depth(colour) != named_depth(depth);
         const bool swapped = by_name ? named_depth(colour) : shows_grey(colour, depth);

@@ -41,21 +41,12 @@ std::string number_text(double value) {
 
 }  // namespace
 
-bool is_drawable(const DepthBlend& blend) {
-    if (blend.from == nullptr || blend.to == nullptr || !blend.from->depth || !blend.to->depth)
-        return false;
-    const DepthImage& from = *blend.from->depth;
-    const DepthImage& to = *blend.to->depth;
-    return from.columns == to.columns && from.rows == to.rows && from.columns >= 2 &&
-           from.rows >= 2;
-}
-
 SceneContent scene_content(const ViewerState& state, const DepthBlend& shown) {
     SceneContent content;
     content.shape = state.settings.touch.shape;
     content.bump = state.bump.get();
     content.look = state.settings.look;
-    if (!is_drawable(shown)) return content;
+    if (!shown.makes_surface()) return content;
     content.depth = shown;
     content.colour = shown.from;
     const DepthSurface surface(*shown.from->depth, *shown.to->depth, shown.blend, content.shape,

@@ -10,9 +10,6 @@
 
 namespace dibhr {
 
-/// Whether the blend has two depth images of one touchable size.
-[[nodiscard]] bool is_drawable(const DepthBlend& blend);
-
 /// What to draw now. The markers are those of the last tick; the colour is that of the `from`
 /// frame.
 [[nodiscard]] SceneContent scene_content(const ViewerState& state, const DepthBlend& shown);

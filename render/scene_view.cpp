@@ -16,13 +16,6 @@ namespace {
 constexpr int kSamples =
     4;  // a pixel, off-screen; none on software, where they cost four times the work
 
-bool has_relief(const DepthBlend& depth) {
-    if (!depth.from || !depth.to || !depth.from->depth || !depth.to->depth) return false;
-    const DepthImage& from = *depth.from->depth;
-    const DepthImage& to = *depth.to->depth;
-    return from.columns == to.columns && from.rows == to.rows && from.highest_level > 0.0;
-}
-
 }  // namespace
 
 struct SceneView::Objects {
@@ -48,7 +41,7 @@ void SceneView::draw(const SceneContent& content, const Camera& camera, glm::ive
     glDepthMask(GL_TRUE);
     glClear(GL_DEPTH_BUFFER_BIT);
 
-    if (has_relief(content.depth)) {
+    if (content.depth.makes_surface()) {
         const double aspect = static_cast<double>(size.x) / size.y;
         objects_->relief.draw(content,
                               glm::mat4(camera.clip_from_view(aspect) * camera.view_from_world()));

@@ -45,6 +45,16 @@ struct DepthBlend {
     const Frame* from{nullptr};
     const Frame* to{nullptr};
     double blend{0.0};  ///< 0: from, 1: to
+
+    /// Whether the two make one surface to touch and draw: there, of one size and scale, 2 x 2 or
+    /// more.
+    [[nodiscard]] bool makes_surface() const noexcept {
+        if (from == nullptr || to == nullptr || !from->depth || !to->depth) return false;
+        const DepthImage& a = *from->depth;
+        const DepthImage& b = *to->depth;
+        return a.columns == b.columns && a.rows == b.rows && a.columns >= 2 && a.rows >= 2 &&
+               a.highest_level == b.highest_level && a.highest_level > 0.0;
+    }
 };
 
 /// Travels whole through a triple buffer, so a tick never mixes frames or clocks. Frames are in

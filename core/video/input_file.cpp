@@ -39,20 +39,25 @@ bool begins_like_text(std::ifstream& in) {
     });
 }
 
-/// `stem` with its first colour word replaced by "depth", for each word it holds.
-std::vector<std::string> depth_stems(const std::string& stem) {
-    std::vector<std::string> stems;
-    const std::string low = lower(stem);
-    for (const std::string_view word : {"colour", "color", "rgb"}) {
-        const auto at = low.find(word);
-        if (at == std::string::npos) continue;
-        std::string_view depth = "depth";
-        if (std::isupper(static_cast<unsigned char>(stem[at])) != 0)
-            depth = std::isupper(static_cast<unsigned char>(stem[at + 1])) != 0 ? "DEPTH" : "Depth";
-        std::string changed = stem;
-        stems.push_back(changed.replace(at, word.size(), depth));
-    }
-    return stems;
+constexpr std::array<std::string_view, 3> kColourWords{"colour", "color", "rgb"};
+
+/// `stem` with the first `word` replaced by `other`, written as large as `word` is; nothing when
+/// the stem does not hold the word.
+std::optional<std::string> renamed(const std::string& stem, std::string_view word,
+                                   std::string_view other) {
+    const auto at = lower(stem).find(word);
+    if (at == std::string::npos) return std::nullopt;
+    const auto is_large = [&](std::size_t k) {
+        return std::isupper(static_cast<unsigned char>(stem[k])) != 0;
+    };
+    const auto large = [](char c) {
+        return static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    };
+    std::string written(other);
+    if (is_large(at)) written[0] = large(written[0]);
+    if (is_large(at) && is_large(at + 1))
+        std::transform(written.begin(), written.end(), written.begin(), large);
+    return std::string(stem).replace(at, word.size(), written);
 }
 
 bool is_file(const fs::path& file) {
@@ -79,6 +84,13 @@ std::optional<fs::path> with_any_extension(const fs::path& folder, const std::st
     }
     if (found.empty()) return std::nullopt;
     return *found.begin();
+}
+
+/// The file beside `given` of that stem: of the same extension, else of another.
+std::optional<fs::path> with_stem(const fs::path& given, const std::string& stem) {
+    const auto folder = given.parent_path();
+    const auto same = folder / (stem + given.extension().string());
+    return is_file(same) ? same : with_any_extension(folder, stem);
 }
 
 }  // namespace
@@ -123,16 +135,25 @@ void require_size(const fs::path& file, int columns, int rows) {
 
 std::optional<fs::path> find_depth_beside(const fs::path& colour, std::string& looked_for) {
     looked_for.clear();
-    const auto folder = colour.parent_path();
-    for (const auto& stem : depth_stems(colour.stem().string())) {
-        const auto same = folder / (stem + colour.extension().string());
+    for (const auto word : kColourWords) {
+        const auto stem = renamed(colour.stem().string(), word, "depth");
+        if (!stem) continue;
+        const auto same = colour.parent_path() / (*stem + colour.extension().string());
         if (!looked_for.empty()) looked_for += ", ";
         looked_for += shown(same) + " (or another extension)";
-        if (is_file(same)) return same;
-        if (auto other = with_any_extension(folder, stem)) return other;
+        if (auto found = with_stem(colour, *stem)) return found;
     }
     if (looked_for.empty())
         looked_for = "nothing, because the name holds neither color, colour nor rgb";
+    return std::nullopt;
+}
+
+std::optional<fs::path> find_colour_beside(const fs::path& depth) {
+    for (const auto word : kColourWords) {
+        const auto stem = renamed(depth.stem().string(), "depth", word);
+        if (!stem) continue;
+        if (auto found = with_stem(depth, *stem)) return found;
+    }
     return std::nullopt;
 }
 

@@ -55,6 +55,11 @@ class Media {
 [[nodiscard]] std::optional<std::filesystem::path> find_depth_beside(
     const std::filesystem::path& colour, std::string& looked_for);
 
+/// The colour file that belongs to a depth file, likewise: `*depth*` -> `*color*`, `*colour*`,
+/// `*rgb*`.
+[[nodiscard]] std::optional<std::filesystem::path> find_colour_beside(
+    const std::filesystem::path& depth);
+
 /// Opens a pair; an empty depth path is found beside the colour file. Throws InputError: what,
 /// which file, what to do next.
 [[nodiscard]] std::unique_ptr<Media> open_media(const std::filesystem::path& colour,

@@ -1,6 +1,6 @@
 // Reading videos: pairing by time, exact seeking, levels that survive.
-#include "core/error.hpp"
 #include "core/video/media.hpp"
+#include "core/error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <random>
 #include <set>
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -185,6 +186,22 @@ TEST_CASE("a video cut off in the middle is refused, and one that lacks only its
     CHECK(media->description().frames == static_cast<std::int64_t>(frames.size()));
     media->seek(100.0);
     CHECK(media->next().has_value());
+}
+
+TEST_CASE("a colour and a depth file are found by each other's name, written as large as they are",
+          "[media]") {
+    const TemporaryFolder folder;
+    const auto [colour, depth] =
+        GENERATE(table<std::string, std::string>({{"clip_color.mp4", "clip_depth.webm"},
+                                                  {"RGB.png", "DEPTH.png"},
+                                                  {"X_Color.mp4", "X_Depth.mov"}}));
+    CAPTURE(colour, depth);
+    std::ofstream(folder / colour) << "c";
+    std::ofstream(folder / depth) << "d";
+    std::string looked_for;
+    CHECK(find_depth_beside(folder / colour, looked_for) == folder / depth);
+    CHECK(find_colour_beside(folder / depth) == folder / colour);
+    CHECK_FALSE(find_colour_beside(folder / "other.mp4"));
 }
 
 TEST_CASE("a pair of still images is a video of one frame, and 16 bits stay 16 bits", "[media]") {
