@@ -44,6 +44,7 @@ void HapticTick::run(const TickTiming& timing, std::uint64_t late_ticks) noexcep
 
 void HapticTick::rest() noexcept {
     to_.device.send(Vec3{0.0});
+    renderer_.rest();
     state_.touch.spring_force_newton = Vec3{0.0};
     state_.touch.sent_force_newton = Vec3{0.0};
     restart_ = true;

@@ -57,12 +57,16 @@ const char* name_of(SafetyCut cut) noexcept {
     return "";
 }
 
+void SafetyStage::rest() noexcept {
+    ramp_age_s_ = 0.0;
+    sent_newton_ = Vec3(0.0);
+}
+
 Vec3 SafetyStage::limit(Vec3 force_newton, const SafetyInput& input,
                         const SafetyLimits& limits) noexcept {
     cut_ = reason_to_cut(force_newton, input, limits);
     if (cut_ != SafetyCut::none) {
-        ramp_age_s_ = 0.0;
-        sent_newton_ = Vec3(0.0);
+        rest();
         return sent_newton_;
     }
     ramp_age_s_ = input.restart ? 0.0 : ramp_age_s_ + input.dt_s;

@@ -46,6 +46,9 @@ class SafetyStage {
     [[nodiscard]] Vec3 limit(Vec3 force_newton, const SafetyInput& input,
                              const SafetyLimits& limits) noexcept;
 
+    /// No force is sent until the next `limit`, which then begins from zero.
+    void rest() noexcept;
+
     [[nodiscard]] SafetyCut last_cut() const noexcept { return cut_; }
 
   private:

@@ -42,6 +42,9 @@ class TouchRenderer {
     /// The proxy lets go of what it touches: the next update begins above its goal, in free space.
     void let_go() noexcept;
 
+    /// No update is due, and zero force is sent meanwhile: the next one's force begins from zero.
+    void rest() noexcept { safety_.rest(); }
+
   private:
     /// Makes the algorithm the running one; true when it was not.
     bool run_with(Algorithm algorithm, const DepthSurface& surface) noexcept;

@@ -187,6 +187,21 @@ TEST_CASE("a smaller film under a pressed hand leaves the proxy on the new surfa
     CHECK_THAT(proxy.position.z, WithinAbs(100.0, 1e-9));
 }
 
+TEST_CASE("after a moment without a surface the force begins from zero", "[loop]") {
+    Bench bench;
+    bench.hand_over();
+    bench.frames.publish(flat_window(64, 48, 0));
+    HapticTick tick(bench.connections());
+    run_ticks(tick, 700);
+    REQUIRE(glm::length(bench.hand.sent) > 0.3);
+    bench.frames.publish(FrameWindow{});
+    run_ticks(tick, 1);
+    CHECK_THAT(glm::length(bench.hand.sent), WithinAbs(0.0, 0.0));
+    bench.frames.publish(flat_window(64, 48, 0));
+    run_ticks(tick, 1);
+    CHECK_THAT(glm::length(bench.hand.sent), WithinAbs(0.0, 1e-12));
+}
+
 TEST_CASE("a hand that is lifted lets go where its way out is barred", "[loop]") {
     // A wall between proxy and hand: the proxy pressed into its foot cannot follow over it.
     Bench bench;
