@@ -33,9 +33,15 @@ OutputFile::OutputFile(const fs::path& target) : target_(target) {
     for (int links = 0; links < kMostLinks && fs::is_symlink(target_, ignored); ++links) {
         target_ = target_.parent_path() / fs::read_symlink(target_, ignored);
     }
-    temporary_ = target_;
-    temporary_ += ".part" + std::to_string(::getpid());
-    file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    // Not mkostemp(), whose files only their owner may read. Another program that was killed may
+    // have left a file of such a name.
+    constexpr int kMostLeftOver = 1000;
+    for (int number = 0; file_ < 0 && number < kMostLeftOver; ++number) {
+        temporary_ = target_;
+        temporary_ += ".part" + std::to_string(::getpid()) + "-" + std::to_string(number);
+        file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (file_ < 0 && errno != EEXIST) break;
+    }
     if (file_ < 0) {
         temporary_.clear();
         fail("cannot be written");

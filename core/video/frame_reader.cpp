@@ -29,7 +29,8 @@ std::size_t bytes_of(const Frame& frame) {
 
 }  // namespace
 
-FrameReader::FrameReader(std::unique_ptr<Media> media) : media_(std::move(media)) {}
+FrameReader::FrameReader(std::unique_ptr<Media> media, std::uint32_t number)
+    : media_(std::move(media)), number_(number) {}
 
 FrameReader::Kept* FrameReader::find(double media_s) {
     const auto found = std::find_if(kept_.begin(), kept_.end(), [media_s](const Kept& kept) {
@@ -54,6 +55,7 @@ FrameReader::Kept* FrameReader::read() {
         kept->raw.colour = std::make_shared<const ColourImage>(std::move(raw->colour));
         kept->raw.media_s = raw->media_s;
         kept->raw.index = raw->index;
+        kept->raw.media = number_;
     }
     if (position_s_) kept->previous_s = position_s_;
     position_s_ = raw->media_s;
@@ -88,6 +90,7 @@ Frame FrameReader::cleaned(Kept& kept) {
         cost_.cleaned = std::chrono::steady_clock::now();
     }
     frame.depth = kept.cleaned;
+    frame.cleaning = cleaning_;
     return frame;
 }
 

@@ -26,7 +26,8 @@ struct FrameCost {
 /// given out have `time_s` 0. Everything that decodes may throw InputError.
 class FrameReader {
   public:
-    explicit FrameReader(std::unique_ptr<Media> media);
+    /// Every frame carries `number`, for who needs to know where it came from.
+    explicit FrameReader(std::unique_ptr<Media> media, std::uint32_t number = 0);
 
     /// The frame shown at `media_s`; the first before the beginning, the last after the end.
     std::optional<Frame> at(double media_s);
@@ -60,6 +61,7 @@ class FrameReader {
     Frame cleaned(Kept& kept);
 
     std::unique_ptr<Media> media_;
+    std::uint32_t number_;
     DepthCleaner cleaner_{};
     CleaningOptions cleaning_{};
     std::deque<Kept> kept_{};             ///< in the order of decoding

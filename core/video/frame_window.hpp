@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
+#include "core/video/depth_cleaning.hpp"
 
 namespace dibhr {
 
@@ -25,8 +26,10 @@ struct Frame {
     std::shared_ptr<const DepthImage> depth{};
     std::shared_ptr<const ColourImage> colour{};
     double time_s{0.0};  ///< on the playback timeline, which goes on across loops and never repeats
-    double media_s{0.0};    ///< presentation time in the file
-    std::int64_t index{0};  ///< number of the frame in the file, from 0
+    double media_s{0.0};         ///< presentation time in the file
+    std::int64_t index{0};       ///< number of the frame in the file, from 0
+    std::uint32_t media{0};      ///< number of the media it is of, as given to the player
+    CleaningOptions cleaning{};  ///< how its depth was cleaned
 };
 
 /// Maps the monotonic clock to the playback timeline.

@@ -77,6 +77,9 @@ class Media {
 /// highest 1.
 [[nodiscard]] BumpMap read_bump_map(const std::filesystem::path& file);
 
+/// The bytes of an RGB picture's PNG file. Throws InputError for an empty picture.
+[[nodiscard]] std::string png_of(const ColourImage& picture);
+
 /// Writes an RGB picture as PNG, whole or not at all. Throws InputError.
 void write_png(const ColourImage& picture, const std::filesystem::path& file);
 

@@ -103,21 +103,28 @@ BumpMap read_bump_map(const fs::path& file) {
     return bump;
 }
 
-void write_png(const ColourImage& picture, const fs::path& file) {
+std::string png_of(const ColourImage& picture) {
     set_up_libraries();
     const auto bytes =
         static_cast<std::size_t>(picture.columns) * static_cast<std::size_t>(picture.rows) * 3;
-    if (bytes == 0 || picture.rgb.size() != bytes)
-        throw InputError(shown(file) + " cannot be written: the picture is empty");
+    if (bytes == 0 || picture.rgb.size() != bytes) {
+        throw InputError("A picture cannot be written: it is empty");
+    }
     const cv::Mat rgb(picture.rows, picture.columns, CV_8UC3,
                       const_cast<std::uint8_t*>(picture.rgb.data()));  // only read
     cv::Mat bgr;
     cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
     std::vector<std::uint8_t> png;
     cv::imencode(".png", bgr, png);
+    return {png.begin(), png.end()};
+}
 
+void write_png(const ColourImage& picture, const fs::path& file) {
+    if (picture.rgb.empty())
+        throw InputError(shown(file) + " cannot be written: the picture is empty");
+    const std::string png = png_of(picture);
     OutputFile out(file);
-    out.write({reinterpret_cast<const char*>(png.data()), png.size()});
+    out.write(png);
     out.commit();
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
+#include <string>
 #include <utility>
 
 #include "core/error.hpp"
@@ -105,11 +106,29 @@ void Playback::set_speed(double speed, Time now) {
 
 void Playback::set_cleaning(const CleaningOptions& options) {
     if (options == cleaning_) return;
+    if (is_open()) clean_again(options);
     cleaning_ = options;
-    if (!is_open()) return;
+}
+
+/// All frames or none: no surface lies between two cleanings.
+void Playback::clean_again(const CleaningOptions& options) {
+    std::deque<Frame> cleaned;
     reader_->set_cleaning(options);
-    for (Frame& frame : frames_)
-        if (auto again = reader_->at(frame.media_s)) frame.depth = again->depth;
+    try {
+        for (const Frame& frame : frames_) {
+            auto again = reader_->at(frame.media_s);
+            if (!again) {
+                throw InputError("the video cannot be read again at " +
+                                 std::to_string(frame.media_s) + " s: open it again");
+            }
+            again->time_s = frame.time_s;
+            cleaned.push_back(std::move(*again));
+        }
+    } catch (...) {
+        reader_->set_cleaning(cleaning_);
+        throw;
+    }
+    frames_ = std::move(cleaned);
     ++discontinuity_;  // the surface is another one at once
 }
 

@@ -56,6 +56,7 @@ class Playback {
 
   private:
     void jump_to(Frame frame, Time now);
+    void clean_again(const CleaningOptions& options);
     void anchor(double playback_s, Time now);
     [[nodiscard]] double moment(Time now) const;  ///< playback time, held at the newest frame
     [[nodiscard]] bool at_seam() const;  ///< from the last frame to the first of the next lap

@@ -161,10 +161,10 @@ Player::~Player() {
     implementation_->thread.join();
 }
 
-void Player::play_media(std::unique_ptr<Media> media) {
+void Player::play_media(std::unique_ptr<Media> media, std::uint32_t number) {
     // std::function wants to be copyable, hence shared; the reader moves on when the command runs.
     auto reader = std::make_shared<std::unique_ptr<FrameReader>>(
-        std::make_unique<FrameReader>(std::move(media)));
+        std::make_unique<FrameReader>(std::move(media), number));
     implementation_->ask(
         {[reader](Playback& playback, Time now) { playback.open(std::move(*reader), now); }});
 }

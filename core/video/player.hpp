@@ -39,8 +39,8 @@ class Player {
     Player(const Player&) = delete;
     Player& operator=(const Player&) = delete;
 
-    /// Takes an opened pair over, from its first frame, playing.
-    void play_media(std::unique_ptr<Media> media);
+    /// Takes an opened pair over, from its first frame, playing. Its frames carry `number`.
+    void play_media(std::unique_ptr<Media> media, std::uint32_t number = 0);
 
     void play();
     void pause();

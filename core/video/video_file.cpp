@@ -16,6 +16,7 @@
 #include "core/video/input_file.hpp"
 #include "core/video/library_setup.hpp"
 #include "core/video/media.hpp"
+#include "core/video/packets_end.hpp"
 
 namespace dibhr {
 namespace {
@@ -23,7 +24,6 @@ namespace {
 constexpr double kNearAhead_s = 1.0;   ///< up to here decoding on is as quick as a jump
 constexpr double kMissing_s = 0.5;     ///< less than this at the end is a container's rounding,
 constexpr double kMissingPart = 0.15;  ///< and less than this part may be a long last frame
-constexpr int kMostProbed = 3000;      ///< frames looked through for the end of a file
 constexpr double kLongest_s = 1e6;     ///< bounds a seek into a file of unknown length
 
 std::string text_of_fourcc(int fourcc) {
@@ -69,31 +69,15 @@ bool open_capture(cv::VideoCapture& capture, const std::filesystem::path& file) 
     }
 }
 
-/// Time of the last frame from here on; nothing when the end is too far to look for.
-std::optional<double> last_time_s(cv::VideoCapture& capture) {
-    double last_s = -1.0;
-    for (int read = 0; capture.grab(); ++read) {
-        if (read == kMostProbed) return std::nullopt;
-        last_s = std::max(last_s, capture.get(cv::CAP_PROP_POS_MSEC) / 1000.0);
-    }
-    return last_s;
-}
-
 /// A copy that broke off still opens: its header promises more than the file holds.
 void require_whole(const std::filesystem::path& file, double promised_s) {
     const double least_s = promised_s - std::max(kMissing_s, kMissingPart * promised_s);
-    cv::VideoCapture capture;
-    if (!(least_s > 0.0) || !open_capture(capture, file)) return;
-    capture.set(cv::CAP_PROP_POS_MSEC, least_s * 1000.0);
-    auto last_s = last_time_s(capture);
-    if (last_s && *last_s < least_s) {  // or the file cannot jump: look through it
-        if (!open_capture(capture, file)) return;
-        last_s = last_time_s(capture);
-    }
-    if (!last_s || *last_s >= least_s) return;
+    if (!(least_s > 0.0)) return;
+    const std::optional<double> end_s = packets_end_s(file, least_s);
+    if (!end_s || *end_s >= least_s) return;
     std::ostringstream text;
     text << std::fixed << std::setprecision(1) << shown(file) << " is cut off: it ends at "
-         << *last_s << " s of " << promised_s << " s; copy or export it again";
+         << *end_s << " s of " << promised_s << " s; copy or export it again";
     throw InputError(text.str());
 }
 

@@ -59,6 +59,33 @@ TEST_CASE("an output file is there after commit, and nothing is without it", "[f
     CHECK(std::distance(fs::directory_iterator(file.parent_path()), {}) == 1);
 }
 
+TEST_CASE("an output file is written beside what another program left, and as readable as any",
+          "[files]") {
+    const Folder folder;
+    const fs::path file = folder / "out.csv";
+    const std::string left = file.string() + ".part" + std::to_string(::getpid());
+    for (const char* ending : {"", "-0", "-1"}) std::ofstream(left + ending) << "half";
+    const mode_t mask = ::umask(027);
+    {
+        OutputFile out(file);
+        out.write("whole");
+        out.commit();
+    }
+    ::umask(mask);
+    CHECK(content_of(file) == "whole");
+    struct stat status {};
+    REQUIRE(::stat(file.c_str(), &status) == 0);
+    CHECK((status.st_mode & 0777U) == 0640U);
+    CHECK(content_of(left + "-1") == "half");
+    OutputFile first(folder / "both");
+    OutputFile second(folder / "both");  // two at once
+    first.write("1");
+    second.write("2");
+    second.commit();
+    first.commit();
+    CHECK(content_of(folder / "both") == "1");
+}
+
 TEST_CASE("a link stays a link and a pipe stays a pipe", "[files]") {
     const Folder folder;
     fs::create_symlink(folder / "real", folder / "link");

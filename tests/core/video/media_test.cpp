@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <fstream>
 #include <random>
 #include <set>
-#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -168,6 +168,7 @@ TEST_CASE("a video cut off in the middle is refused, and one that lacks only its
     const auto [name, encoding] =
         GENERATE(table<std::string, std::string>({{"whole.webm", kVp9},
                                                   {"whole.mkv", kLossless},
+                                                  {"whole.avi", "-c:v mjpeg"},
                                                   {"whole.mp4", kH264 + " -movflags faststart"}}));
     CAPTURE(name);
     make_flat_clip(folder / name, 60, 25, encoding, "noise=alls=20:allf=t");
@@ -186,6 +187,19 @@ TEST_CASE("a video cut off in the middle is refused, and one that lacks only its
     CHECK(media->description().frames == static_cast<std::int64_t>(frames.size()));
     media->seek(100.0);
     CHECK(media->next().has_value());
+}
+
+TEST_CASE("a whole video of few frames, each shown for seconds, plays", "[media]") {
+    const TemporaryFolder folder;
+    const auto [frames, name, encoding] =
+        GENERATE(table<int, std::string, std::string>({{1, "a.mkv", kLossless},
+                                                       {3, "b.mkv", kLossless},
+                                                       {1, "a.mp4", kH264},
+                                                       {4, "b.mp4", kH264}}));
+    CAPTURE(frames, name);
+    ffmpeg("-f lavfi -i testsrc2=size=64x48:rate=0.5:duration=" + std::to_string(2 * frames) + " " +
+           encoding + " '" + (folder / name).string() + "'");
+    CHECK(all_frames(*open_depth(folder / name)).size() == static_cast<std::size_t>(frames));
 }
 
 TEST_CASE("a colour and a depth file are found by each other's name, written as large as they are",

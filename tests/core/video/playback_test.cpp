@@ -276,6 +276,27 @@ TEST_CASE("a change of cleaning shows at once, also when paused", "[playback]") 
     }
 }
 
+TEST_CASE("every frame says which media it is of and how it was cleaned; a window never mixes them",
+          "[playback]") {
+    Scene scene(kTenths);
+    CHECK(scene.playback.window().frames[0].media == 0);
+    scene.playback.open(std::make_unique<FrameReader>(std::make_unique<FlatMedia>(kTenths), 7),
+                        scene.now);
+    for (int k = 0; k < 40; ++k) {
+        const CleaningOptions cleaning{k % 2 == 0, k % 3 == 0, false};
+        scene.playback.set_cleaning(cleaning);
+        if (k % 5 == 0) scene.playback.seek(0.1 * (k % 7), scene.now);
+        for (int ticks = 0; ticks < 3; ++ticks) {
+            scene.pass(0.07);
+            const FrameWindow window = scene.playback.window();
+            for (std::size_t n = 0; n < window.count; ++n) {
+                REQUIRE(window.frames[n].media == 7);
+                REQUIRE(window.frames[n].cleaning == cleaning);
+            }
+        }
+    }
+}
+
 TEST_CASE("one frame is held: nothing plays", "[playback]") {
     Scene scene({0.0});
     CHECK_FALSE(scene.playback.playing());

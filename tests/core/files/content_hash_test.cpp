@@ -1,0 +1,36 @@
+// The content hash against the standard's own examples.
+#include <unistd.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/files/content_hash.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace dibhr;
+
+TEST_CASE("the content hash is SHA-256 as the standard's examples have it", "[files]") {
+    CHECK(sha256_of({}) == "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+    const std::vector<std::uint8_t> abc{'a', 'b', 'c'};
+    CHECK(sha256_of(abc) == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+TEST_CASE("a file's hash is that of its bytes, however long it is; a missing file is told",
+          "[files]") {
+    const auto file = std::filesystem::temp_directory_path() /
+                      ("dibhr-hash-" + std::to_string(::getpid()) + ".bin");
+    std::vector<std::uint8_t> bytes(5'000'001);
+    for (std::size_t k = 0; k < bytes.size(); ++k) bytes[k] = static_cast<std::uint8_t>(k * 7);
+    std::ofstream(file, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+    CHECK(sha256_of_file(file) == sha256_of(bytes));
+    std::ofstream(file, std::ios::binary | std::ios::trunc);
+    CHECK(sha256_of_file(file) == sha256_of({}));
+    std::filesystem::remove(file);
+    CHECK_THROWS_AS(sha256_of_file(file), InputError);
+}
