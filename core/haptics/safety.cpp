@@ -69,6 +69,7 @@ Vec3 SafetyStage::limit(Vec3 force_newton, const SafetyInput& input,
         rest();
         return sent_newton_;
     }
+    if (input.restart) rest();  // what was sent was another hand's, or another scale's
     ramp_age_s_ = input.restart ? 0.0 : ramp_age_s_ + input.dt_s;
     const double ramp = limits.ramp_s > 0.0 ? std::min(1.0, ramp_age_s_ / limits.ramp_s) : 1.0;
     const Vec3 wanted = shortened(force_newton, limits.max_force_newton) * ramp;

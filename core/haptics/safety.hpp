@@ -34,7 +34,10 @@ struct SafetyInput {
     double goal_step_mm{0.0};  ///< how far the goal moved since the last tick
     bool force_enabled{true};  ///< the user's switch
     bool device_ready{true};   ///< attached and homed
-    bool restart{false};       ///< start, engaging, seek, loop, new file or parameters: ramp again
+    /// What the device itself adds on the hand, such as its soft boundary [N]; limited like the
+    /// rest.
+    Vec3 device_force_newton{0.0};
+    bool restart{false};  ///< start, engaging, seek, loop, new file or parameters: from zero
 };
 
 /// Limits per millisecond count at most 3 ms of a late tick.

@@ -41,6 +41,14 @@ TouchRenderer::TouchRenderer() {
     }
 }
 
+void TouchRenderer::restart() noexcept {
+    for (const auto& algorithm : algorithms_) algorithm->restart();
+    running_ = Algorithm::dibhr;
+    safety_ = {};
+    last_ = {};
+    started_ = false;
+}
+
 void TouchRenderer::let_go() noexcept {
     algorithms_[static_cast<std::size_t>(running_)]->restart();
 }
@@ -73,7 +81,8 @@ const Touch& TouchRenderer::update(const DepthSurface& surface, Vec3 goal,
     const Vec3 goal_velocity = input.dt_s > 0.0 ? goal_step / input.dt_s : Vec3(0.0);
     last_.spring_force_newton =
         coupling_force(last_.proxy, goal, goal_velocity, parameters.coupling);
-    last_.sent_force_newton = safety_.limit(last_.spring_force_newton, input, limits);
+    last_.sent_force_newton =
+        safety_.limit(last_.spring_force_newton + input.device_force_newton, input, limits);
     last_.cut = safety_.last_cut();
     return last_;
 }

@@ -39,6 +39,9 @@ class TouchRenderer {
     const Touch& update(const DepthSurface& surface, Vec3 goal, const TouchParameters& parameters,
                         SafetyInput input, const SafetyLimits& limits) noexcept;
 
+    /// Forgets everything: the next update is as the first one. No allocation.
+    void restart() noexcept;
+
     /// The proxy lets go of what it touches: the next update begins above its goal, in free space.
     void let_go() noexcept;
 

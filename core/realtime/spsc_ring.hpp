@@ -36,6 +36,13 @@ class SpscRing {
         return true;
     }
 
+    /// How many wait: for the producer at most, for the consumer at least.
+    [[nodiscard]] std::uint64_t size() const noexcept {
+        const auto r = read_.load(std::memory_order_acquire);
+        return write_.load(std::memory_order_acquire) - r;
+    }
+    [[nodiscard]] static constexpr std::uint64_t room() noexcept { return N; }
+
     /// Any thread.
     [[nodiscard]] std::uint64_t dropped() const noexcept {
         return dropped_.load(std::memory_order_relaxed);

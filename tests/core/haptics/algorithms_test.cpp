@@ -109,7 +109,7 @@ TEST_CASE("another algorithm goes on from where the proxy is, and the force ramp
     const DepthSurface surface(image, image, 0.0, {255.0, 0.0});
     TouchRenderer renderer;
     TouchParameters parameters;
-    const SafetyInput input{0.001, 0.0, true, true, false};
+    const SafetyInput input{.dt_s = 0.001};
     const Vec3 goal = scribble(0) - Vec3(0.0, 0.0, 10.0);
     Touch before;
     for (int k = 0; k < 2000; ++k) before = renderer.update(surface, goal, parameters, input, {});

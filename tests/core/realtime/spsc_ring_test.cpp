@@ -1,6 +1,7 @@
 // The ring: every value in order, and a count of those that found no room.
 #include "core/realtime/spsc_ring.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <thread>
@@ -120,4 +121,17 @@ TEST_CASE("a consumer that keeps up receives every value", "[realtime]") {
     }
     producer.join();
     CHECK(wrong == 0);
+}
+
+TEST_CASE("a ring says how many values wait in it", "[realtime]") {
+    SpscRing<Numbered, 4> ring;
+    CHECK(ring.size() == 0);
+    for (std::uint64_t n = 1; n <= 6; ++n) {
+        (void)ring.push(numbered(n));
+        CHECK(ring.size() == std::min<std::uint64_t>(n, ring.room()));
+    }
+    Numbered value;
+    REQUIRE(ring.pop(value));
+    CHECK(ring.size() == 3);
+    CHECK(ring.dropped() == 2);
 }
