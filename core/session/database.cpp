@@ -3,6 +3,7 @@
 
 #include <sqlite3.h>
 
+#include <cstdlib>
 #include <cstring>
 
 namespace dibhr {
@@ -35,6 +36,20 @@ void Database::execute(const std::string& sql) {
     }
 }
 
+std::int64_t Database::number(const std::string& sql) {
+    std::int64_t value = 0;
+    const auto keep = [](void* to, int columns, char** cells, char**) {
+        if (columns > 0 && cells[0] != nullptr) {
+            *static_cast<std::int64_t*>(to) = std::strtoll(cells[0], nullptr, 10);
+        }
+        return 0;
+    };
+    if (sqlite3_exec(handle_.get(), sql.c_str(), keep, &value, nullptr) != SQLITE_OK) {
+        throw DatabaseError(last_error());
+    }
+    return value;
+}
+
 std::string Database::last_error() const {
     std::string words = sqlite3_errmsg(handle_.get());
     const int error = sqlite3_system_errno(handle_.get());
@@ -65,6 +80,10 @@ void Statement::bind(int parameter, std::int64_t value) noexcept {
 void Statement::bind(int parameter, std::string_view value) noexcept {
     sqlite3_bind_text(handle_.get(), parameter, value.data(), static_cast<int>(value.size()),
                       SQLITE_TRANSIENT);
+}
+
+void Statement::bind_null(int parameter) noexcept {
+    sqlite3_bind_null(handle_.get(), parameter);
 }
 
 void Statement::run() {

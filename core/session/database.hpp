@@ -27,6 +27,8 @@ class Database {
 
     /// Runs statements that give no rows; throws DatabaseError.
     void execute(const std::string& sql);
+    /// The one number that a question gives; throws DatabaseError.
+    [[nodiscard]] std::int64_t number(const std::string& sql);
     /// The words for the last failure: "disk I/O error (File too large)".
     [[nodiscard]] std::string last_error() const;
 
@@ -46,6 +48,7 @@ class Statement {
     void bind(int parameter, double value) noexcept;
     void bind(int parameter, std::int64_t value) noexcept;
     void bind(int parameter, std::string_view value) noexcept;
+    void bind_null(int parameter) noexcept;
     /// Runs it once and makes it ready to run again; throws DatabaseError.
     void run();
 

@@ -1,13 +1,23 @@
 // Writes every tick into one SQLite file from its own thread, so that no tick waits for a disk.
 #include "core/session/recorder.hpp"
 
+#include <pthread.h>
+
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
+#include <cstddef>
+#include <exception>
+#include <functional>
 #include <mutex>
 #include <optional>
+#include <system_error>
 #include <thread>
 #include <utility>
+#include <vector>
 
+#include "core/session/file_sums.hpp"
 #include "core/session/session_file.hpp"
 
 namespace dibhr {
@@ -16,17 +26,41 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The ring holds 16 s at 1 kHz; a transaction may be lost to a power cut, so it is kept short.
+// The ring holds 16 s at 1 kHz; a transaction is lost when the program is killed, so it is short.
 constexpr auto kBetweenDrains = std::chrono::milliseconds(20);
-constexpr auto kLongestTransaction = std::chrono::milliseconds(200);
+constexpr auto kLongestTransaction = std::chrono::milliseconds(100);
+// How often the wall clock is set beside the ticks' own: both may drift.
+constexpr auto kBetweenClocks = std::chrono::seconds(2);
+// How long closing waits for the sums of large files.
+constexpr auto kMostWaitForSums = std::chrono::seconds(1);
+// What is taken at once; a transaction takes little longer than its time for it.
+constexpr std::size_t kMostInDrain = 4096;
+
+std::int64_t nanoseconds(Clock::time_point time) {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch()).count();
+}
+
+double utc_s() {
+    return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
+        .count();
+}
+
+/// Wherever the program goes from here; as it is given where the working directory is gone.
+std::filesystem::path whole_path(const std::filesystem::path& file) {
+    std::error_code gone;
+    std::filesystem::path whole = std::filesystem::absolute(file, gone);
+    return file.empty() || gone ? file : whole;
+}
 
 }  // namespace
 
 struct Recorder::Implementation {
     Implementation(const std::filesystem::path& file, TickRing& ticks, const SessionFacts& facts)
         : ring(ticks), dropped_before(ticks.dropped()), session(std::in_place, file, facts) {
+        batch.reserve(kMostInDrain);
         status.recording = true;
         status.bytes = session->bytes();
+        bytes_before = session->bytes_recorded();
         thread = std::thread([this] { run(); });
     }
 
@@ -42,15 +76,26 @@ struct Recorder::Implementation {
         thread.join();
     }
 
+    /// Leaves something to be written before the ticks that are pushed from now on.
+    void leave(std::function<void(Implementation&)> note) {
+        const std::lock_guard lock(mutex);
+        notes.push_back(std::move(note));
+    }
+
     Implementation(const Implementation&) = delete;
     Implementation& operator=(const Implementation&) = delete;
 
     // The recorder thread from here on.
 
     void run() {
-        while (!stop_asked()) drain();
-        drain();
-        close();
+        pthread_setname_np(pthread_self(), "dibhr-recorder");
+        try {
+            while (!stop_asked()) drain();
+            drain();
+            close();
+        } catch (const std::exception& error) {
+            break_off(error.what());
+        }
     }
 
     bool stop_asked() {
@@ -60,47 +105,121 @@ struct Recorder::Implementation {
 
     /// Empties the ring even when nothing can be written any more: the producer must not notice.
     void drain() {
-        TickRecord record;
-        while (ring.pop(record)) {
-            write([&] { add(record); });
-        }
-        if (transaction_begin && Clock::now() - *transaction_begin >= kLongestTransaction) {
-            write([&] { commit(); });
-        }
+        do {
+            take_ticks();
+            write([this] { add_batch(); });
+            write([this] { commit_in_time(); });
+        } while (batch.size() == kMostInDrain);
         const std::lock_guard lock(mutex);
         status.dropped = ring.dropped() - dropped_before;
+        status.high_water = high_water;
+        if (!session) notes.clear();
     }
 
-    void add(const TickRecord& record) {
-        if (!transaction_begin) {
-            session->begin();
-            transaction_begin = Clock::now();
+    void take_ticks() {
+        batch.clear();
+        high_water = std::max(high_water, ring.size());
+        for (TickRecord record; batch.size() < kMostInDrain && ring.pop(record);) {
+            batch.push_back(record);
         }
-        session->add(record);
-        ++uncommitted;
-        // A producer that never pauses must not keep a transaction open.
-        if (uncommitted % 1024 == 0 && Clock::now() - *transaction_begin >= kLongestTransaction) {
-            commit();
+    }
+
+    /// Whatever a tick of the batch refers to was left before the tick was pushed.
+    void add_batch() {
+        std::vector<std::function<void(Implementation&)>> left;
+        {
+            const std::lock_guard lock(mutex);
+            left.swap(notes);
         }
+        if (left.empty() && batch.empty() && sums.idle()) return;
+        open_transaction();
+        if (!zero_ns && !batch.empty()) {
+            zero_ns = batch.front().zero_ns;
+            first_s = batch.front().t_s;
+            set_clock(std::llround(first_s * kNanosecondsPerSecond));
+            add_early_marks();
+        }
+        for (const auto& note : left) note(*this);
+        for (const TickRecord& record : batch) session->add(record);
+        uncommitted += batch.size();
+        if (zero_ns && Clock::now() - clock_set >= kBetweenClocks) {
+            set_clock(nanoseconds(Clock::now()) - *zero_ns);
+        }
+        add_contents();
+    }
+
+    void open_transaction() {
+        if (transaction_begin) return;
+        session->begin();
+        transaction_begin = Clock::now();
+    }
+
+    /// The wall clock at time `t_ns` of the ticks.
+    void set_clock(std::int64_t t_ns) {
+        const Clock::time_point now = Clock::now();
+        const std::int64_t passed_ns = nanoseconds(now) - *zero_ns - t_ns;
+        session->add_clock(t_ns, utc_s() - static_cast<double>(passed_ns) / kNanosecondsPerSecond,
+                           ring.dropped() - dropped_before, high_water);
+        clock_set = now;
+    }
+
+    void add_contents() {
+        for (const auto& file : session->take_new_files()) sums.ask(file);
+        for (const FileContent& content : sums.take()) session->set_content(content);
+    }
+
+    void add_mark(Clock::time_point moment, const std::string& tag, const std::string& text) {
+        if (!zero_ns) {
+            early_marks.push_back({0.0, tag, text});
+            return;
+        }
+        const auto t_ns = static_cast<double>(nanoseconds(moment) - *zero_ns);
+        session->add_mark({std::max(first_s, t_ns / kNanosecondsPerSecond), tag, text});
+    }
+
+    /// What was marked before the first tick, when there was no clock, is marked at that tick.
+    void add_early_marks() {
+        for (const SessionMark& mark : early_marks) {
+            session->add_mark({first_s, mark.tag, mark.text});
+        }
+        early_marks.clear();
+    }
+
+    void commit_in_time() {
+        if (transaction_begin && Clock::now() - *transaction_begin >= kLongestTransaction) commit();
     }
 
     void commit() {
         transaction_begin.reset();
         session->commit();
         const std::uint64_t bytes = session->bytes();
+        const std::uint64_t grown = session->bytes_recorded() - bytes_before;
+        const std::chrono::duration<double> passed = Clock::now() - begin;
         const std::lock_guard lock(mutex);
         status.rows += std::exchange(uncommitted, 0);
         status.bytes = bytes;
+        if (passed.count() > 1.0) {
+            status.bytes_per_minute = 60.0 * static_cast<double>(grown) / passed.count();
+        }
     }
 
     void close() {
-        write([&] {
-            if (!transaction_begin) session->begin();
+        const Clock::time_point patience = Clock::now() + kMostWaitForSums;
+        while (session && !sums.idle() && Clock::now() < patience) {
+            std::this_thread::sleep_for(kBetweenDrains / 4);
+        }
+        write([this] {
+            open_transaction();
+            add_contents();
+            add_early_marks();
+            if (zero_ns) set_clock(nanoseconds(Clock::now()) - *zero_ns);
             session->set_fact("row_count", std::to_string(status.rows + uncommitted));
             session->set_fact("dropped_count", std::to_string(status.dropped));
+            session->set_fact("ring_high_water", std::to_string(high_water));
             session->set_fact("complete", "1");
             commit();
             session->merge_log();
+            session->end_log();
         });
         session.reset();
         const std::lock_guard lock(mutex);
@@ -114,36 +233,81 @@ struct Recorder::Implementation {
         if (!session) return;
         try {
             step();
-        } catch (const DatabaseError& error) {
-            const std::lock_guard lock(mutex);
-            status.recording = false;
-            status.failure = "Recording to " + session->path().string() +
-                             " stopped: " + error.what() +
-                             ". What was recorded until then is kept.";
-            session.reset();
-            transaction_begin.reset();
+        } catch (const std::exception& error) {
+            break_off(error.what());
         }
     }
 
+    [[nodiscard]] bool anything_left() const {
+        std::error_code failed;
+        return status.rows > 0 && std::filesystem::exists(session->path(), failed);
+    }
+
+    void break_off(const std::string& reason) {
+        const std::lock_guard lock(mutex);
+        status.recording = false;
+        if (!session) return;
+        status.failure = "Recording to " + session->path().string() + " stopped: " + reason +
+                         (anything_left() ? ". What was recorded until then is kept."
+                                          : ". Nothing of it is kept.");
+        session.reset();
+        transaction_begin.reset();
+    }
+
     TickRing& ring;
-    std::uint64_t dropped_before;
+    const std::uint64_t dropped_before;
+    const Clock::time_point begin{Clock::now()};
     std::optional<SessionFile> session;  // none once writing broke off
+    FileSums sums{};
+    std::vector<TickRecord> batch{};
     std::optional<Clock::time_point> transaction_begin{};
+    std::optional<std::int64_t> zero_ns{};  // of the ticks' clock; none before the first
+    double first_s{0.0};                    // the first tick's time
+    std::vector<SessionMark> early_marks{};
+    Clock::time_point clock_set{};
+    std::uint64_t bytes_before{0};
+    std::uint64_t high_water{0};
     std::uint64_t uncommitted{0};
 
     std::mutex mutex{};
     std::condition_variable wake{};
-    bool stopping{false};     // under the mutex
-    RecorderStatus status{};  // under the mutex
+    bool stopping{false};                                       // under the mutex
+    RecorderStatus status{};                                    // under the mutex
+    std::vector<std::function<void(Implementation&)>> notes{};  // under the mutex
 
     std::thread thread{};
 };
 
-Recorder::Recorder(const std::filesystem::path& file, TickRing& ring,
-                   const std::map<std::string, std::string>& facts)
+Recorder::Recorder(const std::filesystem::path& file, TickRing& ring, const SessionFacts& facts)
     : implementation_(std::make_unique<Implementation>(file, ring, facts)) {}
 
 Recorder::~Recorder() = default;
+
+void Recorder::parameters(const SessionParameters& parameters) {
+    SessionParameters known = parameters;
+    known.bump.file = whole_path(parameters.bump.file);
+    implementation_->leave(
+        [known = std::move(known)](Implementation& writer) { writer.session->know(known); });
+}
+
+void Recorder::media(std::uint32_t number, const std::filesystem::path& colour,
+                     const std::filesystem::path& depth) {
+    implementation_->leave(
+        [number, colour = whole_path(colour), depth = whole_path(depth)](Implementation& writer) {
+            writer.session->know_media(number, colour, depth);
+        });
+}
+
+void Recorder::mark(const std::string& tag, const std::string& text) {
+    implementation_->leave([moment = Clock::now(), tag, text](Implementation& writer) {
+        writer.add_mark(moment, tag, text);
+    });
+}
+
+void Recorder::set_fact(const std::string& key, const std::string& value) {
+    implementation_->leave(
+        [key, value](Implementation& writer) { writer.session->set_fact(key, value); });
+}
 
 RecorderStatus Recorder::finish() {
     implementation_->stop();

@@ -3,58 +3,55 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 
-#include "core/realtime/spsc_ring.hpp"
+#include "core/session/session_parts.hpp"
+#include "core/session/tick_record.hpp"
 
 namespace dibhr {
 
-/// One tick as it is recorded; trivially copyable. Grid space, newtons, seconds.
-struct TickRecord {
-    std::int64_t tick{0};
-    double t_s{0.0};  ///< monotonic, since the recording's clock began
-    double playback_s{0.0};
-    double blend{0.0};
-    std::int64_t frame{0};  ///< index of the `from` depth frame in its file
-    double goal[3]{}, proxy[3]{}, spring_newton[3]{}, sent_newton[3]{};
-    double dt_s{0.0};
-    double lateness_us{0.0};
-    double update_us{0.0};
-    std::int32_t moves{0};
-    std::int32_t i{-1}, j{-1};
-    std::uint8_t contact{0}, primitive{0}, buttons{0}, cut{0};
-};
-
-using TickRing = SpscRing<TickRecord, 16384>;
-
 struct RecorderStatus {
     bool recording{false};
-    std::uint64_t rows{0};     ///< safely in the file
-    std::uint64_t dropped{0};  ///< by the ring since the recording began
-    std::uint64_t bytes{0};    ///< on the disk
+    std::uint64_t rows{0};         ///< safely in the file
+    std::uint64_t dropped{0};      ///< by the ring since the recording began
+    std::uint64_t high_water{0};   ///< the most ticks that waited in the ring
+    std::uint64_t bytes{0};        ///< on the disk
+    double bytes_per_minute{0.0};  ///< by which the file grows; 0 in the first second
     std::string
         failure{};  ///< a plain sentence when writing broke off; what was written stays readable
 };
 
 /// Drains the ring into `file` (write-ahead log, a transaction at least every 250 ms). What is in
-/// the ring at the start is recorded too. The tables are described in session_file.hpp and in the
-/// file itself.
+/// the ring at the start is recorded too. The tables are described in README.md and in the file
+/// itself.
 class Recorder {
   public:
     /// Creates the session file; throws InputError when it exists already or cannot be made.
-    /// `facts` are name/value pairs kept with the session (program version, files, parameters,
-    /// device).
-    Recorder(const std::filesystem::path& file, TickRing& ring,
-             const std::map<std::string, std::string>& facts);
-    ~Recorder();  ///< drains what is left, merges the log into the file and closes it
+    /// `facts` are name/value pairs kept with the session (program version, device, note,
+    /// participant).
+    Recorder(const std::filesystem::path& file, TickRing& ring, const SessionFacts& facts);
+    ~Recorder();  ///< as finish()
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
 
+    // The next four wait for no disk. Each counts for the ticks that are pushed after it.
+
+    /// Parameters that ticks may refer to from now on by their version.
+    void parameters(const SessionParameters& parameters);
+    /// The files that ticks may refer to from now on as media `number`; either may be empty. Their
+    /// content is summed up (SHA-256) on a thread of its own once a tick touches them.
+    void media(std::uint32_t number, const std::filesystem::path& colour,
+               const std::filesystem::path& depth);
+    /// Marks this moment.
+    void mark(const std::string& tag, const std::string& text = {});
+    /// Changes or adds a fact: "participant", "note".
+    void set_fact(const std::string& key, const std::string& value);
+
     [[nodiscard]] RecorderStatus status() const;
 
-    /// Drains what is left and closes the file; the last word on how it went. May be called twice.
+    /// Drains what is left and closes the file; the last word on how it went. Waits a second at
+    /// most for sums of large files. May be called twice.
     RecorderStatus finish();
 
   private:

@@ -1,86 +1,34 @@
-// The session file's tables: made once, filled tick by tick, within transactions.
+// A session file open for writing: filled tick by tick, within transactions.
 #include "core/session/session_file.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
-#include <cstdint>
+#include <cstddef>
 #include <cstring>
+#include <ctime>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/haptics/primitive.hpp"
-#include "core/haptics/safety.hpp"
+#include "core/session/machine_facts.hpp"
+#include "core/session/row_binder.hpp"
 
 namespace dibhr {
 
 namespace {
 
-struct Column {
-    std::string_view name;
-    std::string_view type;
-    std::string_view unit;
-    std::string_view meaning;
-};
-
-// The output rows' columns first, by the same names and in the same order; `add` binds in this
-// order.
-constexpr std::array kColumns{
-    Column{"t", "REAL", "s", "monotonic time since the recording's clock began"},
-    Column{"gx", "REAL", "px", "goal, x (column)"},
-    Column{"gy", "REAL", "px", "goal, y (row)"},
-    Column{"gz", "REAL", "px", "goal, z (elevation towards the viewer)"},
-    Column{"px", "REAL", "px", "proxy, x"},
-    Column{"py", "REAL", "px", "proxy, y"},
-    Column{"pz", "REAL", "px", "proxy, z"},
-    Column{"fx", "REAL", "N", "spring force before the safety stage, x"},
-    Column{"fy", "REAL", "N", "spring force before the safety stage, y"},
-    Column{"fz", "REAL", "N", "spring force before the safety stage, z"},
-    Column{"cx", "REAL", "N", "force sent to the device, x"},
-    Column{"cy", "REAL", "N", "force sent to the device, y"},
-    Column{"cz", "REAL", "N", "force sent to the device, z"},
-    Column{"contact", "INTEGER", "", "1 while the proxy touches the surface"},
-    Column{"primitive", "TEXT", "", "what the proxy rests on: none, triangle, edge or vertex"},
-    Column{"i", "INTEGER", "", "the primitive's column, -1 for none"},
-    Column{"j", "INTEGER", "", "the primitive's row, -1 for none"},
-    Column{"moves", "INTEGER", "", "primitives visited in the update"},
-    Column{"ns", "INTEGER", "ns", "time of the update"},
-    Column{"tick", "INTEGER", "", "number of the tick in its loop"},
-    Column{"playback_s", "REAL", "s", "time on the video's playback line"},
-    Column{"blend", "REAL", "", "0: depth frame `frame`, 1: the one after it"},
-    Column{"frame", "INTEGER", "", "number of the depth frame in its file, from 0"},
-    Column{"dt_s", "REAL", "s", "since the tick before began"},
-    Column{"lateness_us", "REAL", "us", "how long after its deadline the tick began"},
-    Column{"buttons", "INTEGER", "", "bit 0: the device's main button"},
-    Column{"cut", "INTEGER", "", "why the force was cut: code in table cut"},
-};
-
-/// "tick(t REAL, gx REAL, ...)"
-std::string tick_table() {
-    std::string text;
-    for (const Column& column : kColumns) {
-        text += (text.empty() ? "tick(" : ", ") + std::string(column.name) + " " +
-                std::string(column.type);
-    }
-    return text + ")";
-}
-
-/// "INSERT INTO tick VALUES (?, ?, ...)"
-std::string insert_tick() {
-    std::string marks = "?";
-    for (std::size_t k = 1; k < kColumns.size(); ++k) marks += ", ?";
-    return "INSERT INTO tick VALUES (" + marks + ")";
-}
-
-PrimitiveKind primitive_of(const TickRecord& record) {
-    constexpr auto kLast = static_cast<std::uint8_t>(PrimitiveKind::vertex);
-    return record.primitive > kLast ? PrimitiveKind::none
-                                    : static_cast<PrimitiveKind>(record.primitive);
-}
+// Large pages waste little at their ends; the log is merged every 4 MB.
+constexpr const char* kFileLayout =
+    "PRAGMA page_size = 16384; PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; "
+    "PRAGMA wal_autocheckpoint = 256";
 
 /// Makes an empty file where there was none; the name of a file that exists is safe from us.
 const std::filesystem::path& made(const std::filesystem::path& file) {
@@ -96,30 +44,6 @@ const std::filesystem::path& made(const std::filesystem::path& file) {
                      std::strerror(errno) + "); choose a folder that can be written to");
 }
 
-void make_tables(Database& database) {
-    database.execute("PRAGMA application_id = " + std::to_string(kSessionApplicationId));
-    database.execute("PRAGMA user_version = " + std::to_string(kSessionSchemaVersion));
-    database.execute("CREATE TABLE session(key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID");
-    database.execute("CREATE TABLE " + tick_table());
-    database.execute(
-        "CREATE TABLE tick_column(name TEXT PRIMARY KEY, unit TEXT, meaning TEXT) WITHOUT ROWID");
-    database.execute("CREATE TABLE cut(code INTEGER PRIMARY KEY, name TEXT)");
-
-    Statement describe(database, "INSERT INTO tick_column VALUES (?, ?, ?)");
-    for (const Column& column : kColumns) {
-        describe.bind(1, column.name);
-        describe.bind(2, column.unit);
-        describe.bind(3, column.meaning);
-        describe.run();
-    }
-    Statement name_cut(database, "INSERT INTO cut VALUES (?, ?)");
-    for (int code = 0; code <= static_cast<int>(SafetyCut::goal_jump); ++code) {
-        name_cut.bind(1, std::int64_t{code});
-        name_cut.bind(2, std::string_view(name_of(static_cast<SafetyCut>(code))));
-        name_cut.run();
-    }
-}
-
 void remove_traces(const std::filesystem::path& file) {
     std::error_code ignored;
     for (const char* ending : {"", "-wal", "-shm", "-journal"}) {
@@ -130,12 +54,38 @@ void remove_traces(const std::filesystem::path& file) {
 /// A new session file with its tables, in write-ahead mode: readers do not stop the recording.
 Database made_database(const std::filesystem::path& file) {
     Database database(made(file));
-    database.execute("PRAGMA journal_mode = WAL");
-    database.execute("PRAGMA synchronous = NORMAL");
+    database.execute(kFileLayout);
     database.execute("BEGIN");
-    make_tables(database);
+    database.execute(session_schema());
     database.execute("COMMIT");
     return database;
+}
+
+std::string insert_tick() {
+    std::string marks = "?";
+    for (int k = 1; k < kTickDataColumns; ++k) marks += ", ?";
+    return "INSERT INTO tick_data VALUES (" + marks + ")";
+}
+
+/// "2026-05-31T12:00:00Z"
+std::string utc_text(std::time_t moment) {
+    std::tm utc{};
+    gmtime_r(&moment, &utc);
+    std::array<char, 32> text{};
+    std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
+    return text.data();
+}
+
+std::int64_t state_of(const TickRecord& record) {
+    namespace at = tick_state;
+    constexpr auto kLast = static_cast<std::uint8_t>(PrimitiveKind::vertex);
+    const auto bit = [](bool set, int shift) { return std::int64_t{set ? 1 : 0} << shift; };
+    const std::int64_t primitive = record.primitive > kLast ? 0 : record.primitive;
+    return bit(record.contact, at::kContact) | primitive << at::kPrimitive |
+           std::int64_t{record.cut} << at::kCut | bit(record.surface, at::kSurface) |
+           bit(record.device_ready, at::kReady) | bit(record.restart, at::kRestart) |
+           bit(record.lets_go, at::kLetsGo) | bit(record.goal_refused, at::kRefused) |
+           bit(record.stand_in, at::kStandIn) | std::int64_t{record.buttons} << at::kButtons;
 }
 
 }  // namespace
@@ -144,13 +94,18 @@ SessionFile::SessionFile(const std::filesystem::path& file, const SessionFacts& 
     : path_(file),
       database_(made_database(file)),
       insert_tick_(database_, insert_tick()),
-      insert_fact_(database_, "INSERT OR REPLACE INTO session VALUES (?, ?)") {
+      insert_pair_(database_, "INSERT INTO pair VALUES (?, ?, ?, ?, ?, ?, ?)"),
+      insert_fact_(database_, "INSERT OR REPLACE INTO session VALUES (?, ?)"),
+      place_(place_of(file)) {
     begin();
+    for (const auto& [key, value] : machine_facts()) set_fact(key, value);
+    set_fact("started", utc_text(std::time(nullptr)));
     for (const auto& [key, value] : facts) set_fact(key, value);
     set_fact("schema_version", std::to_string(kSessionSchemaVersion));
     set_fact("units", "pixels of the depth image, newtons, seconds; see table tick_column");
     set_fact("complete", "0");
     commit();
+    merge_log();  // a copy without the log is still a session that says what it is
 } catch (const DatabaseError& error) {
     remove_traces(file);
     throw InputError(file.string() + ": the session cannot be recorded there (" + error.what() +
@@ -162,40 +117,51 @@ void SessionFile::begin() {
 }
 
 void SessionFile::add(const TickRecord& record) {
-    int column = 0;
-    const auto real = [&](double value) { insert_tick_.bind(++column, value); };
-    const auto integer = [&](std::int64_t value) { insert_tick_.bind(++column, value); };
-    const auto vector = [&](const double(&values)[3]) {
-        for (const double value : values) real(value);
-    };
-    real(record.t_s);
-    vector(record.goal);
-    vector(record.proxy);
-    vector(record.spring_newton);
-    vector(record.sent_newton);
-    integer(record.contact);
-    insert_tick_.bind(++column, std::string_view(name_of(primitive_of(record))));
-    integer(record.i);
-    integer(record.j);
-    integer(record.moves);
-    integer(std::isfinite(record.update_us) ? std::llround(record.update_us * 1000.0) : -1);
-    integer(record.tick);
-    real(record.playback_s);
-    real(record.blend);
-    integer(record.frame);
-    real(record.dt_s);
-    real(record.lateness_us);
-    integer(record.buttons);
-    integer(record.cut);
+    if (settings_ != record.settings) use_settings(record.settings, record.tick);
+    if (record.surface && pair_ != record.frames) add_pair(record.frames, record.tick);
+    RowBinder row(insert_tick_);
+    row.integer(record.tick);
+    row.time(record.t_s, kNanosecondsPerSecond);
+    row.time(record.dt_s, kNanosecondsPerSecond);
+    row.time(record.lateness_us, kNanosecondsPerMicrosecond);
+    row.integer(std::isfinite(record.update_us)
+                    ? std::llround(record.update_us * kNanosecondsPerMicrosecond)
+                    : -1);
+    row.integer(state_of(record));
+    row.reference(record.surface ? pairs_ : 0);
+    row.real(record.blend);
+    row.integer(static_cast<std::int64_t>(record.settings));
+    row.integer(record.moves);
+    row.integer(record.i);
+    row.integer(record.j);
+    for (const double value : record.goal) row.real(value);
+    for (int axis = 0; axis < 3; ++axis) row.real_unless(record.proxy[axis], record.goal[axis]);
+    for (int axis = 0; axis < 3; ++axis) {
+        const double follows =
+            newton_per_px_.value_or(std::nan("")) * (record.proxy[axis] - record.goal[axis]);
+        row.real_unless(record.spring_newton[axis], follows);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        row.real_unless(record.sent_newton[axis], record.spring_newton[axis]);
+    }
+    for (const double value : record.own_newton) row.real_unless(value, 0.0);
     insert_tick_.run();
 }
 
 void SessionFile::commit() {
     database_.execute("COMMIT");
-    std::error_code ignored;
-    if (!std::filesystem::exists(path_, ignored)) {
-        throw DatabaseError("the file is gone from its place");
-    }
+    const Place now = place_of(path_);
+    if (now == Place{}) throw DatabaseError("the file is gone from its place");
+    if (!(now == place_)) throw DatabaseError("another file is in its place");
+}
+
+void SessionFile::know(const SessionParameters& parameters) {
+    known_parameters_[parameters.version] = parameters;
+}
+
+void SessionFile::know_media(std::uint32_t number, const std::filesystem::path& colour,
+                             const std::filesystem::path& depth) {
+    known_media_[number] = {colour, depth};
 }
 
 void SessionFile::set_fact(const std::string& key, const std::string& value) {
@@ -204,8 +170,128 @@ void SessionFile::set_fact(const std::string& key, const std::string& value) {
     insert_fact_.run();
 }
 
+void SessionFile::add_mark(const SessionMark& mark) {
+    Statement insert(database_, "INSERT INTO mark(t, tag, text) VALUES (?, ?, ?)");
+    RowBinder row(insert);
+    row.real(mark.t_s);
+    row.text(mark.tag);
+    row.text(mark.text);
+    insert.run();
+}
+
+void SessionFile::add_clock(std::int64_t t_ns, double utc_s, std::uint64_t dropped,
+                            std::uint64_t high_water) {
+    Statement insert(database_, "INSERT OR REPLACE INTO clock VALUES (?, ?, ?, ?)");
+    RowBinder row(insert);
+    row.integer(t_ns);
+    row.real(utc_s);
+    row.integer(static_cast<std::int64_t>(dropped));
+    row.integer(static_cast<std::int64_t>(high_water));
+    insert.run();
+}
+
+void SessionFile::use_settings(std::uint64_t version, std::int64_t tick) {
+    settings_ = version;
+    newton_per_px_.reset();
+    const auto known = known_parameters_.find(version);
+    if (known == known_parameters_.end()) return;
+    const SessionParameters& parameters = known->second;
+    const TouchParameters& touch = parameters.touch;
+    // As in coupling_force() and the view: bit by bit the same.
+    newton_per_px_ = touch.coupling.stiffness_newton_per_mm * touch.coupling.pixel_pitch_mm;
+    Statement insert(database_,
+                     "INSERT OR IGNORE INTO parameters VALUES "
+                     "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+    RowBinder row(insert);
+    row.integer(static_cast<std::int64_t>(version));
+    row.integer(tick);
+    row.text(name_of(touch.algorithm));
+    for (const double value :
+         {touch.shape.relief_px, touch.shape.roughness_px, touch.friction.static_coefficient,
+          touch.friction.dynamic_coefficient, touch.coupling.stiffness_newton_per_mm,
+          touch.coupling.damping_newton_s_per_m, touch.coupling.pixel_pitch_mm,
+          parameters.limits.max_force_newton, parameters.limits.max_change_newton_per_ms,
+          parameters.limits.ramp_s, parameters.limits.max_tick_s,
+          parameters.limits.max_goal_speed_mm_per_ms}) {
+        row.real(value);
+    }
+    row.integer(parameters.force_enabled ? 1 : 0);
+    row.reference(media_row(parameters.bump.file));
+    insert.run();
+}
+
+void SessionFile::add_pair(const FramePair& frames, std::int64_t tick) {
+    const std::int64_t source = source_row(frames.source, tick);
+    RowBinder row(insert_pair_);
+    row.integer(++pairs_);
+    row.integer(source);
+    row.integer(frames.from_frame);
+    row.integer(frames.to_frame);
+    row.real(frames.from_s);
+    row.real(frames.to_s);
+    row.real(frames.span_s);
+    insert_pair_.run();
+    pair_ = frames;
+}
+
+std::int64_t SessionFile::source_row(const FrameSource& source, std::int64_t tick) {
+    const auto found = std::find(sources_.begin(), sources_.end(), source);
+    if (found != sources_.end()) return found - sources_.begin() + 1;
+    sources_.push_back(source);
+    const auto id = static_cast<std::int64_t>(sources_.size());
+    const MediaFiles files = known_media_[source.media];
+    Statement insert(database_, "INSERT INTO source VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+    RowBinder row(insert);
+    row.integer(id);
+    row.integer(tick);
+    row.integer(source.media);
+    row.reference(media_row(files.colour));
+    row.reference(media_row(files.depth));
+    row.integer(source.fill_holes ? 1 : 0);
+    row.integer(source.remove_spikes ? 1 : 0);
+    row.integer(source.smooth_steps ? 1 : 0);
+    insert.run();
+    return id;
+}
+
+std::int64_t SessionFile::media_row(const std::filesystem::path& file) {
+    if (file.empty()) return 0;
+    const auto found = media_rows_.find(file);
+    if (found != media_rows_.end()) return found->second;
+    const auto id = static_cast<std::int64_t>(media_rows_.size()) + 1;
+    Statement insert(database_, "INSERT INTO media(id, file) VALUES (?, ?)");
+    RowBinder row(insert);
+    row.integer(id);
+    row.text(file.string());
+    insert.run();
+    media_rows_.emplace(file, id);
+    new_files_.push_back(file);
+    return id;
+}
+
+std::vector<std::filesystem::path> SessionFile::take_new_files() {
+    return std::exchange(new_files_, {});
+}
+
+void SessionFile::set_content(const FileContent& content) {
+    Statement update(database_, "UPDATE media SET bytes = ?, sha256 = ? WHERE file = ?");
+    RowBinder row(update);
+    row.integer(static_cast<std::int64_t>(content.bytes));
+    row.text(content.sha256);
+    row.text(content.file.string());
+    update.run();
+}
+
 void SessionFile::merge_log() {
     database_.execute("PRAGMA wal_checkpoint(TRUNCATE)");
+}
+
+void SessionFile::end_log() noexcept {
+    try {
+        database_.execute("PRAGMA journal_mode = DELETE");
+    } catch (const DatabaseError&) {
+        // As whole, and readable with its log.
+    }
 }
 
 std::uint64_t SessionFile::bytes() const {
@@ -216,6 +302,17 @@ std::uint64_t SessionFile::bytes() const {
         if (!error) total += size;
     }
     return total;
+}
+
+std::uint64_t SessionFile::bytes_recorded() {
+    return static_cast<std::uint64_t>(database_.number("PRAGMA page_count")) *
+           static_cast<std::uint64_t>(database_.number("PRAGMA page_size"));
+}
+
+SessionFile::Place SessionFile::place_of(const std::filesystem::path& file) {
+    struct stat found {};
+    if (stat(file.c_str(), &found) != 0) return {};
+    return {static_cast<std::uint64_t>(found.st_dev), static_cast<std::uint64_t>(found.st_ino)};
 }
 
 }  // namespace dibhr

@@ -1,29 +1,22 @@
-// The session file's tables: made once, filled tick by tick, within transactions.
+// A session file open for writing: filled tick by tick, within transactions.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "core/session/database.hpp"
-#include "core/session/recorder.hpp"
+#include "core/session/file_sums.hpp"
+#include "core/session/session_parts.hpp"
+#include "core/session/session_schema.hpp"
 
 namespace dibhr {
 
-/// "dhap": the file says itself what it is (`PRAGMA application_id`).
-inline constexpr int kSessionApplicationId = 0x64686170;
-/// Counts changes of the tables (`PRAGMA user_version`, and `schema_version` in table session).
-inline constexpr int kSessionSchemaVersion = 1;
-
-using SessionFacts = std::map<std::string, std::string>;
-
-/// A session file open for writing. Tables:
-/// - session(key, value): the facts, and schema_version, row_count, dropped_count, complete
-/// - tick: one row per tick, columns as in the output rows and a few more
-/// - tick_column(name, unit, meaning): what the columns of tick hold
-/// - cut(code, name): why a force was cut
-/// One thread at a time. Every call but the constructor throws DatabaseError.
+/// The tables are described in README.md and in the file itself. One thread at a time. Every call
+/// that writes throws DatabaseError.
 class SessionFile {
   public:
     /// Makes the file and its tables. Throws InputError, and leaves nothing behind, when that
@@ -33,22 +26,71 @@ class SessionFile {
     SessionFile& operator=(const SessionFile&) = delete;
 
     void begin();
+    /// With the rows of its parameters, frames and files, where it is the first to use them.
     void add(const TickRecord& record);
     /// Also notices when the file is gone from its place.
     void commit();
+
+    // Known from here on, and written with the first tick that uses them; files by absolute paths.
+    void know(const SessionParameters& parameters);
+    void know_media(std::uint32_t number, const std::filesystem::path& colour,
+                    const std::filesystem::path& depth);
+
     void set_fact(const std::string& key, const std::string& value);
+    void add_mark(const SessionMark& mark);
+    void add_clock(std::int64_t t_ns, double utc_s, std::uint64_t dropped,
+                   std::uint64_t high_water);
+
+    /// Files that ticks refer to since the last call: their content is to be summed up.
+    [[nodiscard]] std::vector<std::filesystem::path> take_new_files();
+    void set_content(const FileContent& content);
+
     /// Moves what is in the write-ahead log into the file, so that one file remains after closing.
     void merge_log();
+    /// A finished file needs no log, so that it can be read where nothing can be written. Stays as
+    /// it is while somebody reads it.
+    void end_log() noexcept;
 
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
     /// On the disk, log included.
     [[nodiscard]] std::uint64_t bytes() const;
+    /// Of what is recorded, wherever it is on the disk.
+    [[nodiscard]] std::uint64_t bytes_recorded();
 
   private:
+    /// What a path leads to; all zero for nothing.
+    struct Place {
+        std::uint64_t device{0};
+        std::uint64_t node{0};
+
+        bool operator==(const Place&) const = default;
+    };
+    struct MediaFiles {
+        std::filesystem::path colour{}, depth{};
+    };
+
+    void use_settings(std::uint64_t version, std::int64_t tick);
+    void add_pair(const FramePair& frames, std::int64_t tick);
+    [[nodiscard]] std::int64_t source_row(const FrameSource& source, std::int64_t tick);
+    [[nodiscard]] std::int64_t media_row(const std::filesystem::path& file);
+    [[nodiscard]] static Place place_of(const std::filesystem::path& file);
+
     std::filesystem::path path_;
     Database database_;
     Statement insert_tick_;
+    Statement insert_pair_;
     Statement insert_fact_;
+    Place place_{};
+
+    std::map<std::uint64_t, SessionParameters> known_parameters_{};
+    std::map<std::uint32_t, MediaFiles> known_media_{};
+    std::map<std::filesystem::path, std::int64_t> media_rows_{};
+    std::vector<std::filesystem::path> new_files_{};
+    std::vector<FrameSource> sources_{};       ///< by their rows, from 1
+    std::optional<FramePair> pair_{};          ///< the last row of table pair
+    std::int64_t pairs_{0};                    ///< and its number
+    std::optional<std::uint64_t> settings_{};  ///< version of the last tick
+    std::optional<double> newton_per_px_{};    ///< its spring's, where known
 };
 
 }  // namespace dibhr

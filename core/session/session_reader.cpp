@@ -3,13 +3,21 @@
 
 #include <sqlite3.h>
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <fstream>
 #include <string_view>
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/session/session_schema.hpp"
 
 namespace dibhr {
 namespace {
+
+// The recorder may hold the file for a moment.
+constexpr int kPatience_ms = 2000;
 
 std::string percent_encoded(std::string_view path) {
     constexpr std::string_view kDigits = "0123456789abcdef";
@@ -44,18 +52,97 @@ SessionReader::SessionReader(const std::filesystem::path& file) : file_(file) {
     // A file without a log beside it is complete: opened as immutable, SQLite makes no files beside
     // it.
     const bool complete = !std::filesystem::exists(file.string() + "-wal", failed);
+    if (complete) read_head();
     const std::string uri = "file:" + percent_encoded(std::filesystem::absolute(file).string()) +
                             "?mode=ro" + (complete ? "&immutable=1" : "");
     sqlite3* opened = nullptr;
     const int result =
         sqlite3_open_v2(uri.c_str(), &opened, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
     database_.reset(opened);
-    if (result != SQLITE_OK) refuse(sqlite3_errstr(result));
+    if (result != SQLITE_OK) refuse();
+    sqlite3_busy_timeout(opened, kPatience_ms);
+    // Anybody may have made the file: its tables run nothing, and every cell is checked.
+    sqlite3_db_config(opened, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+    sqlite3_exec(opened, "PRAGMA cell_size_check = ON", nullptr, nullptr, nullptr);
+    check_kind();
+}
+
+/// The head of a file that was closed says how long it is, which is refused when it is shorter.
+void SessionReader::read_head() {
+    // SQLite's file format, section 1.3: the magic string; at 16 the size of a page, 1 for 65536;
+    // at 18 and 19 a 2 each for a write-ahead log; at 28 the number of pages, valid if the numbers
+    // at 24 and 92 are the same. All big-endian.
+    constexpr std::string_view kMagic = "SQLite format 3";
+    std::array<unsigned char, 100> head{};
+    std::ifstream stream(file_, std::ios::binary);
+    stream.read(reinterpret_cast<char*>(head.data()), head.size());
+    if (!stream.is_open()) throw InputError(file_.string() + ": cannot be read; make it readable");
+    if (stream.gcount() == 0) refuse("it is empty");
+    if (!std::equal(kMagic.begin(), kMagic.end(), head.begin())) refuse("no SQLite file");
+    const auto number = [&head](std::size_t at, std::size_t bytes) {
+        std::uint64_t value = 0;
+        for (std::size_t k = at; k < at + bytes; ++k) value = value << 8U | head[k];
+        return value;
+    };
+    lacks_log_ = head[18] == 2 && head[19] == 2;
+    const std::uint64_t page = number(16, 2) == 1 ? 65536 : number(16, 2);
+    const std::uint64_t promised = page * number(28, 4);
+    std::error_code failed;
+    const std::uint64_t there = std::filesystem::file_size(file_, failed);
+    if (failed || number(24, 4) != number(92, 4) || there >= promised) return;
+    throw InputError(file_.string() + ": is cut short (" + std::to_string(there) + " of " +
+                     std::to_string(promised) + " bytes); copy it again");
+}
+
+void SessionReader::check_kind() const {
+    const auto number = [this](const char* question) {
+        Query query(*this, question);
+        return query.next() ? query.integer(0) : 0;
+    };
+    const std::int64_t application = number("PRAGMA application_id");
+    if (lacks_log_ && application == 0 && number("SELECT count(*) FROM sqlite_master") == 0) {
+        throw InputError(file_.string() + ": its recording was broken off, and all of it is in " +
+                         file_.filename().string() + "-wal, which is not here; copy both files");
+    }
+    if (application != kSessionApplicationId) {
+        refuse("another program's database");
+    }
+    const std::int64_t version = number("PRAGMA user_version");
+    if (version == kSessionSchemaVersion) return;
+    const bool newer = version > kSessionSchemaVersion;
+    throw InputError(file_.string() + ": was recorded by " + (newer ? "a newer" : "an older") +
+                     " dibhr (format " + std::to_string(version) + ", this one reads " +
+                     std::to_string(kSessionSchemaVersion) + "); " +
+                     (newer ? "update dibhr" : "record it again"));
+}
+
+void SessionReader::check() const {
+    Query query(*this, "PRAGMA quick_check(1)");
+    const std::string words = query.next() ? query.text(0) : "";
+    if (words != "ok") refuse_damaged(words.substr(words.rfind('\n') + 1));
+}
+
+void SessionReader::refuse() const {
+    const int code = sqlite3_errcode(database_.get());
+    const std::string words = sqlite3_errmsg(database_.get());
+    if (code == SQLITE_CORRUPT) refuse_damaged(words);
+    if (code == SQLITE_CANTOPEN) {
+        throw InputError(file_.string() +
+                         ": its recording was broken off, and its log cannot be opened; copy both, "
+                         "the file and " +
+                         file_.filename().string() + "-wal, into a folder that can be written to");
+    }
+    refuse(words);
 }
 
 void SessionReader::refuse(const std::string& reason) const {
     throw InputError(file_.string() + ": is no session that can be read (" + reason +
                      "); choose a file that dibhr recorded");
+}
+
+void SessionReader::refuse_damaged(const std::string& words) const {
+    throw InputError(file_.string() + ": is damaged (" + words +
+                     "); copy it again, or save what is left with sqlite3's .recover");
 }
 
 void SessionReader::Query::Finalizer::operator()(sqlite3_stmt* statement) const noexcept {
@@ -66,7 +153,7 @@ SessionReader::Query::Query(const SessionReader& reader, const std::string& sql)
     sqlite3_stmt* prepared = nullptr;
     if (sqlite3_prepare_v2(reader.database_.get(), sql.c_str(), -1, &prepared, nullptr) !=
         SQLITE_OK) {
-        reader.refuse(sqlite3_errmsg(reader.database_.get()));
+        reader.refuse();
     }
     statement_.reset(prepared);
 }
@@ -74,7 +161,7 @@ SessionReader::Query::Query(const SessionReader& reader, const std::string& sql)
 bool SessionReader::Query::next() {
     const int result = sqlite3_step(statement_.get());
     if (result == SQLITE_ROW) return true;
-    if (result != SQLITE_DONE) reader_.refuse(sqlite3_errmsg(reader_.database_.get()));
+    if (result != SQLITE_DONE) reader_.refuse();
     return false;
 }
 
@@ -82,8 +169,29 @@ double SessionReader::Query::real(int column) const noexcept {
     return sqlite3_column_double(statement_.get(), column);
 }
 
-long long SessionReader::Query::integer(int column) const noexcept {
+std::int64_t SessionReader::Query::integer(int column) const noexcept {
     return sqlite3_column_int64(statement_.get(), column);
+}
+
+SessionReader::Kind SessionReader::Query::kind(int column) const noexcept {
+    switch (sqlite3_column_type(statement_.get(), column)) {
+        case SQLITE_INTEGER:
+            return Kind::integer;
+        case SQLITE_FLOAT:
+            return Kind::real;
+        case SQLITE_NULL:
+            return Kind::nothing;
+        default:
+            return Kind::text;
+    }
+}
+
+int SessionReader::Query::columns() const noexcept {
+    return sqlite3_column_count(statement_.get());
+}
+
+std::string SessionReader::Query::name(int column) const {
+    return sqlite3_column_name(statement_.get(), column);
 }
 
 std::string SessionReader::Query::text(int column) const {

@@ -2,6 +2,7 @@
 // words.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -14,18 +15,33 @@ namespace dibhr {
 /// One session, read while it is recorded or afterwards, by one thread at a time.
 class SessionReader {
   public:
-    /// Throws InputError for a file that is missing, no ordinary file or no database.
+    /// Throws InputError for a file that is missing, cut short, damaged, or no session of this
+    /// version.
     explicit SessionReader(const std::filesystem::path& file);
 
+    [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
+    /// It was written by way of a log, and none is beside it: merged, or not copied along.
+    [[nodiscard]] bool lacks_log() const noexcept { return lacks_log_; }
+
+    /// Looks through the whole file. Throws InputError when it is damaged.
+    void check() const;
+
     class Query;
+    enum class Kind { nothing, integer, real, text };
 
   private:
+    void read_head();
+    void check_kind() const;
+    /// Foreign, or damaged: by what SQLite said last.
+    [[noreturn]] void refuse() const;
     [[noreturn]] void refuse(const std::string& reason) const;
+    [[noreturn]] void refuse_damaged(const std::string& words) const;
 
     struct Closer {
         void operator()(sqlite3* database) const noexcept;
     };
     std::filesystem::path file_;
+    bool lacks_log_{false};
     std::unique_ptr<sqlite3, Closer> database_{};
 };
 
@@ -38,8 +54,12 @@ class SessionReader::Query {
     /// False after the last row. Throws InputError for a damaged file.
     [[nodiscard]] bool next();
     [[nodiscard]] double real(int column) const noexcept;
-    [[nodiscard]] long long integer(int column) const noexcept;
+    [[nodiscard]] std::int64_t integer(int column) const noexcept;
+    [[nodiscard]] Kind kind(int column) const noexcept;
     [[nodiscard]] std::string text(int column) const;
+
+    [[nodiscard]] int columns() const noexcept;
+    [[nodiscard]] std::string name(int column) const;
 
   private:
     struct Finalizer {

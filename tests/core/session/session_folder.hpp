@@ -80,9 +80,10 @@ inline TickRecord tick_record(std::int64_t number) {
     return record;
 }
 
-/// Pushes a record for certain, as a producer that may wait.
+/// Pushes a record for certain, as a producer that may wait: nothing is dropped.
 inline void push(TickRing& ring, const TickRecord& record) {
-    while (!ring.push(record)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    while (ring.size() == ring.room()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    (void)ring.push(record);
 }
 
 /// Waits until `condition` holds; false after ten seconds.

@@ -19,8 +19,8 @@ void record(const SessionFolder& folder, std::int64_t first_contact) {
     session.begin();
     for (std::int64_t k = 0; k < 100; ++k) {
         TickRecord tick = tick_record(k);
-        tick.contact = first_contact >= 0 && k >= first_contact ? 1 : 0;
-        tick.frame = k / 33;
+        tick.contact = first_contact >= 0 && k >= first_contact;
+        tick.frames.from_frame = k / 33;
         tick.blend = 0.25;
         session.add(tick);
     }

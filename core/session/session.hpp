@@ -1,0 +1,92 @@
+// A recorded session, open for reading: its facts, parameters, sources and marks, and its ticks
+// one by one.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/session/session_parts.hpp"
+#include "core/session/session_reader.hpp"
+#include "core/session/tick_record.hpp"
+
+namespace dibhr {
+
+/// Read while it is recorded or afterwards; the file stays as it is. One thread at a time. Every
+/// call that reads throws InputError, with one plain line, for a file that is missing, foreign,
+/// damaged, cut short or of another version.
+class Session {
+  public:
+    /// Reads all but the ticks.
+    explicit Session(const std::filesystem::path& file);
+
+    /// Looks through the whole file for damage; a second or two for an hour's recording.
+    void check() const;
+
+    [[nodiscard]] const std::filesystem::path& file() const noexcept { return reader_.file(); }
+    [[nodiscard]] const SessionFacts& facts() const noexcept { return facts_; }
+    /// The fact, or nothing in it.
+    [[nodiscard]] std::string fact(const std::string& key) const;
+    /// What may be lacking, as a sentence; empty: nothing.
+    [[nodiscard]] std::string warning() const;
+    /// In the order in which ticks first used them.
+    [[nodiscard]] const std::vector<SessionParameters>& parameters() const noexcept {
+        return parameters_;
+    }
+    /// Null when there are none of that version.
+    [[nodiscard]] const SessionParameters* parameters_of(std::uint64_t version) const noexcept;
+    [[nodiscard]] const std::vector<SessionSource>& sources() const noexcept { return sources_; }
+    /// Null when there is none.
+    [[nodiscard]] const SessionSource* source_of(const FrameSource& source) const noexcept;
+    /// In order of time.
+    [[nodiscard]] const std::vector<SessionMark>& marks() const noexcept { return marks_; }
+
+    [[nodiscard]] std::int64_t rows() const noexcept { return rows_; }
+    [[nodiscard]] double begin_s() const noexcept { return begin_s_; }  ///< the first tick's t_s
+    [[nodiscard]] double end_s() const noexcept { return end_s_; }      ///< the last one's
+    /// How many ticks are missing between the first and the last.
+    [[nodiscard]] std::int64_t missing() const noexcept { return missing_; }
+
+    /// For questions of one's own to the tables that README.md describes.
+    [[nodiscard]] const SessionReader& reader() const noexcept { return reader_; }
+
+    class Ticks;
+
+  private:
+    void read_facts();
+    void read_parameters();
+    void read_sources();
+    void read_marks();
+    void read_extent();
+    /// The time of the first tick of that number or a later one.
+    [[nodiscard]] double time_from(std::int64_t tick) const;
+    /// The number of the first tick at or after that time; one past the last if there is none.
+    [[nodiscard]] std::int64_t tick_at(double t_s) const;
+
+    SessionReader reader_;
+    SessionFacts facts_{};
+    std::vector<SessionParameters> parameters_{};
+    std::vector<SessionSource> sources_{};
+    std::vector<SessionMark> marks_{};
+    std::int64_t rows_{0};
+    double begin_s_{0.0}, end_s_{0.0};
+    std::int64_t first_tick_{0}, last_tick_{-1};
+    std::int64_t missing_{0};
+};
+
+/// The ticks in order of time; must not outlive its session.
+class Session::Ticks {
+  public:
+    explicit Ticks(const Session& session);
+    /// From the first one at or after `from_s` on.
+    Ticks(const Session& session, double from_s);
+
+    /// False after the last one.
+    [[nodiscard]] bool next(TickRecord& tick);
+
+  private:
+    SessionReader::Query query_;
+};
+
+}  // namespace dibhr

@@ -1,0 +1,188 @@
+// The tables, the view over the ticks, and what explains their columns.
+#include "core/session/session_schema.hpp"
+
+#include <array>
+#include <string_view>
+
+#include "core/haptics/primitive.hpp"
+#include "core/haptics/safety.hpp"
+
+namespace dibhr {
+
+namespace {
+
+// Untyped columns keep every bit of a real, the sign of a zero too.
+constexpr std::string_view kTables = R"(
+CREATE TABLE session(key TEXT PRIMARY KEY, value TEXT);
+CREATE TABLE media(id INTEGER PRIMARY KEY, file TEXT UNIQUE, bytes INTEGER, sha256 TEXT);
+CREATE TABLE source(id INTEGER PRIMARY KEY, first_tick INTEGER, media INTEGER, colour INTEGER,
+  depth INTEGER, fill_holes INTEGER, remove_spikes INTEGER, smooth_steps INTEGER);
+CREATE TABLE parameters(version INTEGER PRIMARY KEY, first_tick INTEGER, algorithm TEXT,
+  relief_px REAL, roughness_px REAL, static_friction REAL, dynamic_friction REAL,
+  stiffness_newton_per_mm REAL, damping_newton_s_per_m REAL, pixel_pitch_mm REAL,
+  max_force_newton REAL, max_change_newton_per_ms REAL, ramp_s REAL, max_tick_s REAL,
+  max_goal_speed_mm_per_ms REAL, force_enabled INTEGER, bump INTEGER);
+CREATE TABLE pair(id INTEGER PRIMARY KEY, source INTEGER, from_frame INTEGER, to_frame INTEGER,
+  from_s, to_s, span_s);
+CREATE TABLE clock(t_ns INTEGER PRIMARY KEY, utc_s REAL, dropped INTEGER, high_water INTEGER);
+CREATE TABLE mark(id INTEGER PRIMARY KEY, t REAL, tag TEXT, text TEXT);
+CREATE TABLE cut(code INTEGER PRIMARY KEY, name TEXT);
+CREATE TABLE tick_column(name TEXT, unit TEXT, meaning TEXT);
+)";
+
+/// A column of the view `tick`: its type and the expression that gives it.
+struct Column {
+    std::string_view name;
+    std::string_view type;
+    std::string expression;
+    std::string_view unit;
+    std::string_view meaning;
+};
+
+/// The bits of `state` from `shift` on.
+std::string bits(int shift, int mask) {
+    return "d.state >> " + std::to_string(shift) + " & " + std::to_string(mask);
+}
+
+/// Whole nanoseconds, or else a real in the unit itself.
+std::string time_of(const std::string& column, double nanoseconds) {
+    return "CASE typeof(" + column + ") WHEN 'integer' THEN " + column + " / " +
+           std::to_string(nanoseconds) + " ELSE " + column + " END";
+}
+
+std::string proxy_of(const std::string& axis) {
+    return "coalesce(d.p" + axis + ", d.g" + axis + ")";
+}
+
+/// In the order of the multiplications in coupling_force(), so that the bits are the same.
+std::string spring_of(const std::string& axis) {
+    return "coalesce(d.f" + axis + ", s.stiffness_newton_per_mm * s.pixel_pitch_mm * (" +
+           proxy_of(axis) + " - d.g" + axis + "))";
+}
+
+std::string sent_of(const std::string& axis) {
+    return "coalesce(d.c" + axis + ", " + spring_of(axis) + ")";
+}
+
+std::string primitive_name() {
+    std::string text = "CASE " + bits(tick_state::kPrimitive, 3);
+    for (int kind = 0; kind <= static_cast<int>(PrimitiveKind::vertex); ++kind) {
+        text += " WHEN " + std::to_string(kind) + " THEN '" +
+                name_of(static_cast<PrimitiveKind>(kind)) + "'";
+    }
+    return text + " END";
+}
+
+/// The output rows' columns first, by the same names and in the same order.
+std::array<Column, 41> columns() {
+    namespace at = tick_state;
+    const std::string t = time_of("d.t", kNanosecondsPerSecond);
+    const std::string wall =
+        "(SELECT c.utc_s - c.t_ns / 1e9 FROM clock c WHERE c.t_ns <= "
+        "CASE typeof(d.t) WHEN 'integer' THEN d.t ELSE d.t * 1e9 END "
+        "ORDER BY c.t_ns DESC LIMIT 1) + (" +
+        t + ")";
+    return {{
+        {"t", "REAL", t, "s", "monotonic time since the loop began"},
+        {"gx", "REAL", "d.gx", "px", "goal, x (column)"},
+        {"gy", "REAL", "d.gy", "px", "goal, y (row)"},
+        {"gz", "REAL", "d.gz", "px", "goal, z (elevation towards the viewer)"},
+        {"px", "REAL", proxy_of("x"), "px", "proxy, x"},
+        {"py", "REAL", proxy_of("y"), "px", "proxy, y"},
+        {"pz", "REAL", proxy_of("z"), "px", "proxy, z"},
+        {"fx", "REAL", spring_of("x"), "N", "spring force before the safety stage, x"},
+        {"fy", "REAL", spring_of("y"), "N", "spring force before the safety stage, y"},
+        {"fz", "REAL", spring_of("z"), "N", "spring force before the safety stage, z"},
+        {"cx", "REAL", sent_of("x"), "N", "force sent to the device, x"},
+        {"cy", "REAL", sent_of("y"), "N", "force sent to the device, y"},
+        {"cz", "REAL", sent_of("z"), "N", "force sent to the device, z"},
+        {"contact", "INTEGER", bits(at::kContact, 1), "", "1 while the proxy touches the surface"},
+        {"primitive", "TEXT", primitive_name(), "",
+         "what the proxy rests on: none, triangle, edge or vertex"},
+        {"i", "INTEGER", "d.i", "", "the primitive's column, -1 for none"},
+        {"j", "INTEGER", "d.j", "", "the primitive's row, -1 for none"},
+        {"moves", "INTEGER", "d.moves", "", "primitives visited in the update"},
+        {"ns", "INTEGER", "d.ns", "ns", "time of the update"},
+        {"tick", "", "d.tick", "", "number of the tick in its loop"},
+        {"utc_s", "REAL", wall, "s", "wall time since 1970-01-01 00:00 UTC"},
+        {"video_s", "REAL", "q.from_s + d.blend * q.span_s", "s",
+         "presentation time in the video of what was touched; NULL without a surface"},
+        {"blend", "REAL", "d.blend", "", "0: depth frame `frame`, 1: `to_frame`"},
+        {"frame", "", "q.from_frame", "", "number of the depth frame in its file, from 0"},
+        {"to_frame", "", "q.to_frame", "", "number of the frame it blends into"},
+        {"pair", "", "q.id", "", "the two frames: id in table pair"},
+        {"source", "", "q.source", "", "files and cleaning of the frames: id in table source"},
+        {"settings", "", "d.settings", "", "version in table parameters"},
+        {"dt_s", "REAL", time_of("d.dt", kNanosecondsPerSecond), "s",
+         "since the tick before began"},
+        {"lateness_us", "REAL", time_of("d.lateness", kNanosecondsPerMicrosecond), "us",
+         "how long after its deadline the tick began"},
+        {"buttons", "INTEGER", bits(at::kButtons, 255), "", "bit 0: the device's main button"},
+        {"cut", "INTEGER", bits(at::kCut, 7), "", "why the force was cut: code in table cut"},
+        {"surface", "INTEGER", bits(at::kSurface, 1), "",
+         "1: there was a surface; without, nothing is updated and no force sent"},
+        {"ready", "INTEGER", bits(at::kReady, 1), "", "1: the device was attached and homed"},
+        {"stand_in", "INTEGER", bits(at::kStandIn, 1), "",
+         "1: the mouse moved the hand, for a device that was not ready"},
+        {"restart", "INTEGER", bits(at::kRestart, 1), "", "1: the force began from zero again"},
+        {"lets_go", "INTEGER", bits(at::kLetsGo, 1), "",
+         "1: the hand was lifted or replaced, and a contact was let go first"},
+        {"refused", "INTEGER", bits(at::kRefused, 1), "",
+         "1: the hand's place was no number; the goal is the one before"},
+        {"ox", "REAL", "coalesce(d.ox, 0.0)", "N", "what the device itself adds, x"},
+        {"oy", "REAL", "coalesce(d.oy, 0.0)", "N", "what the device itself adds, y"},
+        {"oz", "REAL", "coalesce(d.oz, 0.0)", "N", "what the device itself adds, z"},
+    }};
+}
+
+std::string quoted(std::string_view text) {
+    std::string quotation = "'";
+    for (const char c : text) quotation += c == '\'' ? std::string("''") : std::string(1, c);
+    return quotation + "'";
+}
+
+std::string tick_view() {
+    std::string select;
+    for (const Column& column : columns()) {
+        select += select.empty() ? "CREATE VIEW tick AS SELECT " : ",\n  ";
+        // A plain column keeps its declared type by itself.
+        select += column.type.empty()
+                      ? column.expression
+                      : "CAST(" + column.expression + " AS " + std::string(column.type) + ")";
+        select += " AS " + std::string(column.name);
+    }
+    return select +
+           "\nFROM tick_data d LEFT JOIN pair q ON q.id = d.pair"
+           " LEFT JOIN parameters s ON s.version = d.settings;\n";
+}
+
+std::string explanations() {
+    std::string text;
+    for (const Column& column : columns()) {
+        text += "INSERT INTO tick_column VALUES(" + quoted(column.name) + "," +
+                quoted(column.unit) + "," + quoted(column.meaning) + ");\n";
+    }
+    for (int code = 0; code <= static_cast<int>(SafetyCut::goal_jump); ++code) {
+        text += "INSERT INTO cut VALUES(" + std::to_string(code) + "," +
+                quoted(name_of(static_cast<SafetyCut>(code))) + ");\n";
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string tick_data_columns() {
+    return "tick, t, dt, lateness, ns, state, pair, blend, settings, moves, i, j, "
+           "gx, gy, gz, px, py, pz, fx, fy, fz, cx, cy, cz, ox, oy, oz";
+}
+
+std::string session_schema() {
+    std::string typed = tick_data_columns();
+    typed.replace(typed.find("tick,"), 4, "tick INTEGER PRIMARY KEY");
+    typed.replace(typed.find("settings"), 8, "settings INTEGER");
+    return std::string(kTables) + "CREATE TABLE tick_data(" + typed + ");\n" + tick_view() +
+           explanations() + "PRAGMA application_id = " + std::to_string(kSessionApplicationId) +
+           ";\nPRAGMA user_version = " + std::to_string(kSessionSchemaVersion) + ";\n";
+}
+
+}  // namespace dibhr

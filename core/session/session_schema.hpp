@@ -1,0 +1,41 @@
+// The tables of a session file, as SQL.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace dibhr {
+
+/// "dhap": the file says itself what it is (`PRAGMA application_id`).
+inline constexpr int kSessionApplicationId = 0x64686170;
+/// Counts changes of the tables (`PRAGMA user_version`, and `schema_version` in table session).
+inline constexpr int kSessionSchemaVersion = 2;
+
+/// Statements that make the tables of an empty database, and fill those that explain them. Ticks
+/// are stored in `tick_data` without what follows from the rest of a row; the view `tick` gives
+/// them whole.
+[[nodiscard]] std::string session_schema();
+
+/// A tick's columns in `tick_data`, in order.
+[[nodiscard]] std::string tick_data_columns();
+inline constexpr int kTickDataColumns = 27;
+
+/// How `tick_data.state` holds a tick's small facts; the view takes them apart.
+namespace tick_state {
+inline constexpr int kContact = 0;
+inline constexpr int kPrimitive = 1;  // 2 bits
+inline constexpr int kCut = 3;        // 3 bits
+inline constexpr int kSurface = 6;
+inline constexpr int kReady = 7;
+inline constexpr int kRestart = 8;
+inline constexpr int kLetsGo = 9;
+inline constexpr int kRefused = 10;
+inline constexpr int kStandIn = 11;
+inline constexpr int kButtons = 12;  // 8 bits
+}  // namespace tick_state
+
+/// A time is stored in whole nanoseconds where they give the same bits again, divided by this.
+inline constexpr double kNanosecondsPerSecond = 1e9;
+inline constexpr double kNanosecondsPerMicrosecond = 1e3;
+
+}  // namespace dibhr

@@ -1,0 +1,66 @@
+// One tick as it is recorded and read back: plain data that passes through a ring.
+#pragma once
+
+#include <cstdint>
+
+#include "core/realtime/spsc_ring.hpp"
+
+namespace dibhr {
+
+/// Where a tick's depth frames came from: which files, cleaned how.
+struct FrameSource {
+    std::uint32_t media{0};  ///< number of the opened media, as told to the recorder
+    bool fill_holes{false};
+    bool remove_spikes{false};
+    bool smooth_steps{false};
+
+    bool operator==(const FrameSource&) const = default;
+};
+
+/// Two depth frames that a surface blends: named by their presentation times, which are exact; the
+/// numbers are for people.
+struct FramePair {
+    FrameSource source{};
+    std::int64_t from_frame{0}, to_frame{0};  ///< in the file, from 0
+    double from_s{0.0}, to_s{0.0};            ///< presentation times in the file
+    double span_s{0.0};                       ///< how long the one takes to become the other
+
+    bool operator==(const FramePair&) const = default;
+};
+
+/// All that a tick's result depends on, and the result. Grid space [px], newtons, seconds. What
+/// is not finite is recorded as infinity.
+struct TickRecord {
+    std::int64_t tick{0};       ///< number of the tick in its loop; one more than the one before
+    double t_s{0.0};            ///< monotonic, since the loop began
+    std::int64_t zero_ns{0};    ///< the steady clock at t_s = 0; not read back
+    double dt_s{0.0};           ///< since the tick before began
+    double lateness_us{0.0};    ///< after its deadline
+    double update_us{0.0};      ///< time of the update
+    std::uint64_t settings{0};  ///< version of the parameters
+
+    FramePair frames{};   ///< means nothing without a surface
+    double blend{0.0};    ///< 0: from, 1: to
+    double utc_s{0.0};    ///< wall time since 1970; set by reading back
+    double video_s{0.0};  ///< presentation time of what was touched; set by reading back
+
+    double goal[3]{}, proxy[3]{}, spring_newton[3]{}, sent_newton[3]{};
+    double own_newton[3]{};  ///< what the device itself adds on the hand
+    std::int32_t moves{0};
+    std::int32_t i{-1}, j{-1};
+    bool contact{false};
+    std::uint8_t primitive{0};  ///< PrimitiveKind
+    std::uint8_t buttons{0};
+    std::uint8_t cut{0};  ///< SafetyCut
+
+    bool surface{true};        ///< there was one; without, nothing was updated
+    bool device_ready{true};   ///< attached and homed
+    bool stand_in{false};      ///< the mouse, for a device that was not ready
+    bool restart{false};       ///< the force began from zero again
+    bool lets_go{false};       ///< the hand was lifted or replaced: a contact was let go first
+    bool goal_refused{false};  ///< the hand's reading was no number: `goal` is the one before
+};
+
+using TickRing = SpscRing<TickRecord, 16384>;
+
+}  // namespace dibhr

@@ -1,0 +1,142 @@
+// A hand that explores a moving surface, tick by tick as the haptic loop does it: something real to
+// record and to replay.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/haptics/surface.hpp"
+#include "core/haptics/touch.hpp"
+#include "core/session/session_parts.hpp"
+#include "core/session/session_replay.hpp"
+
+namespace dibhr::test {
+
+/// Waves that wander over 96 x 64 pixels at 30 frames a second, one second long, again and again.
+class MovingSurface final : public RecordedFrames {
+  public:
+    static constexpr int kFrames = 30;
+    static constexpr double kInterval_s = 1.0 / 30.0;
+
+    MovingSurface() {
+        for (int frame = 0; frame < kFrames; ++frame) {
+            auto image = std::make_shared<DepthImage>();
+            image->columns = 96;
+            image->rows = 64;
+            for (int j = 0; j < image->rows; ++j) {
+                for (int i = 0; i < image->columns; ++i) {
+                    const double wave =
+                        std::sin(0.2 * i + 6.28 * frame / kFrames) * std::cos(0.3 * j);
+                    image->levels.push_back(static_cast<float>(std::round(100.0 + 20.0 * wave)));
+                }
+            }
+            images_.push_back(std::move(image));
+        }
+    }
+
+    [[nodiscard]] std::shared_ptr<const DepthImage> depth(const FrameSource&,
+                                                          double media_s) override {
+        return images_.at(static_cast<std::size_t>(std::lround(media_s / kInterval_s)));
+    }
+    [[nodiscard]] const BumpMap* bump(const SessionParameters&) override { return nullptr; }
+
+    /// The frames and the blend at a playback time.
+    [[nodiscard]] static FramePair pair_at(double playback_s, double& blend) {
+        const double position = playback_s / kInterval_s;
+        const auto whole = static_cast<std::int64_t>(std::floor(position));
+        blend = position - static_cast<double>(whole);
+        const std::int64_t from = whole % kFrames;
+        const std::int64_t to = (from + 1) % kFrames;
+        return {{1, true, true, true},
+                from,
+                to,
+                static_cast<double>(from) * kInterval_s,
+                static_cast<double>(to) * kInterval_s,
+                kInterval_s};
+    }
+
+  private:
+    std::vector<std::shared_ptr<const DepthImage>> images_{};
+};
+
+/// Gives the ticks one after the other; what the hand does is made up, what it feels is computed.
+class Exploration {
+  public:
+    SessionParameters parameters{.version = 1, .touch = {}, .limits = {}, .bump = {}};
+    double depth_px{30.0};  ///< how far the hand is below the waves' middle
+    Vec3 own_force_newton{0.0};
+    bool lets_go{false};  ///< in the next tick
+    bool surface{true};
+
+    explicit Exploration(MovingSurface& frames) : frames_(frames) {}
+
+    [[nodiscard]] TickRecord next() {
+        TickRecord record;
+        record.tick = number_;
+        record.dt_s = 0.001 + 1e-6 * static_cast<double>(number_ % 7);
+        record.t_s = static_cast<double>(ns_) / 1e9;
+        ns_ += 1'000'000 + 1000 * (number_ % 7);
+        record.lateness_us = static_cast<double>(number_ % 50) + 0.123;
+        record.update_us = 0.3;
+        record.settings = parameters.version;
+        record.surface = surface;
+        record.lets_go = lets_go;
+        surface ? touch_surface(record) : rest();
+        lets_go = false;
+        const Touch& touch = touch_;
+        for (int axis = 0; axis < 3; ++axis) {
+            record.goal[axis] = touch.goal[axis];
+            record.proxy[axis] = touch.proxy.position[axis];
+            record.spring_newton[axis] = touch.spring_force_newton[axis];
+            record.sent_newton[axis] = touch.sent_force_newton[axis];
+            record.own_newton[axis] = surface ? own_force_newton[axis] : 0.0;
+        }
+        record.moves = touch.proxy.moves;
+        record.i = touch.proxy.active.i;
+        record.j = touch.proxy.active.j;
+        record.contact = touch.proxy.contact;
+        record.primitive = static_cast<std::uint8_t>(touch.proxy.active.kind);
+        record.cut = static_cast<std::uint8_t>(touch.cut);
+        ++number_;
+        return record;
+    }
+
+  private:
+    void touch_surface(TickRecord& record) {
+        const double t = record.t_s;
+        record.frames = MovingSurface::pair_at(t, record.blend);
+        const auto from = frames_.depth(record.frames.source, record.frames.from_s);
+        const auto to = frames_.depth(record.frames.source, record.frames.to_s);
+        const DepthSurface ground(*from, *to, record.blend, parameters.touch.shape);
+        const Vec3 goal{48.0 + 40.0 * std::sin(1.7 * t), 32.0 + 25.0 * std::sin(2.3 * t + 1.0),
+                        100.0 - depth_px * std::min(1.0, t)};
+        record.restart = restart_;
+        restart_ = false;
+        if (lets_go && touch_.proxy.contact) renderer_.let_go();
+        touch_ = renderer_.update(ground, goal, parameters.touch,
+                                  {.dt_s = record.dt_s,
+                                   .force_enabled = parameters.force_enabled,
+                                   .device_force_newton = own_force_newton,
+                                   .restart = record.restart},
+                                  parameters.limits);
+    }
+
+    void rest() {
+        renderer_.rest();
+        touch_.spring_force_newton = Vec3(0.0);
+        touch_.sent_force_newton = Vec3(0.0);
+        restart_ = true;
+    }
+
+    MovingSurface& frames_;
+    TouchRenderer renderer_{};
+    Touch touch_{};
+    std::int64_t number_{0};
+    std::int64_t ns_{0};
+    bool restart_{true};
+};
+
+}  // namespace dibhr::test

@@ -1,0 +1,162 @@
+// A recording that is killed: the file opens, is sound, and lacks at most the last half second.
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/session/session.hpp"
+#include "core/session/session_replay.hpp"
+#include "tests/core/session/exploration.hpp"
+#include "tests/core/session/session_folder.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+constexpr int kKills = 50;
+constexpr int kAtATime = 5;
+constexpr auto kMayLack = milliseconds(500);
+// As fast as so many loops: the log is merged into the file every two seconds.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr int kFast_per_ms = 4;
+#else
+constexpr int kFast_per_ms = 20;
+#endif
+
+/// A program that records, as fast as asked for, until it is killed so long after its first tick.
+class Child {
+  public:
+    Child(const std::filesystem::path& file, int ticks_per_ms, milliseconds lives)
+        : file_(file), lives_(lives) {
+        const std::string counter = file.string() + ".counter";
+        const int shared = ::open(counter.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600);
+        REQUIRE(::ftruncate(shared, sizeof(std::int64_t)) == 0);
+        void* const memory =
+            ::mmap(nullptr, sizeof(std::int64_t), PROT_READ, MAP_SHARED, shared, 0);
+        ::close(shared);
+        REQUIRE(memory != MAP_FAILED);
+        pushed_ = static_cast<const std::atomic<std::int64_t>*>(memory);
+        const std::string rate = std::to_string(ticks_per_ms);
+        child_ = ::fork();
+        REQUIRE(child_ >= 0);
+        if (child_ == 0) {
+            ::execl(DIBHR_SESSION_CHILD, "session_child", file.c_str(), counter.c_str(),
+                    rate.c_str(), nullptr);
+            ::_exit(127);
+        }
+    }
+    ~Child() {
+        kill();
+        ::munmap(const_cast<std::atomic<std::int64_t>*>(pushed_), sizeof(std::int64_t));
+    }
+    Child(const Child&) = delete;
+    Child& operator=(const Child&) = delete;
+
+    /// Looks how far it is half a second before its end, and ends it. False once it is dead.
+    bool watch() {
+        if (child_ <= 0) return false;
+        if (::waitpid(child_, nullptr, WNOHANG) == child_) {
+            child_ = 0;
+            FAIL_CHECK("the recording program ended by itself");
+            return false;
+        }
+        if (!begin_ && pushed_->load() > 0) begin_ = Clock::now();
+        if (!begin_) return true;
+        const auto age = Clock::now() - *begin_;
+        if (!certain_ && age >= lives_ - kMayLack) {
+            certain_ = pushed_->load();
+            seen_ = Clock::now();
+        }
+        // A test that is itself late gives the child the whole half second all the same.
+        if (age >= lives_ && certain_ && Clock::now() - seen_ >= kMayLack) kill();
+        return child_ > 0;
+    }
+
+    [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+    /// Ticks that had been pushed half a second before the end.
+    [[nodiscard]] std::int64_t certain() const { return certain_.value_or(0); }
+
+  private:
+    void kill() {
+        if (child_ <= 0) return;
+        ::kill(child_, SIGKILL);
+        ::waitpid(child_, nullptr, 0);
+        child_ = 0;
+    }
+
+    std::filesystem::path file_;
+    std::optional<Clock::time_point> begin_{};
+    milliseconds lives_;
+    const std::atomic<std::int64_t>* pushed_{nullptr};
+    pid_t child_{0};
+    std::optional<std::int64_t> certain_{};
+    Clock::time_point seen_{};
+};
+
+void check_what_is_left(const Child& child) {
+    CAPTURE(child.file(), child.certain());
+    REQUIRE(std::filesystem::exists(child.file()));
+    // As the program finds it, log and all; then with SQLite's own eyes.
+    const Session session(child.file());
+    CHECK_NOTHROW(session.check());
+    CHECK(session.rows() >= child.certain());
+    CHECK(session.missing() == 0);
+    CHECK(answer(child.file(), "PRAGMA integrity_check") == "ok");
+    CHECK(answer(child.file(),
+                 "SELECT count(*) = max(tick) - min(tick) + 1 AND min(tick) = 0 "
+                 "FROM tick") == "1");
+    MovingSurface surface;
+    SessionReplay replay(session, surface, {{}});
+    bool same = true;
+    while (replay.next()) same = same && same_bits(replay.touch(0), replay.recorded());
+    CHECK(same);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "killed at fifty random moments, a recording is whole up to the last half second and replays",
+    "[session]") {
+    const SessionFolder folder;
+    std::mt19937 random(2026);
+    std::uniform_int_distribution<int> rate(0, 3);
+    std::uniform_int_distribution<int> life_ms(550, 3000);
+    std::int64_t rows = 0;
+    for (int done = 0; done < kKills;) {
+        std::vector<std::unique_ptr<Child>> children;
+        for (; done < kKills && children.size() < kAtATime; ++done) {
+            const int ticks_per_ms = rate(random) == 0 ? kFast_per_ms : 1;
+            children.push_back(std::make_unique<Child>(
+                folder.path() / ("killed" + std::to_string(done) + ".dibhr"), ticks_per_ms,
+                milliseconds(life_ms(random))));
+        }
+        for (bool alive = true; alive;) {
+            alive = false;
+            for (const auto& child : children) alive = child->watch() || alive;
+            std::this_thread::sleep_for(milliseconds(1));
+        }
+        for (const auto& child : children) {
+            check_what_is_left(*child);
+            rows += child->certain();
+            std::filesystem::remove(child->file());
+        }
+    }
+    CHECK(rows > kKills * 300);  // they did record
+}

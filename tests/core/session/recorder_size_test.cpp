@@ -1,0 +1,124 @@
+// What an hour of recording costs: bytes, memory, time of the recorder's thread. A minute of it is
+// recorded here, faster than it was; DIBHR_TEST_RECORD_MINUTES=60 records an hour.
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+
+#include "core/session/recorder.hpp"
+#include "core/session/session.hpp"
+#include "tests/core/session/exploration.hpp"
+#include "tests/core/session/session_folder.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+
+namespace {
+
+constexpr double kMostBytesPerHour = 0.6e9;
+constexpr double kMostShareOfCore = 0.1;
+constexpr std::int64_t kTicksPerMinute = 60'000;
+
+std::int64_t minutes() {
+    const char* const wanted = std::getenv("DIBHR_TEST_RECORD_MINUTES");
+    return wanted == nullptr ? 1 : std::max(std::atol(wanted), 1L);
+}
+
+/// Time on a core of this process's thread of that name; nothing when there is none.
+std::optional<double> thread_seconds(const std::string& name) {
+    for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+        std::ifstream comm(task.path() / "comm");
+        std::string found;
+        std::getline(comm, found);
+        std::ifstream schedule(task.path() / "schedstat");
+        double ns = 0.0;
+        if (found == name && schedule >> ns) return ns * 1e-9;
+    }
+    return std::nullopt;
+}
+
+/// Memory of this process [bytes].
+double resident_bytes() {
+    std::ifstream statm("/proc/self/statm");
+    double total = 0.0;
+    double resident = 0.0;
+    statm >> total >> resident;
+    return resident * 4096.0;
+}
+
+struct Cost {
+    double bytes_per_hour{0.0};
+    double share_of_core{0.0};  ///< of the recorder's thread, had it been at 1 kHz
+    double grown_bytes{0.0};
+    RecorderStatus status{};
+    std::int64_t missing{-1};
+};
+
+Cost cost_of(Exploration& hand) {
+    const SessionFolder folder;
+    const auto ring = std::make_unique<TickRing>();
+    Cost cost;
+    const std::int64_t ticks = minutes() * kTicksPerMinute;
+    {
+        Recorder recorder(folder.file(), *ring, {});
+        recorder.parameters(hand.parameters);
+        double before = 0.0;
+        for (std::int64_t k = 0; k < ticks; ++k) {
+            push(*ring, hand.next());
+            if (k == kTicksPerMinute / 2) before = resident_bytes();
+        }
+        cost.grown_bytes = resident_bytes() - before;
+        const auto seconds = thread_seconds("dibhr-recorder");
+        REQUIRE(seconds.has_value());
+        cost.share_of_core = *seconds / (static_cast<double>(ticks) * 1e-3);
+        cost.status = recorder.finish();
+    }
+    const auto bytes = static_cast<double>(std::filesystem::file_size(folder.file()));
+    cost.bytes_per_hour = bytes / static_cast<double>(minutes()) * 60.0;
+    const Session session(folder.file());
+    cost.missing = session.missing() + ticks - session.rows();
+    return cost;
+}
+
+void check(const Cost& cost) {
+    std::ostringstream numbers;
+    numbers << "an hour: " << cost.bytes_per_hour / 1e9
+            << " GB; recorder at 1 kHz: " << 100.0 * cost.share_of_core
+            << " % of a core; memory grew by " << cost.grown_bytes / 1e6
+            << " MB; ring's high water " << cost.status.high_water;
+    if (minutes() > 1) WARN(numbers.str());
+    CAPTURE(numbers.str());
+    CHECK(cost.status.failure.empty());
+    CHECK(cost.status.dropped == 0);
+    CHECK(cost.missing == 0);
+    CHECK(cost.bytes_per_hour <= kMostBytesPerHour);
+    CHECK(cost.grown_bytes < 32e6);
+#ifndef __SANITIZE_ADDRESS__
+#ifndef __SANITIZE_THREAD__
+    CHECK(cost.share_of_core <= kMostShareOfCore);
+#endif
+#endif
+}
+
+}  // namespace
+
+TEST_CASE("an hour in contact needs at most 0.6 GB and a tenth of a core, and drops nothing",
+          "[session]") {
+    MovingSurface surface;
+    Exploration hand(surface);
+    check(cost_of(hand));
+}
+
+TEST_CASE("so does an hour in which every force meets the device's limit", "[session]") {
+    MovingSurface surface;
+    Exploration hand(surface);
+    hand.parameters.touch.coupling.stiffness_newton_per_mm = 20.0;
+    hand.parameters.touch.coupling.damping_newton_s_per_m = 2.0;
+    check(cost_of(hand));
+}
