@@ -1,0 +1,101 @@
+// Contact episodes, one tick after the other.
+#include "core/report/contact_episodes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/haptics/primitive.hpp"
+#include "core/report/tick_vectors.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr double kRounding_s = 1e-9;  // times are sums of milliseconds
+
+void add_force(ForceSummary& sum, const double (&newton)[3], double held_s) {
+    const double length = length_of(newton);
+    if (!std::isfinite(length)) return;
+    sum.mean_newton += length * held_s;
+    sum.peak_newton = std::max(sum.peak_newton, length);
+}
+
+void add_primitive(PrimitiveShares& sum, std::uint8_t primitive, double held_s) {
+    switch (static_cast<PrimitiveKind>(primitive)) {
+        case PrimitiveKind::triangle:
+            sum.triangle += held_s;
+            break;
+        case PrimitiveKind::edge:
+            sum.edge += held_s;
+            break;
+        case PrimitiveKind::vertex:
+            sum.vertex += held_s;
+            break;
+        case PrimitiveKind::none:
+            break;
+    }
+}
+
+}  // namespace
+
+void ContactEpisodes::add(const TickRecord& tick, double held_s, double pitch_mm) {
+    if (open_ &&
+        (tick.lets_go || (tick.surface && tick.frames.source.media != open_->episode.media))) {
+        end();
+    }
+    if (!touches(tick)) return;
+    const bool gap = open_ && tick.tick != open_->last_tick + 1;
+    if (gap && tick.t_s - open_->episode.end_s >= kJoinedGap_s - kRounding_s) end();
+    if (open_) {
+        go_on(tick, gap ? 0.0 : pitch_mm);
+    } else {
+        begin(tick);
+    }
+    Episode& episode = open_->episode;
+    episode.end_s = tick.t_s + held_s;
+    episode.video_end_s = tick.video_s;
+    episode.contact_s += held_s;
+    episode.centre_px += held_s * Vec2(tick.proxy[0], tick.proxy[1]);
+    add_force(episode.sent, tick.sent_newton, held_s);
+    add_force(episode.spring, tick.spring_newton, held_s);
+    add_primitive(episode.shares, tick.primitive, held_s);
+    open_->last_tick = tick.tick;
+    open_->last_proxy_px = vector_of(tick.proxy);
+}
+
+std::vector<Episode> ContactEpisodes::finish() {
+    if (open_) end();
+    return std::move(episodes_);
+}
+
+void ContactEpisodes::begin(const TickRecord& tick) {
+    open_.emplace();
+    open_->episode.begin_s = tick.t_s;
+    open_->episode.video_begin_s = tick.video_s;
+    open_->episode.media = tick.frames.source.media;
+}
+
+/// A force that begins from zero again follows a jump of the video or of what is felt, over which
+/// no path leads.
+void ContactEpisodes::go_on(const TickRecord& tick, double pitch_mm) {
+    if (tick.restart) return;
+    open_->episode.path_mm += pitch_mm * glm::length(vector_of(tick.proxy) - open_->last_proxy_px);
+}
+
+void ContactEpisodes::end() {
+    Episode& episode = open_->episode;
+    if (episode.contact_s > 0.0) {
+        const double share = 1.0 / episode.contact_s;
+        episode.centre_px *= share;
+        episode.sent.mean_newton *= share;
+        episode.spring.mean_newton *= share;
+        episode.shares.triangle *= share;
+        episode.shares.edge *= share;
+        episode.shares.vertex *= share;
+    }
+    episodes_.push_back(episode);
+    open_.reset();
+}
+
+}  // namespace dibhr

@@ -1,0 +1,72 @@
+// Contact episodes: from the first tick in contact to the last, one tick after the other.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/haptics/vec.hpp"
+#include "core/session/tick_record.hpp"
+
+namespace dibhr {
+
+/// Gaps between contacts that are shorter than this belong to one episode: a hand that slides over
+/// an edge, not one that came back.
+inline constexpr double kJoinedGap_s = 0.020;
+
+/// What was felt on average and at most.
+struct ForceSummary {
+    double mean_newton{0.0};  ///< over time
+    double peak_newton{0.0};
+};
+
+/// On which kind of primitive the proxy was, as shares of the time in contact.
+struct PrimitiveShares {
+    double triangle{0.0}, edge{0.0}, vertex{0.0};
+};
+
+/// One contact.
+struct Episode {
+    double begin_s{0.0};    ///< on the ticks' clock, of the first tick in contact
+    double end_s{0.0};      ///< when the last one gave way to the next tick
+    double contact_s{0.0};  ///< without the gaps inside
+    double video_begin_s{0.0}, video_end_s{0.0};  ///< presentation times of what was touched
+    std::uint32_t media{0};                       ///< as in FrameSource
+    ForceSummary sent{}, spring{};
+    double path_mm{0.0};  ///< of the proxy, from tick to tick
+    Vec2 centre_px{0.0};  ///< of the proxy's places, by time
+    PrimitiveShares shares{};
+
+    [[nodiscard]] double length_s() const noexcept { return end_s - begin_s; }
+    /// Along the path, in contact; 0 for a contact of no time.
+    [[nodiscard]] double mean_speed_mm_per_s() const noexcept {
+        return contact_s > 0.0 ? path_mm / contact_s : 0.0;
+    }
+};
+
+/// An episode also ends where the hand lets go or another video comes.
+class ContactEpisodes {
+  public:
+    /// A tick that stands for `held_s`, in order of time. `pitch_mm`: size of a pixel.
+    void add(const TickRecord& tick, double held_s, double pitch_mm);
+
+    /// All of them, the last one ended.
+    [[nodiscard]] std::vector<Episode> finish();
+
+  private:
+    /// An episode going on; what will be means are sums over time.
+    struct Open {
+        Episode episode{};
+        std::int64_t last_tick{0};
+        Vec3 last_proxy_px{0.0};
+    };
+
+    void begin(const TickRecord& tick);
+    void go_on(const TickRecord& tick, double pitch_mm);
+    void end();
+
+    std::vector<Episode> episodes_{};
+    std::optional<Open> open_{};
+};
+
+}  // namespace dibhr

@@ -1,0 +1,60 @@
+// A session in pictures: where it was touched, forces and speeds over time, histograms.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/report/session_numbers.hpp"
+#include "core/session/session_parts.hpp"
+#include "core/video/frame_window.hpp"
+
+namespace dibhr {
+
+/// What a heat map lies on.
+struct HeatMapGround {
+    ColourImage picture{};  ///< of any size; empty: plain ground
+    int columns{0};         ///< of the depth image
+    int rows{0};
+    double pitch_mm{0.1};
+};
+
+/// The standard deviation of the Gaussian that spreads the touch of a pixel over its neighbours, in
+/// an image of so many columns [px]: about a finger's breadth of what is seen.
+[[nodiscard]] double heat_map_sigma_px(int columns);
+
+/// Contact time per pixel, spread by the Gaussian, over the picture, with scales in seconds and
+/// millimetres. The longest of the episodes are numbered as in `episodes`; those of other media are
+/// not shown. There must be a touched pixel in the ground.
+[[nodiscard]] ColourImage plot_heat_map(const TouchedPlaces& places, const HeatMapGround& ground,
+                                        const std::vector<Episode>& episodes, std::uint32_t media,
+                                        const std::string& subtitle);
+
+/// What the plots over time and the histograms say beside the numbers.
+struct PlotWords {
+    std::string subtitle{};
+    double begin_s{0.0};  ///< the first tick, on the marks' clock
+    std::vector<SessionMark> marks{};
+};
+
+/// In so long a session a touch is narrower than a line: its plots show the range of the values,
+/// pale, and their mean over pieces of a few seconds.
+[[nodiscard]] bool shows_means(const TimeLine& line);
+
+/// Spring force and force sent, with the times in contact, the video's time and the marks.
+[[nodiscard]] ColourImage plot_force_over_time(const SessionNumbers& numbers,
+                                               const PlotWords& words);
+/// Likewise the speeds of goal and proxy; there must be some.
+[[nodiscard]] ColourImage plot_speed_over_time(const SessionNumbers& numbers,
+                                               const PlotWords& words);
+
+/// There must be a contact of some time.
+[[nodiscard]] ColourImage plot_force_histogram(const SessionNumbers& numbers,
+                                               const PlotWords& words);
+/// There must be a contact.
+[[nodiscard]] ColourImage plot_contact_histogram(const SessionNumbers& numbers,
+                                                 const PlotWords& words);
+/// There must be speeds.
+[[nodiscard]] ColourImage plot_speed_histogram(const SessionNumbers& numbers,
+                                               const PlotWords& words);
+
+}  // namespace dibhr

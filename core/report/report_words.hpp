@@ -1,0 +1,37 @@
+// The report's sentences: the summary, what to mind, and what each number means.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/report/session_report.hpp"
+
+namespace dibhr {
+
+/// One paragraph of what happened.
+[[nodiscard]] std::string summary_of(const SessionReport& report);
+
+/// What a reader must know before relying on the numbers, one sentence each; none when all is well.
+[[nodiscard]] std::vector<std::string> remarks_of(const SessionReport& report);
+
+struct Definition {
+    std::string name{};
+    std::string meaning{};
+};
+
+[[nodiscard]] std::vector<Definition> definitions();
+
+/// "2026-03-01 14:05:09 UTC"; empty when the time is not known.
+[[nodiscard]] std::string wall_time_text(double utc_s);
+
+/// "1 contact", "3 contacts".
+[[nodiscard]] std::string counted(std::int64_t count, const std::string& thing);
+
+/// "12.4 %" of a share of 0.124.
+[[nodiscard]] std::string percent_text(double share);
+
+/// With so many digits after the point, also for zero.
+[[nodiscard]] std::string decimals(double value, int digits);
+
+}  // namespace dibhr

@@ -1,0 +1,67 @@
+// A session as a report: pictures, one page that opens anywhere, and the numbers for scripts.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/report/session_numbers.hpp"
+#include "core/session/session.hpp"
+#include "core/video/frame_window.hpp"
+
+namespace dibhr {
+
+/// What a video looked like at a moment, as far as its files are still there.
+struct RecordedPicture {
+    ColourImage colour{};     ///< empty: not known
+    int columns{0}, rows{0};  ///< of the depth image; 0: not known
+    std::string remark{};     ///< why there is none, in a plain sentence
+    std::string warning{};    ///< what speaks against the one there is, likewise
+};
+
+/// The picture shown at `media_s` of what ticks touched.
+using RecordedPictures = std::function<RecordedPicture(const SessionSource&, double media_s)>;
+
+/// A heat map's facts.
+struct HeatMapFacts {
+    std::string picture{};  ///< its file
+    SessionSource source{};
+    std::string remark{};  ///< why it lies over plain ground; empty: it lies over the frame
+    double frame_s{0.0};   ///< presentation time of the frame that was touched longest
+    double contact_s{0.0};
+    int columns{0}, rows{0};  ///< of the depth image, or of what is known of it
+    double sigma_px{0.0};
+};
+
+/// A picture of the report.
+struct Figure {
+    std::string file{};  ///< its name
+    std::string title{};
+    std::string caption{};
+    int columns{0}, rows{0};
+    std::string png{};
+};
+
+/// All that the page and the JSON say.
+struct SessionReport {
+    const Session& session;
+    SessionNumbers numbers{};
+    std::vector<HeatMapFacts> maps{};
+    std::vector<Figure> figures{};
+    std::string program{};               ///< that made the report, with its version
+    std::vector<std::string> remarks{};  ///< on the pictures, in plain sentences
+};
+
+struct ReportRequest {
+    std::filesystem::path folder{};
+    std::string program{};
+    RecordedPictures pictures{};
+    std::function<void(double)> progress{};  ///< hears the share done; may be empty
+};
+
+/// Reads the session once and writes `report.html`, `report.json` and the pictures into the folder,
+/// all of them or none. Throws InputError: what, which file, what to do next.
+void write_session_report(const Session& session, const ReportRequest& request);
+
+}  // namespace dibhr

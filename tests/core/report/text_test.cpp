@@ -1,0 +1,49 @@
+// What people and files say is shown as text, whatever it is.
+#include <string>
+
+#include "core/files/json_text.hpp"
+#include "core/report/plain_text.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace dibhr;
+
+TEST_CASE("no text means anything to a browser", "[report]") {
+    CHECK(html_text("<script>alert(\"x\" & 'y')</script>") ==
+          "&lt;script&gt;alert(&quot;x&quot; &amp; &#39;y&#39;)&lt;/script&gt;");
+    CHECK(html_text("J\xC3\xBCrgen \xE2\x82\xAC \xF0\x9F\x96\x90") ==
+          "J\xC3\xBCrgen \xE2\x82\xAC \xF0\x9F\x96\x90");
+}
+
+TEST_CASE("bytes that are no letters are replaced one by one", "[report]") {
+    const std::string mark = "\xEF\xBF\xBD";
+    CHECK(utf8_text("a\xFF"
+                    "b") == "a" + mark + "b");
+    CHECK(utf8_text("\xC3") == mark);
+    CHECK(utf8_text("\xC0\xAF") == mark + mark);                     // too long for a slash
+    CHECK(utf8_text("\xED\xA0\x80") == mark + mark + mark);          // half of a pair of UTF-16
+    CHECK(utf8_text("\xF4\x90\x80\x80").size() == 4 * mark.size());  // beyond Unicode
+    CHECK(utf8_text(std::string("a\0b\x1B[1m\n", 8)) == "a" + mark + "b" + mark + "[1m\n");
+}
+
+TEST_CASE("plots show what they can write, on one line and not too long", "[report]") {
+    CHECK(ascii_text("J\xC3\xBCrgen\n2", 20) == "J?rgen 2");
+    CHECK(ascii_text("a long name of a file", 10) == "a long n..");
+}
+
+TEST_CASE("base64 gives the standard's own examples", "[report]") {  // RFC 4648, section 10
+    CHECK(base64_text("") == "");
+    CHECK(base64_text("f") == "Zg==");
+    CHECK(base64_text("fo") == "Zm8=");
+    CHECK(base64_text("foo") == "Zm9v");
+    CHECK(base64_text("foob") == "Zm9vYg==");
+    CHECK(base64_text("fooba") == "Zm9vYmE=");
+    CHECK(base64_text("foobar") == "Zm9vYmFy");
+    CHECK(base64_text("\xFF\xFE") == "//4=");
+}
+
+TEST_CASE("JSON numbers read back to the same bits", "[report]") {
+    const double value = GENERATE(0.1, 1.0 / 3.0, 1e-300, -0.0, 12345678.9);
+    CHECK(std::stod(json_number(value)) == value);
+    CHECK(json_number(1.0 / 0.0) == "null");
+    CHECK(json_quoted("a \"b\"\n\\") == "\"a \\\"b\\\"\\u000a\\\\\"");
+}
