@@ -14,6 +14,7 @@ struct DeviceSpecification {
     std::string name{};  ///< "mouse", "goals:FILE", "Novint Falcon (serial)"
     double max_force_newton{8.0};
     double max_stiffness_newton_per_mm{1.0};
+    double max_damping_newton_s_per_m{20.0};
     Vec3 workspace_mm{101.6};  ///< extents of the volume it reaches
 };
 
@@ -27,9 +28,14 @@ struct HandContext {
 /// One reading, already in grid space: only `device` knows its own millimetres.
 struct HandReading {
     Vec3 goal_in_grid{0.0};
-    std::uint8_t buttons{0};  ///< bit 0: the main button
+    std::uint8_t buttons{0};  ///< bit 0: the main button; a Falcon's: plus, forward, centre, minus
     bool ready{true};         ///< attached, homed, and giving poses; false: no force
     bool lifted{false};       ///< taken off the surface: a proxy that still touches lets go
+    bool taken_over{false};   ///< another hand than in the last reading: the force begins from zero
+    bool force_off{false};    ///< a button that takes the force off is down
+    bool stand_in{false};     ///< the mouse, while the device asked for is not ready
+    /// What the device itself adds on the hand, such as its soft boundary [N], axes of grid space.
+    Vec3 own_force_newton{0.0};
 };
 
 /// Read once and sent to once a tick, by the haptic thread alone. Neither call allocates, locks or

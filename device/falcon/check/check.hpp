@@ -1,0 +1,54 @@
+// `dibhr devices --check`: the protocol for the first unit (fact sheet, last paragraph), step by
+// step, with a person beside it and a record of everything.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "device/falcon/check/guide.hpp"
+#include "device/falcon/firmware_image.hpp"
+#include "device/falcon/kinematics.hpp"
+
+namespace dibhr::falcon {
+
+/// How long things last; tests shorten them.
+struct CheckTimes {
+    using Span = std::chrono::milliseconds;
+
+    Span rate{3000};        ///< of one measurement of the reply rate
+    Span homing_bit{2000};  ///< with the homing bit cleared
+    Span sample{500};       ///< over which counts are averaged
+    Span button_calm{100};  ///< without a change: a button has done bouncing
+    Span ramp{500};         ///< up to a force, and down again
+    Span hold{3000};        ///< of a force on the scale, at most
+    Span short_hold{1000};  ///< of the force before a silence
+    Span reconnect{5000};   ///< until a Falcon that is plugged in again may be opened
+    std::vector<Span> silences{Span(10), Span(100), Span(1000)};  ///< after the last packet
+};
+
+struct CheckOptions {
+    std::string serial{};  ///< empty: the first one
+    FirmwareImage firmware{};
+    Geometry geometry{};             ///< that the settings now hold
+    std::filesystem::path record{};  ///< empty: falcon-check-SERIAL-DATE.json in this folder
+    /// What else belongs into the record, such as the program's version.
+    std::vector<std::pair<std::string, std::string>> facts{};
+    CheckTimes times{};
+};
+
+struct CheckResult {
+    std::filesystem::path record{};
+    std::string fault{};  ///< why the Falcon failed; empty when it did not
+};
+
+/// Leads through all steps and writes the record after each; a person may skip any of them, or
+/// quit. Force only in steps that say so before: homed, ramped, at most 3 s, and released at once
+/// when the person wants it or anything is odd. Every way out leaves with five packets without
+/// force. Throws DeviceError when there is no Falcon to begin with, InputError when the record
+/// cannot be written.
+[[nodiscard]] CheckResult run_check(const CheckOptions& options, CheckGuide& guide);
+
+}  // namespace dibhr::falcon

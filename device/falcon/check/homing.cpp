@@ -1,0 +1,164 @@
+// Step 4: homing with a person, and what becomes of it when the homing bit is cleared (fact sheet,
+// section 9).
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+#include <string>
+
+#include "device/falcon/check/steps.hpp"
+#include "device/falcon/homing.hpp"
+
+namespace dibhr::falcon {
+
+namespace {
+
+using Clock = CheckTalk::Clock;
+
+constexpr std::array kAxes{"top", "right", "left"};
+constexpr std::uint8_t kAllAxes = 7;
+constexpr std::chrono::milliseconds kPeriod{2};
+constexpr int kStill_counts = 25;  // as much as a hanging grip may tremble
+
+std::string live_state(const Reply& reply) {
+    std::string text;
+    for (std::size_t k = 0; k < kAxes.size(); ++k) {
+        const bool homed = (reply.homed >> k & 1U) != 0;
+        text += std::string(k == 0 ? "" : "   ") + kAxes.at(k) + (homed ? " homed " : " ------ ") +
+                std::to_string(reply.encoder.at(k));
+    }
+    return text;
+}
+
+/// Notes the counts right before and after an axis says that it is homed.
+class ReferenceLog {
+  public:
+    void add(const Reply& reply, double at_s) {
+        for (std::size_t k = 0; last_ && k < kAxes.size(); ++k) {
+            const bool now = (reply.homed >> k & 1U) != 0;
+            const bool before = (last_->homed >> k & 1U) != 0;
+            if (!now || before) continue;
+            Measured line;
+            line.add("axis", kAxes.at(k))
+                .add("at_s", at_s)
+                .add("counts_before", last_->encoder)
+                .add("counts_after", reply.encoder);
+            lines_.add(line);
+        }
+        last_ = reply;
+    }
+    [[nodiscard]] const MeasuredList& lines() const noexcept { return lines_; }
+
+  private:
+    std::optional<Reply> last_{};
+    MeasuredList lines_{};
+};
+
+/// While the homing bit is set or not.
+struct Phase {
+    std::uint8_t always{kAllAxes};  ///< bits that every reply had
+    Reply first{};
+    Reply last{};
+    int replies{0};
+};
+
+Phase run_phase(CheckDesk& desk, const char* name, bool homing, Measured& measured) {
+    Phase phase;
+    const Command command{.motor = {}, .led = Led::blue, .homing = homing};
+    const auto begin = Clock::now();
+    std::optional<double> first_change_ms;
+    while (Clock::now() - begin < desk.options.times.homing_bit || phase.replies == 0) {
+        desk.obey_interrupt();
+        const auto heard = desk.falcon.talk().exchange(command, kPeriod);
+        if (!heard) continue;
+        if (phase.replies++ == 0) phase.first = heard->reply;
+        if (heard->reply.homed != kAllAxes && !first_change_ms) {
+            first_change_ms = std::chrono::duration<double, std::milli>(heard->at - begin).count();
+        }
+        phase.always &= heard->reply.homed;
+        phase.last = heard->reply;
+    }
+    Measured part;
+    part.add("homing_bit", homing)
+        .add("replies", phase.replies)
+        .add("homed_first", int{phase.first.homed})
+        .add("homed_always", int{phase.always})
+        .add("homed_last", int{phase.last.homed})
+        .add("counts_first", phase.first.encoder)
+        .add("counts_last", phase.last.encoder);
+    if (first_change_ms) part.add("first_not_homed_ms", *first_change_ms);
+    measured.add(name, part);
+    return phase;
+}
+
+bool jumped(const Counts& before, const Counts& after) {
+    for (std::size_t k = 0; k < before.size(); ++k) {
+        if (std::abs(before.at(k) - after.at(k)) > kStill_counts) return true;
+    }
+    return false;
+}
+
+std::string in_words(const Phase& kept, const Phase& cleared, const Phase& again) {
+    const std::string counts = jumped(kept.last.encoder, again.last.encoder)
+                                   ? "; the counts jumped"
+                                   : "; the counts stayed";
+    if (again.last.homed != kAllAxes) return "homing is lost when the bit is cleared" + counts;
+    if (cleared.always == kAllAxes) return "homing stays, and is told without the bit too" + counts;
+    return "homing stays, but is told only while the bit is set" + counts;
+}
+
+}  // namespace
+
+void home_with_person(CheckDesk& desk, Measured& measured) {
+    constexpr int kLook = 20;  // the first replies may be older than the wish for homing
+    constexpr std::chrono::milliseconds kShowEvery{100};
+    const Command command{.motor = {}, .led = Led::red, .homing = true};
+    const auto begin = Clock::now();
+    HomingWatch watch;
+    ReferenceLog references;
+    watch.begin(begin);
+    auto shown = begin;
+    bool asked = false;
+    bool hinted = false;
+    for (int replies = 0; !watch.ready();) {
+        const auto heard = desk.falcon.talk().exchange(command, kPeriod);
+        if (heard) {
+            watch.add(heard->reply, heard->at);
+            references.add(heard->reply, std::chrono::duration<double>(heard->at - begin).count());
+            ++replies;
+        }
+        if (watch.ready() || replies < kLook) continue;
+        if (!asked) {
+            desk.guide.ask(
+                "Pull the grip all the way out, then push it straight in, until all "
+                "three axes say homed. s = skip, q = quit");
+            asked = true;
+        }
+        if (!desk.answer() && desk.guide.input_ended()) throw StepSkipped{};
+        const auto now = Clock::now();
+        if (heard && now - shown >= kShowEvery) {
+            desk.guide.show(live_state(heard->reply));
+            shown = now;
+        }
+        if (watch.idle(now) && !hinted) {
+            desk.guide.say("no motion and no homing for 20 s: check the power adapter");
+            hinted = true;
+        }
+    }
+    if (asked) measured.add("references", references.lines());
+}
+
+void check_homing(CheckDesk& desk, Measured& measured) {
+    home_with_person(desk, measured);
+    desk.guide.say("Homed. Let the grip hang, and do not touch it.");
+    const Phase kept = run_phase(desk, "kept", true, measured);
+    const Phase cleared = run_phase(desk, "cleared", false, measured);
+    const Phase again = run_phase(desk, "set_again", true, measured);
+    const std::string found = in_words(kept, cleared, again);
+    desk.findings.settle(OpenQuestion::homing_bit, found);
+    desk.guide.say(found);
+}
+
+}  // namespace dibhr::falcon

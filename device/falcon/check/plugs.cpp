@@ -1,0 +1,156 @@
+// Step 9: what is told when a cable is out, and what comes back with it (fact sheet, sections 1 and
+// 5).
+#include <libusb.h>
+
+#include <chrono>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+
+#include "device/falcon/check/steps.hpp"
+#include "device/falcon/homing.hpp"
+#include "device/falcon/upload.hpp"
+
+namespace dibhr::falcon {
+
+namespace {
+
+using Clock = CheckTalk::Clock;
+using std::chrono::milliseconds;
+
+constexpr milliseconds kPeriod{10};
+constexpr milliseconds kLookEvery{100};
+constexpr int kQuestions = 20;  // the first replies may be older than the wish for homing
+
+double ms_between(Clock::time_point from, Clock::time_point to) {
+    return std::chrono::duration<double, std::milli>(to - from).count();
+}
+
+/// Exchanges packets until the USB says something is wrong.
+UsbError loss_while_talking(CheckDesk& desk, Measured& part) {
+    const Command nothing{.motor = {}, .led = Led::blue, .homing = true};
+    auto last_reply = Clock::now();
+    for (;;) {
+        (void)desk.answer();
+        if (desk.guide.input_ended()) throw StepSkipped{};
+        try {
+            if (const auto heard = desk.falcon.talk().exchange(nothing, kPeriod)) {
+                last_reply = heard->at;
+            }
+        } catch (const UsbError& loss) {
+            part.add("error", libusb_error_name(loss.code()))
+                .add("told", loss.what())
+                .add("ms_after_the_last_reply", ms_between(last_reply, Clock::now()));
+            return loss;
+        }
+    }
+}
+
+/// The last reply of some; nothing when none came.
+std::optional<Reply> last_reply_of_some(CheckDesk& desk) {
+    const Command nothing{.motor = {}, .led = Led::red, .homing = true};
+    std::optional<Reply> last;
+    for (int k = 0; k < kQuestions; ++k) {
+        const auto heard = desk.falcon.talk().exchange(nothing, kPeriod);
+        if (heard) last = heard->reply;
+    }
+    return last;
+}
+
+/// What is still there; in words.
+std::string what_survived(CheckDesk& desk, Measured& part) {
+    const bool answers = desk.falcon.answering();
+    part.add("firmware_kept", answers);
+    if (!answers) return "the firmware is lost";
+    const auto reply = last_reply_of_some(desk);
+    if (!reply) return "the firmware answers, but not steadily";
+    part.add("homed", int{reply->homed}).add("counts", reply->encoder);
+    return std::string("the firmware stays, ") +
+           (homed_axes(reply->homed) == 3 ? "homing stays" : "homing is lost");
+}
+
+/// Opens what was just plugged in; the system may still be giving the permission.
+void open_again(CheckDesk& desk) {
+    const auto end = Clock::now() + desk.options.times.reconnect;
+    for (;;) {
+        try {
+            (void)desk.falcon.answers();
+            return;
+        } catch (const UsbError&) {
+            if (Clock::now() > end) throw;
+        }
+        std::this_thread::sleep_for(kLookEvery);
+        (void)desk.falcon.look_again();
+    }
+}
+
+void wait_until_attached(CheckDesk& desk) {
+    while (!desk.falcon.look_again()) {
+        (void)desk.answer();
+        if (desk.guide.input_ended()) throw StepSkipped{};
+        std::this_thread::sleep_for(kLookEvery);
+    }
+}
+
+void unplug_usb(CheckDesk& desk, Measured& part) {
+    desk.guide.ask("Unplug the USB cable, and leave the power adapter in. s = skip, q = quit");
+    const UsbError loss = loss_while_talking(desk, part);
+    desk.guide.say(loss.what());
+    desk.falcon.set_answering(false);
+    desk.falcon.let_go();
+    desk.guide.ask("Plug the USB cable in again. s = skip, q = quit");
+    wait_until_attached(desk);
+    open_again(desk);
+    const std::string survived = what_survived(desk, part);
+    desk.findings.settle(OpenQuestion::usb_unplugged,
+                         std::string(libusb_error_name(loss.code())) + "; " + survived);
+    desk.guide.say(survived);
+}
+
+void load_again(CheckDesk& desk, Measured& part) {
+    if (desk.falcon.answering() || desk.options.firmware.empty()) return;
+    desk.guide.say("loading the firmware again");
+    const bool done =
+        upload(desk.falcon.port(), desk.options.firmware.bytes, UploadOptions{}, std::stop_token());
+    desk.falcon.set_answering(done);
+    part.add("loaded_again", done);
+}
+
+void unplug_power(CheckDesk& desk, Measured& part) {
+    desk.guide.ask(
+        "Unplug the power adapter from the Falcon, and leave the USB cable in. s = skip, q = quit");
+    const UsbError loss = loss_while_talking(desk, part);
+    desk.guide.say(loss.what());
+    desk.falcon.set_answering(false);
+    const bool attached = desk.falcon.look_again();
+    part.add("usb_still_attached", attached);
+    desk.wait_for("Plug the power adapter in again. Enter = it is in, s = skip, q = quit");
+    wait_until_attached(desk);
+    open_again(desk);
+    const std::string survived = what_survived(desk, part);
+    desk.findings.settle(OpenQuestion::power_lost,
+                         std::string(libusb_error_name(loss.code())) +
+                             (attached ? ", it stays on the USB; " : ", it leaves the USB; ") +
+                             survived);
+    desk.guide.say(survived);
+}
+
+}  // namespace
+
+void check_plugs(CheckDesk& desk, Measured& measured) {
+    {
+        MeasuredPart part(measured, "usb_unplugged");
+        unplug_usb(desk, *part);
+        load_again(desk, *part);
+    }
+    if (!desk.falcon.answering()) {
+        desk.guide.say("Without firmware in it, the rest cannot be seen.");
+        throw StepSkipped{};
+    }
+    MeasuredPart part(measured, "power_lost");
+    unplug_power(desk, *part);
+    load_again(desk, *part);
+}
+
+}  // namespace dibhr::falcon

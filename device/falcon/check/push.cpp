@@ -1,0 +1,238 @@
+// Force on the grip: ramped, watched, and released.
+#include "device/falcon/check/push.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iomanip>
+#include <sstream>
+
+#include "device/falcon/motors.hpp"
+
+namespace dibhr::falcon {
+
+namespace {
+
+constexpr double kMostMotion_m = 0.030;
+constexpr std::chrono::seconds kLongestHold{3};
+constexpr std::uint8_t kAllAxes = 7;
+constexpr int kLastPackets = 5;                  // "send >= 5 zero packets" (section 11)
+constexpr std::chrono::milliseconds kPeriod{1};  // the haptic loop's
+constexpr Vec3 kMiddle_m{0.0, 0.0, 0.115};       // "demos centre at z = 0.110-0.125 m" (section 10)
+constexpr double kGrams_per_newton = 1000.0 / 9.80665;
+
+// The least and the most that sources say of the torque scale (section 11).
+constexpr double kLowestScale = 3600.0;
+constexpr double kHighestScale = 10000.0;
+
+Vec3 as_vec(const Counts& counts) {
+    return {counts[0], counts[1], counts[2]};
+}
+
+std::optional<Vec3> place_of(Vec3 encoder_counts, const Geometry& geometry) {
+    return position_with(angles_of_counts(encoder_counts, geometry), kMiddle_m, geometry);
+}
+
+std::optional<Jacobian> jacobian_of(Vec3 encoder_counts, const Geometry& geometry) {
+    const auto place = place_of(encoder_counts, geometry);
+    return place ? jacobian_at(*place, geometry) : std::nullopt;
+}
+
+}  // namespace
+
+CountsSample sample_counts(CheckDesk& desk) {
+    const Command nothing{.motor = {}, .led = Led::blue, .homing = true};
+    CountsSample sample;
+    const auto time = desk.options.times.sample;
+    const auto begin = CheckTalk::Clock::now();
+    for (auto now = begin; sample.replies == 0 || now < begin + time;
+         now = CheckTalk::Clock::now()) {
+        desk.obey_interrupt();
+        const auto heard = desk.falcon.talk().exchange(nothing, kPeriod);
+        if (!heard || heard->at < begin + time / 2) continue;
+        sample.mean += as_vec(heard->reply.encoder);
+        ++sample.replies;
+    }
+    sample.mean /= static_cast<double>(sample.replies);
+    return sample;
+}
+
+Counts downward(CheckDesk& desk, Vec3 encoder_counts, int most_counts) {
+    const auto jacobian = jacobian_of(encoder_counts, desk.options.geometry);
+    const auto torques =
+        jacobian ? torques_of(Vec3(0.0, -1.0, 0.0), *jacobian) : std::optional<Vec3>();
+    if (!torques) {
+        desk.guide.say(
+            "By its counts the grip is where it cannot be: unplug the power adapter, "
+            "and home the Falcon again.");
+        throw StepSkipped{};
+    }
+    // Far beyond full scale: shortened to it, the direction kept.
+    constexpr double kFar = 1e6;
+    const Motors all_of_it{.full_scale_counts = static_cast<double>(most_counts)};
+    return motor_counts(*torques * kFar, all_of_it);
+}
+
+std::optional<double> downward_force(const Counts& motor, Vec3 encoder_counts,
+                                     const Geometry& geometry) {
+    const auto jacobian = jacobian_of(encoder_counts, geometry);
+    if (!jacobian) return std::nullopt;
+    double upward = 0.0;
+    for (std::size_t leg = 0; leg < motor.size(); ++leg) {
+        upward += (*jacobian)[leg].y * -static_cast<double>(motor[leg]);
+    }
+    return -upward;
+}
+
+std::string strength_of(const CheckDesk& desk, const Counts& motor, Vec3 encoder_counts) {
+    const double unit = downward_force(motor, encoder_counts, desk.options.geometry).value_or(0.0);
+    const double least = unit / kHighestScale;
+    const double most = unit / kLowestScale;
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(1) << least << " to " << most << " N ("
+         << std::setprecision(0) << least * kGrams_per_newton << " to " << most * kGrams_per_newton
+         << " g";
+    if (desk.counts_per_newton_metre) {
+        text << ", by your readings " << unit / *desk.counts_per_newton_metre * kGrams_per_newton
+             << " g";
+    }
+    text << ")";
+    return text.str();
+}
+
+const char* sentence_of(PushEnd end) noexcept {
+    switch (end) {
+        case PushEnd::held:
+            return "held";
+        case PushEnd::let_go:
+            return "released, because a key was pressed";
+        case PushEnd::moved_away:
+            return "released, because the grip moved more than 30 mm";
+        case PushEnd::not_homed:
+            return "released, because an axis was not homed any more";
+        case PushEnd::no_reply:
+            return "released, because a reply was late";
+    }
+    return "";
+}
+
+Push::Push(CheckDesk& desk, const Counts& motor) : desk_(desk), motor_(motor) {
+    desk_.guide.force_begins();
+    acting_ = true;
+}
+
+Push::~Push() {
+    release();
+}
+
+void Push::release() noexcept {
+    if (!acting_) return;
+    acting_ = false;
+    const Command nothing{.motor = {}, .led = Led::blue, .homing = true};
+    for (int k = 0; k < kLastPackets; ++k) {
+        try {
+            (void)desk_.falcon.talk().exchange(nothing);
+        } catch (const DeviceError& lost) {
+            // The exception that leads here, or the next exchange, tells it.
+            continue;
+        }
+    }
+    desk_.guide.force_ended();
+}
+
+PushEnd Push::obey_person() {
+    switch (desk_.guide.wish()) {
+        case CheckGuide::Wish::quit:
+            release();
+            throw PersonQuits{};
+        case CheckGuide::Wish::let_go:
+            return PushEnd::let_go;
+        case CheckGuide::Wish::none:
+            break;
+    }
+    return PushEnd::held;
+}
+
+PushEnd Push::exchange(double part) {
+    Command command{.motor = motor_, .led = Led::green, .homing = true};
+    for (auto& count : command.motor) {
+        count = static_cast<std::int16_t>(std::lround(part * count));
+    }
+    const auto heard = desk_.falcon.talk().exchange(command, kPeriod);
+    if (!heard) return PushEnd::no_reply;
+    reply_ = heard->reply;
+    if ((reply_.homed & kAllAxes) != kAllAxes) return PushEnd::not_homed;
+    const auto place = place_of(as_vec(reply_.encoder), desk_.options.geometry);
+    if (!place) return PushEnd::moved_away;
+    if (!start_m_) start_m_ = place;
+    return glm::distance(*place, *start_m_) > kMostMotion_m ? PushEnd::moved_away : PushEnd::held;
+}
+
+PushEnd Push::step(double part) {
+    PushEnd end = obey_person();
+    if (end == PushEnd::held) end = exchange(part);
+    if (end != PushEnd::held) release();
+    return end;
+}
+
+PushEnd Push::ramp(double from, double to) {
+    // A late packet makes the ramp longer, not steeper.
+    constexpr std::chrono::milliseconds kMostStep{5};
+    const std::chrono::duration<double> whole = desk_.options.times.ramp;
+    PushEnd end = step(from);
+    auto last = Clock::now();
+    for (double done = 0.0; done < 1.0 && end == PushEnd::held;) {
+        const auto now = Clock::now();
+        const std::chrono::duration<double> passed =
+            std::min<Clock::duration>(now - last, kMostStep);
+        last = now;
+        done = std::min(done + passed / whole, 1.0);
+        end = step(from + (to - from) * done);
+    }
+    return end;
+}
+
+PushEnd Push::rise() {
+    return ramp(0.0, 1.0);
+}
+
+PushEnd Push::hold(std::chrono::milliseconds time) {
+    constexpr double kLeastWeight = 0.01;  // of the newest of a reply a millisecond
+    const auto end_of_hold = Clock::now() + std::min<std::chrono::milliseconds>(time, kLongestHold);
+    held_ = {};
+    PushEnd end = PushEnd::held;
+    while (end == PushEnd::held && Clock::now() < end_of_hold) {
+        end = step(1.0);
+        if (end != PushEnd::held) break;
+        ++held_.replies;
+        const double weight = std::max(1.0 / held_.replies, kLeastWeight);
+        held_.mean += (as_vec(reply_.encoder) - held_.mean) * weight;
+    }
+    return end;
+}
+
+PushEnd Push::fall() {
+    const PushEnd end = ramp(1.0, 0.0);
+    release();
+    return end;
+}
+
+PushEnd Push::be_silent(std::chrono::milliseconds time, Reply& reply) {
+    constexpr std::chrono::milliseconds kLook{5};
+    const auto end_of_silence = Clock::now() + time;
+    PushEnd end = PushEnd::held;
+    for (auto now = Clock::now(); end == PushEnd::held && now < end_of_silence;
+         now = Clock::now()) {
+        desk_.falcon.talk().be_silent(std::min(end_of_silence, now + kLook));
+        end = obey_person();
+    }
+    if (end == PushEnd::held) end = exchange(0.0);
+    reply = reply_;
+    release();
+    return end;
+}
+
+}  // namespace dibhr::falcon

@@ -1,0 +1,206 @@
+// Step 2: is firmware there, and how it gets in, with a log (fact sheet, sections 5 to 8).
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "device/falcon/bring_up.hpp"
+#include "device/falcon/check/steps.hpp"
+#include "device/falcon/upload.hpp"
+
+namespace dibhr::falcon {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint8_t kUsualLastByte = 'A';  // byte 14 of a reply: "normally 41, unknown"
+
+double ms_since(Clock::time_point begin) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+/// What one packet without force brings within 50 ms, byte by byte.
+std::vector<std::uint8_t> raw_reply(FtdiPort& port) {
+    constexpr std::chrono::milliseconds kLimit{50};
+    port.write(encode(Command{}));
+    std::vector<std::uint8_t> bytes;
+    const auto end = Clock::now() + kLimit;
+    while (bytes.size() < kPacketBytes && Clock::now() < end) {
+        const auto came = port.read(std::chrono::milliseconds(5)).bytes;
+        bytes.insert(bytes.end(), came.begin(), came.end());
+    }
+    return bytes;
+}
+
+void probe(CheckDesk& desk, const char* name, Measured& measured) {
+    const auto begin = Clock::now();
+    const bool answers = desk.falcon.answers();
+    Measured part;
+    part.add("answers", answers).add("took_ms", ms_since(begin));
+    if (answers) {
+        const auto bytes = raw_reply(desk.falcon.port());
+        part.add("reply", hexadecimal(bytes));
+        if (bytes.size() == kPacketBytes) {
+            const std::array<std::uint8_t, 1> last{bytes[kPacketBytes - 2]};
+            desk.findings.settle(OpenQuestion::last_byte, last[0] == kUsualLastByte
+                                                              ? "41, as expected"
+                                                              : hexadecimal(last) + ", not 41");
+        }
+    }
+    measured.add(name, part);
+}
+
+/// How many bytes came before the known answer.
+std::size_t stray_bytes(const UploadStep& step) {
+    const std::size_t answer = std::string(step.name) == "hello" ? 4 : 1;
+    return step.heard.size() - std::min(step.heard.size(), answer);
+}
+
+/// Of one upload.
+struct Upload {
+    bool done{false};
+    int tries{0};
+    std::string stray{};  ///< what stood before an answer, in words
+};
+
+Measured as_json(const UploadStep& step, double at_ms) {
+    Measured line;
+    line.add("at_ms", at_ms)
+        .add("try", step.number)
+        .add("step", step.name)
+        .add("done", step.done)
+        .add("baud_value", int{step.baud.value})
+        .add("baud_index", int{step.baud.index});
+    if (!step.heard.empty()) line.add("heard", hexadecimal(step.heard));
+    return line;
+}
+
+/// Uploads, each with its log in the record, whatever becomes of it.
+class LoggedUploads {
+  public:
+    LoggedUploads(CheckDesk& desk, Measured& measured) : desk_(desk), measured_(measured) {}
+
+    /// Until it is in, or the person has enough.
+    Upload run(bool slower) {
+        Upload upload = once(slower, false);
+        try {
+            while (!upload.done) {
+                desk_.wait_for(
+                    "Unplug the power adapter, wait ten seconds, plug it in again. Enter = try "
+                    "again, s = leave this speed out, q = quit");
+                upload = once(slower, true);
+            }
+        } catch (const StepSkipped&) {
+            // This speed alone.
+            return upload;
+        }
+        return upload;
+    }
+
+  private:
+    Upload once(bool slower, bool after_power_cycle) {
+        Upload result;
+        MeasuredList steps;
+        std::stop_source stop;
+        const auto begin = Clock::now();
+        UploadOptions options;
+        options.slower = slower;
+        options.tell = [&](double in, int number) {
+            result.tries = number;
+            desk_.guide.show("try " + std::to_string(number) + ": " +
+                             std::to_string(static_cast<int>(in * 100.0)) + " %");
+            if (desk_.guide.interrupted()) stop.request_stop();
+        };
+        options.watch = [&](const UploadStep& step) {
+            steps.add(as_json(step, ms_since(begin)));
+            note_stray_bytes(step, result.stray);
+        };
+        MeasuredPart part(measured_, "upload_" + std::to_string(++number_));
+        (*part).add("baud", slower ? 140351 : 142857).add("after_power_cycle", after_power_cycle);
+        desk_.falcon.set_answering(false);
+        try {
+            result.done = upload(desk_.falcon.port(), desk_.options.firmware.bytes, options,
+                                 stop.get_token());
+        } catch (const UploadError& failure) {
+            (*part).add("failure", failure.what());
+            desk_.guide.say(failure.what());
+        }
+        desk_.falcon.set_answering(result.done);
+        (*part)
+            .add("done", result.done)
+            .add("took_ms", ms_since(begin))
+            .add("tries", result.tries)
+            .add("steps", steps);
+        if (stop.stop_requested()) throw PersonQuits{};
+        return result;
+    }
+
+    static void note_stray_bytes(const UploadStep& step, std::string& words) {
+        const std::size_t stray = step.done && !step.heard.empty() ? stray_bytes(step) : 0;
+        if (stray == 0) return;
+        words += (words.empty() ? "" : ", ") + hexadecimal(step.heard.first(stray)) +
+                 " before the " + step.name + "'s answer";
+    }
+
+    CheckDesk& desk_;
+    Measured& measured_;
+    int number_{0};
+};
+
+std::string in_words(const Upload& upload) {
+    if (!upload.done) return "failed";
+    return upload.tries == 1 ? "at the first try" : "at try " + std::to_string(upload.tries);
+}
+
+void load_at_both_speeds(CheckDesk& desk, Measured& measured) {
+    const bool ran_before = desk.falcon.answering();
+    LoggedUploads uploads(desk, measured);
+    const Upload fast = uploads.run(false);
+    const Upload slow = uploads.run(true);
+    const std::string speeds = "142 857: " + in_words(fast) + "; 140 351: " + in_words(slow);
+    desk.findings.settle(OpenQuestion::upload_speed, speeds);
+    desk.guide.say(speeds);
+    if (!fast.done && slow.done) desk.findings.set("slower-upload", "true");
+    if (fast.done || slow.done) {
+        const bool both = !fast.stray.empty() && !slow.stray.empty();
+        const std::string stray = fast.stray + (both ? "; " : "") + slow.stray;
+        desk.findings.settle(OpenQuestion::stray_bytes, stray.empty() ? "none" : stray);
+    }
+    if ((fast.done && slow.done) || (ran_before && fast.done)) {
+        desk.findings.settle(OpenQuestion::loading_again,
+                             "DTR puts a running Falcon back into its boot loader");
+    }
+    if (!desk.falcon.answering() && !desk.falcon.answers()) {
+        throw DeviceError("no firmware gets into " + full_name_of(desk.falcon.attached()) +
+                          ": unplug its power adapter and its USB cable for ten seconds, then run "
+                          "the check again");
+    }
+}
+
+}  // namespace
+
+void check_upload(CheckDesk& desk, Measured& measured) {
+    probe(desk, "probe", measured);
+    const FirmwareImage& image = desk.options.firmware;
+    if (image.empty()) {
+        measured.add_null("firmware");
+        if (!desk.falcon.answering()) {
+            throw DeviceError(firmware_is_wanted(desk.falcon.attached()) +
+                              "; then: dibhr devices --check --firmware FILE");
+        }
+        desk.guide.say("It answers. No firmware file is at hand, so none is loaded.");
+        return;
+    }
+    measured.add("firmware", image.name).add("firmware_sha256", image.sha256);
+    desk.begin(std::string(desk.falcon.answering() ? "It answers" : "It does not answer") +
+               ". Enter = load " + image.name + " twice, s = load nothing, q = quit");
+    load_at_both_speeds(desk, measured);
+    probe(desk, "probe_after", measured);
+}
+
+}  // namespace dibhr::falcon

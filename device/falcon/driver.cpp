@@ -1,0 +1,179 @@
+// The USB thread's life.
+#include "device/falcon/driver.hpp"
+
+#include <libusb.h>
+
+#include <exception>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/realtime/thread_setup.hpp"
+#include "device/falcon/bring_up.hpp"
+#include "device/falcon/probe.hpp"
+#include "device/falcon/selection.hpp"
+
+namespace dibhr::falcon {
+
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr milliseconds kLookAgainAfter{500};
+constexpr milliseconds kLoadAgainAfter{2000};  // time to read what went wrong
+constexpr milliseconds kAskAgainAfter{2000};   // leaves the port to a program that loads firmware
+
+/// Leaves the Falcon without force when it goes out of scope, whatever has ended the talk, unless
+/// `loss` says by then that nobody is there.
+class Farewell {
+  public:
+    Farewell(FtdiPort& port, const std::optional<UsbError>& loss) : port_(port), loss_(loss) {}
+    ~Farewell() {
+        if (loss_ && loss_->code() == LIBUSB_ERROR_PIPE) port_.clear_stall();
+        if (!loss_ || !loss_->gone()) leave_without_force(port_);
+    }
+    Farewell(const Farewell&) = delete;
+    Farewell& operator=(const Farewell&) = delete;
+
+  private:
+    FtdiPort& port_;
+    const std::optional<UsbError>& loss_;
+};
+
+}  // namespace
+
+Driver::Driver(ConnectionOptions options, FirmwareImage firmware, Exchange& exchange)
+    : options_(std::move(options)), exchange_(exchange), firmware_(std::move(firmware)) {
+    board_.enter(Stage::looking, "looking for a Falcon");
+    thread_ = std::jthread([this](const std::stop_token& stop) { live(stop); });
+}
+
+Driver::~Driver() {
+    thread_.request_stop();
+    if (thread_.joinable()) thread_.join();
+}
+
+void Driver::use_firmware(FirmwareImage image) {
+    {
+        const std::lock_guard lock(mutex_);
+        firmware_ = std::move(image);
+        new_firmware_ = true;
+    }
+    news_.notify_all();
+}
+
+FirmwareImage Driver::firmware() {
+    const std::lock_guard lock(mutex_);
+    new_firmware_ = false;
+    return firmware_;
+}
+
+void Driver::live(const std::stop_token& stop) {
+    // What was refused stands in the Loop panel, for the haptic thread asks for the same.
+    (void)become_realtime("dibhr falcon");
+    std::optional<UsbContext> usb;
+    while (!stop.stop_requested()) {
+        pause_ = kLookAgainAfter;
+        try {
+            if (!usb) usb.emplace();
+            look(*usb, stop);
+        } catch (const UsbError& failure) {
+            board_.enter(Stage::cannot_open, failure.what(), true);
+        } catch (const std::exception& failure) {
+            lose(std::string("the Falcon's thread came to grief (") + failure.what() +
+                 ") and begins again: close other programs if this comes again");
+        }
+        rest(stop);
+    }
+}
+
+void Driver::rest(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    news_.wait_for(lock, stop, pause_, [this] { return new_firmware_; });
+}
+
+void Driver::look(const UsbContext& usb, const std::stop_token& stop) {
+    const std::vector<AttachedFalcon> attached = attached_falcons(usb);
+    const auto falcon = choose(attached, options_.serial);
+    if (!falcon) {
+        none_there(attached);
+        return;
+    }
+    board_.draft().serial = falcon->serial;
+    use(usb, *falcon, stop);
+}
+
+void Driver::none_there(std::span<const AttachedFalcon> attached) {
+    const bool lost = !trouble_.empty();
+    board_.draft().serial.clear();
+    board_.enter(Stage::looking, lost ? trouble_ : why_none(attached, options_.serial),
+                 lost || !attached.empty());
+}
+
+void Driver::use(const UsbContext& usb, const AttachedFalcon& falcon, const std::stop_token& stop) {
+    std::optional<FtdiPort> port;
+    try {
+        port.emplace(usb, falcon);
+    } catch (const UsbError& refusal) {
+        // It went while it was looked at, or is just going: the next look finds that there is none.
+        const bool going = refusal.code() == LIBUSB_ERROR_IO && !trouble_.empty();
+        if (!refusal.gone() && !going) board_.enter(Stage::cannot_open, refusal.what(), true);
+        return;
+    }
+    try {
+        bring_up_and_talk(usb, *port, stop);
+    } catch (const UsbError& loss) {
+        if (loss.code() == LIBUSB_ERROR_PIPE) port->clear_stall();
+        lose(loss.what());
+    } catch (const UploadError& failure) {
+        trouble_ = failure.what();
+        pause_ = kLoadAgainAfter;
+        board_.enter(Stage::looking, trouble_, true);
+    }
+}
+
+void Driver::bring_up_and_talk(const UsbContext& usb, FtdiPort& port, const std::stop_token& stop) {
+    const FirmwareImage image = firmware();
+    UploadOptions upload_options;
+    upload_options.slower = options_.slower_upload;
+    upload_options.tell = [&](double part, int number) {
+        board_.draft().loaded = part;
+        board_.draft().load_try = number;
+        board_.enter(Stage::loading, trouble_.empty() ? "loading " + image.name : trouble_,
+                     !trouble_.empty());
+    };
+    switch (bring_up(port, image, upload_options, stop)) {
+        case BroughtUp::answers:
+            trouble_.clear();
+            talk(usb, port, stop);
+            break;
+        case BroughtUp::no_firmware:
+            trouble_.clear();
+            pause_ = kAskAgainAfter;
+            board_.enter(Stage::no_firmware, firmware_is_wanted(port.falcon()));
+            break;
+        case BroughtUp::stopped:
+            break;
+    }
+}
+
+void Driver::talk(const UsbContext& usb, FtdiPort& port, const std::stop_token& stop) {
+    std::optional<UsbError> loss;
+    {
+        const Farewell farewell(port, loss);
+        port.request(options_.event_character ? kFlushOnReplyEnd : kNoEventCharacter);
+        Conversation conversation(usb, port, exchange_, board_, memory_);
+        loss = conversation.run(stop);
+    }
+    if (loss) lose(loss->what());
+}
+
+void Driver::lose(const std::string& why) {
+    trouble_ = why;
+    board_.draft().replies_per_s = 0.0;
+    board_.draft().reply = {};
+    board_.enter(Stage::looking, trouble_, true);
+}
+
+}  // namespace dibhr::falcon

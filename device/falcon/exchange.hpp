@@ -1,0 +1,57 @@
+// What passes between the haptic thread and the USB thread: the newest reply one way, the newest
+// command the other, and a wake.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+#include "core/realtime/triple_buffer.hpp"
+#include "device/falcon/packet.hpp"
+
+namespace dibhr::falcon {
+
+/// Poses of one session belong together; a new one begins with every link and every homing, because
+/// the counters jump then.
+using Session = std::uint32_t;
+inline constexpr Session kNoSession = 0;  ///< counts mean nothing: not homed, or no link
+
+struct TimedReply {
+    Reply reply{};  ///< its buttons are debounced
+    std::chrono::steady_clock::time_point at{};
+    Session session{kNoSession};
+    std::uint64_t number{0};  ///< 1 .., since the start
+};
+
+struct TimedCommand {
+    Counts motor{};
+    std::chrono::steady_clock::time_point at{};
+    Session session{kNoSession};  ///< of the pose it was computed for
+};
+
+/// Lets one thread end another's poll(): an eventfd.
+class Wake {
+  public:
+    /// Throws DeviceError when the system has none left.
+    Wake();
+    ~Wake();
+    Wake(const Wake&) = delete;
+    Wake& operator=(const Wake&) = delete;
+
+    /// Any thread; one system call that never waits.
+    void signal() const noexcept;
+    /// The waiting thread: forgets the signals so far.
+    void clear() const noexcept;
+    /// Readable after a signal.
+    [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
+
+  private:
+    int descriptor_{-1};
+};
+
+struct Exchange {
+    TripleBuffer<TimedReply> replies{};     ///< USB thread to haptic thread
+    TripleBuffer<TimedCommand> commands{};  ///< haptic thread to USB thread
+    Wake wake{};
+};
+
+}  // namespace dibhr::falcon

@@ -1,0 +1,64 @@
+// What the replies say of homing (fact sheet, section 9).
+#include "device/falcon/homing.hpp"
+
+#include <bit>
+#include <cstddef>
+#include <cstdlib>
+
+namespace dibhr::falcon {
+
+namespace {
+
+constexpr std::uint8_t kAllAxes = 7;
+constexpr int kMotion_counts = 25;  // 0.9 degrees of thigh: more than an encoder's tremble
+constexpr std::chrono::seconds kPatience{20};  // "no motion and no homing for 20 s" (section 12)
+
+bool moved_between(const Counts& a, const Counts& b) noexcept {
+    for (std::size_t k = 0; k < a.size(); ++k) {
+        if (std::abs(a[k] - b[k]) > kMotion_counts) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+int homed_axes(std::uint8_t homed) noexcept {
+    return std::popcount(static_cast<unsigned>(homed & kAllAxes));
+}
+
+std::string how_to_home(int axes) {
+    const std::string what = "pull the grip all the way out, then push it straight in";
+    return axes == 0 ? "homing: " + what
+                     : "homing, " + std::to_string(axes) + " of 3 axes done: " + what;
+}
+
+void HomingWatch::begin(Time now) noexcept {
+    full_replies_ = 0;
+    placed_ = false;
+    quiet_since_ = now;
+}
+
+void HomingWatch::add(const Reply& reply, Time at) noexcept {
+    if ((reply.homed & kAllAxes) != kAllAxes) {
+        if (ready()) begin(at);
+        full_replies_ = 0;
+    } else if (full_replies_ < 2 && ++full_replies_ == 2) {
+        ++session_;
+        if (session_ == kNoSession) ++session_;
+    }
+    look_for_motion(reply, at);
+}
+
+bool HomingWatch::idle(Time now) const noexcept {
+    return !ready() && now - quiet_since_ >= kPatience;
+}
+
+void HomingWatch::look_for_motion(const Reply& reply, Time at) noexcept {
+    const bool moved = placed_ && moved_between(reply.encoder, last_place_.encoder);
+    if (placed_ && !moved && reply.homed == last_place_.homed) return;
+    if (placed_) quiet_since_ = at;
+    last_place_ = reply;
+    placed_ = true;
+}
+
+}  // namespace dibhr::falcon

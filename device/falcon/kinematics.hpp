@@ -1,0 +1,54 @@
+// Where the grip is, from three thigh angles, and back (fact sheet, section 10).
+// Frame: x right, y up, z out of the base towards the person, metres, origin on the base plane.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "core/haptics/vec.hpp"
+#include "device/falcon/packet.hpp"
+
+namespace dibhr::falcon {
+
+/// The constants of the mechanism that sources disagree on; the defaults are libnifalcon's.
+struct Geometry {
+    double thigh_m{0.0600};             ///< a
+    double shin_m{0.1025};              ///< b, of the shin parallelogram
+    double shin_end_d_m{0.01125};       ///< d, joint at one end of the shin
+    double shin_end_e_m{0.01125};       ///< e, at the other
+    double platform_radius_m{0.01443};  ///< c
+    double base_radius_m{0.0400};       ///< r
+    double platform_shift_m{-0.0250};   ///< f, tangential
+    double base_shift_m{-0.02309};      ///< s, tangential; only f - s counts
+    double gear{0.110 / 0.01425};       ///< motor turns a thigh turn
+    double angle_at_zero_deg{35.0};     ///< thigh angle at encoder count 0
+
+    bool operator==(const Geometry&) const = default;
+};
+
+/// d theta / d position: a row a leg [rad/m].
+using Jacobian = std::array<Vec3, 3>;
+
+/// Thigh angles [rad] of encoder counts; the counts need not be whole.
+[[nodiscard]] Vec3 angles_of_counts(Vec3 counts, const Geometry& geometry) noexcept;
+[[nodiscard]] Vec3 angles_of_counts(const Counts& counts, const Geometry& geometry) noexcept;
+[[nodiscard]] Vec3 counts_of_angles(Vec3 angles_rad, const Geometry& geometry) noexcept;
+
+/// Inverse kinematics [rad]; nothing when the grip cannot be there.
+[[nodiscard]] std::optional<Vec3> angles_at(Vec3 position_m, const Geometry& geometry) noexcept;
+
+/// Exact; nothing when the grip cannot be there or the mechanism is singular there.
+[[nodiscard]] std::optional<Jacobian> jacobian_at(Vec3 position_m,
+                                                  const Geometry& geometry) noexcept;
+
+/// Forward kinematics by Newton's method, converged to 1e-9 rad, begun at `near_m` (the last pose);
+/// from several heights when that fails. Where two poses have these angles, the one that a hand can
+/// reach from the centre. Nothing when no pose has them.
+[[nodiscard]] std::optional<Vec3> position_with(Vec3 angles_rad, Vec3 near_m,
+                                                const Geometry& geometry) noexcept;
+
+/// Torques at the thighs [N m] that push the grip with `force_newton` (device frame):
+/// (dp/dtheta)^T F. Nothing when the mechanism is singular.
+[[nodiscard]] std::optional<Vec3> torques_of(Vec3 force_newton, const Jacobian& jacobian) noexcept;
+
+}  // namespace dibhr::falcon

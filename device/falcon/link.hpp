@@ -1,0 +1,87 @@
+// The run-time exchange with one Falcon: a read always pending, one command in flight, the next
+// only after a whole reply (fact sheet, sections 4, 8 and 11).
+#pragma once
+
+#include <poll.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "device/falcon/exchange.hpp"
+#include "device/falcon/packet.hpp"
+#include "device/falcon/usb.hpp"
+
+namespace dibhr::falcon {
+
+struct LinkCounts {
+    std::uint64_t resent{0};       ///< commands sent while the one before had no reply
+    std::uint64_t line_errors{0};  ///< packets with overrun, parity or framing bits
+    std::uint64_t bytes_discarded{0};
+};
+
+/// Used by one thread, which waits in wait() alone. The port must be at run-time speed, and is not
+/// to be used otherwise while the link lives.
+class Link {
+  public:
+    using Clock = std::chrono::steady_clock;
+    using Time = Clock::time_point;
+
+    /// `wake` ends wait(). Throws UsbError.
+    Link(const UsbContext& usb, FtdiPort& port, const Wake& wake);
+    ~Link();  ///< takes both transfers back
+    Link(const Link&) = delete;
+    Link& operator=(const Link&) = delete;
+
+    /// Sleeps until the USB has something, until the wake, or until `until`.
+    void wait(Time until);
+
+    /// Those that the last wait() brought.
+    [[nodiscard]] std::span<const Reply> replies() const noexcept { return replies_; }
+
+    /// The last command has gone out and has its reply.
+    [[nodiscard]] bool idle() const noexcept;
+    /// A command may go: the link is idle, or the last one has been without a reply for 8 ms.
+    [[nodiscard]] bool takes_command(Time now) const noexcept;
+    /// When a link that is not idle is to be looked at again: to send the command again, or to find
+    /// that the Falcon is lost.
+    [[nodiscard]] Time patience_ends() const noexcept;
+    /// Only when takes_command().
+    void send(const Packet& packet, Time now);
+
+    /// Why the link has ended; a new one may be tried.
+    [[nodiscard]] const std::optional<UsbError>& loss() const noexcept { return loss_; }
+    [[nodiscard]] LinkCounts counts() const noexcept;
+
+  private:
+    struct Transfers;
+
+    void look_up_descriptors();
+    void lose(int code);
+    void note_loss(int code) noexcept { lost_code_ = lost_code_ == 0 ? code : lost_code_; }
+    /// Why nothing came for a second.
+    [[nodiscard]] UsbError silence(Time now) const;
+    void take(std::span<std::uint8_t> packet);
+
+    const UsbContext& usb_;
+    const AttachedFalcon& falcon_;
+    const Wake& wake_;
+    std::unique_ptr<Transfers> transfers_;
+    std::vector<pollfd> descriptors_{};  // the wake's, then libusb's
+    std::atomic<bool> descriptors_changed_{true};
+
+    ReplyStream stream_{};
+    std::vector<Reply> replies_{};
+    LinkCounts counts_{};
+    bool awaits_reply_{false};
+    Time sent_{};
+    Time heard_{};      // the last whole reply, or the beginning
+    int lost_code_{0};  // of a transfer that failed in this wait; LIBUSB_ERROR_...
+    std::optional<UsbError> loss_{};
+};
+
+}  // namespace dibhr::falcon

@@ -1,0 +1,63 @@
+// The Falcon's run-time packets: 16 bytes each way, strictly request and reply (fact sheet, section
+// 8).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace dibhr::falcon {
+
+inline constexpr std::size_t kPacketBytes = 16;
+using Packet = std::array<std::uint8_t, kPacketBytes>;
+
+/// One value an axis: 1 = top, 2 = right, 3 = left, seen from the front.
+using Counts = std::array<std::int16_t, 3>;
+
+/// The logo's colour; the values are the bits of the command packet.
+enum class Led : std::uint8_t { off = 0, green = 2, blue = 4, red = 8 };
+
+/// Bits of Reply::buttons.
+enum class Button : std::uint8_t { plus = 1, forward = 2, centre = 4, minus = 8 };
+
+struct Command {
+    Counts motor{};  ///< -4095 .. 4095; positive pulls the thigh down
+    Led led{Led::off};
+    bool homing{false};  ///< the firmware watches for the axes' references
+
+    bool operator==(const Command&) const = default;
+};
+
+struct Reply {
+    Counts encoder{};
+    std::uint8_t buttons{0};  ///< bits of Button
+    std::uint8_t homed{0};    ///< bits 0..2: axes 1..3
+};
+
+[[nodiscard]] Packet encode(const Command& command) noexcept;
+
+/// Nothing when it is no reply: frame bytes, and the letters of the numbers.
+[[nodiscard]] std::optional<Reply> decode(const Packet& packet) noexcept;
+
+/// Finds the replies in a stream of bytes that may be cut, joined or garbled anywhere.
+class ReplyStream {
+  public:
+    /// Takes bytes until the next whole reply, which it gives back; what follows that reply stays
+    /// in `bytes`, to be added next.
+    [[nodiscard]] std::optional<Reply> add(std::span<const std::uint8_t>& bytes) noexcept;
+    /// Forgets a half reply.
+    void clear() noexcept { size_ = 0; }
+    /// Bytes that belonged to no reply, ever.
+    [[nodiscard]] std::uint64_t discarded() const noexcept { return discarded_; }
+
+  private:
+    void drop_to_next_start() noexcept;
+
+    Packet bytes_{};
+    std::size_t size_{0};
+    std::uint64_t discarded_{0};
+};
+
+}  // namespace dibhr::falcon

@@ -1,0 +1,34 @@
+// Which of the attached Falcons is meant.
+#include "device/falcon/selection.hpp"
+
+#include <algorithm>
+
+namespace dibhr::falcon {
+
+std::optional<AttachedFalcon> choose(std::span<const AttachedFalcon> attached,
+                                     const std::string& serial) {
+    const auto found = std::find_if(
+        attached.begin(), attached.end(),
+        [&](const AttachedFalcon& falcon) { return serial.empty() || falcon.serial == serial; });
+    if (found == attached.end()) return std::nullopt;
+    return *found;
+}
+
+std::string why_none(std::span<const AttachedFalcon> attached, const std::string& serial) {
+    const std::string wanted = serial.empty() ? "no Falcon" : "the Falcon " + serial;
+    const std::string verb = serial.empty() ? " is attached" : " is not attached";
+    if (attached.empty()) return wanted + verb + ": plug in its USB cable and its power adapter";
+    return wanted + verb + ", but " + serials_of(attached) +
+           ": plug it in, or choose the serial of another";
+}
+
+std::string serials_of(std::span<const AttachedFalcon> attached) {
+    std::string serials;
+    for (const AttachedFalcon& falcon : attached) {
+        serials += (serials.empty() ? "" : ", ") +
+                   (falcon.serial.empty() ? "one without a readable serial" : falcon.serial);
+    }
+    return serials;
+}
+
+}  // namespace dibhr::falcon

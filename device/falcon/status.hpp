@@ -1,0 +1,38 @@
+// What a person is told of the Falcon: its stage, and one plain sentence with the next step.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "device/falcon/packet.hpp"
+
+namespace dibhr::falcon {
+
+/// How far it has come. A fault leads back to `looking` with the reason in Status::sentence.
+enum class Stage {
+    looking,      ///< none attached, or the last one is gone
+    cannot_open,  ///< attached, but refused: permission, another driver or program
+    no_firmware,  ///< nothing answers and there is no file to load
+    loading,      ///< the firmware goes in
+    homing,       ///< answers; not all axes are homed
+    ready         ///< poses and forces
+};
+
+struct Status {
+    Stage stage{Stage::looking};
+    std::string serial{};                    ///< empty: not known
+    std::string sentence{};                  ///< what is, and what to do next
+    bool trouble{false};                     ///< the sentence tells of something that went wrong
+    double loaded{0.0};                      ///< part of the firmware that is in, 0 .. 1
+    int load_try{0};                         ///< 1 ..
+    Reply reply{};                           ///< the last one, buttons debounced
+    std::array<std::uint32_t, 4> presses{};  ///< of plus, forward, centre, minus since the start
+    double replies_per_s{0.0};
+    std::uint64_t replies{0};
+    std::uint64_t resent{0};           ///< commands sent again for want of a reply
+    std::uint64_t bytes_discarded{0};  ///< that belonged to no reply
+    std::uint64_t line_errors{0};      ///< packets with overrun, parity or framing bits
+};
+
+}  // namespace dibhr::falcon

@@ -1,0 +1,45 @@
+// Firmware into the DSP, with its echo checked byte by byte and tried again (fact sheet, section
+// 6).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <stop_token>
+
+#include "core/error.hpp"
+#include "device/falcon/usb.hpp"
+
+namespace dibhr::falcon {
+
+/// The firmware did not get in; the sentence names the step that failed and what to do.
+class UploadError : public DeviceError {
+  public:
+    using DeviceError::DeviceError;
+};
+
+/// A step of a try that has ended.
+struct UploadStep {
+    int number{1};         ///< of the try
+    const char* name{""};  ///< "hello", "autobaud", "echo", "answer"
+    bool done{false};
+    FtdiRequest baud{};                     ///< at which this try's image goes in
+    std::span<const std::uint8_t> heard{};  ///< what hello and autobaud brought, stray bytes too
+};
+
+struct UploadOptions {
+    bool slower{false};  ///< 140 351 instead of 142 857 baud
+    /// Called with the part that is in, 0 .. 1, and the try, 1 ..
+    std::function<void(double, int)> tell{[](double, int) {}};
+    /// Called after every step, for a log.
+    std::function<void(const UploadStep&)> watch{[](const UploadStep&) {}};
+};
+
+/// Loads `image`, of which no byte is sent unless it passes fault_of_firmware(), and makes sure
+/// that it answers. True when it does;
+/// false when asked to stop, which it does within 0.2 s. A Falcon without power is told after 6.5
+/// s; the longest way to fail, ten tries, takes some 20 s. Throws UploadError or UsbError.
+[[nodiscard]] bool upload(FtdiPort& port, std::span<const std::uint8_t> image,
+                          const UploadOptions& options, const std::stop_token& stop);
+
+}  // namespace dibhr::falcon

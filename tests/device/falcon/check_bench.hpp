@@ -1,0 +1,83 @@
+// A bare Falcon, a person beside it, and a folder for the record of the check.
+#pragma once
+
+#include <unistd.h>
+
+#include <cstddef>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <system_error>
+
+#include "device/falcon/check/check.hpp"
+#include "tests/device/falcon/check_person.hpp"
+#include "tests/support/catch.hpp"
+
+namespace dibhr::test::falcon {
+
+using dibhr::falcon::CheckOptions;
+using dibhr::falcon::CheckResult;
+
+inline bool holds(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+struct Checked {
+    UsbBench bus{};
+    Unit& unit{bus.plug()};
+    CheckPerson person{bus, unit};
+    CheckOptions options{};
+    std::filesystem::path folder{};
+
+    Checked() {
+        std::string pattern =
+            (std::filesystem::temp_directory_path() / "dibhr-check-XXXXXX").string();
+        REQUIRE(::mkdtemp(pattern.data()) != nullptr);
+        folder = pattern;
+        options.firmware = any_firmware();
+        options.record = folder / "record.json";
+        options.times = short_times();
+    }
+    ~Checked() {
+        std::error_code ignored;
+        std::filesystem::remove_all(folder, ignored);
+    }
+    Checked(const Checked&) = delete;
+    Checked& operator=(const Checked&) = delete;
+
+    CheckResult run() { return run_check(options, person); }
+
+    [[nodiscard]] std::string record() const {
+        std::ifstream stream(options.record);
+        return {std::istreambuf_iterator<char>(stream), {}};
+    }
+    [[nodiscard]] std::string value(const std::string& path) const {
+        return json_value(record(), path);
+    }
+    [[nodiscard]] double number(const std::string& path) const { return std::stod(value(path)); }
+    [[nodiscard]] std::string end_of(int step) const {
+        return value("$.steps[" + std::to_string(step) + "].end");
+    }
+    [[nodiscard]] std::string found(const std::string& question) const {
+        return value("$.findings.\"" + question + "\"");
+    }
+    [[nodiscard]] std::string setting(const std::string& name) const {
+        return value("$.settings.\"" + name + "\"");
+    }
+    /// Skips every step but the one whose title this is, with a Falcon that is homed.
+    void only(const std::string& title) {
+        person.instead = [this, title](const std::string& question) -> std::optional<std::string> {
+            if (question != "Enter = go on, s = skip, q = quit") return std::nullopt;
+            const std::size_t step = person.heard.rfind(" of 9: ");
+            const bool wanted = person.heard.find(" of 9: " + title + "\n", step) == step;
+            return wanted ? "" : "s";
+        };
+        start_firmware(unit);
+        home(unit);
+    }
+};
+
+}  // namespace dibhr::test::falcon

@@ -1,0 +1,102 @@
+// What is behind the serial line: supervisor, motor controller, motors, encoders, buttons, lamp
+// (fact sheet, sections 1, 6, 8 and 9).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "tests/device/falcon/boot_rom.hpp"
+#include "tests/device/falcon/faults.hpp"
+#include "tests/device/falcon/hand_model.hpp"
+#include "tests/device/falcon/moment.hpp"
+
+namespace dibhr::test::falcon {
+
+enum class BoardStage {
+    unpowered,
+    supervisor,  ///< answers the hello
+    boot_rom,    ///< takes the firmware
+    running,     ///< the firmware answers commands
+    dead         ///< until it is put back into its boot ROM
+};
+
+/// What the firmware has been told.
+struct CommandLog {
+    std::uint64_t commands{0};
+    std::uint64_t with_force{0};           ///< of them, those with a motor not at zero
+    std::uint64_t force_before_homing{0};  ///< of those, before all three axes were homed
+    std::uint64_t zeros_in_a_row{0};       ///< newest commands without force
+    std::uint64_t broken{0};               ///< bytes that belonged to no command
+    int largest{0};                        ///< largest |motor| so far
+};
+
+class FalconBoard {
+  public:
+    using Bytes = std::vector<std::uint8_t>;
+
+    /// DTR rising puts the motor controller back under its supervisor, DTR falling after a hello
+    /// into its boot ROM. Nobody has published what DTR does: an assumption.
+    void dtr_changed(bool high);
+    /// A byte at `baud`; what the board answers, at the same rate.
+    [[nodiscard]] Bytes receive(std::uint8_t byte, unsigned baud, Faults& faults, Moment now);
+    /// Lets the hand, the motors and the axes' references go on to `now`.
+    void advance(Moment now);
+
+    void set_powered(bool powered);
+    /// As another program leaves it.
+    void start_firmware();
+    /// All axes, as after pulling the grip out and pushing it in.
+    void home();
+    /// How long the motors hold the last command; zero: for ever. Fact sheet, section 11: "only for
+    /// a very short time", never measured. The default is an assumption.
+    void hold_commands(Moment time) noexcept { command_holds_ = time; }
+    void press(std::uint8_t buttons) noexcept { buttons_ = buttons; }
+
+    [[nodiscard]] HandModel& hand() noexcept { return hand_; }
+    [[nodiscard]] BoardStage stage() const noexcept { return stage_; }
+    [[nodiscard]] std::size_t bytes_loaded() const noexcept { return boot_.bytes_loaded(); }
+    [[nodiscard]] const std::array<std::int16_t, 3>& motors() const noexcept { return motors_; }
+    [[nodiscard]] bool limp() const noexcept { return motors_ == std::array<std::int16_t, 3>{}; }
+    [[nodiscard]] unsigned lamp() const noexcept { return lamp_; }  ///< 2 green, 4 blue, 8 red
+    [[nodiscard]] bool homing() const noexcept { return homing_; }
+    [[nodiscard]] bool homed() const noexcept;
+    [[nodiscard]] unsigned homed_axes() const noexcept;  ///< bits 0..2
+    /// The counters as a reply carries them.
+    [[nodiscard]] std::array<std::int16_t, 3> encoders() const;
+    [[nodiscard]] const CommandLog& log() const noexcept { return log_; }
+
+  private:
+    struct Axis {
+        int zero{0};  ///< what the counter is short of the mechanism's own count
+        bool seen_out{false};
+        bool homed{false};
+    };
+
+    Bytes hello(std::uint8_t byte, unsigned baud, Faults& faults);
+    Bytes boot(std::uint8_t byte, unsigned baud, Faults& faults);
+    Bytes command(std::uint8_t byte, unsigned baud, Faults& faults, Moment now);
+    void obey(Moment now);
+    [[nodiscard]] Bytes reply() const;
+    void watch_references();
+    void reset();
+
+    HandModel hand_{};
+    BootRom boot_{};
+    BoardStage stage_{BoardStage::supervisor};
+    Bytes line_{};  // of the hello, or of a command
+    bool answered_hello_{false};
+    bool echo_is_faulty_{false};  // whether this upload's echo was spoilt already
+    std::array<Axis, 3> axes_{};
+    std::array<std::int16_t, 3> motors_{};
+    unsigned lamp_{0};
+    bool homing_{false};
+    std::uint8_t buttons_{0};
+    Moment now_{0};
+    Moment last_command_{0};
+    Moment command_holds_{std::chrono::milliseconds(100)};
+    CommandLog log_{};
+};
+
+}  // namespace dibhr::test::falcon

@@ -1,0 +1,86 @@
+// The mouse stands in for a Falcon that is not ready, and gives the hand back to it.
+#include "device/falcon_or_mouse.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <chrono>
+#include <cstdint>
+
+#include "tests/device/falcon/falcon_in_loop.hpp"
+#include "tests/support/catch.hpp"
+
+namespace {
+
+using namespace dibhr::test::falcon;
+using namespace dibhr::falcon;
+using dibhr::Vec3;
+using std::chrono::milliseconds;
+
+using TickingHand = TickingDevice<dibhr::FalconOrMouse>;
+
+bool press_of_the_mouse_moves_the_goal(TickingHand& loop) {
+    const Vec3 before = loop.reading.goal_in_grid;
+    const double x = before.x < 200.0 ? 350.0 : 50.0;
+    loop.device.mouse().target().publish({.cursor_in_grid = {x, 150.0}, .pointing = true});
+    loop.tick_for(milliseconds(300));
+    return glm::distance(loop.reading.goal_in_grid, before) > 20.0;
+}
+
+}  // namespace
+
+TEST_CASE("without a Falcon the mouse touches from the first tick on", "[falcon_or_mouse]") {
+    const UsbBench bus;
+    TickingHand loop(ConnectionOptions{}, FirmwareImage{});
+    loop.tick();
+    CHECK(loop.reading.ready);
+    CHECK(loop.reading.stand_in);
+    CHECK_FALSE(loop.reading.taken_over);
+    CHECK(press_of_the_mouse_moves_the_goal(loop));
+}
+
+TEST_CASE("a Falcon takes the hand over once when it is ready, and the mouse once when it is gone",
+          "[falcon_or_mouse]") {
+    UsbBench bus;
+    Unit& unit = bus.make("SIM00001");
+    TickingHand loop(ConnectionOptions{}, any_firmware());
+    loop.tick();
+    start_firmware(unit);
+    home(unit);
+    bus.plug(unit);
+    int takings = 0;
+    REQUIRE(loop.tick_until([&] {
+        takings += loop.reading.taken_over ? 1 : 0;
+        return !loop.reading.stand_in;
+    }));
+    CHECK(takings == 1);
+    CHECK(loop.reading.taken_over);
+    REQUIRE(loop.tick_until_ready());
+    loop.force_newton = {0.0, 0.0, 0.5};
+    REQUIRE(loop.tick_until([&] { return !is_limp(unit); }));
+    CHECK_FALSE(press_of_the_mouse_moves_the_goal(loop));
+
+    const auto forces = log_of(unit).with_force;
+    CHECK(forces > 0);
+    bus.unplug(unit);
+    REQUIRE(loop.tick_until([&] { return loop.reading.stand_in; }));
+    CHECK(loop.reading.taken_over);
+    CHECK(press_of_the_mouse_moves_the_goal(loop));
+
+    bus.plug(unit);
+    CHECK(loop.tick_until_ready());
+    CHECK(loop.tick_until([&] { return log_of(unit).with_force > forces; }));
+}
+
+TEST_CASE("a clutched Falcon stays the hand, without force", "[falcon_or_mouse]") {
+    UsbBench bus;
+    Unit& unit = bus.plug();
+    start_firmware(unit);
+    home(unit);
+    TickingHand loop(ConnectionOptions{}, FirmwareImage{});
+    REQUIRE(loop.tick_until_ready());
+    unit.with(
+        [](FalconModel& model) { model.board().press(static_cast<std::uint8_t>(Button::centre)); });
+    REQUIRE(loop.tick_until([&] { return !loop.reading.ready; }));
+    CHECK_FALSE(loop.reading.stand_in);
+    CHECK_FALSE(loop.reading.taken_over);
+}

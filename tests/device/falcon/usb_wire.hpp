@@ -1,0 +1,98 @@
+// The bus between a program and one simulated unit: transfers queue, 1 ms frames pass, and the
+// cable can be pulled.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include <linux/usbdevice_fs.h>
+
+#include "tests/device/falcon/falcon_model.hpp"
+#include "tests/device/falcon/poll_pipe.hpp"
+
+namespace dibhr::test::falcon {
+
+/// What one open file of a program has on the bus.
+struct UsbFile {
+    PollPipe pipe{};
+    std::deque<usbdevfs_urb*> done{};  ///< ended, to be reaped
+};
+
+/// Thread-safe; the unit behind it is reached through with().
+class UsbWire {
+  public:
+    explicit UsbWire(std::string serial);
+    ~UsbWire();
+    UsbWire(const UsbWire&) = delete;
+    UsbWire& operator=(const UsbWire&) = delete;
+
+    /// Runs `use(FalconModel&)` with the unit's time brought up to now and the bus standing still.
+    template <typename Use>
+    decltype(auto) with(Use&& use) {
+        const std::lock_guard lock(mutex_);
+        model_.advance(now());
+        Wake wake(*this);
+        return std::forward<Use>(use)(model_);
+    }
+    /// Serial line and USB frames take their time, or none.
+    void set_realtime(bool realtime);
+
+    /// As the ioctls: 0, or a negative errno.
+    int submit(UsbFile& file, usbdevfs_urb* urb);
+    int discard(UsbFile& file, usbdevfs_urb* urb);
+    int clear_halt(unsigned endpoint);
+    /// A transfer that has ended; -EAGAIN: none, -ENODEV: none and the cable is out.
+    int reap(UsbFile& file, usbdevfs_urb*& urb);
+    /// What the file still has on the bus is forgotten.
+    void forget(UsbFile& file);
+
+    void unplug();
+    void plug();
+    [[nodiscard]] bool gone();
+    /// An open file: it is told when the cable is pulled.
+    void open(UsbFile& file);
+
+    [[nodiscard]] static Moment now();
+
+  private:
+    struct Pending {
+        UsbFile* file;
+        usbdevfs_urb* urb;
+    };
+    /// After a test has changed something, the bus looks again.
+    struct Wake {
+        explicit Wake(UsbWire& wire) : wire_(wire) {}
+        ~Wake() { wire_.changed_.notify_one(); }
+        Wake(const Wake&) = delete;
+        Wake& operator=(const Wake&) = delete;
+        UsbWire& wire_;
+    };
+
+    void run();
+    void service(Moment now, bool send);
+    void service_control(const Pending& pending, Moment now);
+    void service_in(Moment now);
+    [[nodiscard]] Moment next_event(Moment now) const;
+    static void end(const Pending& pending, int status);
+
+    std::mutex mutex_{};
+    std::condition_variable changed_{};
+    FalconModel model_;
+    std::deque<Pending> in_{};
+    std::deque<Pending> out_{};
+    std::deque<Pending> control_{};
+    std::deque<UsbFile*> files_{};
+    std::int64_t last_frame_{0};  // whose turn to send has been used
+    Moment wakes_{kNever};        // when the thread looks again
+    bool in_halted_{false};
+    bool gone_{false};
+    bool stopping_{false};
+    std::thread thread_{};
+};
+
+}  // namespace dibhr::test::falcon
