@@ -10,6 +10,7 @@ namespace {
 
 // After Okabe and Ito's palette, told apart by colour-blind people too; shapes differ besides.
 constexpr glm::vec4 kProxyTint{0.16F, 0.56F, 0.95F, 1.0F};
+constexpr glm::vec4 kRecordedTint{0.88F, 0.92F, 0.98F, 0.85F};
 constexpr glm::vec4 kGoalTint{0.95F, 0.55F, 0.05F, 1.0F};
 constexpr glm::vec4 kSpringTint{0.86F, 0.86F, 0.86F, 1.0F};
 constexpr glm::vec4 kNormalTint{0.10F, 0.78F, 0.60F, 1.0F};
@@ -75,6 +76,10 @@ std::vector<Stroke> touch_strokes(const TouchMarkers& touch, const Camera& camer
                            ball(camera, normal_end, kNormalRadius * scale), kNormalTint});
     }
     if (is_finite(touch.force_newton)) add_force_arrow(strokes, touch, camera, scale);
+    if (touch.recorded_proxy && is_finite(*touch.recorded_proxy)) {
+        const glm::vec4 recorded = ball(camera, *touch.recorded_proxy, kProxyRadius * scale);
+        strokes.push_back({recorded, recorded, kRecordedTint});
+    }
     strokes.push_back({goal, goal, kGoalTint, kGoalHollow});
     strokes.push_back({proxy, proxy, kProxyTint});
     return strokes;

@@ -20,8 +20,8 @@ struct Stroke {
 };
 
 /// Proxy: a blue ball. Goal: an orange ring. Spring: a thin grey line. Normal: a thin green line.
-/// Force: a yellow arrow from the proxy. Nothing when the markers are not visible. `scale` 1 suits
-/// a picture 800 pixels high.
+/// Force: a yellow arrow from the proxy. Recorded proxy: a pale ball. Nothing when the markers are
+/// not visible. `scale` 1 suits a picture 800 pixels high.
 [[nodiscard]] std::vector<Stroke> touch_strokes(const TouchMarkers& touch, const Camera& camera,
                                                 double scale);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "core/haptics/depth_image.hpp"
 #include "core/haptics/parameters.hpp"
@@ -25,10 +26,11 @@ struct TouchMarkers {
     bool visible{false};
     bool contact{false};
     Vec3 goal{0.0}, proxy{0.0};
-    Vec3 normal{0.0, 0.0, 1.0};  ///< of the surface under the proxy
-    double friction{0.4};        ///< the cone's coefficient in force
-    Vec3 force_newton{0.0};      ///< as sent
-    double newton_per_px{0.02};  ///< length of the force arrow
+    Vec3 normal{0.0, 0.0, 1.0};            ///< of the surface under the proxy
+    double friction{0.4};                  ///< the cone's coefficient in force
+    Vec3 force_newton{0.0};                ///< as sent
+    double newton_per_px{0.02};            ///< length of the force arrow
+    std::optional<Vec3> recorded_proxy{};  ///< of a session, when `proxy` is computed anew
 };
 
 /// Everything one picture needs; a view that owns nothing.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -53,6 +54,22 @@ TEST_CASE("out of contact only proxy and goal are shown, a ball and a ring") {
                                      [](const Stroke& s) { return s.hollow > 0.0F; });
     CHECK(rings == 1);
     CHECK_FALSE(friction_cone(touch, camera_640x480()).has_value());
+}
+
+TEST_CASE(
+    "a recorded proxy is one more ball, where it was, in another tint than the computed one") {
+    TouchMarkers touch = pressed();
+    const Camera camera = camera_640x480();
+    const std::size_t without = touch_strokes(touch, camera, 1.0).size();
+    touch.recorded_proxy = touch.proxy + Vec3{12.0, 0.0, 3.0};
+    const std::vector<Stroke> strokes = touch_strokes(touch, camera, 1.0);
+    CHECK(strokes.size() == without + 1);
+    const glm::vec3 recorded(camera.world_from_grid(*touch.recorded_proxy));
+    const auto there = std::find_if(strokes.begin(), strokes.end(), [&](const Stroke& s) {
+        return glm::length(glm::vec3(s.ball_a) - recorded) < 1e-3F;
+    });
+    REQUIRE(there != strokes.end());
+    CHECK_FALSE(there->tint == strokes.back().tint);
 }
 
 TEST_CASE(
