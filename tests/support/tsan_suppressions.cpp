@@ -1,9 +1,11 @@
-// What the thread sanitizer is to pass over in test programs that use OpenCV, with the reasons.
+// What the thread sanitizer is to pass over in the test programs, with the reasons: libraries of the
+// distribution, built without the sanitizer, which sees their memory but not all that orders it.
 
-// libavcodec and libavutil are the distribution's, built without the sanitizer: it sees their
-// memory but not the atomics that order it between their decoding threads. libgdal comes with
-// OpenCV's picture readers; it takes two of its own locks in either order while it registers its
-// drivers.
+// libavcodec and its family order their decoding threads with atomics. libgdal comes with OpenCV's
+// picture readers and writers; it takes two of its own locks in either order while it registers its
+// drivers. libudev's devices are written by libusb's event thread, under a lock, before the thread
+// that lists them reads them. A testbed of libumockdev has a thread of its own, joined with GLib's
+// atomics.
 extern "C" const char* __tsan_default_suppressions();  // NOLINT: the sanitizer's name
 
 extern "C" const char* __tsan_default_suppressions() {  // NOLINT
@@ -12,5 +14,8 @@ extern "C" const char* __tsan_default_suppressions() {  // NOLINT
            "race:libavformat.so\n"
            "race:libswscale.so\n"
            "called_from_lib:libavcodec.so\n"
-           "deadlock:libgdal.so\n";
+           "deadlock:libgdal.so\n"
+           "race:libudev.so.1\n"
+           "race:libumockdev.so.0\n"
+           "race:libglib-2.0.so.0\n";
 }
