@@ -126,6 +126,7 @@ LoopRun measure_loops(double seconds) {
     TripleBuffer<HapticSettings> settings;
     TripleBuffer<HapticState> state;
     const auto forces = std::make_unique<ForceRing>();
+    const auto ticks = std::make_unique<TickRing>();
     settings.publish(HapticSettings{});
 
     std::atomic<bool> stop{false};
@@ -134,7 +135,7 @@ LoopRun measure_loops(double seconds) {
         static_cast<void>(become_realtime("bench empty"));
         while (!stop.load(std::memory_order_relaxed)) empty_timer.wait();
     });
-    HapticLoop loop({device, player.haptics(), settings, state, *forces, nullptr});
+    HapticLoop loop({device, player.haptics(), settings, state, *forces, *ticks});
     std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
     stop.store(true);
     empty.join();

@@ -1,10 +1,7 @@
 // `dibhr info`: describes media and session files.
 #include "app/command_info.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <optional>
@@ -13,8 +10,9 @@
 #include <string_view>
 
 #include "app/error_line.hpp"
+#include "app/session_moments.hpp"
 #include "core/error.hpp"
-#include "core/session/session_summary.hpp"
+#include "core/session/session.hpp"
 #include "core/video/media.hpp"
 
 namespace dibhr {
@@ -24,7 +22,8 @@ namespace fs = std::filesystem;
 
 void print_fact(std::string_view name, std::string_view value) {
     constexpr int kNameWidth = 17;
-    std::cout << "  " << std::left << std::setw(kNameWidth) << name << ' ' << value << '\n';
+    std::cout << "  " << std::left << std::setw(kNameWidth) << one_line(name) << ' '
+              << one_line(value) << '\n';
 }
 
 std::string rounded(double value, int digits) {
@@ -33,23 +32,33 @@ std::string rounded(double value, int digits) {
     return text.str();
 }
 
-bool is_session(const fs::path& file) {
-    if (file.extension() == ".dibhr") return true;
-    if (!fs::is_regular_file(file)) return false;  // a pipe would be waited for
-    constexpr std::string_view kSqliteMagic = "SQLite format 3";
-    std::array<char, kSqliteMagic.size()> start{};
-    std::ifstream stream(file, std::ios::binary);
-    return stream.read(start.data(), start.size()) &&
-           std::equal(start.begin(), start.end(), kSqliteMagic.begin());
+void print_media(std::string_view name, const SessionMedia& media) {
+    if (media.file.empty()) return;
+    print_fact(name,
+               media.file.string() + (media.sha256.empty() ? "" : ", SHA-256 " + media.sha256));
 }
 
 void describe_session(const fs::path& file) {
-    const SessionSummary summary = summarise_session(file);
-    std::cout << file.string() << '\n';
+    const Session session(file);
+    session.check();
+    print_warning(session.warning());
+    std::cout << one_line(file.string()) << '\n';
     print_fact("kind", "dibhr session");
-    print_fact("rows", std::to_string(summary.rows));
-    print_fact("duration", rounded(summary.duration_s, 3) + " s");
-    for (const auto& [name, value] : summary.facts) print_fact(name, value);
+    print_fact("rows", std::to_string(session.rows()));
+    print_fact("duration", rounded(session.end_s() - session.begin_s(), 3) + " s");
+    if (session.missing() > 0) print_fact("missing rows", std::to_string(session.missing()));
+    for (const SessionSource& source : session.sources()) {
+        print_media("colour", source.colour);
+        print_media("depth", source.depth);
+    }
+    for (const SessionMark& mark : session.marks()) {
+        print_fact("mark", rounded(mark.t_s - session.begin_s(), 3) + " s  " + mark.tag +
+                               (mark.text.empty() ? "" : ": " + mark.text));
+    }
+    for (const auto& [name, value] : session.facts()) {
+        const bool told = !session.sources().empty() && (name == "colour" || name == "depth");
+        if (!told) print_fact(name, value);
+    }
 }
 
 void describe_partner(const fs::path& file) {
@@ -70,7 +79,7 @@ void describe_pictures(const fs::path& file) {
     const int rows = is_colour ? media.colour_rows : media.depth_rows;
     const std::string& codec = is_colour ? media.colour_codec : media.depth_codec;
 
-    std::cout << file.string() << '\n';
+    std::cout << one_line(file.string()) << '\n';
     print_fact("kind", media.still ? "image" : "video");
     print_fact("size", std::to_string(columns) + "x" + std::to_string(rows));
     if (!codec.empty()) print_fact("codec", codec);
@@ -90,7 +99,7 @@ int run_info(const std::vector<fs::path>& files) {
     int exit_code = 0;
     for (const fs::path& file : files) {
         try {
-            if (is_session(file)) {
+            if (names_session(file)) {
                 describe_session(file);
             } else {
                 describe_pictures(file);

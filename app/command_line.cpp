@@ -14,8 +14,11 @@
 #include "app/command_bench.hpp"
 #include "app/command_devices.hpp"
 #include "app/command_experiment.hpp"
+#include "app/command_export.hpp"
 #include "app/command_info.hpp"
 #include "app/command_options.hpp"
+#include "app/command_replay.hpp"
+#include "app/command_report.hpp"
 #include "app/command_touch.hpp"
 #include "app/command_view.hpp"
 #include "app/experiment_request.hpp"
@@ -71,10 +74,18 @@ std::pair<int, int> parse_size(const std::string& text) {
 
 void check_device(const std::string& device) {
     const bool is_goals = device.starts_with("goals:") && device.size() > 6;
-    if (!is_goals && device != "auto" && device != "falcon" && device != "mouse") {
-        throw CLI::ValidationError("--device",
-                                   "'" + device + "' is none of auto, falcon, mouse, goals:FILE");
+    const bool is_chosen = device.starts_with("falcon:") && device.size() > 7;
+    if (!is_goals && !is_chosen && device != "auto" && device != "falcon" && device != "mouse") {
+        throw CLI::ValidationError(
+            "--device",
+            "'" + device + "' is none of auto, falcon, falcon:SERIAL, mouse, goals:FILE");
     }
+}
+
+void add_firmware_option(CLI::App& app, std::string& file) {
+    app.add_option("--firmware", file,
+                   "Firmware for a Falcon that has none; checked, and kept for the next time")
+        ->type_name("FILE");
 }
 
 int view(CLI::App& app, const Arguments& arguments) {
@@ -82,7 +93,9 @@ int view(CLI::App& app, const Arguments& arguments) {
     ViewOptions& options = request.options;
     std::string colour;
     std::string depth;
-    app.add_option("COLOR", colour, "Colour video or image; none: the built-in sample")
+    app.add_option("COLOR", colour,
+                   "Colour video or image, or a recorded session to replay; none: the built-in "
+                   "sample")
         ->type_name("");
     app.add_option("DEPTH", depth, "Depth video or image; none: *color* -> *depth* beside it")
         ->type_name("");
@@ -92,9 +105,12 @@ int view(CLI::App& app, const Arguments& arguments) {
                check_device(device);
                options.device = device;
            },
-           "auto, falcon, mouse or goals:FILE")
+           "auto (a Falcon, and the mouse until one is there), falcon, falcon:SERIAL, mouse or "
+           "goals:FILE")
         ->type_name("DEVICE")
         ->default_str("auto");
+    std::string firmware;
+    add_firmware_option(app, firmware);
     std::string record;
     std::string screenshot;
     app.add_option("--record", record, "Records every tick into a new session file (.dibhr)")
@@ -114,13 +130,16 @@ int view(CLI::App& app, const Arguments& arguments) {
            "--size", [&request](const std::string& text) { request.size = parse_size(text); },
            "Size of the window")
         ->type_name("WxH");
+    app.add_flag("--any-media", options.any_media,
+                 "Replays a session also over files that have changed since");
     add_touch_options(app, request.touch);
     app.footer(
         "Examples:\n"
         "  dibhr                                  the built-in sample\n"
         "  dibhr color.mp4 depth.mp4 --friction 0.8\n"
         "  dibhr view touch                       a file that is called like a command\n"
-        "  dibhr color.mp4 --record mine.dibhr --seconds 20 --screenshot last.png");
+        "  dibhr color.mp4 --record mine.dibhr --seconds 20 --screenshot last.png\n"
+        "  dibhr mine.dibhr --algorithm pga       what was recorded, through another algorithm");
     if (!parse(app, arguments)) return 0;
     std::error_code unknown;
     if (colour.find_first_of("./") == std::string::npos && !colour.empty() &&
@@ -132,6 +151,7 @@ int view(CLI::App& app, const Arguments& arguments) {
     options.depth = depth;
     options.record = record;
     options.screenshot = screenshot;
+    options.firmware = firmware;
     return run_view(request);
 }
 
@@ -164,6 +184,51 @@ int touch(CLI::App& app, const Arguments& arguments) {
     return run_touch(options);
 }
 
+int replay(CLI::App& app, const Arguments& arguments) {
+    ReplayOptions options;
+    TouchRequest request;
+    std::string session;
+    std::string csv;
+    app.add_option("SESSION", session, "A recorded session")->type_name("")->required();
+    add_touch_options(app, request);
+    app.remove_option(app.get_option("--algorithm"));  // here it may be given several times
+    add_algorithms_option(app, options.algorithms);
+    app.add_option("--csv", csv, "Writes the rows of one run; - is standard output")
+        ->type_name("FILE");
+    app.add_flag("--any-media", options.any_media,
+                 "Also over a video or bump map that has changed since");
+    app.footer(
+        "Without --algorithm and other changes, says whether proxies and forces are those of the\n"
+        "recording, bit for bit, and ends with 1 if not. What is not given is as recorded.\n\n"
+        "Examples:\n"
+        "  dibhr replay mine.dibhr\n"
+        "  dibhr replay mine.dibhr --algorithm dibhr --algorithm pga --friction 0.2\n"
+        "  dibhr replay mine.dibhr --stiffness 1 --csv stiffer.csv");
+    if (!parse(app, arguments)) return 0;
+    options.session = session;
+    options.csv = csv;
+    options.given = request.given;
+    options.bump = request.bump;
+    options.raw_depth = request.raw_depth;
+    return run_replay(options);
+}
+
+int export_session(CLI::App& app, const Arguments& arguments) {
+    std::string session;
+    std::string csv;
+    app.add_option("SESSION", session, "A recorded session")->type_name("")->required();
+    app.add_option("--csv", csv, "One row a tick; - is standard output")
+        ->type_name("FILE")
+        ->required();
+    app.footer(
+        "The columns of `dibhr touch` come first; table tick_column of the session explains all.\n"
+        "\nExamples:\n"
+        "  dibhr export mine.dibhr --csv mine.csv\n"
+        "  dibhr export mine.dibhr --csv - | head");
+    if (!parse(app, arguments)) return 0;
+    return run_export({session, csv});
+}
+
 int info(CLI::App& app, const Arguments& arguments) {
     std::vector<std::string> files;
     app.add_option("FILE", files, "Videos, images and session files")->type_name("")->required();
@@ -173,7 +238,27 @@ int info(CLI::App& app, const Arguments& arguments) {
 }
 
 int devices(CLI::App& app, const Arguments& arguments) {
-    return parse(app, arguments) ? run_devices() : 0;
+    std::string firmware;
+    std::string out;
+    DevicesRequest request;
+    add_firmware_option(app, firmware);
+    auto* const check = app.add_flag("--check", request.check,
+                                     "Leads you through everything that is to be measured on a "
+                                     "Falcon, with force only where it says so");
+    app.add_option("--out", out, "With --check: the record of what was measured")
+        ->type_name("FILE")
+        ->default_str("falcon-check-SERIAL-DATE.json")
+        ->needs(check);
+    app.footer(
+        "Ends with 0 when a Falcon can be used, or none is attached and the mouse can be; with 1 "
+        "when none of the attached Falcons can be used.\n\nExamples:\n"
+        "  dibhr devices\n"
+        "  dibhr devices --firmware nvent_firmware.bin\n"
+        "  dibhr devices --check");
+    if (!parse(app, arguments)) return 0;
+    request.firmware = firmware;
+    request.out = out;
+    return run_devices(request);
 }
 
 int bench(CLI::App& app, const Arguments& arguments) {
@@ -184,6 +269,21 @@ int bench(CLI::App& app, const Arguments& arguments) {
     return run_bench({json});
 }
 
+int report(CLI::App& app, const Arguments& arguments) {
+    std::string session;
+    std::string out;
+    app.add_option("SESSION", session, "A recorded session")->type_name("")->required();
+    app.add_option("--out", out, "Folder for report.html, report.json and the pictures")
+        ->type_name("DIR")
+        ->required();
+    app.footer(
+        "The folder is made if it is missing; an earlier report in it is replaced.\n\n"
+        "Example:\n"
+        "  dibhr report mine.dibhr --out mine-report");
+    if (!parse(app, arguments)) return 0;
+    return run_report({session, out});
+}
+
 int experiment(CLI::App& app, const Arguments& arguments) {
     ExperimentRequest request;
     add_experiment_options(app, request);
@@ -192,13 +292,20 @@ int experiment(CLI::App& app, const Arguments& arguments) {
 }
 
 constexpr std::array kCommands{
-    Command{"view", "[COLOR [DEPTH]]", "The viewer; without files, the built-in sample", view},
+    Command{"view", "[COLOR [DEPTH] | SESSION]", "The viewer; without files, the built-in sample",
+            view},
     Command{"touch", "--depth FILE --goals GOALS.csv [--out OUT.csv]",
             "The core alone, head-less, over a stream of goals", touch},
     Command{"experiment", "[linear|circle|human|all|sweep]",
             "The paper's table, all algorithms side by side", experiment},
+    Command{"replay", "SESSION [--algorithm NAME]... [--csv FILE]",
+            "A recorded exploration through other algorithms", replay},
+    Command{"export", "SESSION --csv FILE", "Every tick of a session, one row", export_session},
+    Command{"report", "SESSION --out DIR", "Pictures: where people touched, force over time",
+            report},
     Command{"info", "FILE...", "What a media or session file holds", info},
-    Command{"devices", "", "What is attached, and why it cannot be used", devices},
+    Command{"devices", "[--firmware FILE] [--check [--out FILE]]",
+            "What is attached, its state and the next step", devices},
     Command{"bench", "[--json FILE]", "Updates, frame hand-over and loop timing on this machine",
             bench},
 };
@@ -219,6 +326,7 @@ void print_help() {
            "  dibhr                                the built-in sample, touched by the mouse\n"
            "  dibhr color.mp4 depth.mp4            a colour and a depth video\n"
            "  dibhr color.mp4                      the depth video beside it is found\n"
+           "  dibhr mine.dibhr                     a recorded session moves by itself\n"
            "  dibhr touch --depth depth.png --goals goals.csv --out touched.csv\n"
            "\nEnds with 0 on success, 1 on a failure it explains, 2 on bad usage.\n";
 }

@@ -43,6 +43,15 @@ std::string algorithm_names() {
     return names;
 }
 
+/// Throws CLI::ValidationError.
+Algorithm known_algorithm(const std::string& name) {
+    const auto algorithm = algorithm_named(name);
+    if (!algorithm) {
+        throw CLI::ValidationError("--algorithm", "'" + name + "' is none of " + algorithm_names());
+    }
+    return *algorithm;
+}
+
 std::string range_of(double lowest, double highest) {
     return text_of(lowest) + " to " + text_of(highest);
 }
@@ -94,16 +103,21 @@ double parse_number(const std::string& option, const std::string& text, double l
     return value;
 }
 
+void add_algorithms_option(CLI::App& app, std::vector<Algorithm>& algorithms) {
+    app.add_option_function<std::vector<std::string>>(
+           "--algorithm",
+           [&algorithms](const std::vector<std::string>& names) {
+               for (const std::string& name : names) algorithms.push_back(known_algorithm(name));
+           },
+           "How the proxy follows the goal, once or several times: " + algorithm_names())
+        ->type_name("NAME")
+        ->allow_extra_args(false);
+}
+
 void add_touch_options(CLI::App& app, TouchRequest& request) {
     app.add_option_function<std::string>(
            "--algorithm",
-           [&request](const std::string& name) {
-               request.given.algorithm = algorithm_named(name);
-               if (!request.given.algorithm) {
-                   throw CLI::ValidationError("--algorithm",
-                                              "'" + name + "' is none of " + algorithm_names());
-               }
-           },
+           [&request](const std::string& name) { request.given.algorithm = known_algorithm(name); },
            "How the proxy follows the goal: " + algorithm_names())
         ->type_name("NAME")
         ->default_str("dibhr");

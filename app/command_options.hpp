@@ -42,6 +42,9 @@ struct TouchRequest {
 [[nodiscard]] double parse_number(const std::string& option, const std::string& text, double lowest,
                                   double highest);
 
+/// --algorithm NAME, several times. `algorithms` must outlive the parsing of `app`.
+void add_algorithms_option(CLI::App& app, std::vector<Algorithm>& algorithms);
+
 /// --algorithm, --friction, --bump, --raw-depth and every entry of number_options(). `request` must
 /// outlive the parsing of `app`.
 void add_touch_options(CLI::App& app, TouchRequest& request);

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "app/depth_in_time.hpp"
-#include "core/files/output_file.hpp"
 #include "app/output_rows.hpp"
 #include "core/error.hpp"
+#include "core/files/output_file.hpp"
 #include "core/haptics/touch.hpp"
 #include "device/goal_stream.hpp"
 
@@ -66,19 +66,8 @@ class TouchRun {
 
         last_t_s_ = goal.t_s;
         input_.restart = false;
-        OutputRow row;
-        row.t_s = goal.t_s;
-        row.goal = touch.goal;
-        row.proxy = touch.proxy.position;
-        row.spring_newton = touch.spring_force_newton;
-        row.sent_newton = touch.sent_force_newton;
-        row.contact = touch.proxy.contact;
-        row.primitive = touch.proxy.active.kind;
-        row.i = touch.proxy.active.i;
-        row.j = touch.proxy.active.j;
-        row.moves = touch.proxy.moves;
-        row.update_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(end - start).count();
-        return row;
+        return row_of(goal.t_s, touch,
+                      std::chrono::duration_cast<std::chrono::nanoseconds>(end - start).count());
     }
 
     TouchParameters parameters_;

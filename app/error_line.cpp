@@ -5,13 +5,24 @@
 #include <iostream>
 #include <string>
 
+#include "core/report/plain_text.hpp"
+
 namespace dibhr {
 
+std::string one_line(std::string_view text) {
+    std::string line = utf8_text(text);
+    std::replace_if(
+        line.begin(), line.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
+    return line;
+}
+
 void print_error_line(std::string_view message) {
-    std::string line(message);
-    while (!line.empty() && line.back() == '\n') line.pop_back();
-    std::replace(line.begin(), line.end(), '\n', ' ');
-    std::cerr << "dibhr: " << line << '\n';
+    while (!message.empty() && message.back() == '\n') message.remove_suffix(1);
+    std::cerr << "dibhr: " << one_line(message) << '\n';
+}
+
+void print_warning(std::string_view sentence) {
+    if (!sentence.empty()) print_error_line("warning: " + std::string(sentence));
 }
 
 }  // namespace dibhr

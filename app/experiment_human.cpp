@@ -31,8 +31,8 @@ void check_is_of_sample(const RecordedGoals& recorded, const std::filesystem::pa
     const MediaDescription description = open_depth(sample)->description();
     const std::string depth = std::filesystem::path(fact("depth")).filename().string();
     const bool same_name = depth.empty() || depth == sample.filename().string();
-    const bool same_size = fact("columns") == std::to_string(description.depth_columns) &&
-                           fact("rows") == std::to_string(description.depth_rows);
+    const bool same_size = fact("depth-columns") == std::to_string(description.depth_columns) &&
+                           fact("depth-rows") == std::to_string(description.depth_rows);
     if (same_name && same_size) return;
     throw InputError(session.string() +
                      ": was recorded over another video; record one over the built-in sample: "

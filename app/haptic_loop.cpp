@@ -12,8 +12,24 @@ namespace dibhr {
 
 namespace {
 
+double microseconds(std::chrono::steady_clock::duration span) {
+    return std::chrono::duration<double, std::micro>(span).count();
+}
+
 double seconds(std::chrono::steady_clock::duration span) {
     return std::chrono::duration<double>(span).count();
+}
+
+FramePair frames_of(const DepthBlend& pair) {
+    const Frame& from = *pair.from;
+    const Frame& to = *pair.to;
+    const CleaningOptions& cleaning = from.cleaning;
+    return {{from.media, cleaning.fill_holes, cleaning.remove_spikes, cleaning.smooth_steps},
+            from.index,
+            to.index,
+            from.media_s,
+            to.media_s,
+            to.time_s - from.time_s};
 }
 
 void copy(const Vec3& from, double (&to)[3]) {
@@ -31,15 +47,30 @@ void HapticTick::run(const TickTiming& timing, std::uint64_t late_ticks) noexcep
     state_.playback_s = frames.clock.playback_s(timing.begin);
     const DepthBlend pair = frames.at(state_.playback_s);
     restart_ = begins_again(settings, frames) || restart_;
+    begin_recording(settings);
     state_.touchable = pair.makes_surface();
     state_.late_ticks = late_ticks;
     if (state_.touchable) {
         touch_surface(pair, settings, timing);
     } else {
-        rest();
-        count(timing, 0.0);
+        touch_nothing(settings, timing);
     }
     to_.state.publish(state_);
+}
+
+void HapticTick::begin_recording(const HapticSettings& settings) noexcept {
+    if (settings.recording && !recording_) {
+        renderer_.restart();
+        state_.touch = {};
+        restart_ = true;
+    }
+    recording_ = settings.recording;
+}
+
+void HapticTick::touch_nothing(const HapticSettings& settings, const TickTiming& timing) noexcept {
+    rest();
+    if (settings.recording) record({.settings = settings.version, .surface = false}, timing, 0.0);
+    count(timing, 0.0);
 }
 
 void HapticTick::rest() noexcept {
@@ -56,19 +87,45 @@ void HapticTick::touch_surface(const DepthBlend& pair, const HapticSettings& set
                                settings.parameters.shape, settings.bump.get());
     const HandReading hand =
         to_.device.read({timing.dt_s, surface, settings.parameters.coupling.pixel_pitch_mm});
-    const SafetyInput input{timing.dt_s, 0.0, settings.force_enabled, hand.ready, restart_};
-    if (hand.lifted && state_.touch.proxy.contact) renderer_.let_go();
+    const SafetyInput input{.dt_s = timing.dt_s,
+                            .force_enabled = settings.force_enabled,
+                            .device_ready = hand.ready && !taken_off(hand, settings),
+                            .device_force_newton = hand.own_force_newton,
+                            .restart = restart_ || hand.taken_over};
+    const bool lets_go = hand.lifted || hand.taken_over;
+    if (lets_go && state_.touch.proxy.contact) renderer_.let_go();
     const auto begin = std::chrono::steady_clock::now();
     state_.touch =
         renderer_.update(surface, hand.goal_in_grid, settings.parameters, input, settings.limits);
-    const double update_us = seconds(std::chrono::steady_clock::now() - begin) * 1e6;
+    const double update_us = microseconds(std::chrono::steady_clock::now() - begin);
     to_.device.send(state_.touch.sent_force_newton);
     restart_ = false;
-    state_.device_ready = hand.ready;
-    state_.buttons = hand.buttons;
+    state_.hand = hand;
     state_.blend = pair.blend;
-    record(pair, timing, update_us);
+    to_.forces.push({seconds(timing.begin - start_), glm::length(state_.touch.sent_force_newton)});
+    if (settings.recording) {
+        record({.settings = settings.version,
+                .frames = frames_of(pair),
+                .blend = pair.blend,
+                .own_newton = {hand.own_force_newton.x, hand.own_force_newton.y,
+                               hand.own_force_newton.z},
+                .buttons = hand.buttons,
+                .device_ready = input.device_ready,
+                .stand_in = hand.stand_in,
+                .restart = input.restart,
+                .lets_go = lets_go,
+                .goal_refused = !is_finite(hand.goal_in_grid)},
+               timing, update_us);
+    }
     count(timing, update_us);
+}
+
+/// The hand's button acts in this very tick, and until the window has switched the force off.
+bool HapticTick::taken_off(const HandReading& hand, const HapticSettings& settings) noexcept {
+    const bool pressed = hand.force_off && !force_off_pressed_;
+    force_off_pressed_ = hand.force_off;
+    taken_off_ = (taken_off_ || pressed) && settings.force_enabled;
+    return taken_off_;
 }
 
 bool HapticTick::begins_again(const HapticSettings& settings, const FrameWindow& frames) noexcept {
@@ -78,33 +135,27 @@ bool HapticTick::begins_again(const HapticSettings& settings, const FrameWindow&
     return again;
 }
 
-void HapticTick::record(const DepthBlend& pair, const TickTiming& timing,
+void HapticTick::record(const TickRecord& inputs, const TickTiming& timing,
                         double update_us) noexcept {
     const Touch& touch = state_.touch;
-    const double t_s = seconds(timing.begin - start_);
-    to_.forces.push({t_s, glm::length(touch.sent_force_newton)});
-    if (to_.recording == nullptr) return;
-    TickRecord row;
+    TickRecord row = inputs;
     row.tick = static_cast<std::int64_t>(state_.ticks);
-    row.t_s = t_s;
-    row.playback_s = state_.playback_s;
-    row.blend = pair.blend;
-    row.frame = pair.from->index;
+    row.t_s = seconds(timing.begin - start_);
+    row.zero_ns = std::chrono::nanoseconds(start_.time_since_epoch()).count();
+    row.dt_s = timing.dt_s;
+    row.lateness_us = microseconds(timing.lateness);
+    row.update_us = update_us;
     copy(touch.goal, row.goal);
     copy(touch.proxy.position, row.proxy);
     copy(touch.spring_force_newton, row.spring_newton);
     copy(touch.sent_force_newton, row.sent_newton);
-    row.dt_s = timing.dt_s;
-    row.lateness_us = std::chrono::duration<double, std::micro>(timing.lateness).count();
-    row.update_us = update_us;
     row.moves = touch.proxy.moves;
     row.i = touch.proxy.active.i;
     row.j = touch.proxy.active.j;
-    row.contact = touch.proxy.contact ? 1 : 0;
+    row.contact = touch.proxy.contact;
     row.primitive = static_cast<std::uint8_t>(touch.proxy.active.kind);
-    row.buttons = state_.buttons;
     row.cut = static_cast<std::uint8_t>(touch.cut);
-    to_.recording->push(row);
+    to_.ticks.push(row);
 }
 
 void HapticTick::count(const TickTiming& timing, double update_us) noexcept {

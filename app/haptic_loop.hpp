@@ -27,6 +27,7 @@ struct HapticSettings {
     SafetyLimits limits{};
     bool force_enabled{true};
     std::shared_ptr<const BumpMap> bump{};  ///< null: none
+    bool recording{false};                  ///< every tick goes into the ring
     std::uint64_t version{0};               ///< counts changes: the force ramps after each
 };
 
@@ -44,8 +45,7 @@ struct HapticState {
     Touch touch{};
     bool touchable{
         false};  ///< there is a surface; without one nothing is updated and the force is zero
-    bool device_ready{false};
-    std::uint8_t buttons{0};
+    HandReading hand{.ready = false};
     double playback_s{0.0};
     double blend{0.0};
     std::uint64_t ticks{0};
@@ -68,7 +68,7 @@ struct HapticConnections {
     TripleBuffer<HapticSettings>& settings;
     TripleBuffer<HapticState>& state;
     ForceRing& forces;
-    TickRing* recording{nullptr};  ///< null: not recording
+    TickRing& ticks;  ///< for the recorder
 };
 
 /// One tick of the loop, without a thread: nothing in it allocates, locks, waits or throws.
@@ -85,9 +85,13 @@ class HapticTick {
   private:
     void touch_surface(const DepthBlend& pair, const HapticSettings& settings,
                        const TickTiming& timing) noexcept;
+    [[nodiscard]] bool taken_off(const HandReading& hand, const HapticSettings& settings) noexcept;
     [[nodiscard]] bool begins_again(const HapticSettings& settings,
                                     const FrameWindow& frames) noexcept;
-    void record(const DepthBlend& pair, const TickTiming& timing, double update_us) noexcept;
+    void touch_nothing(const HapticSettings& settings, const TickTiming& timing) noexcept;
+    void record(const TickRecord& inputs, const TickTiming& timing, double update_us) noexcept;
+    /// When a recording begins: as at the program's start, so that it can be replayed.
+    void begin_recording(const HapticSettings& settings) noexcept;
     void count(const TickTiming& timing, double update_us) noexcept;
 
     HapticConnections to_;
@@ -96,6 +100,9 @@ class HapticTick {
     std::uint64_t version_{~0ull};
     std::uint64_t discontinuity_{~0ull};
     bool restart_{true};
+    bool force_off_pressed_{false};
+    bool taken_off_{false};
+    bool recording_{false};
     std::chrono::steady_clock::time_point start_{};
     std::chrono::steady_clock::time_point second_begin_{};
     LoopSecond sums_{};  // of the running second

@@ -20,6 +20,9 @@ enum class Action {
     toggle_loop,
     toggle_force,
     force_off,
+    centre_workspace,
+    record,
+    mark,
     reset_view,
     toggle_straight_view,
     toggle_panels,
@@ -39,10 +42,10 @@ struct KeyBinding {
     std::string_view shown;  ///< "Space or P"
     std::string_view help;
     std::string_view characters{};  ///< any of these typed; letters match both cases
-    int keys[2]{0, 0};            ///< GLFW keys; 0: none
-    bool with_control{false};     ///< for `keys`
-    bool while_typing{false};     ///< also acts while a text field has the keyboard
-    bool repeats{false};          ///< acts again and again while held down
+    int keys[2]{0, 0};              ///< GLFW keys; 0: none
+    bool with_control{false};       ///< for `keys`
+    bool while_typing{false};       ///< also acts while a text field has the keyboard
+    bool repeats{false};            ///< acts again and again while held down
 };
 
 [[nodiscard]] std::span<const KeyBinding> key_bindings();

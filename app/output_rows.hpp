@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/haptics/primitive.hpp"
+#include "core/haptics/touch.hpp"
 #include "core/haptics/vec.hpp"
 
 namespace dibhr {
@@ -28,7 +29,12 @@ struct OutputRow {
     std::int64_t update_ns{0};
 };
 
-/// Appends one line. Reals have 17 significant digits, so that they read back to the same bits.
+[[nodiscard]] OutputRow row_of(double t_s, const Touch& touch, std::int64_t update_ns);
+
+/// Appends a real with 17 significant digits, so that it reads back to the same bits.
+void append_real(std::string& text, double value);
+
+/// Appends one line.
 void append_row(std::string& text, const OutputRow& row);
 
 }  // namespace dibhr

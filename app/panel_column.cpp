@@ -19,7 +19,7 @@ float panel_column_width(const ViewerState& state) {
     return std::floor(std::min(kColumnWidth * state.scale, kMostOfWindow * state.window_width));
 }
 
-void draw_panel_column(ViewerState& state, Player& player) {
+void draw_panel_column(ViewerState& state, Player& player, SessionPlayer* replay) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float width = panel_column_width(state);
     ImGui::SetNextWindowPos({display.x - width, 0.0F});
@@ -28,11 +28,19 @@ void draw_panel_column(ViewerState& state, Player& player) {
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
-    draw_video_panel(state, player);
-    draw_surface_panel(state);
-    draw_touch_panel(state);
-    draw_device_panel(state);
-    draw_loop_panel(state);
+    if (replay != nullptr) {
+        draw_replay_panel(state, *replay);
+        draw_touch_panel(state);
+        draw_surface_panel(state);
+        draw_video_panel(state, nullptr);
+    } else {
+        draw_video_panel(state, &player);
+        draw_surface_panel(state);
+        draw_touch_panel(state);
+        draw_device_panel(state);
+        draw_session_panel(state);
+        draw_loop_panel(state);
+    }
     ImGui::Spacing();
     ImGui::TextDisabled("Keys: ?   Hide the panels: Tab");
     ImGui::End();

@@ -2,9 +2,12 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <string>
+#include <utility>
 
 #include "app/panel_list.hpp"
 #include "app/panel_widgets.hpp"
+#include "app/viewer_falcon.hpp"
 
 namespace dibhr {
 
@@ -14,9 +17,19 @@ std::string point_text(const Vec3& p) {
     return formatted("%7.1f %7.1f %7.1f px", p.x, p.y, p.z);
 }
 
-std::string state_text(const HapticState& haptic) {
+/// Its counts mean no place that the grip can be at, or its replies have grown old.
+bool without_pose(const ViewerState& state) {
+    return state.falcon && state.falcon->status.stage == falcon::Stage::ready &&
+           !state.haptic.hand.stand_in;
+}
+
+std::string state_text(const ViewerState& state) {
+    const HapticState& haptic = state.haptic;
     if (!haptic.touchable) return "waiting for a surface";
-    if (!haptic.device_ready) return "not ready: no force";
+    if (clutched(state)) return "held by the clutch: no force";
+    if (!haptic.hand.ready)
+        return without_pose(state) ? "no pose: pull the grip in, or see Calibration"
+                                   : "not ready: no force";
     return haptic.touch.proxy.contact ? "in contact" : "free";
 }
 
@@ -38,10 +51,18 @@ void draw_force_switch(ViewerState& state, float width) {
 }
 
 void draw_device_panel(ViewerState& state) {
-    if (!section(state, "Device", state.settings.panels.device)) return;
+    const bool wanted = std::exchange(state.show_device, false);
+    state.settings.panels.device = state.settings.panels.device || wanted;
+    const bool open = section(state, "Device", state.settings.panels.device);
+    if (wanted) ImGui::SetScrollHereY(0.0F);
+    if (!open) return;
     ImGui::PushID("device");
-    fact_row("Device", state.device.name);
-    fact_row("State", state_text(state.haptic));
+    if (state.falcon) {
+        draw_falcon_state(state);
+    } else {
+        fact_row("Device", state.device.name);
+    }
+    fact_row("State", state_text(state));
     draw_force_switch(state, -1.0F);
     const SafetyLimits standard;
     number_row({"Max force", "%.1f N", 0.0, state.device.max_force_newton,
@@ -54,6 +75,7 @@ void draw_device_panel(ViewerState& state) {
     fact_row("Proxy", point_text(touch.proxy.position));
     fact_row("Force", formatted("%.2f N", glm::length(touch.sent_force_newton)));
     if (touch.cut != SafetyCut::none) fact_row("Cut", name_of(touch.cut));
+    if (state.falcon) draw_falcon_settings(state);
     ImGui::PopID();
 }
 

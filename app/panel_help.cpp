@@ -18,6 +18,7 @@ struct Explained {
 constexpr Explained kMarks[] = {
     {"Orange ring", "The goal: where the hand is"},
     {"Blue ball", "The proxy: stays on the surface"},
+    {"Pale ball", "In a replay: the proxy as recorded"},
     {"Line between", "The spring that pulls the hand"},
     {"Yellow arrow", "The force on the hand"},
     {"Green rod", "The surface's normal"},

@@ -26,12 +26,6 @@ void draw_loop_panel(ViewerState& state) {
     fact_row("Pictures", formatted("%.0f per second", state.pictures_per_s));
     fact_row("Priority", state.grants ? state.grants->priority.answer : "asking");
     fact_row("Memory lock", state.grants ? state.grants->memory_lock.answer : "asking");
-    if (state.recording) {
-        fact_row("Recording", formatted("%llu rows, %llu lost",
-                                        static_cast<unsigned long long>(state.recording->rows),
-                                        static_cast<unsigned long long>(state.recording->dropped)));
-        if (!state.recording->failure.empty()) quiet_text(state.recording->failure);
-    }
     ImGui::PopID();
 }
 

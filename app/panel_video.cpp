@@ -21,8 +21,8 @@ void draw_open(ViewerState& state) {
         ImGui::SetKeyboardFocusHere();
         --state.fields.ask_for_keyboard;
     }
-    const bool from_colour = path_field("##colour", "Colour file", state.fields.colour);
-    explain("Path of a colour video or picture (Ctrl+O)");
+    const bool from_colour = path_field("##colour", "Colour file, or session", state.fields.colour);
+    explain("Path of a colour video or picture, or of a recorded session (Ctrl+O)");
     const bool from_depth =
         path_field("##depth", "Depth file: found beside it", state.fields.depth);
     explain("Empty: the file called like the colour file, with depth in place of color");
@@ -73,12 +73,13 @@ void draw_playback(const ViewerState& state, Player& player) {
 
 }  // namespace
 
-void draw_video_panel(ViewerState& state, Player& player) {
+void draw_video_panel(ViewerState& state, Player* player) {
     if (!section(state, "Video", state.settings.panels.video)) return;
     ImGui::PushID("video");
     draw_open(state);
     draw_files(state.media);
-    if (!state.media.still) draw_playback(state, player);
+    if (player != nullptr && !state.media.still) draw_playback(state, *player);
+    ImGui::BeginDisabled(player == nullptr);  // a replay shows what was touched
     CleaningOptions& cleaning = state.settings.cleaning;
     const CleaningOptions standard;
     flag_row("Fill holes", cleaning.fill_holes, standard.fill_holes,
@@ -87,7 +88,8 @@ void draw_video_panel(ViewerState& state, Player& player) {
              "Single pixels that stand out of all their neighbours");
     flag_row("Smooth depth steps", cleaning.smooth_steps, standard.smooth_steps,
              "Rounds the terraces of 8-bit depth, by half a level at most");
-    if (!state.playback.failure.empty()) quiet_text(state.playback.failure);
+    ImGui::EndDisabled();
+    if (player != nullptr && !state.playback.failure.empty()) quiet_text(state.playback.failure);
     ImGui::PopID();
 }
 

@@ -2,15 +2,19 @@
 #include "app/panel_widgets.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+
+#include "app/panel_list.hpp"
 
 namespace dibhr {
 
 namespace {
 
 constexpr float kLabelShare = 0.40F;  // of a row's width
+const ImVec4 kTrouble{0.95F, 0.72F, 0.38F, 1.0F};
 
 /// The label, and the cursor moved to where the row's value begins.
 void row_label(const char* label, const char* help) {
@@ -113,7 +117,7 @@ bool number_row(const NumberRow& row, double& value) {
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - arrow_width() -
                             ImGui::GetStyle().ItemInnerSpacing.x);
     ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &row.lowest, &row.highest,
-                        row.format);
+                        row.format, row.logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
     explain("Drag, or Ctrl+click to type a number");
     if (put_back_arrow(std::abs(value - row.standard) > 1e-9)) value = row.standard;
     ImGui::PopID();
@@ -136,7 +140,7 @@ bool flag_row(const char* label, bool& value, bool standard, const char* help) {
 }
 
 bool choice_row(const char* label, std::span<const char* const> names, int& chosen,
-                const char* help) {
+                const char* help, int standard) {
     const int before = chosen;
     ImGui::PushID(label);
     row_label(label, help);
@@ -144,9 +148,21 @@ bool choice_row(const char* label, std::span<const char* const> names, int& chos
                             ImGui::GetStyle().ItemInnerSpacing.x);
     ImGui::Combo("##choice", &chosen, names.data(), static_cast<int>(names.size()));
     explain(help);
-    if (put_back_arrow(chosen != 0)) chosen = 0;
+    if (put_back_arrow(chosen != standard)) chosen = standard;
     ImGui::PopID();
     return chosen != before;
+}
+
+void begin_bottom_bar(const ViewerState& state, const char* name) {
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float height = ImGui::GetFrameHeight() + 2.0F * style.WindowPadding.y;
+    ImGui::SetNextWindowPos({0.0F, display.y - height});
+    ImGui::SetNextWindowSize({display.x - panel_column_width(state), height});
+    ImGui::SetNextWindowBgAlpha(0.85F);
+    ImGui::Begin(name, nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
 }
 
 void fact_row(const char* label, const std::string& value) {
@@ -174,6 +190,32 @@ void quiet_text(const std::string& text) {
     ImGui::PopStyleColor();
 }
 
+void trouble_text(const std::string& text) {
+    const float line = ImGui::GetTextLineHeight();
+    const ImVec2 low = ImGui::GetCursorScreenPos();
+    const ImU32 colour = ImGui::GetColorU32(kTrouble);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddTriangle({low.x + line * 0.5F, low.y + line * 0.1F},
+                     {low.x + line * 0.02F, low.y + line * 0.92F},
+                     {low.x + line * 0.98F, low.y + line * 0.92F}, colour, line * 0.09F);
+    list.AddLine({low.x + line * 0.5F, low.y + line * 0.38F},
+                 {low.x + line * 0.5F, low.y + line * 0.65F}, colour, line * 0.11F);
+    list.AddCircleFilled({low.x + line * 0.5F, low.y + line * 0.78F}, line * 0.065F, colour);
+    ImGui::Dummy({line, line});
+    ImGui::SameLine();
+    ImGui::PushStyleColor(ImGuiCol_Text, kTrouble);
+    ImGui::PushTextWrapPos(0.0F);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+}
+
+bool part(const char* title) {
+    ImGui::Spacing();
+    return ImGui::TreeNodeEx(
+        title, ImGuiTreeNodeFlags_SpanAvailWidth | ImGuiTreeNodeFlags_NoTreePushOnOpen);
+}
+
 bool icon_button(const char* id, Icon icon, const char* help, bool lit) {
     const float side = ImGui::GetFrameHeight();
     ImGui::PushID(id);
@@ -190,6 +232,13 @@ bool icon_button(const char* id, Icon icon, const char* help, bool lit) {
     return pressed;
 }
 
+std::string capitalised(std::string line) {
+    if (!line.empty()) {
+        line[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(line[0])));
+    }
+    return line;
+}
+
 std::string formatted(const char* format, ...) {
     char text[512];
     std::va_list values;
@@ -197,6 +246,12 @@ std::string formatted(const char* format, ...) {
     std::vsnprintf(text, sizeof text, format, values);
     va_end(values);
     return text;
+}
+
+std::string date_text(const std::string& utc) {
+    constexpr std::size_t kDate = 10, kMinutes = 16, kWhole = 20;
+    if (utc.size() != kWhole || utc[kDate] != 'T' || utc.back() != 'Z') return utc;
+    return utc.substr(0, kDate) + " " + utc.substr(kDate + 1, kMinutes - kDate - 1) + " UTC";
 }
 
 std::string clock_text(double seconds) {

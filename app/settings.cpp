@@ -9,19 +9,19 @@
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
-#include <functional>
 #include <iostream>
 #include <optional>
 #include <set>
 #include <sstream>
+#include <string>
 #include <string_view>
 #include <system_error>
+#include <variant>
+#include <vector>
 
-#include "app/options.hpp"
-#include "core/files/output_file.hpp"
-#include "app/window.hpp"
+#include "app/settings_list.hpp"
 #include "core/error.hpp"
-#include "core/haptics/algorithm.hpp"
+#include "core/files/output_file.hpp"
 
 namespace dibhr {
 
@@ -30,41 +30,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::int64_t kVersion = 1;
-
-constexpr double kDeviceMaxForce_newton = 8.0;  // the mouse's virtual hand and the Falcon alike
-
-struct Range {
-    double lowest;
-    double highest;
-};
-
-/// Every value that a settings file holds, visited with table, name and range: the one list that
-/// reading and writing share. `Visitor` has a member for each type.
-template <typename Visitor>
-void visit_settings(Settings& s, Visitor& visit) {
-    visit.integer("window", "width", s.width, {kSmallestWindow, kLargestWindow});
-    visit.integer("window", "height", s.height, {kSmallestWindow, kLargestWindow});
-    visit.flag("window", "panels-visible", s.panels_visible);
-    visit.flag("panels", "video", s.panels.video);
-    visit.flag("panels", "surface", s.panels.surface);
-    visit.flag("panels", "touch", s.panels.touch);
-    visit.flag("panels", "device", s.panels.device);
-    visit.flag("panels", "loop", s.panels.loop);
-    visit.algorithm("touch", "algorithm", s.touch.algorithm);
-    for (const NumberOption& option : number_options()) {
-        visit.number("touch", option.name, option.in(s.touch), {option.lowest, option.highest});
-    }
-    visit.number("device", "max-force", s.max_force_newton, {0.0, kDeviceMaxForce_newton});
-    visit.flag("cleaning", "fill-holes", s.cleaning.fill_holes);
-    visit.flag("cleaning", "remove-spikes", s.cleaning.remove_spikes);
-    visit.flag("cleaning", "smooth-steps", s.cleaning.smooth_steps);
-    visit.flag("look", "discard-silhouettes", s.look.discard_silhouettes);
-    visit.number("look", "silhouette-slope", s.look.silhouette_slope, {1.0, 100.0});
-    visit.flag("look", "textured", s.look.textured);
-    visit.number("look", "light", s.look.light, {0.0, 1.0});
-    visit.flag("look", "coarse", s.look.coarse);
-    visit.flag("look", "straight-view", s.straight_view);
-}
 
 /// Takes values out of a parsed file; what does not fit is told with its line and left at its
 /// default.
@@ -102,13 +67,25 @@ class Reading {
         value = static_cast<int>(std::lround(read));
     }
 
-    void algorithm(std::string_view table, std::string_view name, Algorithm& value) {
+    template <typename Enum>
+    void word(std::string_view table, std::string_view name, Enum& value,
+              const Words<Enum>& words) {
         if (const toml::node* node = find(table, name)) {
-            const auto read = algorithm_named(node->value<std::string_view>().value_or(""));
+            const auto read = words.named(node->value<std::string_view>().value_or(""));
             if (read) {
                 value = *read;
             } else {
-                warn(*node, table, name, "is not the name of an algorithm");
+                warn(*node, table, name, "is not " + std::string(words.what));
+            }
+        }
+    }
+
+    void text(std::string_view table, std::string_view name, std::string& value) {
+        if (const toml::node* node = find(table, name)) {
+            if (const auto read = node->value_exact<std::string>()) {
+                value = *read;
+            } else {
+                warn(*node, table, name, "is not a text in quotes");
             }
         }
     }
@@ -171,8 +148,15 @@ class Writing {
     void integer(std::string_view table, std::string_view name, int& value, Range) {
         line(table, name, std::to_string(value));
     }
-    void algorithm(std::string_view table, std::string_view name, Algorithm& value) {
-        line(table, name, '"' + std::string(name_of(value)) + '"');
+    template <typename Enum>
+    void word(std::string_view table, std::string_view name, Enum& value,
+              const Words<Enum>& words) {
+        line(table, name, '"' + std::string(words.name_of(value)) + '"');
+    }
+    void text(std::string_view table, std::string_view name, std::string& value) {
+        std::ostringstream quoted;
+        quoted << toml::value<std::string>(value);
+        line(table, name, quoted.str());
     }
 
     [[nodiscard]] std::string text() const { return text_.str(); }
@@ -188,24 +172,32 @@ class Writing {
     std::string table_{};
 };
 
+using Value = std::variant<double, std::string>;
+
 /// Every value in the list's order, so that two states can be compared one by one.
 class Listing {
   public:
     void flag(std::string_view, std::string_view, bool& value) {
-        values.push_back(value ? 1.0 : 0.0);
+        values.emplace_back(value ? 1.0 : 0.0);
     }
     void number(std::string_view, std::string_view, double& value, Range) {
-        values.push_back(value);
+        values.emplace_back(value);
     }
-    void integer(std::string_view, std::string_view, int& value, Range) { values.push_back(value); }
-    void algorithm(std::string_view, std::string_view, Algorithm& value) {
-        values.push_back(static_cast<double>(value));
+    void integer(std::string_view, std::string_view, int& value, Range) {
+        values.emplace_back(static_cast<double>(value));
+    }
+    template <typename Enum>
+    void word(std::string_view, std::string_view, Enum& value, const Words<Enum>&) {
+        values.emplace_back(static_cast<double>(value));
+    }
+    void text(std::string_view, std::string_view, std::string& value) {
+        values.emplace_back(value);
     }
 
-    std::vector<double> values{};
+    std::vector<Value> values{};
 };
 
-std::vector<double> values_of(const Settings& settings) {
+std::vector<Value> values_of(const Settings& settings) {
     Listing listing;
     Settings copy = settings;
     visit_settings(copy, listing);
@@ -215,20 +207,24 @@ std::vector<double> values_of(const Settings& settings) {
 /// Puts values back in the list's order.
 class Filling {
   public:
-    explicit Filling(const std::vector<double>& values) : values_(values) {}
-    void flag(std::string_view, std::string_view, bool& value) { value = values_[next_++] > 0.5; }
-    void number(std::string_view, std::string_view, double& value, Range) {
-        value = values_[next_++];
-    }
+    explicit Filling(const std::vector<Value>& values) : values_(values) {}
+    void flag(std::string_view, std::string_view, bool& value) { value = next_number() > 0.5; }
+    void number(std::string_view, std::string_view, double& value, Range) { value = next_number(); }
     void integer(std::string_view, std::string_view, int& value, Range) {
-        value = static_cast<int>(std::lround(values_[next_++]));
+        value = static_cast<int>(std::lround(next_number()));
     }
-    void algorithm(std::string_view, std::string_view, Algorithm& value) {
-        value = static_cast<Algorithm>(std::lround(values_[next_++]));
+    template <typename Enum>
+    void word(std::string_view, std::string_view, Enum& value, const Words<Enum>&) {
+        value = static_cast<Enum>(std::lround(next_number()));
+    }
+    void text(std::string_view, std::string_view, std::string& value) {
+        value = std::get<std::string>(values_[next_++]);
     }
 
   private:
-    const std::vector<double>& values_;
+    double next_number() { return std::get<double>(values_[next_++]); }
+
+    const std::vector<Value>& values_;
     std::size_t next_{0};
 };
 
@@ -305,11 +301,11 @@ void save_settings(const Settings& settings, const fs::path& file) {
 }
 
 Settings changes_kept(const Settings& in_file, const Settings& started, const Settings& now) {
-    std::vector<double> kept = values_of(in_file);
-    const std::vector<double> before = values_of(started);
-    const std::vector<double> after = values_of(now);
+    std::vector<Value> kept = values_of(in_file);
+    const std::vector<Value> before = values_of(started);
+    const std::vector<Value> after = values_of(now);
     for (std::size_t k = 0; k < kept.size(); ++k) {
-        if (std::not_equal_to<>{}(before[k], after[k])) kept[k] = after[k];
+        if (before[k] != after[k]) kept[k] = after[k];
     }
     Settings result = in_file;
     Filling filling(kept);

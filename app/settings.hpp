@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/falcon_settings.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/safety.hpp"
 #include "core/video/depth_cleaning.hpp"
@@ -19,6 +20,7 @@ struct PanelsOpen {
     bool surface{false};
     bool touch{true};
     bool device{true};
+    bool session{false};
     bool loop{false};
 
     bool operator==(const PanelsOpen&) const = default;
@@ -36,6 +38,7 @@ struct Settings {
     ReliefLook look{};
     bool straight_view{false};
     double max_force_newton{SafetyLimits{}.max_force_newton};  ///< 0 .. 8
+    FalconSettings falcon{};
 };
 
 /// $XDG_CONFIG_HOME/dibhr/settings.toml, or ~/.config/dibhr/settings.toml.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "app/command_options.hpp"
 #include "app/settings.hpp"
 #include "core/haptics/parameters.hpp"
 
@@ -14,9 +15,10 @@ namespace dibhr {
 /// `parameters = settings.touch`, `width = settings.width`, `height = settings.height`; the command
 /// line's values come on top. The window saves only what a person changed in it.
 struct ViewOptions {
-    std::filesystem::path colour{};  ///< empty: the built-in sample
-    std::filesystem::path depth{};   ///< empty: found beside the colour file
-    std::string device{"auto"};      ///< auto | falcon | mouse | goals:FILE
+    std::filesystem::path colour{};    ///< or a session; empty: the built-in sample
+    std::filesystem::path depth{};     ///< empty: found beside the colour file
+    std::string device{"auto"};        ///< auto | falcon | falcon:SERIAL | mouse | goals:FILE
+    std::filesystem::path firmware{};  ///< for a Falcon that has none; empty: the kept one
     std::filesystem::path record{};
     std::filesystem::path screenshot{};  ///< the last picture, as PNG
     std::optional<double> seconds{};     ///< leave after so long
@@ -25,7 +27,9 @@ struct ViewOptions {
     int height{800};
     std::filesystem::path bump{};
     bool raw_depth{false};         ///< no cleaning
+    bool any_media{false};         ///< replay: also over files that have changed
     TouchParameters parameters{};  ///< settings file first, then the command line
+    GivenParameters given{};       ///< the command line's alone: they beat a session's
     Settings settings{};           ///< as the file holds them
 };
 

@@ -3,13 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <ctime>
-#include <exception>
-#include <filesystem>
 #include <utility>
 
-#include "app/keys.hpp"
 #include "app/panel_list.hpp"
 #include "app/viewer_actions.hpp"
 #include "app/viewer_scene.hpp"
@@ -41,21 +36,6 @@ std::chrono::nanoseconds shortest_picture(bool sync) {
     return read_limits().software ? kSoftwarePictureTime : kPictureTime;
 }
 
-/// To the millisecond, so that no two pictures share a name.
-std::string screenshot_name() {
-    const auto now = std::chrono::system_clock::now();
-    const std::time_t seconds = std::chrono::system_clock::to_time_t(now);
-    const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch());
-    std::tm local{};
-    localtime_r(&seconds, &local);
-    char date[32];
-    std::strftime(date, sizeof date, "%Y%m%d-%H%M%S", &local);
-    char name[64];
-    std::snprintf(name, sizeof name, "dibhr-%s-%03d.png", date,
-                  static_cast<int>(ms.count() % 1000));
-    return std::filesystem::absolute(name).string();
-}
-
 }  // namespace
 
 Viewer::Viewer(const ViewOptions& options, ViewerParts parts, EndingSignals& signals)
@@ -65,24 +45,25 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, EndingSignals& sig
       window_(options.width, options.height, options.sync, "dibhr"),
       gui_(window_),
       pace_(shortest_picture(options.sync)),
+      state_{.settings = starting_settings(options)},
+      falcon_(hand_, state_),
       keeper_(options.settings, starting_settings(options), settings_path()),
       start_(steady_clock::now()),
-      forces_(std::make_unique<ForceRing>()) {
-    state_.settings = starting_settings(options);
+      forces_(std::make_unique<ForceRing>()),
+      ticks_(std::make_unique<TickRing>()),
+      recording_(*ticks_) {
     state_.device = hand_.device->specification();
     state_.bump = std::move(parts.bump);
     state_.bump_file = options.bump;
     state_.fonts = gui_.fonts();
     state_.scale = gui_.scale();
-    hand_over_settings();
-    show_media(std::move(parts.media));
-    if (!options.record.empty()) {
-        ticks_ = std::make_unique<TickRing>();
-        recorder_ = std::make_unique<Recorder>(options.record, *ticks_, session_facts(state_));
-        state_.recording_file = options.record;
+    if (parts.session) {
+        replay_session(std::move(parts.session));
+        return;
     }
-    loop_ = std::make_unique<HapticLoop>(HapticConnections{
-        *hand_.device, player_.haptics(), haptic_settings_, haptic_state_, *forces_, ticks_.get()});
+    state_.media = parts.media->description();
+    if (!options.record.empty()) recording_.start(options.record, state_);
+    show_media(std::move(parts.media));
 }
 
 void Viewer::run() {
@@ -95,7 +76,7 @@ void Viewer::run() {
 }
 
 void Viewer::finish() {
-    loop_->stop();  // the hand is at rest before anything is written
+    if (loop_) loop_->stop();  // the hand is at rest before anything is written
     std::string failure;
     const auto attempt = [&failure](auto&& step) {
         try {
@@ -105,13 +86,9 @@ void Viewer::finish() {
         }
     };
     attempt([this] { write_last_picture(); });
-    attempt([this] { keeper_.finish(state_.settings); });
-    for (auto& screenshot : screenshots_) attempt([&screenshot] { screenshot.get(); });
-    if (recorder_)
-        attempt([this] {
-            const RecorderStatus recorded = recorder_->finish();
-            if (!recorded.failure.empty()) throw InputError(recorded.failure);
-        });
+    attempt([this] { keeper_.finish(replay_.lasting(state_)); });
+    attempt([this] { screenshots_.finish(); });
+    attempt([this] { recording_.finish(); });
     if (!failure.empty()) throw InputError(failure);
 }
 
@@ -119,11 +96,7 @@ void Viewer::show_one_picture() {
     const WindowInput input = window_.take_input();
     take_news();
     obey_keys(input);
-    if (const auto dropped = dropped_request(input.dropped)) {
-        state_.requests.open = dropped;
-    } else if (!input.dropped.empty()) {
-        state_.message = "drop one colour file, or a colour and a depth file together";
-    }
+    take_dropped(input.dropped);
     state_.window_width = static_cast<float>(window_.framebuffer_size().x);
     const glm::ivec2 viewport = relief_viewport();
     move_hand(input, viewport);
@@ -137,19 +110,18 @@ void Viewer::show_one_picture() {
 
 void Viewer::take_news() {
     state_.playback = player_.status();
-    state_.haptic = haptic_state_.front();
+    if (loop_) state_.haptic = haptic_state_.front();
+    if (replay_.player() != nullptr) replay_.advance(state_);
+    if (const auto notice = falcon_.take_news(state_)) tell(*notice);
+    for (const Action action : falcon_.take_presses(state_)) obey(action);
     state_.touched = state_.touched || state_.haptic.touch.proxy.contact;
-    if (!state_.grants) state_.grants = loop_->grants();
-    if (recorder_) state_.recording = recorder_->status();
+    if (!state_.grants && loop_) state_.grants = loop_->grants();
+    recording_.take_news(state_);
     for (ForceSample sample; forces_->pop(sample);) state_.forces.add(sample.sent_newton);
     state_.pictures_per_s = pace_.pictures_per_s();
-    if (auto opened = opening_.take()) {
-        if (opened->media) show_media(std::move(opened->media));
-        state_.message = opened->failure;
-    }
-    state_.opening = opening_.under_way();
-    tell_once(state_.playback.failure, playback_failure_);
-    if (state_.recording) tell_once(state_.recording->failure, recording_failure_);
+    take_opened();
+    tell_once(state_.replay ? state_.replay->playback.failure : state_.playback.failure,
+              playback_failure_);
     collect_screenshots();
 }
 
@@ -159,22 +131,30 @@ void Viewer::obey_keys(const WindowInput& input) {
     const bool typing = gui_.wants_keyboard() || state_.fields.ask_for_keyboard > 0;
     for (const KeyPress& press : input.keys) {
         if (const auto action = action_of_key(press.key, press.control, typing, press.repeated))
-            perform(*action, state_, player_);
+            obey(*action);
     }
     if (typing) return;
     for (const TypedCharacter& typed : input.characters) {
-        if (const auto action = action_of_character(typed.code, typed.repeated))
-            perform(*action, state_, player_);
+        if (const auto action = action_of_character(typed.code, typed.repeated)) obey(*action);
     }
+}
+
+void Viewer::obey(Action action) {
+    SessionPlayer* const replay = replay_.player();
+    if (replay != nullptr && perform_in_replay(action, *replay)) return;
+    perform(action, state_, player_);
 }
 
 void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {
     const FrameWindow& frames = player_.picture().front();
     shown_ = frames.at(frames.clock.playback_s(steady_clock::now()));
+    if (state_.replay) shown_ = replay_.shown();
     const Pointer pointer = window_.pointer();
-    const PointerUse use =
+    PointerUse use =
         mouse_.use(pointer, input.wheel_steps, gui_.wants_pointer(), viewport, camera_);
-    if (hand_.mouse == nullptr || !shown_.makes_surface()) return;
+    // While the Falcon touches the mouse only points, so that it does not take over pressing.
+    if (hand_.falcon != nullptr && !state_.haptic.hand.stand_in) use.pressed = false;
+    if (state_.replay || hand_.mouse == nullptr || !shown_.makes_surface()) return;
     const DepthSurface surface(*shown_.from->depth, *shown_.to->depth, shown_.blend,
                                state_.settings.touch.shape, state_.bump.get());
     const Camera::Ray ray = camera_.ray_under(pointer.position_px, viewport);
@@ -190,11 +170,17 @@ void Viewer::draw_scene(glm::ivec2 viewport) {
 void Viewer::draw_panels() {
     gui_.begin();
     if (state_.settings.panels_visible) {
-        draw_panel_column(state_, player_);
-        draw_transport_bar(state_, player_);
+        draw_panel_column(state_, player_, replay_.player());
+        if (SessionPlayer* const replay = replay_.player()) {
+            draw_replay_bar(state_, *replay);
+        } else {
+            draw_transport_bar(state_, player_);
+        }
     }
     if (state_.touched) hint_alpha_ = std::max(0.0F, hint_alpha_ - 0.03F);
-    if (hand_.mouse != nullptr && state_.message.empty()) draw_hint(state_, hint_alpha_);
+    const bool mouse_touches = !state_.replay && hand_.mouse != nullptr &&
+                               (hand_.falcon == nullptr || state_.haptic.hand.stand_in);
+    if (mouse_touches && state_.message.empty()) draw_hint(state_, hint_alpha_);
     draw_overlay(state_, now_s());
     draw_help_sheet(state_);
     draw_message_box(state_);
@@ -202,28 +188,41 @@ void Viewer::draw_panels() {
 }
 
 void Viewer::carry_out_requests() {
+    if (state_.replay) replay_.obey_panels(state_);
     const Requests asked = std::exchange(state_.requests, {});
     if (asked.open && !opening_.start(*asked.open)) tell("Still opening the last files");
     if (asked.bump) load_bump(*asked.bump);
+    if (asked.firmware) load_firmware(*asked.firmware);
     if (asked.reset_view) frame_relief();
     if (asked.full_screen) window_.toggle_full_screen();
-    if (asked.screenshot) save_screenshot();
+    if (asked.toggle_recording) start_or_stop_recording();
+    if (asked.mark) tell(recording_.mark(state_));
+    if (asked.leave_replay && !opening_.start({state_.media.colour_path, state_.media.depth_path}))
+        tell("Still opening the last files");
+    if (asked.screenshot) screenshots_.save(read_framebuffer(window_.framebuffer_size()));
     if (asked.quit) window_.close();
 }
 
 void Viewer::hand_over_settings() {
+    if (state_.replay) return;
     SafetyLimits limits;
     limits.max_force_newton =
         std::min(state_.settings.max_force_newton, state_.device.max_force_newton);
-    const bool same = handed_.version > 0 && handed_.parameters == state_.settings.touch &&
+    const TouchParameters parameters = touch_parameters(state_);
+    const bool same = handed_.version > 0 && handed_.parameters == parameters &&
+                      !falcon_.tuning_changed(state_) &&
                       handed_.force_enabled == state_.force_enabled &&
                       handed_.bump == state_.bump &&
                       !(std::abs(handed_.limits.max_force_newton - limits.max_force_newton) > 0.0);
-    if (!same) {
-        handed_ = {state_.settings.touch, limits, state_.force_enabled, state_.bump,
-                   handed_.version + 1};
+    const bool recording = recording_.active();
+    if (!same || handed_.recording != recording) {
+        handed_ = {parameters,  limits,    state_.force_enabled,
+                   state_.bump, recording, handed_.version + (same ? 0 : 1)};
+        recording_.hand_over(handed_, state_.bump_file);
         haptic_settings_.publish(handed_);
     }
+    // After the above, so that the force is already rising from zero when the goal moves elsewhere.
+    if (falcon_.tuning_changed(state_)) falcon_.hand_over(state_);
     if (!(cleaning_handed_ == state_.settings.cleaning)) {
         cleaning_handed_ = state_.settings.cleaning;
         player_.set_cleaning(cleaning_handed_);
@@ -235,52 +234,37 @@ void Viewer::keep_settings() {
     state_.settings.width = size.x;
     state_.settings.height = size.y;
     try {
-        keeper_.look(state_.settings, now_s());
+        keeper_.look(replay_.lasting(state_), now_s());
     } catch (const InputError& error) {
         state_.message = error.what();
     }
 }
 
-void Viewer::show_media(std::unique_ptr<Media> media) {
-    state_.media = media->description();
-    frame_relief();
-    window_.set_title(state_.media.colour_path.filename().string() + " - dibhr");
-    player_.play_media(std::move(media));
-}
-
-void Viewer::frame_relief() {
-    camera_.frame_relief(state_.media.depth_columns, state_.media.depth_rows,
-                         state_.settings.touch.shape.relief_px);
-}
-
-void Viewer::load_bump(const std::filesystem::path& file) {
-    try {
-        state_.bump = file.empty() ? nullptr : std::make_shared<const BumpMap>(read_bump_map(file));
-        state_.bump_file = file;
-    } catch (const Error& error) {
-        state_.message = error.what();
-    }
-}
-
-void Viewer::save_screenshot() {
-    const auto write = [picture = read_framebuffer(window_.framebuffer_size()),
-                        file = screenshot_name()] {
-        write_png(picture, file);
-        return "Saved " + file;
-    };
-    screenshots_.push_back(std::async(std::launch::async, write));
-}
-
-void Viewer::collect_screenshots() {
-    std::erase_if(screenshots_, [this](auto& screenshot) {
-        if (screenshot.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
+void Viewer::start_or_stop_recording() {
+    if (state_.replay) {
+        tell("A replay is not recorded: open a video to touch");
+    } else if (recording_.active()) {
+        tell(recording_.stop(state_));
+    } else if (handed_.recording) {
+        state_.requests.toggle_recording = true;  // when the loop has seen the last one's end
+    } else {
         try {
-            tell(screenshot.get());
+            const std::string file = new_file_name("dibhr");
+            recording_.start(file, state_);
+            state_.show_session = true;
+            tell("Recording into " + file);
         } catch (const InputError& error) {
             state_.message = error.what();
         }
-        return true;
-    });
+    }
+}
+
+void Viewer::collect_screenshots() {
+    try {
+        while (const auto notice = screenshots_.take()) tell(*notice);
+    } catch (const InputError& error) {
+        state_.message = error.what();
+    }
 }
 
 void Viewer::write_last_picture() {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <chrono>
-#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,16 +9,20 @@
 
 #include "app/hand_device.hpp"
 #include "app/haptic_loop.hpp"
+#include "app/keys.hpp"
 #include "app/view_options.hpp"
+#include "app/viewer_falcon.hpp"
+#include "app/viewer_files.hpp"
 #include "app/viewer_keeping.hpp"
 #include "app/viewer_mouse.hpp"
 #include "app/viewer_opening.hpp"
+#include "app/viewer_recording.hpp"
+#include "app/viewer_replay.hpp"
 #include "app/viewer_state.hpp"
 #include "app/window.hpp"
 #include "app/window_gui.hpp"
 #include "app/window_pace.hpp"
 #include "app/window_signals.hpp"
-#include "core/session/recorder.hpp"
 #include "render/camera.hpp"
 #include "render/scene_view.hpp"
 
@@ -28,6 +31,7 @@ namespace dibhr {
 /// What run_viewer() opened before there was a window.
 struct ViewerParts {
     std::unique_ptr<Media> media{};
+    std::unique_ptr<OpenedSession> session{};  ///< to be replayed, in place of media
     HandDevice hand{};
     std::shared_ptr<const BumpMap> bump{};
 };
@@ -44,7 +48,10 @@ class Viewer {
   private:
     void show_one_picture();
     void take_news();
+    void take_opened();
     void obey_keys(const WindowInput& input);
+    void obey(Action action);
+    void take_dropped(const std::vector<std::filesystem::path>& files);
     void move_hand(const WindowInput& input, glm::ivec2 viewport);
     void draw_scene(glm::ivec2 viewport);
     void draw_panels();
@@ -52,9 +59,13 @@ class Viewer {
     void hand_over_settings();
     void keep_settings();
     void show_media(std::unique_ptr<Media> media);
+    void replay_session(std::unique_ptr<OpenedSession> session);
+    void show_title(const std::filesystem::path& file);
+    void start_loop();
     void frame_relief();
     void load_bump(const std::filesystem::path& file);
-    void save_screenshot();
+    void load_firmware(const std::filesystem::path& file);
+    void start_or_stop_recording();
     void collect_screenshots();
     void finish();
     void write_last_picture();
@@ -78,23 +89,24 @@ class Viewer {
     ReliefMouse mouse_{};
     HandPointer pointer_{};
     ViewerState state_{};
+    ViewerFalcon falcon_;
     Opening opening_{};
-    std::vector<std::future<std::string>> screenshots_{};
+    Screenshots screenshots_{};
     SettingsKeeper keeper_;
     HapticSettings handed_{};
     CleaningOptions cleaning_handed_{};
     DepthBlend shown_{};  // of the picture being made
     float hint_alpha_{1.0F};
     std::string playback_failure_{};  // as told
-    std::string recording_failure_{};
     std::chrono::steady_clock::time_point start_{};
     Player player_{};
     TripleBuffer<HapticSettings> haptic_settings_{};
     TripleBuffer<HapticState> haptic_state_{};
     std::unique_ptr<ForceRing> forces_;
-    std::unique_ptr<TickRing> ticks_;  // null: not recording
-    std::unique_ptr<Recorder> recorder_;
-    std::unique_ptr<HapticLoop> loop_;
+    std::unique_ptr<TickRing> ticks_;
+    ViewerRecording recording_;
+    ViewerReplay replay_{};
+    std::unique_ptr<HapticLoop> loop_;  // null in a replay: no hand is read, no force is sent
 };
 
 }  // namespace dibhr

@@ -72,6 +72,15 @@ void perform(Action action, ViewerState& state, Player& player) {
         case Action::force_off:
             state.force_enabled = false;
             break;
+        case Action::centre_workspace:
+            ++state.centred;
+            break;
+        case Action::record:
+            state.requests.toggle_recording = true;
+            break;
+        case Action::mark:
+            state.requests.mark = true;
+            break;
         case Action::reset_view:
             state.requests.reset_view = true;
             break;
@@ -100,6 +109,46 @@ void perform(Action action, ViewerState& state, Player& player) {
         case Action::quit:
             state.requests.quit = true;
             break;
+    }
+}
+
+bool perform_in_replay(Action action, SessionPlayer& replay) {
+    const SessionPlayback& playback = replay.playback();
+    switch (action) {
+        case Action::play_or_pause:
+            playback.playing ? replay.pause() : replay.play();
+            return true;
+        case Action::step_forward:
+            replay.step(1);
+            return true;
+        case Action::step_back:
+            replay.step(-1);
+            return true;
+        case Action::seek_forward:
+            replay.seek(playback.now_s + kSeekStep_s);
+            return true;
+        case Action::seek_back:
+            replay.seek(playback.now_s - kSeekStep_s);
+            return true;
+        case Action::go_to_start:
+            replay.seek(playback.begin_s);
+            return true;
+        case Action::faster:
+            replay.set_speed(faster_than(playback.speed));
+            return true;
+        case Action::slower:
+            replay.set_speed(slower_than(playback.speed));
+            return true;
+        case Action::toggle_loop:
+            replay.set_looping(!playback.looping);
+            return true;
+        case Action::toggle_force:
+        case Action::force_off:
+        case Action::centre_workspace:
+        case Action::mark:
+            return true;  // no hand is touching
+        default:
+            return false;
     }
 }
 

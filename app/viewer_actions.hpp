@@ -2,10 +2,14 @@
 #pragma once
 
 #include "app/keys.hpp"
+#include "app/session_player.hpp"
 #include "app/viewer_state.hpp"
 
 namespace dibhr {
 
 void perform(Action action, ViewerState& state, Player& player);
+
+/// What moves a replay, and nothing else; false when the action is not about that.
+bool perform_in_replay(Action action, SessionPlayer& replay);
 
 }  // namespace dibhr

@@ -7,20 +7,25 @@
 #include <string>
 #include <vector>
 
+#include "app/session_moments.hpp"
 #include "app/viewer_state.hpp"
 #include "core/video/media.hpp"
 
 namespace dibhr {
 
-/// What came of it: media, or a plain sentence.
+/// What came of it: media, a session, or a plain sentence.
 struct Opened {
     std::unique_ptr<Media> media{};
+    std::unique_ptr<OpenedSession> session{};
     std::string failure{};
 };
 
 /// Opens what a person dropped or typed. Dropped pairs are told apart by name, else by which one is
 /// grey. Throws InputError.
 [[nodiscard]] std::unique_ptr<Media> open_request(const OpenRequest& request);
+
+/// Whether a session is asked for, and nothing else.
+[[nodiscard]] bool asks_for_session(const OpenRequest& request);
 
 /// One or two dropped files as a request; nothing for none or more than two.
 [[nodiscard]] std::optional<OpenRequest> dropped_request(

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "app/assets_path.hpp"
+#include "app/error_line.hpp"
+#include "app/session_moments.hpp"
 #include "app/viewer.hpp"
 #include "core/error.hpp"
 
@@ -39,7 +41,7 @@ void require_writable_outputs(const ViewOptions& options) {
     }
 }
 
-ViewerParts open_parts(const ViewOptions& options) {
+std::unique_ptr<Media> open_asked_media(const ViewOptions& options) {
     fs::path colour = options.colour;
     fs::path depth = options.depth;
     if (colour.empty()) {
@@ -47,9 +49,20 @@ ViewerParts open_parts(const ViewOptions& options) {
         colour = sample.colour;
         depth = sample.depth;
     }
+    return open_media(colour, depth);
+}
+
+ViewerParts open_parts(const ViewOptions& options) {
     ViewerParts parts;
-    parts.media = open_media(colour, depth);
-    parts.hand = make_hand_device(options.device);
+    if (names_session(options.colour)) {
+        parts.session = std::make_unique<OpenedSession>(options.colour, options.any_media);
+        print_warning(parts.session->session.warning());
+        print_warning(parts.session->frames.warning());
+    } else {
+        parts.media = open_asked_media(options);
+    }
+    parts.hand =
+        make_hand_device(options.device, {options.settings.falcon.connection, options.firmware});
     if (!options.bump.empty())
         parts.bump = std::make_shared<const BumpMap>(read_bump_map(options.bump));
     return parts;

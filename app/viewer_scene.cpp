@@ -30,6 +30,10 @@ TouchMarkers markers_of(const ViewerState& state, const DepthSurface& surface) {
     markers.friction =
         touch.proxy.slipping ? friction.dynamic_coefficient : friction.static_coefficient;
     markers.force_newton = touch.sent_force_newton;
+    if (state.replay && state.replay->computed) {
+        const double(&proxy)[3] = state.replay->tick.proxy;
+        markers.recorded_proxy = Vec3{proxy[0], proxy[1], proxy[2]};
+    }
     return markers;
 }
 
@@ -59,11 +63,16 @@ std::map<std::string, std::string> session_facts(const ViewerState& state) {
     std::map<std::string, std::string> facts{
         {"program", "dibhr " DIBHR_VERSION},
         {"device", state.device.name},
+        {"device-max-force", number_text(state.device.max_force_newton)},
+        {"device-max-stiffness", number_text(state.device.max_stiffness_newton_per_mm)},
+        {"device-workspace-mm", number_text(state.device.workspace_mm.x) + " x " +
+                                    number_text(state.device.workspace_mm.y) + " x " +
+                                    number_text(state.device.workspace_mm.z)},
         {"algorithm", name_of(state.settings.touch.algorithm)},
         {"colour", state.media.colour_path.string()},
         {"depth", state.media.depth_path.string()},
-        {"columns", std::to_string(state.media.depth_columns)},
-        {"rows", std::to_string(state.media.depth_rows)},
+        {"depth-columns", std::to_string(state.media.depth_columns)},
+        {"depth-rows", std::to_string(state.media.depth_rows)},
         {"bump", state.bump_file.string()},
         {"max-force", number_text(state.settings.max_force_newton)},
     };
@@ -75,6 +84,13 @@ std::map<std::string, std::string> session_facts(const ViewerState& state) {
     facts.emplace("fill-holes", cleaning.fill_holes ? "yes" : "no");
     facts.emplace("remove-spikes", cleaning.remove_spikes ? "yes" : "no");
     facts.emplace("smooth-steps", cleaning.smooth_steps ? "yes" : "no");
+    if (state.falcon) {
+        FalconSettings falcon = state.settings.falcon;
+        facts.emplace("falcon-serial", state.falcon->status.serial);
+        for (const FalconNumber& number : falcon_numbers()) {
+            facts.emplace("falcon-" + std::string(number.name), number_text(number.in(falcon)));
+        }
+    }
     return facts;
 }
 

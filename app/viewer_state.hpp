@@ -4,18 +4,23 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/haptic_loop.hpp"
+#include "app/session_outline.hpp"
+#include "app/session_player.hpp"
 #include "app/settings.hpp"
 #include "app/window_gui.hpp"
 #include "core/session/recorder.hpp"
 #include "core/video/media.hpp"
 #include "core/video/player.hpp"
 #include "device/device.hpp"
+#include "device/falcon/status.hpp"
 
 namespace dibhr {
 
@@ -47,22 +52,63 @@ struct TextFields {
     Field colour{};
     Field depth{};
     Field bump{};
-    int ask_for_keyboard{0};  ///< Ctrl+O: pictures left in which the colour field asks for the keyboard
+    Field firmware{};
+    Field participant{};  ///< kept with a recording
+    Field note{};
+    Field tag{};  ///< of the next mark
+    int ask_for_keyboard{
+        0};  ///< Ctrl+O: pictures left in which the colour field asks for the keyboard
 };
 
 /// What a panel asks the viewer to do after the picture.
 struct Requests {
     std::optional<OpenRequest> open{};
     std::optional<std::filesystem::path> bump{};  ///< empty path: no bump map
+    std::optional<std::filesystem::path> firmware{};
     bool reset_view{false};
+    bool toggle_recording{false};
+    bool mark{false};
+    bool as_recorded{false};   ///< a replay: no other parameters any more
+    bool leave_replay{false};  ///< its video is to be touched
     bool screenshot{false};
     bool full_screen{false};
     bool quit{false};
 };
 
+/// What the window shows of a recording that is going on.
+struct RecordingNews {
+    RecorderStatus status{};
+    std::filesystem::path file{};
+    double time_s{0.0};                ///< since it began
+    std::vector<SessionMark> marks{};  ///< times since it began
+};
+
+/// What the window shows of a replay.
+struct ReplayNews {
+    std::filesystem::path file{};
+    std::string participant{}, note{}, started{}, device{};
+    std::vector<SessionMark> marks{};  ///< times as the ticks'
+    std::int64_t ticks{0};
+    SessionPlayback playback{};
+    TickRecord tick{};  ///< as recorded
+    double update_us{0.0};
+    bool computes{false};                  ///< other parameters were chosen
+    bool computed{false};                  ///< what is shown was computed through them
+    const ContactBand* contacts{nullptr};  ///< null: not yet summed up
+};
+
+/// What the window shows of the Falcon.
+struct FalconNews {
+    falcon::Status status{};
+    bool was_ready{false};           ///< in this run: when it is not now, it was lost
+    std::string firmware{};          ///< name of what is loaded when it needs it; empty: nothing
+    std::string firmware_trouble{};  ///< why the kept firmware cannot be used
+};
+
 struct ViewerState {
     Settings settings{};  ///< live: panels write here, the next tick and picture use it
     bool force_enabled{true};
+    std::uint32_t centred{0};  ///< counts the wishes to forget the clutch's shift
     std::shared_ptr<const BumpMap> bump{};
     std::filesystem::path bump_file{};
 
@@ -71,14 +117,19 @@ struct ViewerState {
     MediaDescription media{};
     PlaybackStatus playback{};
     HapticState haptic{};
+    std::optional<FalconNews> falcon{};  ///< nothing: no Falcon is looked for
     std::optional<RealtimeGrants> grants{};
-    std::optional<RecorderStatus> recording{};
-    std::filesystem::path recording_file{};
+    std::optional<RecordingNews> recording{};
+    std::string recording_trouble{};        ///< why the last recording broke off
+    std::filesystem::path recorded_file{};  ///< the last one; empty: none yet
+    std::optional<ReplayNews> replay{};     ///< nothing: a hand touches
     ForceHistory forces{};
     double pictures_per_s{0.0};
     bool opening{false};
     bool touched{false};  ///< there has been a contact: the first hint has done its work
 
+    bool show_device{false};   ///< the Falcon needs its person: the Device panel comes into sight
+    bool show_session{false};  ///< recording began by key: the Session panel comes into sight
     bool help_open{false};
     std::string message{};  ///< shown in a box until it is closed
     std::string notice{};   ///< shown for a while at the bottom

@@ -3,8 +3,8 @@
 
 namespace dibhr {
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP do not kill the process. Made before any thread is
-/// started, since threads inherit what is held back.
+/// While it lives, SIGINT, SIGTERM, SIGHUP and SIGQUIT do not kill the process and Ctrl+Z does not
+/// stop it. Made before any thread is started, since threads inherit what is held back.
 class EndingSignals {
   public:
     EndingSignals();
@@ -12,7 +12,7 @@ class EndingSignals {
     EndingSignals(const EndingSignals&) = delete;
     EndingSignals& operator=(const EndingSignals&) = delete;
 
-    /// Whether one has arrived since the last call.
+    /// Whether one that ends has arrived since the last call.
     [[nodiscard]] bool arrived();
 
   private:

@@ -32,14 +32,14 @@ std::string usage_error(std::vector<std::string> arguments) {
 
 /// A session of ticks that touch, or do not, over a depth video of 640 columns and `rows` rows.
 void write_session(const std::filesystem::path& file, const std::string& rows, int ticks) {
-    SessionFile session(file, {{"columns", "640"}, {"rows", rows}, {"depth", "depth.mp4"}});
+    SessionFile session(file, {{"depth-columns", "640"}, {"depth-rows", rows}, {"depth", "depth.mp4"}});
     session.begin();
     for (int k = 0; k < ticks; ++k) {
         TickRecord tick;
         tick.tick = k;
         tick.t_s = 0.001 * k;
-        tick.frame = k / 33;
-        tick.contact = 1;
+        tick.frames.from_frame = k / 33;
+        tick.contact = true;
         const double goal[3]{250.0 + 0.1 * k, 400.0, 90.0};
         std::copy(goal, goal + 3, tick.goal);
         session.add(tick);

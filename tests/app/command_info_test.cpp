@@ -6,6 +6,7 @@
 
 #include "core/session/recorder.hpp"
 #include "tests/app/command_program.hpp"
+#include "tests/app/recorded_session.hpp"
 #include "tests/support/catch.hpp"
 
 using namespace dibhr;
@@ -81,6 +82,62 @@ TEST_CASE("info tells of the file it cannot read and describes the others", "[in
     CHECK(split(result.errors, '\n').size() == 3);
     CHECK(result.errors.find("bad.dibhr") != std::string::npos);
     CHECK(result.errors.find("none.png") != std::string::npos);
+}
+
+TEST_CASE("info goes on after a name that leads nowhere", "[info]") {
+    const TemporaryFolder folder;
+    write_depth_png(folder / "good.png", 30, 20, 10);
+    const std::string too_long(5000, 'x');
+    const ProgramResult result = run_dibhr(folder, {"info", too_long, "good.png/x", "good.png"});
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 1);
+    CHECK(says(result, "30x20"));
+    CHECK(split(result.errors, '\n').size() == 3);
+}
+
+TEST_CASE("nothing that a session says reaches the terminal but letters", "[info]") {
+    const TemporaryFolder folder;
+    const std::string nasty =
+        "red \x1b[31m\a\r\n\xc2\x9b"
+        "2J \xff stop";
+    {
+        const auto ring = std::make_unique<TickRing>();
+        Recorder recorder(folder / "mine.dibhr", *ring, {{"note", nasty}, {nasty, "value"}});
+        recorder.mark(nasty, nasty);
+        REQUIRE(ring->push({}));
+    }
+    const ProgramResult result = run_dibhr(folder, {"info", "mine.dibhr", "none\x1b[31m.png"});
+    INFO(result.output << result.errors);
+    CHECK(says(result, "red "));
+    for (const std::string& text : {result.output, result.errors}) {
+        for (const char* control : {"\x1b", "\a", "\r", "\xc2\x9b", "\xff"}) {
+            CHECK(text.find(control) == std::string::npos);
+        }
+    }
+    CHECK(split(result.errors, '\n').size() == 2);
+    for (const std::string& line : split(result.output, '\n')) CHECK_FALSE(line.starts_with("2J"));
+}
+
+TEST_CASE("every command warns of a recording that was copied without its log", "[info]") {
+    const TemporaryFolder folder;
+    write_depth_png(folder / "color.png", 64, 48, 20, 3);
+    write_depth_png(folder / "depth.png", 32, 24, 100, 1);
+    record_session(folder / "mine.dibhr",
+                   {.colour = folder / "color.png", .depth = folder / "depth.png"});
+    run_shell(folder,
+              "sqlite3 mine.dibhr \"PRAGMA journal_mode = WAL; "
+              "UPDATE session SET value = '0' WHERE key = 'complete'\"");
+    for (const std::vector<std::string>& command : {std::vector<std::string>{"info", "mine.dibhr"},
+                                                    {"replay", "mine.dibhr"},
+                                                    {"export", "mine.dibhr", "--csv", "mine.csv"},
+                                                    {"report", "mine.dibhr", "--out", "report"}}) {
+        const ProgramResult result = run_dibhr(folder, command);
+        CAPTURE(command, result.output, result.errors);
+        CHECK(result.exit_code == 0);
+        CHECK(result.errors.starts_with("dibhr: warning: mine.dibhr: its recording was broken"));
+        CHECK(result.errors.find("mine.dibhr-wal") != std::string::npos);
+        CHECK(split(result.errors, '\n').size() == 2);
+    }
 }
 
 TEST_CASE("devices lists the mouse as usable and says what it knows of a Falcon", "[devices]") {

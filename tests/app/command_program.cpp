@@ -52,13 +52,14 @@ std::vector<std::string> TemporaryFolder::names() const {
     return names;
 }
 
-ProgramResult run_dibhr(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
+ProgramResult run_dibhr(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
+                        const std::vector<std::string>& host) {
     const TemporaryFolder told;
+    std::vector<std::string> words = host;
+    words.emplace_back(DIBHR_PROGRAM);
+    words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
-    std::string program = DIBHR_PROGRAM;
-    argv.push_back(program.data());
-    std::vector<std::string> copies = arguments;
-    for (std::string& argument : copies) argv.push_back(argument.data());
+    for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
 
     const pid_t child = ::fork();
@@ -70,6 +71,7 @@ ProgramResult run_dibhr(const TemporaryFolder& folder, const std::vector<std::st
         ::unsetenv("DISPLAY");
         ::unsetenv("WAYLAND_DISPLAY");
         ::setenv("XDG_CONFIG_HOME", folder.path().c_str(), 1);
+        ::setenv("XDG_DATA_HOME", folder.path().c_str(), 1);
         if (::chdir(folder.path().c_str()) == 0) ::execv(argv[0], argv.data());
         ::_exit(127);
     }

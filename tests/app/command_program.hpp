@@ -32,8 +32,10 @@ class TemporaryFolder {
     std::filesystem::path path_{};
 };
 
-/// Runs `dibhr ARGUMENTS` inside `folder`, without a display and without a keyboard.
-ProgramResult run_dibhr(const TemporaryFolder& folder, const std::vector<std::string>& arguments);
+/// Runs `dibhr ARGUMENTS` inside `folder`, without a display and without a keyboard; `host`: a
+/// program and its own arguments that starts it.
+ProgramResult run_dibhr(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
+                        const std::vector<std::string>& host = {});
 
 /// Runs a shell command inside `folder`; fails the test when it does not end with 0.
 void run_shell(const TemporaryFolder& folder, const std::string& command);

@@ -103,12 +103,16 @@ Desk::Desk()
     ::close(numbers_[0]);
 }
 
-Process Desk::start_viewer(const Folder& folder, const std::vector<std::string>& arguments) const {
-    std::vector<std::string> words{"env", "-C", folder.path().string(), DIBHR_PROGRAM, "view"};
+Process Desk::start_viewer(const Folder& folder, const std::vector<std::string>& arguments,
+                           const std::vector<std::string>& host) const {
+    std::vector<std::string> words{"env", "-C", folder.path().string()};
+    words.insert(words.end(), host.begin(), host.end());
+    words.insert(words.end(), {DIBHR_PROGRAM, "view"});
     words.insert(words.end(), arguments.begin(), arguments.end());
     return Process(words,
                    {"DISPLAY=" + display_, "WAYLAND_DISPLAY=", "LIBGL_ALWAYS_SOFTWARE=1",
-                    "XDG_CONFIG_HOME=" + (folder / "config").string()},
+                    "XDG_CONFIG_HOME=" + (folder / "config").string(),
+                    "XDG_DATA_HOME=" + (folder / "data").string()},
                    folder / "errors.txt");
 }
 
@@ -123,7 +127,8 @@ std::vector<Row> read_session(const fs::path& file) {
     sqlite3_stmt* prepared = nullptr;
     REQUIRE(sqlite3_prepare_v2(
                 opened,
-                "SELECT t, gx, gy, gz, px, py, pz, fx, fy, fz, cx, cy, cz, contact, buttons, cut "
+                "SELECT t, gx, gy, gz, px, py, pz, fx, fy, fz, cx, cy, cz, contact, buttons, cut, "
+                "video_s, ready, stand_in, lets_go "
                 "FROM tick ORDER BY tick",
                 -1, &prepared, nullptr) == SQLITE_OK);
     const std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)> query(prepared, sqlite3_finalize);
@@ -132,7 +137,9 @@ std::vector<Row> read_session(const fs::path& file) {
         rows.push_back(
             {sqlite3_column_double(prepared, 0), vector_at(prepared, 1), vector_at(prepared, 4),
              vector_at(prepared, 7), vector_at(prepared, 10), sqlite3_column_int(prepared, 13) != 0,
-             (sqlite3_column_int(prepared, 14) & 1) != 0, sqlite3_column_int(prepared, 15)});
+             (sqlite3_column_int(prepared, 14) & 1) != 0, sqlite3_column_int(prepared, 15),
+             sqlite3_column_double(prepared, 16), sqlite3_column_int(prepared, 17) != 0,
+             sqlite3_column_int(prepared, 18) != 0, sqlite3_column_int(prepared, 19) != 0});
     }
     return rows;
 }

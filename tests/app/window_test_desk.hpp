@@ -52,9 +52,11 @@ class Desk {
   public:
     Desk();
 
-    /// Starts `dibhr view` with these arguments, settings and current folder inside `folder`.
+    /// Starts `dibhr view` with these arguments, settings and current folder inside `folder`;
+    /// `host`: a program and its own arguments that starts it.
     [[nodiscard]] Process start_viewer(const Folder& folder,
-                                       const std::vector<std::string>& arguments) const;
+                                       const std::vector<std::string>& arguments,
+                                       const std::vector<std::string>& host = {}) const;
 
     /// Runs xdotool with one chain of commands; fails the test when it fails.
     void act(const std::string& commands) const;
@@ -73,6 +75,10 @@ struct Row {
     bool contact{false};
     bool pressed{false};
     int cut{0};
+    double video_s{0.0};
+    bool ready{false};     ///< the hand gives poses
+    bool stand_in{false};  ///< it is the mouse, in place of a Falcon
+    bool lets_go{false};   ///< a proxy in contact begins anew, above the goal
 };
 
 [[nodiscard]] std::vector<Row> read_session(const std::filesystem::path& file);

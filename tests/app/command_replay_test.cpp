@@ -1,0 +1,289 @@
+// `dibhr replay` as a person runs it, over sessions that the real loop recorded.
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "app/assets_path.hpp"
+#include "app/output_rows.hpp"
+#include "tests/app/command_program.hpp"
+#include "tests/app/recorded_session.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+bool is_one_line(const std::string& text) {
+    return text.starts_with("dibhr: ") && text.find('\n') == text.size() - 1;
+}
+
+/// A small colour and depth film with holes and noise, so that cleaning has something to do; half a
+/// second, so that a second of touching repeats it.
+void make_film(const TemporaryFolder& folder) {
+    run_shell(folder,
+              "ffmpeg -v error -f lavfi -i testsrc2=size=120x90:rate=30:duration=0.5 "
+              "-c:v ffv1 film_color.mkv");
+    run_shell(folder,
+              "ffmpeg -v error -f lavfi -i testsrc2=size=120x90:rate=30:duration=0.5,format=gray "
+              "-c:v ffv1 film_depth.mkv");
+}
+
+RecordedSession film_session(const TemporaryFolder& folder) {
+    return {.colour = folder / "film_color.mkv", .depth = folder / "film_depth.mkv"};
+}
+
+double cpu_seconds_of_children() {
+    rusage usage{};
+    getrusage(RUSAGE_CHILDREN, &usage);
+    const auto seconds = [](const timeval& time) {
+        return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+    };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+/// On average over the last minute; this test's own are among them.
+double processes_at_work() {
+    double load = 0.0;
+    return ::getloadavg(&load, 1) == 1 ? load : 0.0;
+}
+
+}  // namespace
+
+TEST_CASE("a session replays bit for bit, cleaned or raw, with any algorithm and a bump map",
+          "[replay]") {
+    const TemporaryFolder folder;
+    make_film(folder);
+    write_depth_png(folder / "bumps.png", 32, 24, 0, 8);
+    RecordedSession session = film_session(folder);
+    const std::string kind =
+        GENERATE(as<std::string>{}, "dibhr", "raw", "pga", "neighborhood", "god-object", "bump");
+    CAPTURE(kind);
+    session.parameters.algorithm = algorithm_named(kind).value_or(Algorithm::dibhr);
+    if (kind == "raw") session.cleaning = {false, false, false};
+    if (kind == "god-object") session.parameters.coupling.damping_newton_s_per_m = 1.5;
+    if (kind == "bump") {
+        session.bump = folder / "bumps.png";
+        session.parameters.shape.roughness_px = 7.5;
+    }
+    record_session(folder / "mine.dibhr", session);
+    const ProgramResult result = run_dibhr(folder, {"replay", "mine.dibhr"});
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 0);
+    CHECK(contains(result.output,
+                   "as recorded: all 1000 proxies and forces are identical, bit for bit"));
+    CHECK(result.errors.empty());
+}
+
+TEST_CASE("several algorithms are compared in one table, the recorded one among them", "[replay]") {
+    const TemporaryFolder folder;
+    make_film(folder);
+    record_session(folder / "mine.dibhr", film_session(folder));
+    const ProgramResult result =
+        run_dibhr(folder, {"replay", "mine.dibhr", "--algorithm", "pga", "--algorithm", "dibhr",
+                           "--algorithm", "god-object"});
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 0);
+    for (const char* word :
+         {"\n  pga ", "\n  dibhr ", "\n  god-object ", "median us", "contact %"}) {
+        CAPTURE(word);
+        CHECK(contains(result.output, word));
+    }
+    CHECK(contains(result.output, "dibhr, as recorded: all 1000"));
+    CHECK_FALSE(contains(result.output, "pga, as recorded"));
+}
+
+TEST_CASE("other parameters are a comparison, not a failure", "[replay]") {
+    const TemporaryFolder folder;
+    make_film(folder);
+    record_session(folder / "mine.dibhr", film_session(folder));
+    for (const std::vector<std::string>& change :
+         {std::vector<std::string>{"--friction", "0.1"}, {"--raw-depth"}, {"--stiffness", "1.5"}}) {
+        std::vector<std::string> arguments{"replay", "mine.dibhr"};
+        arguments.insert(arguments.end(), change.begin(), change.end());
+        const ProgramResult result = run_dibhr(folder, arguments);
+        CAPTURE(change, result.output, result.errors);
+        CHECK(result.exit_code == 0);
+        CHECK_FALSE(contains(result.output, "identical"));
+    }
+}
+
+TEST_CASE("the rows of a replay are those of touch, and the recorded ones", "[replay]") {
+    const TemporaryFolder folder;
+    make_film(folder);
+    record_session(folder / "mine.dibhr", film_session(folder));
+    REQUIRE(run_dibhr(folder, {"replay", "mine.dibhr", "--csv", "again.csv"}).exit_code == 0);
+    REQUIRE(run_dibhr(folder, {"export", "mine.dibhr", "--csv", "mine.csv"}).exit_code == 0);
+    const auto again = split(read_text(folder / "again.csv"), '\n');
+    const auto mine = split(read_text(folder / "mine.csv"), '\n');
+    REQUIRE(again.size() == 1002);  // heading, rows, and nothing after the last line's end
+    REQUIRE(mine.size() == again.size());
+    CHECK(again[0] + '\n' == kOutputHeader);
+    for (std::size_t k = 0; k + 1 < again.size(); ++k) {
+        const std::string before_time = again[k].substr(0, again[k].rfind(',') + 1);
+        REQUIRE(mine[k].starts_with(before_time));
+    }
+    const ProgramResult out = run_dibhr(folder, {"replay", "mine.dibhr", "--csv", "-"});
+    CHECK(out.exit_code == 0);
+    CHECK(split(out.output, '\n').size() == 1002);
+    const ProgramResult several = run_dibhr(folder, {"replay", "mine.dibhr", "--csv", "x",
+                                                     "--algorithm", "pga", "--algorithm", "dibhr"});
+    CHECK(several.exit_code == 2);
+    CHECK(is_one_line(several.errors));
+    const std::string before = read_text(folder / "mine.dibhr");
+    CHECK(run_dibhr(folder, {"replay", "mine.dibhr", "--csv", "mine.dibhr"}).exit_code == 1);
+    CHECK(read_text(folder / "mine.dibhr") == before);
+}
+
+TEST_CASE("a result that is not the recorded one is told, with where it begins", "[replay]") {
+    const TemporaryFolder folder;
+    make_film(folder);
+    record_session(folder / "mine.dibhr", film_session(folder));
+    run_shell(folder,
+              "sqlite3 mine.dibhr 'UPDATE tick_data SET pz = pz + 1e-9 WHERE tick = "
+              "(SELECT max(tick) FROM tick WHERE contact)'");
+    const ProgramResult result = run_dibhr(folder, {"replay", "mine.dibhr"});
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 1);
+    CHECK(is_one_line(result.errors));
+    CHECK(contains(result.errors, "mine.dibhr: dibhr differs from the recording in 1 of 1000"));
+    CHECK(contains(result.errors, "first in tick "));
+}
+
+TEST_CASE("a tick over a video that the session does not name is told with its number",
+          "[replay]") {
+    const TemporaryFolder folder;
+    make_film(folder);
+    record_session(folder / "mine.dibhr", film_session(folder));
+    run_shell(folder, "sqlite3 mine.dibhr 'UPDATE tick_data SET pair = 999 WHERE tick = 500'");
+    const ProgramResult result = run_dibhr(folder, {"replay", "mine.dibhr"});
+    CHECK(result.exit_code == 1);
+    CHECK(is_one_line(result.errors));
+    CHECK(contains(result.errors, "mine.dibhr: does not say which video tick 500 touched"));
+}
+
+TEST_CASE("a video that is gone is looked for beside the session, and named", "[replay]") {
+    const TemporaryFolder folder;
+    fs::create_directory(folder / "films");
+    make_film(folder);
+    run_shell(folder, "mv film_*.mkv films/");
+    RecordedSession session;
+    session.colour = folder / "films" / "film_color.mkv";
+    session.depth = folder / "films" / "film_depth.mkv";
+    record_session(folder / "mine.dibhr", session);
+    fs::rename(folder / "films" / "film_depth.mkv", folder / "film_depth.mkv");
+    CHECK(run_dibhr(folder, {"replay", "mine.dibhr"}).exit_code == 0);
+    fs::remove(folder / "film_depth.mkv");
+    const ProgramResult result = run_dibhr(folder, {"replay", "mine.dibhr"});
+    INFO(result.errors);
+    CHECK(result.exit_code == 1);
+    CHECK(is_one_line(result.errors));
+    CHECK(contains(result.errors, session.depth.string() + ", is not there"));
+    CHECK(contains(result.errors, (folder / "film_depth.mkv").string()));
+}
+
+TEST_CASE("a video that has changed is refused, unless it is asked for", "[replay]") {
+    const TemporaryFolder folder;
+    make_film(folder);
+    record_session(folder / "mine.dibhr", film_session(folder));
+    const std::string recorded = read_text(folder / "film_depth.mkv");
+    run_shell(folder, "printf x >>film_depth.mkv");
+    const ProgramResult refused = run_dibhr(folder, {"replay", "mine.dibhr"});
+    INFO(refused.errors);
+    CHECK(refused.exit_code == 1);
+    CHECK(is_one_line(refused.errors));
+    CHECK(contains(refused.errors, (folder / "film_depth.mkv").string() + ": has changed"));
+    const ProgramResult taken = run_dibhr(folder, {"replay", "mine.dibhr", "--any-media"});
+    CHECK(contains(taken.errors, "warning"));
+    CHECK(taken.exit_code == 0);  // the frames are the same all the same
+    // The same length, other content.
+    std::string other = recorded;
+    other[other.size() / 2] = static_cast<char>(~other[other.size() / 2]);
+    write_text(folder / "film_depth.mkv", other);
+    CHECK(run_dibhr(folder, {"replay", "mine.dibhr"}).exit_code == 1);
+    // The original beside the session wins over a changed one in its place.
+    fs::create_directory(folder / "elsewhere");
+    fs::rename(folder / "mine.dibhr", folder / "elsewhere" / "mine.dibhr");
+    write_text(folder / "elsewhere" / "film_depth.mkv", recorded);
+    CHECK(run_dibhr(folder, {"replay", "elsewhere/mine.dibhr"}).exit_code == 0);
+}
+
+TEST_CASE("files that are no session are refused by every command in one line", "[replay]") {
+    const TemporaryFolder folder;
+    make_film(folder);
+    RecordedSession session = film_session(folder);
+    session.seconds = 0.2;
+    record_session(folder / "good.dibhr", session);
+    const std::string good = read_text(folder / "good.dibhr");
+    write_text(folder / "short.dibhr", good.substr(0, good.size() / 2));
+    write_text(folder / "text.dibhr", "t,x,y,z\n");
+    write_text(folder / "empty.dibhr", "");
+    run_shell(folder,
+              "cp good.dibhr newer.dibhr && sqlite3 newer.dibhr 'PRAGMA user_version = 99'");
+    run_shell(folder, "sqlite3 other.dibhr 'CREATE TABLE a(b)'");
+    std::string damaged = good;
+    for (std::size_t k = damaged.size() / 2; k < damaged.size() / 2 + 20000; ++k) damaged[k] = 'x';
+    write_text(folder / "damaged.dibhr", damaged);
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"info"}, {"replay"}, {"export", "--csv", "-"}}) {
+        for (const auto& [name, word] :
+             std::vector<std::pair<std::string, std::string>>{{"short.dibhr", "cut short"},
+                                                              {"text.dibhr", "no SQLite file"},
+                                                              {"empty.dibhr", "empty"},
+                                                              {"newer.dibhr", "newer"},
+                                                              {"other.dibhr", "another program"},
+                                                              {"damaged.dibhr", "damaged"},
+                                                              {"none.dibhr", "no such file"}}) {
+            std::vector<std::string> arguments = command;
+            arguments.push_back(name);
+            const ProgramResult result = run_dibhr(folder, arguments);
+            CAPTURE(command, name, result.errors);
+            CHECK(result.exit_code == 1);
+            CHECK(result.output.empty());
+            CHECK(is_one_line(result.errors));
+            CHECK(contains(result.errors, name));
+            CHECK(contains(result.errors, word));
+        }
+    }
+}
+
+TEST_CASE("twenty seconds of the sample go through all four algorithms in under two seconds",
+          "[replay]") {
+    const TemporaryFolder folder;
+    const SampleFiles sample = sample_files();
+    record_session(folder / "mine.dibhr",
+                   {.colour = sample.colour, .depth = sample.depth, .seconds = 20.0});
+    // The best of three, for other programs may be busy; on a busier machine the work alone counts.
+    double wall_s = 1e9;
+    double cpu_s = 1e9;
+    for (int run = 0; run < 3; ++run) {
+        const double cpu_before_s = cpu_seconds_of_children();
+        const auto begin = std::chrono::steady_clock::now();
+        const ProgramResult result =
+            run_dibhr(folder, {"replay", "mine.dibhr", "--algorithm", "dibhr", "--algorithm", "pga",
+                               "--algorithm", "neighborhood", "--algorithm", "god-object"});
+        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+        wall_s = std::min(wall_s, passed.count());
+        cpu_s = std::min(cpu_s, cpu_seconds_of_children() - cpu_before_s);
+        INFO(result.output << result.errors);
+        REQUIRE(result.exit_code == 0);
+        REQUIRE(contains(result.output, "dibhr, as recorded: all 20000"));
+    }
+    CAPTURE(wall_s, cpu_s, processes_at_work());
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    CHECK(cpu_s < 1.6);
+    CHECK((wall_s < 2.0 || processes_at_work() > 2.0));
+#endif
+}

@@ -1,0 +1,45 @@
+// A simulated Falcon below the libusb of the real program, as the tests of the program see it.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/haptics/vec.hpp"
+
+namespace dibhr::test {
+
+/// Writes a synthetic firmware image.
+void write_firmware(const std::filesystem::path& file);
+
+/// One Falcon in a program that is started with its host().
+class FalconOnUsb {
+  public:
+    /// `folder`: where its socket is; `commands`: obeyed before the program begins.
+    FalconOnUsb(const std::filesystem::path& folder, std::vector<std::string> commands);
+
+    /// What starts the program.
+    [[nodiscard]] std::vector<std::string> host() const;
+
+    /// One of the commands of the simulated unit, or `unplug`, `replug`; the test fails unless it
+    /// is obeyed.
+    void tell(const std::string& command) const;
+    /// A number, or the first of three, of its state; the test fails when there is none.
+    [[nodiscard]] double number(const std::string& name) const;
+    [[nodiscard]] Vec3 vector(const std::string& name) const;
+    /// The hand goes there, mm, and has arrived.
+    void move_hand(Vec3 to_mm, double seconds) const;
+    /// Pulls the grip out and pushes it in, until all three axes are homed.
+    void home() const;
+    /// Until `is_so`; fails the test after ten seconds.
+    static void wait_until(const std::function<bool()>& is_so);
+
+  private:
+    [[nodiscard]] std::string state() const;
+
+    std::string socket_;
+    std::vector<std::string> commands_;
+};
+
+}  // namespace dibhr::test

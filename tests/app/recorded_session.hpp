@@ -1,0 +1,24 @@
+// Records a session without a window: the real tick over a real video, a scripted hand, and time
+// that runs as fast as the machine can.
+#pragma once
+
+#include <filesystem>
+
+#include "core/haptics/parameters.hpp"
+#include "core/video/depth_cleaning.hpp"
+
+namespace dibhr::test {
+
+struct RecordedSession {
+    std::filesystem::path colour{};
+    std::filesystem::path depth{};
+    double seconds{1.0};
+    CleaningOptions cleaning{};
+    TouchParameters parameters{};
+    std::filesystem::path bump{};
+};
+
+/// The hand goes over the whole picture, in and out of the surface. Halfway the friction changes.
+void record_session(const std::filesystem::path& file, const RecordedSession& wanted);
+
+}  // namespace dibhr::test
