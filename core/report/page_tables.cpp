@@ -68,7 +68,7 @@ Cells episode_row(const SessionReport& report, std::size_t k) {
             decimals(e.spring.peak_newton, 3),
             decimals(e.path_mm, 1),
             decimals(e.mean_speed_mm_per_s(), 1),
-            decimals(e.centre_px.x, 0) + ", " + decimals(e.centre_px.y, 0),
+            decimals(e.centre_px.x, 0) + ",&nbsp;" + decimals(e.centre_px.y, 0),
             shares_text(e.shares)};
 }
 

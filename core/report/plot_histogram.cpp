@@ -98,17 +98,23 @@ ColourImage plot_distribution(const std::string& title, const std::string& quant
     return canvas.finished();
 }
 
-/// 1, 2 and 5 times the powers of ten around the values, which are positive.
+/// 1, 2 and 5 times the powers of ten, in their order; 0 is 1.
+double log_edge(int number) {
+    constexpr double kFactors[3] = {1.0, 2.0, 5.0};
+    const double decade = std::floor(number / 3.0);
+    return kFactors[number - 3 * static_cast<int>(decade)] * std::pow(10.0, decade);
+}
+
+/// Edges around the values, which are positive, and a bar more on either side: even one value is
+/// seen to have a place.
 std::vector<double> log_edges(double least, double most) {
+    int first = 3 * static_cast<int>(std::floor(std::log10(least)));
+    while (log_edge(first + 1) <= least) ++first;
+    int last = first + 1;
+    while (log_edge(last) <= most) ++last;
     std::vector<double> edges;
-    for (double power = std::pow(10.0, std::floor(std::log10(least)));; power *= 10.0) {
-        for (const double factor : {1.0, 2.0, 5.0}) {
-            const double edge = factor * power;
-            if (edge <= least) edges.clear();
-            edges.push_back(edge);
-            if (edge > most) return edges;
-        }
-    }
+    for (int number = first - 1; number <= last + 1; ++number) edges.push_back(log_edge(number));
+    return edges;
 }
 
 /// Whole numbers on the axis of counts.

@@ -103,9 +103,12 @@ SessionFile::SessionFile(const std::filesystem::path& file, const SessionFacts& 
     for (const auto& [key, value] : facts) set_fact(key, value);
     set_fact("schema_version", std::to_string(kSessionSchemaVersion));
     set_fact("units", "pixels of the depth image, newtons, seconds; see table tick_column");
-    set_fact("complete", "0");
     commit();
     merge_log();  // a copy without the log is still a session that says what it is
+    // The first commit into an emptied log waits for the disk; it had better not be a tick's.
+    begin();
+    set_fact("complete", "0");
+    commit();
 } catch (const DatabaseError& error) {
     remove_traces(file);
     throw InputError(file.string() + ": the session cannot be recorded there (" + error.what() +
