@@ -25,10 +25,12 @@ namespace dibhr {
 
 namespace {
 
-// Large pages waste little at their ends; the log is merged every 4 MB.
+// Large pages waste little at their ends.
 constexpr const char* kFileLayout =
-    "PRAGMA page_size = 16384; PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; "
-    "PRAGMA wal_autocheckpoint = 256";
+    "PRAGMA page_size = 16384; PRAGMA journal_mode = WAL; PRAGMA wal_autocheckpoint = 0";
+// While the log is kept, no commit waits for the disk.
+constexpr const char* kNoFlush = "PRAGMA synchronous = OFF";
+constexpr const char* kFlush = "PRAGMA synchronous = NORMAL";
 
 /// Makes an empty file where there was none; the name of a file that exists is safe from us.
 const std::filesystem::path& made(const std::filesystem::path& file) {
@@ -103,12 +105,11 @@ SessionFile::SessionFile(const std::filesystem::path& file, const SessionFacts& 
     for (const auto& [key, value] : facts) set_fact(key, value);
     set_fact("schema_version", std::to_string(kSessionSchemaVersion));
     set_fact("units", "pixels of the depth image, newtons, seconds; see table tick_column");
-    commit();
-    merge_log();  // a copy without the log is still a session that says what it is
-    // The first commit into an emptied log waits for the disk; it had better not be a tick's.
-    begin();
     set_fact("complete", "0");
     commit();
+    merge_log();  // a copy without the log is still a session that says what it is
+    database_.execute(kNoFlush);
+    keeper_ = std::make_unique<LogKeeper>(file);
 } catch (const DatabaseError& error) {
     remove_traces(file);
     throw InputError(file.string() + ": the session cannot be recorded there (" + error.what() +
@@ -156,6 +157,7 @@ void SessionFile::commit() {
     const Place now = place_of(path_);
     if (now == Place{}) throw DatabaseError("the file is gone from its place");
     if (!(now == place_)) throw DatabaseError("another file is in its place");
+    if (keeper_) keeper_->between_transactions();
 }
 
 void SessionFile::know(const SessionParameters& parameters) {
@@ -286,6 +288,8 @@ void SessionFile::set_content(const FileContent& content) {
 }
 
 void SessionFile::merge_log() {
+    keeper_.reset();
+    database_.execute(kFlush);
     database_.execute("PRAGMA wal_checkpoint(TRUNCATE)");
 }
 

@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/session/database.hpp"
 #include "core/session/file_sums.hpp"
+#include "core/session/log_keeper.hpp"
 #include "core/session/session_parts.hpp"
 #include "core/session/session_schema.hpp"
 
@@ -45,7 +47,8 @@ class SessionFile {
     [[nodiscard]] std::vector<std::filesystem::path> take_new_files();
     void set_content(const FileContent& content);
 
-    /// Moves what is in the write-ahead log into the file, so that one file remains after closing.
+    /// Moves what is in the write-ahead log into the file, so that one file remains after closing;
+    /// to be called last.
     void merge_log();
     /// A finished file needs no log, so that it can be read where nothing can be written. Stays as
     /// it is while somebody reads it.
@@ -91,6 +94,7 @@ class SessionFile {
     std::int64_t pairs_{0};                    ///< and its number
     std::optional<std::uint64_t> settings_{};  ///< version of the last tick
     std::optional<double> newton_per_px_{};    ///< its spring's, where known
+    std::unique_ptr<LogKeeper> keeper_{};      ///< until the log is merged for good
 };
 
 }  // namespace dibhr

@@ -30,7 +30,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-constexpr int kKills = 50;
 constexpr int kAtATime = 5;
 constexpr auto kMayLack = milliseconds(500);
 // As fast as so many loops: the log is merged into the file every two seconds.
@@ -43,7 +42,8 @@ constexpr int kFast_per_ms = 20;
 /// A program that records, as fast as asked for, until it is killed so long after its first tick.
 class Child {
   public:
-    Child(const std::filesystem::path& file, int ticks_per_ms, milliseconds lives)
+    Child(const std::filesystem::path& file, int ticks_per_ms, milliseconds lives,
+          milliseconds flush)
         : file_(file), lives_(lives) {
         const std::string counter = file.string() + ".counter";
         const int shared = ::open(counter.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600);
@@ -54,11 +54,12 @@ class Child {
         REQUIRE(memory != MAP_FAILED);
         pushed_ = static_cast<const std::atomic<std::int64_t>*>(memory);
         const std::string rate = std::to_string(ticks_per_ms);
+        const std::string flush_ms = std::to_string(flush.count());
         child_ = ::fork();
         REQUIRE(child_ >= 0);
         if (child_ == 0) {
             ::execl(DIBHR_SESSION_CHILD, "session_child", file.c_str(), counter.c_str(),
-                    rate.c_str(), nullptr);
+                    rate.c_str(), flush_ms.c_str(), nullptr);
             ::_exit(127);
         }
     }
@@ -129,23 +130,20 @@ void check_what_is_left(const Child& child) {
     CHECK(same);
 }
 
-}  // namespace
-
-TEST_CASE(
-    "killed at fifty random moments, a recording is whole up to the last half second and replays",
-    "[session]") {
+/// Kills so many recordings on a disk that needs so long to flush.
+void kill_recordings(int kills, milliseconds flush) {
     const SessionFolder folder;
     std::mt19937 random(2026);
     std::uniform_int_distribution<int> rate(0, 3);
     std::uniform_int_distribution<int> life_ms(550, 3000);
     std::int64_t rows = 0;
-    for (int done = 0; done < kKills;) {
+    for (int done = 0; done < kills;) {
         std::vector<std::unique_ptr<Child>> children;
-        for (; done < kKills && children.size() < kAtATime; ++done) {
+        for (; done < kills && children.size() < kAtATime; ++done) {
             const int ticks_per_ms = rate(random) == 0 ? kFast_per_ms : 1;
             children.push_back(std::make_unique<Child>(
                 folder.path() / ("killed" + std::to_string(done) + ".dibhr"), ticks_per_ms,
-                milliseconds(life_ms(random))));
+                milliseconds(life_ms(random)), flush));
         }
         for (bool alive = true; alive;) {
             alive = false;
@@ -158,5 +156,18 @@ TEST_CASE(
             std::filesystem::remove(child->file());
         }
     }
-    CHECK(rows > kKills * 300);  // they did record
+    CHECK(rows > kills * 300);  // they did record
+}
+
+}  // namespace
+
+TEST_CASE(
+    "killed at fifty random moments, a recording is whole up to the last half second and replays",
+    "[session]") {
+    kill_recordings(50, milliseconds(0));
+}
+
+TEST_CASE("a disk that needs two seconds to flush takes nothing more from a killed recording",
+          "[session]") {
+    kill_recordings(10, milliseconds(2000));
 }

@@ -1,6 +1,7 @@
 // The recorder: every tick once, in order, in a file that SQLite's own shell reads.
 #include "core/session/recorder.hpp"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdint>
@@ -223,4 +224,24 @@ TEST_CASE("a tick the ring had no room for is counted, in the status and in the 
           std::to_string(dropped));
     CHECK(answer(folder.file(), "SELECT count(*) FROM tick") ==
           std::to_string(16384 + 200000 - dropped));
+}
+
+TEST_CASE("while ticks are recorded, what they were logged in is merged into the file and cut",
+          "[session]") {
+    constexpr std::uintmax_t kLong = 5 << 20;
+    const SessionFolder folder;
+    const std::filesystem::path log = folder.file().string() + "-wal";
+    const auto ring = std::make_unique<TickRing>();
+    const Recorder recorder(folder.file(), *ring, {});
+    std::int64_t tick = 0;
+    std::uintmax_t longest = 0;
+    const bool cut = eventually([&] {
+        for (int k = 0; k < 200; ++k) push(*ring, tick_record(tick++));
+        const std::uintmax_t bytes = std::filesystem::file_size(log);
+        longest = std::max(longest, bytes);
+        return longest > kLong && bytes < longest / 4;
+    });
+    CAPTURE(longest, std::filesystem::file_size(log));
+    CHECK(cut);
+    CHECK(answer(folder.file(), "PRAGMA integrity_check") == "ok");
 }

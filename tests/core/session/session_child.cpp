@@ -1,7 +1,9 @@
-// Records made-up ticks until it is killed: session_child FILE COUNTER TICKS_PER_MS. COUNTER is a
-// file of eight bytes, through which the test sees how many ticks were pushed.
+// Records made-up ticks until it is killed: session_child FILE COUNTER TICKS_PER_MS FLUSH_MS.
+// COUNTER is a file of eight bytes, through which the test sees how many ticks were pushed;
+// FLUSH_MS is how long the disk needs for what is to be flushed, once ticks come.
 #include <fcntl.h>
 #include <sys/mman.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -14,6 +16,18 @@
 #include "core/session/recorder.hpp"
 #include "tests/core/session/exploration.hpp"
 #include "tests/core/session/session_folder.hpp"
+
+namespace {
+
+std::atomic<int> flush_ms{0};
+
+}  // namespace
+
+/// In place of the C library's: SQLite flushes through it.
+extern "C" int fdatasync(int file) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(flush_ms));
+    return static_cast<int>(::syscall(SYS_fdatasync, file));
+}
 
 int main(int, char** arguments) {
     using namespace dibhr;
@@ -30,6 +44,7 @@ int main(int, char** arguments) {
     Recorder recorder(arguments[1], *ring, {});
     recorder.parameters(hand.parameters);
     recorder.media(1, "colour.mp4", "depth.mp4");
+    flush_ms = std::atoi(arguments[4]);
     auto deadline = std::chrono::steady_clock::now();
     while (recorder.status().failure.empty()) {
         for (int k = 0; k < per_ms; ++k) {
