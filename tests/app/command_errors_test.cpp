@@ -89,12 +89,12 @@ void check_one_line(const ProgramResult& result, const std::string& named) {
 TEST_CASE("bad input is told in one line that names the file, and leaves nothing", "[errors]") {
     const TemporaryFolder folder;
     write_inputs(folder);
-    const std::vector<std::string> before = folder.names();
+    const std::vector<std::string> before = names_in(folder.path());
     for (const BadInput& bad : bad_inputs()) {
         const ProgramResult result = run_dibhr(folder, bad.arguments);
         INFO(bad.what << ": " << result.errors);
         check_one_line(result, bad.named);
-        CHECK(folder.names() == before);
+        CHECK(names_in(folder.path()) == before);
     }
 }
 

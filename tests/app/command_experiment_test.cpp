@@ -32,7 +32,8 @@ std::string usage_error(std::vector<std::string> arguments) {
 
 /// A session of ticks that touch, or do not, over a depth video of 640 columns and `rows` rows.
 void write_session(const std::filesystem::path& file, const std::string& rows, int ticks) {
-    SessionFile session(file, {{"depth-columns", "640"}, {"depth-rows", rows}, {"depth", "depth.mp4"}});
+    SessionFile session(file,
+                        {{"depth-columns", "640"}, {"depth-rows", rows}, {"depth", "depth.mp4"}});
     session.begin();
     for (int k = 0; k < ticks; ++k) {
         TickRecord tick;
@@ -141,7 +142,7 @@ TEST_CASE("a hand or an output that cannot be used ends with 1 and one line", "[
     write_text(folder / "empty.dibhr", "");
     write_session(folder / "none.dibhr", "480", 0);
     write_session(folder / "foreign.dibhr", "240", 50);
-    const auto before = folder.names();
+    const auto before = names_in(folder.path());
     const std::vector<std::vector<std::string>> bad{
         {"human", "--trace", "nan.csv"},         {"human", "--trace", "column.csv"},
         {"human", "--trace", "row.csv"},         {"human", "--trace", "missing.csv"},
@@ -165,6 +166,6 @@ TEST_CASE("a hand or an output that cannot be used ends with 1 and one line", "[
         CHECK(result.output.empty());
         CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);
         CHECK(contains(result.errors, named));
-        CHECK(folder.names() == before);  // nothing half-written
+        CHECK(names_in(folder.path()) == before);  // nothing half-written
     }
 }

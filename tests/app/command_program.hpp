@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/temporary_folder.hpp"
+
 namespace dibhr::test {
 
 struct ProgramResult {
@@ -13,27 +15,8 @@ struct ProgramResult {
     std::string errors{};
 };
 
-/// A folder that goes away with the test; also the program's settings folder.
-class TemporaryFolder {
-  public:
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-    [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
-        return path_ / name;
-    }
-    /// Names of what is in it, sorted.
-    [[nodiscard]] std::vector<std::string> names() const;
-
-  private:
-    std::filesystem::path path_{};
-};
-
-/// Runs `dibhr ARGUMENTS` inside `folder`, without a display and without a keyboard; `host`: a
-/// program and its own arguments that starts it.
+/// Runs `dibhr ARGUMENTS` inside `folder`, which has its settings and its data, too, without a
+/// display and without a keyboard; `host`: a program and its own arguments that starts it.
 ProgramResult run_dibhr(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
                         const std::vector<std::string>& host = {});
 

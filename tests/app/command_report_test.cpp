@@ -111,7 +111,7 @@ TEST_CASE("report refuses what is no session or cannot be written, in one line",
     std::string newer = whole;
     newer[63] = 99;  // user_version, big-endian at 60: SQLite's file format, section 1.3
     write_text(folder / "newer.dibhr", newer);
-    const auto before = folder.names();
+    const auto before = names_in(folder.path());
     for (const auto& [session, out] :
          std::vector<std::pair<std::string, std::string>>{{"missing.dibhr", "mine"},
                                                           {"text.dibhr", "mine"},
@@ -126,7 +126,7 @@ TEST_CASE("report refuses what is no session or cannot be written, in one line",
         CHECK(result.output.empty());
         CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);
         CHECK(contains(result.errors, out == "mine" ? session : out));
-        CHECK(folder.names() == before);
+        CHECK(names_in(folder.path()) == before);
     }
     CHECK(run_dibhr(folder, {"report", "touch.dibhr"}).exit_code == 2);
     CHECK(run_dibhr(folder, {"report"}).exit_code == 2);
@@ -135,7 +135,7 @@ TEST_CASE("report refuses what is no session or cannot be written, in one line",
 TEST_CASE("report leaves nothing on a disk that is full", "[report]") {
     const TemporaryFolder folder;
     record_touch(folder, "touch.dibhr");
-    const auto before = folder.names();
+    const auto before = names_in(folder.path());
     rlimit limit{};
     REQUIRE(::getrlimit(RLIMIT_FSIZE, &limit) == 0);
     const rlimit small{20000, limit.rlim_max};             // bytes a file: no picture is so small
@@ -148,5 +148,5 @@ TEST_CASE("report leaves nothing on a disk that is full", "[report]") {
     CHECK(result.exit_code == 1);
     CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);
     CHECK(contains(result.errors, "mine"));
-    CHECK(folder.names() == before);
+    CHECK(names_in(folder.path()) == before);
 }

@@ -245,7 +245,7 @@ TEST_CASE("a finished output file replaces the old one and leaves nothing beside
     REQUIRE(result.exit_code == 0);
     CHECK(result.output.empty());
     CHECK(rows_of(read_text(folder / "out.csv")).size() == 2);
-    CHECK(folder.names() == std::vector<std::string>{"depth.png", "goals.csv", "out.csv"});
+    CHECK(names_in(folder.path()) == std::vector<std::string>{"depth.png", "goals.csv", "out.csv"});
 }
 
 TEST_CASE("the same input gives the same bits, but for the time it took", "[touch]") {

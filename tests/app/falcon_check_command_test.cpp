@@ -160,7 +160,7 @@ TEST_CASE("without a person the check measures what needs none, and keeps a reco
     CHECK(result.errors.empty());
     CHECK(says(result.output, "What was found"));
     std::string record;
-    for (const std::string& name : folder.names()) {
+    for (const std::string& name : names_in(folder.path())) {
         if (name.starts_with("falcon-check-SIM00001-")) record = read_text(folder / name);
     }
     CHECK(says(record, "\"idProduct\": \"0xcb48\""));

@@ -33,7 +33,7 @@ using Rows = std::vector<Row>;
 constexpr const char* kMeet = "search --sync --onlyvisible --name dibhr sleep 0.1 ";
 
 /// What the program is started with; its firmware file is written first.
-Words with_firmware(const Folder& folder, Words arguments) {
+Words with_firmware(const TemporaryFolder& folder, Words arguments) {
     write_firmware(folder / "firmware.bin");
     arguments.insert(arguments.end(),
                      {"--firmware", "firmware.bin", "--record", "hand.dibhr", "--seconds", "60"});
@@ -59,7 +59,7 @@ class Scene {
     }
 
     const Desk desk{};
-    const Folder folder{};
+    const TemporaryFolder folder{};
     const FalconOnUsb falcon;
 
   private:

@@ -27,14 +27,14 @@ namespace fs = std::filesystem;
 constexpr const char* kMeet = "search --sync --onlyvisible --name dibhr sleep 0.4 ";
 
 /// A second of film with shapes, holes and noise, so that cleaning and looping have work to do.
-void make_films(const Folder& folder) {
+void make_films(const TemporaryFolder& folder) {
     const std::string quiet = "ffmpeg -nostdin -v error -y -f lavfi -i testsrc2=s=160x120:r=30:d=1";
     run_shell(quiet + " -c:v ffv1 '" + (folder / "film_color.mkv").string() + "'");
     run_shell(quiet + ",format=gray -c:v ffv1 '" + (folder / "film_depth.mkv").string() + "'");
 }
 
 /// Of all panels only Touch stands open: its rows begin near the top.
-void open_touch_panel_only(const Folder& folder) {
+void open_touch_panel_only(const TemporaryFolder& folder) {
     fs::create_directories(folder / "config/dibhr");
     std::ofstream(folder / "config/dibhr/settings.toml")
         << "[panels]\nvideo = false\ntouch = true\ndevice = false\n";
@@ -58,7 +58,7 @@ std::string change_touch_panel() {
 }
 
 /// The file that Ctrl+R made.
-fs::path recorded_by_key(const Folder& folder) {
+fs::path recorded_by_key(const TemporaryFolder& folder) {
     fs::path found;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder.path())) {
         if (entry.path().extension() != ".dibhr" ||
@@ -77,7 +77,7 @@ std::string content(const fs::path& file) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-void require_same_bits(const Folder& folder, const fs::path& session) {
+void require_same_bits(const TemporaryFolder& folder, const fs::path& session) {
     run_shell("'" DIBHR_PROGRAM "' replay '" + session.string() + "' > '" +
               (folder / "replay.txt").string() + "'");
     CHECK(content(folder / "replay.txt").find("identical, bit for bit") != std::string::npos);
@@ -116,7 +116,7 @@ TEST_CASE(
     "meanwhile",
     "[session]") {
     const Desk desk;
-    const Folder folder;
+    const TemporaryFolder folder;
     make_films(folder);
     open_touch_panel_only(folder);
     Process viewer = desk.start_viewer(
@@ -154,7 +154,7 @@ TEST_CASE(
 TEST_CASE("a session is replayed in the window, moved by keys, and ends like any other",
           "[session]") {
     const Desk desk;
-    const Folder folder;
+    const TemporaryFolder folder;
     make_films(folder);
     {
         Process viewer =
@@ -197,7 +197,7 @@ TEST_CASE("a session is replayed in the window, moved by keys, and ends like any
 TEST_CASE("a session file that vanishes while it is recorded is told, and the program goes on",
           "[session]") {
     const Desk desk;
-    const Folder folder;
+    const TemporaryFolder folder;
     make_films(folder);
     Process viewer = desk.start_viewer(folder, {"film_color.mkv", "--device", "mouse", "--record",
                                                 "gone.dibhr", "--seconds", "60"});
@@ -216,7 +216,7 @@ TEST_CASE("a session file that vanishes while it is recorded is told, and the pr
 
 TEST_CASE("a disk that becomes full in the midst of a recording stops neither hand nor program",
           "[session]") {
-    const Folder folder;
+    const TemporaryFolder folder;
     const SmallDisk disk(folder / "disk", 1024);
     if (!disk.mounted()) {
         WARN("skipped: a small disk can only be mounted by root");

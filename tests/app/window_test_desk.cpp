@@ -61,17 +61,6 @@ Vec3 vector_at(sqlite3_stmt* row, int column) {
 
 }  // namespace
 
-Folder::Folder() {
-    std::string name = fs::temp_directory_path() / "dibhr-window-XXXXXX";
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = name;
-}
-
-Folder::~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-}
-
 Process::Process(std::vector<std::string> arguments, const std::vector<std::string>& environment,
                  const fs::path& error_file, int inherited_descriptor)
     : child_(::fork()) {
@@ -103,7 +92,7 @@ Desk::Desk()
     ::close(numbers_[0]);
 }
 
-Process Desk::start_viewer(const Folder& folder, const std::vector<std::string>& arguments,
+Process Desk::start_viewer(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
                            const std::vector<std::string>& host) const {
     std::vector<std::string> words{"env", "-C", folder.path().string()};
     words.insert(words.end(), host.begin(), host.end());

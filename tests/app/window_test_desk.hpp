@@ -9,24 +9,9 @@
 #include <vector>
 
 #include "core/haptics/vec.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace dibhr::test {
-
-/// A folder that is empty at first and gone at the end.
-class Folder {
-  public:
-    Folder();
-    ~Folder();
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
-        return path_ / name;
-    }
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
 
 /// A child process; ended at the latest by the destructor.
 class Process {
@@ -54,7 +39,7 @@ class Desk {
 
     /// Starts `dibhr view` with these arguments, settings and current folder inside `folder`;
     /// `host`: a program and its own arguments that starts it.
-    [[nodiscard]] Process start_viewer(const Folder& folder,
+    [[nodiscard]] Process start_viewer(const TemporaryFolder& folder,
                                        const std::vector<std::string>& arguments,
                                        const std::vector<std::string>& host = {}) const;
 
@@ -63,7 +48,7 @@ class Desk {
 
   private:
     std::array<int, 2> numbers_;  // a pipe: the server writes its display's number
-    Folder folder_{};
+    TemporaryFolder folder_{};
     Process server_;
     std::string display_{};
 };

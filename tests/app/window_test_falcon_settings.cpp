@@ -40,7 +40,7 @@ std::string line_of(const FalconNumber& number, double value) {
 }
 
 Settings loaded(const std::string& text, std::vector<std::string>& warnings) {
-    const Folder folder;
+    const TemporaryFolder folder;
     std::ofstream(folder / "settings.toml") << text;
     return load_settings(folder / "settings.toml", warnings);
 }
@@ -49,7 +49,7 @@ Settings loaded(const std::string& text, std::vector<std::string>& warnings) {
 
 TEST_CASE("what is kept about the Falcon comes back exactly, whatever its serial is",
           "[falcon][settings]") {
-    const Folder folder;
+    const TemporaryFolder folder;
     Settings settings;
     settings.falcon.connection = {GENERATE("", "SIM00001", "a \"b\" \\c\n\u00fc"), false, true};
     settings.falcon.buttons = {ButtonAction::none, ButtonAction::clutch, ButtonAction::clutch,

@@ -20,7 +20,7 @@
 
 using namespace dibhr;
 using Catch::Matchers::WithinAbs;
-using dibhr::test::Folder;
+using dibhr::test::TemporaryFolder;
 
 namespace {
 
@@ -388,7 +388,7 @@ TEST_CASE("recording can begin and end while the loop runs, and begins as at the
 
 TEST_CASE("what the loop records replays to the same bits, whenever the recording began",
           "[loop]") {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto file = folder / "loop.dibhr";
     Bench bench;
     bench.handed.recording = false;

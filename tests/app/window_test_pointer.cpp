@@ -29,7 +29,7 @@ DepthImage wavy_image() {
     return image;
 }
 
-const OpenRequest& request_of(const Folder& folder, const char* first, const char* second,
+const OpenRequest& request_of(const TemporaryFolder& folder, const char* first, const char* second,
                               OpenRequest& request) {
     request = {folder / first, folder / second, true};
     return request;
@@ -89,7 +89,7 @@ TEST_CASE("a stroke over the image's edge goes on beside it, and the wheel press
 
 TEST_CASE("of two dropped pictures the depth is known by its name, else by being grey",
           "[opening]") {
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::string make = "ffmpeg -nostdin -v error -y -f lavfi -i ";
     run_shell(make + "testsrc2=s=64x48 -frames:v 1 '" + (folder / "a.png").string() + "'");
     run_shell(make + "gradients=s=64x48:c0=black:c1=white,format=gray -frames:v 1 '" +
@@ -112,7 +112,7 @@ TEST_CASE("of two dropped pictures the depth is known by its name, else by being
 
 TEST_CASE("opening in the background gives the words of the error, and can be tried again",
           "[opening]") {
-    const Folder folder;
+    const TemporaryFolder folder;
     Opening opening;
     for (int attempt = 0; attempt < 2; ++attempt) {
         REQUIRE(opening.start({folder / "nowhere.mp4", {}, false}));

@@ -48,7 +48,7 @@ Settings unusual_settings() {
 }  // namespace
 
 TEST_CASE("settings come back exactly as they were saved", "[settings]") {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto file = folder / "new/settings.toml";
     save_settings(unusual_settings(), file);
     std::vector<std::string> warnings;
@@ -58,13 +58,13 @@ TEST_CASE("settings come back exactly as they were saved", "[settings]") {
 }
 
 TEST_CASE("a settings file that does not exist gives the defaults", "[settings]") {
-    const Folder folder;
+    const TemporaryFolder folder;
     CHECK(same_settings(load_settings(folder / "settings.toml"), Settings{}));
 }
 
 TEST_CASE("each setting that does not fit keeps its default and is told with file and line",
           "[settings]") {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto file = folder / "settings.toml";
     const std::string wrong = GENERATE(
         "[touch]\nstiffness = -1.0", "[touch]\nstiffness = 'hard'", "[touch]\nsoftness = 1.0",
@@ -82,7 +82,7 @@ TEST_CASE("each setting that does not fit keeps its default and is told with fil
 }
 
 TEST_CASE("an integer is a number, for who types 1 and means 1.0", "[settings]") {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto file = folder / "settings.toml";
     write(file, "[touch]\nstiffness = 1\n");
     std::vector<std::string> warnings;
@@ -93,7 +93,7 @@ TEST_CASE("an integer is a number, for who types 1 and means 1.0", "[settings]")
 
 TEST_CASE("a settings file that cannot be understood is an error that names it, and is left alone",
           "[settings]") {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto file = folder / "settings.toml";
     const std::string broken = "[touch\nstiffness = = 3";
     write(file, broken);
@@ -110,12 +110,12 @@ TEST_CASE("a settings file that cannot be understood is an error that names it, 
 }
 
 TEST_CASE("a folder in the settings file's place is an error that names it", "[settings]") {
-    const Folder folder;
+    const TemporaryFolder folder;
     CHECK_THROWS_AS(load_settings(folder.path()), InputError);
 }
 
 TEST_CASE("only what a person changed in the window gets into the file", "[settings]") {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto file = folder / "settings.toml";
     Settings in_file;
     in_file.touch.shape.relief_px = 100.0;

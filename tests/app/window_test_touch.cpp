@@ -31,7 +31,7 @@ Vec3 plane_normal() {
 }
 
 /// Two seconds of film, 240 x 180, without loss.
-void make_films(const Folder& folder) {
+void make_films(const TemporaryFolder& folder) {
     const std::string quiet = "ffmpeg -nostdin -v error -y -f lavfi -i ";
     run_shell(quiet + "testsrc2=s=240x180:r=30:d=2 -c:v ffv1 '" +
               (folder / "plane_color.mkv").string() + "'");
@@ -51,7 +51,7 @@ std::string drag_to_the_right() {
 /// Plays a chain of commands to the viewer over the plane and gives back what it recorded.
 std::vector<Row> recorded(const std::string& commands, const std::string& friction) {
     const Desk desk;
-    const Folder folder;
+    const TemporaryFolder folder;
     make_films(folder);
     Process viewer = desk.start_viewer(
         folder, {"plane_color.mkv", "--raw-depth", "--relief", "100", "--friction", friction,
@@ -172,7 +172,7 @@ TEST_CASE(
     "Ctrl+C in the middle of a contact ends the viewer in order, its recording and picture whole",
     "[window]") {
     const Desk desk;
-    const Folder folder;
+    const TemporaryFolder folder;
     make_films(folder);
     Process viewer =
         desk.start_viewer(folder, {"plane_color.mkv", "--record", "hand.dibhr", "--screenshot",
@@ -188,7 +188,7 @@ TEST_CASE(
 TEST_CASE("a file that cannot be opened from the window is told there, and the program goes on",
           "[window]") {
     const Desk desk;  // the file's name begins with the key that quits, so typing must not act
-    const Folder folder;
+    const TemporaryFolder folder;
     make_films(folder);
     Process viewer =
         desk.start_viewer(folder, {"plane_color.mkv", "--record", "hand.dibhr", "--seconds", "30"});

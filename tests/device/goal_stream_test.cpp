@@ -1,8 +1,6 @@
 // GOALS.csv: what is accepted, and what is refused with file, line, column and what to do.
 #include "device/goal_stream.hpp"
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -11,6 +9,7 @@
 #include "core/error.hpp"
 #include "tests/device/small_relief.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace {
 
@@ -21,18 +20,11 @@ using dibhr::TimedGoal;
 /// A file of its own, gone with the test.
 class GoalsFile {
   public:
-    explicit GoalsFile(const std::string& text)
-        : path_(std::filesystem::temp_directory_path() /
-                ("dibhr_goals_" + std::to_string(getpid()) + ".csv")) {
-        std::ofstream(path_, std::ios::binary) << text;
-    }
-    ~GoalsFile() { std::filesystem::remove(path_); }
-    GoalsFile(const GoalsFile&) = delete;
-    GoalsFile& operator=(const GoalsFile&) = delete;
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    explicit GoalsFile(const std::string& text) { std::ofstream(path(), std::ios::binary) << text; }
+    [[nodiscard]] std::filesystem::path path() const { return folder_ / "goals.csv"; }
 
   private:
-    std::filesystem::path path_;
+    dibhr::test::TemporaryFolder folder_{};
 };
 
 std::vector<TimedGoal> goals_of(const std::string& text) {
@@ -142,9 +134,9 @@ TEST_CASE("a file that is not there, or is a folder, is named with what to do", 
     CHECK(message_for("nowhere/goals.csv") ==
           "nowhere/goals.csv: cannot be opened (No such file or directory); "
           "give a CSV file with the columns t,x,y,z");
-    const auto folder = std::filesystem::temp_directory_path();
-    CHECK(message_for(folder) ==
-          folder.string() + ": is a folder; give a CSV file with the columns t,x,y,z");
+    const dibhr::test::TemporaryFolder folder;
+    CHECK(message_for(folder.path()) ==
+          folder.path().string() + ": is a folder; give a CSV file with the columns t,x,y,z");
 }
 
 TEST_CASE("a goal stream gives one row a tick, for ever, whatever the tick and the force",

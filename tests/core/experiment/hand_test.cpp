@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -19,6 +18,7 @@
 #include "core/experiment/smooth_curve.hpp"
 #include "tests/core/haptics/surfaces.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace dibhr;
 using Catch::Matchers::WithinAbs;
@@ -29,29 +29,11 @@ bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-/// A file that goes away with the test.
-class TraceFile {
-  public:
-    explicit TraceFile(const std::string& text) {
-        std::string name = (std::filesystem::temp_directory_path() / "dibhr_trace_XXXXXX").string();
-        folder_ = mkdtemp(name.data());
-        std::ofstream(path()) << text;
-    }
-    ~TraceFile() {
-        std::error_code ignored;
-        std::filesystem::remove_all(folder_, ignored);
-    }
-    TraceFile(const TraceFile&) = delete;
-    TraceFile& operator=(const TraceFile&) = delete;
-    [[nodiscard]] std::filesystem::path path() const { return folder_ / "pen.csv"; }
-
-  private:
-    std::filesystem::path folder_;
-};
-
 std::vector<TraceSample> traced(const std::string& text) {
-    const TraceFile file(text);
-    return read_trace(file.path());
+    const test::TemporaryFolder folder;
+    const auto file = folder / "pen.csv";
+    std::ofstream(file) << text;
+    return read_trace(file);
 }
 
 /// What read_trace says about a text; empty when it takes it.

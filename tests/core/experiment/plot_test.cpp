@@ -1,6 +1,4 @@
 // The evaluation's pictures: axes that can be read, data where it belongs, files that arrive.
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -11,7 +9,6 @@
 #include <limits>
 #include <set>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "core/error.hpp"
@@ -23,6 +20,7 @@
 #include "core/experiment/plot_turning.hpp"
 #include "core/experiment/plots.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace dibhr;
 using Catch::Matchers::WithinAbs;
@@ -80,27 +78,6 @@ std::set<int> dark_rows(const ColourImage& picture, int from_x, int to_x) {
     }
     return rows;
 }
-
-/// A folder of this test's own, gone afterwards.
-class OwnFolder {
-  public:
-    OwnFolder() {
-        static int number = 0;
-        path_ = fs::temp_directory_path() /
-                ("dibhr-plots-" + std::to_string(::getpid()) + "-" + std::to_string(++number));
-        fs::create_directories(path_);
-    }
-    ~OwnFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    OwnFolder(const OwnFolder&) = delete;
-    OwnFolder& operator=(const OwnFolder&) = delete;
-    [[nodiscard]] const fs::path& path() const { return path_; }
-
-  private:
-    fs::path path_{};
-};
 
 }  // namespace
 
@@ -274,8 +251,8 @@ TEST_CASE("the sweep's picture shows each algorithm that was swept, and no point
 }
 
 TEST_CASE("the pictures are written into a folder that is made for them", "[plots]") {
-    const OwnFolder own;
-    const fs::path folder = own.path() / "new" / "plots";
+    const test::TemporaryFolder own;
+    const fs::path folder = own / "new" / "plots";
     PathRun human = circle_with_runs();
     human.name = "human";
     human.exact_proxies.clear();
@@ -293,8 +270,8 @@ TEST_CASE("the pictures are written into a folder that is made for them", "[plot
 }
 
 TEST_CASE("a folder that cannot be made is said in one line", "[plots]") {
-    const OwnFolder own;
-    const fs::path file = own.path() / "file";
+    const test::TemporaryFolder own;
+    const fs::path file = own / "file";
     std::ofstream(file) << "in the way";
     try {
         write_sweep_plot({}, file / "plots");

@@ -1,6 +1,4 @@
 // The content hash against the standard's own examples.
-#include <unistd.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/files/content_hash.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace dibhr;
 
@@ -21,8 +20,8 @@ TEST_CASE("the content hash is SHA-256 as the standard's examples have it", "[fi
 
 TEST_CASE("a file's hash is that of its bytes, however long it is; a missing file is told",
           "[files]") {
-    const auto file = std::filesystem::temp_directory_path() /
-                      ("dibhr-hash-" + std::to_string(::getpid()) + ".bin");
+    const test::TemporaryFolder folder;
+    const auto file = folder / "any.bin";
     std::vector<std::uint8_t> bytes(5'000'001);
     for (std::size_t k = 0; k < bytes.size(); ++k) bytes[k] = static_cast<std::uint8_t>(k * 7);
     std::ofstream(file, std::ios::binary)

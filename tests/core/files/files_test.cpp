@@ -11,26 +11,13 @@
 #include "core/files/csv_text.hpp"
 #include "core/files/output_file.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace dibhr;
+using dibhr::test::TemporaryFolder;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// A folder of this process, gone with the test.
-class Folder {
-  public:
-    Folder() : path_(fs::temp_directory_path() / ("dibhr-files-" + std::to_string(::getpid()))) {
-        fs::create_directories(path_);
-    }
-    ~Folder() { fs::remove_all(path_); }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    [[nodiscard]] fs::path operator/(const char* name) const { return path_ / name; }
-
-  private:
-    fs::path path_;
-};
 
 std::string content_of(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
@@ -40,7 +27,7 @@ std::string content_of(const fs::path& file) {
 }  // namespace
 
 TEST_CASE("an output file is there after commit, and nothing is without it", "[files]") {
-    const Folder folder;
+    const TemporaryFolder folder;
     const fs::path file = folder / "out.csv";
     {
         OutputFile out(file);
@@ -61,7 +48,7 @@ TEST_CASE("an output file is there after commit, and nothing is without it", "[f
 
 TEST_CASE("an output file is written beside what another program left, and as readable as any",
           "[files]") {
-    const Folder folder;
+    const TemporaryFolder folder;
     const fs::path file = folder / "out.csv";
     const std::string left = file.string() + ".part" + std::to_string(::getpid());
     for (const char* ending : {"", "-0", "-1"}) std::ofstream(left + ending) << "half";
@@ -87,7 +74,7 @@ TEST_CASE("an output file is written beside what another program left, and as re
 }
 
 TEST_CASE("a link stays a link and a pipe stays a pipe", "[files]") {
-    const Folder folder;
+    const TemporaryFolder folder;
     fs::create_symlink(folder / "real", folder / "link");
     OutputFile out(folder / "link");
     out.write("x");
@@ -102,7 +89,7 @@ TEST_CASE("a link stays a link and a pipe stays a pipe", "[files]") {
 
 TEST_CASE("a target that cannot be written is refused by name before anything is written",
           "[files]") {
-    const Folder folder;
+    const TemporaryFolder folder;
     CHECK_THROWS_AS(OutputFile(folder / "missing" / "out.csv"), InputError);
     CHECK_THROWS_AS(OutputFile(folder / ""), InputError);
 }
@@ -118,7 +105,7 @@ TEST_CASE("text is quoted short and on one line, and cells lose what stands arou
 }
 
 TEST_CASE("a folder, a device or a missing file is refused with what to give instead", "[files]") {
-    const Folder folder;
+    const TemporaryFolder folder;
     for (const fs::path& file : {folder / "", folder / "missing.csv", fs::path("/dev/zero")}) {
         try {
             static_cast<void>(text_of_file(file, "give something else"));

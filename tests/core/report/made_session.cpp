@@ -2,14 +2,12 @@
 #include "tests/core/report/made_session.hpp"
 
 #include <sqlite3.h>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <iterator>
 #include <memory>
-#include <system_error>
 #include <thread>
 
 #include "core/haptics/primitive.hpp"
@@ -18,17 +16,6 @@
 namespace dibhr::test {
 
 namespace fs = std::filesystem;
-
-ReportFolder::ReportFolder() {
-    std::string pattern = (fs::temp_directory_path() / "dibhr-report-XXXXXX").string();
-    REQUIRE(::mkdtemp(pattern.data()) != nullptr);
-    path_ = pattern;
-}
-
-ReportFolder::~ReportFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-}
 
 TickRecord tick_above(std::int64_t number) {
     TickRecord tick;
@@ -106,15 +93,6 @@ std::string json_at(const fs::path& file, const std::string& path) {
 std::string text_in(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-std::vector<std::string> names_in(const fs::path& folder) {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        names.push_back(entry.path().filename().string());
-    }
-    std::sort(names.begin(), names.end());
-    return names;
 }
 
 }  // namespace dibhr::test

@@ -12,22 +12,6 @@
 
 namespace dibhr::test {
 
-/// Gone with the test.
-class ReportFolder {
-  public:
-    ReportFolder();
-    ~ReportFolder();
-    ReportFolder(const ReportFolder&) = delete;
-    ReportFolder& operator=(const ReportFolder&) = delete;
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-    [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
-        return path_ / name;
-    }
-
-  private:
-    std::filesystem::path path_{};
-};
-
 /// A tick of a 1 kHz loop above pixel (100, 100) of media 1, out of contact.
 [[nodiscard]] TickRecord tick_above(std::int64_t number);
 
@@ -54,7 +38,5 @@ void record(const std::filesystem::path& file, const MadeSession& session);
 [[nodiscard]] std::string json_at(const std::filesystem::path& file, const std::string& path);
 
 [[nodiscard]] std::string text_in(const std::filesystem::path& file);
-/// Sorted.
-[[nodiscard]] std::vector<std::string> names_in(const std::filesystem::path& folder);
 
 }  // namespace dibhr::test

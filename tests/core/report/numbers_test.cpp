@@ -12,6 +12,7 @@
 #include "core/report/touched_places.hpp"
 #include "tests/core/report/made_session.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -88,7 +89,7 @@ TEST_CASE("places outside every image are not shown, and the longest frame is fo
 }
 
 TEST_CASE("a recorded session comes to its numbers", "[report]") {
-    const ReportFolder folder;
+    const TemporaryFolder folder;
     MadeSession made;
     made.ticks = ticks_touching(1000, 200, 700);
     made.ticks[3].lateness_us = 2500.0;
@@ -117,7 +118,7 @@ TEST_CASE("a recorded session comes to its numbers", "[report]") {
 }
 
 TEST_CASE("a program that was stopped did not touch meanwhile", "[report]") {
-    const ReportFolder folder;
+    const TemporaryFolder folder;
     MadeSession made;
     made.ticks = ticks_touching(200, 0, 200);
     for (std::size_t k = 100; k < 200; ++k) made.ticks[k].t_s += 60.0;

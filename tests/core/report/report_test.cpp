@@ -18,6 +18,7 @@
 #include "core/video/media.hpp"
 #include "tests/core/report/made_session.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -96,7 +97,7 @@ const std::vector<std::string> kAllFiles{
 
 TEST_CASE("a report is one page, its numbers and its pictures, in a folder that is made",
           "[report]") {
-    const ReportFolder folder;
+    const TemporaryFolder folder;
     record(folder / "a.dibhr", two_touches());
     report(folder / "a.dibhr", folder.path() / "deep" / "er");
     const fs::path out = folder.path() / "deep" / "er";
@@ -113,7 +114,7 @@ TEST_CASE("a report is one page, its numbers and its pictures, in a folder that 
 }
 
 TEST_CASE("the page stands alone, closes what it opens, and says it in words", "[report]") {
-    const ReportFolder folder;
+    const TemporaryFolder folder;
     MadeSession made = two_touches();
     made.facts["participant"] = "P07";
     record(folder / "a.dibhr", made);
@@ -132,7 +133,7 @@ TEST_CASE("the page stands alone, closes what it opens, and says it in words", "
 
 TEST_CASE("whatever a session says is shown as text", "[report]") {
     const std::string kNasty = "</p><script>alert(1)</script>\" onload='x' \xFF\x01 \xE4\xBD\xA0";
-    const ReportFolder folder;
+    const TemporaryFolder folder;
     MadeSession made = two_touches();
     made.facts["note"] = kNasty;
     made.facts["participant"] = kNasty;
@@ -154,7 +155,7 @@ TEST_CASE("whatever a session says is shown as text", "[report]") {
 }
 
 TEST_CASE("a session that never touched has a report that says so", "[report]") {
-    const ReportFolder folder;
+    const TemporaryFolder folder;
     MadeSession made;
     made.ticks = ticks_touching(GENERATE(1, 500), 0, 0);
     record(folder / "a.dibhr", made);
@@ -169,7 +170,7 @@ TEST_CASE("a session that never touched has a report that says so", "[report]") 
 
 TEST_CASE("a session of a single contact tick, without force or without time, has a report",
           "[report]") {
-    const ReportFolder folder;
+    const TemporaryFolder folder;
     MadeSession made;
     made.ticks = ticks_touching(1, 0, 1);
     switch (GENERATE(0, 1, 2)) {
@@ -188,7 +189,7 @@ TEST_CASE("a session of a single contact tick, without force or without time, ha
 }
 
 TEST_CASE("each video that was touched has its heat map, the longest touched first", "[report]") {
-    const ReportFolder folder;
+    const TemporaryFolder folder;
     MadeSession made = two_touches();
     for (TickRecord& tick : made.ticks) {
         if (tick.tick >= 1400) tick.frames.source.media = 2;
@@ -207,7 +208,7 @@ TEST_CASE("each video that was touched has its heat map, the longest touched fir
 TEST_CASE("a place beyond any picture takes no memory: it is ignored, or the map is left out",
           "[report]") {
     const bool size_known = GENERATE(true, false);
-    const ReportFolder folder;
+    const TemporaryFolder folder;
     MadeSession made = two_touches();
     made.ticks[300].proxy[0] = 65535.0;
     made.ticks[300].proxy[1] = 65535.0;
@@ -229,7 +230,7 @@ TEST_CASE("a place beyond any picture takes no memory: it is ignored, or the map
 }
 
 TEST_CASE("what speaks against a picture is said, and the picture stays", "[report]") {
-    const ReportFolder folder;
+    const TemporaryFolder folder;
     record(folder / "a.dibhr", two_touches());
     const auto pictures = [](const SessionSource&, double) {
         RecordedPicture picture;
@@ -245,7 +246,7 @@ TEST_CASE("what speaks against a picture is said, and the picture stays", "[repo
 }
 
 TEST_CASE("an earlier report is replaced, other files stay", "[report]") {
-    const ReportFolder folder;
+    const TemporaryFolder folder;
     record(folder / "touch.dibhr", two_touches());
     MadeSession made;
     made.ticks = ticks_touching(100, 0, 0);
@@ -260,7 +261,7 @@ TEST_CASE("an earlier report is replaced, other files stay", "[report]") {
 
 TEST_CASE("what cannot be reported is refused in one line, and nothing is left or changed",
           "[report]") {
-    const ReportFolder folder;
+    const TemporaryFolder folder;
     record(folder / "touch.dibhr", two_touches());
     record(folder / "empty.dibhr", {});
     std::ofstream(folder / "file") << "a file";
@@ -288,7 +289,7 @@ TEST_CASE("what cannot be reported is refused in one line, and nothing is left o
 }
 
 TEST_CASE("a report that breaks off leaves the earlier one as it was", "[report]") {
-    const ReportFolder folder;
+    const TemporaryFolder folder;
     record(folder / "touch.dibhr", two_touches());
     report(folder / "touch.dibhr", folder / "out");
     const std::string page = text_in(folder / "out/report.html");

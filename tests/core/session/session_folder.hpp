@@ -2,40 +2,23 @@
 #pragma once
 
 #include <sqlite3.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
-#include <system_error>
 #include <thread>
 #include <vector>
 
 #include "core/session/recorder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace dibhr::test {
 
-/// Gone with the test.
-class SessionFolder {
+/// A folder and the name of a session in it.
+class SessionFolder : public TemporaryFolder {
   public:
-    SessionFolder() {
-        std::string name =
-            (std::filesystem::temp_directory_path() / "dibhr_session_XXXXXX").string();
-        path_ = mkdtemp(name.data());
-    }
-    ~SessionFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    SessionFolder(const SessionFolder&) = delete;
-    SessionFolder& operator=(const SessionFolder&) = delete;
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-    [[nodiscard]] std::filesystem::path file() const { return path_ / "touch.dibhr"; }
-
-  private:
-    std::filesystem::path path_;
+    [[nodiscard]] std::filesystem::path file() const { return *this / "touch.dibhr"; }
 };
 
 using Row = std::vector<std::string>;

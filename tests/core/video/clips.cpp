@@ -1,30 +1,16 @@
 // Tiny clips and pictures, made at test time in a folder that goes with the test.
 #include "tests/core/video/clips.hpp"
 
-#include <stdlib.h>
-
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
-#include <system_error>
 
 #include "core/error.hpp"
 
 namespace dibhr::test {
-
-TemporaryFolder::TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "dibhr-test-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-}
 
 void ffmpeg(const std::string& arguments) {
     const std::string command = "ffmpeg -nostdin -v quiet -y " + arguments;

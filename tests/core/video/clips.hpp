@@ -9,23 +9,6 @@
 
 namespace dibhr::test {
 
-/// A fresh folder, removed with all in it.
-class TemporaryFolder {
-  public:
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
-        return path_ / name;
-    }
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_{};
-};
-
 /// Runs the ffmpeg program; its own words go nowhere. Throws when it fails.
 void ffmpeg(const std::string& arguments);
 

@@ -15,6 +15,7 @@
 
 #include "tests/core/video/clips.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;

@@ -14,6 +14,7 @@
 #include "core/video/media.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;

@@ -1,20 +1,16 @@
 // A bare Falcon, a person beside it, and a folder for the record of the check.
 #pragma once
 
-#include <unistd.h>
-
 #include <cstddef>
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <optional>
 #include <string>
-#include <system_error>
 
 #include "device/falcon/check/check.hpp"
 #include "tests/device/falcon/check_person.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace dibhr::test::falcon {
 
@@ -30,23 +26,13 @@ struct Checked {
     Unit& unit{bus.plug()};
     CheckPerson person{bus, unit};
     CheckOptions options{};
-    std::filesystem::path folder{};
+    TemporaryFolder folder{};
 
     Checked() {
-        std::string pattern =
-            (std::filesystem::temp_directory_path() / "dibhr-check-XXXXXX").string();
-        REQUIRE(::mkdtemp(pattern.data()) != nullptr);
-        folder = pattern;
         options.firmware = any_firmware();
         options.record = folder / "record.json";
         options.times = short_times();
     }
-    ~Checked() {
-        std::error_code ignored;
-        std::filesystem::remove_all(folder, ignored);
-    }
-    Checked(const Checked&) = delete;
-    Checked& operator=(const Checked&) = delete;
 
     CheckResult run() { return run_check(options, person); }
 

@@ -1,7 +1,5 @@
 // Every fault of the bus, the chip, the board and the file ends in the right stage, a plain
 // sentence, and no force.
-#include <unistd.h>
-
 #include <cerrno>
 #include <chrono>
 #include <cstdint>
@@ -16,6 +14,7 @@
 #include "device/falcon/survey.hpp"
 #include "tests/device/falcon/falcon_in_loop.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace {
 
@@ -81,26 +80,6 @@ struct Loading {
     bool comes_to(Stage stage) {
         return loop.tick_until([&] { return loop.device.status().stage == stage; });
     }
-};
-
-/// A file that is gone after the test.
-class TemporaryFile {
-  public:
-    explicit TemporaryFile(const Bytes& bytes)
-        : path_(std::filesystem::temp_directory_path() /
-                ("dibhr-firmware-" + std::to_string(getpid()) + ".bin")) {
-        std::ofstream file(path_, std::ios::binary);
-        file.write(reinterpret_cast<const char*>(bytes.data()),
-                   static_cast<std::streamsize>(bytes.size()));
-    }
-    ~TemporaryFile() { std::filesystem::remove(path_); }
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
 };
 
 }  // namespace
@@ -365,16 +344,20 @@ TEST_CASE("a corrupt, cut or foreign firmware file is refused before a byte is s
     Unit& unit = bus.plug("SIM00001");
     Bytes bytes = dibhr::test::synthetic_firmware();
     spoil(bytes);
-    const TemporaryFile file(bytes);
+    const dibhr::test::TemporaryFolder folder;
+    const auto file = folder / "spoilt.bin";
+    std::ofstream(file, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
     std::string reason;
     try {
-        const auto image = dibhr::falcon::read_firmware(file.path());
+        const auto image = dibhr::falcon::read_firmware(file);
         (void)dibhr::falcon::survey_falcons({}, image);
     } catch (const dibhr::InputError& refusal) {
         reason = refusal.what();
     }
     CAPTURE(reason);
-    CHECK(reason.find(file.path().filename().string()) != std::string::npos);
+    CHECK(reason.find(file.filename().string()) != std::string::npos);
     CHECK(reason.find('\n') == std::string::npos);
     CHECK(unit.with([](FalconModel& model) { return model.traffic().bytes_out; }) == 0);
 }

@@ -19,6 +19,7 @@
 #include "core/error.hpp"
 #include "tests/device/falcon/synthetic_firmware.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace {
 
@@ -26,6 +27,7 @@ namespace fs = std::filesystem;
 using dibhr::InputError;
 using dibhr::test::synthetic_firmware;
 using dibhr::test::SyntheticBlock;
+using dibhr::test::TemporaryFolder;
 using namespace dibhr::falcon;
 using Bytes = std::vector<std::uint8_t>;
 
@@ -35,35 +37,28 @@ constexpr std::size_t kEntryAt = 18;
 constexpr std::size_t kFirstBlockAt = 22;
 constexpr std::size_t kBlockHeaderBytes = 6;
 
-/// A folder of its own that holds the user's data, too.
-class Folder {
+/// A folder that holds the user's data, too.
+class Folder : public TemporaryFolder {
   public:
     Folder() {
-        std::string pattern = (fs::temp_directory_path() / "dibhr-firmware-XXXXXX").string();
-        REQUIRE(::mkdtemp(pattern.data()) != nullptr);
-        path = pattern;
         if (const char* before = std::getenv("XDG_DATA_HOME")) data_home_before_ = before;
-        ::setenv("XDG_DATA_HOME", (path / "data").c_str(), 1);
+        ::setenv("XDG_DATA_HOME", (*this / "data").c_str(), 1);
     }
     ~Folder() {
         if (data_home_before_) ::setenv("XDG_DATA_HOME", data_home_before_->c_str(), 1);
         if (!data_home_before_) ::unsetenv("XDG_DATA_HOME");
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
     }
     Folder(const Folder&) = delete;
     Folder& operator=(const Folder&) = delete;
 
     [[nodiscard]] fs::path holding(std::string_view content,
                                    const char* name = "firmware.bin") const {
-        std::ofstream(path / name, std::ios::binary) << content;
-        return path / name;
+        std::ofstream(*this / name, std::ios::binary) << content;
+        return *this / name;
     }
     [[nodiscard]] fs::path holding(const Bytes& content) const {
         return holding({reinterpret_cast<const char*>(content.data()), content.size()});
     }
-
-    fs::path path{};
 
   private:
     std::optional<std::string> data_home_before_{};
@@ -330,12 +325,12 @@ TEST_CASE("a refusal is one line: which file, why, and where people get one", "[
 
 TEST_CASE("a path that is no readable file is refused", "[firmware]") {
     const Folder folder;
-    CHECK(says(refusal_of(folder.path), "it is a folder"));
-    CHECK(says(refusal_of(folder.path / "missing.bin"), "there is no file"));
+    CHECK(says(refusal_of(folder.path()), "it is a folder"));
+    CHECK(says(refusal_of(folder / "missing.bin"), "there is no file"));
     CHECK(says(refusal_of("/dev/zero"), "no ordinary file"));
     CHECK_FALSE(refusal_of(folder.holding("x") / "inner.bin").empty());
 
-    const fs::path pipe = folder.path / "pipe";
+    const fs::path pipe = folder / "pipe";
     REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
     CHECK(says(refusal_of(pipe), "no ordinary file"));
 
@@ -360,7 +355,7 @@ TEST_CASE("an accepted file is kept, and found again", "[firmware]") {
     const Bytes bytes = synthetic_firmware(500, 7);
     const FirmwareImage image = keep_firmware(folder.holding(bytes));
     CHECK(image.bytes == bytes);
-    CHECK(kept_firmware_path() == folder.path / "data" / "dibhr" / "falcon-firmware.bin");
+    CHECK(kept_firmware_path() == folder / "data" / "dibhr" / "falcon-firmware.bin");
     CHECK(kept_firmware().bytes == bytes);
     CHECK(kept_firmware().sha256 == image.sha256);
 
