@@ -9,15 +9,12 @@
 #include "core/session/session_file.hpp"
 #include "tests/app/command_program.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/text.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 /// The words a wrong command line is refused with.
 std::string usage_error(std::vector<std::string> arguments) {

@@ -14,6 +14,7 @@
 #include "tests/app/command_program.hpp"
 #include "tests/app/recorded_session.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/text.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -21,10 +22,6 @@ using namespace dibhr::test;
 namespace {
 
 namespace fs = std::filesystem;
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 bool is_one_line(const std::string& text) {
     return text.starts_with("dibhr: ") && text.find('\n') == text.size() - 1;

@@ -13,6 +13,7 @@
 #include "core/session/recorder.hpp"
 #include "tests/app/command_program.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/text.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -20,10 +21,6 @@ using namespace dibhr::test;
 namespace {
 
 namespace fs = std::filesystem;
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 /// A second of touch over color.png and depth.png of the folder, which are made.
 void record_touch(const TemporaryFolder& folder, const std::string& name) {

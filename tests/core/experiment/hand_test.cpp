@@ -19,15 +19,13 @@
 #include "tests/core/haptics/surfaces.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/text.hpp"
 
 using namespace dibhr;
 using Catch::Matchers::WithinAbs;
+using dibhr::test::contains;
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 std::vector<TraceSample> traced(const std::string& text) {
     const test::TemporaryFolder folder;

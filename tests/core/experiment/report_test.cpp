@@ -7,14 +7,12 @@
 #include "core/experiment/report_table.hpp"
 #include "core/experiment/sweep.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/text.hpp"
 
 using namespace dibhr;
+using dibhr::test::contains;
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 std::vector<PathRun> short_runs() {
     std::vector<PathRun> paths{linear_path(0.4, 20.0, 400), circle_path(0.4, 20.0, 400)};

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
@@ -67,6 +68,13 @@ inline TickRecord tick_record(std::int64_t number) {
 inline void push(TickRing& ring, const TickRecord& record) {
     while (ring.size() == ring.room()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     (void)ring.push(record);
+}
+
+/// A session of `count` ticks and no more.
+inline void record_ticks(const std::filesystem::path& file, std::int64_t count) {
+    const auto ring = std::make_unique<TickRing>();
+    const Recorder recorder(file, *ring, {});
+    for (std::int64_t n = 0; n < count; ++n) push(*ring, tick_record(n));
 }
 
 /// Waits until `condition` holds; false after ten seconds.

@@ -1,0 +1,173 @@
+// What is said of files that are no session, or no whole one.
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <random>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/session/recorder.hpp"
+#include "core/session/session.hpp"
+#include "tests/core/session/session_folder.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/text.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+
+namespace {
+
+/// What opening and looking through the file is refused with.
+std::string refusal_of(const std::filesystem::path& file) {
+    try {
+        const Session session(file);
+        session.check();
+        Session::Ticks ticks(session);
+        for (TickRecord tick; ticks.next(tick);) {
+        }
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "nothing";
+}
+
+void run_sql(const std::filesystem::path& file, const std::string& sql) {
+    sqlite3* database = nullptr;
+    REQUIRE(sqlite3_open(file.c_str(), &database) == SQLITE_OK);
+    CHECK(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
+    sqlite3_close(database);
+}
+
+}  // namespace
+
+TEST_CASE("a file that is none is refused with one line that says which and what it is",
+          "[session]") {
+    const SessionFolder folder;
+    const auto refusal = [&folder] { return refusal_of(folder.file()); };
+    const auto is_one_line = [&folder](const std::string& text) {
+        return contains(text, folder.file().string() + ": ") && !contains(text, "\n");
+    };
+    SECTION("missing") {
+        CHECK(refusal() == folder.file().string() + ": no such file; check its name");
+    }
+    SECTION("a folder") {
+        std::filesystem::create_directory(folder.file());
+        CHECK(contains(refusal(), "no ordinary file"));
+    }
+    SECTION("empty") {
+        std::ofstream(folder.file()).flush();
+        CHECK(contains(refusal(), "it is empty"));
+    }
+    SECTION("text") {
+        std::ofstream(folder.file()) << std::string(5000, 'x');
+        CHECK(contains(refusal(), "no SQLite file"));
+        CHECK(is_one_line(refusal()));
+    }
+    SECTION("another program's database") {
+        run_sql(folder.file(), "CREATE TABLE song(name TEXT)");
+        CHECK(contains(refusal(), "another program's database"));
+        CHECK(is_one_line(refusal()));
+    }
+    SECTION("a newer version") {
+        record_ticks(folder.file(), 10);
+        run_sql(folder.file(), "PRAGMA user_version = 3");
+        CHECK(contains(refusal(), "was recorded by a newer dibhr (format 3, this one reads 2)"));
+        CHECK(is_one_line(refusal()));
+    }
+    SECTION("an older version") {
+        record_ticks(folder.file(), 10);
+        run_sql(folder.file(), "PRAGMA user_version = 1");
+        CHECK(contains(refusal(), "was recorded by an older dibhr (format 1, this one reads 2)"));
+    }
+    SECTION("of its version, without its tables") {
+        record_ticks(folder.file(), 10);
+        run_sql(folder.file(), "DROP TABLE clock");
+        CHECK(is_one_line(refusal()));
+    }
+}
+
+TEST_CASE(
+    "wherever a session was cut off or overwritten, that is said in one line, or nothing of "
+    "it is lost",
+    "[session]") {
+    const SessionFolder folder;
+    record_ticks(folder.file(), 4000);
+    std::ifstream stream(folder.file(), std::ios::binary);
+    const std::string whole(std::istreambuf_iterator<char>(stream), {});
+    const auto damaged = folder.path() / "damaged.dibhr";
+    std::mt19937 random(11);
+    std::uniform_int_distribution<std::size_t> place(0, whole.size() - 1);
+    int refused = 0;
+    for (int k = 0; k < 200; ++k) {
+        std::string bytes = whole;
+        const std::size_t at = place(random);
+        if (k % 2 == 0) {
+            bytes.resize(at);
+        } else {
+            for (std::size_t n = at; n < std::min(at + 600, bytes.size()); ++n) {
+                bytes[n] = static_cast<char>(random());
+            }
+        }
+        std::ofstream(damaged, std::ios::binary) << bytes;
+        const std::string refusal = refusal_of(damaged);
+        CAPTURE(k, at, refusal);
+        CHECK_FALSE(contains(refusal, "\n"));
+        if (k % 2 == 0) CHECK(contains(refusal, damaged.string() + ": "));
+        refused += refusal == "nothing" ? 0 : 1;
+    }
+    CHECK(refused > 150);  // reals in the middle of a row may well be others
+}
+
+TEST_CASE("a recording copied without its log says so, and a whole one says nothing", "[session]") {
+    const SessionFolder folder;
+    const auto ring = std::make_unique<TickRing>();
+    Recorder recorder(folder.file(), *ring, {{"note", "hello"}});
+    push(*ring, tick_record(0));
+    REQUIRE(eventually([&] { return recorder.status().rows == 1; }));
+    const auto copied = folder.path() / "copied.dibhr";
+    std::filesystem::copy_file(folder.file(), copied);  // what is left without the log
+    const Session broken_off(copied);
+    CHECK(broken_off.fact("note") == "hello");
+    CHECK(contains(broken_off.warning(), copied.string()));
+    CHECK(contains(broken_off.warning(), "copied.dibhr-wal"));
+    CHECK_FALSE(contains(broken_off.warning(), "\n"));
+    CHECK(Session(folder.file()).warning().empty());  // its log is beside it
+    recorder.finish();
+    CHECK(Session(folder.file()).warning().empty());
+}
+
+TEST_CASE("a file all of whose recording is in a log that is not there names the log",
+          "[session]") {
+    const SessionFolder folder;
+    sqlite3* database = nullptr;
+    REQUIRE(sqlite3_open(folder.file().c_str(), &database) == SQLITE_OK);
+    const auto run = [&](const char* sql) {
+        CHECK(sqlite3_exec(database, sql, nullptr, nullptr, nullptr) == SQLITE_OK);
+    };
+    run("PRAGMA journal_mode = WAL");
+    run("PRAGMA application_id = 0x64686170; CREATE TABLE session(key, value)");
+    const auto copied = folder.path() / "copied.dibhr";
+    std::filesystem::copy_file(folder.file(), copied);
+    sqlite3_close(database);
+    CHECK(contains(refusal_of(copied), "copied.dibhr-wal, which is not here"));
+    // Another program's, whole.
+    const auto foreign = folder.path() / "foreign.dibhr";
+    run_sql(foreign, "PRAGMA journal_mode = WAL; CREATE TABLE a(b)");
+    CHECK(contains(refusal_of(foreign), "another program"));
+}
+
+TEST_CASE("ticks with numbers that no recording reaches are refused", "[session]") {
+    const SessionFolder folder;
+    record_ticks(folder.file(), 10);
+    const std::string number =
+        GENERATE(as<std::string>{}, "9223372036854775807", "-9223372036854775807", "-1");
+    run_sql(folder.file(), "UPDATE tick_data SET tick = " + number + " WHERE tick = 9");
+    const std::string refusal = refusal_of(folder.file());
+    CHECK(contains(refusal, folder.file().string() + ": is damaged"));
+    CHECK(contains(refusal, number));
+}
