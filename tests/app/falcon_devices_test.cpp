@@ -165,3 +165,35 @@ TEST_CASE("the serial of the settings chooses among several Falcons", "[falcon][
     CHECK(result.exit_code == 1);
     CHECK(says(result.errors, "display"));  // it got as far as the window
 }
+
+TEST_CASE("falcon_host says how it is used: asked for, or after a wrong command line", "[falcon]") {
+    const TemporaryFolder folder;
+    const auto told = [&folder](Words host) {
+        host.insert(host.begin(), FALCON_HOST);
+        return run_dibhr(folder, {}, host);
+    };
+    const ProgramResult help = told({"--help"});
+    CHECK(help.exit_code == 0);
+    CHECK(help.errors.empty());
+    for (const char* word : {"Usage: ", "hand X Y Z [SECONDS]", "mm", "Examples"}) {
+        CHECK(says(help.output, word));
+    }
+    struct Wrong {
+        Words host;
+        std::string reason;
+    };
+    for (const Wrong& wrong :
+         {Wrong{{"--nonsense", "1"}, "no option is called --nonsense"},
+          Wrong{{"--serial", "A", "--socket"}, "name the program"},
+          Wrong{{}, "the program comes after --"}}) {
+        const ProgramResult result = told(wrong.host);
+        CHECK(result.exit_code == 2);
+        CHECK(result.output.empty());
+        CHECK(result.errors.starts_with(help.output));
+        CHECK(says(result.errors, "falcon_host: "));
+        CHECK(says(result.errors, wrong.reason));
+    }
+    const ProgramResult no_script = told({"--script", "none.txt", "--"});
+    CHECK(no_script.exit_code == 1);
+    CHECK(no_script.errors == "falcon_host: none.txt: cannot be read; give a file of commands\n");
+}

@@ -1,16 +1,4 @@
-// Runs an unmodified program with simulated Falcons on its USB:
-//
-//     falcon_host [--serial S]... [--command 'COMMAND']... [--socket PATH] [--script FILE]
-//                 [--preload LIBRARY] -- PROGRAM ARGUMENTS...
-//
-// COMMANDs are obeyed before the program begins, and later over the socket, one a line, answered in
-// a line: those of unit_commands.hpp, and `unplug` and `replug [ADDRESS]`. They are for the first
-// unit; "@SERIAL COMMAND" is for another one. FILE holds such lines too; there, `wait SECONDS` and
-// `wait arrived` (the hand has gone all its way) are known as well; each answer goes to stderr, and
-// the script begins with the program. The exit status is the program's.
-//
-// PROGRAM must be the program itself, not a script that starts it. It sees the simulated /sys only,
-// but for /sys/devices/system; with OpenGL it has to draw in software (LIBGL_ALWAYS_SOFTWARE=1).
+// Runs an unmodified program with simulated Falcons on its USB; kUsage tells how.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -25,28 +13,67 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <stop_token>
 #include <string>
-#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "tests/device/falcon/line_socket.hpp"
+#include "tests/device/falcon/unit_commands.hpp"
 #include "tests/device/falcon/usb_testbed.hpp"
 
 namespace {
 
 using dibhr::test::falcon::ask_line;
+using dibhr::test::falcon::kUnitCommands;
 using dibhr::test::falcon::LineServer;
 using dibhr::test::falcon::UsbPlace;
 using dibhr::test::falcon::UsbTestbed;
 
+constexpr const char* kUsage = R"(Runs a program as it is, with simulated Novint Falcons on its USB.
+
+Usage: falcon_host [OPTION VALUE]... -- PROGRAM [ARGUMENT]...
+
+  --serial S         a unit of this serial number; again for another unit (default SIM00001)
+  --command COMMAND  obeyed before the program begins; again for more
+  --script FILE      commands, one a line, from the program's beginning on; answers on stderr
+  --socket PATH      takes commands while the program runs, one a line, and answers each in one
+  --preload LIBRARY  the unit itself (default libfalcon_preload.so beside falcon_host)
+  --help             this text
+
+Commands, for the first unit; "@SERIAL COMMAND" is for another one. X is to the right, Y up, Z
+out of the base towards the person: 80 mm is pushed in, 115 the middle, 172 pulled out.
+)";
+
+constexpr const char* kMoreUsage =
+    R"(  unplug                the cable is pulled (not before the program begins)
+  replug [ADDRESS]      and put back, at this USB address or the next
+  wait SECONDS          in a script only
+  wait arrived          in a script only: until the hand has gone all its way
+
+Examples, in the build folder:
+  LIBGL_ALWAYS_SOFTWARE=1 ./falcon_host --command firmware --command home -- ./dibhr
+  ./falcon_host --serial A --serial B --command '@B refuse 13' -- ./dibhr devices
+
+The exit status is the program's; 2: bad usage. PROGRAM has to be the program itself, not a
+script that starts it. Of /sys it sees no more than the simulated bus and /sys/devices/system, so
+with OpenGL it has to draw in software.
+)";
+
+/// The command line is wrong.
+class UsageError : public std::invalid_argument {
+  public:
+    using std::invalid_argument::invalid_argument;
+};
+
 struct Arguments {
+    bool help{false};
     std::vector<std::string> serials{};
     std::vector<std::string> commands{};
     std::string socket{};
@@ -57,29 +84,35 @@ struct Arguments {
 
 Arguments parse(int count, char** words) {
     Arguments arguments;
+    std::map<std::string, std::vector<std::string>> values{
+        {"--serial", {}}, {"--command", {}}, {"--socket", {}}, {"--script", {}}, {"--preload", {}}};
     int i = 1;
     for (; i < count && std::string(words[i]) != "--"; i += 2) {
         const std::string option = words[i];
-        if (i + 1 >= count) throw std::invalid_argument(option + " needs a value");
-        const std::string value = words[i + 1];
-        if (option == "--serial") {
-            arguments.serials.push_back(value);
-        } else if (option == "--command") {
-            arguments.commands.push_back(value);
-        } else if (option == "--socket") {
-            arguments.socket = value;
-        } else if (option == "--script") {
-            arguments.script = value;
-        } else if (option == "--preload") {
-            arguments.preload = value;
-        } else {
-            throw std::invalid_argument("unknown option " + option);
+        if (option == "--help" || option == "-h") {
+            arguments.help = true;
+            return arguments;
         }
+        const auto known = values.find(option);
+        if (known == values.end()) {
+            throw UsageError("no option is called " + option + "; the program comes after --");
+        }
+        if (i + 1 >= count) throw UsageError(option + " needs a value");
+        known->second.emplace_back(words[i + 1]);
     }
     for (++i; i < count; ++i) arguments.program.push_back(words[i]);
-    if (arguments.program.empty()) throw std::invalid_argument("which program? -- PROGRAM ...");
+    if (arguments.program.empty()) throw UsageError("name the program to run after --");
     arguments.program.push_back(nullptr);
+    const auto last_of = [&values](const char* option) {
+        const auto& given = values.at(option);
+        return given.empty() ? std::string() : given.back();
+    };
+    arguments.serials = values.at("--serial");
     if (arguments.serials.empty()) arguments.serials.emplace_back("SIM00001");
+    arguments.commands = values.at("--command");
+    arguments.socket = last_of("--socket");
+    arguments.script = last_of("--script");
+    arguments.preload = last_of("--preload");
     return arguments;
 }
 
@@ -171,18 +204,38 @@ bool pause(std::chrono::duration<double> time, const std::stop_token& stop) {
     return !stop.stop_requested();
 }
 
-void run_script(const std::stop_token& stop, const std::string& path, Host& host) {
-    constexpr std::string_view kWait = "wait ";
-    std::ifstream script(path);
-    for (std::string line; std::getline(script, line) && !stop.stop_requested();) {
-        if (line.empty() || line.starts_with("#")) continue;
+using Script = std::vector<std::string>;
+
+/// Its lines, without comments; none of no file.
+Script read_script(const std::string& path) {
+    Script lines;
+    if (path.empty()) return lines;
+    std::ifstream file(path);
+    if (!file) throw std::runtime_error(path + ": cannot be read; give a file of commands");
+    for (std::string line; std::getline(file, line);) {
+        if (!line.empty() && !line.starts_with("#")) lines.push_back(line);
+    }
+    return lines;
+}
+
+/// Of "wait SECONDS"; nothing of any other line.
+std::optional<double> seconds_to_wait(const std::string& line) {
+    std::istringstream words(line);
+    std::string word;
+    double seconds = 0.0;
+    if (words >> word >> seconds && word == "wait") return seconds;
+    return std::nullopt;
+}
+
+void run_script(const std::stop_token& stop, const Script& script, Host& host) {
+    for (const std::string& line : script) {
+        if (stop.stop_requested()) return;
         if (line == "wait arrived") {
             while (host.answer("state").find(" arrived 0 ") != std::string::npos) {
                 if (!pause(std::chrono::milliseconds(10), stop)) return;
             }
-        } else if (line.starts_with(kWait)) {
-            const double seconds = std::stod(line.substr(kWait.size()));
-            if (!pause(std::chrono::duration<double>(seconds), stop)) return;
+        } else if (const auto seconds = seconds_to_wait(line)) {
+            if (!pause(std::chrono::duration<double>(*seconds), stop)) return;
         } else {
             std::cerr << "falcon_host: " + line + ": " + host.answer(line) + "\n";
         }
@@ -231,6 +284,7 @@ int run(Arguments arguments) {
     sigemptyset(&signals);
     for (const int signal : {SIGCHLD, SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
     pthread_sigmask(SIG_BLOCK, &signals, &before);  // before any thread begins: for all of them
+    const Script script = read_script(arguments.script);
     Host host(arguments.serials);
     const pid_t program = fork();
     if (program < 0) throw std::runtime_error("cannot start another process");
@@ -243,11 +297,8 @@ int run(Arguments arguments) {
         server.emplace(arguments.socket,
                        [&host](const std::string& line) { return host.answer(line); });
     }
-    std::jthread script;
-    if (!arguments.script.empty()) {
-        script = std::jthread(
-            [&](const std::stop_token& stop) { run_script(stop, arguments.script, host); });
-    }
+    const std::jthread scripted(
+        [&](const std::stop_token& stop) { run_script(stop, script, host); });
     const int status = wait_for(program, signals);
     host.program_has_ended();
     return status;
@@ -256,8 +307,16 @@ int run(Arguments arguments) {
 }  // namespace
 
 int main(int count, char** words) {
+    constexpr int kBadUsage = 2;
     try {
-        return run(parse(count, words));
+        const Arguments arguments = parse(count, words);
+        if (!arguments.help) return run(arguments);
+        std::cout << kUsage << kUnitCommands << kMoreUsage;
+        return EXIT_SUCCESS;
+    } catch (const UsageError& problem) {
+        std::cerr << kUsage << kUnitCommands << kMoreUsage << "\nfalcon_host: " << problem.what()
+                  << '\n';
+        return kBadUsage;
     } catch (const std::exception& problem) {
         std::cerr << "falcon_host: " << problem.what() << '\n';
         return EXIT_FAILURE;
