@@ -82,23 +82,32 @@ void check_device(const std::string& device) {
     }
 }
 
-void add_firmware_option(CLI::App& app, std::string& file) {
-    app.add_option("--firmware", file,
-                   "Firmware for a Falcon that has none; checked, and kept for the next time")
-        ->type_name("FILE");
+/// An option, or an argument, that names a file. `file` must outlive the parsing of `app`.
+CLI::Option* add_file(CLI::App& app, const std::string& name, std::filesystem::path& file,
+                      const std::string& help, const std::string& type = "FILE") {
+    return app
+        .add_option_function<std::string>(
+            name, [&file](const std::string& text) { file = text; }, help)
+        ->type_name(type);
+}
+
+CLI::Option* add_session(CLI::App& app, std::filesystem::path& file) {
+    return add_file(app, "SESSION", file, "A recorded session", "")->required();
+}
+
+void add_firmware_option(CLI::App& app, std::filesystem::path& file) {
+    add_file(app, "--firmware", file,
+             "Firmware for a Falcon that has none; checked, and kept for the next time");
 }
 
 int view(CLI::App& app, const Arguments& arguments) {
     ViewRequest request;
     ViewOptions& options = request.options;
-    std::string colour;
-    std::string depth;
-    app.add_option("COLOR", colour,
-                   "Colour video or image, or a recorded session to replay; none: the built-in "
-                   "sample")
-        ->type_name("");
-    app.add_option("DEPTH", depth, "Depth video or image; none: *color* -> *depth* beside it")
-        ->type_name("");
+    add_file(app, "COLOR", options.colour,
+             "Colour video or image, or a recorded session to replay; none: the built-in sample",
+             "");
+    add_file(app, "DEPTH", options.depth,
+             "Depth video or image; none: *color* -> *depth* beside it", "");
     app.add_option_function<std::string>(
            "--device",
            [&options](const std::string& device) {
@@ -109,13 +118,10 @@ int view(CLI::App& app, const Arguments& arguments) {
            "goals:FILE")
         ->type_name("DEVICE")
         ->default_str("auto");
-    std::string firmware;
-    add_firmware_option(app, firmware);
-    std::string record;
-    std::string screenshot;
-    app.add_option("--record", record, "Records every tick into a new session file (.dibhr)")
-        ->type_name("FILE");
-    app.add_option("--screenshot", screenshot, "Saves the last picture as PNG")->type_name("FILE");
+    add_firmware_option(app, options.firmware);
+    add_file(app, "--record", options.record,
+             "Records every tick into a new session file (.dibhr)");
+    add_file(app, "--screenshot", options.screenshot, "Saves the last picture as PNG");
     app.add_option_function<std::string>(
            "--seconds",
            [&options](const std::string& text) {
@@ -141,32 +147,24 @@ int view(CLI::App& app, const Arguments& arguments) {
         "  dibhr color.mp4 --record mine.dibhr --seconds 20 --screenshot last.png\n"
         "  dibhr mine.dibhr --algorithm pga       what was recorded, through another algorithm");
     if (!parse(app, arguments)) return 0;
+    const std::string colour = options.colour.string();
     std::error_code unknown;
     if (colour.find_first_of("./") == std::string::npos && !colour.empty() &&
         !std::filesystem::exists(colour, unknown)) {
         throw UsageError("neither a command nor a file is called '" + colour +
                          "'; see dibhr --help");
     }
-    options.colour = colour;
-    options.depth = depth;
-    options.record = record;
-    options.screenshot = screenshot;
-    options.firmware = firmware;
     return run_view(request);
 }
 
 int touch(CLI::App& app, const Arguments& arguments) {
     TouchOptions options;
     TouchRequest request;
-    std::string depth;
-    std::string goals;
-    std::string out = "-";
-    app.add_option("--depth", depth, "Depth video or image")->type_name("FILE")->required();
-    app.add_option("--goals", goals, "Goals, t,x,y,z a row: seconds and grid-space pixels")
-        ->type_name("GOALS.csv")
+    add_file(app, "--depth", options.depth, "Depth video or image")->required();
+    add_file(app, "--goals", options.goals, "Goals, t,x,y,z a row: seconds and grid-space pixels",
+             "GOALS.csv")
         ->required();
-    app.add_option("--out", out, "One row an update; - is standard output")
-        ->type_name("OUT.csv")
+    add_file(app, "--out", options.out, "One row an update; - is standard output", "OUT.csv")
         ->default_str("-");
     app.add_flag("--video", options.video, "Blends the frames in time; else the first image");
     add_touch_options(app, request);
@@ -175,9 +173,6 @@ int touch(CLI::App& app, const Arguments& arguments) {
         "  dibhr touch --depth depth.png --goals goals.csv --out touched.csv\n"
         "  dibhr touch --depth depth.mp4 --video --goals goals.csv --friction 0.2 | head");
     if (!parse(app, arguments)) return 0;
-    options.depth = depth;
-    options.goals = goals;
-    options.out = out;
     options.bump = request.bump;
     options.raw_depth = request.raw_depth;
     request.given.apply(options.parameters);
@@ -187,14 +182,11 @@ int touch(CLI::App& app, const Arguments& arguments) {
 int replay(CLI::App& app, const Arguments& arguments) {
     ReplayOptions options;
     TouchRequest request;
-    std::string session;
-    std::string csv;
-    app.add_option("SESSION", session, "A recorded session")->type_name("")->required();
+    add_session(app, options.session);
     add_touch_options(app, request);
     app.remove_option(app.get_option("--algorithm"));  // here it may be given several times
     add_algorithms_option(app, options.algorithms);
-    app.add_option("--csv", csv, "Writes the rows of one run; - is standard output")
-        ->type_name("FILE");
+    add_file(app, "--csv", options.csv, "Writes the rows of one run; - is standard output");
     app.add_flag("--any-media", options.any_media,
                  "Also over a video or bump map that has changed since");
     app.footer(
@@ -205,8 +197,6 @@ int replay(CLI::App& app, const Arguments& arguments) {
         "  dibhr replay mine.dibhr --algorithm dibhr --algorithm pga --friction 0.2\n"
         "  dibhr replay mine.dibhr --stiffness 1 --csv stiffer.csv");
     if (!parse(app, arguments)) return 0;
-    options.session = session;
-    options.csv = csv;
     options.given = request.given;
     options.bump = request.bump;
     options.raw_depth = request.raw_depth;
@@ -214,19 +204,16 @@ int replay(CLI::App& app, const Arguments& arguments) {
 }
 
 int export_session(CLI::App& app, const Arguments& arguments) {
-    std::string session;
-    std::string csv;
-    app.add_option("SESSION", session, "A recorded session")->type_name("")->required();
-    app.add_option("--csv", csv, "One row a tick; - is standard output")
-        ->type_name("FILE")
-        ->required();
+    ExportOptions options;
+    add_session(app, options.session);
+    add_file(app, "--csv", options.csv, "One row a tick; - is standard output")->required();
     app.footer(
         "The columns of `dibhr touch` come first; table tick_column of the session explains all.\n"
         "\nExamples:\n"
         "  dibhr export mine.dibhr --csv mine.csv\n"
         "  dibhr export mine.dibhr --csv - | head");
     if (!parse(app, arguments)) return 0;
-    return run_export({session, csv});
+    return run_export(options);
 }
 
 int info(CLI::App& app, const Arguments& arguments) {
@@ -238,15 +225,12 @@ int info(CLI::App& app, const Arguments& arguments) {
 }
 
 int devices(CLI::App& app, const Arguments& arguments) {
-    std::string firmware;
-    std::string out;
     DevicesRequest request;
-    add_firmware_option(app, firmware);
+    add_firmware_option(app, request.firmware);
     auto* const check = app.add_flag("--check", request.check,
                                      "Leads you through everything that is to be measured on a "
                                      "Falcon, with force only where it says so");
-    app.add_option("--out", out, "With --check: the record of what was measured")
-        ->type_name("FILE")
+    add_file(app, "--out", request.out, "With --check: the record of what was measured")
         ->default_str("falcon-check-SERIAL-DATE.json")
         ->needs(check);
     app.footer(
@@ -256,32 +240,28 @@ int devices(CLI::App& app, const Arguments& arguments) {
         "  dibhr devices --firmware nvent_firmware.bin\n"
         "  dibhr devices --check");
     if (!parse(app, arguments)) return 0;
-    request.firmware = firmware;
-    request.out = out;
     return run_devices(request);
 }
 
 int bench(CLI::App& app, const Arguments& arguments) {
-    std::string json;
-    app.add_option("--json", json, "Writes the numbers as JSON; - is standard output")
-        ->type_name("FILE");
+    BenchOptions options;
+    add_file(app, "--json", options.json, "Writes the numbers as JSON; - is standard output");
     if (!parse(app, arguments)) return 0;
-    return run_bench({json});
+    return run_bench(options);
 }
 
 int report(CLI::App& app, const Arguments& arguments) {
-    std::string session;
-    std::string out;
-    app.add_option("SESSION", session, "A recorded session")->type_name("")->required();
-    app.add_option("--out", out, "Folder for report.html, report.json and the pictures")
-        ->type_name("DIR")
+    ReportOptions options;
+    add_session(app, options.session);
+    add_file(app, "--out", options.out, "Folder for report.html, report.json and the pictures",
+             "DIR")
         ->required();
     app.footer(
         "The folder is made if it is missing; an earlier report in it is replaced.\n\n"
         "Example:\n"
         "  dibhr report mine.dibhr --out mine-report");
     if (!parse(app, arguments)) return 0;
-    return run_report({session, out});
+    return run_report(options);
 }
 
 int experiment(CLI::App& app, const Arguments& arguments) {
