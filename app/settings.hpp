@@ -56,10 +56,4 @@ struct Settings {
 /// Writes the file whole or not at all. Throws InputError.
 void save_settings(const Settings& settings, const std::filesystem::path& file);
 
-/// `in_file`, with every value that differs between `started` and `now` taken from `now`.
-[[nodiscard]] Settings changes_kept(const Settings& in_file, const Settings& started,
-                                    const Settings& now);
-
-[[nodiscard]] bool same_settings(const Settings& a, const Settings& b);
-
 }  // namespace dibhr

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "app/settings_changes.hpp"
+
 namespace dibhr {
 
 namespace {

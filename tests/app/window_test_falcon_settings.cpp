@@ -12,6 +12,7 @@
 #include "app/falcon_buttons.hpp"
 #include "app/falcon_settings.hpp"
 #include "app/settings.hpp"
+#include "app/settings_changes.hpp"
 #include "app/viewer_falcon.hpp"
 #include "app/viewer_state.hpp"
 #include "device/falcon/packet.hpp"

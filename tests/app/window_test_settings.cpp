@@ -7,6 +7,7 @@
 #include "app/keys.hpp"
 #include "app/options.hpp"
 #include "app/settings.hpp"
+#include "app/settings_changes.hpp"
 #include "app/viewer_actions.hpp"
 #include "app/viewer_keeping.hpp"
 #include "app/viewer_state.hpp"
