@@ -26,6 +26,7 @@ struct Friction {
 struct Coupling {
     double stiffness_newton_per_mm{0.5};
     double damping_newton_s_per_m{0.0};
+    double damping_cutoff_hz{0.0};  ///< of the low-pass on the velocity that is damped; 0: none
     double pixel_pitch_mm{101.6 /
                           720.0};  ///< the Falcon's 4 inches over 720 columns, as in the paper
 

@@ -31,13 +31,14 @@ SafetyCut reason_to_cut(Vec3 force_newton, const SafetyInput& input,
     if (!input.force_enabled) return SafetyCut::off;
     if (!input.device_ready) return SafetyCut::device_not_ready;
     if (!(input.dt_s > 0.0 && input.dt_s <= limits.max_tick_s)) return SafetyCut::late_tick;
-    if (!(input.goal_step_mm <= limits.max_goal_speed_mm_per_ms * bounded_ms(input.dt_s))) {
-        return SafetyCut::goal_jump;
-    }
-    return SafetyCut::none;
+    return goal_jumped(input, limits) ? SafetyCut::goal_jump : SafetyCut::none;
 }
 
 }  // namespace
+
+bool goal_jumped(const SafetyInput& input, const SafetyLimits& limits) noexcept {
+    return !(input.goal_step_mm <= limits.max_goal_speed_mm_per_ms * bounded_ms(input.dt_s));
+}
 
 const char* name_of(SafetyCut cut) noexcept {
     switch (cut) {

@@ -40,6 +40,9 @@ struct SafetyInput {
     bool restart{false};  ///< start, engaging, seek, loop, new file or parameters: from zero
 };
 
+/// The goal moved farther than a hand can in that time, or there was no time to move in.
+[[nodiscard]] bool goal_jumped(const SafetyInput& input, const SafetyLimits& limits) noexcept;
+
 /// Limits per millisecond count at most 3 ms of a late tick.
 /// Finite? -> length <= limit -> ramp -> change per millisecond <= limit -> zero when it must not
 /// act.

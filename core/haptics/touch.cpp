@@ -44,6 +44,7 @@ TouchRenderer::TouchRenderer() {
 void TouchRenderer::restart() noexcept {
     for (const auto& algorithm : algorithms_) algorithm->restart();
     running_ = Algorithm::dibhr;
+    goal_velocity_ = {};
     safety_ = {};
     last_ = {};
     started_ = false;
@@ -51,6 +52,11 @@ void TouchRenderer::restart() noexcept {
 
 void TouchRenderer::let_go() noexcept {
     algorithms_[static_cast<std::size_t>(running_)]->restart();
+}
+
+void TouchRenderer::rest() noexcept {
+    goal_velocity_.forget();
+    safety_.rest();
 }
 
 bool TouchRenderer::run_with(Algorithm algorithm, const DepthSurface& surface) noexcept {
@@ -64,6 +70,7 @@ const Touch& TouchRenderer::update(const DepthSurface& surface, Vec3 goal,
                                    const TouchParameters& parameters, SafetyInput input,
                                    const SafetyLimits& limits) noexcept {
     if (!is_finite(goal)) {
+        goal_velocity_.forget();  // the next step takes longer than its tick
         last_.spring_force_newton = Vec3(0.0);
         last_.sent_force_newton = safety_.limit(Vec3(NAN), input, limits);
         last_.cut = safety_.last_cut();
@@ -78,7 +85,9 @@ const Touch& TouchRenderer::update(const DepthSurface& surface, Vec3 goal,
     last_.goal = goal;
     last_.proxy =
         algorithms_[static_cast<std::size_t>(running_)]->update(surface, goal, parameters.friction);
-    const Vec3 goal_velocity = input.dt_s > 0.0 ? goal_step / input.dt_s : Vec3(0.0);
+    if (input.restart || goal_jumped(input, limits)) goal_velocity_.forget();
+    const Vec3 goal_velocity =
+        goal_velocity_.after(goal_step, input.dt_s, parameters.coupling.damping_cutoff_hz);
     last_.spring_force_newton =
         coupling_force(last_.proxy, goal, goal_velocity, parameters.coupling);
     last_.sent_force_newton =

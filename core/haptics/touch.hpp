@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/haptics/algorithm.hpp"
+#include "core/haptics/goal_velocity.hpp"
 #include "core/haptics/proxy.hpp"
 #include "core/haptics/safety.hpp"
 
@@ -46,7 +47,7 @@ class TouchRenderer {
     void let_go() noexcept;
 
     /// No update is due, and zero force is sent meanwhile: the next one's force begins from zero.
-    void rest() noexcept { safety_.rest(); }
+    void rest() noexcept;
 
   private:
     /// Makes the algorithm the running one; true when it was not.
@@ -54,6 +55,7 @@ class TouchRenderer {
 
     std::vector<std::unique_ptr<ProxyAlgorithm>> algorithms_{};  ///< by their enumeration
     Algorithm running_{Algorithm::dibhr};
+    GoalVelocity goal_velocity_{};
     SafetyStage safety_{};
     Touch last_{};
     bool started_{false};

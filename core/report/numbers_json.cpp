@@ -134,6 +134,7 @@ std::string parameters_json(const SessionParameters& parameters) {
         .add("dynamic_friction", touch.friction.dynamic_coefficient)
         .add("stiffness_newton_per_mm", touch.coupling.stiffness_newton_per_mm)
         .add("damping_newton_s_per_m", touch.coupling.damping_newton_s_per_m)
+        .add("damping_cutoff_hz", touch.coupling.damping_cutoff_hz)
         .add("pixel_pitch_mm", touch.coupling.pixel_pitch_mm)
         .add("max_force_newton", limits.max_force_newton)
         .add("max_change_newton_per_ms", limits.max_change_newton_per_ms)

@@ -93,6 +93,8 @@ Cells parameters_row(const SessionReport& report, const SessionParameters& param
             tick_text(touch.friction.dynamic_coefficient),
             tick_text(touch.coupling.stiffness_newton_per_mm),
             tick_text(touch.coupling.damping_newton_s_per_m),
+            touch.coupling.damping_cutoff_hz > 0.0 ? tick_text(touch.coupling.damping_cutoff_hz)
+                                                   : "off",
             tick_text(touch.coupling.pixel_pitch_mm),
             tick_text(parameters.limits.max_force_newton),
             parameters.force_enabled ? "on" : "off"};
@@ -154,14 +156,14 @@ std::string parameters_section(const SessionReport& report) {
         if (rows.size() == kMostRows) break;
         rows.push_back(parameters_row(report, parameters));
     }
-    return section(
-        "Parameters",
-        rows.empty()
-            ? "<p>None were recorded.</p>\n"
-            : table_of({"from [s]", "algorithm", "relief [px]", "roughness [px]", "bump map",
-                        "static friction", "dynamic friction", "stiffness [N/mm]",
-                        "damping [N s/m]", "pixel pitch [mm]", "force limit [N]", "force"},
-                       rows));
+    return section("Parameters",
+                   rows.empty()
+                       ? "<p>None were recorded.</p>\n"
+                       : table_of({"from [s]", "algorithm", "relief [px]", "roughness [px]",
+                                   "bump map", "static friction", "dynamic friction",
+                                   "stiffness [N/mm]", "damping [N s/m]", "damping cutoff [Hz]",
+                                   "pixel pitch [mm]", "force limit [N]", "force"},
+                                  rows));
 }
 
 std::string files_section(const SessionReport& report) {

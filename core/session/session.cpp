@@ -118,9 +118,9 @@ void Session::read_parameters() {
     SessionReader::Query query(
         reader_,
         "SELECT version, first_tick, algorithm, relief_px, roughness_px, static_friction, "
-        "dynamic_friction, stiffness_newton_per_mm, damping_newton_s_per_m, pixel_pitch_mm, "
-        "max_force_newton, max_change_newton_per_ms, ramp_s, max_tick_s, max_goal_speed_mm_per_ms, "
-        "force_enabled, m.file, m.bytes, m.sha256 "
+        "dynamic_friction, stiffness_newton_per_mm, damping_newton_s_per_m, damping_cutoff_hz, "
+        "pixel_pitch_mm, max_force_newton, max_change_newton_per_ms, ramp_s, max_tick_s, "
+        "max_goal_speed_mm_per_ms, force_enabled, m.file, m.bytes, m.sha256 "
         "FROM parameters LEFT JOIN media m ON m.id = bump ORDER BY first_tick");
     while (query.next()) {
         Row row(query);
@@ -141,6 +141,7 @@ void Session::read_parameters() {
         touch.friction.dynamic_coefficient = row.real();
         touch.coupling.stiffness_newton_per_mm = row.real();
         touch.coupling.damping_newton_s_per_m = row.real();
+        touch.coupling.damping_cutoff_hz = row.real();
         touch.coupling.pixel_pitch_mm = row.real();
         SafetyLimits& limits = parameters.limits;
         limits.max_force_newton = row.real();

@@ -206,7 +206,7 @@ void SessionFile::use_settings(std::uint64_t version, std::int64_t tick) {
     newton_per_px_ = touch.coupling.stiffness_newton_per_mm * touch.coupling.pixel_pitch_mm;
     Statement insert(database_,
                      "INSERT OR IGNORE INTO parameters VALUES "
-                     "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+                     "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
     RowBinder row(insert);
     row.integer(static_cast<std::int64_t>(version));
     row.integer(tick);
@@ -214,10 +214,10 @@ void SessionFile::use_settings(std::uint64_t version, std::int64_t tick) {
     for (const double value :
          {touch.shape.relief_px, touch.shape.roughness_px, touch.friction.static_coefficient,
           touch.friction.dynamic_coefficient, touch.coupling.stiffness_newton_per_mm,
-          touch.coupling.damping_newton_s_per_m, touch.coupling.pixel_pitch_mm,
-          parameters.limits.max_force_newton, parameters.limits.max_change_newton_per_ms,
-          parameters.limits.ramp_s, parameters.limits.max_tick_s,
-          parameters.limits.max_goal_speed_mm_per_ms}) {
+          touch.coupling.damping_newton_s_per_m, touch.coupling.damping_cutoff_hz,
+          touch.coupling.pixel_pitch_mm, parameters.limits.max_force_newton,
+          parameters.limits.max_change_newton_per_ms, parameters.limits.ramp_s,
+          parameters.limits.max_tick_s, parameters.limits.max_goal_speed_mm_per_ms}) {
         row.real(value);
     }
     row.integer(parameters.force_enabled ? 1 : 0);

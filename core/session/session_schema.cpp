@@ -19,9 +19,9 @@ CREATE TABLE source(id INTEGER PRIMARY KEY, first_tick INTEGER, media INTEGER, c
   depth INTEGER, fill_holes INTEGER, remove_spikes INTEGER, smooth_steps INTEGER);
 CREATE TABLE parameters(version INTEGER PRIMARY KEY, first_tick INTEGER, algorithm TEXT,
   relief_px REAL, roughness_px REAL, static_friction REAL, dynamic_friction REAL,
-  stiffness_newton_per_mm REAL, damping_newton_s_per_m REAL, pixel_pitch_mm REAL,
-  max_force_newton REAL, max_change_newton_per_ms REAL, ramp_s REAL, max_tick_s REAL,
-  max_goal_speed_mm_per_ms REAL, force_enabled INTEGER, bump INTEGER);
+  stiffness_newton_per_mm REAL, damping_newton_s_per_m REAL, damping_cutoff_hz REAL,
+  pixel_pitch_mm REAL, max_force_newton REAL, max_change_newton_per_ms REAL, ramp_s REAL,
+  max_tick_s REAL, max_goal_speed_mm_per_ms REAL, force_enabled INTEGER, bump INTEGER);
 CREATE TABLE pair(id INTEGER PRIMARY KEY, source INTEGER, from_frame INTEGER, to_frame INTEGER,
   from_s, to_s, span_s);
 CREATE TABLE clock(t_ns INTEGER PRIMARY KEY, utc_s REAL, dropped INTEGER, high_water INTEGER);

@@ -25,6 +25,7 @@ TEST_CASE("no tick allocates, in contact, in the air, on a bad goal or when the 
     parameters.algorithm =
         GENERATE(Algorithm::dibhr, Algorithm::pga, Algorithm::neighborhood, Algorithm::god_object);
     parameters.shape.roughness_px = 2.0;
+    parameters.coupling = {.damping_newton_s_per_m = 5.0, .damping_cutoff_hz = 50.0};
     CAPTURE(name_of(parameters.algorithm));
     test::Dice dice(47);
     int contacts = 0;

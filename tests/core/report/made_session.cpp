@@ -60,6 +60,7 @@ void record(const fs::path& file, const MadeSession& session) {
     SessionParameters parameters;
     parameters.version = 1;
     parameters.touch.coupling.pixel_pitch_mm = 0.1;
+    parameters.touch.coupling.damping_cutoff_hz = 47.5;
     recorder.parameters(parameters);
     recorder.media(1, session.colour, session.depth);
     if (session.also) session.also(recorder);

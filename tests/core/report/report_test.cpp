@@ -105,6 +105,7 @@ TEST_CASE("a report is one page, its numbers and its pictures, in a folder that 
     CHECK(std::stod(json_at(out / "report.json", "$.episodes[1].begin_s")) > 0.999);
     CHECK(json_at(out / "report.json", "$.episodes[1].sent.peak_newton") == "1.5");
     CHECK(json_at(out / "report.json", "$.parameters[0].pixel_pitch_mm") == "0.1");
+    CHECK(json_at(out / "report.json", "$.parameters[0].damping_cutoff_hz") == "47.5");
     CHECK(json_at(out / "report.json", "$.ticks.all") == "2000");
     CHECK(json_at(out / "report.json", "$.facts.program") == "dibhr 0.1.0");
     CHECK(json_at(out / "report.json", "$.heat_maps[0].columns") == "320");
@@ -121,6 +122,8 @@ TEST_CASE("the page stands alone, closes what it opens, and says it in words", "
     CHECK(unbalanced(page) == "");
     CHECK(contains(page, "In 2.0 s, P07 touched twice for 1.0 s in all (50 % of the time)."));
     CHECK(contains(page, "it is gone"));
+    CHECK(contains(page, "damping cutoff [Hz]"));
+    CHECK(contains(page, "47.5"));
     CHECK(count_of(page, "src=\"data:image/png;base64,iVBORw0KGgo") == kAllFiles.size() - 2);
     for (const char* outside : {"http:", "https:", "<script", "<link", "@import", "url("}) {
         CAPTURE(outside);

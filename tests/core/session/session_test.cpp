@@ -43,7 +43,7 @@ TEST_CASE("parameters, files and marks are kept with the tick that first used th
     first.touch.algorithm = Algorithm::pga;
     first.touch.shape = {200.0, 1.5};
     first.touch.friction = {0.5, 0.3};
-    first.touch.coupling = {0.25, 1.25, 0.2};
+    first.touch.coupling = {0.25, 1.25, 40.0, 0.2};
     first.limits = {3.0, 0.25, 0.75, 0.5, 11.0};
     first.force_enabled = false;
     first.bump.file = folder.path() / "no such bump.png";
