@@ -21,6 +21,10 @@ constexpr std::array kNumberOptions{
                  [](TouchParameters& p) -> double& { return p.coupling.stiffness_newton_per_mm; }},
     NumberOption{"damping", "Damping", "N s/m", 0.0, 100.0, "Force against the speed of the goal",
                  [](TouchParameters& p) -> double& { return p.coupling.damping_newton_s_per_m; }},
+    NumberOption{"damping-cutoff", "Damping cutoff", "Hz", 0.0, 800.0,
+                 "Low-pass on the speed that is damped, against the buzz of a device's steps: 50 "
+                 "Hz suits a Falcon; 0: off",
+                 [](TouchParameters& p) -> double& { return p.coupling.damping_cutoff_hz; }, "off"},
     NumberOption{"static-friction", "Static friction", "", 0.0, 5.0,
                  "Coefficient while the contact sticks",
                  [](TouchParameters& p) -> double& { return p.friction.static_coefficient; }},

@@ -35,7 +35,13 @@ void draw_option(std::string_view name, TouchParameters& parameters) {
         const std::string label(option.label);
         const std::string format = format_of(option, end);
         const std::string help = std::string(option.help) + " (--" + std::string(option.name) + ")";
-        if (number_row({label.c_str(), format.c_str(), option.lowest, end, standard, help.c_str()},
+        if (number_row({.label = label.c_str(),
+                        .format = format.c_str(),
+                        .lowest = option.lowest,
+                        .highest = end,
+                        .standard = standard,
+                        .help = help.c_str(),
+                        .zero = option.zero},
                        option.in(parameters))) {
             keep_in_range(parameters);
         }

@@ -72,7 +72,7 @@ void draw_touch_panel(ViewerState& state) {
     draw_algorithm(state.settings.touch.algorithm);
     draw_option("stiffness", state.settings.touch);
     draw_held_coupling(state);
-    for (const char* name : {"damping", "static-friction", "dynamic-friction"}) {
+    for (const char* name : {"damping", "damping-cutoff", "static-friction", "dynamic-friction"}) {
         draw_option(name, state.settings.touch);
     }
     draw_bump(state);

@@ -112,12 +112,16 @@ bool section(const ViewerState& state, const char* title, bool& open) {
 
 bool number_row(const NumberRow& row, double& value) {
     const double before = value;
+    const bool named = row.zero != nullptr && !(std::abs(value) > 0.0);
     ImGui::PushID(row.label);
     row_label(row.label, row.help);
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - arrow_width() -
                             ImGui::GetStyle().ItemInnerSpacing.x);
     ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &row.lowest, &row.highest,
-                        row.format, row.logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+                        named ? row.zero : row.format,
+                        row.logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+    // What is dragged is rounded to the digits that are shown; a word has none.
+    if (named && ImGui::IsMouseDown(ImGuiMouseButton_Left)) value = std::round(value);
     explain("Drag, or Ctrl+click to type a number");
     if (put_back_arrow(std::abs(value - row.standard) > 1e-9)) value = row.standard;
     ImGui::PopID();

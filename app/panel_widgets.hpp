@@ -22,6 +22,7 @@ struct NumberRow {
     double standard;  ///< what the small arrow puts back
     const char* help{""};
     bool logarithmic{false};
+    const char* zero{nullptr};  ///< shown for 0 instead of the number
 };
 
 /// Label, slider, and a small arrow when the value is not the standard one. True when it changed.

@@ -65,12 +65,16 @@ TEST_CASE("a session replays bit for bit, cleaned or raw, with any algorithm and
     make_film(folder);
     write_depth_png(folder / "bumps.png", 32, 24, 0, 8);
     RecordedSession session = film_session(folder);
-    const std::string kind =
-        GENERATE(as<std::string>{}, "dibhr", "raw", "pga", "neighborhood", "god-object", "bump");
+    const std::string kind = GENERATE(as<std::string>{}, "dibhr", "raw", "pga", "neighborhood",
+                                      "god-object", "bump", "filtered");
     CAPTURE(kind);
     session.parameters.algorithm = algorithm_named(kind).value_or(Algorithm::dibhr);
     if (kind == "raw") session.cleaning = {false, false, false};
     if (kind == "god-object") session.parameters.coupling.damping_newton_s_per_m = 1.5;
+    if (kind == "filtered") {
+        session.parameters.coupling.damping_newton_s_per_m = 5.0;
+        session.parameters.coupling.damping_cutoff_hz = 50.0;
+    }
     if (kind == "bump") {
         session.bump = folder / "bumps.png";
         session.parameters.shape.roughness_px = 7.5;
@@ -115,6 +119,21 @@ TEST_CASE("other parameters are a comparison, not a failure", "[replay]") {
         CHECK(result.exit_code == 0);
         CHECK_FALSE(contains(result.output, "identical"));
     }
+}
+
+TEST_CASE("a session felt with plain damping is computed again with a filtered one", "[replay]") {
+    const TemporaryFolder folder;
+    make_film(folder);
+    RecordedSession session = film_session(folder);
+    session.parameters.coupling.damping_newton_s_per_m = 5.0;
+    record_session(folder / "mine.dibhr", session);
+    const ProgramResult other =
+        run_dibhr(folder, {"replay", "mine.dibhr", "--damping-cutoff", "50"});
+    INFO(other.output << other.errors);
+    CHECK(other.exit_code == 0);
+    CHECK_FALSE(contains(other.output, "identical"));
+    const ProgramResult same = run_dibhr(folder, {"replay", "mine.dibhr", "--damping-cutoff", "0"});
+    CHECK(contains(same.output, "all 1000 proxies and forces are identical"));
 }
 
 TEST_CASE("the rows of a replay are those of touch, and the recorded ones", "[replay]") {

@@ -1,6 +1,7 @@
 // `dibhr touch` as scripts use it: files in, rows out, checked against exact answers.
 #include <cmath>
 #include <cstddef>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <iomanip>
 #include <map>
@@ -49,14 +50,33 @@ std::vector<Row> rows_of(const std::string& csv) {
     return rows;
 }
 
-std::string goals_csv(const std::vector<Vec3>& goals, double dt_s = 0.001) {
+std::string goals_csv(const std::vector<Vec3>& goals, const std::vector<double>& times_s = {}) {
     std::ostringstream text;
     text << std::setprecision(17) << "t,x,y,z\n";
     for (std::size_t k = 0; k < goals.size(); ++k) {
-        text << static_cast<double>(k) * dt_s << ',' << goals[k].x << ',' << goals[k].y << ','
-             << goals[k].z << '\n';
+        text << (times_s.empty() ? static_cast<double>(k) * 0.001 : times_s[k]) << ',' << goals[k].x
+             << ',' << goals[k].y << ',' << goals[k].z << '\n';
     }
     return text.str();
+}
+
+/// A hand that slides to and fro on a floor of level 100 and comes off it now and then, in an
+/// encoder's steps; its ticks are not all of the same length, and some have the time of the one
+/// before.
+void write_stepping_hand(const TemporaryFolder& folder) {
+    constexpr double kStep_px = 0.06 / (101.6 / 720.0);
+    std::vector<Vec3> goals;
+    std::vector<double> times_s;
+    double t_s = 0.0;
+    for (int k = 0; k < 3000; ++k) {
+        if (k % 100 != 0) t_s += 0.001 + 1e-4 * (k % 7);
+        const Vec3 smooth{45.0 + 30.0 * std::sin(9.0 * t_s), 45.0 + 10.0 * std::cos(5.0 * t_s),
+                          96.0 + 12.0 * std::sin(14.0 * t_s)};
+        goals.push_back(kStep_px * glm::floor(smooth / kStep_px));
+        times_s.push_back(t_s);
+    }
+    write_depth_png(folder / "depth.png", 90, 90, 100);
+    write_text(folder / "goals.csv", goals_csv(goals, times_s));
 }
 
 /// From above straight down to `start`, then on a circle around `centre` in the plane of `u` and
@@ -176,6 +196,52 @@ TEST_CASE("the spring force is stiffness times pitch times the way to the proxy"
         touch_rows(folder, {"--stiffness", "0.8", "--pixel-pitch", "0.25", "--damping", "0"});
     CHECK_THAT(rows[0].number("fz"), WithinAbs(0.0, 0.0));
     CHECK_THAT(rows[2].number("fz"), WithinAbs(0.8 * 0.25 * 5.0, 1e-12));
+}
+
+TEST_CASE("with --damping-cutoff the force damps the filtered speed that the rows give",
+          "[touch]") {
+    const TemporaryFolder folder;
+    write_stepping_hand(folder);
+    const std::vector<Row> rows = touch_rows(folder, {"--damping", "5", "--damping-cutoff", "50"});
+    const std::vector<Row> plain = touch_rows(folder, {"--damping", "5"});
+    REQUIRE(rows.size() == 3000);
+    const double pitch_mm = 101.6 / 720.0;
+    const double time_constant_s = 1.0 / (100.0 * std::acos(-1.0));
+    Vec3 speed_px_per_s{0.0};
+    int contacts = 0;
+    int others = 0;
+    for (std::size_t k = 1; k < rows.size(); ++k) {
+        const double passed_s = rows[k].number("t") - rows[k - 1].number("t");
+        const double dt_s = passed_s > 0.0 ? passed_s : 0.001;
+        const Vec3 newest = (rows[k].vector('g') - rows[k - 1].vector('g')) / dt_s;
+        speed_px_per_s = (time_constant_s * speed_px_per_s + dt_s * newest) /
+                         (time_constant_s + dt_s);  // backward Euler, in its other form
+        const bool contact = rows[k].text.at("contact") == "1";
+        const Vec3 spring = 0.5 * pitch_mm * (rows[k].vector('p') - rows[k].vector('g'));
+        const Vec3 damper = 5.0 * 1e-3 * pitch_mm * speed_px_per_s;
+        const Vec3 expected = contact ? spring - damper : Vec3(0.0);
+        CAPTURE(k);
+        REQUIRE(rows[k].vector('p') == plain[k].vector('p'));
+        REQUIRE_THAT(glm::distance(rows[k].vector('f'), expected), WithinAbs(0.0, 1e-12));
+        contacts += contact ? 1 : 0;
+        others += rows[k].vector('f') != plain[k].vector('f') ? 1 : 0;
+    }
+    CHECK(contacts > 1000);
+    CHECK(contacts < 2900);
+    CHECK(others > 1000);
+}
+
+TEST_CASE("a cutoff of 0 is no filter, and the default", "[touch]") {
+    const TemporaryFolder folder;
+    write_stepping_hand(folder);
+    std::vector<Row> rows = touch_rows(folder, {"--damping", "5", "--damping-cutoff", "0"});
+    std::vector<Row> plain = touch_rows(folder, {"--damping", "5"});
+    REQUIRE(rows.size() == plain.size());
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        rows[k].text.erase("ns");
+        plain[k].text.erase("ns");
+        REQUIRE(rows[k].text == plain[k].text);
+    }
 }
 
 TEST_CASE("what is sent to the hand is limited and rises slowly", "[touch]") {

@@ -66,6 +66,11 @@ TEST_CASE("bad usage is refused in one line before anything is done", "[usage]")
         touch_with({"--friction", ""}),
         touch_with({"--friction"}),
         touch_with({"--friction", "0.1", "--friction", "0.2"}),
+        touch_with({"--damping-cutoff", "-1"}),
+        touch_with({"--damping-cutoff", "801"}),
+        touch_with({"--damping-cutoff", "nan"}),
+        touch_with({"--damping-cutoff", "50Hz"}),
+        touch_with({"--damping-cutoff"}),
         touch_with({"--static-friction", "0.2", "--dynamic-friction", "0.3"}),
         touch_with({"--friction", "0.2", "--dynamic-friction", "0.3"}),
     };

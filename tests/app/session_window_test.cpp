@@ -2,6 +2,7 @@
 // disks.
 #include <sys/mount.h>
 
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
@@ -19,6 +20,7 @@
 
 using namespace dibhr;
 using namespace dibhr::test;
+using Catch::Matchers::WithinAbs;
 
 namespace {
 
@@ -50,7 +52,7 @@ std::string stroke() {
 /// Clicks on the list of algorithms, an entry of it, and the sliders under it.
 std::string change_touch_panel() {
     std::string commands;
-    for (const int y : {100, 140, 160, 172, 184, 196}) {
+    for (const int y : {100, 140, 160, 172, 184, 196, 208, 220}) {
         commands += "mousemove 1130 " + std::to_string(y) + " sleep 0.15 mousedown 1 sleep 0.15 " +
                     "mouseup 1 sleep 0.15 ";
     }
@@ -138,15 +140,19 @@ TEST_CASE(
     REQUIRE(session.marks().size() == 1);
     CHECK(session.marks().front().t_s > session.begin_s());
     CHECK(session.marks().front().t_s < session.end_s());
-    bool other_algorithm = false, other_friction = false, force_off = false;
+    bool other_algorithm = false, other_friction = false, other_cutoff = false, force_off = false;
     for (const SessionParameters& parameters : session.parameters()) {
         const TouchParameters& first = session.parameters().front().touch;
         other_algorithm = other_algorithm || parameters.touch.algorithm != first.algorithm;
         other_friction = other_friction || !(parameters.touch.friction == first.friction);
+        const double cutoff_hz = parameters.touch.coupling.damping_cutoff_hz;
+        other_cutoff = other_cutoff || cutoff_hz > 0.0;
+        CHECK_THAT(cutoff_hz, WithinAbs(std::round(cutoff_hz), 0.0));  // as it is shown, from "off"
         force_off = force_off || !parameters.force_enabled;
     }
     CHECK(other_algorithm);
     CHECK(other_friction);
+    CHECK(other_cutoff);
     CHECK(force_off);
     require_same_bits(folder, file);
 }

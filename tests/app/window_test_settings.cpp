@@ -39,6 +39,7 @@ Settings unusual_settings() {
     settings.touch.shape.relief_px = 123.456789012345;
     settings.touch.algorithm = Algorithm::neighborhood;
     settings.touch.friction = {0.7, 0.3};
+    settings.touch.coupling.damping_cutoff_hz = 62.5;
     settings.cleaning.fill_holes = false;
     settings.look.light = 0.125;
     settings.straight_view = true;
@@ -69,8 +70,8 @@ TEST_CASE("each setting that does not fit keeps its default and is told with fil
     const auto file = folder / "settings.toml";
     const std::string wrong = GENERATE(
         "[touch]\nstiffness = -1.0", "[touch]\nstiffness = 'hard'", "[touch]\nsoftness = 1.0",
-        "[touch]\nstiffness = nan", "[window]\nwidth = 3", "[panels]\nvideo = 1",
-        "[cleaning]\nfill-holes = 0.5", "#\nflavour = 1", "#\ntouch = 3");
+        "[touch]\nstiffness = nan", "[touch]\ndamping-cutoff = 801", "[window]\nwidth = 3",
+        "[panels]\nvideo = 1", "[cleaning]\nfill-holes = 0.5", "#\nflavour = 1", "#\ntouch = 3");
     CAPTURE(wrong);
     write(file, wrong + "\n[device]\nmax-force = 3.5\n");
     std::vector<std::string> warnings;
