@@ -182,10 +182,9 @@ TEST_CASE("falcon_host says how it is used: asked for, or after a wrong command 
         Words host;
         std::string reason;
     };
-    for (const Wrong& wrong :
-         {Wrong{{"--nonsense", "1"}, "no option is called --nonsense"},
-          Wrong{{"--serial", "A", "--socket"}, "name the program"},
-          Wrong{{}, "the program comes after --"}}) {
+    for (const Wrong& wrong : {Wrong{{"--nonsense", "1"}, "no option is called --nonsense"},
+                               Wrong{{"--serial", "A", "--socket"}, "name the program"},
+                               Wrong{{}, "the program comes after --"}}) {
         const ProgramResult result = told(wrong.host);
         CHECK(result.exit_code == 2);
         CHECK(result.output.empty());
