@@ -77,9 +77,10 @@ std::vector<Rows> strokes(const Rows& rows) {
     for (std::size_t k = 1; k < rows.size(); ++k) {
         const bool jumps = rows[k].video_s < rows[k - 1].video_s;
         const bool anew = rows[k].lets_go && rows[k - 1].contact;
-        if (jumps || anew || rows[k].stand_in) all.emplace_back();
+        const bool of_falcon = rows[k].surface && !rows[k].stand_in;
+        if (jumps || anew || !of_falcon) all.emplace_back();
         const bool begins = anew || !rows[k].contact;
-        if (!rows[k].stand_in && (begins || !all.back().empty())) all.back().push_back(rows[k]);
+        if (of_falcon && (begins || !all.back().empty())) all.back().push_back(rows[k]);
     }
     constexpr std::size_t kShort = 100;
     std::erase_if(all, [](const Rows& stroke) { return stroke.size() < kShort; });

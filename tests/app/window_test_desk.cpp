@@ -117,7 +117,7 @@ std::vector<Row> read_session(const fs::path& file) {
     REQUIRE(sqlite3_prepare_v2(
                 opened,
                 "SELECT t, gx, gy, gz, px, py, pz, fx, fy, fz, cx, cy, cz, contact, buttons, cut, "
-                "video_s, ready, stand_in, lets_go "
+                "video_s, surface, ready, stand_in, lets_go "
                 "FROM tick ORDER BY tick",
                 -1, &prepared, nullptr) == SQLITE_OK);
     const std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)> query(prepared, sqlite3_finalize);
@@ -128,7 +128,8 @@ std::vector<Row> read_session(const fs::path& file) {
              vector_at(prepared, 7), vector_at(prepared, 10), sqlite3_column_int(prepared, 13) != 0,
              (sqlite3_column_int(prepared, 14) & 1) != 0, sqlite3_column_int(prepared, 15),
              sqlite3_column_double(prepared, 16), sqlite3_column_int(prepared, 17) != 0,
-             sqlite3_column_int(prepared, 18) != 0, sqlite3_column_int(prepared, 19) != 0});
+             sqlite3_column_int(prepared, 18) != 0, sqlite3_column_int(prepared, 19) != 0,
+             sqlite3_column_int(prepared, 20) != 0});
     }
     return rows;
 }

@@ -61,6 +61,7 @@ struct Row {
     bool pressed{false};
     int cut{0};
     double video_s{0.0};
+    bool surface{false};   ///< there was one to touch
     bool ready{false};     ///< the hand gives poses
     bool stand_in{false};  ///< it is the mouse, in place of a Falcon
     bool lets_go{false};   ///< a proxy in contact begins anew, above the goal
