@@ -18,6 +18,7 @@ struct FalconSettings {
     falcon::Motors motors{};
     falcon::WorkspaceOptions workspace{};
     ButtonActions buttons{kStandardButtons};
+    bool force_in_front_only{true};  ///< no force while people work in another window
 };
 
 /// What a number is about: a heading of the panel.

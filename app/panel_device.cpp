@@ -26,6 +26,7 @@ bool without_pose(const ViewerState& state) {
 std::string state_text(const ViewerState& state) {
     const HapticState& haptic = state.haptic;
     if (!haptic.touchable) return "waiting for a surface";
+    if (waits_for_front(state)) return "not in front: no force";
     if (clutched(state)) return "held by the clutch: no force";
     if (!haptic.hand.ready)
         return without_pose(state) ? "no pose: pull the grip in, or see Calibration"
@@ -33,21 +34,47 @@ std::string state_text(const ViewerState& state) {
     return haptic.touch.proxy.contact ? "in contact" : "free";
 }
 
+/// How the switch of the force looks.
+struct ForceSwitch {
+    const char* text;
+    ImVec4 ground;
+    const char* help;
+};
+
+ForceSwitch force_switch(const ViewerState& state) {
+    if (!state.force_enabled) {
+        return {"Force is OFF###force",
+                {0.46F, 0.22F, 0.16F, 1.0F},
+                "Put the force on again; it rises slowly (F)"};
+    }
+    if (waits_for_front(state)) {
+        return {"Force waits###force",
+                {0.44F, 0.35F, 0.12F, 1.0F},
+                "It rises again when this window is in front. Take it off (F)"};
+    }
+    return {"Force is ON###force", {0.14F, 0.38F, 0.33F, 1.0F}, "Take the force off (F)"};
+}
+
+void draw_front_switch(FalconSettings& settings) {
+    flag_row("Force only while the window is in front", settings.force_in_front_only,
+             FalconSettings{}.force_in_front_only,
+             "No force while the keyboard goes to another window, or this one is an icon: the hand "
+             "is safe while nobody looks. Switch it off when one person touches and another works "
+             "in another window, in an experiment say");
+}
+
 }  // namespace
 
 void draw_force_switch(ViewerState& state, float width) {
-    const bool on = state.force_enabled;
-    const ImVec4 ground =
-        on ? ImVec4{0.14F, 0.38F, 0.33F, 1.0F} : ImVec4{0.46F, 0.22F, 0.16F, 1.0F};
+    const ForceSwitch shown = force_switch(state);
+    const ImVec4& ground = shown.ground;
     const ImVec4 raised{ground.x * 1.2F, ground.y * 1.2F, ground.z * 1.2F, 1.0F};
     ImGui::PushStyleColor(ImGuiCol_Button, ground);
     ImGui::PushStyleColor(ImGuiCol_ButtonHovered, raised);
     ImGui::PushStyleColor(ImGuiCol_ButtonActive, raised);
-    if (ImGui::Button(on ? "Force is ON###force" : "Force is OFF###force", {width, 0.0F})) {
-        state.force_enabled = !on;
-    }
+    if (ImGui::Button(shown.text, {width, 0.0F})) state.force_enabled = !state.force_enabled;
     ImGui::PopStyleColor(3);
-    explain(on ? "Take the force off (F)" : "Put the force on again; it rises slowly (F)");
+    explain(shown.help);
 }
 
 void draw_device_panel(ViewerState& state) {
@@ -64,6 +91,7 @@ void draw_device_panel(ViewerState& state) {
     }
     fact_row("State", state_text(state));
     draw_force_switch(state, -1.0F);
+    if (state.falcon) draw_front_switch(state.settings.falcon);
     const SafetyLimits standard;
     number_row({"Max force", "%.1f N", 0.0, state.device.max_force_newton,
                 standard.max_force_newton, "No more than this is ever sent"},

@@ -78,6 +78,7 @@ std::string replay_text(const ReplayNews& replay) {
 std::string touch_text(const ViewerState& state) {
     const HapticState& haptic = state.haptic;
     if (!state.replay && !state.force_enabled) return "Force off";
+    if (waits_for_front(state)) return "Force off: not in front";
     if (!haptic.touchable) return state.replay ? "No surface" : "No surface yet";
     if (clutched(state)) return "Held by the clutch";
     if (haptic.touch.cut != SafetyCut::none)

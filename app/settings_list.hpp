@@ -38,6 +38,7 @@ void visit_falcon_settings(FalconSettings& s, Visitor& visit) {
     visit.text("falcon", "serial", s.connection.serial);
     visit.flag("falcon", "event-character", s.connection.event_character);
     visit.flag("falcon", "slower-upload", s.connection.slower_upload);
+    visit.flag("falcon", "force-in-front-only", s.force_in_front_only);
     for (const FalconNumber& number : falcon_numbers()) {
         visit.number("falcon", number.name, number.in(s), {number.lowest, number.highest});
     }

@@ -2,7 +2,6 @@
 #include "app/viewer.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "app/panel_list.hpp"
@@ -94,6 +93,7 @@ void Viewer::finish() {
 
 void Viewer::show_one_picture() {
     const WindowInput input = window_.take_input();
+    state_.in_front = input.focus.in_front();
     take_news();
     obey_keys(input);
     take_dropped(input.dropped);
@@ -205,18 +205,15 @@ void Viewer::carry_out_requests() {
 
 void Viewer::hand_over_settings() {
     if (state_.replay) return;
-    SafetyLimits limits;
-    limits.max_force_newton =
-        std::min(state_.settings.max_force_newton, state_.device.max_force_newton);
     const TouchParameters parameters = touch_parameters(state_);
+    const SafetyLimits limits = safety_limits(state_);
+    const bool force_enabled = state_.force_enabled && !waits_for_front(state_);
     const bool same = handed_.version > 0 && handed_.parameters == parameters &&
-                      !falcon_.tuning_changed(state_) &&
-                      handed_.force_enabled == state_.force_enabled &&
-                      handed_.bump == state_.bump &&
-                      !(std::abs(handed_.limits.max_force_newton - limits.max_force_newton) > 0.0);
+                      handed_.limits == limits && !falcon_.tuning_changed(state_) &&
+                      handed_.force_enabled == force_enabled && handed_.bump == state_.bump;
     const bool recording = recording_.active();
     if (!same || handed_.recording != recording) {
-        handed_ = {parameters,  limits,    state_.force_enabled,
+        handed_ = {parameters,  limits,    force_enabled,
                    state_.bump, recording, handed_.version + (same ? 0 : 1)};
         recording_.hand_over(handed_, state_.bump_file);
         haptic_settings_.publish(handed_);

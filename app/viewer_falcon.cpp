@@ -1,6 +1,7 @@
 // The window thread's end of the Falcon.
 #include "app/viewer_falcon.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
@@ -13,8 +14,16 @@ namespace {
 using falcon::Stage;
 
 /// It touches, or may begin to before the next picture.
-bool may_touch(const falcon::Status& status) {
-    return status.stage == Stage::homing || status.stage == Stage::ready;
+bool may_touch(const ViewerState& state) {
+    if (!state.falcon || state.replay) return false;
+    const Stage stage = state.falcon->status.stage;
+    return stage == Stage::homing || stage == Stage::ready;
+}
+
+/// It did so in the last tick that is known of.
+bool touches(const ViewerState& state) {
+    return state.falcon && !state.replay && state.falcon->status.stage == Stage::ready &&
+           !state.haptic.hand.stand_in;
 }
 
 bool needs_its_person(Stage stage) {
@@ -83,22 +92,36 @@ std::string ViewerFalcon::use_firmware(const std::filesystem::path& file, Viewer
 
 TouchParameters touch_parameters(const ViewerState& state) {
     TouchParameters parameters = state.settings.touch;
-    if (state.falcon && !state.replay && may_touch(state.falcon->status)) {
+    if (may_touch(state)) {
         parameters.coupling =
             held_coupling(parameters.coupling, state.settings.falcon.workspace.scale, state.device);
     }
     return parameters;
 }
 
+SafetyLimits safety_limits(const ViewerState& state) {
+    SafetyLimits limits;
+    limits.max_force_newton =
+        std::min(state.settings.max_force_newton, state.device.max_force_newton);
+    return limits;
+}
+
+bool waits_for_front(const ViewerState& state) {
+    return !state.in_front && state.settings.falcon.force_in_front_only && may_touch(state);
+}
+
 bool clutched(const ViewerState& state) {
-    const HandReading& hand = state.haptic.hand;
-    return state.falcon && !state.replay && state.falcon->status.stage == Stage::ready &&
-           !hand.stand_in &&
-           (hand.buttons & buttons_for(ButtonAction::clutch, state.settings.falcon.buttons)) != 0;
+    const unsigned held =
+        state.haptic.hand.buttons &
+        unsigned{buttons_for(ButtonAction::clutch, state.settings.falcon.buttons)};
+    return touches(state) && held != 0;
 }
 
 std::string falcon_banner(const ViewerState& state) {
     if (!state.falcon || state.replay) return {};
+    if (touches(state) && state.force_enabled && waits_for_front(state)) {
+        return "force off: the window is not in front. Click it, and the force rises again";
+    }
     const FalconNews& news = *state.falcon;
     const bool lost =
         news.status.stage == Stage::looking && (news.was_ready || news.status.trouble);

@@ -49,11 +49,18 @@ class ViewerFalcon {
 /// it touches or may begin to.
 [[nodiscard]] TouchParameters touch_parameters(const ViewerState& state);
 
+/// The limits for the next tick.
+[[nodiscard]] SafetyLimits safety_limits(const ViewerState& state);
+
+/// No force until the window is in front again: people work in another one while a Falcon touches
+/// or may begin to (fact sheet, section 11).
+[[nodiscard]] bool waits_for_front(const ViewerState& state);
+
 /// The hand moves under a held point: no force, and nothing is wrong.
 [[nodiscard]] bool clutched(const ViewerState& state);
 
-/// What to say over the relief of a Falcon that is there and does not touch, or was lost; empty:
-/// nothing.
+/// What to say over the relief of a Falcon that is there and does not touch, was lost, or waits for
+/// the window; empty: nothing.
 [[nodiscard]] std::string falcon_banner(const ViewerState& state);
 
 /// The file is for a Falcon, not to be looked at.

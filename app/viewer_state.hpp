@@ -125,6 +125,7 @@ struct ViewerState {
     std::optional<ReplayNews> replay{};     ///< nothing: a hand touches
     ForceHistory forces{};
     double pictures_per_s{0.0};
+    bool in_front{true};  ///< the window; false: people work in another one
     bool opening{false};
     bool touched{false};  ///< there has been a contact: the first hint has done its work
 

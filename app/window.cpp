@@ -90,6 +90,14 @@ void Window::collect_events() {
     glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** files) {
         input_of(window).dropped.assign(files, files + count);
     });
+    glfwSetWindowFocusCallback(window_, [](GLFWwindow* window, int given) {
+        WindowFocus& focus = input_of(window).focus;
+        focus.has = given == GLFW_TRUE;
+        focus.had = focus.had || focus.has;
+    });
+    glfwSetWindowIconifyCallback(window_, [](GLFWwindow* window, int iconified) {
+        input_of(window).focus.iconified = iconified == GLFW_TRUE;
+    });
 }
 
 bool Window::wants_to_close() const {
@@ -102,7 +110,7 @@ void Window::close() {
 
 WindowInput Window::take_input() {
     glfwPollEvents();
-    return std::exchange(input_, {});
+    return std::exchange(input_, {.focus = input_.focus});
 }
 
 Pointer Window::pointer() const {

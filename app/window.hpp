@@ -23,12 +23,23 @@ struct TypedCharacter {
     bool repeated{false};
 };
 
+/// Whether people work in the window, as the display server has told it.
+struct WindowFocus {
+    bool had{false};  ///< the keyboard has been given to it, so that it can be lost
+    bool has{false};
+    bool iconified{false};
+
+    /// Never given a keyboard, as without a window manager, it has not lost one either.
+    [[nodiscard]] bool in_front() const { return !iconified && (has || !had); }
+};
+
 /// What happened since the last call of Window::take_input().
 struct WindowInput {
     std::vector<KeyPress> keys{};
     std::vector<TypedCharacter> characters{};
     std::vector<std::filesystem::path> dropped{};
     double wheel_steps{0.0};  ///< > 0: away from the person
+    WindowFocus focus{};      ///< now
 };
 
 /// The pointer now; position in pixels of the framebuffer from the upper left.

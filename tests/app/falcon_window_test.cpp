@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <string>
 #include <thread>
 #include <utility>
@@ -30,11 +31,14 @@ using namespace std::chrono_literals;
 using Words = std::vector<std::string>;
 using Rows = std::vector<Row>;
 
+const Words kHomed{"firmware", "home", "place 0 0 140"};
 constexpr const char* kMeet = "search --sync --onlyvisible --name dibhr sleep 0.1 ";
 
-/// What the program is started with; its firmware file is written first.
-Words with_firmware(const TemporaryFolder& folder, Words arguments) {
+/// What the program is started with; its firmware and its settings file are written first.
+Words prepared(const TemporaryFolder& folder, Words arguments, const std::string& settings) {
     write_firmware(folder / "firmware.bin");
+    std::filesystem::create_directories(folder / "config/dibhr");
+    std::ofstream(folder / "config/dibhr/settings.toml") << settings;
     arguments.insert(arguments.end(),
                      {"--firmware", "firmware.bin", "--record", "hand.dibhr", "--seconds", "60"});
     return arguments;
@@ -43,9 +47,9 @@ Words with_firmware(const TemporaryFolder& folder, Words arguments) {
 /// The program in its window, with a Falcon that `commands` prepare.
 class Scene {
   public:
-    Scene(Words commands, Words arguments)
+    Scene(Words commands, Words arguments, const std::string& settings = {})
         : falcon(folder.path(), std::move(commands)),
-          viewer_(desk.start_viewer(folder, with_firmware(folder, std::move(arguments)),
+          viewer_(desk.start_viewer(folder, prepared(folder, std::move(arguments), settings),
                                     falcon.host())) {
         desk.act(kMeet);
     }
@@ -56,6 +60,17 @@ class Scene {
         REQUIRE(viewer_.wait() == 0);
         CHECK(std::filesystem::file_size(folder / "errors.txt") == 0);
         return read_session(folder / "hand.dibhr");
+    }
+
+    /// From afar into the relief, until the hand is pushed back.
+    void press_in() const {
+        desk.act("key space");
+        falcon.move_hand({0.0, 0.0, 105.0}, 0.3);
+        wait_for_force();
+    }
+
+    void wait_for_force() const {
+        FalconOnUsb::wait_until([this] { return falcon.vector("motor_newton").z > 0.5; });
     }
 
     const Desk desk{};
@@ -118,6 +133,33 @@ std::vector<Vec3> touched_again(const Rows& rows) {
     return forces;
 }
 
+/// A window of another program, which takes the keyboard when it opens.
+class OtherWindow {
+  public:
+    explicit OtherWindow(const Desk& desk)
+        : desk_(desk),
+          viewer_(desk.start_viewer(folder_, {"--device", "mouse", "--size", "200x160", "--record",
+                                              "other.dibhr", "--seconds", "60"})) {
+        FalconOnUsb::wait_until(
+            [this] { return std::filesystem::exists(folder_ / "other.dibhr"); });
+    }
+
+    /// By a key, which only the window that has the keyboard is told of.
+    void close() {
+        desk_.act("key q");
+        REQUIRE(viewer_.wait() == 0);
+    }
+
+  private:
+    const Desk& desk_;
+    const Folder folder_{};
+    Process viewer_;
+};
+
+bool cut_for(SafetyCut reason, const Row& row) {
+    return row.cut == static_cast<int>(reason);
+}
+
 double strongest(const Rows& rows) {
     double newton = 0.0;
     for (const Row& row : rows) newton = std::max(newton, glm::length(row.sent_newton));
@@ -138,7 +180,7 @@ TEST_CASE(
     std::this_thread::sleep_for(400ms);
     at.falcon.move_hand({0.0, 0.0, 108.0}, 0.4);
     FalconOnUsb::wait_until([&at] { return at.falcon.number("lamp") == 2; });  // green: force
-    FalconOnUsb::wait_until([&at] { return at.falcon.vector("motor_newton").z > 0.5; });
+    at.wait_for_force();
     std::this_thread::sleep_for(800ms);
     at.falcon.move_hand({14.0, 0.0, 108.0}, 1.0);
     at.falcon.move_hand({14.0, 0.0, 140.0}, 0.3);
@@ -166,9 +208,9 @@ TEST_CASE(
 
 TEST_CASE("a Falcon pulled in mid-touch leaves the mouse, and is taken back after homing",
           "[falcon][window]") {
-    Scene at({"firmware", "home", "place 0 0 140"}, {"--device", "auto"});
+    Scene at(kHomed, {"--device", "auto"});
     at.falcon.move_hand({0.0, 0.0, 105.0}, 0.3);
-    FalconOnUsb::wait_until([&at] { return at.falcon.vector("motor_newton").z > 0.5; });
+    at.wait_for_force();
     at.falcon.tell("unplug");
     std::this_thread::sleep_for(300ms);
     at.desk.act("mousemove 330 400 sleep 0.5 mousedown 1 sleep 0.8 mouseup 1 sleep 0.2");
@@ -179,7 +221,7 @@ TEST_CASE("a Falcon pulled in mid-touch leaves the mouse, and is taken back afte
     at.falcon.move_hand({0.0, 0.0, 140.0}, 0.2);
     std::this_thread::sleep_for(200ms);
     at.falcon.move_hand({0.0, 0.0, 105.0}, 0.3);
-    FalconOnUsb::wait_until([&at] { return at.falcon.vector("motor_newton").z > 0.5; });
+    at.wait_for_force();
     CHECK(at.falcon.number("force_before_homing") == 0);
     const Rows rows = at.finish();
 
@@ -204,10 +246,8 @@ TEST_CASE("a Falcon pulled in mid-touch leaves the mouse, and is taken back afte
 
 TEST_CASE("centring the hand in mid-touch lets the force rise again from zero",
           "[falcon][window]") {
-    Scene at({"firmware", "home", "place 0 0 140"}, {"--device", "falcon"});
-    at.desk.act("key space");
-    at.falcon.move_hand({0.0, 0.0, 105.0}, 0.3);
-    FalconOnUsb::wait_until([&at] { return at.falcon.vector("motor_newton").z > 0.5; });
+    Scene at(kHomed, {"--device", "falcon"});
+    at.press_in();
     std::this_thread::sleep_for(700ms);
     at.desk.act("key c sleep 1.2");
     const Rows rows = at.finish();
@@ -215,7 +255,7 @@ TEST_CASE("centring the hand in mid-touch lets the force rise again from zero",
         return falcon_touches(row) && glm::length(row.sent_newton) > 0.5;
     });
     const auto weak = std::find_if(firm, rows.end(), [](const Row& row) {
-        return row.contact && row.cut == static_cast<int>(SafetyCut::none) &&
+        return row.contact && cut_for(SafetyCut::none, row) &&
                glm::length(row.sent_newton) < 0.05 * glm::length(row.spring_newton);
     });
     REQUIRE(weak != rows.end());
@@ -223,7 +263,7 @@ TEST_CASE("centring the hand in mid-touch lets the force rise again from zero",
 }
 
 TEST_CASE("the grip's buttons record, hold the film, and take the force off", "[falcon][window]") {
-    Scene at({"firmware", "home", "place 0 0 140"}, {"--device", "falcon"});
+    Scene at(kHomed, {"--device", "falcon"});
     const auto press = [&at](int bit) {
         at.falcon.tell("press " + std::to_string(bit));
         std::this_thread::sleep_for(150ms);
@@ -231,7 +271,7 @@ TEST_CASE("the grip's buttons record, hold the film, and take the force off", "[
         std::this_thread::sleep_for(350ms);
     };
     at.falcon.move_hand({0.0, 0.0, 105.0}, 0.3);
-    FalconOnUsb::wait_until([&at] { return at.falcon.vector("motor_newton").z > 0.5; });
+    at.wait_for_force();
     press(2);  // forward
     std::this_thread::sleep_for(300ms);
     press(8);  // minus
@@ -241,11 +281,56 @@ TEST_CASE("the grip's buttons record, hold the film, and take the force off", "[
     press(1);
     const Rows rows = at.finish();
     CHECK_THAT(rows.back().video_s - rows[rows.size() - 300].video_s, WithinAbs(0.0, 1e-12));
-    CHECK(rows.back().cut == static_cast<int>(SafetyCut::off));
+    CHECK(cut_for(SafetyCut::off, rows.back()));
     std::size_t recordings = 0;
     for (const auto& entry : std::filesystem::directory_iterator(at.folder.path())) {
         const std::string name = entry.path().filename().string();
         if (name.starts_with("dibhr-") && name.ends_with(".dibhr")) ++recordings;
     }
     CHECK(recordings == 1);
+}
+
+TEST_CASE("the force is off while another window has the keyboard, and rises again when it is back",
+          "[falcon][window]") {
+    Scene at(kHomed, {"--device", "falcon"});
+    at.press_in();
+    std::this_thread::sleep_for(700ms);
+    OtherWindow other(at.desk);
+    FalconOnUsb::wait_until([&at] { return at.falcon.number("zeros_in_a_row") > 100.0; });
+    other.close();
+    at.desk.act(std::string(kMeet) + "windowfocus");
+    at.wait_for_force();
+    std::this_thread::sleep_for(700ms);
+    const Rows rows = at.finish();
+
+    const auto off = [](const Row& row) { return cut_for(SafetyCut::off, row); };
+    const auto lost = std::find_if(rows.begin(), rows.end(), off);
+    REQUIRE(lost != rows.begin());
+    REQUIRE(lost != rows.end());
+    CHECK(glm::length(std::prev(lost)->sent_newton) > 0.5);
+    const auto back = std::find_if_not(lost, rows.end(), off);
+    CHECK(std::all_of(lost, back, [](const Row& row) {
+        return glm::length(row.spring_newton) > 0.5 && !(glm::length(row.sent_newton) > 0.0);
+    }));
+    REQUIRE(back != rows.end());
+    CHECK(falcon_touches(*back));
+    CHECK(glm::length(back->sent_newton) < 0.05 * glm::length(back->spring_newton));
+    CHECK(strongest({back, rows.end()}) > 0.5);
+    require_same_bits(at.folder, at.folder / "hand.dibhr");
+}
+
+TEST_CASE("the force stays while another window has the keyboard, when it is wished so",
+          "[falcon][window]") {
+    Scene at(kHomed, {"--device", "falcon"}, "[falcon]\nforce-in-front-only = false\n");
+    at.press_in();
+    OtherWindow other(at.desk);
+    std::this_thread::sleep_for(700ms);
+    CHECK(at.falcon.vector("motor_newton").z > 0.5);
+    other.close();
+    std::this_thread::sleep_for(300ms);
+    CHECK(at.falcon.vector("motor_newton").z > 0.5);
+    at.desk.act(std::string(kMeet) + "windowfocus");
+    const Rows rows = at.finish();
+    CHECK(std::none_of(rows.begin(), rows.end(),
+                       [](const Row& row) { return cut_for(SafetyCut::off, row); }));
 }

@@ -79,12 +79,6 @@ std::string content(const fs::path& file) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-void require_same_bits(const TemporaryFolder& folder, const fs::path& session) {
-    run_shell("'" DIBHR_PROGRAM "' replay '" + session.string() + "' > '" +
-              (folder / "replay.txt").string() + "'");
-    CHECK(content(folder / "replay.txt").find("identical, bit for bit") != std::string::npos);
-}
-
 std::size_t contacts_in(const fs::path& session) {
     std::size_t contacts = 0;
     for (const Row& row : read_session(session)) contacts += row.contact ? 1 : 0;

@@ -72,4 +72,7 @@ struct Row {
 /// Runs a command line in a shell; fails the test when it fails.
 void run_shell(const std::string& command);
 
+/// Replays a session into `folder`; fails the test unless all of it comes again, bit for bit.
+void require_same_bits(const Folder& folder, const std::filesystem::path& session);
+
 }  // namespace dibhr::test

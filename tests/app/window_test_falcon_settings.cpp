@@ -15,6 +15,7 @@
 #include "app/settings_changes.hpp"
 #include "app/viewer_falcon.hpp"
 #include "app/viewer_state.hpp"
+#include "app/window.hpp"
 #include "device/falcon/packet.hpp"
 #include "tests/app/window_test_desk.hpp"
 #include "tests/support/catch.hpp"
@@ -55,6 +56,7 @@ TEST_CASE("what is kept about the Falcon comes back exactly, whatever its serial
     settings.falcon.connection = {GENERATE("", "SIM00001", "a \"b\" \\c\n\u00fc"), false, true};
     settings.falcon.buttons = {ButtonAction::none, ButtonAction::clutch, ButtonAction::clutch,
                                ButtonAction::take_screenshot};
+    settings.falcon.force_in_front_only = false;
     for (const FalconNumber& number : falcon_numbers()) {
         number.in(settings.falcon) = number.lowest + 0.123456789 * (number.highest - number.lowest);
     }
@@ -156,6 +158,45 @@ TEST_CASE("stiffness is held for the Falcon, and left to the mouse while none an
     CHECK_THAT(stiffness(), WithinAbs(2.0, 0.0));
     state.falcon->status.stage = GENERATE(falcon::Stage::homing, falcon::Stage::ready);
     CHECK_THAT(stiffness(), WithinAbs(0.25, 1e-12));
+}
+
+TEST_CASE("a window is in front until it loses a keyboard that it had, or is an icon",
+          "[falcon][focus]") {
+    CHECK(WindowFocus{}.in_front());  // no window manager has given it one
+    CHECK(WindowFocus{.had = true, .has = true}.in_front());
+    CHECK_FALSE(WindowFocus{.had = true}.in_front());
+    CHECK_FALSE(WindowFocus{.iconified = true}.in_front());
+    CHECK_FALSE(WindowFocus{.had = true, .has = true, .iconified = true}.in_front());
+}
+
+TEST_CASE("only the force of a Falcon waits for the window, and only when it is wished",
+          "[falcon][focus]") {
+    ViewerState state;
+    state.in_front = false;
+    CHECK_FALSE(waits_for_front(state));  // the mouse touches
+    state.falcon.emplace();
+    CHECK_FALSE(waits_for_front(state));  // no Falcon is there
+    state.falcon->status.stage = GENERATE(falcon::Stage::homing, falcon::Stage::ready);
+    CHECK(waits_for_front(state));
+    CHECK(state.force_enabled);  // the person's own switch stays as it is
+    state.in_front = true;
+    CHECK_FALSE(waits_for_front(state));
+    state.in_front = false;
+    state.settings.falcon.force_in_front_only = false;
+    CHECK_FALSE(waits_for_front(state));
+    state.settings.falcon.force_in_front_only = true;
+    state.replay.emplace();
+    CHECK_FALSE(waits_for_front(state));
+}
+
+TEST_CASE("a force that waits for the window is told, unless the person has switched it off",
+          "[falcon][banner]") {
+    ViewerState state;
+    state.falcon.emplace().status.stage = falcon::Stage::ready;
+    state.in_front = false;
+    CHECK(falcon_banner(state).find("not in front") != std::string::npos);
+    state.force_enabled = false;
+    CHECK(falcon_banner(state).empty());
 }
 
 TEST_CASE("the window says over the relief what an attached or lost Falcon needs",
