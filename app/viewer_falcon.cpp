@@ -103,6 +103,8 @@ SafetyLimits safety_limits(const ViewerState& state) {
     SafetyLimits limits;
     limits.max_force_newton =
         std::min(state.settings.max_force_newton, state.device.max_force_newton);
+    // The mouse's hand is as fast at any scale, so that it keeps its limit while it stands in.
+    if (touches(state)) limits.max_goal_speed_mm_per_ms *= state.settings.falcon.workspace.scale;
     return limits;
 }
 

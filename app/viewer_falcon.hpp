@@ -49,7 +49,8 @@ class ViewerFalcon {
 /// it touches or may begin to.
 [[nodiscard]] TouchParameters touch_parameters(const ViewerState& state);
 
-/// The limits for the next tick.
+/// The limits for the next tick: a jump of the goal is one of the hand while the Falcon touches,
+/// a hand millimetre being `scale` image millimetres.
 [[nodiscard]] SafetyLimits safety_limits(const ViewerState& state);
 
 /// No force until the window is in front again: people work in another one while a Falcon touches

@@ -12,7 +12,8 @@ struct SafetyLimits {
     double max_change_newton_per_ms{0.5};  ///< Falcon fact sheet, section 11: suggested slew limit
     double ramp_s{0.5};                    ///< from zero to full force after a restart
     double max_tick_s{0.020};  ///< a longer tick is late: no force (reply older than 20 ms)
-    double max_goal_speed_mm_per_ms{10.0};  ///< a faster goal is a jump, not a hand (10 m/s)
+    /// A faster goal is a jump, not a hand (10 m/s) [image mm].
+    double max_goal_speed_mm_per_ms{10.0};
 
     bool operator==(const SafetyLimits&) const = default;
 };
@@ -33,7 +34,7 @@ enum class SafetyCut : std::uint8_t {
 /// What one tick knows besides the force.
 struct SafetyInput {
     double dt_s{0.001};
-    double goal_step_mm{0.0};  ///< how far the goal moved since the last tick
+    double goal_step_mm{0.0};  ///< how far the goal moved since the last tick [image mm]
     bool force_enabled{true};  ///< the switch of the force
     bool device_ready{true};   ///< attached and homed
     /// What the device itself adds on the hand, such as its soft boundary [N]; limited like the

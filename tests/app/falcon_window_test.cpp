@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "app/assets_path.hpp"
+#include "core/haptics/parameters.hpp"
 #include "core/haptics/safety.hpp"
 #include "tests/app/command_program.hpp"
 #include "tests/app/falcon_on_usb.hpp"
@@ -158,6 +159,18 @@ class OtherWindow {
 
 bool cut_for(SafetyCut reason, const Row& row) {
     return row.cut == static_cast<int>(reason);
+}
+
+/// The first row of the Falcon in which the goal is so far from the one before [image mm].
+Rows::const_iterator step_of(const Rows& rows, double least_mm, double most_mm) {
+    const auto found = std::adjacent_find(
+        rows.begin(), rows.end(), [least_mm, most_mm](const Row& before, const Row& after) {
+            const double step_mm =
+                glm::distance(before.goal, after.goal) * Coupling{}.pixel_pitch_mm;
+            return before.surface && !before.stand_in && !after.stand_in && step_mm > least_mm &&
+                   step_mm < most_mm;
+        });
+    return found == rows.end() ? found : std::next(found);
 }
 
 double strongest(const Rows& rows) {
@@ -333,4 +346,22 @@ TEST_CASE("the force stays while another window has the keyboard, when it is wis
     const Rows rows = at.finish();
     CHECK(std::none_of(rows.begin(), rows.end(),
                        [](const Row& row) { return cut_for(SafetyCut::off, row); }));
+}
+
+TEST_CASE("what is a jump is measured in the hand's millimetres, whatever the scale",
+          "[falcon][window]") {
+    Scene at(kHomed, {"--device", "falcon"}, "[falcon]\nscale = 4.0\n");
+    std::this_thread::sleep_for(1500ms);  // the window has seen that it touches
+    at.falcon.tell("place 6 0 140");      // a fast hand, of which a reply was lost
+    std::this_thread::sleep_for(300ms);
+    at.falcon.tell("place -9 0 140");
+    std::this_thread::sleep_for(300ms);
+    const Rows rows = at.finish();
+    const auto fast = step_of(rows, 15.0, 30.0);
+    REQUIRE(fast != rows.end());
+    CHECK_FALSE(cut_for(SafetyCut::goal_jump, *fast));
+    const auto too_fast = step_of(rows, 45.0, 75.0);
+    REQUIRE(too_fast != rows.end());
+    CHECK(cut_for(SafetyCut::goal_jump, *too_fast));
+    require_same_bits(at.folder, at.folder / "hand.dibhr");
 }
