@@ -153,7 +153,7 @@ class OtherWindow {
 
   private:
     const Desk& desk_;
-    const Folder folder_{};
+    const TemporaryFolder folder_{};
     Process viewer_;
 };
 

@@ -139,7 +139,7 @@ void run_shell(const std::string& command) {
     REQUIRE(std::system(command.c_str()) == 0);
 }
 
-void require_same_bits(const Folder& folder, const fs::path& session) {
+void require_same_bits(const TemporaryFolder& folder, const fs::path& session) {
     const fs::path told = folder / "replay.txt";
     run_shell("'" DIBHR_PROGRAM "' replay '" + session.string() + "' > '" + told.string() + "'");
     run_shell("grep -q 'identical, bit for bit' '" + told.string() + "'");

@@ -73,6 +73,6 @@ struct Row {
 void run_shell(const std::string& command);
 
 /// Replays a session into `folder`; fails the test unless all of it comes again, bit for bit.
-void require_same_bits(const Folder& folder, const std::filesystem::path& session);
+void require_same_bits(const TemporaryFolder& folder, const std::filesystem::path& session);
 
 }  // namespace dibhr::test
