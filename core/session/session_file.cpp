@@ -84,10 +84,31 @@ std::int64_t state_of(const TickRecord& record) {
     const auto bit = [](bool set, int shift) { return std::int64_t{set ? 1 : 0} << shift; };
     const std::int64_t primitive = record.primitive > kLast ? 0 : record.primitive;
     return bit(record.contact, at::kContact) | primitive << at::kPrimitive |
-           std::int64_t{record.cut} << at::kCut | bit(record.surface, at::kSurface) |
-           bit(record.device_ready, at::kReady) | bit(record.restart, at::kRestart) |
-           bit(record.lets_go, at::kLetsGo) | bit(record.goal_refused, at::kRefused) |
-           bit(record.stand_in, at::kStandIn) | std::int64_t{record.buttons} << at::kButtons;
+           std::int64_t{record.buttons} << at::kButtons | bit(!record.surface, at::kNoSurface) |
+           bit(!record.device_ready, at::kNotReady) | bit(record.stand_in, at::kStandIn) |
+           bit(record.restart, at::kRestart) | bit(record.lets_go, at::kLetsGo) |
+           bit(record.goal_refused, at::kRefused) | std::int64_t{record.cut} << at::kCut;
+}
+
+/// The pixel of a place; a place beyond all pictures has none.
+std::optional<std::int64_t> pixel_of(double place_px) noexcept {
+    constexpr double kMost = 1e9;
+    if (!(std::abs(place_px) < kMost)) return std::nullopt;
+    return static_cast<std::int64_t>(place_px);
+}
+
+/// How far a force sent is off the direction of the force wanted, along one axis, in whole parts of
+/// a newton; nothing where these do not give its bits again. `shortening` is by how much z is
+/// shorter.
+std::optional<std::int64_t> off_direction(double sent, double wanted, double shortening) noexcept {
+    constexpr double kMost = 2147483648.0;  // in four bytes instead of eight
+    constexpr auto kParts = static_cast<double>(kPartsPerNewton);
+    const double straight = wanted * shortening;
+    const double off = (sent - straight) * kParts;
+    if (!(std::abs(off) < kMost)) return std::nullopt;
+    const auto whole = static_cast<std::int64_t>(off);
+    if (!same_bits(straight + static_cast<double>(whole) / kParts, sent)) return std::nullopt;
+    return whole;
 }
 
 }  // namespace
@@ -125,9 +146,7 @@ void SessionFile::add(const TickRecord& record) {
     if (record.surface && pair_ != record.frames) add_pair(record.frames, record.tick);
     RowBinder row(insert_tick_);
     row.integer(record.tick);
-    row.time(record.t_s, kNanosecondsPerSecond);
-    row.time(record.dt_s, kNanosecondsPerSecond);
-    row.time(record.lateness_us, kNanosecondsPerMicrosecond);
+    bind_times(row, record);
     row.integer(std::isfinite(record.update_us)
                     ? std::llround(record.update_us * kNanosecondsPerMicrosecond)
                     : -1);
@@ -136,20 +155,55 @@ void SessionFile::add(const TickRecord& record) {
     row.real(record.blend);
     row.integer(static_cast<std::int64_t>(record.settings));
     row.integer(record.moves);
-    row.integer(record.i);
-    row.integer(record.j);
+    row.integer_unless(record.i, pixel_of(record.proxy[0]));
+    row.integer_unless(record.j, pixel_of(record.proxy[1]));
     for (const double value : record.goal) row.real(value);
     for (int axis = 0; axis < 3; ++axis) row.real_unless(record.proxy[axis], record.goal[axis]);
+    bind_forces(row, record);
+    insert_tick_.run();
+}
+
+/// The time since the tick before follows, mostly, from its row.
+void SessionFile::bind_times(RowBinder& row, const TickRecord& record) {
+    const auto t_ns = whole_nanoseconds(record.t_s, kNanosecondsPerSecond);
+    const bool goes_on = t_ns && last_t_ns_ && last_tick_ == record.tick - 1;
+    row.time(record.t_s, kNanosecondsPerSecond);
+    if (goes_on &&
+        same_bits(static_cast<double>(*t_ns - *last_t_ns_) / kNanosecondsPerSecond, record.dt_s)) {
+        row.null();
+    } else {
+        row.time(record.dt_s, kNanosecondsPerSecond);
+    }
+    row.time(record.lateness_us, kNanosecondsPerMicrosecond);
+    last_tick_ = record.tick;
+    last_t_ns_ = t_ns;
+}
+
+/// As the view takes them; this file is compiled so that products and sums are rounded one by one,
+/// as in SQLite.
+void SessionFile::bind_forces(RowBinder& row, const TickRecord& record) const {
+    double wanted[3]{};
     for (int axis = 0; axis < 3; ++axis) {
         const double follows =
             newton_per_px_.value_or(std::nan("")) * (record.proxy[axis] - record.goal[axis]);
         row.real_unless(record.spring_newton[axis], follows);
+        wanted[axis] = record.spring_newton[axis] + record.own_newton[axis];
     }
-    for (int axis = 0; axis < 3; ++axis) {
-        row.real_unless(record.sent_newton[axis], record.spring_newton[axis]);
+    const auto follows = [&](int axis) { return record.cut == 0 ? wanted[axis] : 0.0; };
+    const double shortening = record.sent_newton[2] / wanted[2];
+    for (int axis = 0; axis < 2; ++axis) {
+        const double sent = record.sent_newton[axis];
+        const auto off = off_direction(sent, wanted[axis], shortening);
+        if (same_bits(sent, follows(axis))) {
+            row.null();
+        } else if (off) {
+            row.integer(*off);
+        } else {
+            row.plain_real(sent);
+        }
     }
+    row.real_unless(record.sent_newton[2], follows(2));
     for (const double value : record.own_newton) row.real_unless(value, 0.0);
-    insert_tick_.run();
 }
 
 void SessionFile::commit() {

@@ -17,6 +17,8 @@
 
 namespace dibhr {
 
+class RowBinder;
+
 /// The tables are described in README.md and in the file itself. One thread at a time. Every call
 /// that writes throws DatabaseError.
 class SessionFile {
@@ -74,6 +76,8 @@ class SessionFile {
 
     void use_settings(std::uint64_t version, std::int64_t tick);
     void add_pair(const FramePair& frames, std::int64_t tick);
+    void bind_times(RowBinder& row, const TickRecord& record);
+    void bind_forces(RowBinder& row, const TickRecord& record) const;
     [[nodiscard]] std::int64_t source_row(const FrameSource& source, std::int64_t tick);
     [[nodiscard]] std::int64_t media_row(const std::filesystem::path& file);
     [[nodiscard]] static Place place_of(const std::filesystem::path& file);
@@ -94,6 +98,8 @@ class SessionFile {
     std::int64_t pairs_{0};                    ///< and its number
     std::optional<std::uint64_t> settings_{};  ///< version of the last tick
     std::optional<double> newton_per_px_{};    ///< its spring's, where known
+    std::int64_t last_tick_{0};                ///< its number
+    std::optional<std::int64_t> last_t_ns_{};  ///< its time, if it is stored as that
     std::unique_ptr<LogKeeper> keeper_{};      ///< until the log is merged for good
 };
 

@@ -44,6 +44,10 @@ std::string bits(int shift, int mask) {
     return "d.state >> " + std::to_string(shift) + " & " + std::to_string(mask);
 }
 
+std::string flag_unless(int shift) {
+    return "1 - (" + bits(shift, 1) + ")";
+}
+
 /// Whole nanoseconds, or else a real in the unit itself.
 std::string time_of(const std::string& column, double nanoseconds) {
     return "CASE typeof(" + column + ") WHEN 'integer' THEN " + column + " / " +
@@ -60,8 +64,39 @@ std::string spring_of(const std::string& axis) {
            proxy_of(axis) + " - d.g" + axis + "))";
 }
 
+std::string own_of(const std::string& axis) {
+    return "coalesce(d.o" + axis + ", 0.0)";
+}
+
+/// What the safety stage was given.
+std::string wanted_of(const std::string& axis) {
+    return "(" + spring_of(axis) + " + " + own_of(axis) + ")";
+}
+
+/// Nothing was sent if the force was cut, else what was wanted.
 std::string sent_of(const std::string& axis) {
-    return "coalesce(d.c" + axis + ", " + spring_of(axis) + ")";
+    return "coalesce(d.c" + axis + ", CASE WHEN " + bits(tick_state::kCut, 7) + " THEN 0.0 ELSE " +
+           wanted_of(axis) + " END)";
+}
+
+/// As off_direction() and bind_forces() of a session file have it.
+std::string shortened_of(const std::string& axis) {
+    return "CASE typeof(d.c" + axis + ") WHEN 'integer' THEN " + wanted_of(axis) + " * (CAST(" +
+           sent_of("z") + " AS REAL) / " + wanted_of("z") + ") + d.c" + axis + " / CAST(" +
+           std::to_string(kPartsPerNewton) + " AS REAL) ELSE " + sent_of(axis) + " END";
+}
+
+/// In a tick that follows its forerunner: the time between.
+std::string time_between() {
+    return "CASE WHEN d.dt IS NULL THEN (d.t - (SELECT b.t FROM tick_data b WHERE b.tick = d.tick "
+           "- 1)) / " +
+           std::to_string(kNanosecondsPerSecond) + " ELSE " +
+           time_of("d.dt", kNanosecondsPerSecond) + " END";
+}
+
+/// The pixel the proxy is in, for a primitive.
+std::string pixel_of(const std::string& index, const std::string& axis) {
+    return "coalesce(d." + index + ", CAST(" + proxy_of(axis) + " AS INTEGER))";
 }
 
 std::string primitive_name() {
@@ -93,14 +128,14 @@ std::array<Column, 41> columns() {
         {"fx", "REAL", spring_of("x"), "N", "spring force before the safety stage, x"},
         {"fy", "REAL", spring_of("y"), "N", "spring force before the safety stage, y"},
         {"fz", "REAL", spring_of("z"), "N", "spring force before the safety stage, z"},
-        {"cx", "REAL", sent_of("x"), "N", "force sent to the device, x"},
-        {"cy", "REAL", sent_of("y"), "N", "force sent to the device, y"},
+        {"cx", "REAL", shortened_of("x"), "N", "force sent to the device, x"},
+        {"cy", "REAL", shortened_of("y"), "N", "force sent to the device, y"},
         {"cz", "REAL", sent_of("z"), "N", "force sent to the device, z"},
         {"contact", "INTEGER", bits(at::kContact, 1), "", "1 while the proxy touches the surface"},
         {"primitive", "TEXT", primitive_name(), "",
          "what the proxy rests on: none, triangle, edge or vertex"},
-        {"i", "INTEGER", "d.i", "", "the primitive's column, -1 for none"},
-        {"j", "INTEGER", "d.j", "", "the primitive's row, -1 for none"},
+        {"i", "INTEGER", pixel_of("i", "x"), "", "the primitive's column, -1 for none"},
+        {"j", "INTEGER", pixel_of("j", "y"), "", "the primitive's row, -1 for none"},
         {"moves", "INTEGER", "d.moves", "", "primitives visited in the update"},
         {"ns", "INTEGER", "d.ns", "ns", "time of the update"},
         {"tick", "", "d.tick", "", "number of the tick in its loop"},
@@ -113,15 +148,15 @@ std::array<Column, 41> columns() {
         {"pair", "", "q.id", "", "the two frames: id in table pair"},
         {"source", "", "q.source", "", "files and cleaning of the frames: id in table source"},
         {"settings", "", "d.settings", "", "version in table parameters"},
-        {"dt_s", "REAL", time_of("d.dt", kNanosecondsPerSecond), "s",
-         "since the tick before began"},
+        {"dt_s", "REAL", time_between(), "s", "since the tick before began"},
         {"lateness_us", "REAL", time_of("d.lateness", kNanosecondsPerMicrosecond), "us",
          "how long after its deadline the tick began"},
         {"buttons", "INTEGER", bits(at::kButtons, 255), "", "bit 0: the device's main button"},
         {"cut", "INTEGER", bits(at::kCut, 7), "", "why the force was cut: code in table cut"},
-        {"surface", "INTEGER", bits(at::kSurface, 1), "",
+        {"surface", "INTEGER", flag_unless(at::kNoSurface), "",
          "1: there was a surface; without, nothing is updated and no force sent"},
-        {"ready", "INTEGER", bits(at::kReady, 1), "", "1: the device was attached and homed"},
+        {"ready", "INTEGER", flag_unless(at::kNotReady), "",
+         "1: the device was attached and homed"},
         {"stand_in", "INTEGER", bits(at::kStandIn, 1), "",
          "1: the mouse moved the hand, for a device that was not ready"},
         {"restart", "INTEGER", bits(at::kRestart, 1), "", "1: the force began from zero again"},
@@ -129,9 +164,9 @@ std::array<Column, 41> columns() {
          "1: the hand was lifted or replaced, and a contact was let go first"},
         {"refused", "INTEGER", bits(at::kRefused, 1), "",
          "1: the hand's place was no number; the goal is the one before"},
-        {"ox", "REAL", "coalesce(d.ox, 0.0)", "N", "what the device itself adds, x"},
-        {"oy", "REAL", "coalesce(d.oy, 0.0)", "N", "what the device itself adds, y"},
-        {"oz", "REAL", "coalesce(d.oz, 0.0)", "N", "what the device itself adds, z"},
+        {"ox", "REAL", own_of("x"), "N", "what the device itself adds, x"},
+        {"oy", "REAL", own_of("y"), "N", "what the device itself adds, y"},
+        {"oz", "REAL", own_of("z"), "N", "what the device itself adds, z"},
     }};
 }
 

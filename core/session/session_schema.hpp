@@ -20,22 +20,28 @@ inline constexpr int kSessionSchemaVersion = 2;
 [[nodiscard]] std::string tick_data_columns();
 inline constexpr int kTickDataColumns = 27;
 
-/// How `tick_data.state` holds a tick's small facts; the view takes them apart.
+/// How `tick_data.state` holds a tick's small facts; the view takes them apart. What is usual comes
+/// first and is zero after that: one byte, also with the main button pressed.
 namespace tick_state {
 inline constexpr int kContact = 0;
 inline constexpr int kPrimitive = 1;  // 2 bits
-inline constexpr int kCut = 3;        // 3 bits
-inline constexpr int kSurface = 6;
-inline constexpr int kReady = 7;
-inline constexpr int kRestart = 8;
-inline constexpr int kLetsGo = 9;
-inline constexpr int kRefused = 10;
-inline constexpr int kStandIn = 11;
-inline constexpr int kButtons = 12;  // 8 bits
+inline constexpr int kButtons = 3;    // 8 bits
+inline constexpr int kNoSurface = 11;
+inline constexpr int kNotReady = 12;
+inline constexpr int kStandIn = 13;
+inline constexpr int kRestart = 14;
+inline constexpr int kLetsGo = 15;
+inline constexpr int kRefused = 16;
+inline constexpr int kCut = 17;  // 3 bits
 }  // namespace tick_state
 
 /// A time is stored in whole nanoseconds where they give the same bits again, divided by this.
 inline constexpr double kNanosecondsPerSecond = 1e9;
 inline constexpr double kNanosecondsPerMicrosecond = 1e3;
+
+/// A force that a limit only shortened is stored as its z, and along x and y as whole such parts of
+/// a newton by which it is off the direction of what was wanted: 2^60, so that dividing by it loses
+/// nothing.
+inline constexpr std::int64_t kPartsPerNewton = std::int64_t{1} << 60;
 
 }  // namespace dibhr

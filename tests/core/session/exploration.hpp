@@ -67,6 +67,7 @@ class Exploration {
   public:
     SessionParameters parameters{.version = 1, .touch = {}, .limits = {}, .bump = {}};
     double depth_px{30.0};  ///< how far the hand is below the waves' middle
+    double tremor_px{0.0};  ///< up and down by so much
     Vec3 own_force_newton{0.0};
     bool lets_go{false};  ///< in the next tick
     bool surface{true};
@@ -76,9 +77,10 @@ class Exploration {
     [[nodiscard]] TickRecord next() {
         TickRecord record;
         record.tick = number_;
-        record.dt_s = 0.001 + 1e-6 * static_cast<double>(number_ % 7);
+        const std::int64_t step_ns = 1'000'000 + 1000 * (number_ % 7);
+        ns_ += step_ns;
+        record.dt_s = static_cast<double>(step_ns) / 1e9;
         record.t_s = static_cast<double>(ns_) / 1e9;
-        ns_ += 1'000'000 + 1000 * (number_ % 7);
         record.lateness_us = static_cast<double>(number_ % 50) + 0.123;
         record.update_us = 0.3;
         record.settings = parameters.version;
@@ -112,7 +114,7 @@ class Exploration {
         const auto to = frames_.depth(record.frames.source, record.frames.to_s);
         const DepthSurface ground(*from, *to, record.blend, parameters.touch.shape);
         const Vec3 goal{48.0 + 40.0 * std::sin(1.7 * t), 32.0 + 25.0 * std::sin(2.3 * t + 1.0),
-                        100.0 - depth_px * std::min(1.0, t)};
+                        100.0 - depth_px * std::min(1.0, t) + tremor_px * std::sin(31.0 * t)};
         record.restart = restart_;
         restart_ = false;
         if (lets_go && touch_.proxy.contact) renderer_.let_go();

@@ -122,3 +122,15 @@ TEST_CASE("so does an hour in which every force meets the device's limit", "[ses
     hand.parameters.touch.coupling.damping_newton_s_per_m = 2.0;
     check(cost_of(hand));
 }
+
+TEST_CASE(
+    "so does one in which nothing follows: also damped up and down, and the device adds a force",
+    "[session]") {
+    MovingSurface surface;
+    Exploration hand(surface);
+    hand.tremor_px = 0.5;
+    hand.parameters.touch.coupling.stiffness_newton_per_mm = 20.0;
+    hand.parameters.touch.coupling.damping_newton_s_per_m = 2.0;
+    hand.own_force_newton = {0.1 / 3.0, -0.2 / 3.0, 0.1 / 7.0};
+    check(cost_of(hand));
+}
