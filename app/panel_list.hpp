@@ -43,14 +43,14 @@ void draw_transport_bar(ViewerState& state, Player& player);
 void draw_replay_bar(ViewerState& state, SessionPlayer& replay);
 
 /// A line of time to go along.
-struct TimeLine {
+struct TimeLineContents {
     double now_s{0.0};  ///< from the line's beginning, like all its times
     double length_s{0.0};
     const ContactBand* contacts{nullptr};  ///< null: none to show
     std::vector<SessionMark> marks{};
 };
 /// Click or drag to go there: gives back where to. `width` in pixels.
-[[nodiscard]] std::optional<double> draw_time_line(const TimeLine& line, float width);
+[[nodiscard]] std::optional<double> draw_time_line(const TimeLineContents& line, float width);
 
 /// Over the relief: the force in numbers, notices; `now_s` counts from the start.
 void draw_overlay(const ViewerState& state, double now_s);

@@ -23,12 +23,12 @@ void draw_buttons(const SessionPlayback& playback, SessionPlayer& replay) {
     }
 }
 
-TimeLine line_of(const ReplayNews& news) {
+TimeLineContents line_of(const ReplayNews& news) {
     const SessionPlayback& playback = news.playback;
-    TimeLine line{.now_s = playback.now_s - playback.begin_s,
-                  .length_s = playback.end_s - playback.begin_s,
-                  .contacts = news.contacts,
-                  .marks = news.marks};
+    TimeLineContents line{.now_s = playback.now_s - playback.begin_s,
+                          .length_s = playback.end_s - playback.begin_s,
+                          .contacts = news.contacts,
+                          .marks = news.marks};
     for (SessionMark& mark : line.marks) mark.t_s -= playback.begin_s;
     return line;
 }
@@ -41,7 +41,7 @@ void draw_replay_bar(ViewerState& state, SessionPlayer& replay) {
     const SessionPlayback& playback = state.replay->playback;
     draw_buttons(playback, replay);
     ImGui::SameLine();
-    const TimeLine line = line_of(*state.replay);
+    const TimeLineContents line = line_of(*state.replay);
     const std::string time = clock_text(line.now_s) + " / " + clock_text(line.length_s);
     const std::string video = "video " + clock_text(state.replay->tick.video_s);
     const float texts = ImGui::CalcTextSize(time.c_str()).x + ImGui::CalcTextSize(video.c_str()).x;

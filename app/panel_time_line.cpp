@@ -69,7 +69,7 @@ void draw_line(ImDrawList& list, const Track& track, float x, bool lively) {
 
 }  // namespace
 
-std::optional<double> draw_time_line(const TimeLine& line, float width) {
+std::optional<double> draw_time_line(const TimeLineContents& line, float width) {
     const Track track{ImGui::GetCursorScreenPos(), std::max(width, 1.0F), ImGui::GetFrameHeight(),
                       line.length_s};
     ImGui::InvisibleButton("time line", {track.width, track.height});

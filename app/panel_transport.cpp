@@ -20,7 +20,7 @@ void draw_playback(const ViewerState& state, Player& player, float right_of_line
         ImGui::CalcTextSize(time.c_str()).x + gap + ImGui::CalcTextSize("frame 00000").x;
     const float line = ImGui::GetContentRegionAvail().x - texts - 2.0F * gap - right_of_line;
     if (line > 40.0F) {
-        const TimeLine times{.now_s = playback.media_s, .length_s = playback.duration_s};
+        const TimeLineContents times{.now_s = playback.media_s, .length_s = playback.duration_s};
         if (const auto wanted_s = draw_time_line(times, line)) player.seek(*wanted_s);
         ImGui::SameLine();
     }
