@@ -21,6 +21,7 @@
 #include "app/command_report.hpp"
 #include "app/command_touch.hpp"
 #include "app/command_view.hpp"
+#include "app/error_line.hpp"
 #include "app/experiment_request.hpp"
 #include "app/window.hpp"
 
@@ -176,6 +177,7 @@ int touch(CLI::App& app, const Arguments& arguments) {
     options.bump = request.bump;
     options.raw_depth = request.raw_depth;
     request.given.apply(options.parameters);
+    print_warning(roughness_warning(request.given, !options.bump.empty()));
     return run_touch(options);
 }
 

@@ -89,6 +89,15 @@ void GivenParameters::apply(TouchParameters& parameters) const {
     keep_in_range(parameters);
 }
 
+std::string roughness_warning(const GivenParameters& given, bool has_bump) {
+    const bool rough =
+        std::any_of(given.numbers.begin(), given.numbers.end(), [](const auto& number) {
+            return number.first->name == "roughness" && number.second != 0.0;
+        });
+    if (!rough || has_bump) return {};
+    return "--roughness changes nothing without a bump map; give one with --bump IMAGE";
+}
+
 double parse_number(const std::string& option, const std::string& text, double lowest,
                     double highest) {
     double value = 0.0;

@@ -37,6 +37,9 @@ struct TouchRequest {
     bool raw_depth{false};  ///< --raw-depth
 };
 
+/// That a roughness is given, but no bump map that it could scale, as a sentence; or empty.
+[[nodiscard]] std::string roughness_warning(const GivenParameters& given, bool has_bump);
+
 /// A finite decimal number in [lowest, highest], and nothing else. Throws CLI::ValidationError that
 /// names `option`.
 [[nodiscard]] double parse_number(const std::string& option, const std::string& text, double lowest,

@@ -1,6 +1,7 @@
 // `dibhr replay`: all runs side by side, in one pass over the session and its video.
 #include "app/command_replay.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <iomanip>
 #include <iostream>
@@ -62,6 +63,14 @@ std::vector<Run> make_runs(const Session& session, const ReplayOptions& options)
 }
 
 void replay(const Session& session, SessionVideo& video, std::vector<Run>& runs,
+bool has_bump(const Session& session, const ReplayOptions& options) {
+    const auto& all = session.parameters();
+    return !options.bump.empty() ||
+           std::any_of(all.begin(), all.end(), [](const SessionParameters& parameters) {
+               return !parameters.bump.file.empty();
+           });
+}
+
             const std::filesystem::path& csv) {
     std::vector<ParameterChange> changes;
     for (const Run& run : runs) changes.push_back(run.change);
@@ -152,3 +161,4 @@ int run_replay(const ReplayOptions& options) {
 }
 
 }  // namespace dibhr
+    print_warning(roughness_warning(options.given, has_bump(session, options)));

@@ -178,6 +178,25 @@ TEST_CASE("a result that is not the recorded one is told, with where it begins",
     CHECK(contains(result.errors, "first in tick "));
 }
 
+TEST_CASE("a roughness without a bump map is told to be without effect", "[replay]") {
+    const TemporaryFolder folder;
+    make_film(folder);
+    write_depth_png(folder / "bumps.png", 32, 24, 0, 8);
+    record_session(folder / "mine.dibhr", film_session(folder));
+    const ProgramResult result = run_dibhr(folder, {"replay", "mine.dibhr", "--roughness", "8"});
+    CHECK(result.exit_code == 0);
+    CHECK(is_one_line(result.errors));
+    CHECK(contains(result.errors, "warning: --roughness changes nothing without a bump map"));
+    CHECK(contains(result.errors, "--bump IMAGE"));
+    CHECK(run_dibhr(folder, {"replay", "mine.dibhr", "--roughness", "0"}).errors.empty());
+    CHECK(run_dibhr(folder, {"replay", "mine.dibhr", "--roughness", "8", "--bump", "bumps.png"})
+              .errors.empty());
+    RecordedSession bumpy = film_session(folder);
+    bumpy.bump = folder / "bumps.png";
+    record_session(folder / "bumpy.dibhr", bumpy);
+    CHECK(run_dibhr(folder, {"replay", "bumpy.dibhr", "--roughness", "8"}).errors.empty());
+}
+
 TEST_CASE("a tick over a video that the session does not name is told with its number",
           "[replay]") {
     const TemporaryFolder folder;

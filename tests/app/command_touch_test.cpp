@@ -340,3 +340,20 @@ TEST_CASE("cleaning fills a hole that raw depth keeps", "[touch]") {
     REQUIRE(result.exit_code == 0);
     CHECK_THAT(rows_of(result.output).back().number("pz"), WithinAbs(100.0, 1.0));
 }
+
+TEST_CASE("a roughness without a bump map is told to change nothing, on stderr alone", "[touch]") {
+    const TemporaryFolder folder;
+    write_depth_png(folder / "depth.png", 16, 12, 100);
+    write_depth_png(folder / "bumps.png", 16, 12, 0, 10);
+    write_text(folder / "goals.csv", goals_csv({{1, 1, 120}, {1, 1, 90}}));
+    const std::vector<std::string> rough{"touch",     "--depth",     "depth.png", "--goals",
+                                         "goals.csv", "--roughness", "5"};
+    const ProgramResult result = run_dibhr(folder, rough);
+    CHECK(result.exit_code == 0);
+    CHECK(rows_of(result.output).size() == 2);
+    CHECK(result.errors.starts_with("dibhr: warning: --roughness changes nothing"));
+    CHECK(split(result.errors, '\n').size() == 2);
+    std::vector<std::string> bumpy = rough;
+    bumpy.insert(bumpy.end(), {"--bump", "bumps.png"});
+    CHECK(run_dibhr(folder, bumpy).errors.empty());
+}
