@@ -101,7 +101,7 @@ void print_table(const Session& session, const std::vector<Run>& runs) {
               << comparison_heading();
     for (const Run& run : runs) std::cout << run.comparison.table_row(run.name);
     std::cout << "  force turn: of the force from update to update; off: from the recorded proxy "
-                 "and force\n";
+                 "and force; contact: of all ticks\n";
     for (const Run& run : runs) {
         if (run.as_recorded && !run.comparison.first_difference()) {
             std::cout << run.name << ", as recorded: all " << session.rows()

@@ -152,7 +152,7 @@ void HapticTick::record(const TickRecord& inputs, const TickTiming& timing,
     row.moves = touch.proxy.moves;
     row.i = touch.proxy.active.i;
     row.j = touch.proxy.active.j;
-    row.contact = touch.proxy.contact;
+    row.contact = inputs.surface && touch.proxy.contact;
     row.primitive = static_cast<std::uint8_t>(touch.proxy.active.kind);
     row.cut = static_cast<std::uint8_t>(touch.cut);
     to_.ticks.push(row);

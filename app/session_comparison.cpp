@@ -73,8 +73,8 @@ void RunComparison::add(const TickRecord& recorded, const Touch& touch, double u
                                  touch.sent_force_newton, vector_of(recorded.sent_newton)};
         }
     }
+    ++ticks_;
     if (!recorded.surface) return;
-    ++updates_;
     time_us_.add(update_us);
     off_px_.add(glm::length(touch.proxy.position - vector_of(recorded.proxy)));
     const Vec3 lag = touch.proxy.position - touch.goal;
@@ -93,12 +93,12 @@ std::string RunComparison::table_row(const std::string& name) const {
     const SampleStatistics time = time_us_.statistics();
     const SampleStatistics off = off_px_.statistics();
     const SampleStatistics astray = astray_deg_.statistics();
-    const double updates = static_cast<double>(std::max<std::int64_t>(updates_, 1));
+    const double ticks = static_cast<double>(std::max<std::int64_t>(ticks_, 1));
     std::ostringstream text;
     text << "  " << std::left << std::setw(kNameWidth) << name;
     for (const double value : {time.mean, time.median, time.p99, turn_deg_.statistics().mean,
                                turn_deg_.sd(), off.mean, off.highest, astray.mean, astray.highest,
-                               100.0 * static_cast<double>(in_contact_) / updates}) {
+                               100.0 * static_cast<double>(in_contact_) / ticks}) {
         text << cell(value);
     }
     return text.str() + "\n";

@@ -30,7 +30,8 @@ class Samples {
     double highest_{0.0};
 };
 
-/// One run beside the recording. Updates without a surface count for nothing but the bits.
+/// One run beside the recording. Ticks without a surface count for nothing but the bits and the
+/// share of ticks in contact.
 class RunComparison {
   public:
     void add(const TickRecord& recorded, const Touch& touch, double update_us);
@@ -46,13 +47,12 @@ class RunComparison {
         return first_difference_;
     }
     [[nodiscard]] std::int64_t differing() const noexcept { return differing_; }
-    [[nodiscard]] std::int64_t updates() const noexcept { return updates_; }
 
     /// A line of the table under `comparison_heading()`.
     [[nodiscard]] std::string table_row(const std::string& name) const;
 
   private:
-    std::int64_t updates_{0};
+    std::int64_t ticks_{0};
     std::int64_t in_contact_{0};
     std::int64_t differing_{0};
     std::optional<Difference> first_difference_{};

@@ -74,7 +74,7 @@ std::string summary_of(const SessionReport& report) {
     if (numbers.episodes.empty()) return begin + " never touched the surface.";
     std::string text = begin + " touched " + times(numbers.episodes.size()) + " for " +
                        decimals(numbers.contact_s, 1) + " s in all (" +
-                       percent_text(numbers.contact_share()) + " of the time). ";
+                       percent_text(numbers.contact_share()) + " of the ticks). ";
     if (numbers.episodes.size() > 1) {
         text += "Half of the contacts lasted " + decimals(median_length_s(numbers.episodes), 2) +
                 " s or longer, the longest " + decimals(longest_s(numbers.episodes), 2) + " s. ";
@@ -126,7 +126,9 @@ std::vector<Definition> definitions() {
          "Seconds since the first recorded tick. A tick stands for the time until the "
          "next one, " +
              milliseconds(kLongestTick_s) + " at most."},
-        {"Contact", "A tick whose proxy (the point kept on the surface) touches it."},
+        {"Contact",
+         "A tick whose proxy (the point kept on the surface) touches it. Their share is "
+         "of all recorded ticks, also of those without a surface."},
         {"Episode",
          "Begins with the first tick in contact and ends with the last. Gaps shorter "
          "than " +

@@ -53,7 +53,7 @@ class Counter {
     void count(const TickRecord& tick) {
         TickCounts& ticks = numbers_.ticks;
         ++ticks.all;
-        ticks.in_contact += touches(tick) ? 1 : 0;
+        ticks.in_contact += tick.contact ? 1 : 0;
         ticks.without_surface += tick.surface ? 0 : 1;
         ticks.device_not_ready += tick.device_ready ? 0 : 1;
         ticks.stand_in += tick.stand_in ? 1 : 0;

@@ -52,8 +52,11 @@ struct SessionNumbers {
     std::map<std::uint64_t, double>
         settings_from_s{};  ///< first use of a version of the parameters
 
+    /// Of all ticks, those in contact: `SELECT avg(contact) FROM tick`.
     [[nodiscard]] double contact_share() const noexcept {
-        return duration_s > 0.0 ? contact_s / duration_s : 0.0;
+        return ticks.all > 0
+                   ? static_cast<double>(ticks.in_contact) / static_cast<double>(ticks.all)
+                   : 0.0;
     }
 };
 

@@ -94,16 +94,18 @@ void SessionReplay::update(Run& run) {
         run.renderer.rest();
         run.touch.spring_force_newton = Vec3(0.0);
         run.touch.sent_force_newton = Vec3(0.0);
+        run.touch.proxy.contact = false;
         return;
     }
     const DepthSurface surface(*from_, *to_, tick_.blend, run.parameters.shape, bump_);
     const Vec3 goal = tick_.goal_refused ? Vec3(NAN) : vector_of(tick_.goal);
-    if (tick_.lets_go && run.touch.proxy.contact) run.renderer.let_go();
+    if (tick_.lets_go && run.holds) run.renderer.let_go();
     const auto begin = std::chrono::steady_clock::now();
     run.touch = run.renderer.update(surface, goal, run.parameters,
                                     safety_input(tick_, *parameters_), parameters_->limits);
     const auto end = std::chrono::steady_clock::now();
     run.update_us = std::chrono::duration<double, std::micro>(end - begin).count();
+    run.holds = run.touch.proxy.contact;
 }
 
 bool same_bits(const Touch& touch, const TickRecord& recorded) noexcept {

@@ -53,6 +53,8 @@ class SessionReplay {
         TouchParameters parameters{};
         TouchRenderer renderer{};
         Touch touch{};
+        bool holds{
+            false};  ///< the renderer's proxy is in contact, whether there is a surface or not
         double update_us{0.0};
     };
 

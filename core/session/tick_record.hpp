@@ -48,7 +48,7 @@ struct TickRecord {
     double own_newton[3]{};  ///< what the device itself adds on the hand
     std::int32_t moves{0};
     std::int32_t i{-1}, j{-1};
-    bool contact{false};
+    bool contact{false};        ///< never without a surface
     std::uint8_t primitive{0};  ///< PrimitiveKind
     std::uint8_t buttons{0};
     std::uint8_t cut{0};  ///< SafetyCut

@@ -178,6 +178,29 @@ TEST_CASE("a result that is not the recorded one is told, with where it begins",
     CHECK(contains(result.errors, "first in tick "));
 }
 
+TEST_CASE("SQL, report and replay tell the same share of the ticks in contact", "[replay]") {
+    const TemporaryFolder folder;
+    make_film(folder);
+    RecordedSession session = film_session(folder);
+    session.ticks_without_surface = 250;
+    record_session(folder / "mine.dibhr", session);
+    run_shell(folder,
+              "sqlite3 mine.dibhr 'SELECT sum(1 - surface) FROM tick; "
+              "SELECT printf(\"%.3f\", 100 * avg(contact)) FROM tick' > sql");
+    const auto sql = split(read_text(folder / "sql"), '\n');
+    REQUIRE(sql.at(0) == "250");
+    const std::string percent = sql.at(1);
+    const ProgramResult replay = run_dibhr(folder, {"replay", "mine.dibhr"});
+    INFO(percent << '\n' << replay.output << replay.errors);
+    CHECK(replay.exit_code == 0);
+    CHECK(contains(replay.output, " " + percent + "\n"));
+    REQUIRE(run_dibhr(folder, {"report", "mine.dibhr", "--out", "report"}).exit_code == 0);
+    run_shell(folder,
+              "sqlite3 :memory: \"SELECT printf('%.3f', 100 * json_extract(readfile("
+              "'report/report.json'), '\\$.contact_share'))\" > json");
+    CHECK(read_text(folder / "json") == percent + "\n");
+}
+
 TEST_CASE("a roughness without a bump map is told to be without effect", "[replay]") {
     const TemporaryFolder folder;
     make_film(folder);

@@ -84,7 +84,9 @@ void record_session(const std::filesystem::path& file, const RecordedSession& wa
         const auto now = begin + std::chrono::milliseconds(k);
         bool changed = playback.advance(now) || k == 0;
         while (playback.hungry() && playback.feed()) changed = true;
-        if (changed) frames.publish(playback.window());
+        const bool surface = k < count - wanted.ticks_without_surface;
+        if (changed && surface) frames.publish(playback.window());
+        if (k == count - wanted.ticks_without_surface) frames.publish({});
         while (ticks->size() == ticks->room()) std::this_thread::yield();
         tick.run({now, 0.001, {}, false}, 0);
         in_contact += state.front().touch.proxy.contact ? 1 : 0;

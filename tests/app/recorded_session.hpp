@@ -2,6 +2,7 @@
 // that runs as fast as the machine can.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 #include "core/haptics/parameters.hpp"
@@ -16,6 +17,7 @@ struct RecordedSession {
     CleaningOptions cleaning{};
     TouchParameters parameters{};
     std::filesystem::path bump{};
+    std::int64_t ticks_without_surface{0};  ///< at the end
 };
 
 /// The hand goes over the whole picture, in and out of the surface. Halfway the friction changes.

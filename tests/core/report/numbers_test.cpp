@@ -103,7 +103,7 @@ TEST_CASE("a recorded session comes to its numbers", "[report]") {
     const SessionNumbers numbers = numbers_of(session, [&done](double share) { done = share; });
     CHECK_THAT(numbers.duration_s, WithinAbs(1.0, 1e-9));
     CHECK_THAT(numbers.contact_s, WithinAbs(0.5, 1e-9));
-    CHECK_THAT(numbers.contact_share(), WithinAbs(0.5, 1e-9));
+    CHECK_THAT(numbers.contact_share(), WithinAbs(500.0 / 990.0, 1e-12));
     REQUIRE(numbers.episodes.size() == 1);
     CHECK_THAT(numbers.sent_newton.mean(), WithinAbs(0.5, 1e-9));
     CHECK_THAT(numbers.places.at(1).total_s(), WithinAbs(0.5, 1e-9));

@@ -120,7 +120,7 @@ TEST_CASE("the page stands alone, closes what it opens, and says it in words", "
     const std::string page = text_in(folder / "out/report.html");
     CHECK(page.starts_with("<!DOCTYPE html>"));
     CHECK(unbalanced(page) == "");
-    CHECK(contains(page, "In 2.0 s, P07 touched twice for 1.0 s in all (50 % of the time)."));
+    CHECK(contains(page, "In 2.0 s, P07 touched twice for 1.0 s in all (50 % of the ticks)."));
     CHECK(contains(page, "it is gone"));
     CHECK(contains(page, "damping cutoff [Hz]"));
     CHECK(contains(page, "47.5"));

@@ -99,7 +99,7 @@ class Exploration {
         record.moves = touch.proxy.moves;
         record.i = touch.proxy.active.i;
         record.j = touch.proxy.active.j;
-        record.contact = touch.proxy.contact;
+        record.contact = surface && touch.proxy.contact;
         record.primitive = static_cast<std::uint8_t>(touch.proxy.active.kind);
         record.cut = static_cast<std::uint8_t>(touch.cut);
         ++number_;
