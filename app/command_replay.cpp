@@ -17,6 +17,7 @@
 #include "app/session_rows.hpp"
 #include "app/session_video.hpp"
 #include "core/session/session_replay.hpp"
+#include "core/video/library_versions.hpp"
 
 namespace dibhr {
 
@@ -62,7 +63,6 @@ std::vector<Run> make_runs(const Session& session, const ReplayOptions& options)
     return runs;
 }
 
-void replay(const Session& session, SessionVideo& video, std::vector<Run>& runs,
 bool has_bump(const Session& session, const ReplayOptions& options) {
     const auto& all = session.parameters();
     return !options.bump.empty() ||
@@ -71,6 +71,7 @@ bool has_bump(const Session& session, const ReplayOptions& options) {
            });
 }
 
+void replay(const Session& session, SessionVideo& video, std::vector<Run>& runs,
             const std::filesystem::path& csv) {
     std::vector<ParameterChange> changes;
     for (const Run& run : runs) changes.push_back(run.change);
@@ -116,6 +117,19 @@ std::string text_of(Vec3 v) {
     return text.str();
 }
 
+/// "; it was recorded with libavcodec 59.37.100, this is 61.3.100": what may have decoded other
+/// depth levels. Empty: nothing that is known.
+std::string library_changes(const Session& session) {
+    std::string text;
+    for (const auto& [library, version] : library_versions()) {
+        const std::string recorded = session.fact(library);
+        if (recorded.empty() || recorded == version) continue;
+        text += (text.empty() ? "; it was recorded with " : "; with ") + library + " " + recorded +
+                ", this is " + version;
+    }
+    return text;
+}
+
 std::string difference_of(const Session& session, const Run& run) {
     const RunComparison::Difference& first = *run.comparison.first_difference();
     std::ostringstream text;
@@ -129,6 +143,7 @@ std::string difference_of(const Session& session, const Run& run) {
              << " ticks are missing in it, so that it cannot be "
                 "replayed exactly";
     }
+    text << library_changes(session);
     return text.str();
 }
 
@@ -148,6 +163,7 @@ int run_replay(const ReplayOptions& options) {
     SessionVideo video(session, {options.any_media, options.raw_depth, options.bump});
     print_warning(session.warning());
     print_warning(video.warning());
+    print_warning(roughness_warning(options.given, has_bump(session, options)));
     replay(session, video, runs, options.csv);
     if (options.csv != "-") print_table(session, runs);
     int exit_code = 0;
@@ -161,4 +177,3 @@ int run_replay(const ReplayOptions& options) {
 }
 
 }  // namespace dibhr
-    print_warning(roughness_warning(options.given, has_bump(session, options)));

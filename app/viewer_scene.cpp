@@ -7,6 +7,7 @@
 #include "app/options.hpp"
 #include "core/haptics/facet.hpp"
 #include "core/haptics/surface.hpp"
+#include "core/video/library_versions.hpp"
 
 namespace dibhr {
 
@@ -76,6 +77,7 @@ std::map<std::string, std::string> session_facts(const ViewerState& state) {
         {"bump", state.bump_file.string()},
         {"max-force", number_text(state.settings.max_force_newton)},
     };
+    facts.merge(library_versions());
     TouchParameters parameters = state.settings.touch;
     for (const NumberOption& option : number_options()) {
         facts.emplace(std::string(option.name), number_text(option.in(parameters)));

@@ -14,7 +14,8 @@ namespace dibhr {
 /// frame.
 [[nodiscard]] SceneContent scene_content(const ViewerState& state, const DepthBlend& shown);
 
-/// What is kept with a recording: program version, files, parameters, device.
+/// What is kept with a recording: versions of program and libraries, files, parameters,
+/// device.
 [[nodiscard]] std::map<std::string, std::string> session_facts(const ViewerState& state);
 
 }  // namespace dibhr

@@ -6,11 +6,13 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "app/assets_path.hpp"
 #include "app/output_rows.hpp"
+#include "core/video/library_versions.hpp"
 #include "tests/app/command_program.hpp"
 #include "tests/app/recorded_session.hpp"
 #include "tests/support/catch.hpp"
@@ -40,6 +42,19 @@ void make_film(const TemporaryFolder& folder) {
 
 RecordedSession film_session(const TemporaryFolder& folder) {
     return {.colour = folder / "film_color.mkv", .depth = folder / "film_depth.mkv"};
+}
+
+/// Of mine.dibhr, the last one in contact.
+void spoil_one_proxy(const TemporaryFolder& folder) {
+    run_shell(folder,
+              "sqlite3 mine.dibhr 'UPDATE tick_data SET pz = pz + 1e-9 WHERE tick = "
+              "(SELECT max(tick) FROM tick WHERE contact)'");
+}
+
+void set_fact(const TemporaryFolder& folder, const std::string& session, const std::string& key,
+              const std::string& value) {
+    run_shell(folder, "sqlite3 " + session + " \"UPDATE session SET value = '" + value +
+                          "' WHERE key = '" + key + "'\"");
 }
 
 double cpu_seconds_of_children() {
@@ -167,15 +182,44 @@ TEST_CASE("a result that is not the recorded one is told, with where it begins",
     const TemporaryFolder folder;
     make_film(folder);
     record_session(folder / "mine.dibhr", film_session(folder));
-    run_shell(folder,
-              "sqlite3 mine.dibhr 'UPDATE tick_data SET pz = pz + 1e-9 WHERE tick = "
-              "(SELECT max(tick) FROM tick WHERE contact)'");
+    spoil_one_proxy(folder);
     const ProgramResult result = run_dibhr(folder, {"replay", "mine.dibhr"});
     INFO(result.output << result.errors);
     CHECK(result.exit_code == 1);
     CHECK(is_one_line(result.errors));
     CHECK(contains(result.errors, "mine.dibhr: dibhr differs from the recording in 1 of 1000"));
     CHECK(contains(result.errors, "first in tick "));
+}
+
+TEST_CASE("a difference is told with the libraries that are not those of the recording",
+          "[replay]") {
+    const TemporaryFolder folder;
+    make_film(folder);
+    record_session(folder / "mine.dibhr", film_session(folder));
+    spoil_one_proxy(folder);
+    const ProgramResult same = run_dibhr(folder, {"replay", "mine.dibhr"});
+    CHECK(same.exit_code == 1);
+    CHECK_FALSE(contains(same.errors, "recorded with"));
+
+    const std::map<std::string, std::string> here = library_versions();
+    set_fact(folder, "mine.dibhr", "libavcodec", "1.2.3");
+    const ProgramResult one = run_dibhr(folder, {"replay", "mine.dibhr"});
+    CHECK(one.exit_code == 1);
+    CHECK(is_one_line(one.errors));
+    CHECK(contains(one.errors, "; it was recorded with libavcodec 1.2.3, this is " +
+                                   here.at("libavcodec") + "\n"));
+
+    set_fact(folder, "mine.dibhr", "opencv", "3.4.5");
+    const ProgramResult two = run_dibhr(folder, {"replay", "mine.dibhr"});
+    CHECK(is_one_line(two.errors));
+    CHECK(contains(two.errors, here.at("libavcodec") + "; with opencv 3.4.5, this is " +
+                                   here.at("opencv") + "\n"));
+
+    record_session(folder / "good.dibhr", film_session(folder));
+    set_fact(folder, "good.dibhr", "libavcodec", "1.2.3");
+    const ProgramResult good = run_dibhr(folder, {"replay", "good.dibhr"});
+    CHECK(good.exit_code == 0);  // the bits count, not the versions
+    CHECK(good.errors.empty());
 }
 
 TEST_CASE("SQL, report and replay tell the same share of the ticks in contact", "[replay]") {

@@ -10,6 +10,7 @@
 #include "app/haptic_loop.hpp"
 #include "core/session/recorder.hpp"
 #include "core/video/frame_reader.hpp"
+#include "core/video/library_versions.hpp"
 #include "core/video/media.hpp"
 #include "core/video/playback.hpp"
 #include "tests/support/catch.hpp"
@@ -61,7 +62,9 @@ void record_session(const std::filesystem::path& file, const RecordedSession& wa
     const auto ticks = std::make_unique<TickRing>();
     HapticTick tick({hand, frames, settings, state, *forces, *ticks});
 
-    Recorder recorder(file, *ticks, {{"device", "a scripted hand"}});
+    SessionFacts facts = library_versions();
+    facts["device"] = "a scripted hand";
+    Recorder recorder(file, *ticks, facts);
     recorder.media(1, wanted.colour, wanted.depth);
     HapticSettings handed{.parameters = wanted.parameters, .recording = true};
     if (!wanted.bump.empty()) {

@@ -14,6 +14,7 @@
 
 #include "app/settings.hpp"
 #include "core/session/session.hpp"
+#include "core/video/library_versions.hpp"
 #include "core/video/media.hpp"
 #include "tests/app/window_test_desk.hpp"
 #include "tests/support/catch.hpp"
@@ -129,6 +130,9 @@ TEST_CASE(
     const Session session(file);
     session.check();
     CHECK(session.fact("complete") == "1");
+    for (const auto& [library, version] : library_versions()) {
+        CHECK(session.fact(library) == version);
+    }
     CHECK(session.missing() == 0);
     CHECK(contacts_in(file) > 200);
     REQUIRE(session.marks().size() == 1);
