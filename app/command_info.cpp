@@ -12,6 +12,7 @@
 #include "app/error_line.hpp"
 #include "app/session_moments.hpp"
 #include "core/error.hpp"
+#include "core/report/device_text.hpp"
 #include "core/session/session.hpp"
 #include "core/video/media.hpp"
 
@@ -57,7 +58,9 @@ void describe_session(const fs::path& file) {
     }
     for (const auto& [name, value] : session.facts()) {
         const bool told = !session.sources().empty() && (name == "colour" || name == "depth");
-        if (!told) print_fact(name, value);
+        if (told) continue;
+        print_fact(name,
+                   name == "device" ? device_text(value, hand_ticks(session.reader())) : value);
     }
 }
 

@@ -5,6 +5,7 @@
 
 #include "app/panel_list.hpp"
 #include "app/panel_widgets.hpp"
+#include "core/report/device_text.hpp"
 
 namespace dibhr {
 
@@ -21,7 +22,8 @@ void draw_about(const ReplayNews& replay) {
     explain(replay.file.c_str());
     fact_if_any("Participant", replay.participant);
     fact_if_any("Recorded", date_text(replay.started));
-    fact_if_any("Device", replay.device);
+    const HandTicks hand = replay.contacts == nullptr ? HandTicks{} : replay.contacts->hand;
+    fact_if_any("Device", device_text(replay.device, hand));
     fact_if_any("Note", replay.note);
 }
 

@@ -5,7 +5,7 @@
 #include <chrono>
 
 #include "core/error.hpp"
-#include "core/session/session_reader.hpp"
+#include "core/session/session.hpp"
 
 namespace dibhr {
 
@@ -22,6 +22,7 @@ std::unique_ptr<ContactBand> read_band(const std::filesystem::path& file, double
         const double at = std::max(0.0, (query.real(0) - begin_s) * pieces_per_s);
         band->contact.at(std::min(static_cast<std::size_t>(at), ContactBand::kPieces - 1)) = true;
     }
+    if (!leaving) band->hand = hand_ticks(reader);
     return band;
 }
 

@@ -8,6 +8,8 @@
 #include <future>
 #include <memory>
 
+#include "core/session/session.hpp"
+
 namespace dibhr {
 
 /// Pieces of the time from the first tick to the last: which of them hold a contact.
@@ -15,6 +17,7 @@ struct ContactBand {
     static constexpr std::size_t kPieces = 1200;
 
     std::array<bool, kPieces> contact{};
+    HandTicks hand{};
 };
 
 /// Reads the session once, on a thread of its own, from construction on.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/experiment/plot_axes.hpp"
+#include "core/report/device_text.hpp"
 #include "core/report/plain_text.hpp"
 #include "core/report/report_words.hpp"
 
@@ -192,9 +193,12 @@ std::string files_section(const SessionReport& report) {
 std::string facts_section(const SessionReport& report) {
     std::vector<Cells> rows{{"file", html_text(report.session.file().filename().string())},
                             {"ticks", std::to_string(report.session.rows())}};
+    const TickCounts& ticks = report.numbers.ticks;
+    const HandTicks hand{ticks.all - ticks.without_surface, ticks.stand_in};
     for (const auto& [key, value] : report.session.facts()) {
         if (key == "note" || key == "participant") continue;
-        rows.push_back({html_text(key), "<span class=\"text\">" + html_text(value) + "</span>"});
+        const std::string text = key == "device" ? device_text(value, hand) : value;
+        rows.push_back({html_text(key), "<span class=\"text\">" + html_text(text) + "</span>"});
     }
     return section("Session", table_of({"fact", "value"}, rows));
 }

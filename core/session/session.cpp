@@ -221,6 +221,12 @@ std::int64_t Session::tick_at(double t_s) const {
     return first;
 }
 
+HandTicks hand_ticks(const SessionReader& reader) {
+    SessionReader::Query query(reader, "SELECT count(*), sum(stand_in) FROM tick WHERE surface");
+    if (!query.next()) return {};
+    return {query.integer(0), query.integer(1)};
+}
+
 Session::Ticks::Ticks(const Session& session)
     : query_(session.reader_, kTickQuestion + std::to_string(session.first_tick_) + kInOrder) {}
 

@@ -75,6 +75,15 @@ class Session {
     std::int64_t missing_{0};
 };
 
+/// The ticks in which a hand was asked where it is: those with a surface.
+struct HandTicks {
+    std::int64_t all{0};
+    std::int64_t stand_in{0};  ///< the mouse's, for a device that was not ready
+};
+
+/// Looks at every tick. Throws InputError for a damaged file.
+[[nodiscard]] HandTicks hand_ticks(const SessionReader& reader);
+
 /// The ticks in order of time; must not outlive its session.
 class Session::Ticks {
   public:

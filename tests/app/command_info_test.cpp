@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/session/recorder.hpp"
+#include "core/video/library_versions.hpp"
 #include "tests/app/command_program.hpp"
 #include "tests/app/recorded_session.hpp"
 #include "tests/support/catch.hpp"
@@ -67,8 +68,47 @@ TEST_CASE("info describes a session file", "[info]") {
     CHECK(says(result, "session"));
     CHECK(says(result, "251"));
     CHECK(says(result, "0.250 s"));
-    CHECK(says(result, "a scripted hand"));
+    CHECK(says(result, "a scripted hand\n"));
     CHECK(names_in(folder.path()) == std::vector<std::string>{"mine.dibhr"});
+}
+
+TEST_CASE("info says for how much of a session the mouse stood in", "[info]") {
+    const int stand_in = GENERATE(0, 1, 372, 1000);
+    const TemporaryFolder folder;
+    {
+        const auto ring = std::make_unique<TickRing>();
+        const Recorder recorder(folder / "mine.dibhr", *ring, {{"device", "Novint Falcon 1234"}});
+        for (int k = 0; k < 1010; ++k) {
+            TickRecord record;
+            record.tick = k;
+            record.surface = k < 1000;  // or there is no hand
+            record.stand_in = k < stand_in;
+            REQUIRE(ring->push(record));
+        }
+    }
+    const ProgramResult result = run_dibhr(folder, {"info", "mine.dibhr"});
+    INFO(result.output << result.errors);
+    const std::map<int, std::string> endings{
+        {0, "\n"},
+        {1, "; the mouse stood in for 0.1 % of the ticks\n"},
+        {372, "; the mouse stood in for 37.2 % of the ticks\n"},
+        {1000, "; the mouse stood in for all of it\n"}};
+    CHECK(says(result, "Novint Falcon 1234" + endings.at(stand_in)));
+}
+
+TEST_CASE("info names the libraries that decoded the video of a session", "[info]") {
+    const TemporaryFolder folder;
+    write_depth_png(folder / "color.png", 64, 48, 20, 3);
+    write_depth_png(folder / "depth.png", 32, 24, 100, 1);
+    record_session(folder / "mine.dibhr",
+                   {.colour = folder / "color.png", .depth = folder / "depth.png"});
+    const ProgramResult result = run_dibhr(folder, {"info", "mine.dibhr"});
+    INFO(result.output);
+    for (const auto& [library, version] : library_versions()) {
+        CAPTURE(library);
+        CHECK(says(result, "  " + library));
+        CHECK(says(result, " " + version + "\n"));
+    }
 }
 
 TEST_CASE("info tells of the file it cannot read and describes the others", "[info]") {

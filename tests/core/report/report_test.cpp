@@ -229,6 +229,18 @@ TEST_CASE("a place beyond any picture takes no memory: it is ignored, or the map
     }
 }
 
+TEST_CASE("the page says for how much of the session the mouse stood in", "[report]") {
+    const ReportFolder folder;
+    MadeSession made = two_touches();
+    made.facts["device"] = "Novint Falcon 1234";
+    for (std::size_t k = 0; k < 744; ++k) made.ticks[k].stand_in = true;
+    record(folder / "a.dibhr", made);
+    report(folder / "a.dibhr", folder / "out");
+    CHECK(contains(text_in(folder / "out/report.html"),
+                   "Novint Falcon 1234; the mouse stood in for 37.2 % of the ticks"));
+    CHECK(json_at(folder / "out/report.json", "$.facts.device") == "Novint Falcon 1234");
+}
+
 TEST_CASE("what speaks against a picture is said, and the picture stays", "[report]") {
     const TemporaryFolder folder;
     record(folder / "a.dibhr", two_touches());
