@@ -230,7 +230,7 @@ TEST_CASE("a place beyond any picture takes no memory: it is ignored, or the map
 }
 
 TEST_CASE("the page says for how much of the session the mouse stood in", "[report]") {
-    const ReportFolder folder;
+    const TemporaryFolder folder;
     MadeSession made = two_touches();
     made.facts["device"] = "Novint Falcon 1234";
     for (std::size_t k = 0; k < 744; ++k) made.ticks[k].stand_in = true;
