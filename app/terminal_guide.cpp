@@ -131,8 +131,9 @@ falcon::CheckGuide::Wish TerminalGuide::wish() {
     if (interrupted()) return Wish::quit;
     take_input();
     if (typed_in_) {
-        if (input_.find('q') != std::string::npos) return Wish::quit;
-        return input_.empty() && !ended_ ? Wish::none : Wish::let_go;
+        // Keys have no end but that of the terminal, which may be seen before its signal comes.
+        if (ended_ || input_.find('q') != std::string::npos) return Wish::quit;
+        return input_.empty() ? Wish::none : Wish::let_go;
     }
     // Of a pipe, what comes next may be the answer to the next question.
     return input_ == "q" || input_.starts_with("q\n") ? Wish::quit : Wish::none;
