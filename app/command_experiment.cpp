@@ -7,7 +7,6 @@
 #include <system_error>
 #include <utility>
 
-#include "core/files/output_file.hpp"
 #include "app/progress_bar.hpp"
 #include "core/error.hpp"
 #include "core/experiment/plots.hpp"
@@ -15,6 +14,7 @@
 #include "core/experiment/report_table.hpp"
 #include "core/experiment/sweep.hpp"
 #include "core/experiment/update_timing.hpp"
+#include "core/files/output_file.hpp"
 
 namespace dibhr {
 

@@ -13,11 +13,12 @@ namespace {
 
 using falcon::Stage;
 
-/// It touches, or may begin to before the next picture.
+/// It touches, or may begin to before the next picture; at the start of the program before the
+/// first one, which takes its time.
 bool may_touch(const ViewerState& state) {
     if (!state.falcon || state.replay) return false;
     const Stage stage = state.falcon->status.stage;
-    return stage == Stage::homing || stage == Stage::ready;
+    return !state.falcon->asked || stage == Stage::homing || stage == Stage::ready;
 }
 
 /// It did so in the last tick that is known of.
@@ -44,6 +45,7 @@ std::optional<std::string> ViewerFalcon::take_news(ViewerState& state) {
     if (device_ == nullptr) return {};
     FalconNews& news = *state.falcon;
     news.status = device_->status();
+    news.asked = true;
     const Stage before = std::exchange(stage_, news.status.stage);
     if (before == stage_) return {};
     // Once for each need: one that comes again and again must not keep moving the panels.

@@ -100,6 +100,7 @@ struct ReplayNews {
 /// What the window shows of the Falcon.
 struct FalconNews {
     falcon::Status status{};
+    bool asked{false};               ///< the status is the device's answer; before, anything may be
     bool was_ready{false};           ///< in this run: when it is not now, it was lost
     std::string firmware{};          ///< name of what is loaded when it needs it; empty: nothing
     std::string firmware_trouble{};  ///< why the kept firmware cannot be used

@@ -156,6 +156,8 @@ TEST_CASE("stiffness is held for the Falcon, and left to the mouse while none an
     };
     CHECK_THAT(stiffness(), WithinAbs(2.0, 0.0));
     state.falcon.emplace();
+    CHECK_THAT(stiffness(), WithinAbs(0.25, 1e-12));  // before it is known what is there
+    state.falcon->asked = true;
     CHECK_THAT(stiffness(), WithinAbs(2.0, 0.0));
     state.falcon->status.stage = GENERATE(falcon::Stage::homing, falcon::Stage::ready);
     CHECK_THAT(stiffness(), WithinAbs(0.25, 1e-12));
@@ -194,7 +196,7 @@ TEST_CASE("only the force of a Falcon waits for the window, and only when it is 
     ViewerState state;
     state.in_front = false;
     CHECK_FALSE(waits_for_front(state));  // the mouse touches
-    state.falcon.emplace();
+    state.falcon.emplace().asked = true;
     CHECK_FALSE(waits_for_front(state));  // no Falcon is there
     state.falcon->status.stage = GENERATE(falcon::Stage::homing, falcon::Stage::ready);
     CHECK(waits_for_front(state));

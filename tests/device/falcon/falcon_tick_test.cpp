@@ -167,9 +167,9 @@ TEST_CASE("at 1 kHz and with frames of 1 ms a tick has one reply", "[pace]") {
     unit.set_realtime(true);
     TickingFalcon loop(ConnectionOptions{});
     REQUIRE(loop.tick_until_ready());
-    // In the best of the stretches a reply a tick. In the usual one of those in which the ticks came
-    // in time nearly so: on a busy machine the simulated bus, a thread of this program, is late by
-    // itself and a frame is gone. Never may there be more replies than ticks.
+    // In the best of the stretches a reply a tick. In the usual one of those in which the ticks
+    // came in time nearly so: on a busy machine the simulated bus, a thread of this program, is
+    // late by itself and a frame is gone. Never may there be more replies than ticks.
     constexpr int kTicks = 200;
     constexpr std::size_t kStretches = 10;
     std::vector<double> in_time;
