@@ -17,12 +17,15 @@ std::unique_ptr<ContactBand> read_band(const std::filesystem::path& file, double
     const double pieces_per_s =
         static_cast<double>(ContactBand::kPieces) / std::max(end_s - begin_s, 1e-3);
     const SessionReader reader(file);
-    SessionReader::Query query(reader, "SELECT t FROM tick WHERE contact ORDER BY tick");
+    SessionReader::Query query(reader,
+                               "SELECT t, contact, stand_in FROM tick WHERE surface ORDER BY tick");
     while (!leaving && query.next()) {
+        ++band->hand.all;
+        band->hand.stand_in += query.integer(2);
+        if (query.integer(1) == 0) continue;
         const double at = std::max(0.0, (query.real(0) - begin_s) * pieces_per_s);
         band->contact.at(std::min(static_cast<std::size_t>(at), ContactBand::kPieces - 1)) = true;
     }
-    if (!leaving) band->hand = hand_ticks(reader);
     return band;
 }
 

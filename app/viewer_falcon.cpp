@@ -13,12 +13,13 @@ namespace {
 
 using falcon::Stage;
 
-/// It touches, or may begin to before the next picture; at the start of the program before the
-/// first one, which takes its time.
+/// It touches, or may begin to before the next picture: that can be a slow one, as the first is.
+/// One that was lost comes back without a word.
 bool may_touch(const ViewerState& state) {
     if (!state.falcon || state.replay) return false;
-    const Stage stage = state.falcon->status.stage;
-    return !state.falcon->asked || stage == Stage::homing || stage == Stage::ready;
+    const FalconNews& news = *state.falcon;
+    return !news.asked || news.was_ready || news.status.stage == Stage::homing ||
+           news.status.stage == Stage::ready;
 }
 
 /// It did so in the last tick that is known of.

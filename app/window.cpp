@@ -93,7 +93,7 @@ void Window::collect_events() {
     glfwSetWindowFocusCallback(window_, [](GLFWwindow* window, int given) {
         WindowFocus& focus = input_of(window).focus;
         focus.has = given == GLFW_TRUE;
-        focus.had = focus.had || focus.has;
+        focus.had = true;  // also by losing it
     });
     glfwSetWindowIconifyCallback(window_, [](GLFWwindow* window, int iconified) {
         input_of(window).focus.iconified = iconified == GLFW_TRUE;

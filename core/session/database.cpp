@@ -50,6 +50,16 @@ std::int64_t Database::number(const std::string& sql) {
     return value;
 }
 
+LogState Database::merge_log(bool cut) {
+    int pages = 0;
+    int merged = 0;
+    const int mode = cut ? SQLITE_CHECKPOINT_TRUNCATE : SQLITE_CHECKPOINT_PASSIVE;
+    const int result = sqlite3_wal_checkpoint_v2(handle_.get(), nullptr, mode, &pages, &merged);
+    const bool busy = (result & 0xff) == SQLITE_BUSY;  // whatever keeps it busy
+    if (result != SQLITE_OK && !busy) throw DatabaseError(last_error());
+    return {busy, pages, merged};
+}
+
 std::string Database::last_error() const {
     std::string words = sqlite3_errmsg(handle_.get());
     const int error = sqlite3_system_errno(handle_.get());

@@ -19,6 +19,13 @@ class DatabaseError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// A write-ahead log after some of it was merged into its file.
+struct LogState {
+    bool busy{false};        ///< somebody is in the way
+    std::int64_t pages{0};   ///< in the log
+    std::int64_t merged{0};  ///< of them
+};
+
 /// One connection, for one thread at a time.
 class Database {
   public:
@@ -29,6 +36,9 @@ class Database {
     void execute(const std::string& sql);
     /// The one number that a question gives; throws DatabaseError.
     [[nodiscard]] std::int64_t number(const std::string& sql);
+    /// Merges what nobody else still reads and does not wait; `cut`: all of it, and empties the
+    /// log. Throws DatabaseError.
+    LogState merge_log(bool cut);
     /// The words for the last failure: "disk I/O error (File too large)".
     [[nodiscard]] std::string last_error() const;
 

@@ -6,8 +6,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
-#include <string>
+#include <cstring>
+#include <system_error>
 
 namespace dibhr {
 
@@ -15,16 +17,27 @@ namespace {
 
 constexpr auto kBetweenFlushes = std::chrono::seconds(1);
 constexpr auto kLongestPause = std::chrono::milliseconds(200);
-constexpr auto kWaitForPause = std::chrono::milliseconds(500);
+constexpr auto kPatience = std::chrono::milliseconds(500);
 constexpr off_t kLongLog = off_t{4} << 20;  // [bytes]
+
+[[noreturn]] void throw_system_error(const char* what) {
+    throw DatabaseError(std::string(what) + " (" + std::strerror(errno) + ")");
+}
 
 }  // namespace
 
-LogKeeper::LogKeeper(const std::filesystem::path& session)
-    : database_(session), log_(::open((session.string() + "-wal").c_str(), O_RDONLY | O_CLOEXEC)) {
+LogKeeper::Descriptor::~Descriptor() {
+    if (number >= 0) ::close(number);
+}
+
+LogKeeper::LogKeeper(const std::filesystem::path& session) try : database_(session) {
     database_.execute("PRAGMA busy_timeout = 0; PRAGMA synchronous = NORMAL");
     database_.execute("SELECT count(*) FROM session");  // only now it knows of the log
+    log_.number = ::open((session.string() + "-wal").c_str(), O_RDONLY | O_CLOEXEC);
+    if (log_.number < 0) throw_system_error("its log cannot be opened");
     thread_ = std::thread([this] { run(); });
+} catch (const std::system_error& error) {
+    throw DatabaseError(error.what());
 }
 
 LogKeeper::~LogKeeper() {
@@ -34,58 +47,79 @@ LogKeeper::~LogKeeper() {
     }
     changed_.notify_all();
     thread_.join();
-    if (log_ >= 0) ::close(log_);
 }
 
-void LogKeeper::between_transactions() {
+void LogKeeper::begin(Database& writer) {
     std::unique_lock lock(mutex_);
-    if (!wanted_) return;
-    paused_ = true;
-    changed_.notify_all();
-    changed_.wait_for(lock, kLongestPause, [this] { return !wanted_; });
-    paused_ = wanted_ = false;
+    if (wanted_) {
+        paused_ = true;
+        changed_.notify_all();
+        changed_.wait_for(lock, kLongestPause, [this] { return !wanted_; });
+        paused_ = wanted_ = false;
+    }
+    if (!failure_.empty()) throw DatabaseError(failure_);
+    // Before a log is written over, its new beginning is flushed: a power cut must not leave the
+    // old one with some of the old pages. Otherwise no transaction waits for the disk.
+    writer.execute(may_be_written_over_ ? "PRAGMA synchronous = NORMAL; BEGIN IMMEDIATE"
+                                        : "PRAGMA synchronous = OFF; BEGIN IMMEDIATE");
 }
 
 void LogKeeper::run() {
     pthread_setname_np(pthread_self(), "dibhr-log");
     std::unique_lock lock(mutex_);
-    while (!changed_.wait_for(lock, kBetweenFlushes, [this] { return leaving_; })) {
+    while (failure_.empty() &&
+           !changed_.wait_for(lock, kBetweenFlushes, [this] { return leaving_; })) {
         lock.unlock();
-        keep();
+        std::string failure;
+        try {
+            keep();
+        } catch (const DatabaseError& error) {
+            failure = error.what();
+        }
         lock.lock();
+        failure_ = failure;
     }
 }
 
 void LogKeeper::keep() {
-    struct stat log {};
-    if (log_ < 0 || ::fdatasync(log_) != 0 || ::fstat(log_, &log) != 0) return;
-    if (log.st_size >= kLongLog) empty();
+    flush();
+    if (log_is_long()) empty();
+}
+
+void LogKeeper::flush() {
+    if (::fdatasync(log_.number) == 0 || errno == EINVAL) return;  // or there is no such thing
+    throw_system_error("it cannot be flushed to the disk");
 }
 
 /// Most of the log is merged into the file while the writer goes on, the rest in a pause of it.
 void LogKeeper::empty() {
-    checkpoint("PASSIVE");
+    {
+        const std::lock_guard lock(mutex_);
+        may_be_written_over_ = true;
+    }
+    database_.merge_log(false);
     std::unique_lock lock(mutex_);
-    wanted_ = true;
-    changed_.wait_for(lock, kWaitForPause, [this] { return paused_ || leaving_; });
+    wait_for_pause(lock);
     if (paused_) {
         lock.unlock();
-        checkpoint("PASSIVE");
+        const LogState state = database_.merge_log(false);
         lock.lock();
+        // Nothing is left to be merged or flushed: cutting waits for no disk.
+        const bool all = !state.busy && state.merged == state.pages;
+        if (paused_ && all) may_be_written_over_ = database_.merge_log(true).busy;
     }
-    // All of it is merged and flushed, so that cutting the log waits for no disk. Unlike a log that
-    // is written over, one that was cut never holds old pages that a power cut could bring back.
-    if (paused_) checkpoint("TRUNCATE");
     wanted_ = false;
     changed_.notify_all();
 }
 
-void LogKeeper::checkpoint(const char* mode) noexcept {
-    try {
-        database_.execute(std::string("PRAGMA wal_checkpoint(") + mode + ")");
-    } catch (const DatabaseError&) {
-        // The log is whole and grows; a disk that fails is told of by the writer, who meets it too.
-    }
+void LogKeeper::wait_for_pause(std::unique_lock<std::mutex>& lock) {
+    wanted_ = true;
+    changed_.wait_for(lock, kPatience, [this] { return paused_ || leaving_; });
+}
+
+bool LogKeeper::log_is_long() const {
+    struct stat log {};
+    return ::fstat(log_.number, &log) == 0 && log.st_size >= kLongLog;
 }
 
 }  // namespace dibhr

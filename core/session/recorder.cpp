@@ -244,13 +244,15 @@ struct Recorder::Implementation {
     }
 
     void break_off(const std::string& reason) {
-        const std::lock_guard lock(mutex);
-        status.recording = false;
-        if (!session) return;
-        status.failure = "Recording to " + session->path().string() + " stopped: " + reason +
-                         (anything_left() ? ". What was recorded until then is kept."
-                                          : ". Nothing of it is kept.");
-        session.reset();
+        {
+            const std::lock_guard lock(mutex);
+            status.recording = false;
+            if (!session) return;
+            status.failure = "Recording to " + session->path().string() + " stopped: " + reason +
+                             (anything_left() ? ". What was recorded until then is kept."
+                                              : ". Nothing of it is kept.");
+        }
+        session.reset();  // may wait for the disk: nobody who asks for the status does
         transaction_begin.reset();
     }
 

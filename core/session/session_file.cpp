@@ -28,9 +28,7 @@ namespace {
 // Large pages waste little at their ends.
 constexpr const char* kFileLayout =
     "PRAGMA page_size = 16384; PRAGMA journal_mode = WAL; PRAGMA wal_autocheckpoint = 0";
-// While the log is kept, no commit waits for the disk.
-constexpr const char* kNoFlush = "PRAGMA synchronous = OFF";
-constexpr const char* kFlush = "PRAGMA synchronous = NORMAL";
+constexpr const char* kFlush = "PRAGMA synchronous = NORMAL";  // also what closing merges
 
 /// Makes an empty file where there was none; the name of a file that exists is safe from us.
 const std::filesystem::path& made(const std::filesystem::path& file) {
@@ -129,7 +127,6 @@ SessionFile::SessionFile(const std::filesystem::path& file, const SessionFacts& 
     set_fact("complete", "0");
     commit();
     merge_log();  // a copy without the log is still a session that says what it is
-    database_.execute(kNoFlush);
     keeper_ = std::make_unique<LogKeeper>(file);
 } catch (const DatabaseError& error) {
     remove_traces(file);
@@ -137,8 +134,18 @@ SessionFile::SessionFile(const std::filesystem::path& file, const SessionFacts& 
                      "); choose another disk");
 }
 
+SessionFile::~SessionFile() {
+    keeper_.reset();
+    try_to("ROLLBACK");
+    try_to(kFlush);
+}
+
 void SessionFile::begin() {
-    database_.execute("BEGIN");
+    if (keeper_) {
+        keeper_->begin(database_);
+    } else {
+        database_.execute("BEGIN");
+    }
 }
 
 void SessionFile::add(const TickRecord& record) {
@@ -211,7 +218,6 @@ void SessionFile::commit() {
     const Place now = place_of(path_);
     if (now == Place{}) throw DatabaseError("the file is gone from its place");
     if (!(now == place_)) throw DatabaseError("another file is in its place");
-    if (keeper_) keeper_->between_transactions();
 }
 
 void SessionFile::know(const SessionParameters& parameters) {
@@ -348,10 +354,14 @@ void SessionFile::merge_log() {
 }
 
 void SessionFile::end_log() noexcept {
+    try_to("PRAGMA journal_mode = DELETE");
+}
+
+/// What need not succeed: the file is as whole without, and readable with its log.
+void SessionFile::try_to(const char* sql) noexcept {
     try {
-        database_.execute("PRAGMA journal_mode = DELETE");
+        database_.execute(sql);
     } catch (const DatabaseError&) {
-        // As whole, and readable with its log.
     }
 }
 

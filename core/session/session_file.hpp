@@ -26,6 +26,7 @@ class SessionFile {
     /// Makes the file and its tables. Throws InputError, and leaves nothing behind, when that
     /// fails; an existing file is never touched.
     SessionFile(const std::filesystem::path& file, const SessionFacts& facts);
+    ~SessionFile();
     SessionFile(const SessionFile&) = delete;  // the statements refer to the database beside them
     SessionFile& operator=(const SessionFile&) = delete;
 
@@ -74,6 +75,7 @@ class SessionFile {
         std::filesystem::path colour{}, depth{};
     };
 
+    void try_to(const char* sql) noexcept;
     void use_settings(std::uint64_t version, std::int64_t tick);
     void add_pair(const FramePair& frames, std::int64_t tick);
     void bind_times(RowBinder& row, const TickRecord& record);

@@ -24,6 +24,7 @@ using dibhr::Session;
 using dibhr::TickRing;
 using dibhr::test::answer;
 using dibhr::test::eventually;
+using dibhr::test::output_of;
 using dibhr::test::push;
 using dibhr::test::SessionFolder;
 using dibhr::test::tick_record;
@@ -258,4 +259,18 @@ TEST_CASE("files named relative to a working directory that is gone do not end a
     CHECK(status.rows == 1);
     CHECK(answer(folder.file(), "SELECT file FROM media ORDER BY id LIMIT 1") == "bumps.png");
     CHECK(answer(folder.file(), "SELECT count(*) FROM media") == "3");
+}
+
+TEST_CASE("a disk that cannot be flushed ends the recording with a reason, and not at its end",
+          "[session]") {
+    const SessionFolder folder;
+    const std::string counter = (folder.path() / "counter").string();
+    std::ofstream(counter) << "12345678";
+    const std::string said = output_of("timeout 20 " DIBHR_SESSION_CHILD " " +
+                                       folder.file().string() + " " + counter + " 1 -1");
+    CHECK(said == "Recording to " + folder.file().string() +
+                      " stopped: it cannot be flushed to the disk (Input/output error). What was "
+                      "recorded until then is kept.\n");
+    CHECK(answer(folder.file(), "PRAGMA integrity_check") == "ok");
+    CHECK(answer(folder.file(), "SELECT count(*) > 500 FROM tick") == "1");
 }

@@ -25,6 +25,7 @@ using dibhr::TickRecord;
 using dibhr::TickRing;
 using dibhr::test::answer;
 using dibhr::test::eventually;
+using dibhr::test::output_of;
 using dibhr::test::push;
 using dibhr::test::query;
 using dibhr::test::Row;
@@ -37,15 +38,6 @@ std::vector<std::string> files_in(const std::filesystem::path& folder) {
         names.push_back(entry.path().filename().string());
     }
     return names;
-}
-
-std::string output_of(const std::string& command) {
-    std::string text;
-    FILE* pipe = popen(command.c_str(), "r");
-    if (pipe == nullptr) return text;
-    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) text += static_cast<char>(c);
-    pclose(pipe);
-    return text;
 }
 
 }  // namespace

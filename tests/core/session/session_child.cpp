@@ -1,14 +1,17 @@
 // Records made-up ticks until it is killed: session_child FILE COUNTER TICKS_PER_MS FLUSH_MS.
 // COUNTER is a file of eight bytes, through which the test sees how many ticks were pushed;
-// FLUSH_MS is how long the disk needs for what is to be flushed, once ticks come.
+// FLUSH_MS is how long the disk needs for what is to be flushed once ticks come, -1 for a disk
+// that fails then. Prints why the recording stopped, if it does.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <thread>
@@ -25,6 +28,10 @@ std::atomic<int> flush_ms{0};
 
 /// In place of the C library's: SQLite flushes through it.
 extern "C" int fdatasync(int file) {
+    if (flush_ms < 0) {
+        errno = EIO;
+        return -1;
+    }
     std::this_thread::sleep_for(std::chrono::milliseconds(flush_ms));
     return static_cast<int>(::syscall(SYS_fdatasync, file));
 }
@@ -54,5 +61,6 @@ int main(int, char** arguments) {
         deadline += std::chrono::milliseconds(1);
         std::this_thread::sleep_until(deadline);
     }
+    std::puts(recorder.status().failure.c_str());
     return 1;
 }
