@@ -11,7 +11,7 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kOldestCommand{
     20};  // "reply older than 20 ms": zero (fact sheet, section 11)
-constexpr milliseconds kNeverSilentFor{10};  // "poll always" (section 11)
+constexpr milliseconds kNeverSilentFor{12};  // "poll always" (section 11)
 constexpr int kZerosAfterForce = 5;          // "zero before stopping", as on exit (section 11)
 constexpr milliseconds kRatePeriod{500};
 constexpr milliseconds kLoopPauses{200};  // without a command from the haptic loop

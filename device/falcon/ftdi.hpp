@@ -55,9 +55,9 @@ inline constexpr FtdiRequest kNoEventCharacter{6, 0};
 /// How long the chip keeps a packet that is not full [ms].
 inline constexpr FtdiRequest kLatencyUploading{9, 16};
 inline constexpr FtdiRequest kLatencyRunTime{9, 1};
-// Nobody waits for a pose: a quarter of the empty packets, and a reply still before it is asked for
+// Nobody waits for a pose: a sixth of the empty packets, and a reply still before it is asked for
 // again.
-inline constexpr FtdiRequest kLatencyWhilePaused{9, 4};
+inline constexpr FtdiRequest kLatencyWhilePaused{9, 6};
 
 /// Bits of the second status byte, the line's (section 4).
 inline constexpr std::uint8_t kOverrun = 0x02;      // bytes were lost

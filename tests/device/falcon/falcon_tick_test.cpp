@@ -186,7 +186,7 @@ TEST_CASE("at 1 kHz and with frames of 1 ms a tick has one reply", "[pace]") {
             return ++ticks == kTicks;
         });
         const auto replies = static_cast<double>(loop.device.reply_number() - first);
-        // Where a tick was late the link asked by itself, every 10 ms.
+        // Where a tick was late the link asked by itself, every 12 ms.
         const std::chrono::duration<double> late = Clock::now() - begin - milliseconds(kTicks);
         REQUIRE(replies <= kTicks + late.count() / 0.01 + 3.0);
         best = std::max(best, replies / kTicks);
