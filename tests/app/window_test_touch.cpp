@@ -193,11 +193,18 @@ TEST_CASE("a file that cannot be opened from the window is told there, and the p
     Process viewer =
         desk.start_viewer(folder, {"plane_color.mkv", "--record", "hand.dibhr", "--seconds", "30"});
     desk.act(std::string(kMeet) + "key ctrl+o sleep 0.3 type quartz.mp4");
-    desk.act(
-        "sleep 0.3 keydown Return sleep 0.3 keyup Return sleep 0.5 key Escape sleep 0.2 key F12 "
-        "sleep 0.5 key ctrl+q");
+    desk.act("sleep 0.3 keydown Return sleep 0.3 keyup Return sleep 0.5 key Escape sleep 0.2");
+    const auto pictures = [&folder] {
+        const auto names = names_in(folder.path());
+        return std::count_if(names.begin(), names.end(), [](const std::string& name) {
+            return name.starts_with("dibhr-") && name.ends_with(".png");
+        });
+    };
+    // On a busy machine the picture that takes Escape may come later than this key.
+    for (int k = 0; k < 10 && pictures() == 0; ++k) desk.act("key F12 sleep 0.5");
+    CHECK(pictures() > 0);
+    desk.act("key ctrl+q");
     CHECK(viewer.wait() == 0);
     CHECK(std::filesystem::file_size(folder / "errors.txt") == 0);
     CHECK(read_session(folder / "hand.dibhr").size() > 1000);
-    run_shell("ls '" + folder.path().string() + "'/dibhr-*.png");
 }
