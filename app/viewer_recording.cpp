@@ -41,6 +41,7 @@ void ViewerRecording::start(const std::filesystem::path& file, ViewerState& stat
         tell_of(opened_[k], static_cast<std::uint32_t>(k + 1));
     }
     told_version_ = 0;
+    falcon_serial_.clear();
     start_ = std::chrono::steady_clock::now();
     state.recording_trouble.clear();
     state.recording.emplace().file = file;
@@ -99,6 +100,11 @@ void ViewerRecording::take_news(ViewerState& state) {
     };
     tell_changed(kParticipant, state.fields.participant, participant_);
     tell_changed(kNote, state.fields.note, note_);
+    const std::string serial = state.falcon ? state.falcon->status.serial : std::string{};
+    if (!serial.empty() && serial != falcon_serial_) {
+        falcon_serial_ = serial;
+        recorder_->set_fact("falcon-serial", serial);
+    }
     state.recording->status = recorder_->status();
     state.recording->time_s = now_s();
     const std::string failure = state.recording->status.failure;

@@ -52,6 +52,7 @@ class ViewerRecording {
     std::unique_ptr<Recorder> recorder_{};    // null: not recording
     std::uint64_t told_version_{0};           // of the parameters
     std::string participant_{}, note_{};      // as told
+    std::string falcon_serial_{};             // known only when it has been found
     std::chrono::steady_clock::time_point start_{};
     std::string failure_{};  // of the first recording that broke off
 };

@@ -200,6 +200,8 @@ TEST_CASE(
     CHECK(at.falcon.number("force_before_homing") == 0);
     const Rows rows = at.finish();
 
+    run_shell("sqlite3 '" + (at.folder / "hand.dibhr").string() +
+              "' \"SELECT value FROM session WHERE key = 'falcon-serial'\" | grep -qx SIM00001");
     CHECK(strongest(rows) <= SafetyLimits{}.max_force_newton + 1e-9);
     std::size_t contacts = 0;
     std::size_t held_back = 0;

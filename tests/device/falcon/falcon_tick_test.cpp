@@ -251,7 +251,7 @@ TEST_CASE("waiting costs less than a fiftieth of a processor", "[load]") {
         std::this_thread::sleep_for(milliseconds(300));  // until the pause is noticed
         const auto before = empty_packets();
         CHECK(usb_thread_load() < kMostLoad);
-        CHECK(empty_packets() > before + 100);
+        CHECK(empty_packets() > before + 30);  // it is not left to fall asleep
         loop.tick();
         REQUIRE(loop.tick_until([&] {
             return unit.with([](FalconModel& model) { return model.chip().latency_ms() == 1; });
