@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "app/command_line.hpp"
-#include "app/command_options.hpp"
-#include "app/error_line.hpp"
+#include "app/commands/command_line.hpp"
+#include "app/settings/command_options.hpp"
+#include "core/files/error_line.hpp"
 #include "core/files/output_file.hpp"
 
 namespace {

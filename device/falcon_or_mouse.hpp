@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "device/device.hpp"
+#include "core/loop/device.hpp"
 #include "device/falcon/falcon_device.hpp"
 #include "device/mouse_hand.hpp"
 

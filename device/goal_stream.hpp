@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "device/device.hpp"
+#include "core/loop/device.hpp"
 
 namespace dibhr {
 

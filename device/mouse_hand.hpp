@@ -3,8 +3,8 @@
 
 #include <limits>
 
+#include "core/loop/device.hpp"
 #include "core/realtime/triple_buffer.hpp"
-#include "device/device.hpp"
 
 namespace dibhr {
 

@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/experiment/force_variation.hpp"
+#include "core/metrics/force_variation.hpp"
 
 namespace dibhr {
 

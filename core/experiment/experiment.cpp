@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "core/experiment/exact_plane.hpp"
-#include "core/experiment/force_variation.hpp"
 #include "core/experiment/goal_paths.hpp"
+#include "core/metrics/force_variation.hpp"
 
 namespace dibhr {
 

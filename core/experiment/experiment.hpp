@@ -10,26 +10,15 @@
 #include <vector>
 
 #include "core/experiment/depth_clip.hpp"
-#include "core/experiment/sample_statistics.hpp"
 #include "core/haptics/touch.hpp"
 #include "core/haptics/vec.hpp"
+#include "core/metrics/force_variation.hpp"
+#include "core/metrics/sample_statistics.hpp"
 
 namespace dibhr {
 
 /// The paper's 20 s at 1 kHz.
 inline constexpr int kExperimentUpdates = 20000;
-
-/// How the direction of the force turned from one update to the next, both in contact [deg].
-struct VariationStatistics {
-    double mean_deg{0.0};
-    double sd_deg{0.0};
-    /// While it slides: without the updates in which the goal reverses, and without the path's
-    /// settling.
-    double mean_without_reversals_deg{0.0};
-    double sd_without_reversals_deg{0.0};
-    std::uint64_t pairs{0};                    ///< of updates the first two are taken over
-    std::uint64_t pairs_without_reversals{0};  ///< and the last two
-};
 
 /// Distance from the exact answer over all updates in contact.
 struct ExactError {

@@ -4,9 +4,9 @@
 
 #include "core/experiment/plot_magnified.hpp"
 #include "core/experiment/plot_settings.hpp"
-#include "core/experiment/plot_style.hpp"
 #include "core/experiment/plot_turning.hpp"
 #include "core/experiment/plots.hpp"
+#include "core/plot/style.hpp"
 
 namespace dibhr {
 

@@ -11,9 +11,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "core/experiment/plot_axes.hpp"
-#include "core/experiment/plot_style.hpp"
 #include "core/experiment/plot_turning.hpp"
+#include "core/plot/axes.hpp"
+#include "core/plot/style.hpp"
 
 namespace dibhr {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "core/experiment/experiment.hpp"
-#include "core/video/canvas.hpp"
+#include "core/plot/canvas.hpp"
 
 namespace dibhr {
 

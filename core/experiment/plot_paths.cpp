@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "core/experiment/plot_axes.hpp"
 #include "core/experiment/plot_magnified.hpp"
 #include "core/experiment/plot_settings.hpp"
-#include "core/experiment/plot_style.hpp"
 #include "core/experiment/plot_turning.hpp"
 #include "core/experiment/plots.hpp"
+#include "core/plot/axes.hpp"
+#include "core/plot/style.hpp"
 
 namespace dibhr {
 namespace {

@@ -1,7 +1,7 @@
 // The line under a plot's title: what the path was run with.
 #include "core/experiment/plot_settings.hpp"
 
-#include "core/experiment/plot_axes.hpp"
+#include "core/plot/axes.hpp"
 
 namespace dibhr {
 

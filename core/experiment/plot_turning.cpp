@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/experiment/force_variation.hpp"
-#include "core/experiment/plot_style.hpp"
+#include "core/metrics/force_variation.hpp"
+#include "core/plot/style.hpp"
 
 namespace dibhr {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "core/experiment/experiment.hpp"
-#include "core/experiment/plot_axes.hpp"
-#include "core/video/canvas.hpp"
+#include "core/plot/axes.hpp"
+#include "core/plot/canvas.hpp"
 
 namespace dibhr {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/experiment/experiment.hpp"
-#include "core/video/canvas.hpp"
+#include "core/plot/canvas.hpp"
 
 namespace dibhr {
 

@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include "core/experiment/sample_statistics.hpp"
 #include "core/haptics/proxy.hpp"
+#include "core/metrics/sample_statistics.hpp"
 
 namespace dibhr {
 

@@ -1,7 +1,7 @@
 // The colours of a heat map: from little, pale, to much, dark.
 #pragma once
 
-#include "core/video/canvas.hpp"
+#include "core/plot/canvas.hpp"
 
 namespace dibhr {
 

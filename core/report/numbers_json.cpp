@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/files/json_text.hpp"
-#include "core/report/plain_text.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/report/report_words.hpp"
 
 namespace dibhr {

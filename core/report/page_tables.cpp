@@ -7,9 +7,9 @@
 #include <set>
 #include <vector>
 
-#include "core/experiment/plot_axes.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/plot/axes.hpp"
 #include "core/report/device_text.hpp"
-#include "core/report/plain_text.hpp"
 #include "core/report/report_words.hpp"
 
 namespace dibhr {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/experiment/plot_axes.hpp"
-#include "core/experiment/plot_style.hpp"
+#include "core/plot/axes.hpp"
+#include "core/plot/style.hpp"
 #include "core/report/heat_colours.hpp"
 #include "core/report/report_plots.hpp"
 

@@ -3,8 +3,8 @@
 
 #include <string_view>
 
+#include "core/files/plain_text.hpp"
 #include "core/report/page_tables.hpp"
-#include "core/report/plain_text.hpp"
 #include "core/report/report_words.hpp"
 
 namespace dibhr {

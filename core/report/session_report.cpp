@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/experiment/plot_axes.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/plot/axes.hpp"
 #include "core/report/numbers_json.hpp"
-#include "core/report/plain_text.hpp"
 #include "core/report/report_files.hpp"
 #include "core/report/report_page.hpp"
 #include "core/report/report_plots.hpp"

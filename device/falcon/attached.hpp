@@ -1,6 +1,8 @@
 // One Falcon on the USB, as it can be named without opening it.
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
 
 namespace dibhr::falcon {
@@ -15,5 +17,16 @@ struct AttachedFalcon {
 
 /// "the Falcon SIM00001", or where it is plugged in when its serial is not known.
 [[nodiscard]] std::string full_name_of(const AttachedFalcon& falcon);
+
+/// The one with this serial; when it is empty, the first.
+[[nodiscard]] std::optional<AttachedFalcon> choose(std::span<const AttachedFalcon> attached,
+                                                   const std::string& serial);
+
+/// Why choose() found none, and what to do.
+[[nodiscard]] std::string why_none(std::span<const AttachedFalcon> attached,
+                                   const std::string& serial);
+
+/// "A1, B2, one without a readable serial".
+[[nodiscard]] std::string serials_of(std::span<const AttachedFalcon> attached);
 
 }  // namespace dibhr::falcon

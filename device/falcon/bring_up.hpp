@@ -6,7 +6,6 @@
 
 #include "device/falcon/attached.hpp"
 #include "device/falcon/firmware_image.hpp"
-#include "device/falcon/selection.hpp"
 #include "device/falcon/upload.hpp"
 
 namespace dibhr::falcon {

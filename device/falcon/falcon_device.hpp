@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <memory>
 
+#include "core/loop/device.hpp"
 #include "core/realtime/triple_buffer.hpp"
-#include "device/device.hpp"
 #include "device/falcon/firmware_image.hpp"
 #include "device/falcon/options.hpp"
 #include "device/falcon/status.hpp"

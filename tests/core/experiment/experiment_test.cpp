@@ -5,9 +5,9 @@
 #include <glm/geometric.hpp>
 
 #include "core/experiment/goal_paths.hpp"
-#include "core/experiment/sample_statistics.hpp"
 #include "core/experiment/update_timing.hpp"
 #include "core/haptics/dibhr.hpp"
+#include "core/metrics/sample_statistics.hpp"
 #include "tests/core/haptics/surfaces.hpp"
 #include "tests/support/catch.hpp"
 

@@ -10,9 +10,9 @@
 
 #include "core/experiment/exact_plane.hpp"
 #include "core/experiment/experiment.hpp"
-#include "core/experiment/force_variation.hpp"
 #include "core/experiment/goal_paths.hpp"
 #include "core/experiment/sweep.hpp"
+#include "core/metrics/force_variation.hpp"
 #include "tests/support/catch.hpp"
 
 using namespace dibhr;

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "core/files/json_text.hpp"
-#include "core/report/plain_text.hpp"
+#include "core/files/plain_text.hpp"
 #include "tests/support/catch.hpp"
 
 using namespace dibhr;

@@ -10,8 +10,8 @@
 
 #include "core/haptics/surface.hpp"
 #include "core/haptics/touch.hpp"
+#include "core/replay/session_replay.hpp"
 #include "core/session/session_parts.hpp"
-#include "core/session/session_replay.hpp"
 
 namespace dibhr::test {
 

@@ -16,8 +16,8 @@
 #include <thread>
 #include <vector>
 
+#include "core/replay/session_replay.hpp"
 #include "core/session/session.hpp"
-#include "core/session/session_replay.hpp"
 #include "tests/core/session/exploration.hpp"
 #include "tests/core/session/session_folder.hpp"
 #include "tests/support/catch.hpp"

@@ -1,0 +1,147 @@
+// The measurements behind `dibhr bench`.
+#include "app/commands/bench_measurements.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <thread>
+#include <utility>
+
+#include "app/commands/generated_media.hpp"
+#include "core/experiment/goal_paths.hpp"
+#include "core/haptics/dibhr.hpp"
+#include "core/haptics/touch.hpp"
+#include "core/loop/haptic_loop.hpp"
+#include "core/realtime/tick_timer.hpp"
+#include "core/video/player.hpp"
+#include "device/goal_stream.hpp"
+
+namespace dibhr {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kUpdates = 20000;  // the paper's 20 s
+constexpr double kLevel = 100.0;
+
+double us_between(Clock::time_point begin, Clock::time_point end) {
+    return std::chrono::duration<double, std::micro>(end - begin).count();
+}
+
+DepthImage flat_image(int columns, int rows) {
+    DepthImage image{columns, rows, 255.0, {}};
+    image.levels.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows),
+                        static_cast<float>(kLevel));
+    return image;
+}
+
+LoopRun::Lateness lateness_of(const LatenessHistogram& lateness, std::uint64_t late_ticks) {
+    const auto us = [](std::chrono::nanoseconds t) { return static_cast<double>(t.count()) / 1e3; };
+    return {lateness.count(), late_ticks, us(lateness.quantile(0.99)), us(lateness.worst())};
+}
+
+}  // namespace
+
+std::vector<UpdateRun> measure_updates(const BenchResults& settings, int columns, int rows) {
+    const DepthImage from = flat_image(columns, rows);
+    const DepthImage to = flat_image(columns, rows);
+    const DepthSurface surface(from, to, 0.5, SurfaceShape{});
+    const PathPlace place{0.5 * columns, 0.5 * rows, kLevel, settings.depth_px};
+    std::vector<UpdateRun> runs;
+    for (const auto& [name, goal_at] :
+         {std::pair{"linear", &linear_goal}, std::pair{"circle", &circle_goal}}) {
+        std::vector<Vec3> goals(kUpdates);
+        for (int k = 0; k < kUpdates; ++k) goals[static_cast<std::size_t>(k)] = goal_at(place, k);
+        for (const Algorithm algorithm : all_algorithms()) {
+            const auto proxy = make_algorithm(algorithm);
+            runs.push_back({algorithm, name, columns, rows,
+                            time_updates(*proxy, surface, goals, {settings.mu, settings.mu})});
+        }
+    }
+    return runs;
+}
+
+std::vector<TeleportRun> measure_teleports(const BenchResults& settings, int columns, int rows) {
+    constexpr int kTeleports = 50;
+    const DepthImage from = flat_image(columns, rows);
+    const DepthImage to = flat_image(columns, rows);
+    const DepthSurface surface(from, to, 0.5, SurfaceShape{});
+    std::vector<TeleportRun> runs;
+    for (const auto& [name, z] :
+         {std::pair{"contact", kLevel - settings.depth_px}, std::pair{"air", kLevel + 1.0}}) {
+        const Vec3 corners[] = {{5.3, 4.2, z}, {columns - 7.1, rows - 6.4, z}};
+        Dibhr dibhr;
+        std::vector<double> times_us;
+        dibhr.update(surface, corners[1], {settings.mu, settings.mu});
+        for (int k = 0; k < kTeleports; ++k) {
+            const auto begin = Clock::now();
+            dibhr.update(surface, corners[k % 2], {settings.mu, settings.mu});
+            times_us.push_back(us_between(begin, Clock::now()));
+        }
+        runs.push_back({name, columns, rows, statistics_of(std::move(times_us))});
+    }
+    return runs;
+}
+
+HandoverRun measure_handover(int columns, int rows) {
+    constexpr auto kDuration = std::chrono::seconds(4);
+    Player player;
+    player.play_media(std::make_unique<GeneratedMedia>(columns, rows, 60, 30.0));
+    std::vector<double> swaps_us;
+    std::vector<double> cleaning_ms;
+    std::vector<double> handover_us;
+    const auto end = Clock::now() + kDuration;
+    TickTimer timer;
+    while (Clock::now() < end) {
+        timer.wait();
+        if (!player.haptics().fresh()) continue;
+        const auto begin = Clock::now();
+        const FrameWindow& frames = player.haptics().front();
+        const DepthBlend pair = frames.at(frames.clock.playback_s(begin));
+        if (pair.from == nullptr) continue;
+        const DepthSurface surface(*pair.from->depth, *pair.to->depth, pair.blend, SurfaceShape{});
+        swaps_us.push_back(us_between(begin, Clock::now()));
+        const PlaybackStatus status = player.status();
+        cleaning_ms.push_back(status.clean_ms);
+        handover_us.push_back(status.handover_us);
+        if (surface.columns() != columns) break;  // never; keeps the view from being optimised away
+    }
+    return {columns, rows, statistics_of(std::move(cleaning_ms)),
+            statistics_of(std::move(handover_us)), statistics_of(std::move(swaps_us))};
+}
+
+LoopRun measure_loops(double seconds) {
+    constexpr int kColumns = 640;
+    constexpr int kRows = 480;
+    Player player;
+    player.play_media(std::make_unique<GeneratedMedia>(kColumns, kRows, 60, 30.0));
+
+    std::vector<TimedGoal> goals;
+    for (int k = 0; k < kUpdates; ++k) {
+        goals.push_back({k * 1e-3, circle_goal({0.5 * kColumns, 0.5 * kRows, 90.0, 10.0}, k)});
+    }
+    GoalStream device("bench", std::move(goals));
+    TripleBuffer<HapticSettings> settings;
+    TripleBuffer<HapticState> state;
+    const auto forces = std::make_unique<ForceRing>();
+    const auto ticks = std::make_unique<TickRing>();
+    settings.publish(HapticSettings{});
+
+    std::atomic<bool> stop{false};
+    TickTimer empty_timer;
+    std::thread empty([&] {
+        static_cast<void>(become_realtime("bench empty"));
+        while (!stop.load(std::memory_order_relaxed)) empty_timer.wait();
+    });
+    HapticLoop loop({device, player.haptics(), settings, state, *forces, *ticks});
+    std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+    stop.store(true);
+    empty.join();
+    loop.stop();
+    return {seconds, lateness_of(empty_timer.lateness(), empty_timer.late_ticks()),
+            lateness_of(loop.timer().lateness(), loop.timer().late_ticks())};
+}
+
+}  // namespace dibhr

@@ -1,0 +1,91 @@
+// `dibhr devices`: the mouse, and how far every attached Falcon goes; or the check of one.
+#include "app/commands/devices.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "app/commands/terminal_guide.hpp"
+#include "app/settings/settings.hpp"
+#include "core/error.hpp"
+#include "core/realtime/thread_setup.hpp"
+#include "device/falcon/check/check.hpp"
+#include "device/falcon/survey.hpp"
+#include "device/hand_device.hpp"
+
+namespace dibhr {
+namespace {
+
+std::string name_of(const falcon::AttachedFalcon& falcon) {
+    return "Novint Falcon " + (falcon.serial.empty() ? "(serial unknown)" : falcon.serial);
+}
+
+std::string state_of(const falcon::SurveyedFalcon& falcon, const FirmwareAtHand& firmware) {
+    const bool wants_file = falcon.stage == falcon::Stage::no_firmware && firmware.image.empty();
+    return (falcon.usable() ? "usable, " : "not usable yet, ") + falcon.sentence +
+           (wants_file ? "; then: dibhr devices --firmware FILE" : "");
+}
+
+/// Nothing, and a line about it, when the USB cannot be looked at: the mouse can still be used.
+std::vector<falcon::AttachedFalcon> attached_or_none() {
+    try {
+        std::vector<falcon::AttachedFalcon> attached = falcon::attached_falcons();
+        if (attached.empty()) std::cout << "Novint Falcon: none attached\n";
+        return attached;
+    } catch (const DeviceError& error) {
+        std::cout << "Novint Falcon: not known whether one is attached, " << error.what() << '\n';
+        return {};
+    }
+}
+
+int survey(const FirmwareAtHand& firmware) {
+    if (!firmware.trouble.empty()) std::cout << "kept firmware: " << firmware.trouble << '\n';
+    falcon::ConnectionOptions options = load_settings(settings_path()).falcon.connection;
+    options.serial.clear();  // all of them
+    const std::vector<falcon::SurveyedFalcon> falcons =
+        falcon::survey_falcons(options, firmware.image);
+    for (const falcon::SurveyedFalcon& one : falcons) {
+        std::cout << name_of(one.attached) << " at USB bus " << one.attached.bus << " address "
+                  << one.attached.address << ": " << state_of(one, firmware) << '\n';
+    }
+    const bool usable = falcons.empty() ||
+                        std::any_of(falcons.begin(), falcons.end(),
+                                    [](const falcon::SurveyedFalcon& one) { return one.usable(); });
+    if (usable) return 0;
+    const std::string more = falcons.size() > 1 ? "; the others are told above" : "";
+    throw DeviceError(name_of(falcons.front().attached) + " is " +
+                      state_of(falcons.front(), firmware) + more);
+}
+
+int check(const DevicesRequest& request) {
+    const std::filesystem::path settings_file = settings_path();
+    const FalconSettings settings = load_settings(settings_file).falcon;
+    const FirmwareAtHand firmware = firmware_at_hand(request.firmware);
+    if (!firmware.trouble.empty()) std::cout << "kept firmware: " << firmware.trouble << '\n';
+    TerminalGuide guide;
+    falcon::CheckOptions options;
+    options.serial = settings.connection.serial;
+    options.firmware = firmware.image;
+    options.geometry = settings.geometry;
+    options.record = request.out;
+    options.facts = {{"program", "dibhr " DIBHR_VERSION},
+                     {"thread_priority", become_realtime("dibhr check").priority.answer}};
+    const falcon::CheckResult result = run_check(options, guide);
+    std::cout << "The settings file: " << settings_file.string() << '\n';
+    if (!result.fault.empty()) throw DeviceError(result.fault);
+    return 0;
+}
+
+}  // namespace
+
+int run_devices(const DevicesRequest& request) {
+    if (request.check) return check(request);
+    std::cout
+        << "mouse: usable (point at the relief in the viewer, hold the left button to touch)\n";
+    const FirmwareAtHand firmware = firmware_at_hand(request.firmware);
+    return attached_or_none().empty() ? 0 : survey(firmware);
+}
+
+}  // namespace dibhr

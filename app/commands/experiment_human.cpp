@@ -1,0 +1,109 @@
+// Decodes the sample and reads the hand.
+#include "app/commands/experiment_human.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/settings/assets_path.hpp"
+#include "core/error.hpp"
+#include "core/experiment/foreground.hpp"
+#include "core/experiment/hand_motion.hpp"
+#include "core/experiment/modelled_hand.hpp"
+#include "core/video/depth_cleaning.hpp"
+#include "core/video/media.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr int kLeadIn = 500;  // ticks before a session's first contact
+
+/// Goals over another video would touch nothing, or the wrong thing.
+void check_is_of_sample(const RecordedGoals& recorded, const std::filesystem::path& session) {
+    const auto fact = [&](const char* key) {
+        const auto found = recorded.facts.find(key);
+        return found == recorded.facts.end() ? std::string{} : found->second;
+    };
+    const std::filesystem::path sample = sample_files().depth;
+    const MediaDescription description = open_depth(sample)->description();
+    const std::string depth = std::filesystem::path(fact("depth")).filename().string();
+    const bool same_name = depth.empty() || depth == sample.filename().string();
+    const bool same_size = fact("depth-columns") == std::to_string(description.depth_columns) &&
+                           fact("depth-rows") == std::to_string(description.depth_rows);
+    if (same_name && same_size) return;
+    throw InputError(session.string() +
+                     ": was recorded over another video; record one over the built-in sample: "
+                     "dibhr --record FILE");
+}
+
+PathRun session_path(const RecordedGoals& recorded, const std::string& name,
+                     const DepthClip& sample, double mu) {
+    PathRun path;
+    path.name = "human";
+    path.source = "a recorded session, " + name;
+    path.mu = mu;
+    for (const RecordedGoal& tick : recorded.goals) {
+        path.goals.push_back(tick.goal);
+        path.times_s.push_back(sample.time_of(tick.frame, tick.blend));
+    }
+    survey_path(path, sample);
+    return path;
+}
+
+HandMotion motion_of(const HandInput& hand, const ImageArea& area) {
+    if (hand.trace.empty()) return modelled_hand(area);
+    HandMotion motion = motion_of_trace(hand.trace, hand.name);
+    try {
+        fit_into(motion, area);
+    } catch (const InputError& error) {
+        throw InputError(hand.name + ": " + error.what());
+    }
+    return motion;
+}
+
+/// The first picture of the colour video.
+ColourImage first_colour(const SampleFiles& files) {
+    auto frame = open_media(files.colour, files.depth)->next();
+    return frame ? std::move(frame->colour) : ColourImage{};
+}
+
+}  // namespace
+
+HandInput read_hand(const HumanOptions& options) {
+    HandInput hand;
+    if (!options.session.empty()) {
+        hand.name = options.session.filename().string();
+        hand.session = read_session_goals(options.session, kLeadIn, kExperimentUpdates);
+        check_is_of_sample(*hand.session, options.session);
+    } else if (!options.trace.empty()) {
+        hand.name = options.trace.filename().string();
+        hand.trace = read_trace(options.trace);
+    }
+    return hand;
+}
+
+SampleClip read_sample(const HumanOptions& options, const Progress& progress) {
+    const SampleFiles files = sample_files();
+    const auto media = open_depth(files.depth);
+    const CleaningOptions cleaning =
+        options.raw_depth ? CleaningOptions{false, false, false} : CleaningOptions{};
+    const auto count = static_cast<double>(std::max<std::int64_t>(media->description().frames, 1));
+    DepthCleaner cleaner;
+    std::vector<DepthClip::TimedDepth> frames;
+    while (auto frame = media->next()) {
+        if (cleaning.any()) cleaner.clean(frame->depth, cleaning);
+        frames.push_back({std::move(frame->depth), frame->media_s});
+        if (progress) progress(static_cast<double>(frames.size()) / count);
+    }
+    return {DepthClip(std::move(frames), options.shape), first_colour(files)};
+}
+
+PathRun human_goals(const HandInput& hand, const SampleClip& sample, double mu) {
+    if (hand.session) return session_path(*hand.session, hand.name, sample.depth, mu);
+    return human_path(motion_of(hand, foreground_area(sample.depth)), sample.depth, mu);
+}
+
+}  // namespace dibhr

@@ -1,0 +1,179 @@
+// `dibhr replay`: all runs side by side, in one pass over the session and its video.
+#include "app/commands/replay.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <iomanip>
+#include <iostream>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "app/commands/output_rows.hpp"
+#include "app/commands/progress_bar.hpp"
+#include "app/commands/session_rows.hpp"
+#include "core/files/error_line.hpp"
+#include "core/replay/comparison.hpp"
+#include "core/replay/session_replay.hpp"
+#include "core/replay/video.hpp"
+#include "core/video/library_versions.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr std::int64_t kTicksPerStep = 1000;  // of the progress bar
+
+struct Run {
+    std::string name{};
+    ParameterChange change{};
+    bool as_recorded{true};  ///< nothing was changed: the bits must be the same
+    RunComparison comparison{};
+};
+
+Run make_run(const Session& session, const ReplayOptions& options,
+             std::optional<Algorithm> algorithm) {
+    Run run;
+    GivenParameters given = options.given;
+    given.algorithm = algorithm;
+    run.change = [given](TouchParameters& parameters) { given.apply(parameters); };
+    run.name = algorithm ? name_of(*algorithm) : "";
+    run.as_recorded = options.bump.empty() && !options.raw_depth;
+    for (const SessionParameters& recorded : session.parameters()) {
+        TouchParameters changed = recorded.touch;
+        run.change(changed);
+        if (!(changed == recorded.touch)) run.as_recorded = false;
+        // Without an algorithm of its own, the run goes by those of the recording.
+        const std::string name = name_of(recorded.touch.algorithm);
+        if (!algorithm && run.name.find(name) == std::string::npos) {
+            run.name += (run.name.empty() ? "" : "+") + name;
+        }
+    }
+    if (run.as_recorded) run.change = nullptr;  // ranges do not touch what was recorded
+    return run;
+}
+
+std::vector<Run> make_runs(const Session& session, const ReplayOptions& options) {
+    std::vector<Run> runs;
+    for (const Algorithm algorithm : options.algorithms) {
+        runs.push_back(make_run(session, options, algorithm));
+    }
+    if (runs.empty()) runs.push_back(make_run(session, options, std::nullopt));
+    return runs;
+}
+
+bool has_bump(const Session& session, const ReplayOptions& options) {
+    const auto& all = session.parameters();
+    return !options.bump.empty() ||
+           std::any_of(all.begin(), all.end(), [](const SessionParameters& parameters) {
+               return !parameters.bump.file.empty();
+           });
+}
+
+void replay(const Session& session, SessionVideo& video, std::vector<Run>& runs,
+            const std::filesystem::path& csv) {
+    std::vector<ParameterChange> changes;
+    for (const Run& run : runs) changes.push_back(run.change);
+    SessionReplay replay(session, video, std::move(changes));
+    SessionRows rows(csv, session.file());
+    rows.text() = kOutputHeader;
+    ProgressBar bar("Replaying");
+    for (std::int64_t done = 0; replay.next(); ++done) {
+        const TickRecord& tick = replay.recorded();
+        for (std::size_t k = 0; k < runs.size(); ++k) {
+            runs[k].comparison.add(tick, replay.touch(k), replay.update_us(k));
+        }
+        if (rows.wanted()) {
+            append_row(rows.text(), row_of(tick.t_s, replay.touch(0),
+                                           static_cast<std::int64_t>(replay.update_us(0) * 1e3)));
+            rows.row_done();
+        }
+        if (done % kTicksPerStep == 0) {
+            bar.show(static_cast<double>(done) / static_cast<double>(session.rows()));
+        }
+    }
+    rows.commit();
+}
+
+void print_table(const Session& session, const std::vector<Run>& runs) {
+    std::cout << session.file().string() << ": " << session.rows() << " ticks in " << std::fixed
+              << std::setprecision(3) << session.end_s() - session.begin_s() << " s\n"
+              << comparison_heading();
+    for (const Run& run : runs) std::cout << run.comparison.table_row(run.name);
+    std::cout << "  force turn: of the force from update to update; off: from the recorded proxy "
+                 "and force; contact: of all ticks\n";
+    for (const Run& run : runs) {
+        if (run.as_recorded && !run.comparison.first_difference()) {
+            std::cout << run.name << ", as recorded: all " << session.rows()
+                      << " proxies and forces are identical, bit for bit\n";
+        }
+    }
+}
+
+std::string text_of(Vec3 v) {
+    std::ostringstream text;
+    text << std::setprecision(17) << '(' << v.x << ", " << v.y << ", " << v.z << ')';
+    return text.str();
+}
+
+/// "; it was recorded with libavcodec 59.37.100, this is 61.3.100": what may have decoded other
+/// depth levels. Empty: nothing that is known.
+std::string library_changes(const Session& session) {
+    std::string text;
+    for (const auto& [library, version] : library_versions()) {
+        const std::string recorded = session.fact(library);
+        if (recorded.empty() || recorded == version) continue;
+        text += (text.empty() ? "; it was recorded with " : "; with ") + library + " " + recorded +
+                ", this is " + version;
+    }
+    return text;
+}
+
+std::string difference_of(const Session& session, const Run& run) {
+    const RunComparison::Difference& first = *run.comparison.first_difference();
+    std::ostringstream text;
+    text << session.file().string() << ": " << run.name << " differs from the recording in "
+         << run.comparison.differing() << " of " << session.rows() << " ticks, first in tick "
+         << first.tick << " at " << first.t_s << " s: proxy " << text_of(first.proxy)
+         << " instead of " << text_of(first.recorded_proxy) << ", force sent "
+         << text_of(first.sent_newton) << " instead of " << text_of(first.recorded_newton);
+    if (session.missing() > 0) {
+        text << "; " << session.missing()
+             << " ticks are missing in it, so that it cannot be "
+                "replayed exactly";
+    }
+    text << library_changes(session);
+    return text.str();
+}
+
+}  // namespace
+
+int run_replay(const ReplayOptions& options) {
+    if (!options.csv.empty() && options.algorithms.size() > 1) {
+        throw UsageError("--csv writes the rows of one run: give one --algorithm with it");
+    }
+    const Session session(options.session);
+    session.check();
+    if (session.rows() == 0) {
+        throw InputError(options.session.string() +
+                         ": holds no tick to replay; record a longer one");
+    }
+    std::vector<Run> runs = make_runs(session, options);
+    SessionVideo video(session, {options.any_media, options.raw_depth, options.bump});
+    print_warning(session.warning());
+    print_warning(video.warning());
+    print_warning(roughness_warning(options.given, has_bump(session, options)));
+    replay(session, video, runs, options.csv);
+    if (options.csv != "-") print_table(session, runs);
+    int exit_code = 0;
+    for (const Run& run : runs) {
+        if (!run.as_recorded || !run.comparison.first_difference()) continue;
+        std::cout.flush();
+        print_error_line(difference_of(session, run));
+        exit_code = 1;
+    }
+    return exit_code;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,49 @@
+// The column of panels at the right of the window.
+#include <algorithm>
+#include <cmath>
+
+#include "app/panels/panels.hpp"
+#include "app/panels/widgets.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr float kColumnWidth = 340.0F;  // layout pixels
+constexpr float kMostOfWindow = 0.45F;  // a small window keeps room for the relief
+
+}  // namespace
+
+float panel_column_width(const ViewerState& state) {
+    if (!state.settings.panels_visible) return 0.0F;
+    return std::floor(std::min(kColumnWidth * state.scale, kMostOfWindow * state.window_width));
+}
+
+void draw_panel_column(ViewerState& state, Player& player, SessionPlayer* replay) {
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float width = panel_column_width(state);
+    ImGui::SetNextWindowPos({display.x - width, 0.0F});
+    ImGui::SetNextWindowSize({width, display.y});
+    ImGui::Begin("Panels", nullptr,
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
+    if (replay != nullptr) {
+        draw_replay_panel(state, *replay);
+        draw_touch_panel(state);
+        draw_surface_panel(state);
+        draw_video_panel(state, nullptr);
+    } else {
+        draw_video_panel(state, &player);
+        draw_surface_panel(state);
+        draw_touch_panel(state);
+        draw_device_panel(state);
+        draw_session_panel(state);
+        draw_loop_panel(state);
+    }
+    ImGui::Spacing();
+    ImGui::TextDisabled("Keys: ?   Hide the panels: Tab");
+    ImGui::End();
+}
+
+}  // namespace dibhr

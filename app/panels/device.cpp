@@ -1,0 +1,110 @@
+// The Device panel: what touches, its state, and the switch of the force.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <string>
+#include <utility>
+
+#include "app/panels/falcon_state.hpp"
+#include "app/panels/panels.hpp"
+#include "app/panels/widgets.hpp"
+
+namespace dibhr {
+
+namespace {
+
+std::string point_text(const Vec3& p) {
+    return formatted("%7.1f %7.1f %7.1f px", p.x, p.y, p.z);
+}
+
+/// Its counts mean no place that the grip can be at, or its replies have grown old.
+bool without_pose(const ViewerState& state) {
+    return state.falcon && state.falcon->status.stage == falcon::Stage::ready &&
+           !state.haptic.hand.stand_in;
+}
+
+std::string state_text(const ViewerState& state) {
+    const HapticState& haptic = state.haptic;
+    if (!haptic.touchable) return "waiting for a surface";
+    if (waits_for_front(state)) return "not in front: no force";
+    if (clutched(state)) return "held by the clutch: no force";
+    if (!haptic.hand.ready)
+        return without_pose(state) ? "no pose: pull the grip in, or see Calibration"
+                                   : "not ready: no force";
+    return haptic.touch.proxy.contact ? "in contact" : "free";
+}
+
+/// How the switch of the force looks.
+struct ForceSwitch {
+    const char* text;
+    ImVec4 ground;
+    const char* help;
+};
+
+ForceSwitch force_switch(const ViewerState& state) {
+    if (!state.force_enabled) {
+        return {"Force is OFF###force",
+                {0.46F, 0.22F, 0.16F, 1.0F},
+                "Put the force on again; it rises slowly (F)"};
+    }
+    if (waits_for_front(state)) {
+        return {"Force waits###force",
+                {0.44F, 0.35F, 0.12F, 1.0F},
+                "It rises again when this window is in front. Take it off (F)"};
+    }
+    return {"Force is ON###force", {0.14F, 0.38F, 0.33F, 1.0F}, "Take the force off (F)"};
+}
+
+void draw_front_switch(FalconSettings& settings) {
+    flag_row("Force only while the window is in front", settings.force_in_front_only,
+             FalconSettings{}.force_in_front_only,
+             "No force while the keyboard goes to another window, or this one is an icon: the hand "
+             "is safe while nobody looks. Switch it off when one person touches and another works "
+             "in another window, in an experiment say");
+}
+
+}  // namespace
+
+void draw_force_switch(ViewerState& state, float width) {
+    const ForceSwitch shown = force_switch(state);
+    const ImVec4& ground = shown.ground;
+    const ImVec4 raised{ground.x * 1.2F, ground.y * 1.2F, ground.z * 1.2F, 1.0F};
+    ImGui::PushStyleColor(ImGuiCol_Button, ground);
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, raised);
+    ImGui::PushStyleColor(ImGuiCol_ButtonActive, raised);
+    if (ImGui::Button(shown.text, {width, 0.0F})) state.force_enabled = !state.force_enabled;
+    ImGui::PopStyleColor(3);
+    explain(shown.help);
+}
+
+void draw_device_panel(ViewerState& state) {
+    const bool wanted = std::exchange(state.show_device, false);
+    state.settings.panels.device = state.settings.panels.device || wanted;
+    const bool open = section(state, "Device", state.settings.panels.device);
+    if (wanted) ImGui::SetScrollHereY(0.0F);
+    if (!open) return;
+    ImGui::PushID("device");
+    if (state.falcon) {
+        draw_falcon_state(state);
+    } else {
+        fact_row("Device", state.device.name);
+    }
+    fact_row("State", state_text(state));
+    draw_force_switch(state, -1.0F);
+    if (state.falcon) draw_front_switch(state.settings.falcon);
+    const SafetyLimits standard;
+    number_row({"Max force", "%.1f N", 0.0, state.device.max_force_newton,
+                standard.max_force_newton, "No more than this is ever sent"},
+               state.settings.max_force_newton);
+    state.settings.max_force_newton =
+        std::clamp(state.settings.max_force_newton, 0.0, state.device.max_force_newton);
+    const Touch& touch = state.haptic.touch;
+    fact_row("Goal", point_text(touch.goal));
+    fact_row("Proxy", point_text(touch.proxy.position));
+    fact_row("Force", formatted("%.2f N", glm::length(touch.sent_force_newton)));
+    if (touch.cut != SafetyCut::none) fact_row("Cut", name_of(touch.cut));
+    if (state.falcon) draw_falcon_settings(state);
+    ImGui::PopID();
+}
+
+}  // namespace dibhr

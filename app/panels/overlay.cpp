@@ -1,0 +1,118 @@
+// What is written over the relief: the force in numbers, the first hint, and short notices.
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <string>
+
+#include "app/panels/falcon_state.hpp"
+#include "app/panels/panels.hpp"
+#include "app/panels/widgets.hpp"
+
+namespace dibhr {
+
+namespace {
+
+ImU32 with_alpha(ImGuiCol colour, float alpha) {
+    ImVec4 value = ImGui::GetStyleColorVec4(colour);
+    value.w *= alpha;
+    return ImGui::GetColorU32(value);
+}
+
+/// Text on a dark rounded ground, so that it can be read over any picture.
+void label(const std::string& text, ImVec2 low, float alpha) {
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    const ImVec2 pad = ImGui::GetStyle().FramePadding;
+    list.AddRectFilled({low.x, low.y},
+                       {low.x + size.x + 2.0F * pad.x, low.y + size.y + 2.0F * pad.y},
+                       with_alpha(ImGuiCol_PopupBg, 0.8F * alpha), 5.0F);
+    list.AddText({low.x + pad.x, low.y + pad.y}, with_alpha(ImGuiCol_Text, alpha), text.c_str());
+}
+
+/// What the Falcon lacks, at the top in the middle of the relief, as wide as there is room.
+void draw_banner(const ViewerState& state, const std::string& text) {
+    const float room = ImGui::GetIO().DisplaySize.x - panel_column_width(state);
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float wrap =
+        std::max(std::min(room - 4.0F * style.WindowPadding.x, ImGui::GetFontSize() * 40.0F), 1.0F);
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+    const ImVec2 pad = style.WindowPadding;
+    const ImVec2 low{(room - size.x) * 0.5F, 3.2F * ImGui::GetFrameHeight()};
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.AddRectFilled({low.x - pad.x, low.y - pad.y},
+                       {low.x + size.x + pad.x, low.y + size.y + pad.y},
+                       with_alpha(ImGuiCol_PopupBg, 0.88F), 5.0F);
+    list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), low, with_alpha(ImGuiCol_Text, 1.0F),
+                 text.c_str(), nullptr, wrap);
+}
+
+void centred_label(const ViewerState& state, const std::string& text, float lines_above_bar,
+                   float alpha) {
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float line = ImGui::GetFrameHeight();
+    const float bar = line + 2.0F * ImGui::GetStyle().WindowPadding.y;
+    const float width = display.x - panel_column_width(state);
+    label(text,
+          {(width - ImGui::CalcTextSize(text.c_str()).x) * 0.5F,
+           display.y - bar - (1.4F + lines_above_bar) * line},
+          alpha);
+}
+
+/// Whether something is recorded is seen at a glance, also from afar.
+void draw_recording(const RecordingNews& recording, ImVec2 low) {
+    const ImVec2 pad = ImGui::GetStyle().FramePadding;
+    const float line = ImGui::GetTextLineHeight();
+    const std::string indent = "      ";
+    label(indent + "Recording   " + clock_text(recording.time_s), low, 1.0F);
+    ImGui::GetBackgroundDrawList()->AddCircleFilled(
+        {low.x + pad.x + line * 0.45F, low.y + pad.y + line * 0.5F}, line * 0.42F,
+        IM_COL32(235, 64, 52, 255), 24);
+}
+
+std::string replay_text(const ReplayNews& replay) {
+    const std::string date = date_text(replay.started);
+    const char* comma = replay.participant.empty() || date.empty() ? "" : ", ";
+    const std::string about = replay.participant + comma + date;
+    return "Replay of " + replay.file.filename().string() + (about.empty() ? "" : " - " + about);
+}
+
+std::string touch_text(const ViewerState& state) {
+    const HapticState& haptic = state.haptic;
+    if (!state.replay && !state.force_enabled) return "Force off";
+    if (waits_for_front(state)) return "Force off: not in front";
+    if (!haptic.touchable) return state.replay ? "No surface" : "No surface yet";
+    if (clutched(state)) return "Held by the clutch";
+    if (haptic.touch.cut != SafetyCut::none)
+        return std::string("No force: ") + name_of(haptic.touch.cut);
+    if (!haptic.touch.proxy.contact) return "Free";
+    const Vec3& f = haptic.touch.sent_force_newton;
+    const bool limited = glm::length(haptic.touch.spring_force_newton) > 1.001 * glm::length(f);
+    return formatted("Touching   %.2f N%s   (%+.2f, %+.2f, %+.2f)", glm::length(f),
+                     limited ? ", limited" : "", f.x, f.y, f.z);
+}
+
+}  // namespace
+
+void draw_overlay(const ViewerState& state, double now_s) {
+    const float margin = 12.0F * state.scale;
+    const float second = margin + 1.3F * ImGui::GetFrameHeight();
+    label(touch_text(state), {margin, state.replay ? second : margin}, 1.0F);
+    if (state.replay) label(replay_text(*state.replay), {margin, margin}, 1.0F);
+    if (state.recording) draw_recording(*state.recording, {margin, second});
+    if (const std::string banner = falcon_banner(state); !banner.empty()) {
+        draw_banner(state, capitalised(banner));
+    }
+    if (now_s < state.notice_until_s) {
+        const double left_s = state.notice_until_s - now_s;
+        centred_label(state, state.notice, 1.5F, static_cast<float>(std::min(1.0, left_s)));
+    }
+}
+
+void draw_hint(const ViewerState& state, float alpha) {
+    if (alpha <= 0.0F) return;
+    const std::string whole = "Move the mouse over the picture. Hold the left button to touch.";
+    const float room = ImGui::GetIO().DisplaySize.x - panel_column_width(state);
+    const bool fits = ImGui::CalcTextSize(whole.c_str()).x + 40.0F * state.scale < room;
+    centred_label(state, fits ? whole : "Hold the left button to touch.", 0.0F, alpha);
+}
+
+}  // namespace dibhr

@@ -1,0 +1,71 @@
+// The panels, each in a file of its own. They draw, and edit the state they are given.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "app/panels/viewer_state.hpp"
+
+namespace dibhr {
+
+/// `player` null: the video of a replay, which goes by itself.
+void draw_video_panel(ViewerState& state, Player* player);
+void draw_surface_panel(ViewerState& state);
+void draw_touch_panel(ViewerState& state);
+void draw_device_panel(ViewerState& state);
+void draw_loop_panel(ViewerState& state);
+
+/// Recording: start, stop, who, notes and marks, and how it goes.
+void draw_session_panel(ViewerState& state);
+
+/// Parts of the Device panel while a Falcon is looked for: what it does and needs, with the guided
+/// homing and the firmware; then its workspace, buttons and constants.
+void draw_falcon_state(ViewerState& state);
+void draw_falcon_settings(ViewerState& state);
+
+/// Where a person names the firmware file.
+void draw_firmware_field(ViewerState& state);
+
+/// How to home it, as a moving picture with words, and which axes are homed.
+void draw_homing_guide(const ViewerState& state);
+
+/// In a replay: whose it is, what was felt at the moment shown, its marks.
+void draw_replay_panel(ViewerState& state, SessionPlayer& replay);
+
+/// The column at the right with all that applies; `replay` null: a hand touches. Its width in
+/// pixels is panel_column_width().
+void draw_panel_column(ViewerState& state, Player& player, SessionPlayer* replay);
+[[nodiscard]] float panel_column_width(const ViewerState& state);
+
+/// The bar under the relief: play, time line, time and frame, force switch.
+void draw_transport_bar(ViewerState& state, Player& player);
+/// The same for a replay: with the contacts and marks on the time line.
+void draw_replay_bar(ViewerState& state, SessionPlayer& replay);
+
+/// A line of time to go along.
+struct TimeLineContents {
+    double now_s{0.0};  ///< from the line's beginning, like all its times
+    double length_s{0.0};
+    const ContactBand* contacts{nullptr};  ///< null: none to show
+    std::vector<SessionMark> marks{};
+};
+/// Click or drag to go there: gives back where to. `width` in pixels.
+[[nodiscard]] std::optional<double> draw_time_line(const TimeLineContents& line, float width);
+
+/// Over the relief: the force in numbers, notices; `now_s` counts from the start.
+void draw_overlay(const ViewerState& state, double now_s);
+
+/// How to touch, for who has not touched yet; `alpha` 0 .. 1 fades it out.
+void draw_hint(const ViewerState& state, float alpha);
+
+/// The help sheet and the message box, on top of everything.
+void draw_help_sheet(ViewerState& state);
+void draw_message_box(ViewerState& state);
+
+/// The strip chart of the force, as wide as there is room.
+void draw_force_chart(const ViewerState& state);
+
+/// "Force on" or "Force off", as a large switch of the given width.
+void draw_force_switch(ViewerState& state, float width);
+
+}  // namespace dibhr

@@ -1,0 +1,91 @@
+// The Replay panel: whose session it is, what was felt at the moment shown, and its marks.
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <string>
+
+#include "app/panels/panels.hpp"
+#include "app/panels/widgets.hpp"
+#include "core/report/device_text.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr float kMarkRows = 6.0F;
+
+void fact_if_any(const char* label, const std::string& value) {
+    if (!value.empty()) fact_row(label, value);
+}
+
+void draw_about(const ReplayNews& replay) {
+    fact_row("Session", replay.file.filename().string());
+    explain(replay.file.c_str());
+    fact_if_any("Participant", replay.participant);
+    fact_if_any("Recorded", date_text(replay.started));
+    const HandTicks hand = replay.contacts == nullptr ? HandTicks{} : replay.contacts->hand;
+    fact_if_any("Device", device_text(replay.device, hand));
+    fact_if_any("Note", replay.note);
+}
+
+void draw_speed(const ReplayNews& replay, SessionPlayer& player) {
+    double speed = replay.playback.speed;
+    if (number_row({"Speed", "x %.2f", 0.1, 4.0, 1.0, "[ slower, ] faster"}, speed)) {
+        player.set_speed(speed);
+    }
+}
+
+void draw_moment(const ViewerState& state) {
+    const ReplayNews& replay = *state.replay;
+    const Touch& touch = state.haptic.touch;
+    fact_row("Tick", std::to_string(replay.tick.tick));
+    fact_row("Video", replay.tick.surface
+                          ? clock_text(replay.tick.video_s) +
+                                formatted(", frame %lld",
+                                          static_cast<long long>(replay.tick.frames.from_frame + 1))
+                          : "no surface");
+    const Primitive& on = touch.proxy.active;
+    fact_row("Touches", touch.proxy.contact ? formatted("%s (%d, %d)", name_of(on.kind), on.i, on.j)
+                                            : std::string("nothing"));
+    fact_row("Force", formatted("%.2f N", glm::length(touch.sent_force_newton)));
+    if (replay.computed) {
+        const double(&was)[3] = replay.tick.proxy;
+        fact_row("From recorded",
+                 formatted("%.2f px",
+                           glm::distance(touch.proxy.position, Vec3{was[0], was[1], was[2]})));
+    }
+}
+
+void draw_marks(const ReplayNews& replay, SessionPlayer& player) {
+    if (replay.marks.empty()) return;
+    const float line = ImGui::GetTextLineHeightWithSpacing();
+    const float rows = std::min(static_cast<float>(replay.marks.size()), kMarkRows);
+    ImGui::BeginChild("marks", {0.0F, rows * line});
+    for (const SessionMark& mark : replay.marks) {
+        ImGui::PushID(&mark);
+        const std::string text =
+            clock_text(mark.t_s - replay.playback.begin_s) + "   " + mark.tag + "  " + mark.text;
+        if (ImGui::Selectable(text.c_str())) player.seek(mark.t_s);
+        ImGui::PopID();
+    }
+    ImGui::EndChild();
+}
+
+}  // namespace
+
+void draw_replay_panel(ViewerState& state, SessionPlayer& replay) {
+    bool open = true;  // what a replay is for
+    section(state, "Replay", open);
+    ImGui::PushID("replay");
+    const ReplayNews& news = *state.replay;
+    draw_about(news);
+    if (ImGui::Button("Touch this video", {-1.0F, 0.0F})) state.requests.leave_replay = true;
+    explain("Leaves the replay: the hand touches the video it was recorded over");
+    if (!news.playback.failure.empty()) trouble_text(capitalised(news.playback.failure));
+    draw_speed(news, replay);
+    draw_moment(state);
+    draw_force_chart(state);
+    draw_marks(news, replay);
+    ImGui::PopID();
+}
+
+}  // namespace dibhr

@@ -1,0 +1,94 @@
+// The Session panel: recording what is touched, with who it was, notes and marks.
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/panels/panels.hpp"
+#include "app/panels/widgets.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr std::size_t kMarksShown = 5;
+constexpr double kBytesPerMegabyte = 1e6;
+
+void draw_switch(ViewerState& state) {
+    const bool on = state.recording.has_value();
+    if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImVec4{0.55F, 0.16F, 0.14F, 1.0F});
+    if (ImGui::Button(on ? "Stop recording###record" : "Record###record", {-1.0F, 0.0F})) {
+        state.requests.toggle_recording = true;
+    }
+    if (on) ImGui::PopStyleColor();
+    explain(on ? "Closes the file (Ctrl+R)"
+               : "Every tick goes into a new file in the current folder (Ctrl+R)");
+}
+
+void draw_progress(const RecordingNews& recording) {
+    const RecorderStatus& status = recording.status;
+    fact_row("File", recording.file.filename().string());
+    explain(recording.file.c_str());
+    fact_row("Time", clock_text(recording.time_s));
+    fact_row("Ticks", std::to_string(status.rows));
+    const double per_minute = status.bytes_per_minute / kBytesPerMegabyte;
+    fact_row("Size", formatted("%.1f MB", static_cast<double>(status.bytes) / kBytesPerMegabyte) +
+                         (per_minute > 0.0 ? formatted(", %.1f MB a minute", per_minute) : ""));
+    fact_row("Lost", status.dropped == 0 ? "no tick" : std::to_string(status.dropped) + " ticks");
+}
+
+void draw_about(TextFields& fields) {
+    ImGui::SetNextItemWidth(-1.0F);
+    ImGui::InputTextWithHint("##participant", "Participant", fields.participant.data(),
+                             fields.participant.size());
+    explain("Kept with the session; may be typed before or during the recording");
+    ImGui::SetNextItemWidth(-1.0F);
+    ImGui::InputTextWithHint("##note", "Note", fields.note.data(), fields.note.size());
+    explain("Kept with the session; may be typed before or during the recording");
+}
+
+void draw_marks(ViewerState& state) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float button = ImGui::CalcTextSize("Mark").x + 2.0F * style.FramePadding.x;
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - style.ItemSpacing.x);
+    const bool entered =
+        ImGui::InputTextWithHint("##tag", "Tag of the next mark", state.fields.tag.data(),
+                                 state.fields.tag.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+    explain("Enter, or M while nothing is typed, marks the moment with it");
+    ImGui::SameLine();
+    if (ImGui::Button("Mark") || entered) state.requests.mark = true;
+    explain("Marks this moment (M)");
+    const std::vector<SessionMark>& marks = state.recording->marks;
+    const std::size_t first = marks.size() - std::min(marks.size(), kMarksShown);
+    for (std::size_t k = marks.size(); k > first; --k) {
+        fact_row(clock_text(marks[k - 1].t_s).c_str(), marks[k - 1].tag);
+    }
+}
+
+}  // namespace
+
+void draw_session_panel(ViewerState& state) {
+    const bool wanted = std::exchange(state.show_session, false);
+    state.settings.panels.session = state.settings.panels.session || wanted;
+    const bool open = section(state, "Session", state.settings.panels.session);
+    if (wanted) ImGui::SetScrollHereY(0.0F);
+    if (!open) return;
+    ImGui::PushID("session");
+    draw_switch(state);
+    if (!state.recording_trouble.empty()) trouble_text(capitalised(state.recording_trouble));
+    if (state.recording) {
+        draw_progress(*state.recording);
+    } else if (!state.recorded_file.empty()) {
+        fact_row("Recorded", state.recorded_file.filename().string());
+        explain(state.recorded_file.c_str());
+        if (ImGui::Button("Replay it", {-1.0F, 0.0F})) {
+            state.requests.open = OpenRequest{.colour = state.recorded_file};
+        }
+    }
+    draw_about(state.fields);
+    if (state.recording) draw_marks(state);
+    ImGui::PopID();
+}
+
+}  // namespace dibhr

@@ -1,0 +1,40 @@
+// The Surface panel: the shape of the relief, how it is drawn, and from where.
+#include "app/panels/number_options.hpp"
+#include "app/panels/panels.hpp"
+#include "app/panels/widgets.hpp"
+
+namespace dibhr {
+
+void draw_surface_panel(ViewerState& state) {
+    if (!section(state, "Surface", state.settings.panels.surface)) return;
+    ImGui::PushID("surface");
+    Settings& settings = state.settings;
+    const ReliefLook standard;
+    draw_option("relief", settings.touch);
+    draw_option("pixel-pitch", settings.touch);
+    number_row({"Shading", "%.2f", 0.0, 1.0, standard.light, "0: flat colour, 1: strong"},
+               settings.look.light);
+    flag_row("Colour of the video", settings.look.textured, standard.textured,
+             "Off: plain clay, which shows the shape");
+    flag_row("Cut silhouettes", settings.look.discard_silhouettes, standard.discard_silhouettes,
+             "Leaves out the stretched walls between near and far; they are still there to touch");
+    ImGui::BeginDisabled(!settings.look.discard_silhouettes);
+    number_row({"Cut steeper than", "%.0f px/px", 1.0, 40.0, standard.silhouette_slope,
+                "Elevation change per pixel"},
+               settings.look.silhouette_slope);
+    ImGui::EndDisabled();
+    flag_row("Coarse drawing", settings.look.coarse, standard.coarse,
+             "Every second point, for slow machines; touch stays exact");
+    int straight = settings.straight_view ? 1 : 0;
+    ImGui::RadioButton("Perspective", &straight, 0);
+    ImGui::SameLine();
+    ImGui::RadioButton("Straight", &straight, 1);
+    explain("As the camera that recorded it (V)");
+    settings.straight_view = straight == 1;
+    ImGui::SameLine();
+    if (ImGui::Button("Reset view")) state.requests.reset_view = true;
+    explain("R");
+    ImGui::PopID();
+}
+
+}  // namespace dibhr

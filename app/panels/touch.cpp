@@ -1,0 +1,84 @@
+// The Touch panel: what is computed at each tick, from the table of options.
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "app/panels/falcon_state.hpp"
+#include "app/panels/number_options.hpp"
+#include "app/panels/panels.hpp"
+#include "app/panels/widgets.hpp"
+#include "app/settings/options.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr std::array kAlgorithmLabels{"DIBHR", "Proxy graph (PGA)", "Neighborhood", "God-object"};
+
+void draw_algorithm(Algorithm& algorithm) {
+    int chosen = static_cast<int>(algorithm);
+    choice_row(
+        "Algorithm", kAlgorithmLabels, chosen,
+        "How the proxy follows the goal (--algorithm); another one goes on from where it is");
+    algorithm = static_cast<Algorithm>(chosen);
+}
+
+/// In a replay: whose parameters these are, and the way back to those of the recording.
+void draw_origin(ViewerState& state) {
+    if (!state.replay) return;
+    if (!state.replay->computes) {
+        quiet_text("As recorded. Change something: the forces are computed again.");
+        return;
+    }
+    quiet_text("Computed again with these. The pale ball is the recorded proxy.");
+    if (ImGui::Button("As recorded", {-1.0F, 0.0F})) state.requests.as_recorded = true;
+    explain("Back to the recorded parameters, proxies and forces");
+}
+
+/// Says so when the Falcon cannot be as stiff, or damp as much, as it was asked for.
+void draw_held_coupling(const ViewerState& state) {
+    const Coupling held = touch_parameters(state).coupling;
+    if (!(held == state.settings.touch.coupling)) {
+        quiet_text(
+            formatted("Felt as %.2f N/mm and %.1f N s/m: at this scale of the workspace the Falcon "
+                      "can give no more.",
+                      held.stiffness_newton_per_mm, held.damping_newton_s_per_m));
+    }
+}
+
+void draw_bump(ViewerState& state) {
+    if (state.replay) {
+        if (state.bump) fact_row("Bump map", state.bump_file.filename().string());
+        return;
+    }
+    ImGui::SetNextItemWidth(-1.0F);
+    if (ImGui::InputTextWithHint("##bump", "Bump map: a grey picture", state.fields.bump.data(),
+                                 state.fields.bump.size(), ImGuiInputTextFlags_EnterReturnsTrue)) {
+        state.requests.bump = std::filesystem::path(state.fields.bump.data());
+    }
+    explain("Path of a picture laid over the surface as fine relief; Enter takes it");
+    if (!state.bump) return;
+    fact_row("Bump map", state.bump_file.filename().string());
+    if (ImGui::Button("Remove the bump map")) state.requests.bump = std::filesystem::path{};
+}
+
+}  // namespace
+
+void draw_touch_panel(ViewerState& state) {
+    if (!section(state, "Touch", state.settings.panels.touch)) return;
+    ImGui::PushID("touch");
+    draw_origin(state);
+    draw_algorithm(state.settings.touch.algorithm);
+    draw_option("stiffness", state.settings.touch);
+    draw_held_coupling(state);
+    for (const char* name : {"damping", "damping-cutoff", "static-friction", "dynamic-friction"}) {
+        draw_option(name, state.settings.touch);
+    }
+    draw_bump(state);
+    draw_option("roughness", state.settings.touch);
+    if (!state.bump && !state.replay) quiet_text("Roughness needs a bump map to be felt.");
+    ImGui::PopID();
+}
+
+}  // namespace dibhr

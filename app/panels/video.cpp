@@ -1,0 +1,96 @@
+// The Video panel: which files, playback, and the cleaning of depth.
+#include <algorithm>
+#include <filesystem>
+
+#include "app/panels/panels.hpp"
+#include "app/panels/widgets.hpp"
+
+namespace dibhr {
+
+namespace {
+
+/// A text field as wide as the panel; true when Enter was pressed in it.
+bool path_field(const char* id, const char* hint, TextFields::Field& field) {
+    ImGui::SetNextItemWidth(-1.0F);
+    return ImGui::InputTextWithHint(id, hint, field.data(), field.size(),
+                                    ImGuiInputTextFlags_EnterReturnsTrue);
+}
+
+void draw_open(ViewerState& state) {
+    if (state.fields.ask_for_keyboard > 0) {
+        ImGui::SetKeyboardFocusHere();
+        --state.fields.ask_for_keyboard;
+    }
+    const bool from_colour = path_field("##colour", "Colour file, or session", state.fields.colour);
+    explain("Path of a colour video or picture, or of a recorded session (Ctrl+O)");
+    const bool from_depth =
+        path_field("##depth", "Depth file: found beside it", state.fields.depth);
+    explain("Empty: the file called like the colour file, with depth in place of color");
+    ImGui::BeginDisabled(state.opening || state.fields.colour[0] == '\0');
+    const bool pressed = ImGui::Button(state.opening ? "Opening" : "Open");
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("or drop files on the window");
+    if ((from_colour || from_depth || pressed) && state.fields.colour[0] != '\0') {
+        state.requests.open = OpenRequest{state.fields.colour.data(), state.fields.depth.data()};
+    }
+}
+
+void draw_files(const MediaDescription& media) {
+    fact_row("Colour", media.colour_path.filename().string());
+    explain(media.colour_path.c_str());
+    fact_row("Depth", media.depth_path.filename().string());
+    explain(media.depth_path.c_str());
+    fact_row("Size", formatted("%d x %d", media.colour_columns, media.colour_rows));
+    fact_row("Depth size",
+             formatted("%d x %d, %d bit", media.depth_columns, media.depth_rows, media.depth_bits));
+}
+
+void draw_playback(const ViewerState& state, Player& player) {
+    const PlaybackStatus& playback = state.playback;
+    if (icon_button("back", Icon::step_back, "One frame back ( , )")) player.step(-1);
+    ImGui::SameLine();
+    if (icon_button("play", playback.playing ? Icon::pause : Icon::play,
+                    playback.playing ? "Pause (Space)" : "Play (Space)")) {
+        playback.playing ? player.pause() : player.play();
+    }
+    ImGui::SameLine();
+    if (icon_button("forward", Icon::step_forward, "One frame forward ( . )")) player.step(1);
+    ImGui::SameLine();
+    bool looping = playback.looping;
+    if (ImGui::Checkbox("Loop", &looping)) player.set_looping(looping);
+    explain("Start again at the end (L)");
+    fact_row("Time", clock_text(playback.media_s) + " of " + clock_text(playback.duration_s));
+    fact_row("Frame",
+             formatted("%lld of %lld", static_cast<long long>(playback.frame + 1),
+                       static_cast<long long>(std::max(playback.frames, playback.frame + 1))));
+    double speed = playback.speed;
+    if (number_row({"Speed", "x %.2f", 0.1, 4.0, 1.0, "[ slower, ] faster"}, speed)) {
+        player.set_speed(std::clamp(speed, 0.1, 4.0));
+    }
+}
+
+}  // namespace
+
+void draw_video_panel(ViewerState& state, Player* player) {
+    if (!section(state, "Video", state.settings.panels.video)) return;
+    ImGui::PushID("video");
+    draw_open(state);
+    draw_files(state.media);
+    if (player != nullptr && !state.media.still) draw_playback(state, *player);
+    ImGui::BeginDisabled(player == nullptr);  // a replay shows what was touched
+    CleaningOptions& cleaning = state.settings.cleaning;
+    const CleaningOptions standard;
+    flag_row("Fill holes", cleaning.fill_holes, standard.fill_holes,
+             "Where the camera saw no depth, take the depth around it");
+    flag_row("Remove spikes", cleaning.remove_spikes, standard.remove_spikes,
+             "Single pixels that stand out of all their neighbours");
+    flag_row("Smooth depth steps", cleaning.smooth_steps, standard.smooth_steps,
+             "Rounds the terraces of 8-bit depth, by half a level at most");
+    ImGui::EndDisabled();
+    if (player != nullptr && !state.playback.failure.empty()) quiet_text(state.playback.failure);
+    ImGui::PopID();
+}
+
+}  // namespace dibhr

@@ -1,0 +1,146 @@
+// What the window shows and what a person changes in it: plain data that every panel reads and
+// edits.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/settings/settings.hpp"
+#include "app/window/gui.hpp"
+#include "core/loop/device.hpp"
+#include "core/loop/haptic_loop.hpp"
+#include "core/replay/outline.hpp"
+#include "core/replay/session_player.hpp"
+#include "core/session/recorder.hpp"
+#include "core/video/media.hpp"
+#include "core/video/player.hpp"
+#include "device/falcon/status.hpp"
+
+namespace dibhr {
+
+/// The last seconds of the force's length, one value a tick, for the strip chart.
+struct ForceHistory {
+    static constexpr std::size_t kTicks = 4000;
+
+    std::array<float, kTicks> newton{};
+    std::size_t next{0};  ///< the oldest value, overwritten by the next one
+
+    void add(double value_newton) {
+        newton[next] = static_cast<float>(value_newton);
+        next = (next + 1) % kTicks;
+    }
+};
+
+/// Files a person wants to see; an empty depth is found beside the colour file.
+struct OpenRequest {
+    std::filesystem::path colour{};
+    std::filesystem::path depth{};
+    bool in_any_order{false};  ///< dropped together: which is which is found out
+};
+
+/// Text fields of the panels.
+struct TextFields {
+    static constexpr std::size_t kLength = 1024;
+    using Field = std::array<char, kLength>;
+
+    Field colour{};
+    Field depth{};
+    Field bump{};
+    Field firmware{};
+    Field participant{};  ///< kept with a recording
+    Field note{};
+    Field tag{};  ///< of the next mark
+    int ask_for_keyboard{
+        0};  ///< Ctrl+O: pictures left in which the colour field asks for the keyboard
+};
+
+/// What a panel asks the viewer to do after the picture.
+struct Requests {
+    std::optional<OpenRequest> open{};
+    std::optional<std::filesystem::path> bump{};  ///< empty path: no bump map
+    std::optional<std::filesystem::path> firmware{};
+    bool reset_view{false};
+    bool toggle_recording{false};
+    bool mark{false};
+    bool as_recorded{false};   ///< a replay: no other parameters any more
+    bool leave_replay{false};  ///< its video is to be touched
+    bool screenshot{false};
+    bool full_screen{false};
+    bool quit{false};
+};
+
+/// What the window shows of a recording that is going on.
+struct RecordingNews {
+    RecorderStatus status{};
+    std::filesystem::path file{};
+    double time_s{0.0};                ///< since it began
+    std::vector<SessionMark> marks{};  ///< times since it began
+};
+
+/// What the window shows of a replay.
+struct ReplayNews {
+    std::filesystem::path file{};
+    std::string participant{}, note{}, started{}, device{};
+    std::vector<SessionMark> marks{};  ///< times as the ticks'
+    std::int64_t ticks{0};
+    SessionPlayback playback{};
+    TickRecord tick{};  ///< as recorded
+    double update_us{0.0};
+    bool computes{false};                  ///< other parameters were chosen
+    bool computed{false};                  ///< what is shown was computed through them
+    const ContactBand* contacts{nullptr};  ///< null: not yet summed up
+};
+
+/// What the window shows of the Falcon.
+struct FalconNews {
+    falcon::Status status{};
+    bool asked{false};               ///< the status is the device's answer; before, anything may be
+    bool was_ready{false};           ///< in this run: when it is not now, it was lost
+    std::string firmware{};          ///< name of what is loaded when it needs it; empty: nothing
+    std::string firmware_trouble{};  ///< why the kept firmware cannot be used
+};
+
+struct ViewerState {
+    Settings settings{};  ///< live: panels write here, the next tick and picture use it
+    bool force_enabled{true};
+    std::uint32_t centred{0};  ///< counts the wishes to forget the clutch's shift
+    std::shared_ptr<const BumpMap> bump{};
+    std::filesystem::path bump_file{};
+
+    // Shown only.
+    DeviceSpecification device{};
+    MediaDescription media{};
+    PlaybackStatus playback{};
+    HapticState haptic{};
+    std::optional<FalconNews> falcon{};  ///< nothing: no Falcon is looked for
+    std::optional<RealtimeGrants> grants{};
+    std::optional<RecordingNews> recording{};
+    std::string recording_trouble{};        ///< why the last recording broke off
+    std::filesystem::path recorded_file{};  ///< the last one; empty: none yet
+    std::optional<ReplayNews> replay{};     ///< nothing: a hand touches
+    ForceHistory forces{};
+    double pictures_per_s{0.0};
+    bool in_front{true};  ///< the window; false: people work in another one
+    bool opening{false};
+    bool touched{false};  ///< there has been a contact: the first hint has done its work
+
+    bool show_device{false};   ///< the Falcon needs its person: the Device panel comes into sight
+    bool show_session{false};  ///< recording began by key: the Session panel comes into sight
+    bool help_open{false};
+    std::string message{};  ///< shown in a box until it is closed
+    std::string notice{};   ///< shown for a while at the bottom
+    double notice_until_s{0.0};
+    TextFields fields{};
+    Requests requests{};
+    Fonts fonts{};
+    float scale{1.0F};         ///< screen pixels of a layout pixel
+    float window_width{1.0F};  ///< [px]
+};
+
+}  // namespace dibhr

@@ -1,0 +1,267 @@
+// Rows and icons of the panels.
+#include "app/panels/widgets.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+#include "app/panels/panels.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr float kLabelShare = 0.40F;  // of a row's width
+const ImVec4 kTrouble{0.95F, 0.72F, 0.38F, 1.0F};
+
+/// The label, and the cursor moved to where the row's value begins.
+void row_label(const char* label, const char* help) {
+    const float begin = ImGui::GetCursorPosX();
+    const float width = ImGui::GetContentRegionAvail().x;
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(label);
+    explain(help);
+    ImGui::SameLine(begin + width * kLabelShare);
+}
+
+/// Room for the arrow at the right end of each row, so that rows stay aligned whether it shows or
+/// not.
+float arrow_width() {
+    return ImGui::GetFrameHeight();
+}
+
+bool put_back_arrow(bool changed) {
+    ImGui::SameLine(0.0F, ImGui::GetStyle().ItemInnerSpacing.x);
+    if (!changed) {
+        ImGui::Dummy({arrow_width(), arrow_width()});
+        return false;
+    }
+    return icon_button("put back", Icon::put_back, "Back to the default");
+}
+
+void draw_put_back(ImDrawList& list, ImVec2 centre, float r, ImU32 colour) {
+    constexpr float kPi = 3.14159265F;
+    list.PathArcTo(centre, r, -0.75F * kPi, 0.9F * kPi, 20);
+    list.PathStroke(colour, 0, std::max(1.5F, r * 0.28F));
+    const ImVec2 tip{centre.x + r * std::cos(-0.75F * kPi), centre.y + r * std::sin(-0.75F * kPi)};
+    list.AddTriangleFilled({tip.x - r * 0.6F, tip.y + r * 0.5F},
+                           {tip.x - r * 0.5F, tip.y - r * 0.6F},
+                           {tip.x + r * 0.6F, tip.y + r * 0.3F}, colour);
+}
+
+void draw_loop(ImDrawList& list, ImVec2 centre, float r, ImU32 colour) {
+    const float thick = std::max(1.5F, r * 0.25F);
+    const ImVec2 low{centre.x - r, centre.y - r * 0.55F};
+    const ImVec2 high{centre.x + r, centre.y + r * 0.65F};
+    list.AddRect(low, high, colour, r * 0.5F, 0, thick);
+    list.AddTriangleFilled({centre.x - r * 0.35F, low.y - r * 0.55F},
+                           {centre.x - r * 0.35F, low.y + r * 0.55F}, {centre.x + r * 0.45F, low.y},
+                           colour);
+}
+
+void draw_step(ImDrawList& list, ImVec2 centre, float r, float way, ImU32 colour) {
+    list.AddTriangleFilled({centre.x - way * r * 0.8F, centre.y - r * 0.8F},
+                           {centre.x - way * r * 0.8F, centre.y + r * 0.8F},
+                           {centre.x + way * r * 0.4F, centre.y}, colour);
+    const float near = centre.x + way * r * 0.55F;
+    const float far = centre.x + way * r * 0.85F;
+    list.AddRectFilled({std::min(near, far), centre.y - r * 0.8F},
+                       {std::max(near, far), centre.y + r * 0.8F}, colour);
+}
+
+void draw_icon(ImDrawList& list, Icon icon, ImVec2 centre, float r, ImU32 colour) {
+    switch (icon) {
+        case Icon::play:
+            list.AddTriangleFilled({centre.x - r * 0.6F, centre.y - r},
+                                   {centre.x - r * 0.6F, centre.y + r}, {centre.x + r, centre.y},
+                                   colour);
+            break;
+        case Icon::pause:
+            list.AddRectFilled({centre.x - r * 0.75F, centre.y - r * 0.9F},
+                               {centre.x - r * 0.2F, centre.y + r * 0.9F}, colour);
+            list.AddRectFilled({centre.x + r * 0.2F, centre.y - r * 0.9F},
+                               {centre.x + r * 0.75F, centre.y + r * 0.9F}, colour);
+            break;
+        case Icon::step_back:
+            draw_step(list, centre, r, -1.0F, colour);
+            break;
+        case Icon::step_forward:
+            draw_step(list, centre, r, 1.0F, colour);
+            break;
+        case Icon::loop:
+            draw_loop(list, centre, r, colour);
+            break;
+        case Icon::put_back:
+            draw_put_back(list, centre, r * 0.8F, colour);
+            break;
+    }
+}
+
+}  // namespace
+
+bool section(const ViewerState& state, const char* title, bool& open) {
+    ImGui::Spacing();
+    ImGui::SetNextItemOpen(open, ImGuiCond_Always);
+    ImGui::PushFont(state.fonts.heading);
+    open = ImGui::CollapsingHeader(title);
+    ImGui::PopFont();
+    return open;
+}
+
+bool number_row(const NumberRow& row, double& value) {
+    const double before = value;
+    const bool named = row.zero != nullptr && !(std::abs(value) > 0.0);
+    ImGui::PushID(row.label);
+    row_label(row.label, row.help);
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - arrow_width() -
+                            ImGui::GetStyle().ItemInnerSpacing.x);
+    ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &row.lowest, &row.highest,
+                        named ? row.zero : row.format,
+                        row.logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+    // What is dragged is rounded to the digits that are shown; a word has none.
+    if (named && ImGui::IsMouseDown(ImGuiMouseButton_Left)) value = std::round(value);
+    explain("Drag, or Ctrl+click to type a number");
+    if (put_back_arrow(std::abs(value - row.standard) > 1e-9)) value = row.standard;
+    ImGui::PopID();
+    if (!std::isfinite(value)) value = before;
+    return std::abs(value - before) > 0.0;
+}
+
+bool flag_row(const char* label, bool& value, bool standard, const char* help) {
+    const bool before = value;
+    const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;
+    ImGui::PushID(label);
+    ImGui::Checkbox(label, &value);
+    explain(help);
+    if (value != standard) {
+        ImGui::SameLine(right - arrow_width());
+        if (icon_button("put back", Icon::put_back, "Back to the default")) value = standard;
+    }
+    ImGui::PopID();
+    return value != before;
+}
+
+bool choice_row(const char* label, std::span<const char* const> names, int& chosen,
+                const char* help, int standard) {
+    const int before = chosen;
+    ImGui::PushID(label);
+    row_label(label, help);
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - arrow_width() -
+                            ImGui::GetStyle().ItemInnerSpacing.x);
+    ImGui::Combo("##choice", &chosen, names.data(), static_cast<int>(names.size()));
+    explain(help);
+    if (put_back_arrow(chosen != standard)) chosen = standard;
+    ImGui::PopID();
+    return chosen != before;
+}
+
+void begin_bottom_bar(const ViewerState& state, const char* name) {
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float height = ImGui::GetFrameHeight() + 2.0F * style.WindowPadding.y;
+    ImGui::SetNextWindowPos({0.0F, display.y - height});
+    ImGui::SetNextWindowSize({display.x - panel_column_width(state), height});
+    ImGui::SetNextWindowBgAlpha(0.85F);
+    ImGui::Begin(name, nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
+}
+
+void fact_row(const char* label, const std::string& value) {
+    const float begin = ImGui::GetCursorPosX();
+    const float width = ImGui::GetContentRegionAvail().x;
+    ImGui::TextDisabled("%s", label);
+    ImGui::SameLine(begin + width * kLabelShare);
+    ImGui::PushTextWrapPos(begin + width);
+    ImGui::TextUnformatted(value.c_str());
+    ImGui::PopTextWrapPos();
+}
+
+void explain(const char* text) {
+    if (*text == '\0' || !ImGui::IsItemHovered()) return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 22.0F);
+    ImGui::TextUnformatted(text);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+void quiet_text(const std::string& text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    ImGui::TextWrapped("%s", text.c_str());
+    ImGui::PopStyleColor();
+}
+
+void trouble_text(const std::string& text) {
+    const float line = ImGui::GetTextLineHeight();
+    const ImVec2 low = ImGui::GetCursorScreenPos();
+    const ImU32 colour = ImGui::GetColorU32(kTrouble);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddTriangle({low.x + line * 0.5F, low.y + line * 0.1F},
+                     {low.x + line * 0.02F, low.y + line * 0.92F},
+                     {low.x + line * 0.98F, low.y + line * 0.92F}, colour, line * 0.09F);
+    list.AddLine({low.x + line * 0.5F, low.y + line * 0.38F},
+                 {low.x + line * 0.5F, low.y + line * 0.65F}, colour, line * 0.11F);
+    list.AddCircleFilled({low.x + line * 0.5F, low.y + line * 0.78F}, line * 0.065F, colour);
+    ImGui::Dummy({line, line});
+    ImGui::SameLine();
+    ImGui::PushStyleColor(ImGuiCol_Text, kTrouble);
+    ImGui::PushTextWrapPos(0.0F);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+}
+
+bool part(const char* title) {
+    ImGui::Spacing();
+    return ImGui::TreeNodeEx(
+        title, ImGuiTreeNodeFlags_SpanAvailWidth | ImGuiTreeNodeFlags_NoTreePushOnOpen);
+}
+
+bool icon_button(const char* id, Icon icon, const char* help, bool lit) {
+    const float side = ImGui::GetFrameHeight();
+    ImGui::PushID(id);
+    const ImVec4 clear{0.0F, 0.0F, 0.0F, 0.0F};
+    ImGui::PushStyleColor(ImGuiCol_Button, lit ? ImGui::GetStyleColorVec4(ImGuiCol_Button) : clear);
+    const bool pressed = ImGui::Button("##icon", {side, side});
+    ImGui::PopStyleColor();
+    ImGui::PopID();
+    const ImVec2 low = ImGui::GetItemRectMin();
+    const ImVec2 high = ImGui::GetItemRectMax();
+    draw_icon(*ImGui::GetWindowDrawList(), icon, {(low.x + high.x) * 0.5F, (low.y + high.y) * 0.5F},
+              side * 0.25F, ImGui::GetColorU32(ImGuiCol_Text));
+    explain(help);
+    return pressed;
+}
+
+std::string capitalised(std::string line) {
+    if (!line.empty()) {
+        line[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(line[0])));
+    }
+    return line;
+}
+
+std::string formatted(const char* format, ...) {
+    char text[512];
+    std::va_list values;
+    va_start(values, format);
+    std::vsnprintf(text, sizeof text, format, values);
+    va_end(values);
+    return text;
+}
+
+std::string date_text(const std::string& utc) {
+    constexpr std::size_t kDate = 10, kMinutes = 16, kWhole = 20;
+    if (utc.size() != kWhole || utc[kDate] != 'T' || utc.back() != 'Z') return utc;
+    return utc.substr(0, kDate) + " " + utc.substr(kDate + 1, kMinutes - kDate - 1) + " UTC";
+}
+
+std::string clock_text(double seconds) {
+    const long milliseconds = std::lround(std::max(0.0, seconds) * 1000.0);
+    return formatted("%02ld:%02ld.%03ld", milliseconds / 60000, milliseconds / 1000 % 60,
+                     milliseconds % 1000);
+}
+
+}  // namespace dibhr

@@ -1,0 +1,154 @@
+// Command line options that several commands share: made from the one table of numbers.
+#include "app/settings/command_options.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+#include <system_error>
+
+#include "core/haptics/algorithm.hpp"
+
+namespace dibhr {
+namespace {
+
+std::string text_of(double value) {
+    std::ostringstream text;
+    text << value;
+    return text.str();
+}
+
+/// "N s/m" -> "N_S_PER_M", a ratio -> "MU": what stands behind the option in the help.
+std::string placeholder_of(const NumberOption& option) {
+    if (option.unit.empty()) return "MU";
+    std::string name;
+    for (const char c : option.unit) {
+        if (c == '/') {
+            name += "_PER_";
+        } else if (c == ' ') {
+            name += '_';
+        } else {
+            name += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+        }
+    }
+    return name;
+}
+
+std::string algorithm_names() {
+    std::string names;
+    for (const Algorithm algorithm : all_algorithms()) {
+        names += (names.empty() ? "" : ", ") + std::string(name_of(algorithm));
+    }
+    return names;
+}
+
+/// Throws CLI::ValidationError.
+Algorithm known_algorithm(const std::string& name) {
+    const auto algorithm = algorithm_named(name);
+    if (!algorithm) {
+        throw CLI::ValidationError("--algorithm", "'" + name + "' is none of " + algorithm_names());
+    }
+    return *algorithm;
+}
+
+std::string range_of(double lowest, double highest) {
+    return text_of(lowest) + " to " + text_of(highest);
+}
+
+void add_number(CLI::App& app, GivenParameters& given, const NumberOption& option) {
+    const std::string name = "--" + std::string(option.name);
+    TouchParameters defaults;
+    app.add_option_function<std::string>(
+           name,
+           [&given, &option, name](const std::string& text) {
+               given.numbers.emplace_back(&option,
+                                          parse_number(name, text, option.lowest, option.highest));
+           },
+           std::string(option.help) + ", " + range_of(option.lowest, option.highest))
+        ->type_name(placeholder_of(option))
+        ->default_str(text_of(option.in(defaults)));
+}
+
+}  // namespace
+
+void GivenParameters::apply(TouchParameters& parameters) const {
+    if (algorithm) parameters.algorithm = *algorithm;
+    if (friction) parameters.friction = {*friction, *friction};
+    const double* dynamic = nullptr;
+    for (const auto& [option, value] : numbers) {
+        option->in(parameters) = value;
+        if (option->name == "dynamic-friction") dynamic = &value;
+    }
+    if (dynamic != nullptr && *dynamic > parameters.friction.static_coefficient) {
+        throw UsageError("--dynamic-friction " + text_of(*dynamic) +
+                         " is above the static friction " +
+                         text_of(parameters.friction.static_coefficient) +
+                         ": give --static-friction of at least as much, or --friction for both");
+    }
+    keep_in_range(parameters);
+}
+
+std::string roughness_warning(const GivenParameters& given, bool has_bump) {
+    const bool rough =
+        std::any_of(given.numbers.begin(), given.numbers.end(), [](const auto& number) {
+            return number.first->name == "roughness" && number.second != 0.0;
+        });
+    if (!rough || has_bump) return {};
+    return "--roughness changes nothing without a bump map; give one with --bump IMAGE";
+}
+
+double parse_number(const std::string& option, const std::string& text, double lowest,
+                    double highest) {
+    double value = 0.0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc{} || stop != end || !std::isfinite(value)) {
+        throw CLI::ValidationError(option, "'" + text + "' is not a number");
+    }
+    if (value < lowest || value > highest) {
+        throw CLI::ValidationError(option, text + " is not in " + range_of(lowest, highest));
+    }
+    return value;
+}
+
+void add_algorithms_option(CLI::App& app, std::vector<Algorithm>& algorithms) {
+    app.add_option_function<std::vector<std::string>>(
+           "--algorithm",
+           [&algorithms](const std::vector<std::string>& names) {
+               for (const std::string& name : names) algorithms.push_back(known_algorithm(name));
+           },
+           "How the proxy follows the goal, once or several times: " + algorithm_names())
+        ->type_name("NAME")
+        ->allow_extra_args(false);
+}
+
+void add_touch_options(CLI::App& app, TouchRequest& request) {
+    app.add_option_function<std::string>(
+           "--algorithm",
+           [&request](const std::string& name) { request.given.algorithm = known_algorithm(name); },
+           "How the proxy follows the goal: " + algorithm_names())
+        ->type_name("NAME")
+        ->default_str("dibhr");
+    app.add_option_function<std::string>(
+           "--friction",
+           [&request](const std::string& text) {
+               // The range is that of the coefficients it stands for.
+               const auto options = number_options();
+               const auto friction = std::find_if(
+                   options.begin(), options.end(),
+                   [](const NumberOption& option) { return option.name == "static-friction"; });
+               request.given.friction =
+                   parse_number("--friction", text, friction->lowest, friction->highest);
+           },
+           "Both coefficients of friction; one given by itself wins")
+        ->type_name("MU");
+    for (const NumberOption& option : number_options()) {
+        add_number(app, request.given, option);
+    }
+    app.add_option("--bump", request.bump, "Bump map laid over the surface: an 8- or 16-bit image")
+        ->type_name("IMAGE");
+    app.add_flag("--raw-depth", request.raw_depth, "Depth as it is in the file: no cleaning");
+}
+
+}  // namespace dibhr

@@ -1,0 +1,55 @@
+// Command line options that several commands share, and the error of a wrong command line.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/settings/options.hpp"
+#include "core/error.hpp"
+
+namespace dibhr {
+
+/// The command line itself is wrong; the program ends with 2.
+class UsageError : public Error {
+  public:
+    using Error::Error;
+};
+
+/// The algorithm and the numbers the command line gave: they beat what a settings file or the
+/// program's defaults say.
+struct GivenParameters {
+    std::optional<Algorithm> algorithm{};
+    std::vector<std::pair<const NumberOption*, double>> numbers{};
+    std::optional<double>
+        friction{};  ///< --friction: both coefficients, unless one is given by itself
+
+    /// Throws UsageError when --dynamic-friction ends above the static coefficient.
+    void apply(TouchParameters& parameters) const;
+};
+
+/// What all commands that compute forces take.
+struct TouchRequest {
+    GivenParameters given{};
+    std::string bump{};     ///< --bump IMAGE; empty: none
+    bool raw_depth{false};  ///< --raw-depth
+};
+
+/// That a roughness is given, but no bump map that it could scale, as a sentence; or empty.
+[[nodiscard]] std::string roughness_warning(const GivenParameters& given, bool has_bump);
+
+/// A finite decimal number in [lowest, highest], and nothing else. Throws CLI::ValidationError that
+/// names `option`.
+[[nodiscard]] double parse_number(const std::string& option, const std::string& text, double lowest,
+                                  double highest);
+
+/// --algorithm NAME, several times. `algorithms` must outlive the parsing of `app`.
+void add_algorithms_option(CLI::App& app, std::vector<Algorithm>& algorithms);
+
+/// --algorithm, --friction, --bump, --raw-depth and every entry of number_options(). `request` must
+/// outlive the parsing of `app`.
+void add_touch_options(CLI::App& app, TouchRequest& request);
+
+}  // namespace dibhr

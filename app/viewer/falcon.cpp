@@ -1,0 +1,79 @@
+// The window thread's end of the Falcon.
+#include "app/viewer/falcon.hpp"
+
+#include <cstddef>
+#include <utility>
+
+#include "app/panels/falcon_state.hpp"
+#include "device/falcon/firmware_image.hpp"
+
+namespace dibhr {
+
+using falcon::Stage;
+
+ViewerFalcon::ViewerFalcon(const HandDevice& hand, ViewerState& state) : device_(hand.falcon) {
+    if (device_ == nullptr) return;
+    FalconNews& news = state.falcon.emplace();
+    news.firmware = hand.firmware;
+    news.firmware_trouble = hand.firmware_trouble;
+    hand_over(state);
+}
+
+std::optional<std::string> ViewerFalcon::take_news(ViewerState& state) {
+    if (device_ == nullptr) return {};
+    FalconNews& news = *state.falcon;
+    news.status = device_->status();
+    news.asked = true;
+    const Stage before = std::exchange(stage_, news.status.stage);
+    if (before == stage_) return {};
+    // Once for each need: one that comes again and again must not keep moving the panels.
+    if (needs_its_person(stage_) && shown_ != stage_) {
+        state.show_device = true;
+        shown_ = stage_;
+    }
+    if (stage_ != Stage::ready) return {};
+    shown_ = stage_;
+    const std::string again = std::exchange(news.was_ready, true) ? " again" : "";
+    return "The Falcon touches" + again;
+}
+
+std::vector<Action> ViewerFalcon::take_presses(const ViewerState& state) {
+    std::vector<Action> asked;
+    if (device_ == nullptr) return asked;
+    for (std::size_t k = 0; k < presses_.size(); ++k) {
+        const auto action = static_cast<std::size_t>(state.settings.falcon.buttons[k]);
+        const ButtonJob& job = button_jobs()[action];
+        for (; presses_[k] < state.falcon->status.presses[k]; ++presses_[k]) {
+            if (job.perform) asked.push_back(*job.perform);
+        }
+    }
+    return asked;
+}
+
+bool ViewerFalcon::tuning_changed(const ViewerState& state) const {
+    return device_ != nullptr && !(handed_ == tuning_of(state.settings.falcon, state.centred));
+}
+
+void ViewerFalcon::hand_over(const ViewerState& state) {
+    if (device_ == nullptr) return;
+    handed_ = tuning_of(state.settings.falcon, state.centred);
+    device_->tuning().publish(handed_);
+}
+
+std::string ViewerFalcon::use_firmware(const std::filesystem::path& file, ViewerState& state) {
+    falcon::FirmwareImage image = falcon::keep_firmware(file);
+    const std::string kept = "Kept for the Falcon: " + image.name;
+    if (device_ == nullptr) return kept;
+    state.falcon->firmware = image.name;
+    state.falcon->firmware_trouble.clear();
+    device_->use_firmware(std::move(image));
+    return kept;
+}
+
+bool named_firmware(const std::filesystem::path& file) {
+    // .h: the image as an installed libnifalcon has it.
+    const std::string ending = file.extension().string();
+    return ending == ".bin" || ending == ".BIN" || ending == ".h";
+}
+
+}  // namespace dibhr

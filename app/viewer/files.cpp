@@ -1,0 +1,49 @@
+// Names and pictures in the current folder.
+#include "app/viewer/files.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <utility>
+
+namespace dibhr {
+
+std::string new_file_name(const char* ending) {
+    const auto now = std::chrono::system_clock::now();
+    const std::time_t seconds = std::chrono::system_clock::to_time_t(now);
+    const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch());
+    std::tm local{};
+    localtime_r(&seconds, &local);
+    char date[32];
+    std::strftime(date, sizeof date, "%Y%m%d-%H%M%S", &local);
+    char name[64];
+    std::snprintf(name, sizeof name, "dibhr-%s-%03d.%s", date, static_cast<int>(ms.count() % 1000),
+                  ending);
+    return std::filesystem::absolute(name).string();
+}
+
+void Screenshots::save(ColourImage picture) {
+    const auto write = [picture = std::move(picture), file = new_file_name("png")] {
+        write_png(picture, file);
+        return "Saved " + file;
+    };
+    writing_.push_back(std::async(std::launch::async, write));
+}
+
+std::optional<std::string> Screenshots::take() {
+    const auto done = std::find_if(writing_.begin(), writing_.end(), [](const auto& picture) {
+        return picture.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    });
+    if (done == writing_.end()) return {};
+    std::future<std::string> picture = std::move(*done);
+    writing_.erase(done);
+    return picture.get();
+}
+
+void Screenshots::finish() {
+    for (auto& picture : std::exchange(writing_, {})) picture.get();
+}
+
+}  // namespace dibhr

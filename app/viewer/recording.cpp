@@ -1,0 +1,124 @@
+// The window thread's end of the recorder.
+#include "app/viewer/recording.hpp"
+
+#include <map>
+
+#include "app/panels/widgets.hpp"
+#include "app/viewer/scene.hpp"
+#include "core/error.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr const char* kPlainTag = "mark";
+constexpr const char* kParticipant = "participant";
+constexpr const char* kNote = "note";
+
+}  // namespace
+
+std::uint32_t ViewerRecording::opened(const MediaDescription& media) {
+    opened_.push_back(media);
+    const auto number = static_cast<std::uint32_t>(opened_.size());
+    if (recorder_) tell_of(media, number);
+    return number;
+}
+
+void ViewerRecording::tell_of(const MediaDescription& media, std::uint32_t number) {
+    recorder_->media(number, media.colour_path, media.depth_path);
+}
+
+void ViewerRecording::start(const std::filesystem::path& file, ViewerState& state) {
+    for (TickRecord left; ticks_.pop(left);) {
+    }  // what a stopped recording left behind
+    participant_ = state.fields.participant.data();
+    note_ = state.fields.note.data();
+    std::map<std::string, std::string> facts = session_facts(state);
+    facts.emplace(kParticipant, participant_);
+    facts.emplace(kNote, note_);
+    recorder_ = std::make_unique<Recorder>(file, ticks_, facts);
+    for (std::size_t k = 0; k < opened_.size(); ++k) {
+        tell_of(opened_[k], static_cast<std::uint32_t>(k + 1));
+    }
+    told_version_ = 0;
+    falcon_serial_.clear();
+    start_ = std::chrono::steady_clock::now();
+    state.recording_trouble.clear();
+    state.recording.emplace().file = file;
+}
+
+std::string ViewerRecording::stop(ViewerState& state) {
+    take_news(state);  // with what was typed last
+    if (!recorder_) return {};
+    const RecorderStatus recorded = recorder_->finish();
+    if (!recorded.failure.empty()) {
+        break_off(state, recorded.failure);
+        return {};
+    }
+    state.recorded_file = state.recording->file;
+    recorder_.reset();
+    state.recording.reset();
+    state.fields.note = {};  // it was about this one
+    return "Recorded " + std::to_string(recorded.rows) + " ticks into " +
+           state.recorded_file.string();
+}
+
+void ViewerRecording::break_off(ViewerState& state, const std::string& failure) {
+    state.recording_trouble = state.message = failure;
+    if (failure_.empty()) failure_ = failure;
+    recorder_.reset();
+    state.recording.reset();
+}
+
+void ViewerRecording::hand_over(const HapticSettings& settings,
+                                const std::filesystem::path& bump_file) {
+    if (!recorder_ || told_version_ == settings.version) return;
+    told_version_ = settings.version;
+    recorder_->parameters({.version = settings.version,
+                           .touch = settings.parameters,
+                           .limits = settings.limits,
+                           .force_enabled = settings.force_enabled,
+                           .bump = {settings.bump ? bump_file : std::filesystem::path{}}});
+}
+
+std::string ViewerRecording::mark(ViewerState& state) {
+    if (!recorder_) return "Nothing is recorded that could be marked: Ctrl+R begins";
+    const char* typed = state.fields.tag.data();
+    const std::string tag = *typed == '\0' ? kPlainTag : typed;
+    recorder_->mark(tag);
+    state.recording->marks.push_back({now_s(), tag, {}});
+    return "Marked at " + clock_text(now_s()) + ": " + tag;
+}
+
+void ViewerRecording::take_news(ViewerState& state) {
+    if (!recorder_) return;
+    const auto tell_changed = [this](const char* key, const TextFields::Field& field,
+                                     std::string& told) {
+        if (told == field.data()) return;
+        told = field.data();
+        recorder_->set_fact(key, told);
+    };
+    tell_changed(kParticipant, state.fields.participant, participant_);
+    tell_changed(kNote, state.fields.note, note_);
+    const std::string serial = state.falcon ? state.falcon->status.serial : std::string{};
+    if (!serial.empty() && serial != falcon_serial_) {
+        falcon_serial_ = serial;
+        recorder_->set_fact("falcon-serial", serial);
+    }
+    state.recording->status = recorder_->status();
+    state.recording->time_s = now_s();
+    const std::string failure = state.recording->status.failure;
+    if (!failure.empty()) break_off(state, failure);
+}
+
+void ViewerRecording::finish() {
+    const std::string last = recorder_ ? recorder_->finish().failure : std::string{};
+    if (failure_.empty()) failure_ = last;
+    if (!failure_.empty()) throw InputError(failure_);
+}
+
+double ViewerRecording::now_s() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+}  // namespace dibhr

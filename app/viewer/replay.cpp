@@ -1,0 +1,146 @@
+// A session in the window.
+#include "app/viewer/replay.hpp"
+
+#include <glm/geometric.hpp>
+#include <utility>
+
+namespace dibhr {
+
+namespace {
+
+Vec3 vector_of(const double (&values)[3]) {
+    return {values[0], values[1], values[2]};
+}
+
+Touch recorded_touch(const TickRecord& tick) {
+    Touch touch;
+    touch.goal = vector_of(tick.goal);
+    touch.proxy.position = vector_of(tick.proxy);
+    touch.proxy.active.kind = static_cast<PrimitiveKind>(tick.primitive);
+    touch.proxy.active.i = tick.i;
+    touch.proxy.active.j = tick.j;
+    touch.proxy.moves = tick.moves;
+    touch.proxy.contact = tick.contact;
+    touch.spring_force_newton = vector_of(tick.spring_newton);
+    touch.sent_force_newton = vector_of(tick.sent_newton);
+    touch.cut = static_cast<SafetyCut>(tick.cut);
+    return touch;
+}
+
+Touch touch_of(const SessionMoment& moment) {
+    return moment.computed ? *moment.computed : recorded_touch(moment.tick);
+}
+
+ReplayNews news_of(const Session& session) {
+    ReplayNews news;
+    news.file = session.file();
+    news.participant = session.fact("participant");
+    news.note = session.fact("note");
+    news.started = session.fact("started");
+    news.device = session.fact("device");
+    news.marks = session.marks();
+    news.ticks = session.rows();
+    return news;
+}
+
+}  // namespace
+
+void ViewerReplay::begin(std::unique_ptr<OpenedSession> opened, const GivenParameters& given,
+                         ViewerState& state) {
+    if (!player_) {
+        touch_ = state.settings.touch;
+        cleaning_ = state.settings.cleaning;
+        bump_ = state.bump;
+        bump_file_ = state.bump_file;
+    }
+    const Session& session = opened->session;
+    state.replay = news_of(session);
+    state.media = opened->frames.description();
+    state.forces = {};
+    state.haptic = {};
+    recorded_ =
+        session.parameters().empty() ? TouchParameters{} : session.parameters().front().touch;
+    TouchParameters wanted = recorded_;
+    given.apply(wanted);
+    chosen_.reset();
+    if (!(wanted == recorded_)) chosen_ = wanted;
+    state.settings.touch = wanted;
+    outline_ = std::make_unique<SessionOutline>(session.file(), session.begin_s(), session.end_s());
+    player_ = std::make_unique<SessionPlayer>(std::move(opened));
+    if (chosen_) player_->compute(chosen_);
+}
+
+void ViewerReplay::end(ViewerState& state) {
+    if (!player_) return;
+    player_.reset();
+    outline_.reset();
+    state.replay.reset();
+    state.settings.touch = touch_;
+    state.settings.cleaning = cleaning_;
+    state.bump = std::exchange(bump_, nullptr);
+    state.bump_file = bump_file_;
+    state.haptic = {};
+    state.forces = {};
+}
+
+void ViewerReplay::advance(ViewerState& state) {
+    player_->advance([&state](const SessionMoment& moment) {
+        state.forces.add(glm::length(touch_of(moment).sent_force_newton));
+    });
+    state.replay->playback = player_->playback();
+    state.replay->contacts = outline_->band();
+    state.replay->computes = chosen_.has_value();
+    if (player_->moment() != nullptr) show(*player_->moment(), state);
+}
+
+void ViewerReplay::show(const SessionMoment& moment, ViewerState& state) {
+    const TickRecord& tick = moment.tick;
+    state.replay->tick = tick;
+    state.replay->computed = moment.computed.has_value();
+    state.replay->update_us = moment.computed ? moment.update_us : tick.update_us;
+    state.haptic.touch = touch_of(moment);
+    state.haptic.touchable = tick.surface;
+    state.haptic.hand = {.goal_in_grid = vector_of(tick.goal),
+                         .buttons = tick.buttons,
+                         .ready = tick.device_ready,
+                         .stand_in = tick.stand_in};
+    state.haptic.blend = tick.blend;
+    state.bump = moment.bump;
+    if (moment.parameters != nullptr) {
+        recorded_ = moment.parameters->touch;
+        state.bump_file = moment.parameters->bump.file;
+    }
+    if (!chosen_) state.settings.touch = recorded_;
+    const FrameSource& source = tick.frames.source;
+    if (tick.surface) {
+        state.settings.cleaning = {source.fill_holes, source.remove_spikes, source.smooth_steps};
+    }
+}
+
+void ViewerReplay::obey_panels(ViewerState& state) {
+    if (std::exchange(state.requests.as_recorded, false)) {
+        chosen_.reset();
+        state.settings.touch = recorded_;
+        player_->compute({});
+    } else if (!(state.settings.touch == (chosen_ ? *chosen_ : recorded_))) {
+        chosen_ = state.settings.touch;
+        player_->compute(chosen_);
+    }
+}
+
+DepthBlend ViewerReplay::shown() const {
+    const SessionMoment* moment = player_->moment();
+    if (moment == nullptr || !moment->frames) return {};
+    return {&moment->frames->from, &moment->frames->to, moment->tick.blend};
+}
+
+Settings ViewerReplay::lasting(const ViewerState& state) const {
+    Settings settings = state.settings;
+    if (player_) {
+        settings.touch = touch_;
+        settings.cleaning = cleaning_;
+    }
+    return settings;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,52 @@
+// A session in the window: what it felt, in place of a hand, and what other parameters would have
+// given.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "app/panels/viewer_state.hpp"
+#include "app/settings/command_options.hpp"
+#include "core/replay/outline.hpp"
+#include "core/replay/session_player.hpp"
+#include "core/video/frame_window.hpp"
+
+namespace dibhr {
+
+class ViewerReplay {
+  public:
+    /// Begins to play. `given` beats what was recorded from the start.
+    void begin(std::unique_ptr<OpenedSession> opened, const GivenParameters& given,
+               ViewerState& state);
+    /// Gives back the settings of before.
+    void end(ViewerState& state);
+    /// Null: nothing is replayed.
+    [[nodiscard]] SessionPlayer* player() const { return player_.get(); }
+
+    /// Once a picture, before the panels: the moment that is due, into `state`.
+    void advance(ViewerState& state);
+    /// After the panels: whether a person chose other parameters, or those of the recording.
+    void obey_panels(ViewerState& state);
+
+    /// The frames of the moment that is shown.
+    [[nodiscard]] DepthBlend shown() const;
+
+    /// What is to last of the window's settings: not those that show the recording.
+    [[nodiscard]] Settings lasting(const ViewerState& state) const;
+
+  private:
+    void show(const SessionMoment& moment, ViewerState& state);
+
+    std::unique_ptr<SessionPlayer> player_{};
+    std::unique_ptr<SessionOutline> outline_{};
+    TouchParameters recorded_{};               // of the moment shown
+    std::optional<TouchParameters> chosen_{};  // instead of them
+
+    // Of before.
+    TouchParameters touch_{};
+    CleaningOptions cleaning_{};
+    std::shared_ptr<const BumpMap> bump_{};
+    std::filesystem::path bump_file_{};
+};
+
+}  // namespace dibhr

@@ -1,0 +1,302 @@
+// The viewer's window thread: input, scene, panels, and the hand-over to the other threads.
+#include "app/viewer/viewer.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "app/panels/falcon_state.hpp"
+#include "app/panels/panels.hpp"
+#include "app/viewer/actions.hpp"
+#include "app/viewer/scene.hpp"
+#include "core/error.hpp"
+#include "core/haptics/surface.hpp"
+#include "render/gl_objects.hpp"
+
+namespace dibhr {
+
+namespace {
+
+using std::chrono::steady_clock;
+
+constexpr double kNoticeTime_s = 4.0;
+constexpr auto kPictureTime = std::chrono::nanoseconds(1'000'000'000 / 60);
+constexpr auto kSoftwarePictureTime = std::chrono::nanoseconds(1'000'000'000 / 30);
+
+Settings starting_settings(const ViewOptions& options) {
+    Settings settings = options.settings;
+    settings.touch = options.parameters;
+    settings.width = options.width;
+    settings.height = options.height;
+    if (options.raw_depth) settings.cleaning = {false, false, false};
+    return settings;
+}
+
+std::chrono::nanoseconds shortest_picture(bool sync) {
+    if (!sync) return std::chrono::nanoseconds(0);
+    return read_limits().software ? kSoftwarePictureTime : kPictureTime;
+}
+
+}  // namespace
+
+Viewer::Viewer(const ViewOptions& options, ViewerParts parts, EndingSignals& signals)
+    : options_(options),
+      signals_(signals),
+      hand_(std::move(parts.hand)),
+      window_(options.width, options.height, options.sync, "dibhr"),
+      gui_(window_),
+      pace_(shortest_picture(options.sync)),
+      state_{.settings = starting_settings(options)},
+      falcon_(hand_, state_),
+      keeper_(options.settings, starting_settings(options), settings_path()),
+      start_(steady_clock::now()),
+      forces_(std::make_unique<ForceRing>()),
+      ticks_(std::make_unique<TickRing>()),
+      recording_(*ticks_) {
+    state_.device = hand_.device->specification();
+    state_.bump = std::move(parts.bump);
+    state_.bump_file = options.bump;
+    state_.fonts = gui_.fonts();
+    state_.scale = gui_.scale();
+    if (parts.session) {
+        replay_session(std::move(parts.session));
+        return;
+    }
+    state_.media = parts.media->description();
+    if (!options.record.empty()) recording_.start(options.record, state_);
+    show_media(std::move(parts.media));
+}
+
+void Viewer::run() {
+    start_ = steady_clock::now();
+    while (!over()) {
+        show_one_picture();
+        pace_.wait();
+    }
+    finish();
+}
+
+void Viewer::finish() {
+    if (loop_) loop_->stop();  // the hand is at rest before anything is written
+    std::string failure;
+    const auto attempt = [&failure](auto&& step) {
+        try {
+            step();
+        } catch (const Error& error) {
+            if (failure.empty()) failure = error.what();
+        }
+    };
+    attempt([this] { write_last_picture(); });
+    attempt([this] { keeper_.finish(replay_.lasting(state_)); });
+    attempt([this] { screenshots_.finish(); });
+    attempt([this] { recording_.finish(); });
+    if (!failure.empty()) throw InputError(failure);
+}
+
+void Viewer::show_one_picture() {
+    const WindowInput input = window_.take_input();
+    state_.in_front = input.focus.in_front();
+    take_news();
+    obey_keys(input);
+    take_dropped(input.dropped);
+    state_.window_width = static_cast<float>(window_.framebuffer_size().x);
+    const glm::ivec2 viewport = relief_viewport();
+    move_hand(input, viewport);
+    draw_scene(viewport);
+    draw_panels();
+    carry_out_requests();
+    hand_over_settings();
+    keep_settings();
+    window_.show_picture();
+}
+
+void Viewer::take_news() {
+    state_.playback = player_.status();
+    if (loop_) state_.haptic = haptic_state_.front();
+    if (replay_.player() != nullptr) replay_.advance(state_);
+    if (const auto notice = falcon_.take_news(state_)) tell(*notice);
+    for (const Action action : falcon_.take_presses(state_)) obey(action);
+    state_.touched = state_.touched || state_.haptic.touch.proxy.contact;
+    if (!state_.grants && loop_) state_.grants = loop_->grants();
+    recording_.take_news(state_);
+    for (ForceSample sample; forces_->pop(sample);) state_.forces.add(sample.sent_newton);
+    state_.pictures_per_s = pace_.pictures_per_s();
+    take_opened();
+    tell_once(state_.replay ? state_.replay->playback.failure : state_.playback.failure,
+              playback_failure_);
+    collect_screenshots();
+}
+
+void Viewer::obey_keys(const WindowInput& input) {
+    if (gui_.wants_keyboard()) state_.fields.ask_for_keyboard = 0;
+    // A name typed right after Ctrl+O is no key, even before the field has the keyboard.
+    const bool typing = gui_.wants_keyboard() || state_.fields.ask_for_keyboard > 0;
+    for (const KeyPress& press : input.keys) {
+        if (const auto action = action_of_key(press.key, press.control, typing, press.repeated))
+            obey(*action);
+    }
+    if (typing) return;
+    for (const TypedCharacter& typed : input.characters) {
+        if (const auto action = action_of_character(typed.code, typed.repeated)) obey(*action);
+    }
+}
+
+void Viewer::obey(Action action) {
+    SessionPlayer* const replay = replay_.player();
+    if (replay != nullptr && perform_in_replay(action, *replay)) return;
+    perform(action, state_, player_);
+}
+
+void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {
+    const FrameWindow& frames = player_.picture().front();
+    shown_ = frames.at(frames.clock.playback_s(steady_clock::now()));
+    if (state_.replay) shown_ = replay_.shown();
+    const Pointer pointer = window_.pointer();
+    PointerUse use =
+        mouse_.use(pointer, input.wheel_steps, gui_.wants_pointer(), viewport, camera_);
+    // While the Falcon touches the mouse only points, so that it does not take over pressing.
+    if (hand_.falcon != nullptr && !state_.haptic.hand.stand_in) use.pressed = false;
+    if (state_.replay || hand_.mouse == nullptr || !shown_.makes_surface()) return;
+    const DepthSurface surface(*shown_.from->depth, *shown_.to->depth, shown_.blend,
+                               state_.settings.touch.shape, state_.bump.get());
+    const Camera::Ray ray = camera_.ray_under(pointer.position_px, viewport);
+    hand_.mouse->target().publish(pointer_.target(ray, surface, use));
+}
+
+void Viewer::draw_scene(glm::ivec2 viewport) {
+    camera_.set_projection(state_.settings.straight_view ? Camera::Projection::straight
+                                                         : Camera::Projection::perspective);
+    scene_.draw(scene_content(state_, shown_), camera_, viewport);
+}
+
+void Viewer::draw_panels() {
+    gui_.begin();
+    if (state_.settings.panels_visible) {
+        draw_panel_column(state_, player_, replay_.player());
+        if (SessionPlayer* const replay = replay_.player()) {
+            draw_replay_bar(state_, *replay);
+        } else {
+            draw_transport_bar(state_, player_);
+        }
+    }
+    if (state_.touched) hint_alpha_ = std::max(0.0F, hint_alpha_ - 0.03F);
+    const bool mouse_touches = !state_.replay && hand_.mouse != nullptr &&
+                               (hand_.falcon == nullptr || state_.haptic.hand.stand_in);
+    if (mouse_touches && state_.message.empty()) draw_hint(state_, hint_alpha_);
+    draw_overlay(state_, now_s());
+    draw_help_sheet(state_);
+    draw_message_box(state_);
+    gui_.end();
+}
+
+void Viewer::carry_out_requests() {
+    if (state_.replay) replay_.obey_panels(state_);
+    const Requests asked = std::exchange(state_.requests, {});
+    if (asked.open && !opening_.start(*asked.open)) tell("Still opening the last files");
+    if (asked.bump) load_bump(*asked.bump);
+    if (asked.firmware) load_firmware(*asked.firmware);
+    if (asked.reset_view) frame_relief();
+    if (asked.full_screen) window_.toggle_full_screen();
+    if (asked.toggle_recording) start_or_stop_recording();
+    if (asked.mark) tell(recording_.mark(state_));
+    if (asked.leave_replay && !opening_.start({state_.media.colour_path, state_.media.depth_path}))
+        tell("Still opening the last files");
+    if (asked.screenshot) screenshots_.save(read_framebuffer(window_.framebuffer_size()));
+    if (asked.quit) window_.close();
+}
+
+void Viewer::hand_over_settings() {
+    if (state_.replay) return;
+    const TouchParameters parameters = touch_parameters(state_);
+    const SafetyLimits limits = safety_limits(state_);
+    const bool force_enabled = state_.force_enabled && !waits_for_front(state_);
+    const bool same = handed_.version > 0 && handed_.parameters == parameters &&
+                      handed_.limits == limits && !falcon_.tuning_changed(state_) &&
+                      handed_.force_enabled == force_enabled && handed_.bump == state_.bump;
+    const bool recording = recording_.active();
+    if (!same || handed_.recording != recording) {
+        handed_ = {parameters,  limits,    force_enabled,
+                   state_.bump, recording, handed_.version + (same ? 0 : 1)};
+        recording_.hand_over(handed_, state_.bump_file);
+        haptic_settings_.publish(handed_);
+    }
+    // After the above, so that the force is already rising from zero when the goal moves elsewhere.
+    if (falcon_.tuning_changed(state_)) falcon_.hand_over(state_);
+    if (!(cleaning_handed_ == state_.settings.cleaning)) {
+        cleaning_handed_ = state_.settings.cleaning;
+        player_.set_cleaning(cleaning_handed_);
+    }
+}
+
+void Viewer::keep_settings() {
+    const glm::ivec2 size = window_.window_size();
+    state_.settings.width = size.x;
+    state_.settings.height = size.y;
+    try {
+        keeper_.look(replay_.lasting(state_), now_s());
+    } catch (const InputError& error) {
+        state_.message = error.what();
+    }
+}
+
+void Viewer::start_or_stop_recording() {
+    if (state_.replay) {
+        tell("A replay is not recorded: open a video to touch");
+    } else if (recording_.active()) {
+        tell(recording_.stop(state_));
+    } else if (handed_.recording) {
+        state_.requests.toggle_recording = true;  // when the loop has seen the last one's end
+    } else {
+        try {
+            const std::string file = new_file_name("dibhr");
+            recording_.start(file, state_);
+            state_.show_session = true;
+            tell("Recording into " + file);
+        } catch (const InputError& error) {
+            state_.message = error.what();
+        }
+    }
+}
+
+void Viewer::collect_screenshots() {
+    try {
+        while (const auto notice = screenshots_.take()) tell(*notice);
+    } catch (const InputError& error) {
+        state_.message = error.what();
+    }
+}
+
+void Viewer::write_last_picture() {
+    if (options_.screenshot.empty()) return;
+    // Drawn again: what a buffer holds after it was shown is up to the driver.
+    draw_scene(relief_viewport());
+    draw_panels();
+    write_png(read_framebuffer(window_.framebuffer_size()), options_.screenshot);
+}
+
+void Viewer::tell_once(const std::string& failure, std::string& told) {
+    if (failure == told) return;
+    told = failure;
+    if (!failure.empty()) state_.message = failure;
+}
+
+void Viewer::tell(const std::string& notice) {
+    state_.notice = notice;
+    state_.notice_until_s = now_s() + kNoticeTime_s;
+}
+
+double Viewer::now_s() const {
+    return std::chrono::duration<double>(steady_clock::now() - start_).count();
+}
+
+bool Viewer::over() {
+    return signals_.arrived() || window_.wants_to_close() ||
+           (options_.seconds && now_s() >= *options_.seconds);
+}
+
+glm::ivec2 Viewer::relief_viewport() const {
+    glm::ivec2 size = window_.framebuffer_size();
+    size.x -= static_cast<int>(panel_column_width(state_));
+    return glm::max(size, glm::ivec2(1));
+}
+
+}  // namespace dibhr

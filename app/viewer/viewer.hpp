@@ -1,0 +1,112 @@
+// The viewer: one window, one player, one hand, one haptic loop.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/panels/viewer_state.hpp"
+#include "app/settings/keys.hpp"
+#include "app/viewer/falcon.hpp"
+#include "app/viewer/files.hpp"
+#include "app/viewer/keeping.hpp"
+#include "app/viewer/mouse.hpp"
+#include "app/viewer/opening.hpp"
+#include "app/viewer/recording.hpp"
+#include "app/viewer/replay.hpp"
+#include "app/viewer/view_options.hpp"
+#include "app/window/gui.hpp"
+#include "app/window/pace.hpp"
+#include "app/window/signals.hpp"
+#include "app/window/window.hpp"
+#include "core/loop/haptic_loop.hpp"
+#include "device/hand_device.hpp"
+#include "render/camera.hpp"
+#include "render/scene_view.hpp"
+
+namespace dibhr {
+
+/// What run_viewer() opened before there was a window.
+struct ViewerParts {
+    std::unique_ptr<Media> media{};
+    std::unique_ptr<OpenedSession> session{};  ///< to be replayed, in place of media
+    HandDevice hand{};
+    std::shared_ptr<const BumpMap> bump{};
+};
+
+class Viewer {
+  public:
+    /// Opens the window and starts the loop. `signals` must outlive it. Throws Error.
+    Viewer(const ViewOptions& options, ViewerParts parts, EndingSignals& signals);
+
+    /// Until the window is closed or the asked time is over. Throws InputError when the last
+    /// picture or the settings cannot be written.
+    void run();
+
+  private:
+    void show_one_picture();
+    void take_news();
+    void take_opened();
+    void obey_keys(const WindowInput& input);
+    void obey(Action action);
+    void take_dropped(const std::vector<std::filesystem::path>& files);
+    void move_hand(const WindowInput& input, glm::ivec2 viewport);
+    void draw_scene(glm::ivec2 viewport);
+    void draw_panels();
+    void carry_out_requests();
+    void hand_over_settings();
+    void keep_settings();
+    void show_media(std::unique_ptr<Media> media);
+    void replay_session(std::unique_ptr<OpenedSession> session);
+    void show_title(const std::filesystem::path& file);
+    void start_loop();
+    void frame_relief();
+    void load_bump(const std::filesystem::path& file);
+    void load_firmware(const std::filesystem::path& file);
+    void start_or_stop_recording();
+    void collect_screenshots();
+    void finish();
+    void write_last_picture();
+    void tell(const std::string& notice);
+    /// A message box when another thread's failure is not the one `told` before.
+    void tell_once(const std::string& failure, std::string& told);
+    [[nodiscard]] double now_s() const;
+    [[nodiscard]] bool over();
+    [[nodiscard]] glm::ivec2 relief_viewport() const;
+
+    // In order of making; the loop goes first, so that the hand is at rest before anything else
+    // ends.
+    ViewOptions options_;
+    EndingSignals& signals_;
+    HandDevice hand_;
+    Window window_;
+    Gui gui_;
+    SceneView scene_{};
+    PicturePace pace_;
+    Camera camera_{};
+    ReliefMouse mouse_{};
+    HandPointer pointer_{};
+    ViewerState state_{};
+    ViewerFalcon falcon_;
+    Opening opening_{};
+    Screenshots screenshots_{};
+    SettingsKeeper keeper_;
+    HapticSettings handed_{};
+    CleaningOptions cleaning_handed_{};
+    DepthBlend shown_{};  // of the picture being made
+    float hint_alpha_{1.0F};
+    std::string playback_failure_{};  // as told
+    std::chrono::steady_clock::time_point start_{};
+    Player player_{};
+    TripleBuffer<HapticSettings> haptic_settings_{};
+    TripleBuffer<HapticState> haptic_state_{};
+    std::unique_ptr<ForceRing> forces_;
+    std::unique_ptr<TickRing> ticks_;
+    ViewerRecording recording_;
+    ViewerReplay replay_{};
+    std::unique_ptr<HapticLoop> loop_;  // null in a replay: no hand is read, no force is sent
+};
+
+}  // namespace dibhr

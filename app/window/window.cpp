@@ -1,0 +1,171 @@
+// The window, through GLFW.
+#include "app/window/window.hpp"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+#include "app/settings/settings.hpp"
+#include "core/error.hpp"
+
+namespace dibhr {
+
+namespace {
+
+WindowInput& input_of(GLFWwindow* window) {
+    return *static_cast<WindowInput*>(glfwGetWindowUserPointer(window));
+}
+
+bool pressed(GLFWwindow* window, int button) {
+    return glfwGetMouseButton(window, button) == GLFW_PRESS;
+}
+
+bool key_down(GLFWwindow* window, int key) {
+    return glfwGetKey(window, key) == GLFW_PRESS;
+}
+
+/// Newer GLFW tries Wayland first and complains on stderr where there is none.
+void choose_display_server() {
+#ifdef GLFW_PLATFORM
+    const char* const wayland = std::getenv("WAYLAND_DISPLAY");
+    if (wayland == nullptr || *wayland == '\0') glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
+}
+
+GLFWwindow* open_window(int width, int height, const std::string& title) {
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    glfwWindowHint(GLFW_DEPTH_BITS, 24);
+    return glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
+}
+
+}  // namespace
+
+Window::Window(int width, int height, bool sync, const std::string& title) : size_{width, height} {
+    choose_display_server();
+    if (glfwInit() != GLFW_TRUE) {
+        throw DeviceError(
+            "no display: set DISPLAY, or unset it and use ./app/run, which makes a virtual one");
+    }
+    window_ = open_window(width, height, title);
+    if (window_ == nullptr) {
+        const char* reason = nullptr;
+        glfwGetError(&reason);
+        const std::string text = reason != nullptr ? reason : "no reason given";
+        glfwTerminate();
+        throw DeviceError("cannot open a window with OpenGL 3.3 (" + text +
+                          "): install a graphics driver, or libgl1-mesa-dri for software drawing");
+    }
+    glfwMakeContextCurrent(window_);
+    glfwSwapInterval(sync ? 1 : 0);
+    glfwSetWindowSizeLimits(window_, kSmallestWindow, kSmallestWindow, GLFW_DONT_CARE,
+                            GLFW_DONT_CARE);
+    glfwSetWindowUserPointer(window_, &input_);
+    collect_events();
+}
+
+Window::~Window() {
+    glfwDestroyWindow(window_);
+    glfwTerminate();
+}
+
+void Window::collect_events() {
+    glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int mods) {
+        if (action == GLFW_RELEASE) return;
+        input_of(window).keys.push_back(
+            {key, (mods & GLFW_MOD_CONTROL) != 0, action == GLFW_REPEAT});
+    });
+    glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned character) {
+        WindowInput& input = input_of(window);
+        // GLFW tells a character right after the key that typed it.
+        const bool repeated = !input.keys.empty() && input.keys.back().repeated;
+        input.characters.push_back({character, repeated});
+    });
+    glfwSetScrollCallback(
+        window_, [](GLFWwindow* window, double, double up) { input_of(window).wheel_steps += up; });
+    glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** files) {
+        input_of(window).dropped.assign(files, files + count);
+    });
+    glfwSetWindowFocusCallback(window_, [](GLFWwindow* window, int given) {
+        WindowFocus& focus = input_of(window).focus;
+        focus.has = given == GLFW_TRUE;
+        focus.had = true;  // also by losing it
+    });
+    glfwSetWindowIconifyCallback(window_, [](GLFWwindow* window, int iconified) {
+        input_of(window).focus.iconified = iconified == GLFW_TRUE;
+    });
+}
+
+bool Window::wants_to_close() const {
+    return glfwWindowShouldClose(window_) == GLFW_TRUE;
+}
+
+void Window::close() {
+    glfwSetWindowShouldClose(window_, GLFW_TRUE);
+}
+
+WindowInput Window::take_input() {
+    glfwPollEvents();
+    return std::exchange(input_, {.focus = input_.focus});
+}
+
+Pointer Window::pointer() const {
+    glm::dvec2 position{0.0};
+    glfwGetCursorPos(window_, &position.x, &position.y);
+    int width = 1;
+    int height = 1;
+    glfwGetWindowSize(window_, &width, &height);
+    const glm::dvec2 pixels_per_unit = glm::dvec2(framebuffer_size()) / glm::dvec2(width, height);
+    return {position * pixels_per_unit, pressed(window_, GLFW_MOUSE_BUTTON_LEFT),
+            pressed(window_, GLFW_MOUSE_BUTTON_MIDDLE), pressed(window_, GLFW_MOUSE_BUTTON_RIGHT),
+            key_down(window_, GLFW_KEY_LEFT_SHIFT) || key_down(window_, GLFW_KEY_RIGHT_SHIFT)};
+}
+
+glm::ivec2 Window::framebuffer_size() const {
+    glm::ivec2 size{0};
+    glfwGetFramebufferSize(window_, &size.x, &size.y);
+    return size;
+}
+
+glm::ivec2 Window::window_size() const {
+    if (glfwGetWindowMonitor(window_) != nullptr) return size_;
+    glm::ivec2 size{0};
+    glfwGetWindowSize(window_, &size.x, &size.y);
+    return size;
+}
+
+float Window::content_scale() const {
+    float x = 1.0F;
+    float y = 1.0F;
+    glfwGetWindowContentScale(window_, &x, &y);
+    return std::isfinite(x) && x > 0.5F ? x : 1.0F;
+}
+
+void Window::set_title(const std::string& title) {
+    glfwSetWindowTitle(window_, title.c_str());
+}
+
+void Window::toggle_full_screen() {
+    if (glfwGetWindowMonitor(window_) != nullptr) {
+        glfwSetWindowMonitor(window_, nullptr, place_.x, place_.y, size_.x, size_.y,
+                             GLFW_DONT_CARE);
+        return;
+    }
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
+    if (mode == nullptr) return;
+    glfwGetWindowPos(window_, &place_.x, &place_.y);
+    size_ = window_size();
+    glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+void Window::show_picture() {
+    glfwSwapBuffers(window_);
+}
+
+}  // namespace dibhr

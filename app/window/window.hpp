@@ -1,0 +1,87 @@
+// The program's window with its OpenGL context, and what people did in it.
+#pragma once
+
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+struct GLFWwindow;
+
+namespace dibhr {
+
+/// A key as GLFW tells it.
+struct KeyPress {
+    int key{0};
+    bool control{false};
+    bool repeated{false};  ///< the key is being held down
+};
+
+struct TypedCharacter {
+    unsigned code{0};  ///< Unicode code point
+    bool repeated{false};
+};
+
+/// Whether people work in the window, as the display server has told it.
+struct WindowFocus {
+    bool had{false};  ///< the keyboard has been given to it, so that it can be lost
+    bool has{false};
+    bool iconified{false};
+
+    /// Never given a keyboard, as without a window manager, it has not lost one either.
+    [[nodiscard]] bool in_front() const { return !iconified && (has || !had); }
+};
+
+/// What happened since the last call of Window::take_input().
+struct WindowInput {
+    std::vector<KeyPress> keys{};
+    std::vector<TypedCharacter> characters{};
+    std::vector<std::filesystem::path> dropped{};
+    double wheel_steps{0.0};  ///< > 0: away from the person
+    WindowFocus focus{};      ///< now
+};
+
+/// The pointer now; position in pixels of the framebuffer from the upper left.
+struct Pointer {
+    glm::dvec2 position_px{0.0};
+    bool left{false};
+    bool middle{false};
+    bool right{false};
+    bool shift{false};
+};
+
+/// One window with a current OpenGL 3.3 core context. Belongs to the thread that made it.
+class Window {
+  public:
+    /// `width` x `height` pixels exactly. Throws DeviceError without a display or OpenGL 3.3.
+    Window(int width, int height, bool sync, const std::string& title);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    [[nodiscard]] bool wants_to_close() const;
+    void close();
+
+    /// Looks for events, without waiting.
+    WindowInput take_input();
+    [[nodiscard]] Pointer pointer() const;
+    [[nodiscard]] glm::ivec2 framebuffer_size() const;
+    [[nodiscard]] glm::ivec2 window_size() const;  ///< when not on the full screen [screen units]
+    [[nodiscard]] float content_scale() const;     ///< 1 on an ordinary display
+    void set_title(const std::string& title);
+    void toggle_full_screen();
+    void show_picture();  ///< swaps; waits for the display when in sync
+
+    [[nodiscard]] GLFWwindow* handle() const { return window_; }
+
+  private:
+    void collect_events();
+
+    GLFWwindow* window_{nullptr};
+    WindowInput input_{};
+    glm::ivec2 place_{0};  // before the full screen
+    glm::ivec2 size_{0};
+};
+
+}  // namespace dibhr

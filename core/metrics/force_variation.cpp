@@ -1,0 +1,84 @@
+// Angles between the forces of successive updates.
+#include "core/metrics/force_variation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace dibhr {
+
+namespace {
+
+constexpr double kDegPerRad = 180.0 / 3.14159265358979323846;
+
+/// Mean and standard deviation, gathered one by one (Welford).
+class Spread {
+  public:
+    void add(double value) noexcept {
+        ++count_;
+        const double off = value - mean_;
+        mean_ += off / static_cast<double>(count_);
+        squares_ += off * (value - mean_);
+    }
+    [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
+    [[nodiscard]] double mean() const noexcept { return mean_; }
+    [[nodiscard]] double sd() const noexcept {
+        return count_ == 0 ? 0.0 : std::sqrt(squares_ / static_cast<double>(count_));
+    }
+
+  private:
+    std::uint64_t count_{0};
+    double mean_{0.0};
+    double squares_{0.0};
+};
+
+Vec2 along_image(Vec3 v) noexcept {
+    return {v.x, v.y};
+}
+
+}  // namespace
+
+double angle_between_rad(Vec3 a, Vec3 b) noexcept {
+    // Not the arc cosine, which rounds angles below 1e-8 away.
+    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+std::vector<char> reversal_updates(std::span<const Vec3> goals, std::span<const double> depths_px,
+                                   double mu) {
+    std::vector<char> reversal(goals.size(), 0);
+    if (goals.empty()) return reversal;
+    Vec2 turn = along_image(goals[0]);
+    Vec2 heading{0.0};  // the last step that was one: a pause is no turn
+    bool reversing = true;
+    reversal[0] = 1;
+    for (std::size_t k = 1; k < goals.size(); ++k) {
+        const Vec2 step = along_image(goals[k] - goals[k - 1]);
+        if (glm::dot(step, heading) < 0.0) {
+            turn = along_image(goals[k - 1]);
+            reversing = true;
+        }
+        if (step != Vec2(0.0)) heading = step;
+        reversal[k] = reversing ? 1 : 0;
+        const double dragged_px = 2.0 * mu * std::max(depths_px[k], 0.0);
+        if (glm::length(along_image(goals[k]) - turn) >= dragged_px) reversing = false;
+    }
+    return reversal;
+}
+
+VariationStatistics force_variation(std::span<const Vec3> goals, std::span<const Vec3> proxies,
+                                    std::span<const char> contact, std::span<const char> reversal,
+                                    std::size_t settling_updates) {
+    Spread all;
+    Spread sliding;
+    for (std::size_t k = 1; k < goals.size(); ++k) {
+        if (contact[k - 1] == 0 || contact[k] == 0) continue;
+        const double turned_deg =
+            kDegPerRad * angle_between_rad(proxies[k - 1] - goals[k - 1], proxies[k] - goals[k]);
+        all.add(turned_deg);
+        if (k >= settling_updates && reversal[k] == 0) sliding.add(turned_deg);
+    }
+    return {all.mean(), all.sd(), sliding.mean(), sliding.sd(), all.count(), sliding.count()};
+}
+
+}  // namespace dibhr

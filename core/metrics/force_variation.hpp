@@ -1,0 +1,44 @@
+// How smoothly the force turns, and how far it is from another one.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/haptics/vec.hpp"
+
+namespace dibhr {
+
+/// How the direction of the force turned from one update to the next, both in contact [deg].
+struct VariationStatistics {
+    double mean_deg{0.0};
+    double sd_deg{0.0};
+    /// While it slides: without the updates in which the goal reverses, and without the path's
+    /// settling.
+    double mean_without_reversals_deg{0.0};
+    double sd_without_reversals_deg{0.0};
+    std::uint64_t pairs{0};                    ///< of updates the first two are taken over
+    std::uint64_t pairs_without_reversals{0};  ///< and the last two
+};
+
+/// Angle between two directions [rad], exact for the smallest ones too; 0 when either has no
+/// length.
+[[nodiscard]] double angle_between_rad(Vec3 a, Vec3 b) noexcept;
+
+/// The updates in which a motion along the image reverses: from the one in which it turns by more
+/// than 90 degrees up to the one in which it is as far from there as a proxy that the friction
+/// holds needs to be dragged again, 2 mu depth. The motion's start counts as such a turn.
+/// `depths_px`: of each goal below the surface.
+[[nodiscard]] std::vector<char> reversal_updates(std::span<const Vec3> goals,
+                                                 std::span<const double> depths_px, double mu);
+
+/// Variation of the force `proxy - goal` of successive updates, both in contact. The first
+/// `settling_updates`, and those marked in `reversal`, count in the first two numbers only.
+[[nodiscard]] VariationStatistics force_variation(std::span<const Vec3> goals,
+                                                  std::span<const Vec3> proxies,
+                                                  std::span<const char> contact,
+                                                  std::span<const char> reversal,
+                                                  std::size_t settling_updates);
+
+}  // namespace dibhr

@@ -1,0 +1,70 @@
+// A plot's frame: axes with round tick marks, and the way from values to the canvas.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/haptics/vec.hpp"
+#include "core/plot/canvas.hpp"
+
+namespace dibhr {
+
+/// From `low` to `high`; low > high turns the axis around, as for an image's rows.
+struct ValueSpan {
+    double low{0.0};
+    double high{1.0};
+};
+
+/// Multiples of 1, 2 or 5 times a power of ten inside the span, ascending, at most `most` of them
+/// (at least 2).
+[[nodiscard]] std::vector<double> round_ticks(ValueSpan span, int most);
+
+/// Powers of ten inside the span, both ends positive, ascending, at most `most` (at least 2).
+[[nodiscard]] std::vector<double> decade_ticks(ValueSpan span, int most);
+
+/// Short and exact for a round number: "0.05", "20".
+[[nodiscard]] std::string tick_text(double value);
+
+/// A power of ten: "0.01" to "1000" in full, others as "1e-12".
+[[nodiscard]] std::string decade_text(double value);
+
+/// `value` with so many digits after the point; "0" for an exact zero.
+[[nodiscard]] std::string fixed_text(double value, int digits);
+
+struct Axis {
+    ValueSpan span{};
+    std::string label{};  ///< with its unit
+    bool logarithmic{false};
+    bool numbered{true};
+    int most_ticks{7};
+    std::vector<double> ticks{};  ///< empty: round ones are chosen
+};
+
+/// The axes around `area`. A value outside the spans lies outside the area; a logarithmic axis
+/// takes what is not positive as its low end.
+class Axes {
+  public:
+    Axes(Box area, Axis x, Axis y);
+
+    [[nodiscard]] const Box& area() const noexcept { return area_; }
+    /// Where (x, y) is on the canvas.
+    [[nodiscard]] Vec2 at(double x, double y) const noexcept;
+    [[nodiscard]] Vec2 at(Vec2 value) const noexcept { return at(value.x, value.y); }
+
+    /// Ground and grid lines, before the data.
+    void draw_ground(Canvas& canvas) const;
+    /// Frame, ticks, numbers and labels, after it.
+    void draw_frame(Canvas& canvas) const;
+
+    /// A line through the values over rising x, inside the area; a NaN value breaks it. Where many
+    /// values share a pixel only their range is drawn.
+    void draw_series(Canvas& canvas, std::span<const Vec2> values, const Stroke& stroke) const;
+
+  private:
+    Box area_;
+    Axis x_;
+    Axis y_;
+};
+
+}  // namespace dibhr

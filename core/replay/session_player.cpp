@@ -1,0 +1,304 @@
+// The clock of a replay, and the thread that reads ahead of it.
+#include "core/replay/session_player.hpp"
+
+#include <pthread.h>
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <exception>
+#include <iterator>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace dibhr {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kTicksAhead = 400.0;  // at speed 1; what is decoded meanwhile does not show
+constexpr std::size_t kBatch = 25;
+constexpr double kLowestSpeed = 0.1;
+constexpr double kHighestSpeed = 4.0;
+
+}  // namespace
+
+struct SessionPlayer::Implementation {
+    /// Where to read on.
+    struct Order {
+        double from_s{0.0};
+        std::optional<std::int64_t> before_tick{};  ///< instead: the tick before this one
+        std::optional<TouchParameters> other{};
+        bool preview{false};  ///< what was recorded there is shown until the rest is computed
+    };
+
+    explicit Implementation(std::unique_ptr<OpenedSession> session)
+        : opened(std::move(session)), moments(*opened) {
+        playback.begin_s = playback.now_s = opened->session.begin_s();
+        playback.end_s = opened->session.end_s();
+        go_to({playback.begin_s, {}, {}, false});
+        thread = std::thread([this] { run(); });
+    }
+
+    ~Implementation() {
+        {
+            const std::lock_guard lock(mutex);
+            leaving = superseded = true;
+        }
+        asked.notify_one();
+        thread.join();
+    }
+
+    Implementation(const Implementation&) = delete;
+    Implementation& operator=(const Implementation&) = delete;
+
+    // The window's thread.
+
+    /// While the last jump has not arrived, the next one waits: pictures keep coming in a drag.
+    void go_to(Order wanted) {
+        playback.now_s = wanted.from_s;
+        if (jumping) {
+            next_jump = std::move(wanted);
+            return;
+        }
+        jumping = true;
+        steps = 0;
+        {
+            const std::lock_guard lock(mutex);
+            waiting_order = std::move(wanted);
+            superseded = true;
+            ahead.clear();
+            complete = false;
+            failure.clear();
+        }
+        asked.notify_one();
+    }
+
+    void anchor(double at_s) {
+        playback.now_s = at_s;
+        anchored_s = at_s;
+        anchored = Clock::now();
+    }
+
+    void take_due(const std::function<void(const SessionMoment&)>& passed) {
+        double due_s = playback.now_s;
+        if (playback.playing && !jumping) {
+            const std::chrono::duration<double> since = Clock::now() - anchored;
+            due_s = anchored_s + playback.speed * since.count();
+        }
+        bool all_taken = false;
+        {
+            const std::lock_guard lock(mutex);
+            playback.failure = failure;
+            if (jumping) arrive();
+            while (!ahead.empty() && (is_due(ahead.front(), due_s) || due_now)) {
+                take_next();
+                passed(*moment);
+            }
+            all_taken = ahead.empty() && complete;
+            playback.waiting = ahead.empty() && !complete;
+        }
+        asked.notify_one();
+        if (jumping) return;
+        if (playback.playing) go_on(due_s, all_taken);
+        if (next_jump) go_to(*std::exchange(next_jump, std::nullopt));
+    }
+
+    [[nodiscard]] bool is_due(const SessionMoment& next, double due_s) const {
+        return !jumping && playback.playing && next.tick.t_s <= due_s;
+    }
+
+    /// The first moment after a jump is shown at once.
+    void arrive() {
+        if (ahead.empty() && !complete) return;
+        jumping = false;
+        due_now = !ahead.empty();
+    }
+
+    void take_next() {
+        moment = std::move(ahead.front());
+        ahead.pop_front();
+        if (std::exchange(due_now, false)) anchor(moment->tick.t_s);
+        if (!playback.playing) playback.now_s = moment->tick.t_s;
+        if (steps > 0) due_now = --steps > 0;
+        due_now = due_now || moment->preview;
+    }
+
+    void go_on(double due_s, bool all_taken) {
+        playback.now_s = std::clamp(due_s, playback.begin_s, playback.end_s);
+        if (all_taken && playback.looping && playback.failure.empty()) {
+            go_to({playback.begin_s, {}, other, true});
+        } else if (all_taken) {
+            playback.playing = false;
+        } else if (playback.waiting && moment) {
+            anchor(moment->tick.t_s);  // the clock waits for what is read
+        }
+    }
+
+    // The reading thread.
+
+    void run() {
+        pthread_setname_np(pthread_self(), "dibhr-session");
+        std::unique_lock lock(mutex);
+        for (;;) {
+            asked.wait(lock, [this] { return leaving || waiting_order || hungry(); });
+            if (leaving) return;
+            if (waiting_order) order = *std::exchange(waiting_order, std::nullopt);
+            superseded = false;
+            lock.unlock();
+            std::vector<SessionMoment> read;
+            bool at_end = false;
+            const std::string trouble = attempt([&] { at_end = !read_on(read); });
+            lock.lock();
+            if (waiting_order) continue;  // nobody wants these any more
+            std::move(read.begin(), read.end(), std::back_inserter(ahead));
+            complete = at_end || !trouble.empty();
+            if (!trouble.empty()) failure = trouble;
+        }
+    }
+
+    [[nodiscard]] bool hungry() const {
+        return !complete && static_cast<double>(ahead.size()) < ticks_ahead;
+    }
+
+    /// False at the end.
+    bool read_on(std::vector<SessionMoment>& read) {
+        const bool preview = order && order->preview && order->other;
+        // After a jump one moment is enough to show.
+        const std::size_t most = order ? 1 : kBatch;
+        if (order) {
+            if (order->before_tick) order->from_s = moments.time_before(*order->before_tick);
+            order->before_tick.reset();
+            moments.begin(order->from_s, preview ? std::nullopt : order->other);
+        }
+        while (read.size() < most) {
+            std::optional<SessionMoment> next = moments.next(superseded);
+            if (!next) return false;
+            next->preview = preview;
+            read.push_back(std::move(*next));
+        }
+        order =
+            preview ? std::optional(Order{order->from_s, {}, order->other, false}) : std::nullopt;
+        return true;
+    }
+
+    template <typename Step>
+    static std::string attempt(Step step) {
+        try {
+            step();
+        } catch (const Error& error) {
+            return error.what();
+        } catch (const std::exception& error) {
+            return std::string("the replay broke off (") + error.what() + "): open it again";
+        }
+        return {};
+    }
+
+    const std::unique_ptr<OpenedSession> opened;
+
+    // The reading thread's.
+    SessionMoments moments;
+    std::optional<Order> order{};  // where to begin with the next reading
+
+    // The window's thread's.
+    SessionPlayback playback{};
+    std::optional<SessionMoment> moment{};
+    std::optional<TouchParameters> other{};
+    std::optional<Order> next_jump{};
+    Clock::time_point anchored{Clock::now()};
+    double anchored_s{0.0};
+    bool jumping{false};
+    bool due_now{false};  // the next moment, whatever the clock says
+    int steps{0};
+
+    // Everybody's, under the mutex.
+    std::mutex mutex{};
+    std::condition_variable asked{};
+    std::optional<Order> waiting_order{};
+    std::deque<SessionMoment> ahead{};
+    double ticks_ahead{kTicksAhead};
+    bool complete{false};  // no tick follows those that are ahead
+    std::string failure{};
+    bool leaving{false};
+    std::atomic<bool> superseded{false};  // what is read is not wanted any more
+
+    std::thread thread{};
+};
+
+SessionPlayer::SessionPlayer(std::unique_ptr<OpenedSession> opened)
+    : implementation_(std::make_unique<Implementation>(std::move(opened))) {}
+
+SessionPlayer::~SessionPlayer() = default;
+
+void SessionPlayer::play() {
+    Implementation& here = *implementation_;
+    if (here.playback.playing) return;
+    here.playback.playing = true;
+    here.anchor(here.playback.now_s);
+    if (here.playback.now_s >= here.playback.end_s) seek(here.playback.begin_s);
+}
+
+void SessionPlayer::pause() {
+    Implementation& here = *implementation_;
+    here.playback.playing = false;
+    if (here.moment && !here.jumping) here.playback.now_s = here.moment->tick.t_s;
+}
+
+void SessionPlayer::seek(double t_s) {
+    Implementation& here = *implementation_;
+    const double within_s = std::clamp(t_s, here.playback.begin_s, here.playback.end_s);
+    here.go_to({within_s, {}, here.other, true});
+}
+
+void SessionPlayer::step(int ticks) {
+    Implementation& here = *implementation_;
+    pause();
+    if (!here.moment || here.jumping) return;
+    if (ticks > 0) {
+        here.steps += ticks;
+        here.due_now = true;
+    } else if (ticks < 0) {
+        here.go_to({here.playback.now_s, here.moment->tick.tick, here.other, true});
+    }
+}
+
+void SessionPlayer::set_looping(bool looping) {
+    implementation_->playback.looping = looping;
+}
+
+void SessionPlayer::set_speed(double speed) {
+    Implementation& here = *implementation_;
+    here.anchor(here.playback.now_s);
+    here.playback.speed = std::clamp(speed, kLowestSpeed, kHighestSpeed);
+    const std::lock_guard lock(here.mutex);
+    here.ticks_ahead = kTicksAhead * std::max(1.0, here.playback.speed);
+}
+
+void SessionPlayer::compute(const std::optional<TouchParameters>& other) {
+    Implementation& here = *implementation_;
+    here.other = other;
+    here.go_to({here.playback.now_s, {}, other, false});
+}
+
+void SessionPlayer::advance(const std::function<void(const SessionMoment&)>& passed) {
+    implementation_->take_due(passed);
+}
+
+const SessionMoment* SessionPlayer::moment() const {
+    const auto& moment = implementation_->moment;
+    return moment ? &*moment : nullptr;
+}
+
+const SessionPlayback& SessionPlayer::playback() const {
+    return implementation_->playback;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,58 @@
+// Plays a session: its ticks are read, their frames decoded and other parameters computed ahead on
+// a thread of its own; the window takes what is due.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/haptics/parameters.hpp"
+#include "core/replay/moments.hpp"
+
+namespace dibhr {
+
+/// What the window shows of it. Times are those of the ticks.
+struct SessionPlayback {
+    bool playing{true};
+    bool looping{false};
+    double speed{1.0};
+    double now_s{0.0};
+    double begin_s{0.0}, end_s{0.0};
+    bool waiting{false};    ///< for ticks that are being read
+    std::string failure{};  ///< a plain sentence when reading broke off; empty otherwise
+};
+
+/// All of it belongs to the window's thread; nothing waits for a disk or for decoding.
+class SessionPlayer {
+  public:
+    /// Begins to play from the first tick on.
+    explicit SessionPlayer(std::unique_ptr<OpenedSession> opened);
+    ~SessionPlayer();  ///< ends its thread
+    SessionPlayer(const SessionPlayer&) = delete;
+    SessionPlayer& operator=(const SessionPlayer&) = delete;
+
+    void play();  ///< at the end: from the beginning
+    void pause();
+    void seek(double t_s);  ///< keeps playing or paused; of many in a row the last one counts
+    void step(int ticks);   ///< pauses, then moves by that many ticks forth, or by one back
+    void set_looping(bool looping);
+    void set_speed(double speed);  ///< 0.1 .. 4
+    /// What these parameters give is computed from now on; nothing: as recorded.
+    void compute(const std::optional<TouchParameters>& other);
+
+    /// Once a picture: goes on to the last moment that is due and gives each one on the way to
+    /// `passed`.
+    void advance(const std::function<void(const SessionMoment&)>& passed);
+
+    /// Null until the first one has been read.
+    [[nodiscard]] const SessionMoment* moment() const;
+    [[nodiscard]] const SessionPlayback& playback() const;
+
+  private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace dibhr

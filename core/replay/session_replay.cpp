@@ -1,0 +1,122 @@
+// A recorded session run again, tick by tick.
+#include "core/replay/session_replay.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/haptics/surface.hpp"
+#include "core/session/same_bits.hpp"
+
+namespace dibhr {
+
+namespace {
+
+Vec3 vector_of(const double (&values)[3]) noexcept {
+    return {values[0], values[1], values[2]};
+}
+
+bool all_same(Vec3 a, const double (&b)[3]) noexcept {
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!same_bits(a[axis], b[axis])) return false;
+    }
+    return true;
+}
+
+SafetyInput safety_input(const TickRecord& tick, const SessionParameters& parameters) noexcept {
+    return {.dt_s = tick.dt_s,
+            .force_enabled = parameters.force_enabled,
+            .device_ready = tick.device_ready,
+            .device_force_newton = vector_of(tick.own_newton),
+            .restart = tick.restart};
+}
+
+}  // namespace
+
+SessionReplay::SessionReplay(const Session& session, RecordedFrames& frames,
+                             std::vector<ParameterChange> changes, double from_s)
+    : session_(session), frames_(frames), ticks_(session, from_s), runs_(changes.size()) {
+    for (std::size_t k = 0; k < changes.size(); ++k) runs_[k].change = std::move(changes[k]);
+}
+
+bool SessionReplay::next() {
+    if (!ticks_.next(tick_)) return false;
+    if (tick_.surface) {
+        take_parameters();
+        take_frames();
+    }
+    for (Run& run : runs_) update(run);
+    return true;
+}
+
+void SessionReplay::take_parameters() {
+    if (parameters_ != nullptr && parameters_->version == tick_.settings) return;
+    parameters_ = session_.parameters_of(tick_.settings);
+    if (parameters_ == nullptr) {
+        throw InputError(session_.file().string() + ": does not say with which parameters tick " +
+                         std::to_string(tick_.tick) +
+                         " was felt; it can be exported, but not replayed");
+    }
+    bump_ = frames_.bump(*parameters_);
+    for (Run& run : runs_) {
+        run.parameters = parameters_->touch;
+        if (run.change) run.change(run.parameters);
+    }
+}
+
+void SessionReplay::take_frames() {
+    if (from_ && pair_ == tick_.frames) return;
+    const FramePair& wanted = tick_.frames;
+    if (session_.source_of(wanted.source) == nullptr) {
+        throw InputError(session_.file().string() + ": does not say which video tick " +
+                         std::to_string(tick_.tick) +
+                         " touched; it can be exported, but not replayed");
+    }
+    // Mostly, the frame that was blended into is the next one to start from.
+    const bool goes_on = to_ && pair_.source == wanted.source && pair_.to_s == wanted.from_s;
+    from_ = goes_on ? to_ : frames_.depth(wanted.source, wanted.from_s);
+    to_ = wanted.to_s == wanted.from_s ? from_ : frames_.depth(wanted.source, wanted.to_s);
+    pair_ = wanted;
+    if (from_->columns != to_->columns || from_->rows != to_->rows || from_->columns < 2 ||
+        from_->rows < 2 || from_->highest_level != to_->highest_level) {
+        throw InputError(session_.file().string() + ": the frames at tick " +
+                         std::to_string(tick_.tick) +
+                         " make no surface; give back the video that was recorded");
+    }
+}
+
+void SessionReplay::update(Run& run) {
+    run.update_us = 0.0;
+    if (!tick_.surface) {
+        run.renderer.rest();
+        run.touch.spring_force_newton = Vec3(0.0);
+        run.touch.sent_force_newton = Vec3(0.0);
+        run.touch.proxy.contact = false;
+        return;
+    }
+    const DepthSurface surface(*from_, *to_, tick_.blend, run.parameters.shape, bump_);
+    const Vec3 goal = tick_.goal_refused ? Vec3(NAN) : vector_of(tick_.goal);
+    if (tick_.lets_go && run.holds) run.renderer.let_go();
+    const auto begin = std::chrono::steady_clock::now();
+    run.touch = run.renderer.update(surface, goal, run.parameters,
+                                    safety_input(tick_, *parameters_), parameters_->limits);
+    const auto end = std::chrono::steady_clock::now();
+    run.update_us = std::chrono::duration<double, std::micro>(end - begin).count();
+    run.holds = run.touch.proxy.contact;
+}
+
+bool same_bits(const Touch& touch, const TickRecord& recorded) noexcept {
+    return all_same(touch.goal, recorded.goal) && all_same(touch.proxy.position, recorded.proxy) &&
+           all_same(touch.spring_force_newton, recorded.spring_newton) &&
+           all_same(touch.sent_force_newton, recorded.sent_newton) &&
+           touch.proxy.contact == recorded.contact &&
+           static_cast<std::uint8_t>(touch.proxy.active.kind) == recorded.primitive &&
+           touch.proxy.active.i == recorded.i && touch.proxy.active.j == recorded.j &&
+           touch.proxy.moves == recorded.moves &&
+           static_cast<std::uint8_t>(touch.cut) == recorded.cut;
+}
+
+}  // namespace dibhr

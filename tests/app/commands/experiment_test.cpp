@@ -1,0 +1,168 @@
+// `dibhr experiment` as people and scripts use it, and what it refuses.
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/commands/command_line.hpp"
+#include "app/settings/command_options.hpp"
+#include "core/session/session_file.hpp"
+#include "tests/app/program/command_program.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/text.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+
+namespace {
+
+/// The words a wrong command line is refused with.
+std::string usage_error(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "experiment");
+    try {
+        run_command_line(arguments);
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    return "nothing";
+}
+
+/// A session of ticks that touch, or do not, over a depth video of 640 columns and `rows` rows.
+void write_session(const std::filesystem::path& file, const std::string& rows, int ticks) {
+    SessionFile session(file,
+                        {{"depth-columns", "640"}, {"depth-rows", rows}, {"depth", "depth.mp4"}});
+    session.begin();
+    for (int k = 0; k < ticks; ++k) {
+        TickRecord tick;
+        tick.tick = k;
+        tick.t_s = 0.001 * k;
+        tick.frames.from_frame = k / 33;
+        tick.contact = true;
+        const double goal[3]{250.0 + 0.1 * k, 400.0, 90.0};
+        std::copy(goal, goal + 3, tick.goal);
+        session.add(tick);
+    }
+    session.commit();
+    session.merge_log();
+}
+
+}  // namespace
+
+TEST_CASE("experiment circle prints the paper's table and writes JSON and pictures",
+          "[experiment]") {
+    const TemporaryFolder folder;
+    const ProgramResult result = run_dibhr(
+        folder, {"experiment", "circle", "--json", "numbers.json", "--plots", "pictures"});
+    INFO(result.errors);
+    REQUIRE(result.exit_code == 0);
+    CHECK(result.errors.empty());  // no bar without a terminal
+    for (const char* part : {"207.31", "0.528 (0)", "exact answer", "god-object", "mu 0.4"}) {
+        CAPTURE(part);
+        CHECK(contains(result.output, part));
+    }
+    const std::string json = read_text(folder / "numbers.json");
+    CHECK(contains(json, "\"path\": \"circle\""));
+    CHECK(contains(json, "\"algorithm\": \"neighborhood\""));
+    CHECK(std::filesystem::file_size(folder / "pictures/paths-circle.png") > 0);
+}
+
+TEST_CASE("experiment runs the algorithms, friction and depth it is given", "[experiment]") {
+    const TemporaryFolder folder;
+    const ProgramResult result =
+        run_dibhr(folder, {"experiment", "linear", "--mu", "0.8", "--depth", "5", "--algorithm",
+                           "dibhr", "--algorithm", "pga", "--json", "-"});
+    INFO(result.errors);
+    REQUIRE(result.exit_code == 0);
+    CHECK(result.output.starts_with("{"));
+    CHECK(contains(result.output, "\"mu\": 0.8"));
+    CHECK(contains(result.output, "\"depth_px\": 5"));
+    CHECK(contains(result.output, "\"algorithm\": \"pga\""));
+    CHECK_FALSE(contains(result.output, "\"algorithm\": \"neighborhood\""));
+    CHECK_FALSE(contains(result.output, "Time of an update"));
+}
+
+TEST_CASE("experiment human says whose hand it is", "[experiment]") {
+    const TemporaryFolder folder;
+    write_text(folder / "pen.csv", "t_s,x_mm,y_mm\n0,10,10\n0.5,20,30\n1,40,10\n");
+    write_session(folder / "hand.dibhr", "480", 300);
+    const auto source_of = [&](std::vector<std::string> hand) {
+        hand.insert(hand.begin(), {"experiment", "human", "--algorithm", "dibhr"});
+        const ProgramResult result = run_dibhr(folder, hand);
+        INFO(result.errors);
+        REQUIRE(result.exit_code == 0);
+        return result.output.substr(0, result.output.find('\n'));
+    };
+    CHECK(contains(source_of({}), "modelled"));
+    CHECK(contains(source_of({"--trace", "pen.csv"}), "a person's trace, pen.csv"));
+    const std::string session = source_of({"--session", "hand.dibhr"});
+    CHECK(contains(session, "a recorded session, hand.dibhr"));
+    CHECK(contains(session, "300 updates"));
+}
+
+TEST_CASE("an unknown path or algorithm is refused with the choices", "[experiment]") {
+    CHECK(contains(usage_error({"square"}), "linear, circle, human, all, sweep"));
+    CHECK(contains(usage_error({"--algorithm", "magic"}), "dibhr, pga, neighborhood, god-object"));
+    const TemporaryFolder folder;
+    const ProgramResult result = run_dibhr(folder, {"experiment", "square"});
+    CHECK(result.exit_code == 2);
+    CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);
+}
+
+TEST_CASE("options that do not go together are refused", "[experiment]") {
+    const std::vector<std::vector<std::string>> wrong{
+        {"circle", "linear"},
+        {"linear", "--trace", "pen.csv"},
+        {"sweep", "--session", "hand.dibhr"},
+        {"human", "--trace", "pen.csv", "--session", "hand.dibhr"},
+        {"sweep", "--mu", "0.4"},
+        {"sweep", "--depth", "20"},
+        {"circle", "--mu", "-1"},
+        {"circle", "--mu", "nan"},
+        {"circle", "--depth", "0"},
+        {"circle", "--depth", "deep"},
+    };
+    for (const auto& arguments : wrong) {
+        const std::string words = usage_error(arguments);
+        INFO(words);
+        CHECK(words != "nothing");
+        CHECK(contains(words, "--help"));
+        CHECK_FALSE(contains(words, "\n"));
+    }
+}
+
+TEST_CASE("a hand or an output that cannot be used ends with 1 and one line", "[experiment]") {
+    const TemporaryFolder folder;
+    write_text(folder / "nan.csv", "t,x,y\n0,1,2\n1,nan,2\n");
+    write_text(folder / "column.csv", "t,x\n0,1\n1,2\n");
+    write_text(folder / "row.csv", "t,x,y\n0,1,2\n");
+    write_text(folder / "text.dibhr", "this is no session\n");
+    write_text(folder / "empty.dibhr", "");
+    write_session(folder / "none.dibhr", "480", 0);
+    write_session(folder / "foreign.dibhr", "240", 50);
+    const auto before = names_in(folder.path());
+    const std::vector<std::vector<std::string>> bad{
+        {"human", "--trace", "nan.csv"},         {"human", "--trace", "column.csv"},
+        {"human", "--trace", "row.csv"},         {"human", "--trace", "missing.csv"},
+        {"human", "--session", "text.dibhr"},    {"human", "--session", "empty.dibhr"},
+        {"human", "--session", "none.dibhr"},    {"human", "--session", "foreign.dibhr"},
+        {"human", "--session", "missing.dibhr"}, {"circle", "--json", "none/out.json"},
+        {"circle", "--plots", "nan.csv"},        {"circle", "--plots", "nan.csv/deeper"},
+    };
+    for (std::vector<std::string> arguments : bad) {
+        const std::string named = arguments.back();
+        arguments.insert(arguments.begin(), "experiment");
+        if (arguments[2] != "--json") {
+            arguments.insert(arguments.end(), {"--json", "out.json"});
+            if (arguments[2] != "--plots") {
+                arguments.insert(arguments.end(), {"--plots", "pictures"});
+            }
+        }
+        const ProgramResult result = run_dibhr(folder, arguments);
+        INFO(named << ": " << result.errors);
+        CHECK(result.exit_code == 1);
+        CHECK(result.output.empty());
+        CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);
+        CHECK(contains(result.errors, named));
+        CHECK(names_in(folder.path()) == before);  // nothing half-written
+    }
+}

@@ -1,0 +1,81 @@
+// `dibhr export` as a person runs it: every tick, one row, the contract's columns first.
+#include <charconv>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "app/commands/output_rows.hpp"
+#include "core/session/same_bits.hpp"
+#include "core/session/session.hpp"
+#include "tests/app/program/command_program.hpp"
+#include "tests/app/program/recorded_session.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+
+namespace {
+
+double real_of(const std::string& cell) {
+    double value = -1.0;
+    std::from_chars(cell.data(), cell.data() + cell.size(), value);
+    return value;
+}
+
+}  // namespace
+
+TEST_CASE("an export has every tick, the contract's columns first, every real to the last bit",
+          "[export]") {
+    const TemporaryFolder folder;
+    write_depth_png(folder / "hill_depth.png", 60, 40, 60, 2);
+    write_depth_png(folder / "hill_color.png", 60, 40, 10, 1);
+    record_session(folder / "mine.dibhr",
+                   {.colour = folder / "hill_color.png", .depth = folder / "hill_depth.png"});
+    const ProgramResult result = run_dibhr(folder, {"export", "mine.dibhr", "--csv", "mine.csv"});
+    INFO(result.errors);
+    REQUIRE(result.exit_code == 0);
+    CHECK(result.output.empty());
+    const auto lines = split(read_text(folder / "mine.csv"), '\n');
+    REQUIRE(lines.size() == 1002);
+    std::string contract(kOutputHeader);
+    contract.back() = ',';
+    CHECK(lines[0].starts_with(contract));
+    const std::size_t columns = split(lines[0], ',').size();
+    const Session session(folder / "mine.dibhr");
+    Session::Ticks ticks(session);
+    TickRecord tick;
+    for (std::size_t k = 1; ticks.next(tick); ++k) {
+        CAPTURE(k);
+        const auto cells = split(lines.at(k), ',');
+        REQUIRE(cells.size() == columns);
+        REQUIRE(same_bits(real_of(cells[0]), tick.t_s));
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            REQUIRE(same_bits(real_of(cells[1 + axis]), tick.goal[axis]));
+            REQUIRE(same_bits(real_of(cells[4 + axis]), tick.proxy[axis]));
+            REQUIRE(same_bits(real_of(cells[7 + axis]), tick.spring_newton[axis]));
+            REQUIRE(same_bits(real_of(cells[10 + axis]), tick.sent_newton[axis]));
+        }
+        REQUIRE(cells[13] == (tick.contact ? "1" : "0"));
+        REQUIRE(cells[15] == std::to_string(tick.i));
+    }
+    const ProgramResult out = run_dibhr(folder, {"export", "mine.dibhr", "--csv", "-"});
+    CHECK(out.exit_code == 0);
+    CHECK(out.output == read_text(folder / "mine.csv"));
+}
+
+TEST_CASE("an export needs to be told where to write, and never writes over the session",
+          "[export]") {
+    const TemporaryFolder folder;
+    write_depth_png(folder / "hill_depth.png", 60, 40, 60, 2);
+    write_depth_png(folder / "hill_color.png", 60, 40, 10, 1);
+    record_session(folder / "mine.dibhr",
+                   {.colour = folder / "hill_color.png", .depth = folder / "hill_depth.png"});
+    const std::string before = read_text(folder / "mine.dibhr");
+    CHECK(run_dibhr(folder, {"export", "mine.dibhr"}).exit_code == 2);
+    const ProgramResult same = run_dibhr(folder, {"export", "mine.dibhr", "--csv", "mine.dibhr"});
+    CHECK(same.exit_code == 1);
+    CHECK(same.errors.find("is the session that is read") != std::string::npos);
+    CHECK(run_dibhr(folder, {"export", "mine.dibhr", "--csv", "no/such/folder.csv"}).exit_code ==
+          1);
+    CHECK(read_text(folder / "mine.dibhr") == before);
+}

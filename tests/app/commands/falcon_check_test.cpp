@@ -1,0 +1,224 @@
+// `dibhr devices --check` as the real program with a simulated Falcon on its USB: without a person,
+// and at a terminal.
+#include <fcntl.h>
+#include <poll.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "tests/app/program/command_program.hpp"
+#include "tests/app/program/falcon_on_usb.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace dibhr::test;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::seconds kPatience{20};  // of a busy machine
+
+bool says(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+/// The program with its own terminal, and a person who reads and types.
+class AtTerminal {
+  public:
+    AtTerminal(const TemporaryFolder& folder, std::vector<std::string> words) {
+        std::vector<char*> arguments;
+        for (std::string& word : words) arguments.push_back(word.data());
+        arguments.push_back(nullptr);
+        child_ = forkpty(&terminal_, nullptr, nullptr, nullptr);
+        REQUIRE(child_ >= 0);
+        if (child_ == 0) {
+            setenv("XDG_CONFIG_HOME", folder.path().c_str(), 1);
+            setenv("XDG_DATA_HOME", folder.path().c_str(), 1);
+            if (chdir(folder.path().c_str()) == 0) execv(arguments[0], arguments.data());
+            _exit(127);
+        }
+    }
+    ~AtTerminal() {
+        close(terminal_);
+        if (child_ > 0) {
+            kill(child_, SIGKILL);
+            waitpid(child_, nullptr, 0);
+        }
+    }
+    AtTerminal(const AtTerminal&) = delete;
+    AtTerminal& operator=(const AtTerminal&) = delete;
+
+    /// Reads on until this has been printed since the last call.
+    void read_until(const std::string& wanted) {
+        const auto end = Clock::now() + kPatience;
+        for (auto at = text_.find(wanted, read_); at == std::string::npos;
+             at = text_.find(wanted, read_)) {
+            INFO("waits for: " << wanted << "\n" << text_);
+            REQUIRE(Clock::now() < end);
+            take();
+        }
+        read_ = text_.find(wanted, read_) + wanted.size();
+    }
+    void type(const std::string& keys) const {
+        REQUIRE(write(terminal_, keys.data(), keys.size()) == static_cast<ssize_t>(keys.size()));
+    }
+    void answer(const std::string& question, const std::string& line) {
+        read_until(question);
+        read_until("> ");
+        type(line + "\n");
+    }
+    void hang_up() {
+        close(terminal_);
+        terminal_ = -1;
+    }
+    /// Its exit code, once it has ended.
+    int ended() {
+        const auto end = Clock::now() + kPatience;
+        int status = 0;
+        while (waitpid(child_, &status, WNOHANG) == 0) {
+            REQUIRE(Clock::now() < end);
+            if (terminal_ >= 0) take();
+        }
+        child_ = 0;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    }
+
+  private:
+    void take() {
+        constexpr int kWait_ms = 20;
+        pollfd input{terminal_, POLLIN, 0};
+        if (poll(&input, 1, kWait_ms) <= 0) return;
+        std::array<char, 4096> bytes{};
+        const ssize_t got = read(terminal_, bytes.data(), bytes.size());
+        if (got > 0) text_.append(bytes.data(), static_cast<std::size_t>(got));
+    }
+
+    int terminal_{-1};
+    pid_t child_{-1};
+    std::string text_{};
+    std::size_t read_{0};
+};
+
+/// At the question before the first force on the scale, with a homed Falcon.
+struct BeforeForce {
+    TemporaryFolder folder{};
+    FalconOnUsb falcon{folder.path(), {"firmware", "home"}};
+    AtTerminal person;
+
+    BeforeForce() : person(folder, words()) {
+        for (const int step : {1, 2, 3, 4, 5, 6}) {
+            person.answer(std::to_string(step) + " of 9", "s");
+        }
+        person.answer("7 of 9", "");
+        person.read_until("500 counts");
+        person.read_until("> ");
+    }
+
+    /// Risen, and held.
+    void begin_force() {
+        person.type("\n");
+        FalconOnUsb::wait_until([this] { return falcon.number("largest") > 499.5; });
+        constexpr double kPackets = 100.0;  // some 0.1 s
+        const double risen = falcon.number("with_force");
+        FalconOnUsb::wait_until(
+            [this, risen] { return falcon.number("with_force") > risen + kPackets; });
+        begun_ = Clock::now();
+    }
+    /// Sooner than by itself.
+    void check_early_end() const { CHECK(Clock::now() - begun_ < std::chrono::seconds(2)); }
+    void wait_for_no_force() {
+        FalconOnUsb::wait_until([this] { return falcon.number("zeros_in_a_row") > 4.5; });
+        check_early_end();
+        CHECK(falcon.number("largest") < 500.5);
+    }
+
+  private:
+    [[nodiscard]] std::vector<std::string> words() const {
+        std::vector<std::string> all = falcon.host();
+        all.insert(all.end(), {DIBHR_PROGRAM, "devices", "--check", "--out", "record.json"});
+        return all;
+    }
+
+    Clock::time_point begun_{};
+};
+
+}  // namespace
+
+TEST_CASE("without a person the check measures what needs none, and keeps a record",
+          "[falcon][check]") {
+    const TemporaryFolder folder;
+    const FalconOnUsb falcon(folder.path(), {"firmware"});
+    const ProgramResult result = run_dibhr(folder, {"devices", "--check"}, falcon.host());
+    INFO(result.errors);
+    CHECK(result.exit_code == 0);
+    CHECK(result.errors.empty());
+    CHECK(says(result.output, "What was found"));
+    std::string record;
+    for (const std::string& name : names_in(folder.path())) {
+        if (name.starts_with("falcon-check-SIM00001-")) record = read_text(folder / name);
+    }
+    CHECK(says(record, "\"idProduct\": \"0xcb48\""));
+    CHECK(says(record, "\"end\": \"skipped\""));
+}
+
+TEST_CASE("a check that cannot be done ends with 1 and one line", "[falcon][check]") {
+    const TemporaryFolder folder;
+    const FalconOnUsb bare(folder.path(), {});
+    const ProgramResult no_firmware = run_dibhr(folder, {"devices", "--check"}, bare.host());
+    CHECK(no_firmware.exit_code == 1);
+    INFO(no_firmware.errors);
+    CHECK(says(no_firmware.errors, "then: dibhr devices --check --firmware FILE"));
+    CHECK(split(no_firmware.errors, '\n').size() == 2);
+    const ProgramResult nowhere =
+        run_dibhr(folder, {"devices", "--check", "--out", "none/record.json"}, bare.host());
+    CHECK(nowhere.exit_code == 1);
+    CHECK(says(nowhere.errors, "none/record.json"));
+    CHECK(run_dibhr(folder, {"devices", "--out", "record.json"}).exit_code == 2);
+}
+
+TEST_CASE("any key lets go of a force, and the check goes on", "[falcon][check]") {
+    BeforeForce at;
+    at.begin_force();
+    at.person.type("x");
+    at.wait_for_no_force();
+    at.person.answer("What did the scale show", "70");
+    at.person.answer("1000 counts", "q");
+    at.person.read_until("Motor counts a newton metre");
+    CHECK(at.person.ended() == 0);
+    CHECK(says(read_text(at.folder / "record.json"), "\"scale_g\": 70"));
+}
+
+TEST_CASE("q, Ctrl+C and a terminal that is closed end a force and the check at once",
+          "[falcon][check]") {
+    const std::string how = GENERATE(as<std::string>(), "q", "\x03", "hang up");
+    CAPTURE(how);
+    BeforeForce at;
+    at.begin_force();
+    if (how == "hang up") {
+        at.person.hang_up();
+    } else {
+        at.person.type(how);
+    }
+    FalconOnUsb::wait_until(
+        [&] { return says(read_text(at.folder / "record.json"), "\"end\": \"quit\""); });
+    at.check_early_end();
+    const int exit_code = at.person.ended();
+    CHECK((how == "hang up" || exit_code == 0));  // it has nobody left to tell its summary
+}
+
+TEST_CASE("Ctrl+Z and Ctrl+\\ let go of a force, and do not stop the program that held it",
+          "[falcon][check]") {
+    const std::string keys = GENERATE(as<std::string>(), "\x1a", "\x1c");
+    BeforeForce at;
+    at.begin_force();
+    at.person.type(keys);
+    at.wait_for_no_force();
+    at.person.answer("What did the scale show", "q");
+    CHECK(at.person.ended() == 0);
+}

@@ -1,0 +1,190 @@
+// `dibhr info` and `dibhr devices`: what files hold and what is attached.
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/session/recorder.hpp"
+#include "core/video/library_versions.hpp"
+#include "tests/app/program/command_program.hpp"
+#include "tests/app/program/recorded_session.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+
+namespace {
+
+bool says(const ProgramResult& result, const std::string& words) {
+    return result.output.find(words) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("info describes an image and the depth file beside it", "[info]") {
+    const TemporaryFolder folder;
+    write_depth_png(folder / "my_color.png", 30, 20, 10);
+    write_depth_png(folder / "my_depth.png", 16, 12, 100);
+    const ProgramResult result = run_dibhr(folder, {"info", "my_color.png"});
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 0);
+    CHECK(says(result, "image"));
+    CHECK(says(result, "30x20"));
+    CHECK(says(result, "my_depth.png"));
+}
+
+TEST_CASE("info describes a video", "[info]") {
+    const TemporaryFolder folder;
+    run_shell(folder,
+              "ffmpeg -v error -f lavfi -i testsrc=size=160x120:rate=25:duration=2 "
+              "-pix_fmt yuv420p clip.mp4");
+    const ProgramResult result = run_dibhr(folder, {"info", "clip.mp4"});
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 0);
+    CHECK(says(result, "video"));
+    CHECK(says(result, "160x120"));
+    CHECK((says(result, "avc1") || says(result, "h264")));
+    CHECK(says(result, " 50\n"));
+    CHECK(says(result, "2.000 s"));
+    CHECK(says(result, "25.00 frames/s"));
+    CHECK(says(result, "none found"));
+}
+
+TEST_CASE("info describes a session file", "[info]") {
+    const TemporaryFolder folder;
+    const auto ring = std::make_unique<TickRing>();
+    {
+        const Recorder recorder(folder / "mine.dibhr", *ring, {{"device", "a scripted hand"}});
+        for (int k = 0; k < 251; ++k) {
+            TickRecord record;
+            record.tick = k;
+            record.t_s = 3.0 + 0.001 * k;
+            REQUIRE(ring->push(record));
+        }
+    }
+    const ProgramResult result = run_dibhr(folder, {"info", "mine.dibhr"});
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 0);
+    CHECK(says(result, "session"));
+    CHECK(says(result, "251"));
+    CHECK(says(result, "0.250 s"));
+    CHECK(says(result, "a scripted hand\n"));
+    CHECK(names_in(folder.path()) == std::vector<std::string>{"mine.dibhr"});
+}
+
+TEST_CASE("info says for how much of a session the mouse stood in", "[info]") {
+    const int stand_in = GENERATE(0, 1, 372, 1000);
+    const TemporaryFolder folder;
+    {
+        const auto ring = std::make_unique<TickRing>();
+        const Recorder recorder(folder / "mine.dibhr", *ring, {{"device", "Novint Falcon 1234"}});
+        for (int k = 0; k < 1010; ++k) {
+            TickRecord record;
+            record.tick = k;
+            record.surface = k < 1000;  // or there is no hand
+            record.stand_in = k < stand_in;
+            REQUIRE(ring->push(record));
+        }
+    }
+    const ProgramResult result = run_dibhr(folder, {"info", "mine.dibhr"});
+    INFO(result.output << result.errors);
+    const std::map<int, std::string> endings{
+        {0, "\n"},
+        {1, "; the mouse stood in for 0.1 % of the ticks\n"},
+        {372, "; the mouse stood in for 37.2 % of the ticks\n"},
+        {1000, "; the mouse stood in for all of it\n"}};
+    CHECK(says(result, "Novint Falcon 1234" + endings.at(stand_in)));
+}
+
+TEST_CASE("info names the libraries that decoded the video of a session", "[info]") {
+    const TemporaryFolder folder;
+    write_depth_png(folder / "color.png", 64, 48, 20, 3);
+    write_depth_png(folder / "depth.png", 32, 24, 100, 1);
+    record_session(folder / "mine.dibhr",
+                   {.colour = folder / "color.png", .depth = folder / "depth.png"});
+    const ProgramResult result = run_dibhr(folder, {"info", "mine.dibhr"});
+    INFO(result.output);
+    for (const auto& [library, version] : library_versions()) {
+        CAPTURE(library);
+        CHECK(says(result, "  " + library));
+        CHECK(says(result, " " + version + "\n"));
+    }
+}
+
+TEST_CASE("info tells of the file it cannot read and describes the others", "[info]") {
+    const TemporaryFolder folder;
+    write_depth_png(folder / "good.png", 30, 20, 10);
+    write_text(folder / "bad.dibhr", "no session\n");
+    const ProgramResult result = run_dibhr(folder, {"info", "bad.dibhr", "good.png", "none.png"});
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 1);
+    CHECK(says(result, "30x20"));
+    CHECK(split(result.errors, '\n').size() == 3);
+    CHECK(result.errors.find("bad.dibhr") != std::string::npos);
+    CHECK(result.errors.find("none.png") != std::string::npos);
+}
+
+TEST_CASE("info goes on after a name that leads nowhere", "[info]") {
+    const TemporaryFolder folder;
+    write_depth_png(folder / "good.png", 30, 20, 10);
+    const std::string too_long(5000, 'x');
+    const ProgramResult result = run_dibhr(folder, {"info", too_long, "good.png/x", "good.png"});
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 1);
+    CHECK(says(result, "30x20"));
+    CHECK(split(result.errors, '\n').size() == 3);
+}
+
+TEST_CASE("nothing that a session says reaches the terminal but letters", "[info]") {
+    const TemporaryFolder folder;
+    const std::string nasty =
+        "red \x1b[31m\a\r\n\xc2\x9b"
+        "2J \xff stop";
+    {
+        const auto ring = std::make_unique<TickRing>();
+        Recorder recorder(folder / "mine.dibhr", *ring, {{"note", nasty}, {nasty, "value"}});
+        recorder.mark(nasty, nasty);
+        REQUIRE(ring->push({}));
+    }
+    const ProgramResult result = run_dibhr(folder, {"info", "mine.dibhr", "none\x1b[31m.png"});
+    INFO(result.output << result.errors);
+    CHECK(says(result, "red "));
+    for (const std::string& text : {result.output, result.errors}) {
+        for (const char* control : {"\x1b", "\a", "\r", "\xc2\x9b", "\xff"}) {
+            CHECK(text.find(control) == std::string::npos);
+        }
+    }
+    CHECK(split(result.errors, '\n').size() == 2);
+    for (const std::string& line : split(result.output, '\n')) CHECK_FALSE(line.starts_with("2J"));
+}
+
+TEST_CASE("every command warns of a recording that was copied without its log", "[info]") {
+    const TemporaryFolder folder;
+    write_depth_png(folder / "color.png", 64, 48, 20, 3);
+    write_depth_png(folder / "depth.png", 32, 24, 100, 1);
+    record_session(folder / "mine.dibhr",
+                   {.colour = folder / "color.png", .depth = folder / "depth.png"});
+    run_shell(folder,
+              "sqlite3 mine.dibhr \"PRAGMA journal_mode = WAL; "
+              "UPDATE session SET value = '0' WHERE key = 'complete'\"");
+    for (const std::vector<std::string>& command : {std::vector<std::string>{"info", "mine.dibhr"},
+                                                    {"replay", "mine.dibhr"},
+                                                    {"export", "mine.dibhr", "--csv", "mine.csv"},
+                                                    {"report", "mine.dibhr", "--out", "report"}}) {
+        const ProgramResult result = run_dibhr(folder, command);
+        CAPTURE(command, result.output, result.errors);
+        CHECK(result.exit_code == 0);
+        CHECK(result.errors.starts_with("dibhr: warning: mine.dibhr: its recording was broken"));
+        CHECK(result.errors.find("mine.dibhr-wal") != std::string::npos);
+        CHECK(split(result.errors, '\n').size() == 2);
+    }
+}
+
+TEST_CASE("devices lists the mouse as usable and says what it knows of a Falcon", "[devices]") {
+    const TemporaryFolder folder;
+    const ProgramResult result = run_dibhr(folder, {"devices"});
+    CHECK(result.exit_code == 0);
+    CHECK(says(result, "mouse: usable"));
+    CHECK(says(result, "Novint Falcon"));
+    CHECK(result.errors.empty());
+}

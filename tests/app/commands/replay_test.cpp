@@ -1,0 +1,392 @@
+// `dibhr replay` as a person runs it, over sessions that the real loop recorded.
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/commands/output_rows.hpp"
+#include "app/settings/assets_path.hpp"
+#include "core/video/library_versions.hpp"
+#include "tests/app/program/command_program.hpp"
+#include "tests/app/program/recorded_session.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/text.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_one_line(const std::string& text) {
+    return text.starts_with("dibhr: ") && text.find('\n') == text.size() - 1;
+}
+
+/// A small colour and depth film with holes and noise, so that cleaning has something to do; half a
+/// second, so that a second of touching repeats it.
+void make_film(const TemporaryFolder& folder) {
+    run_shell(folder,
+              "ffmpeg -v error -f lavfi -i testsrc2=size=120x90:rate=30:duration=0.5 "
+              "-c:v ffv1 film_color.mkv");
+    run_shell(folder,
+              "ffmpeg -v error -f lavfi -i testsrc2=size=120x90:rate=30:duration=0.5,format=gray "
+              "-c:v ffv1 film_depth.mkv");
+}
+
+RecordedSession film_session(const TemporaryFolder& folder) {
+    return {.colour = folder / "film_color.mkv", .depth = folder / "film_depth.mkv"};
+}
+
+/// Of mine.dibhr, the last one in contact.
+void spoil_one_proxy(const TemporaryFolder& folder) {
+    run_shell(folder,
+              "sqlite3 mine.dibhr 'UPDATE tick_data SET pz = pz + 1e-9 WHERE tick = "
+              "(SELECT max(tick) FROM tick WHERE contact)'");
+}
+
+void set_fact(const TemporaryFolder& folder, const std::string& session, const std::string& key,
+              const std::string& value) {
+    run_shell(folder, "sqlite3 " + session + " \"UPDATE session SET value = '" + value +
+                          "' WHERE key = '" + key + "'\"");
+}
+
+double cpu_seconds_of_children() {
+    rusage usage{};
+    getrusage(RUSAGE_CHILDREN, &usage);
+    const auto seconds = [](const timeval& time) {
+        return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+    };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+/// On average over the last minute; this test's own are among them.
+double processes_at_work() {
+    double load = 0.0;
+    return ::getloadavg(&load, 1) == 1 ? load : 0.0;
+}
+
+}  // namespace
+
+TEST_CASE("a session replays bit for bit, cleaned or raw, with any algorithm and a bump map",
+          "[replay]") {
+    const TemporaryFolder folder;
+    make_film(folder);
+    write_depth_png(folder / "bumps.png", 32, 24, 0, 8);
+    RecordedSession session = film_session(folder);
+    const std::string kind = GENERATE(as<std::string>{}, "dibhr", "raw", "pga", "neighborhood",
+                                      "god-object", "bump", "filtered");
+    CAPTURE(kind);
+    session.parameters.algorithm = algorithm_named(kind).value_or(Algorithm::dibhr);
+    if (kind == "raw") session.cleaning = {false, false, false};
+    if (kind == "god-object") session.parameters.coupling.damping_newton_s_per_m = 1.5;
+    if (kind == "filtered") {
+        session.parameters.coupling.damping_newton_s_per_m = 5.0;
+        session.parameters.coupling.damping_cutoff_hz = 50.0;
+    }
+    if (kind == "bump") {
+        session.bump = folder / "bumps.png";
+        session.parameters.shape.roughness_px = 7.5;
+    }
+    record_session(folder / "mine.dibhr", session);
+    const ProgramResult result = run_dibhr(folder, {"replay", "mine.dibhr"});
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 0);
+    CHECK(contains(result.output,
+                   "as recorded: all 1000 proxies and forces are identical, bit for bit"));
+    CHECK(result.errors.empty());
+}
+
+TEST_CASE("several algorithms are compared in one table, the recorded one among them", "[replay]") {
+    const TemporaryFolder folder;
+    make_film(folder);
+    record_session(folder / "mine.dibhr", film_session(folder));
+    const ProgramResult result =
+        run_dibhr(folder, {"replay", "mine.dibhr", "--algorithm", "pga", "--algorithm", "dibhr",
+                           "--algorithm", "god-object"});
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 0);
+    for (const char* word :
+         {"\n  pga ", "\n  dibhr ", "\n  god-object ", "median us", "contact %"}) {
+        CAPTURE(word);
+        CHECK(contains(result.output, word));
+    }
+    CHECK(contains(result.output, "dibhr, as recorded: all 1000"));
+    CHECK_FALSE(contains(result.output, "pga, as recorded"));
+}
+
+TEST_CASE("other parameters are a comparison, not a failure", "[replay]") {
+    const TemporaryFolder folder;
+    make_film(folder);
+    record_session(folder / "mine.dibhr", film_session(folder));
+    for (const std::vector<std::string>& change :
+         {std::vector<std::string>{"--friction", "0.1"}, {"--raw-depth"}, {"--stiffness", "1.5"}}) {
+        std::vector<std::string> arguments{"replay", "mine.dibhr"};
+        arguments.insert(arguments.end(), change.begin(), change.end());
+        const ProgramResult result = run_dibhr(folder, arguments);
+        CAPTURE(change, result.output, result.errors);
+        CHECK(result.exit_code == 0);
+        CHECK_FALSE(contains(result.output, "identical"));
+    }
+}
+
+TEST_CASE("a session felt with plain damping is computed again with a filtered one", "[replay]") {
+    const TemporaryFolder folder;
+    make_film(folder);
+    RecordedSession session = film_session(folder);
+    session.parameters.coupling.damping_newton_s_per_m = 5.0;
+    record_session(folder / "mine.dibhr", session);
+    const ProgramResult other =
+        run_dibhr(folder, {"replay", "mine.dibhr", "--damping-cutoff", "50"});
+    INFO(other.output << other.errors);
+    CHECK(other.exit_code == 0);
+    CHECK_FALSE(contains(other.output, "identical"));
+    const ProgramResult same = run_dibhr(folder, {"replay", "mine.dibhr", "--damping-cutoff", "0"});
+    CHECK(contains(same.output, "all 1000 proxies and forces are identical"));
+}
+
+TEST_CASE("the rows of a replay are those of touch, and the recorded ones", "[replay]") {
+    const TemporaryFolder folder;
+    make_film(folder);
+    record_session(folder / "mine.dibhr", film_session(folder));
+    REQUIRE(run_dibhr(folder, {"replay", "mine.dibhr", "--csv", "again.csv"}).exit_code == 0);
+    REQUIRE(run_dibhr(folder, {"export", "mine.dibhr", "--csv", "mine.csv"}).exit_code == 0);
+    const auto again = split(read_text(folder / "again.csv"), '\n');
+    const auto mine = split(read_text(folder / "mine.csv"), '\n');
+    REQUIRE(again.size() == 1002);  // heading, rows, and nothing after the last line's end
+    REQUIRE(mine.size() == again.size());
+    CHECK(again[0] + '\n' == kOutputHeader);
+    for (std::size_t k = 0; k + 1 < again.size(); ++k) {
+        const std::string before_time = again[k].substr(0, again[k].rfind(',') + 1);
+        REQUIRE(mine[k].starts_with(before_time));
+    }
+    const ProgramResult out = run_dibhr(folder, {"replay", "mine.dibhr", "--csv", "-"});
+    CHECK(out.exit_code == 0);
+    CHECK(split(out.output, '\n').size() == 1002);
+    const ProgramResult several = run_dibhr(folder, {"replay", "mine.dibhr", "--csv", "x",
+                                                     "--algorithm", "pga", "--algorithm", "dibhr"});
+    CHECK(several.exit_code == 2);
+    CHECK(is_one_line(several.errors));
+    const std::string before = read_text(folder / "mine.dibhr");
+    CHECK(run_dibhr(folder, {"replay", "mine.dibhr", "--csv", "mine.dibhr"}).exit_code == 1);
+    CHECK(read_text(folder / "mine.dibhr") == before);
+}
+
+TEST_CASE("a result that is not the recorded one is told, with where it begins", "[replay]") {
+    const TemporaryFolder folder;
+    make_film(folder);
+    record_session(folder / "mine.dibhr", film_session(folder));
+    spoil_one_proxy(folder);
+    const ProgramResult result = run_dibhr(folder, {"replay", "mine.dibhr"});
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 1);
+    CHECK(is_one_line(result.errors));
+    CHECK(contains(result.errors, "mine.dibhr: dibhr differs from the recording in 1 of 1000"));
+    CHECK(contains(result.errors, "first in tick "));
+}
+
+TEST_CASE("a difference is told with the libraries that are not those of the recording",
+          "[replay]") {
+    const TemporaryFolder folder;
+    make_film(folder);
+    record_session(folder / "mine.dibhr", film_session(folder));
+    spoil_one_proxy(folder);
+    const ProgramResult same = run_dibhr(folder, {"replay", "mine.dibhr"});
+    CHECK(same.exit_code == 1);
+    CHECK_FALSE(contains(same.errors, "recorded with"));
+
+    const std::map<std::string, std::string> here = library_versions();
+    set_fact(folder, "mine.dibhr", "libavcodec", "1.2.3");
+    const ProgramResult one = run_dibhr(folder, {"replay", "mine.dibhr"});
+    CHECK(one.exit_code == 1);
+    CHECK(is_one_line(one.errors));
+    CHECK(contains(one.errors, "; it was recorded with libavcodec 1.2.3, this is " +
+                                   here.at("libavcodec") + "\n"));
+
+    set_fact(folder, "mine.dibhr", "opencv", "3.4.5");
+    const ProgramResult two = run_dibhr(folder, {"replay", "mine.dibhr"});
+    CHECK(is_one_line(two.errors));
+    CHECK(contains(two.errors, here.at("libavcodec") + "; with opencv 3.4.5, this is " +
+                                   here.at("opencv") + "\n"));
+
+    record_session(folder / "good.dibhr", film_session(folder));
+    set_fact(folder, "good.dibhr", "libavcodec", "1.2.3");
+    const ProgramResult good = run_dibhr(folder, {"replay", "good.dibhr"});
+    CHECK(good.exit_code == 0);  // the bits count, not the versions
+    CHECK(good.errors.empty());
+}
+
+TEST_CASE("SQL, report and replay tell the same share of the ticks in contact", "[replay]") {
+    const TemporaryFolder folder;
+    make_film(folder);
+    RecordedSession session = film_session(folder);
+    session.ticks_without_surface = 250;
+    record_session(folder / "mine.dibhr", session);
+    run_shell(folder,
+              "sqlite3 mine.dibhr 'SELECT sum(1 - surface) FROM tick; "
+              "SELECT printf(\"%.3f\", 100 * avg(contact)) FROM tick' > sql");
+    const auto sql = split(read_text(folder / "sql"), '\n');
+    REQUIRE(sql.at(0) == "250");
+    const std::string percent = sql.at(1);
+    const ProgramResult replay = run_dibhr(folder, {"replay", "mine.dibhr"});
+    INFO(percent << '\n' << replay.output << replay.errors);
+    CHECK(replay.exit_code == 0);
+    CHECK(contains(replay.output, " " + percent + "\n"));
+    REQUIRE(run_dibhr(folder, {"report", "mine.dibhr", "--out", "report"}).exit_code == 0);
+    run_shell(folder,
+              "sqlite3 :memory: \"SELECT printf('%.3f', 100 * json_extract(readfile("
+              "'report/report.json'), '\\$.contact_share'))\" > json");
+    CHECK(read_text(folder / "json") == percent + "\n");
+}
+
+TEST_CASE("a roughness without a bump map is told to be without effect", "[replay]") {
+    const TemporaryFolder folder;
+    make_film(folder);
+    write_depth_png(folder / "bumps.png", 32, 24, 0, 8);
+    record_session(folder / "mine.dibhr", film_session(folder));
+    const ProgramResult result = run_dibhr(folder, {"replay", "mine.dibhr", "--roughness", "8"});
+    CHECK(result.exit_code == 0);
+    CHECK(is_one_line(result.errors));
+    CHECK(contains(result.errors, "warning: --roughness changes nothing without a bump map"));
+    CHECK(contains(result.errors, "--bump IMAGE"));
+    CHECK(run_dibhr(folder, {"replay", "mine.dibhr", "--roughness", "0"}).errors.empty());
+    CHECK(run_dibhr(folder, {"replay", "mine.dibhr", "--roughness", "8", "--bump", "bumps.png"})
+              .errors.empty());
+    RecordedSession bumpy = film_session(folder);
+    bumpy.bump = folder / "bumps.png";
+    record_session(folder / "bumpy.dibhr", bumpy);
+    CHECK(run_dibhr(folder, {"replay", "bumpy.dibhr", "--roughness", "8"}).errors.empty());
+}
+
+TEST_CASE("a tick over a video that the session does not name is told with its number",
+          "[replay]") {
+    const TemporaryFolder folder;
+    make_film(folder);
+    record_session(folder / "mine.dibhr", film_session(folder));
+    run_shell(folder, "sqlite3 mine.dibhr 'UPDATE tick_data SET pair = 999 WHERE tick = 500'");
+    const ProgramResult result = run_dibhr(folder, {"replay", "mine.dibhr"});
+    CHECK(result.exit_code == 1);
+    CHECK(is_one_line(result.errors));
+    CHECK(contains(result.errors, "mine.dibhr: does not say which video tick 500 touched"));
+}
+
+TEST_CASE("a video that is gone is looked for beside the session, and named", "[replay]") {
+    const TemporaryFolder folder;
+    fs::create_directory(folder / "films");
+    make_film(folder);
+    run_shell(folder, "mv film_*.mkv films/");
+    RecordedSession session;
+    session.colour = folder / "films" / "film_color.mkv";
+    session.depth = folder / "films" / "film_depth.mkv";
+    record_session(folder / "mine.dibhr", session);
+    fs::rename(folder / "films" / "film_depth.mkv", folder / "film_depth.mkv");
+    CHECK(run_dibhr(folder, {"replay", "mine.dibhr"}).exit_code == 0);
+    fs::remove(folder / "film_depth.mkv");
+    const ProgramResult result = run_dibhr(folder, {"replay", "mine.dibhr"});
+    INFO(result.errors);
+    CHECK(result.exit_code == 1);
+    CHECK(is_one_line(result.errors));
+    CHECK(contains(result.errors, session.depth.string() + ", is not there"));
+    CHECK(contains(result.errors, (folder / "film_depth.mkv").string()));
+}
+
+TEST_CASE("a video that has changed is refused, unless it is asked for", "[replay]") {
+    const TemporaryFolder folder;
+    make_film(folder);
+    record_session(folder / "mine.dibhr", film_session(folder));
+    const std::string recorded = read_text(folder / "film_depth.mkv");
+    run_shell(folder, "printf x >>film_depth.mkv");
+    const ProgramResult refused = run_dibhr(folder, {"replay", "mine.dibhr"});
+    INFO(refused.errors);
+    CHECK(refused.exit_code == 1);
+    CHECK(is_one_line(refused.errors));
+    CHECK(contains(refused.errors, (folder / "film_depth.mkv").string() + ": has changed"));
+    const ProgramResult taken = run_dibhr(folder, {"replay", "mine.dibhr", "--any-media"});
+    CHECK(contains(taken.errors, "warning"));
+    CHECK(taken.exit_code == 0);  // the frames are the same all the same
+    // The same length, other content.
+    std::string other = recorded;
+    other[other.size() / 2] = static_cast<char>(~other[other.size() / 2]);
+    write_text(folder / "film_depth.mkv", other);
+    CHECK(run_dibhr(folder, {"replay", "mine.dibhr"}).exit_code == 1);
+    // The original beside the session wins over a changed one in its place.
+    fs::create_directory(folder / "elsewhere");
+    fs::rename(folder / "mine.dibhr", folder / "elsewhere" / "mine.dibhr");
+    write_text(folder / "elsewhere" / "film_depth.mkv", recorded);
+    CHECK(run_dibhr(folder, {"replay", "elsewhere/mine.dibhr"}).exit_code == 0);
+}
+
+TEST_CASE("files that are no session are refused by every command in one line", "[replay]") {
+    const TemporaryFolder folder;
+    make_film(folder);
+    RecordedSession session = film_session(folder);
+    session.seconds = 0.2;
+    record_session(folder / "good.dibhr", session);
+    const std::string good = read_text(folder / "good.dibhr");
+    write_text(folder / "short.dibhr", good.substr(0, good.size() / 2));
+    write_text(folder / "text.dibhr", "t,x,y,z\n");
+    write_text(folder / "empty.dibhr", "");
+    run_shell(folder,
+              "cp good.dibhr newer.dibhr && sqlite3 newer.dibhr 'PRAGMA user_version = 99'");
+    run_shell(folder, "sqlite3 other.dibhr 'CREATE TABLE a(b)'");
+    std::string damaged = good;
+    for (std::size_t k = damaged.size() / 2; k < damaged.size() / 2 + 20000; ++k) damaged[k] = 'x';
+    write_text(folder / "damaged.dibhr", damaged);
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"info"}, {"replay"}, {"export", "--csv", "-"}}) {
+        for (const auto& [name, word] :
+             std::vector<std::pair<std::string, std::string>>{{"short.dibhr", "cut short"},
+                                                              {"text.dibhr", "no SQLite file"},
+                                                              {"empty.dibhr", "empty"},
+                                                              {"newer.dibhr", "newer"},
+                                                              {"other.dibhr", "another program"},
+                                                              {"damaged.dibhr", "damaged"},
+                                                              {"none.dibhr", "no such file"}}) {
+            std::vector<std::string> arguments = command;
+            arguments.push_back(name);
+            const ProgramResult result = run_dibhr(folder, arguments);
+            CAPTURE(command, name, result.errors);
+            CHECK(result.exit_code == 1);
+            CHECK(result.output.empty());
+            CHECK(is_one_line(result.errors));
+            CHECK(contains(result.errors, name));
+            CHECK(contains(result.errors, word));
+        }
+    }
+}
+
+TEST_CASE("twenty seconds of the sample go through all four algorithms in under two seconds",
+          "[replay]") {
+    const TemporaryFolder folder;
+    const SampleFiles sample = sample_files();
+    record_session(folder / "mine.dibhr",
+                   {.colour = sample.colour, .depth = sample.depth, .seconds = 20.0});
+    // The best of three, for other programs may be busy; on a busier machine the work alone counts.
+    double wall_s = 1e9;
+    double cpu_s = 1e9;
+    for (int run = 0; run < 3; ++run) {
+        const double cpu_before_s = cpu_seconds_of_children();
+        const auto begin = std::chrono::steady_clock::now();
+        const ProgramResult result =
+            run_dibhr(folder, {"replay", "mine.dibhr", "--algorithm", "dibhr", "--algorithm", "pga",
+                               "--algorithm", "neighborhood", "--algorithm", "god-object"});
+        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+        wall_s = std::min(wall_s, passed.count());
+        cpu_s = std::min(cpu_s, cpu_seconds_of_children() - cpu_before_s);
+        INFO(result.output << result.errors);
+        REQUIRE(result.exit_code == 0);
+        REQUIRE(contains(result.output, "dibhr, as recorded: all 20000"));
+    }
+    CAPTURE(wall_s, cpu_s, processes_at_work());
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    const bool busy = processes_at_work() > 2.0;
+    CHECK((wall_s < 2.0 || busy));
+    CHECK(cpu_s < (busy ? 4.0 : 2.0));  // on one core, too; shared caches cost half as much again
+#endif
+}

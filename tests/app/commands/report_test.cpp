@@ -1,0 +1,149 @@
+// `dibhr report` as people and scripts use it, and what it refuses.
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/session/recorder.hpp"
+#include "tests/app/program/command_program.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/text.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A second of touch over color.png and depth.png of the folder, which are made.
+void record_touch(const TemporaryFolder& folder, const std::string& name) {
+    write_depth_png(folder / "color.png", 64, 48, 20, 3);
+    write_depth_png(folder / "depth.png", 32, 24, 100, 1);
+    const auto ring = std::make_unique<TickRing>();
+    Recorder recorder(folder / name, *ring, {{"participant", "P07"}});
+    recorder.parameters({.version = 1});
+    recorder.media(1, folder / "color.png", folder / "depth.png");
+    for (int k = 0; k < 1000; ++k) {
+        TickRecord tick;
+        tick.tick = k;
+        tick.t_s = 0.001 * k;
+        tick.dt_s = 0.001;
+        tick.settings = 1;
+        tick.frames.source.media = 1;
+        tick.contact = k >= 300;
+        tick.proxy[0] = 10.0 + 0.01 * k;
+        tick.proxy[1] = 12.0;
+        tick.sent_newton[2] = tick.contact ? 0.8 : 0.0;
+        REQUIRE(ring->push(tick));
+    }
+    REQUIRE(recorder.finish().failure.empty());
+}
+
+}  // namespace
+
+TEST_CASE("report writes a page, pictures over the touched frame, and numbers", "[report]") {
+    const TemporaryFolder folder;
+    record_touch(folder, "touch.dibhr");
+    const ProgramResult result = run_dibhr(folder, {"report", "touch.dibhr", "--out", "mine"});
+    INFO(result.errors);
+    REQUIRE(result.exit_code == 0);
+    CHECK(result.output == "mine/report.html\n");
+    CHECK(result.errors.empty());
+    CHECK(fs::exists(folder / "mine/heat-map.png"));
+    const std::string page = read_text(folder / "mine/report.html");
+    CHECK(contains(page, "P07 touched once for 0.7 s in all"));
+    CHECK(contains(page, "over the frame that was touched longest: color.png"));
+    CHECK(contains(read_text(folder / "mine/report.json"), "\"columns\": 32, \"rows\": 24"));
+}
+
+TEST_CASE("report goes on over plain ground when a file is gone or has changed, and says so",
+          "[report]") {
+    const TemporaryFolder folder;
+    record_touch(folder, "touch.dibhr");
+    const bool gone = GENERATE(true, false);
+    if (gone) {
+        fs::remove(folder / "color.png");
+    } else {
+        write_depth_png(folder / "color.png", 64, 48, 21, 3);
+    }
+    const ProgramResult result = run_dibhr(folder, {"report", "touch.dibhr", "--out", "mine"});
+    INFO(result.errors);
+    REQUIRE(result.exit_code == 0);
+    const std::string page = read_text(folder / "mine/report.html");
+    CHECK(contains(page, "A heat map lies over plain ground"));
+    CHECK(contains(page, gone ? "is not there" : "has changed"));
+}
+
+TEST_CASE("report keeps the picture of a recording that ended before its files were known",
+          "[report]") {
+    const TemporaryFolder folder;
+    record_touch(folder, "touch.dibhr");
+    run_shell(folder, "sqlite3 touch.dibhr 'UPDATE media SET sha256 = NULL'");
+    const ProgramResult result = run_dibhr(folder, {"report", "touch.dibhr", "--out", "mine"});
+    INFO(result.errors);
+    REQUIRE(result.exit_code == 0);
+    const std::string page = read_text(folder / "mine/report.html");
+    CHECK(contains(page, "depth.png is taken for the depth video"));  // both are told
+    CHECK(contains(page, "color.png is taken for the colour video"));
+    CHECK(contains(page, "over the frame that was touched longest"));
+}
+
+TEST_CASE("report refuses what is no session or cannot be written, in one line", "[report]") {
+    const TemporaryFolder folder;
+    record_touch(folder, "touch.dibhr");
+    const std::string whole = read_text(folder / "touch.dibhr");
+    write_text(folder / "text.dibhr", "this is no session\n");
+    write_text(folder / "short.dibhr", whole.substr(0, whole.size() / 2));
+    std::string damaged = whole;
+    std::fill(damaged.begin() + static_cast<std::ptrdiff_t>(damaged.size() / 2), damaged.end(),
+              'x');
+    write_text(folder / "damaged.dibhr", damaged);
+    std::string newer = whole;
+    newer[63] = 99;  // user_version, big-endian at 60: SQLite's file format, section 1.3
+    write_text(folder / "newer.dibhr", newer);
+    const auto before = names_in(folder.path());
+    for (const auto& [session, out] :
+         std::vector<std::pair<std::string, std::string>>{{"missing.dibhr", "mine"},
+                                                          {"text.dibhr", "mine"},
+                                                          {"short.dibhr", "mine"},
+                                                          {"damaged.dibhr", "mine"},
+                                                          {"newer.dibhr", "mine"},
+                                                          {"touch.dibhr", "text.dibhr"},
+                                                          {"touch.dibhr", "/proc/mine"}}) {
+        const ProgramResult result = run_dibhr(folder, {"report", session, "--out", out});
+        INFO(session << " to " << out << ": " << result.errors);
+        CHECK(result.exit_code == 1);
+        CHECK(result.output.empty());
+        CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);
+        CHECK(contains(result.errors, out == "mine" ? session : out));
+        CHECK(names_in(folder.path()) == before);
+    }
+    CHECK(run_dibhr(folder, {"report", "touch.dibhr"}).exit_code == 2);
+    CHECK(run_dibhr(folder, {"report"}).exit_code == 2);
+}
+
+TEST_CASE("report leaves nothing on a disk that is full", "[report]") {
+    const TemporaryFolder folder;
+    record_touch(folder, "touch.dibhr");
+    const auto before = names_in(folder.path());
+    rlimit limit{};
+    REQUIRE(::getrlimit(RLIMIT_FSIZE, &limit) == 0);
+    const rlimit small{20000, limit.rlim_max};             // bytes a file: no picture is so small
+    const auto signalled = std::signal(SIGXFSZ, SIG_IGN);  // as a full disk: an error, no signal
+    REQUIRE(::setrlimit(RLIMIT_FSIZE, &small) == 0);
+    const ProgramResult result = run_dibhr(folder, {"report", "touch.dibhr", "--out", "mine"});
+    REQUIRE(::setrlimit(RLIMIT_FSIZE, &limit) == 0);
+    std::signal(SIGXFSZ, signalled);
+    INFO(result.errors);
+    CHECK(result.exit_code == 1);
+    CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);
+    CHECK(contains(result.errors, "mine"));
+    CHECK(names_in(folder.path()) == before);
+}

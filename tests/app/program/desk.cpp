@@ -1,0 +1,148 @@
+// Processes, the virtual display, and session files for the window's tests.
+#include "tests/app/program/desk.hpp"
+
+#include <fcntl.h>
+#include <sqlite3.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+
+#include "tests/support/catch.hpp"
+
+namespace dibhr::test {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// In the child, between fork and exec.
+[[noreturn]] void become(const std::vector<std::string>& arguments,
+                         const std::vector<std::string>& environment, const fs::path& error_file,
+                         int inherited) {
+    for (const std::string& entry : environment) ::putenv(::strdup(entry.c_str()));
+    const int errors = ::open(error_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    ::dup2(errors, STDERR_FILENO);
+    if (inherited >= 0) ::fcntl(inherited, F_SETFD, 0);
+    std::vector<char*> words;
+    for (const std::string& argument : arguments) words.push_back(::strdup(argument.c_str()));
+    words.push_back(nullptr);
+    ::execvp(words[0], words.data());
+    ::_exit(127);
+}
+
+std::array<int, 2> open_pipe() {
+    std::array<int, 2> ends{-1, -1};
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
+    return ends;
+}
+
+std::vector<std::string> server_arguments(int descriptor) {
+    return {"Xvfb",      "-displayfd", std::to_string(descriptor), "-screen", "0", "1280x800x24",
+            "-nolisten", "tcp"};
+}
+
+/// The display's number, which the server writes when it is ready.
+std::string display_from(int descriptor) {
+    std::string number;
+    for (char c = 0; ::read(descriptor, &c, 1) == 1 && c != '\n';) number += c;
+    if (number.empty()) throw std::runtime_error("Xvfb did not start");
+    return ":" + number;
+}
+
+Vec3 vector_at(sqlite3_stmt* row, int column) {
+    return {sqlite3_column_double(row, column), sqlite3_column_double(row, column + 1),
+            sqlite3_column_double(row, column + 2)};
+}
+
+}  // namespace
+
+Process::Process(std::vector<std::string> arguments, const std::vector<std::string>& environment,
+                 const fs::path& error_file, int inherited_descriptor)
+    : child_(::fork()) {
+    if (child_ == 0) become(arguments, environment, error_file, inherited_descriptor);
+}
+
+Process::~Process() {
+    if (child_ <= 0) return;
+    ::kill(child_, SIGKILL);
+    ::waitpid(child_, nullptr, 0);
+}
+
+int Process::wait() {
+    int status = 0;
+    ::waitpid(child_, &status, 0);
+    child_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+void Process::interrupt() {
+    ::kill(child_, SIGINT);
+}
+
+Desk::Desk()
+    : numbers_(open_pipe()),
+      server_(server_arguments(numbers_[1]), {}, folder_ / "server.txt", numbers_[1]) {
+    ::close(numbers_[1]);
+    display_ = display_from(numbers_[0]);
+    ::close(numbers_[0]);
+}
+
+Process Desk::start_viewer(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
+                           const std::vector<std::string>& host) const {
+    std::vector<std::string> words{"env", "-C", folder.path().string()};
+    words.insert(words.end(), host.begin(), host.end());
+    words.insert(words.end(), {DIBHR_PROGRAM, "view"});
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return Process(words,
+                   {"DISPLAY=" + display_, "WAYLAND_DISPLAY=", "LIBGL_ALWAYS_SOFTWARE=1",
+                    "XDG_CONFIG_HOME=" + (folder / "config").string(),
+                    "XDG_DATA_HOME=" + (folder / "data").string()},
+                   folder / "errors.txt");
+}
+
+void Desk::act(const std::string& commands) const {
+    run_shell("DISPLAY=" + display_ + " timeout 20 xdotool " + commands + " > /dev/null");
+}
+
+std::vector<Row> read_session(const fs::path& file) {
+    sqlite3* opened = nullptr;
+    REQUIRE(sqlite3_open_v2(file.c_str(), &opened, SQLITE_OPEN_READONLY, nullptr) == SQLITE_OK);
+    const std::unique_ptr<sqlite3, int (*)(sqlite3*)> database(opened, sqlite3_close);
+    sqlite3_stmt* prepared = nullptr;
+    REQUIRE(sqlite3_prepare_v2(
+                opened,
+                "SELECT t, gx, gy, gz, px, py, pz, fx, fy, fz, cx, cy, cz, contact, buttons, cut, "
+                "video_s, surface, ready, stand_in, lets_go "
+                "FROM tick ORDER BY tick",
+                -1, &prepared, nullptr) == SQLITE_OK);
+    const std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)> query(prepared, sqlite3_finalize);
+    std::vector<Row> rows;
+    while (sqlite3_step(prepared) == SQLITE_ROW) {
+        rows.push_back(
+            {sqlite3_column_double(prepared, 0), vector_at(prepared, 1), vector_at(prepared, 4),
+             vector_at(prepared, 7), vector_at(prepared, 10), sqlite3_column_int(prepared, 13) != 0,
+             (sqlite3_column_int(prepared, 14) & 1) != 0, sqlite3_column_int(prepared, 15),
+             sqlite3_column_double(prepared, 16), sqlite3_column_int(prepared, 17) != 0,
+             sqlite3_column_int(prepared, 18) != 0, sqlite3_column_int(prepared, 19) != 0,
+             sqlite3_column_int(prepared, 20) != 0});
+    }
+    return rows;
+}
+
+void run_shell(const std::string& command) {
+    INFO(command);
+    REQUIRE(std::system(command.c_str()) == 0);
+}
+
+void require_same_bits(const TemporaryFolder& folder, const fs::path& session) {
+    const fs::path told = folder / "replay.txt";
+    run_shell("'" DIBHR_PROGRAM "' replay '" + session.string() + "' > '" + told.string() + "'");
+    run_shell("grep -q 'identical, bit for bit' '" + told.string() + "'");
+}
+
+}  // namespace dibhr::test

@@ -1,0 +1,369 @@
+// The whole program touches its sample with a simulated Falcon below libusb, whose hand is pushed
+// by the commanded torques.
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <iterator>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "app/settings/assets_path.hpp"
+#include "core/haptics/parameters.hpp"
+#include "core/haptics/safety.hpp"
+#include "tests/app/program/command_program.hpp"
+#include "tests/app/program/desk.hpp"
+#include "tests/app/program/falcon_on_usb.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+using Catch::Matchers::WithinAbs;
+
+namespace {
+
+using namespace std::chrono_literals;
+using Words = std::vector<std::string>;
+using Rows = std::vector<Row>;
+
+const Words kHomed{"firmware", "home", "place 0 0 140"};
+constexpr const char* kMeet = "search --sync --onlyvisible --name dibhr sleep 0.1 ";
+
+/// What the program is started with; its firmware and its settings file are written first.
+Words prepared(const TemporaryFolder& folder, Words arguments, const std::string& settings) {
+    write_firmware(folder / "firmware.bin");
+    std::filesystem::create_directories(folder / "config/dibhr");
+    std::ofstream(folder / "config/dibhr/settings.toml") << settings;
+    arguments.insert(arguments.end(),
+                     {"--firmware", "firmware.bin", "--record", "hand.dibhr", "--seconds", "60"});
+    return arguments;
+}
+
+/// The program in its window, with a Falcon that `commands` prepare.
+class Scene {
+  public:
+    Scene(Words commands, Words arguments, const std::string& settings = {})
+        : falcon(folder.path(), std::move(commands)),
+          viewer_(desk.start_viewer(folder, prepared(folder, std::move(arguments), settings),
+                                    falcon.host())) {
+        desk.act(kMeet);
+    }
+
+    /// What was recorded, after the program has ended well.
+    Rows finish() {
+        desk.act(std::string(kMeet) + "key q");
+        REQUIRE(viewer_.wait() == 0);
+        CHECK(std::filesystem::file_size(folder / "errors.txt") == 0);
+        return read_session(folder / "hand.dibhr");
+    }
+
+    /// From afar into the relief, until the hand is pushed back.
+    void press_in() const {
+        desk.act("key space");
+        falcon.move_hand({0.0, 0.0, 105.0}, 0.3);
+        wait_for_force();
+    }
+
+    void wait_for_force() const {
+        FalconOnUsb::wait_until([this] { return falcon.vector("motor_newton").z > 0.5; });
+    }
+
+    const Desk desk{};
+    const TemporaryFolder folder{};
+    const FalconOnUsb falcon;
+
+  private:
+    Process viewer_;
+};
+
+bool falcon_touches(const Row& row) {
+    return row.contact && row.ready && !row.stand_in;
+}
+
+/// Runs of rows of the Falcon in which the proxy followed from the first row on, as it does when
+/// the goals are all there is: each begins in free space, or where the proxy began anew.
+std::vector<Rows> strokes(const Rows& rows) {
+    std::vector<Rows> all(1);
+    for (std::size_t k = 1; k < rows.size(); ++k) {
+        const bool jumps = rows[k].video_s < rows[k - 1].video_s;
+        const bool anew = rows[k].lets_go && rows[k - 1].contact;
+        const bool of_falcon = rows[k].surface && !rows[k].stand_in;
+        if (jumps || anew || !of_falcon) all.emplace_back();
+        const bool begins = anew || !rows[k].contact;
+        if (of_falcon && (begins || !all.back().empty())) all.back().push_back(rows[k]);
+    }
+    constexpr std::size_t kShort = 100;
+    std::erase_if(all, [](const Rows& stroke) { return stroke.size() < kShort; });
+    return all;
+}
+
+std::string exact(double value) {
+    char text[32];
+    const auto end = std::to_chars(text, text + sizeof text, value);
+    return {text, end.ptr};
+}
+
+/// The spring forces that `dibhr touch` gives for the goals of these rows.
+std::vector<Vec3> touched_again(const Rows& rows) {
+    const TemporaryFolder folder;
+    {
+        std::ofstream goals(folder / "goals.csv");
+        goals << "t,x,y,z\n";
+        for (const Row& row : rows) {
+            goals << exact(row.video_s) << ',' << exact(row.goal.x) << ',' << exact(row.goal.y)
+                  << ',' << exact(row.goal.z) << '\n';
+        }
+    }
+    const ProgramResult result = run_dibhr(
+        folder,
+        {"touch", "--video", "--depth", sample_files().depth.string(), "--goals", "goals.csv"});
+    REQUIRE(result.exit_code == 0);
+    std::vector<Vec3> forces;
+    const std::vector<std::string> lines = split(result.output, '\n');
+    for (std::size_t k = 1; k < lines.size(); ++k) {
+        if (lines[k].empty()) continue;
+        const std::vector<std::string> cells = split(lines[k], ',');
+        forces.emplace_back(std::stod(cells.at(7)), std::stod(cells.at(8)), std::stod(cells.at(9)));
+    }
+    return forces;
+}
+
+/// A window of another program, which takes the keyboard when it opens.
+class OtherWindow {
+  public:
+    explicit OtherWindow(const Desk& desk)
+        : desk_(desk),
+          viewer_(desk.start_viewer(folder_, {"--device", "mouse", "--size", "200x160", "--record",
+                                              "other.dibhr", "--seconds", "60"})) {
+        FalconOnUsb::wait_until(
+            [this] { return std::filesystem::exists(folder_ / "other.dibhr"); });
+    }
+
+    /// By a key, which only the window that has the keyboard is told of.
+    void close() {
+        desk_.act("key q");
+        REQUIRE(viewer_.wait() == 0);
+    }
+
+  private:
+    const Desk& desk_;
+    const TemporaryFolder folder_{};
+    Process viewer_;
+};
+
+bool cut_for(SafetyCut reason, const Row& row) {
+    return row.cut == static_cast<int>(reason);
+}
+
+/// The first row of the Falcon in which the goal is so far from the one before [image mm].
+Rows::const_iterator step_of(const Rows& rows, double least_mm, double most_mm) {
+    const auto found = std::adjacent_find(
+        rows.begin(), rows.end(), [least_mm, most_mm](const Row& before, const Row& after) {
+            const double step_mm =
+                glm::distance(before.goal, after.goal) * Coupling{}.pixel_pitch_mm;
+            return before.surface && !before.stand_in && !after.stand_in && step_mm > least_mm &&
+                   step_mm < most_mm;
+        });
+    return found == rows.end() ? found : std::next(found);
+}
+
+double strongest(const Rows& rows) {
+    double newton = 0.0;
+    for (const Row& row : rows) newton = std::max(newton, glm::length(row.sent_newton));
+    return newton;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "the program loads, homes, rests, presses and slides; its forces are those of dibhr touch",
+    "[falcon][window]") {
+    Scene at({"realtime on"}, {"--device", "falcon"});
+    at.falcon.home();
+    at.falcon.move_hand({0.0, 0.0, 140.0}, 0.3);
+    at.desk.act("key Home sleep 0.3");  // ten seconds of video to touch
+
+    at.falcon.move_hand({0.0, 0.0, 118.0}, 0.5);
+    std::this_thread::sleep_for(400ms);
+    at.falcon.move_hand({0.0, 0.0, 108.0}, 0.4);
+    FalconOnUsb::wait_until([&at] { return at.falcon.number("lamp") == 2; });  // green: force
+    at.wait_for_force();
+    std::this_thread::sleep_for(800ms);
+    at.falcon.move_hand({14.0, 0.0, 108.0}, 1.0);
+    at.falcon.move_hand({14.0, 0.0, 140.0}, 0.3);
+    CHECK(at.falcon.number("force_before_homing") == 0);
+    const Rows rows = at.finish();
+
+    run_shell("sqlite3 '" + (at.folder / "hand.dibhr").string() +
+              "' \"SELECT value FROM session WHERE key = 'falcon-serial'\" | grep -qx SIM00001");
+    CHECK(strongest(rows) <= SafetyLimits{}.max_force_newton + 1e-9);
+    std::size_t contacts = 0;
+    std::size_t held_back = 0;
+    double worst_newton = 0.0;
+    for (const Rows& stroke : strokes(rows)) {
+        const std::vector<Vec3> again = touched_again(stroke);
+        REQUIRE(again.size() == stroke.size());
+        for (std::size_t k = 0; k < again.size(); ++k) {
+            const Vec3 spring = stroke[k].spring_newton;
+            worst_newton = std::max(worst_newton, glm::distance(again[k], spring));
+            if (glm::length(spring) > 0.2) ++contacts;
+            if (spring.x < -0.05) ++held_back;  // friction, while it slides to the right
+        }
+    }
+    CHECK(contacts > 800);
+    CHECK(held_back > 100);
+    CHECK_THAT(worst_newton, WithinAbs(0.0, 1e-9));
+}
+
+TEST_CASE("a Falcon pulled in mid-touch leaves the mouse, and is taken back after homing",
+          "[falcon][window]") {
+    Scene at(kHomed, {"--device", "auto"});
+    at.falcon.move_hand({0.0, 0.0, 105.0}, 0.3);
+    at.wait_for_force();
+    at.falcon.tell("unplug");
+    std::this_thread::sleep_for(300ms);
+    at.desk.act("mousemove 330 400 sleep 0.5 mousedown 1 sleep 0.8 mouseup 1 sleep 0.2");
+    at.falcon.tell("power off");
+    at.falcon.tell("power on");
+    at.falcon.tell("replug");
+    at.falcon.home();
+    at.falcon.move_hand({0.0, 0.0, 140.0}, 0.2);
+    std::this_thread::sleep_for(200ms);
+    at.falcon.move_hand({0.0, 0.0, 105.0}, 0.3);
+    at.wait_for_force();
+    CHECK(at.falcon.number("force_before_homing") == 0);
+    const Rows rows = at.finish();
+
+    const auto touched = std::find_if(rows.begin(), rows.end(), falcon_touches);
+    REQUIRE(touched != rows.end());
+    const auto lost =
+        std::find_if(touched, rows.end(), [](const Row& row) { return row.stand_in; });
+    REQUIRE(lost != rows.end());
+    CHECK(strongest({touched, lost}) > 0.5);
+    CHECK_THAT(glm::length(lost->sent_newton), WithinAbs(0.0, 1e-12));
+    const auto back = std::find_if(lost, rows.end(), [](const Row& row) { return !row.stand_in; });
+    REQUIRE(back != rows.end());
+    const Rows of_mouse(lost, back);
+    CHECK(std::any_of(of_mouse.begin(), of_mouse.end(),
+                      [](const Row& row) { return row.contact && row.pressed; }));
+    CHECK(strongest(of_mouse) > 0.1);
+    CHECK_THAT(glm::length(back->sent_newton), WithinAbs(0.0, 1e-12));
+    const Rows after(back, rows.end());
+    CHECK(std::any_of(after.begin(), after.end(), falcon_touches));
+    CHECK(strongest(after) > 0.5);
+}
+
+TEST_CASE("centring the hand in mid-touch lets the force rise again from zero",
+          "[falcon][window]") {
+    Scene at(kHomed, {"--device", "falcon"});
+    at.press_in();
+    std::this_thread::sleep_for(700ms);
+    at.desk.act("key c sleep 1.2");
+    const Rows rows = at.finish();
+    const auto firm = std::find_if(rows.begin(), rows.end(), [](const Row& row) {
+        return falcon_touches(row) && glm::length(row.sent_newton) > 0.5;
+    });
+    const auto weak = std::find_if(firm, rows.end(), [](const Row& row) {
+        return row.contact && cut_for(SafetyCut::none, row) &&
+               glm::length(row.sent_newton) < 0.05 * glm::length(row.spring_newton);
+    });
+    REQUIRE(weak != rows.end());
+    CHECK(strongest({weak, rows.end()}) > 0.5);
+}
+
+TEST_CASE("the grip's buttons record, hold the film, and take the force off", "[falcon][window]") {
+    Scene at(kHomed, {"--device", "falcon"});
+    const auto press = [&at](int bit) {
+        at.falcon.tell("press " + std::to_string(bit));
+        std::this_thread::sleep_for(150ms);
+        at.falcon.tell("press 0");
+        std::this_thread::sleep_for(350ms);
+    };
+    at.falcon.move_hand({0.0, 0.0, 105.0}, 0.3);
+    at.wait_for_force();
+    press(2);  // forward
+    std::this_thread::sleep_for(300ms);
+    press(8);  // minus
+    FalconOnUsb::wait_until([&at] { return at.falcon.number("zeros_in_a_row") > 5.0; });
+    press(1);  // plus: the recording on the command line ends
+    press(1);  // and a new one begins
+    press(1);
+    const Rows rows = at.finish();
+    CHECK_THAT(rows.back().video_s - rows[rows.size() - 300].video_s, WithinAbs(0.0, 1e-12));
+    CHECK(cut_for(SafetyCut::off, rows.back()));
+    std::size_t recordings = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(at.folder.path())) {
+        const std::string name = entry.path().filename().string();
+        if (name.starts_with("dibhr-") && name.ends_with(".dibhr")) ++recordings;
+    }
+    CHECK(recordings == 1);
+}
+
+TEST_CASE("the force is off while another window has the keyboard, and rises again when it is back",
+          "[falcon][window]") {
+    Scene at(kHomed, {"--device", "falcon"});
+    at.press_in();
+    std::this_thread::sleep_for(700ms);
+    OtherWindow other(at.desk);
+    FalconOnUsb::wait_until([&at] { return at.falcon.number("zeros_in_a_row") > 100.0; });
+    other.close();
+    at.desk.act(std::string(kMeet) + "windowfocus");
+    at.wait_for_force();
+    std::this_thread::sleep_for(700ms);
+    const Rows rows = at.finish();
+
+    const auto off = [](const Row& row) { return cut_for(SafetyCut::off, row); };
+    const auto lost = std::find_if(rows.begin(), rows.end(), off);
+    REQUIRE(lost != rows.begin());
+    REQUIRE(lost != rows.end());
+    CHECK(glm::length(std::prev(lost)->sent_newton) > 0.5);
+    const auto back = std::find_if_not(lost, rows.end(), off);
+    CHECK(std::all_of(lost, back, [](const Row& row) {
+        return glm::length(row.spring_newton) > 0.5 && !(glm::length(row.sent_newton) > 0.0);
+    }));
+    REQUIRE(back != rows.end());
+    CHECK(falcon_touches(*back));
+    CHECK(glm::length(back->sent_newton) < 0.05 * glm::length(back->spring_newton));
+    CHECK(strongest({back, rows.end()}) > 0.5);
+    require_same_bits(at.folder, at.folder / "hand.dibhr");
+}
+
+TEST_CASE("the force stays while another window has the keyboard, when it is wished so",
+          "[falcon][window]") {
+    Scene at(kHomed, {"--device", "falcon"}, "[falcon]\nforce-in-front-only = false\n");
+    at.press_in();
+    OtherWindow other(at.desk);
+    std::this_thread::sleep_for(700ms);
+    CHECK(at.falcon.vector("motor_newton").z > 0.5);
+    other.close();
+    std::this_thread::sleep_for(300ms);
+    CHECK(at.falcon.vector("motor_newton").z > 0.5);
+    at.desk.act(std::string(kMeet) + "windowfocus");
+    const Rows rows = at.finish();
+    CHECK(std::none_of(rows.begin(), rows.end(),
+                       [](const Row& row) { return cut_for(SafetyCut::off, row); }));
+}
+
+TEST_CASE("what is a jump is measured in the hand's millimetres, whatever the scale",
+          "[falcon][window]") {
+    Scene at(kHomed, {"--device", "falcon"}, "[falcon]\nscale = 4.0\n");
+    std::this_thread::sleep_for(1500ms);  // the window has seen that it touches
+    at.falcon.tell("place 6 0 140");      // a fast hand, of which a reply was lost
+    std::this_thread::sleep_for(300ms);
+    at.falcon.tell("place -9 0 140");
+    std::this_thread::sleep_for(300ms);
+    const Rows rows = at.finish();
+    const auto fast = step_of(rows, 15.0, 30.0);
+    REQUIRE(fast != rows.end());
+    CHECK_FALSE(cut_for(SafetyCut::goal_jump, *fast));
+    const auto too_fast = step_of(rows, 45.0, 75.0);
+    REQUIRE(too_fast != rows.end());
+    CHECK(cut_for(SafetyCut::goal_jump, *too_fast));
+    require_same_bits(at.folder, at.folder / "hand.dibhr");
+}

@@ -1,0 +1,151 @@
+// Where the mouse points on the relief, and which of two dropped files is which.
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include "app/viewer/hand_pointer.hpp"
+#include "app/viewer/mouse.hpp"
+#include "app/viewer/opening.hpp"
+#include "core/error.hpp"
+#include "device/hand_device.hpp"
+#include "tests/app/program/desk.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+using Catch::Matchers::WithinAbs;
+
+namespace {
+
+/// Waves, 80 x 60.
+DepthImage wavy_image() {
+    DepthImage image{80, 60, 255.0, std::vector<float>(80 * 60)};
+    for (int j = 0; j < 60; ++j) {
+        for (int i = 0; i < 80; ++i) {
+            image.at(i, j) =
+                static_cast<float>(60.0 + 30.0 * std::sin(0.2 * i) * std::cos(0.15 * j));
+        }
+    }
+    return image;
+}
+
+const OpenRequest& request_of(const TemporaryFolder& folder, const char* first, const char* second,
+                              OpenRequest& request) {
+    request = {folder / first, folder / second, true};
+    return request;
+}
+
+}  // namespace
+
+TEST_CASE("the ray under the cursor meets the surface, and nothing of the surface is before it",
+          "[pointer]") {
+    const DepthImage image = wavy_image();
+    const DepthSurface surface(image, image, 0.0, {40.0, 0.0});
+    Camera camera;
+    camera.frame_relief(80, 60, 40.0);
+    const bool straight = GENERATE(true, false);
+    camera.set_projection(straight ? Camera::Projection::straight
+                                   : Camera::Projection::perspective);
+    camera.orbit(GENERATE(-0.6, 0.0, 0.5), GENERATE(-0.4, 0.3));
+    const glm::dvec2 screen{GENERATE(250.0, 300.0, 340.0), GENERATE(200.0, 260.0)};
+    const Camera::Ray ray = camera.ray_under(screen, {600, 450});
+    const SurfacePoint point = surface_under(ray, surface);
+    REQUIRE(point.met);
+    const Vec3 p = point.in_grid;
+    CHECK_THAT(p.z, WithinAbs(surface.elevation_at(p.x, p.y), 1e-6));
+    const Vec3 way = ray.far_in_grid - ray.near_in_grid;
+    CHECK_THAT(glm::length(glm::cross(glm::normalize(way), p - ray.near_in_grid)),
+               WithinAbs(0.0, 1e-6));
+    const double reach = glm::dot(p - ray.near_in_grid, way) / glm::dot(way, way);
+    for (double s = 0.0; s < 0.999; s += 0.001) {
+        const Vec3 before = ray.near_in_grid + s * reach * way;
+        const bool inside =
+            before.x >= 0.0 && before.x <= 79.0 && before.y >= 0.0 && before.y <= 59.0;
+        if (inside) REQUIRE(before.z >= surface.elevation_at(before.x, before.y) - 1e-6);
+    }
+}
+
+TEST_CASE("a cursor that never was over the relief points nowhere", "[pointer]") {
+    const DepthImage image = wavy_image();
+    const DepthSurface surface(image, image, 0.0, {40.0, 0.0});
+    HandPointer pointer;
+    const Camera::Ray beside{{-50.0, -50.0, 100.0}, {-50.0, -50.0, -100.0}};
+    CHECK_FALSE(pointer.target(beside, surface, {true, false, 0.0}).pointing);
+}
+
+TEST_CASE("a stroke over the image's edge goes on beside it, and the wheel presses deeper",
+          "[pointer]") {
+    const DepthImage image = wavy_image();
+    const DepthSurface surface(image, image, 0.0, {40.0, 0.0});
+    HandPointer pointer;
+    const Camera::Ray over{{70.0, 30.0, 100.0}, {70.0, 30.0, -100.0}};
+    const Camera::Ray beside{{90.0, 30.0, 100.0}, {90.0, 30.0, -100.0}};
+    CHECK(pointer.target(over, surface, {true, true, 1.0}).wheel_px > 0.0);
+    const MouseTarget target = pointer.target(beside, surface, {true, true, 1.0});
+    CHECK_THAT(target.cursor_in_grid.x, WithinAbs(90.0, 1e-9));
+    CHECK(target.pressed);
+    CHECK_THAT(pointer.target(over, surface, {true, false, 0.0}).wheel_px, WithinAbs(0.0, 1e-12));
+}
+
+TEST_CASE("of two dropped pictures the depth is known by its name, else by being grey",
+          "[opening]") {
+    const TemporaryFolder folder;
+    const std::string make = "ffmpeg -nostdin -v error -y -f lavfi -i ";
+    run_shell(make + "testsrc2=s=64x48 -frames:v 1 '" + (folder / "a.png").string() + "'");
+    run_shell(make + "gradients=s=64x48:c0=black:c1=white,format=gray -frames:v 1 '" +
+              (folder / "b.png").string() + "'");
+    run_shell("cp '" + (folder / "b.png").string() + "' '" + (folder / "x_depth.png").string() +
+              "'");
+    run_shell("cp '" + (folder / "a.png").string() + "' '" + (folder / "x_color.png").string() +
+              "'");
+    OpenRequest request;
+    CHECK(open_request(request_of(folder, "a.png", "b.png", request))->description().depth_path ==
+          folder / "b.png");
+    CHECK(open_request(request_of(folder, "b.png", "a.png", request))->description().depth_path ==
+          folder / "b.png");
+    CHECK(open_request(request_of(folder, "x_depth.png", "a.png", request))
+              ->description()
+              .depth_path == folder / "x_depth.png");
+    const auto alone = open_request({folder / "x_depth.png", {}, true});
+    CHECK(alone->description().colour_path == folder / "x_color.png");
+}
+
+TEST_CASE("opening in the background gives the words of the error, and can be tried again",
+          "[opening]") {
+    const TemporaryFolder folder;
+    Opening opening;
+    for (int attempt = 0; attempt < 2; ++attempt) {
+        REQUIRE(opening.start({folder / "nowhere.mp4", {}, false}));
+        std::optional<Opened> opened;
+        while (!opened) opened = opening.take();
+        CHECK(opened->media == nullptr);
+        CHECK(opened->failure.find("nowhere.mp4") != std::string::npos);
+    }
+}
+
+TEST_CASE("a device that cannot be used says what to do", "[device]") {
+    CHECK_THROWS_AS(make_hand_device("falcon"), DeviceError);
+    CHECK_THROWS_AS(make_hand_device("glove"), DeviceError);
+    CHECK_THROWS_AS(make_hand_device("goals:/nowhere.csv"), InputError);
+    CHECK(make_hand_device("auto").mouse != nullptr);
+}
+
+TEST_CASE("a drag turns the view by its own way, not by how the pointer came to its begin",
+          "[pointer]") {
+    const auto eye_after = [](glm::dvec2 before) {
+        Camera camera;
+        camera.frame_relief(64, 48, 20.0);
+        ReliefMouse mouse;
+        Pointer pointer;
+        pointer.position_px = before;
+        mouse.use(pointer, 0.0, false, {640, 480}, camera);
+        pointer.right = true;
+        for (const double x : {300.0, 310.0, 330.0}) {
+            pointer.position_px = {x, 200.0};
+            mouse.use(pointer, 0.0, false, {640, 480}, camera);
+        }
+        return camera.view_from_world();
+    };
+    CHECK(eye_after({20.0, 400.0}) == eye_after({300.0, 200.0}));
+    CHECK_FALSE(eye_after({300.0, 200.0}) == Camera().view_from_world());
+}

@@ -1,0 +1,222 @@
+// The haptic tick and its thread: what is felt, and when the force is taken off.
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <new>
+#include <thread>
+
+#include "core/loop/haptic_loop.hpp"
+#include "tests/core/loop/loop_bench.hpp"
+#include "tests/support/allocations.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+using Catch::Matchers::WithinAbs;
+
+TEST_CASE("without a surface the loop sends zero force and updates nothing", "[loop]") {
+    Bench bench;
+    HapticTick tick(bench.connections());
+    bench.hand_over();
+    run_ticks(tick, 3);
+    CHECK_THAT(glm::length(bench.hand.sent), WithinAbs(0.0, 0.0));
+    CHECK_FALSE(bench.state.front().touchable);
+    for (std::int64_t k = 0; k < 3; ++k) {
+        TickRecord row;
+        REQUIRE(bench.ticks->pop(row));
+        CHECK(row.tick == k);
+        CHECK_FALSE(row.surface);
+    }
+}
+
+TEST_CASE("a tick in contact allocates nothing, even when settings and surface change", "[loop]") {
+    Bench bench;
+    HapticTick tick(bench.connections());
+    bench.hand_over();
+    bench.frames.publish(flat_window(64, 48, 0));
+    press(bench, tick);
+    REQUIRE(bench.state.front().touch.proxy.contact);
+    bench.handed.parameters.friction.static_coefficient = 0.9;
+    bench.hand_over();
+    bench.frames.publish(flat_window(64, 48, 1));
+    CHECK(allocations_in([&] { run_ticks(tick, 100); }) == 0);
+    // The count does count.
+    CHECK(allocations_in([] { ::operator delete(::operator new(1)); }) == 1);
+}
+
+TEST_CASE("a changed parameter acts on the next tick, and the force rises again from zero",
+          "[loop]") {
+    Bench bench;
+    HapticTick tick(bench.connections());
+    bench.hand_over();
+    bench.frames.publish(flat_window(64, 48, 0));
+    press(bench, tick);
+    const double spring = bench.state.front().touch.spring_force_newton.z;
+    REQUIRE_THAT(bench.hand.sent.z, WithinAbs(spring, 1e-9));
+    bench.handed.parameters.coupling.stiffness_newton_per_mm *= 2.0;
+    bench.hand_over();
+    run_ticks(tick, 1);
+    CHECK_THAT(bench.state.front().touch.spring_force_newton.z, WithinAbs(2.0 * spring, 1e-9));
+    run_ticks(tick, 10);
+    CHECK(bench.hand.sent.z < 0.5 * spring);
+    run_ticks(tick, 1500);
+    CHECK_THAT(bench.hand.sent.z, WithinAbs(2.0 * spring, 1e-9));
+}
+
+TEST_CASE("a seek or a new file lets the force rise again from zero", "[loop]") {
+    Bench bench;
+    HapticTick tick(bench.connections());
+    bench.hand_over();
+    bench.frames.publish(flat_window(64, 48, 0));
+    press(bench, tick);
+    const double before = bench.hand.sent.z;
+    bench.frames.publish(flat_window(64, 48, 1));
+    run_ticks(tick, 10);
+    CHECK(bench.hand.sent.z < 0.5 * before);
+}
+
+TEST_CASE("a smaller film under a pressed hand leaves the proxy on the new surface", "[loop]") {
+    Bench bench;
+    HapticTick tick(bench.connections());
+    bench.hand_over();
+    bench.frames.publish(flat_window(64, 48, 0));
+    bench.hand.goal = {60.0, 40.0, 90.0};
+    press(bench, tick);
+    bench.frames.publish(flat_window(16, 8, 1));
+    run_ticks(tick, 5);
+    const Proxy& proxy = bench.state.front().touch.proxy;
+    CHECK(proxy.position.x <= 15.0);
+    CHECK(proxy.position.y <= 7.0);
+    CHECK_THAT(proxy.position.z, WithinAbs(100.0, 1e-9));
+}
+
+TEST_CASE("after a moment without a surface the force begins from zero", "[loop]") {
+    Bench bench;
+    bench.hand_over();
+    bench.frames.publish(flat_window(64, 48, 0));
+    HapticTick tick(bench.connections());
+    run_ticks(tick, 700);
+    REQUIRE(glm::length(bench.hand.sent) > 0.3);
+    bench.frames.publish(FrameWindow{});
+    run_ticks(tick, 1);
+    CHECK_THAT(glm::length(bench.hand.sent), WithinAbs(0.0, 0.0));
+    bench.frames.publish(flat_window(64, 48, 0));
+    run_ticks(tick, 1);
+    CHECK_THAT(glm::length(bench.hand.sent), WithinAbs(0.0, 1e-12));
+}
+
+TEST_CASE("a hand that is lifted lets go where its way out is barred", "[loop]") {
+    // A wall between proxy and hand: the proxy pressed into its foot cannot follow over it.
+    Bench bench;
+    bench.hand_over();
+    FrameWindow window = flat_window(64, 48, 0);
+    auto wall = std::make_shared<DepthImage>(*window.frames[0].depth);
+    for (int j = 0; j < 48; ++j) wall->at(30, j) = 250.0F;
+    window.frames[0].depth = wall;
+    bench.frames.publish(window);
+    HapticTick tick(bench.connections());
+    run_ticks(tick, 100);
+    bench.hand.goal = {40.0, 10.0, 110.0};  // beyond the wall, above the ground there
+    run_ticks(tick, 100);
+    REQUIRE(bench.state.front().touch.proxy.contact);
+    bench.hand.lifted = true;
+    run_ticks(tick, 2);
+    CHECK_FALSE(bench.state.front().touch.proxy.contact);
+    CHECK_THAT(glm::length(bench.hand.sent),
+               WithinAbs(0.0, 0.6));  // no more than a step of the slew limit
+    run_ticks(tick, 20);
+    CHECK_THAT(glm::length(bench.hand.sent), WithinAbs(0.0, 1e-12));
+}
+
+TEST_CASE(
+    "a hand that takes over lets go of what the last one touched, and the force begins from zero",
+    "[loop]") {
+    Bench bench;
+    bench.hand_over();
+    bench.frames.publish(flat_window(64, 48, 0));
+    HapticTick tick(bench.connections());
+    press(bench, tick);
+    REQUIRE(bench.hand.sent.z > 0.3);
+    bench.hand.goal.z += 1.0;  // another hand, a little higher, under the surface too
+    bench.hand.taken_over = true;
+    run_ticks(tick, 1);
+    CHECK_THAT(glm::length(bench.hand.sent), WithinAbs(0.0, 0.0));
+    run_ticks(tick, 5);
+    CHECK_THAT(glm::length(bench.hand.sent), WithinAbs(0.0, 0.05));
+}
+
+TEST_CASE("the hand's own button takes the force off in the same tick, until it is put on again",
+          "[loop]") {
+    Bench bench;
+    bench.hand_over();
+    bench.frames.publish(flat_window(64, 48, 0));
+    HapticTick tick(bench.connections());
+    press(bench, tick);
+    REQUIRE(bench.hand.sent.z > 0.3);
+    bench.hand.force_off = true;
+    run_ticks(tick, 1);
+    CHECK_THAT(glm::length(bench.hand.sent), WithinAbs(0.0, 0.0));
+    bench.hand.force_off = false;  // let go before the window has seen it
+    run_ticks(tick, 1000);
+    CHECK_THAT(glm::length(bench.hand.sent), WithinAbs(0.0, 0.0));
+    bench.handed.force_enabled = false;  // the window switches the force off, the person on again
+    bench.hand_over();
+    run_ticks(tick, 1);
+    bench.handed.force_enabled = true;
+    bench.hand_over();
+    run_ticks(tick, 1000);
+    CHECK(bench.hand.sent.z > 0.3);
+}
+
+TEST_CASE("what the device itself adds is limited like the rest and ends with the force",
+          "[loop]") {
+    Bench bench;
+    bench.hand_over();
+    bench.frames.publish(flat_window(64, 48, 0));
+    HapticTick tick(bench.connections());
+    bench.hand.goal.z = 150.0;  // in the air
+    bench.hand.own_force_newton = {0.0, 0.0, -100.0};
+    run_ticks(tick, 1500);
+    const SafetyLimits limits;
+    CHECK_THAT(glm::length(bench.state.front().touch.spring_force_newton), WithinAbs(0.0, 0.0));
+    CHECK_THAT(bench.hand.sent.z, WithinAbs(-limits.max_force_newton, 1e-9));
+    bench.handed.force_enabled = false;
+    bench.hand_over();
+    run_ticks(tick, 1);
+    CHECK_THAT(glm::length(bench.hand.sent), WithinAbs(0.0, 0.0));
+}
+
+TEST_CASE("force off is zero on the next tick", "[loop]") {
+    Bench bench;
+    HapticTick tick(bench.connections());
+    bench.hand_over();
+    bench.frames.publish(flat_window(64, 48, 0));
+    press(bench, tick);
+    REQUIRE(bench.hand.sent.z > 0.1);
+    bench.handed.force_enabled = false;
+    bench.hand_over();
+    run_ticks(tick, 1);
+    CHECK_THAT(glm::length(bench.hand.sent), WithinAbs(0.0, 0.0));
+}
+
+TEST_CASE("a loop that ends in contact has sent zero force last", "[loop]") {
+    Bench bench;
+    bench.hand_over();
+    bench.frames.publish(flat_window(64, 48, 0));
+    bench.hand.goal.z = 90.0;
+    double strongest_newton = 0.0;
+    {
+        HapticLoop loop(bench.connections());
+        const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+        while (strongest_newton < 0.1 && std::chrono::steady_clock::now() < give_up) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            for (TickRecord row; bench.ticks->pop(row);)
+                strongest_newton = std::max(strongest_newton, row.sent_newton[2]);
+        }
+        CHECK(loop.grants().has_value());
+    }
+    CHECK(strongest_newton >= 0.1);
+    CHECK_THAT(glm::length(bench.hand.sent), WithinAbs(0.0, 0.0));
+}

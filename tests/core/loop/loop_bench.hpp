@@ -1,0 +1,92 @@
+// What a haptic tick is connected to in a test: a hand that the test moves, over a flat surface.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include "core/loop/haptic_loop.hpp"
+
+namespace dibhr::test {
+
+/// A hand at a place the test gives; remembers what it was sent.
+class TestHand final : public Device {
+  public:
+    [[nodiscard]] const DeviceSpecification& specification() const noexcept override {
+        return specification_;
+    }
+    HandReading read(const HandContext&) noexcept override {
+        return {.goal_in_grid = goal,
+                .buttons = 1,
+                .lifted = lifted,
+                .taken_over = std::exchange(taken_over, false),
+                .force_off = force_off,
+                .own_force_newton = own_force_newton};
+    }
+    void send(Vec3 force_newton) noexcept override { sent = force_newton; }
+
+    Vec3 goal{20.0, 10.0, 90.0};
+    bool lifted{false};
+    bool taken_over{false};  // by the next reading
+    bool force_off{false};
+    Vec3 own_force_newton{0.0};
+    Vec3 sent{-1.0};
+
+  private:
+    DeviceSpecification specification_{};
+};
+
+inline Frame flat_frame(int columns, int rows, float level) {
+    auto image = std::make_shared<DepthImage>();
+    image->columns = columns;
+    image->rows = rows;
+    image->levels.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), level);
+    Frame frame;
+    frame.depth = image;
+    return frame;
+}
+
+inline FrameWindow flat_window(int columns, int rows, std::uint64_t discontinuity) {
+    FrameWindow window;
+    window.frames[0] = flat_frame(columns, rows, 100.0F);
+    window.count = 1;
+    window.discontinuity = discontinuity;
+    return window;
+}
+
+/// All that a tick is connected to. The surface is flat at 100 px; the hand is 10 px under it.
+struct Bench {
+    TestHand hand{};
+    TripleBuffer<FrameWindow> frames{};
+    TripleBuffer<HapticSettings> settings{};
+    TripleBuffer<HapticState> state{};
+    std::unique_ptr<ForceRing> forces{std::make_unique<ForceRing>()};
+    std::unique_ptr<TickRing> ticks{std::make_unique<TickRing>()};
+    HapticSettings handed{.recording = true};
+
+    HapticConnections connections() { return {hand, frames, settings, state, *forces, *ticks}; }
+    void hand_over() {
+        ++handed.version;
+        settings.publish(handed);
+    }
+};
+
+inline void run_ticks(HapticTick& tick, int count) {
+    for (int k = 0; k < count; ++k)
+        tick.run({std::chrono::steady_clock::now(), 0.001, {}, false}, 0);
+}
+
+/// Lets the hand come from above, so that it is in contact and the force has risen.
+inline void press(Bench& bench, HapticTick& tick) {
+    const Vec3 pressed = bench.hand.goal;
+    for (double z = pressed.z + 15.0; z > pressed.z; z -= 0.5) {
+        bench.hand.goal.z = z;
+        run_ticks(tick, 1);
+    }
+    bench.hand.goal = pressed;
+    run_ticks(tick, 1500);
+}
+
+}  // namespace dibhr::test

@@ -1,0 +1,181 @@
+// What the haptic tick hands to the recorder, and that it replays to the same bits.
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include "core/loop/haptic_loop.hpp"
+#include "core/replay/session_replay.hpp"
+#include "core/session/recorder.hpp"
+#include "core/session/session.hpp"
+#include "tests/core/loop/loop_bench.hpp"
+#include "tests/support/allocations.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+using Catch::Matchers::WithinAbs;
+
+namespace {
+
+/// Two frames that a second lies between: a slope that rises.
+FrameWindow rising_window(int columns, int rows) {
+    FrameWindow window;
+    for (std::size_t k = 0; k < 2; ++k) {
+        auto image = std::make_shared<DepthImage>();
+        image->columns = columns;
+        image->rows = rows;
+        for (int j = 0; j < rows; ++j) {
+            for (int i = 0; i < columns; ++i) {
+                image->levels.push_back(90.0F + static_cast<float>((i * i + 7 * j) % 11) +
+                                        5.0F * static_cast<float>(k));
+            }
+        }
+        Frame& frame = window.frames.at(k);
+        frame.depth = std::move(image);
+        frame.time_s = static_cast<double>(k);
+        frame.media_s = 10.0 + static_cast<double>(k);
+        frame.index = 300 + static_cast<std::int64_t>(k);
+        frame.media = 1;
+        frame.cleaning = {false, true, false};
+    }
+    window.count = 2;
+    window.clock = {std::chrono::steady_clock::now(), 0.0, 1.0};
+    return window;
+}
+
+/// Gives the window's frames back by their times.
+class WindowFrames final : public RecordedFrames {
+  public:
+    explicit WindowFrames(const FrameWindow& window) : window_(window) {}
+    [[nodiscard]] std::shared_ptr<const DepthImage> depth(const FrameSource& source,
+                                                          double media_s) override {
+        CHECK(source == FrameSource{1, false, true, false});
+        return window_.frames.at(media_s > 10.5 ? 1 : 0).depth;
+    }
+    [[nodiscard]] const BumpMap* bump(const SessionParameters&) override { return nullptr; }
+
+  private:
+    const FrameWindow& window_;
+};
+
+/// The hand goes to and fro, in and out of the surface.
+void explore(Bench& bench, HapticTick& tick, int count) {
+    for (int k = 0; k < count; ++k) {
+        bench.hand.goal = {20.0 + 15.0 * std::sin(0.02 * k), 15.0 + 9.0 * std::sin(0.013 * k),
+                           88.0 + 14.0 * std::sin(0.03 * k)};
+        run_ticks(tick, 1);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("every tick is recorded, in order", "[loop]") {
+    Bench bench;
+    HapticTick tick(bench.connections());
+    bench.hand_over();
+    bench.frames.publish(flat_window(64, 48, 0));
+    run_ticks(tick, 500);
+    TickRecord row;
+    for (std::int64_t k = 0; k < 500; ++k) {
+        REQUIRE(bench.ticks->pop(row));
+        REQUIRE(row.tick == k);
+    }
+    CHECK_FALSE(bench.ticks->pop(row));
+}
+
+TEST_CASE("recording can begin and end while the loop runs, and begins as at the start", "[loop]") {
+    Bench bench;
+    bench.handed.recording = false;
+    bench.hand_over();
+    bench.frames.publish(flat_window(64, 48, 0));
+    HapticTick tick(bench.connections());
+    press(bench, tick);
+    TickRecord row;
+    CHECK_FALSE(bench.ticks->pop(row));
+    REQUIRE(bench.hand.sent.z > 0.3);
+    bench.handed.recording = true;
+    bench.settings.publish(bench.handed);  // the same version
+    CHECK(allocations_in([&] { run_ticks(tick, 1500); }) == 0);
+    bench.handed.recording = false;
+    bench.settings.publish(bench.handed);
+    run_ticks(tick, 3);
+    double strongest = 0.0;
+    for (int k = 0; k < 1500; ++k) {
+        REQUIRE(bench.ticks->pop(row));
+        if (k == 0) {
+            CHECK(row.restart);
+            CHECK_THAT(row.sent_newton[2], WithinAbs(0.0, 0.0));
+        }
+        CHECK(row.sent_newton[2] >= strongest);  // it rises again as after any start
+        strongest = row.sent_newton[2];
+    }
+    CHECK(strongest > 0.3);
+    CHECK_FALSE(bench.ticks->pop(row));
+}
+
+TEST_CASE("what the loop records replays to the same bits, whenever the recording began",
+          "[loop]") {
+    const TemporaryFolder folder;
+    const auto file = folder / "loop.dibhr";
+    Bench bench;
+    bench.handed.recording = false;
+    bench.hand_over();
+    FrameWindow window = rising_window(48, 32);
+    bench.frames.publish(window);
+    HapticTick tick(bench.connections());
+    bench.hand.goal = {20.0, 10.0, 90.0};
+    press(bench, tick);
+    {
+        Recorder recorder(file, *bench.ticks, {});
+        const auto hand_over = [&] {
+            bench.handed.recording = true;
+            bench.hand_over();
+            recorder.parameters({.version = bench.handed.version,
+                                 .touch = bench.handed.parameters,
+                                 .limits = bench.handed.limits,
+                                 .force_enabled = bench.handed.force_enabled,
+                                 .bump = {}});
+        };
+        hand_over();
+        explore(bench, tick, 400);
+        for (const Algorithm algorithm : all_algorithms()) {
+            bench.handed.parameters.algorithm = algorithm;
+            bench.handed.parameters.friction.static_coefficient += 0.1;
+            hand_over();
+            explore(bench, tick, 300);
+        }
+        bench.frames.publish(FrameWindow{});
+        run_ticks(tick, 20);
+        ++window.discontinuity;
+        bench.frames.publish(window);
+        explore(bench, tick, 300);
+        bench.hand.lifted = true;
+        run_ticks(tick, 5);
+        bench.hand.lifted = false;
+        bench.hand.taken_over = true;
+        explore(bench, tick, 300);
+        bench.hand.goal.x = NAN;
+        run_ticks(tick, 5);
+        bench.hand.goal.x = 20.0;
+        bench.hand.own_force_newton = {0.5, NAN, 0.0};
+        run_ticks(tick, 5);
+        bench.hand.own_force_newton = {0.5, -0.25, 0.1};
+        explore(bench, tick, 300);
+    }
+    const Session session(file);
+    CHECK(session.rows() == 2535);
+    CHECK(session.missing() == 0);
+    WindowFrames frames(window);
+    SessionReplay replay(session, frames, {{}});
+    int in_contact = 0;
+    while (replay.next()) {
+        CAPTURE(replay.recorded().tick);
+        REQUIRE(same_bits(replay.touch(0), replay.recorded()));
+        in_contact += replay.recorded().contact ? 1 : 0;
+    }
+    CHECK(in_contact > 1000);
+}
