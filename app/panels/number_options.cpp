@@ -5,18 +5,18 @@
 #include <string>
 
 #include "app/panels/widgets.hpp"
-#include "app/settings/options.hpp"
+#include "core/haptics/parameter_table.hpp"
 
 namespace dibhr {
 
 namespace {
 
 /// The slider ends where people work; a typed number may go on to the option's own end.
-double slider_end(const NumberOption& option, double standard) {
+double slider_end(const TouchNumber& option, double standard) {
     return std::min(option.highest, standard > 0.0 ? 4.0 * standard : option.highest / 4.0);
 }
 
-std::string format_of(const NumberOption& option, double end) {
+std::string format_of(const TouchNumber& option, double end) {
     const char* digits = end >= 200.0  ? "%.0f"
                          : end >= 10.0 ? "%.1f"
                          : end >= 1.0  ? "%.2f"
@@ -28,7 +28,7 @@ std::string format_of(const NumberOption& option, double end) {
 
 void draw_option(std::string_view name, TouchParameters& parameters) {
     TouchParameters defaults;
-    for (const NumberOption& option : number_options()) {
+    for (const TouchNumber& option : touch_numbers()) {
         if (option.name != name) continue;
         const double standard = option.in(defaults);
         const double end = slider_end(option, standard);

@@ -8,7 +8,7 @@
 #include "app/panels/number_options.hpp"
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
-#include "app/settings/options.hpp"
+#include "core/haptics/parameter_table.hpp"
 
 namespace dibhr {
 

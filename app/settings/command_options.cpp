@@ -20,7 +20,7 @@ std::string text_of(double value) {
 }
 
 /// "N s/m" -> "N_S_PER_M", a ratio -> "MU": what stands behind the option in the help.
-std::string placeholder_of(const NumberOption& option) {
+std::string placeholder_of(const TouchNumber& option) {
     if (option.unit.empty()) return "MU";
     std::string name;
     for (const char c : option.unit) {
@@ -56,7 +56,7 @@ std::string range_of(double lowest, double highest) {
     return text_of(lowest) + " to " + text_of(highest);
 }
 
-void add_number(CLI::App& app, GivenParameters& given, const NumberOption& option) {
+void add_number(CLI::App& app, GivenParameters& given, const TouchNumber& option) {
     const std::string name = "--" + std::string(option.name);
     TouchParameters defaults;
     app.add_option_function<std::string>(
@@ -134,16 +134,16 @@ void add_touch_options(CLI::App& app, TouchRequest& request) {
            "--friction",
            [&request](const std::string& text) {
                // The range is that of the coefficients it stands for.
-               const auto options = number_options();
+               const auto options = touch_numbers();
                const auto friction = std::find_if(
                    options.begin(), options.end(),
-                   [](const NumberOption& option) { return option.name == "static-friction"; });
+                   [](const TouchNumber& option) { return option.name == "static-friction"; });
                request.given.friction =
                    parse_number("--friction", text, friction->lowest, friction->highest);
            },
            "Both coefficients of friction; one given by itself wins")
         ->type_name("MU");
-    for (const NumberOption& option : number_options()) {
+    for (const TouchNumber& option : touch_numbers()) {
         add_number(app, request.given, option);
     }
     app.add_option("--bump", request.bump, "Bump map laid over the surface: an 8- or 16-bit image")

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/settings/options.hpp"
 #include "core/error.hpp"
+#include "core/haptics/parameter_table.hpp"
 
 namespace dibhr {
 
@@ -22,7 +22,7 @@ class UsageError : public Error {
 /// program's defaults say.
 struct GivenParameters {
     std::optional<Algorithm> algorithm{};
-    std::vector<std::pair<const NumberOption*, double>> numbers{};
+    std::vector<std::pair<const TouchNumber*, double>> numbers{};
     std::optional<double>
         friction{};  ///< --friction: both coefficients, unless one is given by itself
 
@@ -48,7 +48,7 @@ struct TouchRequest {
 /// --algorithm NAME, several times. `algorithms` must outlive the parsing of `app`.
 void add_algorithms_option(CLI::App& app, std::vector<Algorithm>& algorithms);
 
-/// --algorithm, --friction, --bump, --raw-depth and every entry of number_options(). `request` must
+/// --algorithm, --friction, --bump, --raw-depth and every entry of touch_numbers(). `request` must
 /// outlive the parsing of `app`.
 void add_touch_options(CLI::App& app, TouchRequest& request);
 

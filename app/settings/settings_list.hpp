@@ -4,9 +4,9 @@
 #include <optional>
 #include <string_view>
 
-#include "app/settings/options.hpp"
 #include "app/settings/settings.hpp"
 #include "core/haptics/algorithm.hpp"
+#include "core/haptics/parameter_table.hpp"
 
 namespace dibhr {
 
@@ -61,7 +61,7 @@ void visit_settings(Settings& s, Visitor& visit) {
     visit.flag("panels", "session", s.panels.session);
     visit.flag("panels", "loop", s.panels.loop);
     visit.word("touch", "algorithm", s.touch.algorithm, kAlgorithmWords);
-    for (const NumberOption& option : number_options()) {
+    for (const TouchNumber& option : touch_numbers()) {
         visit.number("touch", option.name, option.in(s.touch), {option.lowest, option.highest});
     }
     visit.number("device", "max-force", s.max_force_newton, {0.0, kDeviceMaxForce_newton});

@@ -4,8 +4,8 @@
 #include <charconv>
 #include <glm/geometric.hpp>
 
-#include "app/settings/options.hpp"
 #include "core/haptics/facet.hpp"
+#include "core/haptics/parameter_table.hpp"
 #include "core/haptics/surface.hpp"
 #include "core/video/library_versions.hpp"
 
@@ -79,7 +79,7 @@ std::map<std::string, std::string> session_facts(const ViewerState& state) {
     };
     facts.merge(library_versions());
     TouchParameters parameters = state.settings.touch;
-    for (const NumberOption& option : number_options()) {
+    for (const TouchNumber& option : touch_numbers()) {
         facts.emplace(std::string(option.name), number_text(option.in(parameters)));
     }
     const CleaningOptions& cleaning = state.settings.cleaning;

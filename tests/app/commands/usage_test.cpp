@@ -7,7 +7,7 @@
 
 #include "app/commands/command_line.hpp"
 #include "app/settings/command_options.hpp"
-#include "app/settings/options.hpp"
+#include "core/haptics/parameter_table.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/support/catch.hpp"
 
@@ -103,7 +103,7 @@ TEST_CASE("every number is an option with a range, beyond which it is refused", 
     const TemporaryFolder folder;
     const std::string touch_help = run_dibhr(folder, {"touch", "--help"}).output;
     const std::string view_help = run_dibhr(folder, {"view", "--help"}).output;
-    for (const NumberOption& option : number_options()) {
+    for (const TouchNumber& option : touch_numbers()) {
         const std::string name = "--" + std::string(option.name);
         INFO(name);
         const std::string above = std::to_string(option.highest + 1.0);
@@ -119,7 +119,7 @@ TEST_CASE("numbers start inside their ranges and are brought back into them", "[
     TouchParameters high;
     TouchParameters low;
     TouchParameters broken;
-    for (const NumberOption& option : number_options()) {
+    for (const TouchNumber& option : touch_numbers()) {
         TouchParameters defaults;
         INFO(option.name);
         CHECK(option.lowest <= option.in(defaults));
@@ -132,7 +132,7 @@ TEST_CASE("numbers start inside their ranges and are brought back into them", "[
     keep_in_range(low);
     keep_in_range(broken);
     CHECK(broken == TouchParameters{});
-    for (const NumberOption& option : number_options()) {
+    for (const TouchNumber& option : touch_numbers()) {
         INFO(option.name);
         CHECK(option.in(high) <= option.highest);
         CHECK(option.in(low) >= option.lowest);

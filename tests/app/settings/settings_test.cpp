@@ -6,12 +6,12 @@
 
 #include "app/panels/viewer_state.hpp"
 #include "app/settings/keys.hpp"
-#include "app/settings/options.hpp"
 #include "app/settings/settings.hpp"
 #include "app/settings/settings_changes.hpp"
 #include "app/viewer/actions.hpp"
 #include "app/viewer/keeping.hpp"
 #include "core/error.hpp"
+#include "core/haptics/parameter_table.hpp"
 #include "core/video/player.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/support/catch.hpp"
