@@ -203,7 +203,7 @@ TEST_CASE("no folder holds more files than one can take in", "[rooms]") {
 TEST_CASE("the checks of the arrows find what they are there to find", "[rooms]") {
     CHECK(breaks_arrow({"core/haptics/proxy.cpp", "core/error.hpp", true}));
     CHECK(breaks_arrow({"core/video/player.cpp", "render/camera.hpp", true}));
-    CHECK(breaks_arrow({"device/falcon.cpp", "core/haptics/parameter_table.hpp", true}));
+    CHECK(breaks_arrow({"device/falcon.cpp", "app/settings/settings.hpp", true}));
     CHECK(breaks_arrow({"core/error.hpp", "core/haptics/vec.hpp", true}));
     CHECK(breaks_arrow({"app/main.cpp", "tests/support/catch.hpp", true}));
     CHECK(breaks_arrow({"core/video/player.cpp", "../../render/camera.hpp", true}));
