@@ -18,6 +18,7 @@ HandReading FalconOrMouse::read(const HandContext& context) noexcept {
     if (!falcon_touches_) {
         reading = mouse_.read(context);
         reading.stand_in = true;
+        reading.limits = mouse_.specification().limits;
     }
     reading.taken_over = reading.taken_over || changed;
     return reading;

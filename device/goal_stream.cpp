@@ -121,6 +121,7 @@ std::vector<TimedGoal> read_goals(const std::filesystem::path& file) {
 GoalStream::GoalStream(std::string name, std::vector<TimedGoal> goals) : goals_(std::move(goals)) {
     assert(!goals_.empty());
     specification_.name = std::move(name);
+    specification_.limits = kVirtualHandLimits;
 }
 
 HandReading GoalStream::read(const HandContext& /*context*/) noexcept {

@@ -44,7 +44,7 @@ double highest_between(const DepthSurface& surface, Vec2 from, Vec2 to) noexcept
 
 MouseHand::MouseHand(MouseHandOptions options) : options_(options), depth_px_(-options.hover_px) {
     specification_.name = "mouse";
-    specification_.max_stiffness_newton_per_mm = 2.0;  // stable up to here in ticks of 20 ms
+    specification_.limits = kVirtualHandLimits;
 }
 
 HandReading MouseHand::read(const HandContext& context) noexcept {

@@ -29,7 +29,8 @@ struct MouseHandOptions {
     double max_speed_mm_per_s{3000.0};
 };
 
-/// Follows the cursor over the surface. Stable for ticks up to 20 ms against 2 N/mm.
+/// Follows the cursor over the surface. Stable for ticks up to 20 ms against 2 N/mm,
+/// and up to 10 ms against 10 N/mm.
 ///
 /// Hovering, the hand rises before it moves on, so that it does not bump into cliffs. Pressing
 /// begins when the hand has come to the cursor; from then on its depth is measured from the surface

@@ -93,11 +93,11 @@ void draw_device_panel(ViewerState& state) {
     draw_force_switch(state, -1.0F);
     if (state.falcon) draw_front_switch(state.settings.falcon);
     const SafetyLimits standard;
-    number_row({"Max force", "%.1f N", 0.0, state.device.max_force_newton,
+    number_row({"Max force", "%.1f N", 0.0, state.device.limits.max_force_newton,
                 standard.max_force_newton, "No more than this is ever sent"},
                state.settings.max_force_newton);
     state.settings.max_force_newton =
-        std::clamp(state.settings.max_force_newton, 0.0, state.device.max_force_newton);
+        std::clamp(state.settings.max_force_newton, 0.0, state.device.limits.max_force_newton);
     const Touch& touch = state.haptic.touch;
     fact_row("Goal", point_text(touch.goal));
     fact_row("Proxy", point_text(touch.proxy.position));

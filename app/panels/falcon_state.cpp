@@ -1,8 +1,6 @@
 // What the state of the Falcon means for the force.
 #include "app/panels/falcon_state.hpp"
 
-#include <algorithm>
-
 namespace dibhr {
 
 namespace {
@@ -24,6 +22,11 @@ bool touches(const ViewerState& state) {
            !state.haptic.hand.stand_in;
 }
 
+/// What a Falcon can stand at the scale that is chosen.
+DeviceLimits falcon_limits(const ViewerState& state) {
+    return at_scale(state.device.limits, state.settings.falcon.workspace.scale);
+}
+
 }  // namespace
 
 bool needs_its_person(falcon::Stage stage) {
@@ -33,19 +36,15 @@ bool needs_its_person(falcon::Stage stage) {
 TouchParameters touch_parameters(const ViewerState& state) {
     TouchParameters parameters = state.settings.touch;
     if (may_touch(state)) {
-        parameters.coupling =
-            held_coupling(parameters.coupling, state.settings.falcon.workspace.scale, state.device);
+        parameters.coupling = held_coupling(parameters.coupling, falcon_limits(state));
     }
     return parameters;
 }
 
 SafetyLimits safety_limits(const ViewerState& state) {
-    SafetyLimits limits;
-    limits.max_force_newton =
-        std::min(state.settings.max_force_newton, state.device.max_force_newton);
     // The mouse's hand is as fast at any scale, so that it keeps its limit while it stands in.
-    if (touches(state)) limits.max_goal_speed_mm_per_ms *= state.settings.falcon.workspace.scale;
-    return limits;
+    return held_limits({.max_force_newton = state.settings.max_force_newton},
+                       touches(state) ? falcon_limits(state) : state.device.limits);
 }
 
 bool waits_for_front(const ViewerState& state) {

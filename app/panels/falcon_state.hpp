@@ -7,12 +7,13 @@
 
 namespace dibhr {
 
-/// The touch parameters for the next tick: stiffness is held below what the Falcon can give, when
-/// it touches or may begin to.
+/// The touch parameters for the next tick. The loop holds them to what the hand it reads can stand;
+/// where that is the Falcon, or may be before the next picture, they are held here already: what
+/// the panel says is felt, and does not change when a lost Falcon is back.
 [[nodiscard]] TouchParameters touch_parameters(const ViewerState& state);
 
-/// The limits for the next tick: a jump of the goal is one of the hand while the Falcon touches,
-/// a hand millimetre being `scale` image millimetres.
+/// The limits for the next tick, as the loop will hold them: a jump of the goal is one of the hand
+/// while the Falcon touches, a hand millimetre being `scale` image millimetres.
 [[nodiscard]] SafetyLimits safety_limits(const ViewerState& state);
 
 /// No force until the window is in front again: people work in another one while a Falcon touches

@@ -104,13 +104,4 @@ falcon::Tuning tuning_of(const FalconSettings& settings, std::uint32_t centred) 
     return tuning;
 }
 
-Coupling held_coupling(Coupling coupling, double scale,
-                       const DeviceSpecification& device) noexcept {
-    coupling.stiffness_newton_per_mm =
-        std::min(coupling.stiffness_newton_per_mm, device.max_stiffness_newton_per_mm / scale);
-    coupling.damping_newton_s_per_m =
-        std::min(coupling.damping_newton_s_per_m, device.max_damping_newton_s_per_m / scale);
-    return coupling;
-}
-
 }  // namespace dibhr

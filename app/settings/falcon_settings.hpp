@@ -44,9 +44,4 @@ struct FalconNumber {
 [[nodiscard]] falcon::Tuning tuning_of(const FalconSettings& settings,
                                        std::uint32_t centred) noexcept;
 
-/// Spring and damper of the image, held so low that the hand feels no more than the device can
-/// give: a hand millimetre is `scale` image millimetres.
-[[nodiscard]] Coupling held_coupling(Coupling coupling, double scale,
-                                     const DeviceSpecification& device) noexcept;
-
 }  // namespace dibhr

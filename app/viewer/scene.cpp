@@ -64,8 +64,8 @@ std::map<std::string, std::string> session_facts(const ViewerState& state) {
     std::map<std::string, std::string> facts{
         {"program", "dibhr " DIBHR_VERSION},
         {"device", state.device.name},
-        {"device-max-force", number_text(state.device.max_force_newton)},
-        {"device-max-stiffness", number_text(state.device.max_stiffness_newton_per_mm)},
+        {"device-max-force", number_text(state.device.limits.max_force_newton)},
+        {"device-max-stiffness", number_text(state.device.limits.max_stiffness_newton_per_mm)},
         {"device-workspace-mm", number_text(state.device.workspace_mm.x) + " x " +
                                     number_text(state.device.workspace_mm.y) + " x " +
                                     number_text(state.device.workspace_mm.z)},

@@ -16,13 +16,19 @@ double bounded_ms(double dt_s) noexcept {
     return std::min(dt_s * 1e3, kLongest_ms);
 }
 
-/// The vector shortened to `longest`, same direction. Safe for any finite length.
+/// The vector shortened to `longest`, same direction. Safe for any finite length; no vector is
+/// shorter than what is no length.
 Vec3 shortened(Vec3 v, double longest) noexcept {
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     if (largest == 0.0) return v;
+    if (!(longest >= 0.0)) return Vec3(0.0);
     const Vec3 scaled = v / largest;  // its length is in [1, sqrt 3]: nothing overflows
     const double length = glm::length(scaled);
     return largest * length <= longest ? v : scaled * (longest / length);
+}
+
+double limit_or_zero(double value) noexcept {
+    return std::isfinite(value) && value > 0.0 ? value : 0.0;
 }
 
 SafetyCut reason_to_cut(Vec3 force_newton, const SafetyInput& input,
@@ -35,6 +41,36 @@ SafetyCut reason_to_cut(Vec3 force_newton, const SafetyInput& input,
 }
 
 }  // namespace
+
+DeviceLimits usable(const DeviceLimits& device) noexcept {
+    return {limit_or_zero(device.max_force_newton),
+            limit_or_zero(device.max_stiffness_newton_per_mm),
+            limit_or_zero(device.max_damping_newton_s_per_m),
+            limit_or_zero(device.max_goal_speed_mm_per_ms)};
+}
+
+DeviceLimits at_scale(const DeviceLimits& device, double scale) noexcept {
+    return usable({device.max_force_newton, device.max_stiffness_newton_per_mm / scale,
+                   device.max_damping_newton_s_per_m / scale,
+                   device.max_goal_speed_mm_per_ms * scale});
+}
+
+Coupling held_coupling(Coupling coupling, const DeviceLimits& device) noexcept {
+    const DeviceLimits most = usable(device);
+    coupling.stiffness_newton_per_mm =
+        std::clamp(coupling.stiffness_newton_per_mm, 0.0, most.max_stiffness_newton_per_mm);
+    coupling.damping_newton_s_per_m =
+        std::clamp(coupling.damping_newton_s_per_m, 0.0, most.max_damping_newton_s_per_m);
+    return coupling;
+}
+
+SafetyLimits held_limits(SafetyLimits limits, const DeviceLimits& device) noexcept {
+    const DeviceLimits most = usable(device);
+    const double asked = limits.max_force_newton;
+    limits.max_force_newton = asked > 0.0 ? std::min(asked, most.max_force_newton) : 0.0;
+    limits.max_goal_speed_mm_per_ms = most.max_goal_speed_mm_per_ms;
+    return limits;
+}
 
 bool goal_jumped(const SafetyInput& input, const SafetyLimits& limits) noexcept {
     return !(input.goal_step_mm <= limits.max_goal_speed_mm_per_ms * bounded_ms(input.dt_s));

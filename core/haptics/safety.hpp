@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "core/haptics/parameters.hpp"
 #include "core/haptics/vec.hpp"
 
 namespace dibhr {
@@ -17,6 +18,31 @@ struct SafetyLimits {
 
     bool operator==(const SafetyLimits&) const = default;
 };
+
+/// What a device can stand, as it is felt in the image. A value that is no number, infinite or
+/// negative means that it can stand none of it.
+struct DeviceLimits {
+    double max_force_newton{8.0};
+    double max_stiffness_newton_per_mm{1.0};
+    double max_damping_newton_s_per_m{20.0};
+    /// A faster goal is a jump, not a hand (10 m/s) [image mm].
+    double max_goal_speed_mm_per_ms{10.0};
+
+    bool operator==(const DeviceLimits&) const = default;
+};
+
+/// The same limits with 0 for every value that is no limit.
+[[nodiscard]] DeviceLimits usable(const DeviceLimits& device) noexcept;
+
+/// The limits of a hand of which a millimetre is `scale` image millimetres.
+[[nodiscard]] DeviceLimits at_scale(const DeviceLimits& device, double scale) noexcept;
+
+/// Spring and damper, no stiffer than the device can stand. A coupling that was held before stays
+/// as it is, bit by bit; so do limits.
+[[nodiscard]] Coupling held_coupling(Coupling coupling, const DeviceLimits& device) noexcept;
+
+/// The user's limits, with the device's where it can stand less; what a jump is, the device knows.
+[[nodiscard]] SafetyLimits held_limits(SafetyLimits limits, const DeviceLimits& device) noexcept;
 
 /// Why the last force was cut, or `none`.
 enum class SafetyCut : std::uint8_t {

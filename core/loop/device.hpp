@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
+#include "core/haptics/safety.hpp"
 #include "core/haptics/surface.hpp"
 #include "core/haptics/vec.hpp"
 
@@ -12,11 +14,13 @@ namespace dibhr {
 /// A device's abilities as data.
 struct DeviceSpecification {
     std::string name{};  ///< "mouse", "goals:FILE", "Novint Falcon (serial)"
-    double max_force_newton{8.0};
-    double max_stiffness_newton_per_mm{1.0};
-    double max_damping_newton_s_per_m{20.0};
+    DeviceLimits limits{};
     Vec3 workspace_mm{101.6};  ///< extents of the volume it reaches
 };
+
+/// No motors: it stands whatever people can ask for (touch_numbers() of core/haptics).
+inline constexpr DeviceLimits kVirtualHandLimits{.max_stiffness_newton_per_mm = 10.0,
+                                                 .max_damping_newton_s_per_m = 100.0};
 
 /// What a device may need to know of the tick it is read in.
 struct HandContext {
@@ -34,6 +38,9 @@ struct HandReading {
     bool taken_over{false};   ///< another hand than in the last reading: the force begins from zero
     bool force_off{false};    ///< a button that takes the force off is down
     bool stand_in{false};     ///< the mouse, while the device asked for is not ready
+    /// What this hand can stand now, where that is not what the specification says: at another
+    /// scale, or another hand's.
+    std::optional<DeviceLimits> limits{};
     /// What the device itself adds on the hand, such as its soft boundary [N], axes of grid space.
     Vec3 own_force_newton{0.0};
 };

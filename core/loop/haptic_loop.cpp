@@ -38,7 +38,8 @@ void copy(const Vec3& from, double (&to)[3]) {
 
 }  // namespace
 
-HapticTick::HapticTick(const HapticConnections& connections) : to_(connections) {}
+HapticTick::HapticTick(const HapticConnections& connections)
+    : to_(connections), limits_(usable(connections.device.specification().limits)) {}
 
 void HapticTick::run(const TickTiming& timing, std::uint64_t late_ticks) noexcept {
     if (state_.ticks == 0) start_ = second_begin_ = timing.begin;
@@ -92,11 +93,14 @@ void HapticTick::touch_surface(const DepthBlend& pair, const HapticSettings& set
                             .device_ready = hand.ready && !taken_off(hand, settings),
                             .device_force_newton = hand.own_force_newton,
                             .restart = restart_ || hand.taken_over};
+    limits_ = usable(hand.limits.value_or(to_.device.specification().limits));
+    TouchParameters held = settings.parameters;
+    held.coupling = held_coupling(held.coupling, limits_);
     const bool lets_go = hand.lifted || hand.taken_over;
     if (lets_go && state_.touch.proxy.contact) renderer_.let_go();
     const auto begin = std::chrono::steady_clock::now();
-    state_.touch =
-        renderer_.update(surface, hand.goal_in_grid, settings.parameters, input, settings.limits);
+    state_.touch = renderer_.update(surface, hand.goal_in_grid, held, input,
+                                    held_limits(settings.limits, limits_));
     const double update_us = microseconds(std::chrono::steady_clock::now() - begin);
     to_.device.send(state_.touch.sent_force_newton);
     restart_ = false;
@@ -139,6 +143,7 @@ void HapticTick::record(const TickRecord& inputs, const TickTiming& timing,
                         double update_us) noexcept {
     const Touch& touch = state_.touch;
     TickRecord row = inputs;
+    row.limits = limits_;
     row.tick = static_cast<std::int64_t>(state_.ticks);
     row.t_s = seconds(timing.begin - start_);
     row.zero_ns = std::chrono::nanoseconds(start_.time_since_epoch()).count();

@@ -21,7 +21,7 @@
 
 namespace dibhr {
 
-/// What a person tunes, handed whole to the next tick.
+/// What a person tunes, handed whole to the next tick, which holds it to what the device can stand.
 struct HapticSettings {
     TouchParameters parameters{};
     SafetyLimits limits{};
@@ -72,6 +72,7 @@ struct HapticConnections {
 };
 
 /// One tick of the loop, without a thread: nothing in it allocates, locks, waits or throws.
+/// Whatever the settings ask for, the device gets no more than it can stand.
 class HapticTick {
   public:
     explicit HapticTick(const HapticConnections& connections);
@@ -99,6 +100,7 @@ class HapticTick {
     HapticState state_{};
     std::uint64_t version_{~0ull};
     std::uint64_t discontinuity_{~0ull};
+    DeviceLimits limits_;  // what the hand of the last reading can stand
     bool restart_{true};
     bool force_off_pressed_{false};
     bool taken_off_{false};

@@ -25,6 +25,8 @@ namespace dibhr {
 
 namespace {
 
+// A version that is held otherwise than before gets a number that no window hands out: 2^32 more.
+constexpr int kHeldAgainShift = 32;
 // Large pages waste little at their ends.
 constexpr const char* kFileLayout =
     "PRAGMA page_size = 16384; PRAGMA journal_mode = WAL; PRAGMA wal_autocheckpoint = 0";
@@ -149,7 +151,7 @@ void SessionFile::begin() {
 }
 
 void SessionFile::add(const TickRecord& record) {
-    if (settings_ != record.settings) use_settings(record.settings, record.tick);
+    if (version_ != record.settings || limits_ != record.limits) use_settings(record);
     if (record.surface && pair_ != record.frames) add_pair(record.frames, record.tick);
     RowBinder row(insert_tick_);
     row.integer(record.tick);
@@ -160,7 +162,7 @@ void SessionFile::add(const TickRecord& record) {
     row.integer(state_of(record));
     row.reference(record.surface ? pairs_ : 0);
     row.real(record.blend);
-    row.integer(static_cast<std::int64_t>(record.settings));
+    row.integer(static_cast<std::int64_t>(settings_));
     row.integer(record.moves);
     row.integer_unless(record.i, pixel_of(record.proxy[0]));
     row.integer_unless(record.j, pixel_of(record.proxy[1]));
@@ -255,21 +257,43 @@ void SessionFile::add_clock(std::int64_t t_ns, double utc_s, std::uint64_t dropp
     insert.run();
 }
 
-void SessionFile::use_settings(std::uint64_t version, std::int64_t tick) {
-    settings_ = version;
+/// The parameters that the tick's force follows from: as they were told, held to its device.
+void SessionFile::use_settings(const TickRecord& record) {
+    version_ = settings_ = record.settings;
+    limits_ = record.limits;
     newton_per_px_.reset();
-    const auto known = known_parameters_.find(version);
+    const auto known = known_parameters_.find(record.settings);
     if (known == known_parameters_.end()) return;
-    const SessionParameters& parameters = known->second;
-    const TouchParameters& touch = parameters.touch;
+    SessionParameters held = known->second;
+    held.first_tick = record.tick;
+    if (limits_) {
+        held.touch.coupling = held_coupling(held.touch.coupling, *limits_);
+        held.limits = held_limits(held.limits, *limits_);
+    }
     // As in coupling_force() and the view: bit by bit the same.
-    newton_per_px_ = touch.coupling.stiffness_newton_per_mm * touch.coupling.pixel_pitch_mm;
+    newton_per_px_ =
+        held.touch.coupling.stiffness_newton_per_mm * held.touch.coupling.pixel_pitch_mm;
+    auto& written = held_parameters_[record.settings];
+    const auto same = std::find_if(written.begin(), written.end(), [&held](const auto& other) {
+        return other.touch == held.touch && other.limits == held.limits;
+    });
+    if (same == written.end()) {
+        held.version += std::uint64_t{written.size()} << kHeldAgainShift;
+        add_parameters(held);
+        settings_ = written.emplace_back(held).version;
+    } else {
+        settings_ = same->version;
+    }
+}
+
+void SessionFile::add_parameters(const SessionParameters& parameters) {
+    const TouchParameters& touch = parameters.touch;
     Statement insert(database_,
                      "INSERT OR IGNORE INTO parameters VALUES "
                      "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
     RowBinder row(insert);
-    row.integer(static_cast<std::int64_t>(version));
-    row.integer(tick);
+    row.integer(static_cast<std::int64_t>(parameters.version));
+    row.integer(parameters.first_tick);
     row.text(name_of(touch.algorithm));
     for (const double value :
          {touch.shape.relief_px, touch.shape.roughness_px, touch.friction.static_coefficient,

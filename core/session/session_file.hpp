@@ -76,7 +76,8 @@ class SessionFile {
     };
 
     void try_to(const char* sql) noexcept;
-    void use_settings(std::uint64_t version, std::int64_t tick);
+    void use_settings(const TickRecord& record);
+    void add_parameters(const SessionParameters& parameters);
     void add_pair(const FramePair& frames, std::int64_t tick);
     void bind_times(RowBinder& row, const TickRecord& record);
     void bind_forces(RowBinder& row, const TickRecord& record) const;
@@ -95,10 +96,15 @@ class SessionFile {
     std::map<std::uint32_t, MediaFiles> known_media_{};
     std::map<std::filesystem::path, std::int64_t> media_rows_{};
     std::vector<std::filesystem::path> new_files_{};
-    std::vector<FrameSource> sources_{};       ///< by their rows, from 1
-    std::optional<FramePair> pair_{};          ///< the last row of table pair
-    std::int64_t pairs_{0};                    ///< and its number
-    std::optional<std::uint64_t> settings_{};  ///< version of the last tick
+    std::vector<FrameSource> sources_{};  ///< by their rows, from 1
+    std::optional<FramePair> pair_{};     ///< the last row of table pair
+    std::int64_t pairs_{0};               ///< and its number
+    /// What was written of each version: as it was held to a device, and again where another hand
+    /// could stand less or more.
+    std::map<std::uint64_t, std::vector<SessionParameters>> held_parameters_{};
+    std::optional<std::uint64_t> version_{};   ///< of the last tick
+    std::optional<DeviceLimits> limits_{};     ///< and what it was held to
+    std::uint64_t settings_{0};                ///< its row of table parameters
     std::optional<double> newton_per_px_{};    ///< its spring's, where known
     std::int64_t last_tick_{0};                ///< its number
     std::optional<std::int64_t> last_t_ns_{};  ///< its time, if it is stored as that

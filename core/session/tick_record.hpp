@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
+#include "core/haptics/safety.hpp"
 #include "core/realtime/spsc_ring.hpp"
 
 namespace dibhr {
@@ -38,6 +40,9 @@ struct TickRecord {
     double lateness_us{0.0};    ///< after its deadline
     double update_us{0.0};      ///< time of the update
     std::uint64_t settings{0};  ///< version of the parameters
+    /// What they were held to; nothing: felt as they are. Not read back: the version then is that
+    /// of the parameters as they were held.
+    std::optional<DeviceLimits> limits{};
 
     FramePair frames{};   ///< means nothing without a surface
     double blend{0.0};    ///< 0: from, 1: to

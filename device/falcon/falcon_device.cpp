@@ -29,8 +29,8 @@ DeviceSpecification specification_of(const ConnectionOptions& options) {
     DeviceSpecification specification;
     specification.name =
         options.serial.empty() ? "Novint Falcon" : "Novint Falcon (" + options.serial + ")";
-    specification.max_force_newton = kMaxForce_newton;
-    specification.max_stiffness_newton_per_mm = kMaxStiffness_newton_per_mm;
+    specification.limits.max_force_newton = kMaxForce_newton;
+    specification.limits.max_stiffness_newton_per_mm = kMaxStiffness_newton_per_mm;
     specification.workspace_mm = Vec3{kExtent_mm};
     return specification;
 }
@@ -89,6 +89,7 @@ HandReading FalconDevice::Implementation::read(const HandContext& context) noexc
     const bool posed = session != kNoSession && Clock::now() - newest.at < kOldestReply &&
                        find_pose(newest.reply.encoder);
     HandReading reading;
+    reading.limits = at_scale(specification.limits, tuned.workspace.scale);
     reading.buttons = newest.reply.buttons;
     reading.force_off = (newest.reply.buttons & tuned.force_off_buttons) != 0;
     if (posed) {

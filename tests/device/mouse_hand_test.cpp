@@ -37,8 +37,8 @@ bool same(Vec3 a, Vec3 b) {
 TEST_CASE("the mouse is a device by that name with a force limit", "[mouse]") {
     const dibhr::MouseHand hand;
     CHECK(hand.specification().name == "mouse");
-    CHECK(hand.specification().max_force_newton > 0.0);
-    CHECK(hand.specification().max_stiffness_newton_per_mm >= 2.0);
+    CHECK(hand.specification().limits.max_force_newton > 0.0);
+    CHECK(hand.specification().limits.max_stiffness_newton_per_mm >= 2.0);
 }
 
 TEST_CASE("until the cursor points, the hand waits above the middle, clear of the highest place",

@@ -132,8 +132,8 @@ TEST_CASE("the hand never feels more stiffness or damping than the device can gi
     Coupling wished;
     wished.stiffness_newton_per_mm = GENERATE(0.0, 0.05, 0.5, 2.0, 10.0);
     wished.damping_newton_s_per_m = GENERATE(0.0, 1.0, 15.0, 100.0);
-    const DeviceSpecification device;
-    const Coupling held = held_coupling(wished, scale, device);
+    const DeviceLimits device = DeviceSpecification{}.limits;
+    const Coupling held = held_coupling(wished, at_scale(device, scale));
     CAPTURE(scale, wished.stiffness_newton_per_mm, wished.damping_newton_s_per_m);
     const auto check = [scale](double felt, double asked, double most) {
         CHECK(felt * scale <= most + 1e-12);

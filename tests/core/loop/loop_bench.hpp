@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "core/loop/haptic_loop.hpp"
@@ -15,7 +16,7 @@ namespace dibhr::test {
 class TestHand final : public Device {
   public:
     [[nodiscard]] const DeviceSpecification& specification() const noexcept override {
-        return specification_;
+        return described;
     }
     HandReading read(const HandContext&) noexcept override {
         return {.goal_in_grid = goal,
@@ -23,6 +24,7 @@ class TestHand final : public Device {
                 .lifted = lifted,
                 .taken_over = std::exchange(taken_over, false),
                 .force_off = force_off,
+                .limits = limits_now,
                 .own_force_newton = own_force_newton};
     }
     void send(Vec3 force_newton) noexcept override { sent = force_newton; }
@@ -33,9 +35,8 @@ class TestHand final : public Device {
     bool force_off{false};
     Vec3 own_force_newton{0.0};
     Vec3 sent{-1.0};
-
-  private:
-    DeviceSpecification specification_{};
+    std::optional<DeviceLimits> limits_now{};  // instead of the specification's
+    DeviceSpecification described{};
 };
 
 inline Frame flat_frame(int columns, int rows, float level) {

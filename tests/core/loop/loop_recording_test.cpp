@@ -165,9 +165,13 @@ TEST_CASE("what the loop records replays to the same bits, whenever the recordin
         run_ticks(tick, 5);
         bench.hand.own_force_newton = {0.5, -0.25, 0.1};
         explore(bench, tick, 300);
+        bench.hand.limits_now = DeviceLimits{1.0, 0.05, 0.2, 20.0};  // another hand, unannounced
+        explore(bench, tick, 300);
+        bench.hand.limits_now.reset();
+        explore(bench, tick, 300);
     }
     const Session session(file);
-    CHECK(session.rows() == 2535);
+    CHECK(session.rows() == 3135);
     CHECK(session.missing() == 0);
     WindowFrames frames(window);
     SessionReplay replay(session, frames, {{}});

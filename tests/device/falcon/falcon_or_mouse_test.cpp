@@ -71,6 +71,29 @@ TEST_CASE("a Falcon takes the hand over once when it is ready, and the mouse onc
     CHECK(loop.tick_until([&] { return log_of(unit).with_force > forces; }));
 }
 
+TEST_CASE("a reading says what its own hand can stand: the mouse's, or the Falcon's at its scale",
+          "[falcon_or_mouse]") {
+    UsbBench bus;
+    Unit& unit = bus.make("SIM00001");
+    TickingHand loop(ConnectionOptions{}, FirmwareImage{});
+    Tuning tuning;
+    tuning.workspace.scale = 4.0;
+    loop.device.falcon().tuning().publish(tuning);
+    loop.tick();
+    CHECK(loop.reading.limits == loop.device.mouse().specification().limits);
+    start_firmware(unit);
+    home(unit);
+    bus.plug(unit);
+    REQUIRE(loop.tick_until_ready());
+    REQUIRE(loop.reading.limits.has_value());
+    const dibhr::DeviceLimits& most = loop.device.specification().limits;
+    CHECK(loop.reading.limits == dibhr::at_scale(most, 4.0));
+    CHECK(loop.reading.limits->max_stiffness_newton_per_mm < most.max_stiffness_newton_per_mm);
+    bus.unplug(unit);
+    REQUIRE(loop.tick_until([&] { return loop.reading.stand_in; }));
+    CHECK(loop.reading.limits == loop.device.mouse().specification().limits);
+}
+
 TEST_CASE("a clutched Falcon stays the hand, without force", "[falcon_or_mouse]") {
     UsbBench bus;
     Unit& unit = bus.plug();
