@@ -1,0 +1,42 @@
+"""dibhr: depth image-based haptic rendering, from numpy arrays to forces.
+
+    import dibhr, numpy as np
+    surface = dibhr.Surface(depth)                   # rows x columns, uint8 or other levels
+    renderer = dibhr.Renderer(surface, stiffness=0.8, friction=0.3)
+    touch = renderer.update((120, 80, 90))           # one goal: touch.proxy, touch.sent_force
+    rows = renderer.run(goals)                       # N x 3 goals: rows["px"], rows["fz"], ...
+    ticks = dibhr.Session("mine.dibhr").ticks()      # what was recorded, by the same names
+
+Grid space throughout: x = column, y = row (down), z = elevation towards the viewer, all in pixels
+of the depth image. Forces are newtons along the same axes, times seconds.
+"""
+
+from . import _dibhr
+from ._renderer import ALGORITHMS, PARAMETERS, Parameter, Renderer, Touch
+from ._rows import TICK_ROW, TOUCH_ROW, vectors
+from ._session import Session
+from ._surface import Surface
+from ._values import BusyError, Error, InputError, MissingFileError
+
+__all__ = [
+    "ALGORITHMS",
+    "PARAMETERS",
+    "TICK_ROW",
+    "TOUCH_ROW",
+    "BusyError",
+    "Error",
+    "InputError",
+    "MissingFileError",
+    "Parameter",
+    "Renderer",
+    "Session",
+    "Surface",
+    "Touch",
+    "vectors",
+]
+
+__version__ = _dibhr.VERSION
+
+for _name in __all__:
+    if callable(globals()[_name]):
+        globals()[_name].__module__ = __name__  # where people find it

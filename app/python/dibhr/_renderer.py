@@ -1,0 +1,182 @@
+"""Goals in, proxy and forces out."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _dibhr
+from ._rows import TOUCH_ROW
+from ._surface import Surface
+from ._values import InputError, finite_numbers, in_range
+
+
+class Parameter(NamedTuple):
+    """A number that people tune: an entry of the table that also makes the program's options."""
+
+    name: str  #: the keyword: "static_friction", for the option --static-friction
+    label: str  #: "Static friction"
+    unit: str  #: "N/mm"; empty for a ratio
+    lowest: float
+    highest: float
+    default: float
+    help: str
+
+
+#: The algorithms by name.
+ALGORITHMS: tuple[str, ...] = tuple(_dibhr.ALGORITHMS)
+#: The table of the numbers that people tune.
+PARAMETERS: tuple[Parameter, ...] = tuple(Parameter._make(entry) for entry in _dibhr.NUMBERS)
+
+
+class Touch(NamedTuple):
+    """What one update gives; (x, y, z) in grid space."""
+
+    goal: tuple[float, float, float]  #: [px]
+    proxy: tuple[float, float, float]  #: [px]
+    spring_force: tuple[float, float, float]  #: [N], before the safety stage
+    sent_force: tuple[float, float, float]  #: [N], after it: limited, and rising slowly
+    contact: bool
+    slipping: bool  #: the dynamic coefficient of friction holds
+    primitive: str  #: under the proxy: "none", "triangle", "edge" or "vertex"
+    i: int  #: its column, -1 for none
+    j: int  #: its row, -1 for none
+    moves: int  #: primitives visited in this update
+    cut: str  #: why no force was sent: "late tick", "goal jumped", ...; or empty
+
+
+def _step(dt: float) -> float:
+    if not 0 < dt < math.inf:
+        raise InputError(f"dt: {dt} is not a time above 0")
+    return dt
+
+
+class Renderer:
+    """A hand on a surface: goals in, proxy and forces out.
+
+    What `dibhr touch` takes is a keyword: `algorithm`, one of ALGORITHMS; the names in PARAMETERS;
+    `friction` for both coefficients, unless one is given by itself; and `max_force` [N], the most
+    that the safety stage lets through.
+
+    Each renderer is one thread's at a time (BusyError); several run in parallel.
+    """
+
+    def __init__(
+        self,
+        surface: Surface,
+        *,
+        algorithm: str = "dibhr",
+        max_force: float = _dibhr.MAX_FORCE,
+        **numbers: float,
+    ) -> None:
+        self._core = _dibhr.Renderer()
+        self._surface = surface
+        self.surface = surface
+        self._keywords: dict[str, Any] = {each.name: each.default for each in PARAMETERS}
+        self.set(algorithm=algorithm, max_force=max_force, **numbers)
+
+    def set(self, **parameters: Any) -> None:
+        """Changes parameters, by keyword; the next update has them."""
+        ranges = {each.name: (each.lowest, each.highest) for each in PARAMETERS}
+        ranges["friction"] = ranges["static_friction"]
+        ranges["max_force"] = (0.0, 1000.0)
+        given: dict[str, Any] = {}
+        for name, value in parameters.items():
+            if name == "algorithm":
+                if value not in ALGORITHMS:
+                    known = ", ".join(ALGORITHMS)
+                    raise InputError(f"algorithm: '{value}' is none of {known}")
+                given[name] = value
+            elif name in ranges:
+                given[name] = in_range(name, value, *ranges[name])
+            else:
+                known = ", ".join(["algorithm", *ranges])
+                raise InputError(f"{name}: no such parameter; there are {known}")
+        if "friction" in given:
+            both = given.pop("friction")
+            given = {"static_friction": both, "dynamic_friction": both, **given}
+        chosen = {**self._keywords, **given}
+        fixed, sliding = chosen["static_friction"], chosen["dynamic_friction"]
+        if "dynamic_friction" in parameters and sliding > fixed:
+            raise InputError(
+                f"dynamic_friction {sliding:g} is above the static friction {fixed:g}: "
+                "give static_friction of at least as much, or friction for both"
+            )
+        chosen["dynamic_friction"] = min(sliding, fixed)
+        self._core.set(chosen)
+        self._keywords = chosen
+
+    @property
+    def surface(self) -> Surface:
+        """What is touched. Another one may take its place between updates: as the next frame of
+        a video if it has the same shape, else everything begins anew."""
+        return self._surface
+
+    @surface.setter
+    def surface(self, surface: Surface) -> None:
+        if not isinstance(surface, Surface):
+            raise TypeError("surface: a dibhr.Surface is needed")
+        if surface.shape != self._surface.shape:
+            self.reset()
+        self._surface = surface
+
+    @property
+    def parameters(self) -> dict[str, Any]:
+        """All of them, by keyword."""
+        return dict(self._keywords)
+
+    def update(self, goal: Sequence[float] | NDArray[Any], dt: float = 0.001) -> Touch:
+        """One update of the haptic loop.
+
+        goal  (x, y, z): column, row and elevation [px]
+        dt    time since the update before [s]; after more than 0.02 s no force is sent
+        """
+        point = finite_numbers(goal, "goal", (3,))
+        images, blend = self.surface._images, self.surface._blend
+        return Touch._make(self._core.update(images, blend, point, _step(dt)))
+
+    def run(
+        self,
+        goals: ArrayLike,
+        t: ArrayLike | None = None,
+        *,
+        dt: float = 0.001,
+        blend: ArrayLike | None = None,
+    ) -> NDArray[np.void]:
+        """An update for each goal; other Python threads go on meanwhile.
+
+        goals  N x 3: column, row and elevation [px]
+        t      N times that do not fall [s]; None: dt apart
+        dt     the length of an update that t does not tell [s]: the first one, and of equal times
+        blend  N blends, 0 to 1: the surface at each update; None: that of the surface
+
+        Returns N rows (TOUCH_ROW) with the columns of `dibhr touch`: t [s]; goal gx, gy, gz and
+        proxy px, py, pz [px]; force fx, fy, fz of the spring and cx, cy, cz as sent [N]; contact;
+        primitive ("none", "triangle", "edge", "vertex") and its column i and row j; moves, the
+        primitives visited; ns, the time it took.
+        """
+        points = finite_numbers(goals, "goals", (None, 3))
+        times = None if t is None else finite_numbers(t, "t", (len(points),))
+        if times is not None and (np.diff(times) < 0).any():
+            raise InputError("t: time falls; sort the goals by time")
+        blends = np.array([self.surface._blend])
+        if blend is not None:
+            blends = finite_numbers(blend, "blend", (len(points),))
+            for value in blends[(blends < 0) | (blends > 1)]:
+                in_range("blend", value, 0, 1)
+        rows = np.empty(len(points), TOUCH_ROW)
+        self._core.run(self.surface._images, blends, points, times, _step(dt), rows)
+        return rows
+
+    def reset(self) -> None:
+        """Forgets everything but the parameters: the next update is a first one."""
+        self._core.reset()
+
+    def elevation(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+        """How high the surface is [px] at N columns x and N rows y, clamped to the image."""
+        columns = finite_numbers(x, "x", (None,))
+        rows = finite_numbers(y, "y", (len(columns),))
+        return self._core.elevation(self.surface._images, self.surface._blend, columns, rows)

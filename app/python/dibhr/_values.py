@@ -1,0 +1,58 @@
+"""Errors, and the checks of what people give."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+
+class Error(Exception):
+    """What dibhr could not do, as one plain line; the other errors are of this family."""
+
+
+class InputError(Error, ValueError):
+    """A value, an array or a file that cannot be used."""
+
+
+class MissingFileError(InputError, FileNotFoundError):
+    """There is no such file."""
+
+
+class BusyError(Error, RuntimeError):
+    """Another thread uses what one thread uses at a time."""
+
+
+def in_range(what: str, value: float, lowest: float, highest: float) -> float:
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = math.nan
+    if not math.isfinite(number):
+        raise InputError(f"{what}: '{value}' is not a number")
+    if not lowest <= number <= highest:
+        raise InputError(f"{what}: {value} is not in {lowest:g} to {highest:g}")
+    return number
+
+
+def finite_numbers(
+    given: ArrayLike, what: str, shape: tuple[int | None, ...]
+) -> NDArray[np.float64]:
+    """Finite numbers of that shape, in which None is any length."""
+    try:
+        array = np.asarray(given)
+    except ValueError:  # rows of different lengths
+        array = np.empty(0, object)
+    if array.dtype.kind not in "fiu":
+        raise InputError(f"{what}: real numbers are needed")
+    fits = [want in (None, have) for want, have in zip(shape, array.shape)]
+    if array.ndim != len(shape) or not all(fits):
+        wanted = str(shape).replace("None", "N")
+        raise InputError(f"{what}: its shape is {array.shape}; {wanted} is needed")
+    numbers = np.ascontiguousarray(array, np.float64)
+    right = np.isfinite(numbers)
+    if not right.all():
+        place = np.argwhere(~right)[0]
+        raise InputError(f"{what}{place.tolist()}: {numbers[tuple(place)]} is no finite number")
+    return numbers

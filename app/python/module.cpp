@@ -1,0 +1,66 @@
+// The compiled part of the Python package: its errors, the table of parameters, and the rest.
+#include "app/python/module.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <string>
+
+namespace py = pybind11;
+
+namespace dibhr {
+
+namespace {
+
+/// The classes of the errors are the package's own.
+void raise(const char* name, const std::exception& error) {
+    PyErr_SetString(py::module_::import("dibhr").attr(name).ptr(), error.what());
+}
+
+void translate(std::exception_ptr thrown) {
+    try {
+        std::rethrow_exception(thrown);
+    } catch (const InputError& error) {
+        raise("InputError", error);
+    } catch (const BusyError& error) {
+        raise("BusyError", error);
+    } catch (const Error& error) {
+        raise("Error", error);
+    }
+}
+
+/// (name, label, unit, lowest, highest, default, help) of each.
+py::list table_of_numbers() {
+    py::list table;
+    TouchParameters defaults;
+    for (const TouchNumber& number : touch_numbers()) {
+        table.append(py::make_tuple(keyword_of(number), std::string(number.label),
+                                    std::string(number.unit), number.lowest, number.highest,
+                                    number.in(defaults), std::string(number.help)));
+    }
+    return table;
+}
+
+py::list names_of_algorithms() {
+    py::list names;
+    for (const Algorithm algorithm : all_algorithms()) names.append(name_of(algorithm));
+    return names;
+}
+
+}  // namespace
+
+py::str keyword_of(const TouchNumber& number) {
+    std::string keyword(number.name);
+    std::replace(keyword.begin(), keyword.end(), '-', '_');
+    return keyword;
+}
+
+}  // namespace dibhr
+
+PYBIND11_MODULE(_dibhr, module) {
+    py::register_exception_translator(&dibhr::translate);
+    module.attr("VERSION") = DIBHR_VERSION;
+    module.attr("NUMBERS") = dibhr::table_of_numbers();
+    module.attr("ALGORITHMS") = dibhr::names_of_algorithms();
+    dibhr::bind_touch(module);
+    dibhr::bind_session(module);
+}

@@ -1,0 +1,158 @@
+// Recorded sessions as plain values, and their ticks as rows of a structured array.
+#include "core/session/session.hpp"
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "app/python/module.hpp"
+
+namespace py = pybind11;
+
+namespace dibhr {
+
+namespace {
+
+/// A column of the view `tick` in a row of the array: its name, numpy's letter for its kind, where.
+using Field = std::tuple<std::string, char, std::size_t>;
+
+template <typename Value>
+void store(char* to, Value value) noexcept {
+    std::memcpy(to, &value, sizeof value);
+}
+
+/// NULL becomes not a number, or -1.
+void write_cell(char* to, char kind, const SessionReader::Query& row, int column) {
+    const bool nothing = row.kind(column) == SessionReader::Kind::nothing;
+    if (kind == 'f') {
+        store(to, nothing ? std::numeric_limits<double>::quiet_NaN() : row.real(column));
+    } else if (kind == 'i') {
+        store(to, nothing ? std::int64_t{-1} : row.integer(column));
+    } else if (kind == 'b') {
+        store(to, row.integer(column) != 0);
+    } else {
+        std::array<char32_t, 8> name{};
+        const std::string text = row.text(column);
+        std::copy_n(text.begin(), std::min(text.size(), name.size()), name.begin());
+        store(to, name);
+    }
+}
+
+/// " FROM tick WHERE ...": the ticks of a span of time.
+std::string ticks_between(double begin_s, double end_s) {
+    const auto digits = [](double t_s) {
+        constexpr double kMost = std::numeric_limits<double>::max();  // SQL knows no infinity
+        std::array<char, 32> text{};
+        const double bound_s = std::clamp(t_s, -kMost, kMost);
+        return std::string(text.data(), std::to_chars(text.begin(), text.end(), bound_s).ptr);
+    };
+    return " FROM tick WHERE t BETWEEN " + digits(begin_s) + " AND " + digits(end_s);
+}
+
+std::int64_t count_ticks(const Session& session, double begin_s, double end_s) {
+    // A connection of its own each time: threads may share the session.
+    const SessionReader reader(session.file());
+    SessionReader::Query query(reader, "SELECT count(*)" + ticks_between(begin_s, end_s));
+    return query.next() ? query.integer(0) : 0;
+}
+
+/// Fills rows from the first on; how many there were.
+std::int64_t read_ticks(const Session& session, double begin_s, double end_s,
+                        const std::vector<Field>& fields, py::array& rows) {
+    std::string names;
+    for (const auto& field : fields) {
+        names += (names.empty() ? "" : ", ") + std::get<std::string>(field);
+    }
+    auto* row = static_cast<char*>(rows.mutable_data());
+    const auto row_bytes = rows.itemsize();
+    const auto most = rows.size();
+    const py::gil_scoped_release others_run;
+    const SessionReader reader(session.file());
+    SessionReader::Query query(
+        reader, "SELECT " + names + ticks_between(begin_s, end_s) + " ORDER BY tick");
+    std::int64_t done = 0;
+    for (; done < most && query.next(); ++done, row += row_bytes) {
+        int column = 0;
+        for (const auto& [name, kind, offset] : fields) {
+            write_cell(row + offset, kind, query, column++);
+        }
+    }
+    return done;
+}
+
+py::object path_of(const SessionMedia& media) {
+    return media.file.empty() ? py::none() : py::cast(media.file.string());
+}
+
+py::list parameters_of(const Session& session) {
+    py::list all;
+    for (const SessionParameters& version : session.parameters()) {
+        TouchParameters values = version.touch;
+        py::dict touch;
+        touch["algorithm"] = name_of(values.algorithm);
+        for (const TouchNumber& number : touch_numbers()) {
+            touch[keyword_of(number)] = number.in(values);
+        }
+        touch["max_force"] = version.limits.max_force_newton;
+        all.append(py::dict(py::arg("version") = version.version,
+                            py::arg("first_tick") = version.first_tick, py::arg("touch") = touch,
+                            py::arg("force_enabled") = version.force_enabled,
+                            py::arg("bump") = path_of(version.bump)));
+    }
+    return all;
+}
+
+py::list sources_of(const Session& session) {
+    py::list all;
+    for (const SessionSource& source : session.sources()) {
+        all.append(py::dict(py::arg("first_tick") = source.first_tick,
+                            py::arg("colour") = path_of(source.colour),
+                            py::arg("depth") = path_of(source.depth),
+                            py::arg("fill_holes") = source.source.fill_holes,
+                            py::arg("remove_spikes") = source.source.remove_spikes,
+                            py::arg("smooth_steps") = source.source.smooth_steps));
+    }
+    return all;
+}
+
+py::list marks_of(const Session& session) {
+    py::list all;
+    for (const SessionMark& mark : session.marks()) {
+        all.append(py::dict(py::arg("t") = mark.t_s, py::arg("tag") = mark.tag,
+                            py::arg("text") = mark.text));
+    }
+    return all;
+}
+
+}  // namespace
+
+void bind_session(py::module_& module) {
+    const auto while_others_run = py::call_guard<py::gil_scoped_release>();
+    py::class_<Session>(module, "Session")
+        .def(py::init<const std::string&>())
+        .def("check", &Session::check, while_others_run)
+        .def("count_ticks", &count_ticks, while_others_run)
+        .def("read_ticks", &read_ticks)
+        .def("facts", &Session::facts)
+        .def("parameters", &parameters_of)
+        .def("sources", &sources_of)
+        .def("marks", &marks_of)
+        .def("extent",
+             [](const Session& session) {
+                 return py::make_tuple(session.rows(), session.missing(), session.begin_s(),
+                                       session.end_s());
+             })
+        .def("warning", &Session::warning);
+}
+
+}  // namespace dibhr
