@@ -117,8 +117,8 @@ class ProxyWalk {
         return cone2 > 0.0 && (beyond < 0.0 || square(beyond) < cone2);
     }
 
-    /// Goes along a piece that does not hold the proxy, up to the cone (algorithm.md, "One haptic
-    /// update", 4); false if that is before its end. Without friction there is no cone.
+    /// Goes along a piece that does not hold the proxy, up to the cone (README.md,
+    /// "Friction"); false if that is before its end. Without friction there is no cone.
     bool slide_to(Vec3 end, const ConeView& view) noexcept {
         if (!enters_cone(view)) {
             move_to(end);

@@ -18,7 +18,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kSpeed_px = 4.961;  // per update: 700 mm/s x 720 px / 101.6 mm at 1 kHz
 
-/// p_k = p_(k-1) inside the cone, else on it: algorithm.md, "Exact answers".
+/// p_k = p_(k-1) inside the cone, else on it: "Exact answers" of core/haptics/README.md.
 Vec3 exact_step(Vec3 proxy, Vec3 foot, double radius) {
     const Vec3 back = proxy - foot;
     const double length = glm::length(back);
