@@ -101,7 +101,7 @@ HandoverRun measure_handover(int columns, int rows) {
         const FrameWindow& frames = player.haptics().front();
         const DepthBlend pair = frames.at(frames.clock.playback_s(begin));
         if (pair.from == nullptr) continue;
-        const DepthSurface surface(*pair.from->depth, *pair.to->depth, pair.blend, SurfaceShape{});
+        const DepthSurface surface = pair.surface(SurfaceShape{});
         swaps_us.push_back(us_between(begin, Clock::now()));
         const PlaybackStatus status = player.status();
         cleaning_ms.push_back(status.clean_ms);

@@ -1,8 +1,6 @@
 // Decodes the sample and reads the hand.
 #include "app/commands/experiment_human.hpp"
 
-#include <algorithm>
-#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,7 +10,6 @@
 #include "core/experiment/foreground.hpp"
 #include "core/experiment/hand_motion.hpp"
 #include "core/experiment/modelled_hand.hpp"
-#include "core/video/depth_cleaning.hpp"
 #include "core/video/media.hpp"
 
 namespace dibhr {
@@ -87,18 +84,10 @@ HandInput read_hand(const HumanOptions& options) {
 
 SampleClip read_sample(const HumanOptions& options, const Progress& progress) {
     const SampleFiles files = sample_files();
-    const auto media = open_depth(files.depth);
     const CleaningOptions cleaning =
         options.raw_depth ? CleaningOptions{false, false, false} : CleaningOptions{};
-    const auto count = static_cast<double>(std::max<std::int64_t>(media->description().frames, 1));
-    DepthCleaner cleaner;
-    std::vector<DepthClip::TimedDepth> frames;
-    while (auto frame = media->next()) {
-        if (cleaning.any()) cleaner.clean(frame->depth, cleaning);
-        frames.push_back({std::move(frame->depth), frame->media_s});
-        if (progress) progress(static_cast<double>(frames.size()) / count);
-    }
-    return {DepthClip(std::move(frames), options.shape), first_colour(files)};
+    return {read_depth_clip(open_depth(files.depth), cleaning, options.shape, progress),
+            first_colour(files)};
 }
 
 PathRun human_goals(const HandInput& hand, const SampleClip& sample, double mu) {

@@ -15,8 +15,7 @@
 #include "app/commands/session_rows.hpp"
 #include "core/files/error_line.hpp"
 #include "core/replay/comparison.hpp"
-#include "core/replay/session_replay.hpp"
-#include "core/replay/video.hpp"
+#include "core/replay/frames.hpp"
 #include "core/video/library_versions.hpp"
 
 namespace dibhr {
@@ -71,7 +70,7 @@ bool has_bump(const Session& session, const ReplayOptions& options) {
            });
 }
 
-void replay(const Session& session, SessionVideo& video, std::vector<Run>& runs,
+void replay(const Session& session, SessionFrames& video, std::vector<Run>& runs,
             const std::filesystem::path& csv) {
     std::vector<ParameterChange> changes;
     for (const Run& run : runs) changes.push_back(run.change);
@@ -160,7 +159,9 @@ int run_replay(const ReplayOptions& options) {
                          ": holds no tick to replay; record a longer one");
     }
     std::vector<Run> runs = make_runs(session, options);
-    SessionVideo video(session, {options.any_media, options.raw_depth, options.bump});
+    SessionFrames video(
+        session,
+        {.any_media = options.any_media, .raw_depth = options.raw_depth, .bump = options.bump});
     print_warning(session.warning());
     print_warning(video.warning());
     print_warning(roughness_warning(options.given, has_bump(session, options)));

@@ -57,7 +57,8 @@ class TouchRun {
         // Recorded hands have equal time stamps: still an update, of the usual length.
         const double step_s = last_t_s_ ? goal.t_s - *last_t_s_ : 0.0;
         input_.dt_s = step_s > 0.0 ? step_s : kUsualTick_s;
-        const DepthSurface surface = depth_.surface(parameters_.shape, bump_ ? &*bump_ : nullptr);
+        const DepthSurface surface =
+            depth_.now().surface(parameters_.shape, bump_ ? &*bump_ : nullptr);
 
         const auto start = std::chrono::steady_clock::now();
         const Touch& touch =

@@ -54,8 +54,7 @@ SceneContent scene_content(const ViewerState& state, const DepthBlend& shown) {
     if (!shown.makes_surface()) return content;
     content.depth = shown;
     content.colour = shown.from;
-    const DepthSurface surface(*shown.from->depth, *shown.to->depth, shown.blend, content.shape,
-                               content.bump);
+    const DepthSurface surface = shown.surface(content.shape, content.bump);
     content.markers = markers_of(state, surface);
     return content;
 }

@@ -126,9 +126,7 @@ double median_of(std::vector<double> values) {
 DepthClip paper_plane() {
     DepthImage image{kColumns, kRows, 255.0, {}};
     image.levels.assign(std::size_t{kColumns} * std::size_t{kRows}, static_cast<float>(kLevel));
-    std::vector<DepthClip::TimedDepth> frames;
-    frames.push_back({std::move(image), 0.0});
-    return {std::move(frames), SurfaceShape{}};
+    return {{{.depth = std::make_shared<const DepthImage>(std::move(image))}}, SurfaceShape{}};
 }
 
 PathRun linear_path(double mu, double depth_px, int updates) {

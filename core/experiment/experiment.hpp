@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "core/experiment/depth_clip.hpp"
 #include "core/haptics/touch.hpp"
 #include "core/haptics/vec.hpp"
 #include "core/metrics/force_variation.hpp"
 #include "core/metrics/sample_statistics.hpp"
+#include "core/video/depth_in_time.hpp"
 
 namespace dibhr {
 

@@ -1,8 +1,8 @@
 // Where on the image somebody stands.
 #pragma once
 
-#include "core/experiment/depth_clip.hpp"
 #include "core/haptics/vec.hpp"
+#include "core/video/depth_in_time.hpp"
 
 namespace dibhr {
 

@@ -84,8 +84,7 @@ void HapticTick::rest() noexcept {
 
 void HapticTick::touch_surface(const DepthBlend& pair, const HapticSettings& settings,
                                const TickTiming& timing) noexcept {
-    const DepthSurface surface(*pair.from->depth, *pair.to->depth, pair.blend,
-                               settings.parameters.shape, settings.bump.get());
+    const DepthSurface surface = pair.surface(settings.parameters.shape, settings.bump.get());
     const HandReading hand =
         to_.device.read({timing.dt_s, surface, settings.parameters.coupling.pixel_pitch_mm});
     const SafetyInput input{.dt_s = timing.dt_s,

@@ -1,44 +1,41 @@
-// The frames that a session touched, with their colour: decoded and cleaned as they were recorded.
+// What a session touched: its frames, decoded and cleaned as they were, and its bump maps.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <future>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 
-#include "core/replay/bumps.hpp"
+#include "core/replay/cleaning_workers.hpp"
 #include "core/replay/media.hpp"
 #include "core/replay/session_replay.hpp"
-#include "core/video/frame_reader.hpp"
 #include "core/video/media.hpp"
 
 namespace dibhr {
 
-/// Keeps the last seconds of frames, so that going back a little is immediate. One thread at a
-/// time.
+struct SessionFramesOptions {
+    bool any_media{false};         ///< files that have changed are taken too
+    bool colour{false};            ///< for a window: with the colour, and no frame too many
+    bool raw_depth{false};         ///< no cleaning, whatever was recorded
+    std::filesystem::path bump{};  ///< instead of the recorded bump map; empty: the recorded one
+};
+
+/// Decodes a few frames ahead, which are cleaned side by side meanwhile, and keeps all of them as
+/// long as there is room: a video that repeats is decoded once, and going back a little is
+/// immediate. One thread at a time.
 class SessionFrames final : public RecordedFrames {
   public:
-    /// Finds all files the session names, checks that they are the same (`any_media`: or takes them
-    /// as they are) and opens the first video. Throws InputError.
-    SessionFrames(const Session& session, bool any_media);
+    /// Finds all files the session names, checks that they are the same and opens the first video.
+    /// Throws InputError.
+    SessionFrames(const Session& session, const SessionFramesOptions& options);
 
-    /// The frame at exactly this presentation time. Throws InputError when there is none.
-    [[nodiscard]] Frame frame(const FrameSource& source, double media_s);
-    [[nodiscard]] std::shared_ptr<const BumpMap> bump_map(const SessionParameters& parameters) {
-        return bumps_.of(parameters);
-    }
-
-    [[nodiscard]] std::shared_ptr<const DepthImage> depth(const FrameSource& source,
-                                                          double media_s) override {
-        return frame(source, media_s).depth;
-    }
-    [[nodiscard]] const BumpMap* bump(const SessionParameters& parameters) override {
-        return bumps_.of(parameters).get();
-    }
+    [[nodiscard]] Frame frame(const FrameSource& source, double media_s) override;
+    [[nodiscard]] std::shared_ptr<const BumpMap> bump(const SessionParameters& parameters) override;
 
     /// Of the video that was touched first.
     [[nodiscard]] const MediaDescription& description() const noexcept { return description_; }
@@ -49,23 +46,29 @@ class SessionFrames final : public RecordedFrames {
     /// One of the session's videos, opened when it is needed.
     struct Video {
         std::filesystem::path colour{}, depth{};
-        std::unique_ptr<FrameReader> reader{};
-        std::optional<double> last_s{};  ///< of the last frame that was read
+        std::unique_ptr<Media> media{};
+        std::optional<double> last_s{};  ///< of the last frame decoded
     };
     struct Kept {
         FrameSource source{};
-        Frame frame{};
+        Frame frame{};  ///< its depth is still to come
+        std::shared_future<std::shared_ptr<const DepthImage>> depth{};
     };
 
-    [[nodiscard]] FrameReader& reader_of(std::uint32_t number);
-    [[nodiscard]] std::optional<Frame> read(const FrameSource& source, double media_s);
-    void keep(const FrameSource& source, const Frame& frame);
+    void find_files(const Session& session);
+    [[nodiscard]] Media& media_of(Video& video) const;
+    [[nodiscard]] const Kept* find(const FrameSource& source, double media_s) const;
+    void read_on(const FrameSource& source, double media_s);
+    void keep(const FrameSource& source, RawFrame raw);
 
+    SessionFramesOptions options_;
     SessionMediaFinder finder_;
-    SessionBumps bumps_{};
     std::map<std::uint32_t, Video> videos_{};
-    std::deque<Kept> kept_{};  // the oldest first
+    std::map<std::filesystem::path, std::shared_ptr<const BumpMap>> bumps_{};  // by recorded names
+    std::shared_ptr<const BumpMap> other_bump_{};
     MediaDescription description_{};
+    CleaningWorkers cleaning_{};
+    std::deque<Kept> kept_{};  // the oldest first
 };
 
 }  // namespace dibhr

@@ -32,7 +32,7 @@ bool names_session(const std::filesystem::path& file) {
 }
 
 OpenedSession::OpenedSession(const std::filesystem::path& file, bool any_media)
-    : session(file), frames((session.check(), session), any_media) {
+    : session(file), frames((session.check(), session), {.any_media = any_media, .colour = true}) {
     if (session.rows() == 0 || session.sources().empty()) {
         throw InputError(file.string() + ": holds no tick over a video; record a longer one");
     }
@@ -63,17 +63,12 @@ double SessionMoments::time_before(std::int64_t tick) const {
 }
 
 SessionMoment SessionMoments::moment_of(const TickRecord& tick) {
-    if (tick.surface && (!frames_ || !(pair_ == tick.frames))) {
-        pair_ = tick.frames;
-        frames_ = std::make_shared<const TouchedFrames>(
-            TouchedFrames{opened_.frames.frame(pair_.source, pair_.from_s),
-                          opened_.frames.frame(pair_.source, pair_.to_s)});
-    }
+    if (replay_->frames()) frames_ = replay_->frames();
     SessionMoment moment;
     moment.tick = tick;
     moment.frames = frames_;
     moment.parameters = opened_.session.parameters_of(tick.settings);
-    if (moment.parameters != nullptr) moment.bump = opened_.frames.bump_map(*moment.parameters);
+    if (moment.parameters != nullptr) moment.bump = opened_.frames.bump(*moment.parameters);
     if (computes_) {
         moment.computed = replay_->touch(0);
         moment.update_us = replay_->update_us(0);

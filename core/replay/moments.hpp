@@ -26,11 +26,6 @@ struct OpenedSession {
     SessionFrames frames;
 };
 
-/// The two frames that a surface blends.
-struct TouchedFrames {
-    Frame from{}, to{};
-};
-
 /// One tick, and what was seen and felt in it.
 struct SessionMoment {
     TickRecord tick{};
@@ -66,8 +61,7 @@ class SessionMoments {
     std::optional<SessionReplay> replay_{};
     double from_s_{0.0};
     bool computes_{false};
-    FramePair pair_{};
-    std::shared_ptr<const TouchedFrames> frames_{};  // of the pair
+    std::shared_ptr<const TouchedFrames> frames_{};  // of the last tick with a surface
 };
 
 }  // namespace dibhr

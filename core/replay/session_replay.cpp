@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/haptics/surface.hpp"
 #include "core/session/same_bits.hpp"
 
 namespace dibhr {
@@ -68,24 +67,24 @@ void SessionReplay::take_parameters() {
 }
 
 void SessionReplay::take_frames() {
-    if (from_ && pair_ == tick_.frames) return;
     const FramePair& wanted = tick_.frames;
+    if (touched_ && pair_ == wanted) return;
     if (session_.source_of(wanted.source) == nullptr) {
         throw InputError(session_.file().string() + ": does not say which video tick " +
                          std::to_string(tick_.tick) +
                          " touched; it can be exported, but not replayed");
     }
     // Mostly, the frame that was blended into is the next one to start from.
-    const bool goes_on = to_ && pair_.source == wanted.source && pair_.to_s == wanted.from_s;
-    from_ = goes_on ? to_ : frames_.depth(wanted.source, wanted.from_s);
-    to_ = wanted.to_s == wanted.from_s ? from_ : frames_.depth(wanted.source, wanted.to_s);
-    pair_ = wanted;
-    if (from_->columns != to_->columns || from_->rows != to_->rows || from_->columns < 2 ||
-        from_->rows < 2 || from_->highest_level != to_->highest_level) {
+    const bool goes_on = touched_ && pair_.source == wanted.source && pair_.to_s == wanted.from_s;
+    Frame from = goes_on ? touched_->to : frames_.frame(wanted.source, wanted.from_s);
+    Frame to = wanted.to_s == wanted.from_s ? from : frames_.frame(wanted.source, wanted.to_s);
+    if (!DepthBlend{&from, &to}.makes_surface()) {
         throw InputError(session_.file().string() + ": the frames at tick " +
                          std::to_string(tick_.tick) +
                          " make no surface; give back the video that was recorded");
     }
+    touched_ = std::make_shared<const TouchedFrames>(TouchedFrames{std::move(from), std::move(to)});
+    pair_ = wanted;
 }
 
 void SessionReplay::update(Run& run) {
@@ -97,7 +96,8 @@ void SessionReplay::update(Run& run) {
         run.touch.proxy.contact = false;
         return;
     }
-    const DepthSurface surface(*from_, *to_, tick_.blend, run.parameters.shape, bump_);
+    const DepthSurface surface = DepthBlend{&touched_->from, &touched_->to, tick_.blend}.surface(
+        run.parameters.shape, bump_.get());
     const Vec3 goal = tick_.goal_refused ? Vec3(NAN) : vector_of(tick_.goal);
     if (tick_.lets_go && run.holds) run.renderer.let_go();
     const auto begin = std::chrono::steady_clock::now();

@@ -7,9 +7,9 @@
 #include <memory>
 #include <vector>
 
-#include "core/haptics/depth_image.hpp"
 #include "core/haptics/touch.hpp"
 #include "core/session/session.hpp"
+#include "core/video/frame_window.hpp"
 
 namespace dibhr {
 
@@ -17,11 +17,16 @@ namespace dibhr {
 class RecordedFrames {
   public:
     virtual ~RecordedFrames() = default;
-    /// The depth at exactly this presentation time, cleaned. Throws InputError when there is none.
-    [[nodiscard]] virtual std::shared_ptr<const DepthImage> depth(const FrameSource& source,
-                                                                  double media_s) = 0;
-    /// Null: none was laid over the surface. Throws InputError.
-    [[nodiscard]] virtual const BumpMap* bump(const SessionParameters& parameters) = 0;
+    /// The frame at exactly this presentation time, cleaned. Throws InputError when there is none.
+    [[nodiscard]] virtual Frame frame(const FrameSource& source, double media_s) = 0;
+    /// Null: none was laid over the surface.
+    [[nodiscard]] virtual std::shared_ptr<const BumpMap> bump(
+        const SessionParameters& parameters) = 0;
+};
+
+/// The two frames that a surface blends.
+struct TouchedFrames {
+    Frame from{}, to{};
 };
 
 /// Makes the parameters of a run from those recorded.
@@ -44,6 +49,10 @@ class SessionReplay {
 
     [[nodiscard]] const TickRecord& recorded() const noexcept { return tick_; }
     [[nodiscard]] const Touch& touch(std::size_t run) const { return runs_.at(run).touch; }
+    /// Null before the first tick with a surface.
+    [[nodiscard]] const std::shared_ptr<const TouchedFrames>& frames() const noexcept {
+        return touched_;
+    }
     /// Time of the run's update; 0 without a surface.
     [[nodiscard]] double update_us(std::size_t run) const { return runs_.at(run).update_us; }
 
@@ -53,8 +62,7 @@ class SessionReplay {
         TouchParameters parameters{};
         TouchRenderer renderer{};
         Touch touch{};
-        bool holds{
-            false};  ///< the renderer's proxy is in contact, whether there is a surface or not
+        bool holds{false};  ///< the proxy of the last tick with a surface was in contact
         double update_us{0.0};
     };
 
@@ -68,9 +76,9 @@ class SessionReplay {
     TickRecord tick_{};
     std::vector<Run> runs_{};
     const SessionParameters* parameters_{nullptr};  ///< of the tick
-    const BumpMap* bump_{nullptr};
+    std::shared_ptr<const BumpMap> bump_{};
     FramePair pair_{};
-    std::shared_ptr<const DepthImage> from_{}, to_{};  ///< of the pair
+    std::shared_ptr<const TouchedFrames> touched_{};  ///< of the pair
 };
 
 /// Whether an update gave what was recorded, bit by bit.

@@ -1,7 +1,10 @@
-// Reads a depth video forward to any playback time.
+// Depth videos that repeat: read forward, or whole in memory.
 #include "core/video/depth_in_time.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -16,61 +19,104 @@ constexpr double kShortestRound_s = 1e-4;
 }  // namespace
 
 DepthInTime::DepthInTime(std::unique_ptr<Media> media, bool moving, const CleaningOptions& cleaning)
-    : media_(std::move(media)), cleaning_(cleaning) {
-    const std::string name = media_->description().depth_path.string();
-    std::optional<RawFrame> first = media_->next();
+    : reader_(std::move(media)) {
+    const std::string name = reader_.description().depth_path.string();
+    reader_.set_cleaning(cleaning);
+    std::optional<Frame> first = reader_.at(0.0);
     if (!first) {
         throw InputError(name + ": holds no picture; choose another depth file");
     }
-    DepthImage& depth = first->depth;
+    const DepthImage& depth = *first->depth;
     if (depth.columns < 2 || depth.rows < 2) {
         throw InputError(name + ": " + std::to_string(depth.columns) + "x" +
                          std::to_string(depth.rows) +
                          " pixels are too few to touch; choose a depth file of at least 2x2");
     }
-    if (cleaning_.any()) cleaner_.clean(depth, cleaning_);
     first_media_s_ = first->media_s;
-    from_.image = std::move(depth);
-    if (moving && !media_->description().still) to_ = read();
+    add(std::move(first));
+    if (moving && !reader_.description().still) add(reader_.after(first_media_s_));
 }
 
 bool DepthInTime::advance_to(double playback_s) {
     bool started_again = false;
-    while (to_ && to_->playback_s <= playback_s) {
-        last_interval_s_ = to_->playback_s - from_.playback_s;
-        std::swap(from_, *to_);
-        to_ = read();
-        if (!to_) {
-            if (!start_again(playback_s)) break;
-            started_again = true;
-        }
+    now_s_ = playback_s;
+    while (frames_.size() > 1 && frames_[1].time_s <= playback_s) {
+        last_interval_s_ = frames_[1].time_s - frames_[0].time_s;
+        frames_.erase(frames_.begin());
+        if (add(reader_.after(frames_[0].media_s))) continue;
+        started_again = start_again(playback_s) || started_again;
     }
-    const double interval_s = to_ ? to_->playback_s - from_.playback_s : 0.0;
-    blend_ = interval_s > 0.0 ? (playback_s - from_.playback_s) / interval_s : 0.0;
     return started_again;
 }
 
-DepthSurface DepthInTime::surface(const SurfaceShape& shape, const BumpMap* bump) const {
-    const DepthImage& to = to_ ? to_->image : from_.image;
-    return {from_.image, to, blend_, shape, bump};
-}
-
-std::optional<DepthInTime::TimedDepth> DepthInTime::read() {
-    std::optional<RawFrame> frame = media_->next();
-    if (!frame) return std::nullopt;
-    if (cleaning_.any()) cleaner_.clean(frame->depth, cleaning_);
-    return TimedDepth{std::move(frame->depth), offset_s_ + frame->media_s - first_media_s_};
+bool DepthInTime::add(std::optional<Frame> frame) {
+    if (!frame) return false;
+    frame->time_s = offset_s_ + frame->media_s - first_media_s_;
+    frames_.push_back(std::move(*frame));
+    return true;
 }
 
 bool DepthInTime::start_again(double playback_s) {
-    const double round_s = from_.playback_s + last_interval_s_ - offset_s_;
+    const double round_s = frames_[0].time_s + last_interval_s_ - offset_s_;
     if (!(round_s > kShortestRound_s)) return false;
     // Whole rounds that nobody asks for are not decoded.
     const double rounds = std::floor((playback_s - offset_s_) / round_s);
     offset_s_ += std::fmax(rounds, 1.0) * round_s;
-    media_->seek(first_media_s_);
-    to_ = read();
-    return to_.has_value();
+    return add(reader_.at(first_media_s_));
+}
+
+DepthClip::DepthClip(std::vector<Frame> frames, const SurfaceShape& shape)
+    : frames_(std::move(frames)), shape_(shape) {
+    if (frames_.empty()) throw InputError("the depth video holds no picture; choose another one");
+    const Frame& first = frames_.front();
+    if (first.depth->columns < 2 || first.depth->rows < 2) {
+        throw InputError("the depth video is too small to touch; choose one of at least 2x2");
+    }
+    double interval_s = 0.0;
+    for (std::size_t k = 1; k < frames_.size(); ++k) {
+        if (!DepthBlend{&first, &frames_[k]}.makes_surface()) {
+            throw InputError("the depth video's pictures differ in size; choose another one");
+        }
+        interval_s = frames_[k].time_s - frames_[k - 1].time_s;
+        if (!(interval_s > 0.0)) {
+            throw InputError("the depth video's pictures are not in order; choose another one");
+        }
+    }
+    if (frames_.size() == 1) return;
+    Frame again = frames_.front();
+    again.time_s = frames_.back().time_s + interval_s;
+    frames_.push_back(std::move(again));
+}
+
+DepthSurface DepthClip::at(double t_s) const noexcept {
+    const double begin_s = frames_.front().time_s;
+    const double round_s = frames_.size() > 1 ? std::fmod(std::max(t_s, 0.0), duration_s()) : 0.0;
+    return depth_at(frames_, begin_s + round_s).surface(shape_);
+}
+
+double DepthClip::time_of(std::int64_t frame, double blend) const noexcept {
+    if (frames_.size() == 1) return 0.0;
+    const auto last = static_cast<std::int64_t>(frames_.size()) - 2;
+    const auto k = static_cast<std::size_t>(std::clamp<std::int64_t>(frame, 0, last));
+    const double begin_s = frames_.front().time_s;
+    const double from_s = frames_[k].time_s - begin_s;
+    const double to_s = frames_[k + 1].time_s - begin_s;
+    return from_s + std::clamp(blend, 0.0, 1.0) * (to_s - from_s);
+}
+
+DepthClip read_depth_clip(std::unique_ptr<Media> media, const CleaningOptions& cleaning,
+                          const SurfaceShape& shape,
+                          const std::function<void(double share)>& progress) {
+    FrameReader reader(std::move(media));
+    reader.set_cleaning(cleaning);
+    const auto count = static_cast<double>(std::max<std::int64_t>(reader.description().frames, 1));
+    std::vector<Frame> frames;
+    for (auto frame = reader.at(0.0); frame; frame = reader.after(frames.back().media_s)) {
+        frame->time_s = frame->media_s;
+        frames.push_back(std::move(*frame));
+        if (progress) progress(static_cast<double>(frames.size()) / count);
+    }
+    return {std::move(frames), shape};
 }
 
 }  // namespace dibhr

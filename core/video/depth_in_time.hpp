@@ -1,18 +1,22 @@
-// A depth video read forward to any playback time, for runs without a clock: `dibhr touch`.
+// A depth video as a surface at any time, for runs without a clock: `dibhr touch`, experiments.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
-#include "core/haptics/depth_image.hpp"
 #include "core/haptics/surface.hpp"
 #include "core/video/depth_cleaning.hpp"
+#include "core/video/frame_reader.hpp"
+#include "core/video/frame_window.hpp"
 #include "core/video/media.hpp"
 
 namespace dibhr {
 
-/// Holds the two frames around now; decodes when time passes them. Playback time 0 is the first
-/// frame; the video repeats, its last frame lasting as long as the one before it.
+/// Reads forward and holds the two frames around now. Time 0 is the first frame; the video repeats,
+/// its last frame lasting as long as the one before it.
 class DepthInTime {
   public:
     /// Reads the first frame, and only that one when not `moving`. Throws InputError when there is
@@ -23,27 +27,52 @@ class DepthInTime {
     /// again on the way. Throws InputError when the file breaks off.
     bool advance_to(double playback_s);
 
-    /// The surface at the time advanced to; valid until the next advance.
-    [[nodiscard]] DepthSurface surface(const SurfaceShape& shape, const BumpMap* bump) const;
+    /// At the time advanced to; valid until the next advance.
+    [[nodiscard]] DepthBlend now() const noexcept { return depth_at(frames_, now_s_); }
 
   private:
-    struct TimedDepth {
-        DepthImage image{};
-        double playback_s{0.0};
-    };
-
-    std::optional<TimedDepth> read();
+    bool add(std::optional<Frame> frame);
     bool start_again(double playback_s);
 
-    std::unique_ptr<Media> media_;
-    CleaningOptions cleaning_{};
-    DepthCleaner cleaner_{};
-    TimedDepth from_{};
-    std::optional<TimedDepth> to_{};  ///< empty: the depth does not change
+    FrameReader reader_;
+    std::vector<Frame> frames_{};  ///< one or two; one: the depth does not change any more
+    double now_s_{0.0};
     double first_media_s_{0.0};
     double offset_s_{0.0};  ///< playback time of this round's first frame
     double last_interval_s_{0.0};
-    double blend_{0.0};
 };
+
+/// A whole depth video in memory: one or more frames of one size, the first at 0 s. It repeats:
+/// after the last frame comes the first again, as long after it as the last is after the one
+/// before. The surfaces it gives are views into it.
+class DepthClip {
+  public:
+    /// Throws InputError for no frame, one below 2 x 2, or frames that differ in size or are not
+    /// in order of time.
+    DepthClip(std::vector<Frame> frames, const SurfaceShape& shape);
+
+    /// The surface `t_s` >= 0 after the first frame.
+    [[nodiscard]] DepthSurface at(double t_s) const noexcept;
+
+    /// The time of frame number `frame` (from 0, held at the last), `blend` in [0, 1] of the way to
+    /// the next [s].
+    [[nodiscard]] double time_of(std::int64_t frame, double blend) const noexcept;
+
+    [[nodiscard]] int columns() const noexcept { return frames_.front().depth->columns; }
+    [[nodiscard]] int rows() const noexcept { return frames_.front().depth->rows; }
+    /// Of one round [s]; 0 for a still.
+    [[nodiscard]] double duration_s() const noexcept {
+        return frames_.back().time_s - frames_.front().time_s;
+    }
+
+  private:
+    std::vector<Frame> frames_;  ///< after a video's last one its first, at the end of the round
+    SurfaceShape shape_;
+};
+
+/// Decodes all frames of a depth video. Throws InputError.
+[[nodiscard]] DepthClip read_depth_clip(std::unique_ptr<Media> media,
+                                        const CleaningOptions& cleaning, const SurfaceShape& shape,
+                                        const std::function<void(double share)>& progress);
 
 }  // namespace dibhr

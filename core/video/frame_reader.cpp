@@ -34,8 +34,7 @@ FrameReader::FrameReader(std::unique_ptr<Media> media, std::uint32_t number)
 
 FrameReader::Kept* FrameReader::find(double media_s) {
     const auto found = std::find_if(kept_.begin(), kept_.end(), [media_s](const Kept& kept) {
-        return kept.raw.media_s ==
-               media_s;  // a name, not a measurement: the same frame has the same bits
+        return kept.raw.media_s == media_s;  // a name: the same frame has the same bits
     });
     return found == kept_.end() ? nullptr : &*found;
 }
@@ -43,6 +42,7 @@ FrameReader::Kept* FrameReader::find(double media_s) {
 FrameReader::Kept* FrameReader::read() {
     const auto begin = std::chrono::steady_clock::now();
     auto raw = media_->next();
+    begun_ = true;
     if (!raw) return nullptr;
     cost_.decode_ms = milliseconds_since(begin);
     Kept* before = position_s_ ? find(*position_s_) : nullptr;
@@ -100,7 +100,7 @@ std::optional<Frame> FrameReader::at(double media_s) {
     for (Kept& kept : kept_)
         if (kept.raw.media_s <= wanted_s && kept.next_s && wanted_s < *kept.next_s)
             return cleaned(kept);
-    jump_to(media_s);
+    if (begun_ || media_s > 0.0) jump_to(media_s);
     Kept* kept = read();
     if (kept == nullptr) return std::nullopt;
     return cleaned(*kept);

@@ -22,7 +22,7 @@ struct FrameCost {
     std::chrono::steady_clock::time_point cleaned{};  ///< when it was ready
 };
 
-/// Belongs to the player's thread. Frames are named by their presentation time in the file; those
+/// One thread at a time. Frames are named by their presentation time in the file; those
 /// given out have `time_s` 0. Everything that decodes may throw InputError.
 class FrameReader {
   public:
@@ -65,6 +65,7 @@ class FrameReader {
     DepthCleaner cleaner_{};
     CleaningOptions cleaning_{};
     std::deque<Kept> kept_{};             ///< in the order of decoding
+    bool begun_{false};                   ///< something has been read
     std::optional<double> position_s_{};  ///< of the last decoded frame, if the next one follows it
     FrameCost cost_{};
 };

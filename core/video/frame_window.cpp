@@ -1,22 +1,25 @@
-// What the player hands to the haptic thread and to the window: a few frames around now, and the
-// clock.
+// The depth at a moment between frames.
 #include "core/video/frame_window.hpp"
-
-#include <algorithm>
 
 namespace dibhr {
 
-DepthBlend FrameWindow::at(double playback_s) const noexcept {
-    const std::size_t held = std::min(count, kFrames);
-    if (held == 0) return {};
-    // The pair's first frame: the last one that is not later than the moment.
-    std::size_t from = 0;
-    while (from + 1 < held && frames[from + 1].time_s <= playback_s) ++from;
-    const Frame& first = frames[from];
-    if (from + 1 == held || !(playback_s > first.time_s)) return {&first, &first, 0.0};
-    const Frame& second = frames[from + 1];
-    const double span_s = second.time_s - first.time_s;
-    return {&first, &second, std::min((playback_s - first.time_s) / span_s, 1.0)};
+bool DepthBlend::makes_surface() const noexcept {
+    if (from == nullptr || to == nullptr || !from->depth || !to->depth) return false;
+    const DepthImage& a = *from->depth;
+    const DepthImage& b = *to->depth;
+    return a.columns == b.columns && a.rows == b.rows && a.columns >= 2 && a.rows >= 2 &&
+           a.highest_level == b.highest_level && a.highest_level > 0.0;
+}
+
+DepthBlend depth_at(std::span<const Frame> frames, double time_s) noexcept {
+    if (frames.empty()) return {};
+    const auto after =
+        std::partition_point(frames.begin(), frames.end(),
+                             [time_s](const Frame& frame) { return frame.time_s <= time_s; });
+    const Frame& from = after == frames.begin() ? frames.front() : *(after - 1);
+    if (after == frames.end() || !(time_s > from.time_s)) return {&from, &from, 0.0};
+    const double span_s = after->time_s - from.time_s;
+    return {&from, &*after, std::min((time_s - from.time_s) / span_s, 1.0)};
 }
 
 }  // namespace dibhr

@@ -1,15 +1,18 @@
-// What the player hands to the haptic thread and to the window: a few frames around now, and the
-// clock.
+// Frames, the depth at a moment between them, and what the player hands over: a few frames around
+// now and the clock.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
+#include "core/haptics/surface.hpp"
 #include "core/video/depth_cleaning.hpp"
 
 namespace dibhr {
@@ -25,7 +28,7 @@ struct ColourImage {
 struct Frame {
     std::shared_ptr<const DepthImage> depth{};
     std::shared_ptr<const ColourImage> colour{};
-    double time_s{0.0};  ///< on the playback timeline, which goes on across loops and never repeats
+    double time_s{0.0};          ///< on a playback timeline, which goes on across loops
     double media_s{0.0};         ///< presentation time in the file
     std::int64_t index{0};       ///< number of the frame in the file, from 0
     std::uint32_t media{0};      ///< number of the media it is of, as given to the player
@@ -43,7 +46,7 @@ struct PlaybackClock {
     }
 };
 
-/// The two depth images a moment lies between.
+/// The depth at a moment: the two frames around it, and how far it is from the one to the other.
 struct DepthBlend {
     const Frame* from{nullptr};
     const Frame* to{nullptr};
@@ -51,14 +54,18 @@ struct DepthBlend {
 
     /// Whether the two make one surface to touch and draw: there, of one size and scale, 2 x 2 or
     /// more.
-    [[nodiscard]] bool makes_surface() const noexcept {
-        if (from == nullptr || to == nullptr || !from->depth || !to->depth) return false;
-        const DepthImage& a = *from->depth;
-        const DepthImage& b = *to->depth;
-        return a.columns == b.columns && a.rows == b.rows && a.columns >= 2 && a.rows >= 2 &&
-               a.highest_level == b.highest_level && a.highest_level > 0.0;
+    [[nodiscard]] bool makes_surface() const noexcept;
+
+    /// Of frames that make one. Valid as long as they are.
+    [[nodiscard]] DepthSurface surface(const SurfaceShape& shape,
+                                       const BumpMap* bump = nullptr) const noexcept {
+        return {*from->depth, *to->depth, blend, shape, bump};
     }
 };
+
+/// The depth at `time_s` in frames in order of their times, held at the first and the last. Null
+/// when there is none.
+[[nodiscard]] DepthBlend depth_at(std::span<const Frame> frames, double time_s) noexcept;
 
 /// Travels whole through a triple buffer, so a tick never mixes frames or clocks. Frames are in
 /// order of time and a few ahead, so that the reader crosses from one pair to the next by its own
@@ -69,12 +76,12 @@ struct FrameWindow {
     std::array<Frame, kFrames> frames{};
     std::size_t count{0};
     PlaybackClock clock{};
-    std::uint64_t discontinuity{
-        0};  ///< counts seeks, loops, jumps and new files: the force ramps after each
+    /// Counts seeks, loops, jumps and new files: the force ramps after each.
+    std::uint64_t discontinuity{0};
 
-    /// The pair around playback time `s`, held at the first and last frame. Null when there is
-    /// none.
-    [[nodiscard]] DepthBlend at(double playback_s) const noexcept;
+    [[nodiscard]] DepthBlend at(double playback_s) const noexcept {
+        return depth_at({frames.data(), std::min(count, kFrames)}, playback_s);
+    }
 };
 
 }  // namespace dibhr

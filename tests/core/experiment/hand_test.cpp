@@ -44,16 +44,21 @@ std::string refusal(const std::string& text) {
     }
 }
 
+Frame frame_of(DepthImage image, double time_s) {
+    return {.depth = std::make_shared<const DepthImage>(std::move(image)), .time_s = time_s};
+}
+
 /// A person in the middle of a dark image, who comes 10 levels nearer every frame.
 DepthClip small_clip() {
-    std::vector<DepthClip::TimedDepth> frames;
+    std::vector<Frame> frames;
     for (int k = 0; k < 3; ++k) {
-        frames.push_back({test::image_of(60, 40, 255.0,
-                                         [k](int i, int j) {
-                                             const bool front = i >= 20 && i < 45 && j >= 10;
-                                             return front ? 100.0 + 10.0 * k : 10.0;
-                                         }),
-                          0.5 * k});
+        frames.push_back(frame_of(test::image_of(60, 40, 255.0,
+                                                 [k](int i, int j) {
+                                                     const bool front =
+                                                         i >= 20 && i < 45 && j >= 10;
+                                                     return front ? 100.0 + 10.0 * k : 10.0;
+                                                 }),
+                                  0.5 * k));
     }
     return {std::move(frames), SurfaceShape{}};
 }
@@ -87,10 +92,10 @@ TEST_CASE("a clip blends its frames in time and comes round without a seam", "[c
 
 TEST_CASE("a clip of nothing, of one pixel or of different sizes is refused", "[clip]") {
     const auto clip_of = [](std::vector<DepthImage> images) {
-        std::vector<DepthClip::TimedDepth> frames;
+        std::vector<Frame> frames;
         for (DepthImage& image : images) {
             const double time_s = static_cast<double>(frames.size());
-            frames.push_back({std::move(image), time_s});
+            frames.push_back(frame_of(std::move(image), time_s));
         }
         return DepthClip(std::move(frames), SurfaceShape{});
     };
@@ -108,9 +113,8 @@ TEST_CASE("the foreground is a rectangle wholly on the person", "[area]") {
     CHECK(area.centre.y + area.half_size.y <= 39.0);
     CHECK(area.half_size.x > 10.0);
     CHECK(area.half_size.y > 12.0);
-    std::vector<DepthClip::TimedDepth> flat;
-    flat.push_back({test::flat(9, 5, 100.0), 0.0});
-    CHECK(foreground_area(DepthClip(std::move(flat), {})).half_size == Vec2{4.0, 2.0});
+    const DepthClip flat({frame_of(test::flat(9, 5, 100.0), 0.0)}, {});
+    CHECK(foreground_area(flat).half_size == Vec2{4.0, 2.0});
 }
 
 TEST_CASE("a smooth curve meets its samples and stays between them", "[curve]") {

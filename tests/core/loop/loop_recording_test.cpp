@@ -51,12 +51,13 @@ FrameWindow rising_window(int columns, int rows) {
 class WindowFrames final : public RecordedFrames {
   public:
     explicit WindowFrames(const FrameWindow& window) : window_(window) {}
-    [[nodiscard]] std::shared_ptr<const DepthImage> depth(const FrameSource& source,
-                                                          double media_s) override {
+    [[nodiscard]] Frame frame(const FrameSource& source, double media_s) override {
         CHECK(source == FrameSource{1, false, true, false});
-        return window_.frames.at(media_s > 10.5 ? 1 : 0).depth;
+        return window_.frames.at(media_s > 10.5 ? 1 : 0);
     }
-    [[nodiscard]] const BumpMap* bump(const SessionParameters&) override { return nullptr; }
+    [[nodiscard]] std::shared_ptr<const BumpMap> bump(const SessionParameters&) override {
+        return nullptr;
+    }
 
   private:
     const FrameWindow& window_;

@@ -120,7 +120,7 @@ TEST_CASE("a session without its parameters can be read, but says why it is not 
 
 TEST_CASE("the renderer after a restart is as a new one", "[replay]") {
     MovingSurface surface;
-    const auto image = surface.depth({}, 0.0);
+    const auto image = surface.frame({}, 0.0).depth;
     const DepthSurface ground(*image, *image, 0.0, {});
     const Vec3 goal{40.0, 30.0, 60.0};
     TouchRenderer used;

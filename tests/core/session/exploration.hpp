@@ -37,11 +37,13 @@ class MovingSurface final : public RecordedFrames {
         }
     }
 
-    [[nodiscard]] std::shared_ptr<const DepthImage> depth(const FrameSource&,
-                                                          double media_s) override {
-        return images_.at(static_cast<std::size_t>(std::lround(media_s / kInterval_s)));
+    [[nodiscard]] Frame frame(const FrameSource&, double media_s) override {
+        return {.depth = images_.at(static_cast<std::size_t>(std::lround(media_s / kInterval_s))),
+                .media_s = media_s};
     }
-    [[nodiscard]] const BumpMap* bump(const SessionParameters&) override { return nullptr; }
+    [[nodiscard]] std::shared_ptr<const BumpMap> bump(const SessionParameters&) override {
+        return nullptr;
+    }
 
     /// The frames and the blend at a playback time.
     [[nodiscard]] static FramePair pair_at(double playback_s, double& blend) {
@@ -110,9 +112,9 @@ class Exploration {
     void touch_surface(TickRecord& record) {
         const double t = record.t_s;
         record.frames = MovingSurface::pair_at(t, record.blend);
-        const auto from = frames_.depth(record.frames.source, record.frames.from_s);
-        const auto to = frames_.depth(record.frames.source, record.frames.to_s);
-        const DepthSurface ground(*from, *to, record.blend, parameters.touch.shape);
+        const Frame from = frames_.frame(record.frames.source, record.frames.from_s);
+        const Frame to = frames_.frame(record.frames.source, record.frames.to_s);
+        const DepthSurface ground(*from.depth, *to.depth, record.blend, parameters.touch.shape);
         const Vec3 goal{48.0 + 40.0 * std::sin(1.7 * t), 32.0 + 25.0 * std::sin(2.3 * t + 1.0),
                         100.0 - depth_px * std::min(1.0, t) + tremor_px * std::sin(31.0 * t)};
         record.restart = restart_;
