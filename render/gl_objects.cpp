@@ -2,20 +2,14 @@
 #include "render/gl_objects.hpp"
 
 #include <glm/gtc/type_ptr.hpp>
+#include <string>
 #include <utility>
 
 #include "core/error.hpp"
 
 namespace dibhr {
-namespace {
 
-/// A name by glGen*, which all take (count, names).
-template <class Make>
-GLuint made(Make make) {
-    GLuint name = 0;
-    make(1, &name);
-    return name;
-}
+namespace {
 
 GLuint compile(GLenum stage, std::string_view text, const std::string& defines) {
     const auto line_end = text.find('\n', text.find("#version")) + 1;
@@ -45,37 +39,6 @@ std::string link_log(GLuint program, GLuint vertex, GLuint fragment) {
 }
 
 }  // namespace
-
-GLuint TextureKind::make() {
-    return made(glGenTextures);
-}
-void TextureKind::free(GLuint name) {
-    glDeleteTextures(1, &name);
-}
-GLuint BufferKind::make() {
-    return made(glGenBuffers);
-}
-void BufferKind::free(GLuint name) {
-    glDeleteBuffers(1, &name);
-}
-GLuint VertexArrayKind::make() {
-    return made(glGenVertexArrays);
-}
-void VertexArrayKind::free(GLuint name) {
-    glDeleteVertexArrays(1, &name);
-}
-GLuint FramebufferKind::make() {
-    return made(glGenFramebuffers);
-}
-void FramebufferKind::free(GLuint name) {
-    glDeleteFramebuffers(1, &name);
-}
-GLuint RenderbufferKind::make() {
-    return made(glGenRenderbuffers);
-}
-void RenderbufferKind::free(GLuint name) {
-    glDeleteRenderbuffers(1, &name);
-}
 
 ShaderProgram::ShaderProgram(std::string_view vertex, std::string_view fragment,
                              const std::string& defines)
@@ -137,6 +100,46 @@ GlLimits read_limits() {
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limits.texture_side);
     glGetIntegerv(GL_MAX_SAMPLES, &limits.samples);
     return limits;
+}
+
+namespace {
+
+void attach(GLenum point, const GlRenderbuffer& buffer, GLenum format, glm::ivec2 size,
+            int samples) {
+    glBindRenderbuffer(GL_RENDERBUFFER, buffer.get());
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, size.x, size.y);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, point, GL_RENDERBUFFER, buffer.get());
+}
+
+}  // namespace
+
+Offscreen::Offscreen(glm::ivec2 size, int samples) : size_(size), samples_(samples) {
+    glGetIntegerv(GL_FRAMEBUFFER_BINDING, &framebuffer_before_);
+    glGetIntegerv(GL_VIEWPORT, viewport_before_.data());
+    glBindFramebuffer(GL_FRAMEBUFFER, drawn_.get());
+    attach(GL_COLOR_ATTACHMENT0, colour_, GL_RGBA8, size, samples);
+    attach(GL_DEPTH_ATTACHMENT, depth_, GL_DEPTH_COMPONENT24, size, samples);
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+        glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(framebuffer_before_));
+        throw DeviceError("the graphics driver cannot draw a picture of " + std::to_string(size.x) +
+                          "x" + std::to_string(size.y) + " pixels; ask for a smaller one");
+    }
+}
+
+Offscreen::~Offscreen() {
+    glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(framebuffer_before_));
+    const auto& [x, y, width, height] = viewport_before_;
+    glViewport(x, y, width, height);
+}
+
+void Offscreen::resolve() {
+    if (samples_ == 0) return;
+    glBindFramebuffer(GL_FRAMEBUFFER, merged_.get());
+    attach(GL_COLOR_ATTACHMENT0, merged_colour_, GL_RGBA8, size_, 0);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn_.get());
+    glBlitFramebuffer(0, 0, size_.x, size_.y, 0, 0, size_.x, size_.y, GL_COLOR_BUFFER_BIT,
+                      GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, merged_.get());
 }
 
 }  // namespace dibhr

@@ -3,6 +3,7 @@
 
 #include <epoxy/gl.h>
 
+#include <array>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -11,12 +12,13 @@
 
 namespace dibhr {
 
-/// Owns one OpenGL name; `Kind` makes and frees it.
-template <class Kind>
+/// Owns one OpenGL name, made by `Generate` and freed by `Delete`, of the family that takes (count,
+/// names).
+template <auto& Generate, auto& Delete>
 class GlName {
   public:
-    GlName() : name_(Kind::make()) {}
-    ~GlName() { Kind::free(name_); }
+    GlName() { Generate(1, &name_); }
+    ~GlName() { Delete(1, &name_); }
     GlName(const GlName&) = delete;
     GlName& operator=(const GlName&) = delete;
     [[nodiscard]] GLuint get() const noexcept { return name_; }
@@ -25,32 +27,11 @@ class GlName {
     GLuint name_{0};
 };
 
-struct TextureKind {
-    static GLuint make();
-    static void free(GLuint name);
-};
-struct BufferKind {
-    static GLuint make();
-    static void free(GLuint name);
-};
-struct VertexArrayKind {
-    static GLuint make();
-    static void free(GLuint name);
-};
-struct FramebufferKind {
-    static GLuint make();
-    static void free(GLuint name);
-};
-struct RenderbufferKind {
-    static GLuint make();
-    static void free(GLuint name);
-};
-
-using GlTexture = GlName<TextureKind>;
-using GlBuffer = GlName<BufferKind>;
-using GlVertexArray = GlName<VertexArrayKind>;
-using GlFramebuffer = GlName<FramebufferKind>;
-using GlRenderbuffer = GlName<RenderbufferKind>;
+using GlTexture = GlName<glGenTextures, glDeleteTextures>;
+using GlBuffer = GlName<glGenBuffers, glDeleteBuffers>;
+using GlVertexArray = GlName<glGenVertexArrays, glDeleteVertexArrays>;
+using GlFramebuffer = GlName<glGenFramebuffers, glDeleteFramebuffers>;
+using GlRenderbuffer = GlName<glGenRenderbuffers, glDeleteRenderbuffers>;
 
 /// A linked program. Throws DeviceError with the driver's words when it refuses the source.
 class ShaderProgram {
@@ -84,5 +65,31 @@ struct GlLimits {
 
 /// Throws DeviceError when the current context is older than OpenGL 3.3.
 [[nodiscard]] GlLimits read_limits();
+
+/// Colour and depth of `size` pixels. Bound from construction to destruction, which puts back the
+/// framebuffer and the viewport of before.
+class Offscreen {
+  public:
+    /// `samples` a pixel, 0: one, without smoothing. Throws DeviceError when the driver cannot make
+    /// it.
+    Offscreen(glm::ivec2 size, int samples);
+    ~Offscreen();
+    Offscreen(const Offscreen&) = delete;
+    Offscreen& operator=(const Offscreen&) = delete;
+
+    /// Merges the samples, so that the bound framebuffer can be read.
+    void resolve();
+
+  private:
+    glm::ivec2 size_{0};
+    int samples_{0};
+    GLint framebuffer_before_{0};
+    std::array<GLint, 4> viewport_before_{};
+    GlFramebuffer drawn_{};
+    GlRenderbuffer colour_{};
+    GlRenderbuffer depth_{};
+    GlFramebuffer merged_{};
+    GlRenderbuffer merged_colour_{};
+};
 
 }  // namespace dibhr

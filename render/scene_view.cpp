@@ -6,15 +6,13 @@
 
 #include "render/gl_objects.hpp"
 #include "render/marker_pass.hpp"
-#include "render/offscreen.hpp"
 #include "render/relief_pass.hpp"
 #include "shader_sources.hpp"
 
 namespace dibhr {
 namespace {
 
-constexpr int kSamples =
-    4;  // a pixel, off-screen; none on software, where they cost four times the work
+constexpr int kSamples = 4;  // a pixel, off-screen; on software they cost four times the work
 
 }  // namespace
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/haptics/surface.hpp"
-#include "render/offscreen.hpp"
+#include "render/gl_objects.hpp"
 #include "tests/render/hidden_window.hpp"
 #include "tests/render/scenes.hpp"
 #include "tests/support/catch.hpp"

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <ctime>
 
-#include "render/offscreen.hpp"
+#include "render/gl_objects.hpp"
 #include "render/scene_view.hpp"
 #include "tests/render/hidden_window.hpp"
 #include "tests/render/scenes.hpp"
