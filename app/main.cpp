@@ -9,8 +9,8 @@
 
 #include "app/commands/command_line.hpp"
 #include "app/settings/command_options.hpp"
-#include "core/files/error_line.hpp"
 #include "core/files/output_file.hpp"
+#include "core/files/plain_text.hpp"
 
 namespace {
 
@@ -51,8 +51,8 @@ int main(int argc, char** argv) {
     // A closed pipe is an ordinary end, not a signal.
     std::signal(SIGPIPE, SIG_IGN);
     std::cout.exceptions(std::ios::badbit);
-    std::cerr.tie(
-        nullptr);  // an error line must not flush, and so throw for, what could not be printed
+    // An error line must not flush, and so throw for, what could not be printed.
+    std::cerr.tie(nullptr);
     const int exit_code = exit_code_of({argv + 1, argv + argc});
     // What could not be printed has been told; the last flush at exit has nobody to tell.
     std::cout.exceptions(std::ios::goodbit);

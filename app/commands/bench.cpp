@@ -1,6 +1,6 @@
 // Prints what the bench measured: a table for people, JSON for scripts.
-#include "app/commands/bench.hpp"
-
+#include <CLI/CLI.hpp>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <optional>
@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "app/commands/bench_measurements.hpp"
+#include "app/commands/command_line.hpp"
+#include "core/files/json.hpp"
 #include "core/files/output_file.hpp"
 
 namespace dibhr {
@@ -39,8 +41,9 @@ std::string row(const std::string& name, const SampleStatistics& s, const std::s
 std::string table_of(const BenchResults& results) {
     std::ostringstream text;
     text << "  " << std::left << std::setw(38) << "" << std::right;
-    for (const char* head : {"median", "mean", "p99", "p99.9", "max"})
+    for (const char* head : {"median", "mean", "p99", "p99.9", "max"}) {
         text << std::setw(11) << head;
+    }
     text << "\n\nUpdate, mu " << results.mu << ", depth " << results.depth_px
          << " px, two blended images (reading the clock, " << results.clock_us
          << " us, is part of each)\n";
@@ -71,54 +74,56 @@ std::string table_of(const BenchResults& results) {
     return text.str();
 }
 
-std::string json_of(const SampleStatistics& s, const std::string& unit) {
-    std::ostringstream json;
-    json << std::setprecision(17) << "\"median_" << unit << "\": " << s.median << ", \"mean_"
-         << unit << "\": " << s.mean << ", \"p99_" << unit << "\": " << s.p99 << ", \"p999_" << unit
-         << "\": " << s.p999 << ", \"max_" << unit << "\": " << s.highest
-         << ", \"samples\": " << s.count;
-    return json.str();
+Json json_of(const SampleStatistics& s, const std::string& unit) {
+    return {{"median_" + unit, s.median}, {"mean_" + unit, s.mean},   {"p99_" + unit, s.p99},
+            {"p999_" + unit, s.p999},     {"max_" + unit, s.highest}, {"samples", s.count}};
 }
 
-std::string json_of(const LoopRun::Lateness& lateness) {
-    std::ostringstream json;
-    json << "{\"ticks\": " << lateness.ticks << ", \"late_ticks\": " << lateness.late_ticks
-         << ", \"p99_us\": " << lateness.p99_us << ", \"max_us\": " << lateness.worst_us << "}";
-    return json.str();
+Json json_of(const LoopRun::Lateness& lateness) {
+    return {{"ticks", lateness.ticks},
+            {"late_ticks", lateness.late_ticks},
+            {"p99_us", lateness.p99_us},
+            {"max_us", lateness.worst_us}};
 }
 
-std::string size_json(int columns, int rows) {
-    return "\"columns\": " + std::to_string(columns) + ", \"rows\": " + std::to_string(rows);
+Json json_of(const UpdateRun& run) {
+    Json json{{"algorithm", name_of(run.algorithm)},
+              {"path", run.path},
+              {"columns", run.columns},
+              {"rows", run.rows}};
+    json.update(json_of(run.timing.update_us, "us"));
+    json["moves"] = run.timing.moves_per_update;
+    return json;
 }
 
-std::string json_of(const BenchResults& results) {
-    std::ostringstream json;
-    json << "{\n  \"mu\": " << results.mu << ", \"depth_px\": " << results.depth_px
-         << ", \"clock_us\": " << results.clock_us << ",\n  \"updates\": [";
-    const char* separator = "\n    ";
-    for (const UpdateRun& run : results.updates) {
-        json << separator << "{\"algorithm\": \"" << name_of(run.algorithm) << "\", \"path\": \""
-             << run.path << "\", " << size_json(run.columns, run.rows) << ", "
-             << json_of(run.timing.update_us, "us")
-             << ", \"moves\": " << run.timing.moves_per_update << "}";
-        separator = ",\n    ";
-    }
-    json << "\n  ],\n  \"teleports\": [";
-    separator = "\n    ";
-    for (const TeleportRun& run : results.teleports) {
-        json << separator << "{\"where\": \"" << run.where << "\", "
-             << size_json(run.columns, run.rows) << ", " << json_of(run.update_us, "us") << "}";
-        separator = ",\n    ";
-    }
+Json json_of(const TeleportRun& run) {
+    Json json{{"where", run.where}, {"columns", run.columns}, {"rows", run.rows}};
+    json.update(json_of(run.update_us, "us"));
+    return json;
+}
+
+Json json_of(const BenchResults& results) {
+    Json updates = Json::array();
+    for (const UpdateRun& run : results.updates) updates.push_back(json_of(run));
+    Json teleports = Json::array();
+    for (const TeleportRun& run : results.teleports) teleports.push_back(json_of(run));
     const HandoverRun& handover = results.handover;
-    json << "\n  ],\n  \"handover\": {" << size_json(handover.columns, handover.rows)
-         << ",\n    \"cleaning\": {" << json_of(handover.cleaning_ms, "ms")
-         << "},\n    \"cleaned_to_touchable\": {" << json_of(handover.cleaned_to_touchable_us, "us")
-         << "},\n    \"swap\": {" << json_of(handover.swap_us, "us")
-         << "}\n  },\n  \"loops\": {\"seconds\": " << results.loop.seconds
-         << ", \"empty\": " << json_of(results.loop.empty)
-         << ", \"haptic\": " << json_of(results.loop.haptic) << "}\n}\n";
-    return json.str();
+    const LoopRun& loop = results.loop;
+    return {{"mu", results.mu},
+            {"depth_px", results.depth_px},
+            {"clock_us", results.clock_us},
+            {"updates", std::move(updates)},
+            {"teleports", std::move(teleports)},
+            {"handover",
+             {{"columns", handover.columns},
+              {"rows", handover.rows},
+              {"cleaning", json_of(handover.cleaning_ms, "ms")},
+              {"cleaned_to_touchable", json_of(handover.cleaned_to_touchable_us, "us")},
+              {"swap", json_of(handover.swap_us, "us")}}},
+            {"loops",
+             {{"seconds", loop.seconds},
+              {"empty", json_of(loop.empty)},
+              {"haptic", json_of(loop.haptic)}}}};
 }
 
 BenchResults measure() {
@@ -141,14 +146,16 @@ BenchResults measure() {
 
 }  // namespace
 
-int run_bench(const BenchOptions& options) {
+int run_bench(CLI::App& app, const Arguments& arguments) {
+    std::filesystem::path file;
+    add_file(app, "--json", file, "Writes the numbers as JSON; - is standard output");
+    if (!parse(app, arguments)) return 0;
     std::optional<OutputFile> json;
-    if (!options.json.empty())
-        json.emplace(options.json);  // before the work: an unwritable file is said at once
+    if (!file.empty()) json.emplace(file);  // before the work: an unwritable file is said at once
     const BenchResults results = measure();
-    if (options.json != "-") std::cout << table_of(results);
+    if (file != "-") std::cout << table_of(results);
     if (json) {
-        json->write(json_of(results));
+        json->write(json_text(json_of(results)));
         json->commit();
     }
     return 0;

@@ -1,13 +1,52 @@
-// Finds the command that the arguments name, parses its options and runs it.
+// The commands of the program: found by name, their options declared where they are used.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
 namespace dibhr {
 
+using Arguments = std::vector<std::string>;
+
 /// `arguments` without the program's own name. The exit code of the command; throws UsageError for
-/// wrong arguments, Error for what the command could not do.
-int run_command_line(const std::vector<std::string>& arguments);
+/// a wrong command line, and what the command throws.
+int run_command_line(const Arguments& arguments);
+
+// For the commands.
+
+/// False when the help was asked for, which is then printed. Throws UsageError.
+[[nodiscard]] bool parse(CLI::App& app, const Arguments& arguments);
+
+/// An option, or an argument, that names a file. `file` must outlive the parsing of `app`.
+CLI::Option* add_file(CLI::App& app, const std::string& name, std::filesystem::path& file,
+                      const std::string& help, const std::string& type = "FILE");
+CLI::Option* add_session(CLI::App& app, std::filesystem::path& file);
+CLI::Option* add_firmware(CLI::App& app, std::filesystem::path& file);
+
+// Each declares its options in `app`, parses `arguments` after its name and runs. The exit code;
+// throws Error.
+
+/// The settings file first, then the command line, then the window.
+int run_view(CLI::App& app, const Arguments& arguments);
+/// One row an update, computed by the core alone.
+int run_touch(CLI::App& app, const Arguments& arguments);
+/// Whether the runs that change nothing gave the recorded bits, and a table of all runs. 1 when
+/// those bits differ.
+int run_replay(CLI::App& app, const Arguments& arguments);
+/// Every tick, by the names of the session's view `tick`.
+int run_export(CLI::App& app, const Arguments& arguments);
+/// Describes each file; says on stderr which could not be read. 1 when there are any.
+int run_info(CLI::App& app, const Arguments& arguments);
+/// 0: a Falcon can be used, or none is attached and the mouse can be. Throws DeviceError when
+/// Falcons are attached and none can be used. With --check, leads a person through the check.
+int run_devices(CLI::App& app, const Arguments& arguments);
+/// Measures and prints.
+int run_bench(CLI::App& app, const Arguments& arguments);
 
 }  // namespace dibhr

@@ -1,12 +1,12 @@
 // `dibhr devices`: the mouse, and how far every attached Falcon goes; or the check of one.
-#include "app/commands/devices.hpp"
-
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <string>
 #include <vector>
 
+#include "app/commands/command_line.hpp"
 #include "app/commands/terminal_guide.hpp"
 #include "app/settings/settings.hpp"
 #include "core/error.hpp"
@@ -17,6 +17,12 @@
 
 namespace dibhr {
 namespace {
+
+struct DevicesRequest {
+    std::filesystem::path firmware{};  ///< --firmware; empty: the kept one
+    bool check{false};                 ///< --check: the protocol for the first unit
+    std::filesystem::path out{};       ///< --out: its record; empty: falcon-check-SERIAL-DATE.json
+};
 
 std::string name_of(const falcon::AttachedFalcon& falcon) {
     return "Novint Falcon " + (falcon.serial.empty() ? "(serial unknown)" : falcon.serial);
@@ -80,7 +86,23 @@ int check(const DevicesRequest& request) {
 
 }  // namespace
 
-int run_devices(const DevicesRequest& request) {
+int run_devices(CLI::App& app, const Arguments& arguments) {
+    DevicesRequest request;
+    add_firmware(app, request.firmware);
+    auto* const check_given =
+        app.add_flag("--check", request.check,
+                     "Leads you through everything that is to be measured on a "
+                     "Falcon, with force only where it says so");
+    add_file(app, "--out", request.out, "With --check: the record of what was measured")
+        ->default_str("falcon-check-SERIAL-DATE.json")
+        ->needs(check_given);
+    app.footer(
+        "Ends with 0 when a Falcon can be used, or none is attached and the mouse can be; with 1 "
+        "when none of the attached Falcons can be used.\n\nExamples:\n"
+        "  dibhr devices\n"
+        "  dibhr devices --firmware nvent_firmware.bin\n"
+        "  dibhr devices --check");
+    if (!parse(app, arguments)) return 0;
     if (request.check) return check(request);
     std::cout
         << "mouse: usable (point at the relief in the viewer, hold the left button to touch)\n";

@@ -1,13 +1,13 @@
 // `dibhr export`: the view `tick` as text.
-#include "app/commands/export.hpp"
-
+#include <CLI/CLI.hpp>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
+#include "app/commands/command_line.hpp"
 #include "app/commands/output_rows.hpp"
 #include "app/commands/progress_bar.hpp"
-#include "app/commands/session_rows.hpp"
-#include "core/files/error_line.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/session/session.hpp"
 
 namespace dibhr {
@@ -24,7 +24,7 @@ void append_cell(std::string& text, const SessionReader::Query& ticks, int colum
             text += std::to_string(ticks.integer(column));
             break;
         case SessionReader::Kind::real:
-            append_real(text, ticks.real(column));
+            append_number(text, ticks.real(column));
             break;
         case SessionReader::Kind::text:
             text += ticks.text(column);
@@ -34,12 +34,22 @@ void append_cell(std::string& text, const SessionReader::Query& ticks, int colum
 
 }  // namespace
 
-int run_export(const ExportOptions& options) {
-    const Session session(options.session);
+int run_export(CLI::App& app, const Arguments& arguments) {
+    std::filesystem::path file;
+    std::filesystem::path csv;
+    add_session(app, file);
+    add_file(app, "--csv", csv, "One row a tick; - is standard output")->required();
+    app.footer(
+        "The columns of `dibhr touch` come first; table tick_column of the session explains all.\n"
+        "\nExamples:\n"
+        "  dibhr export mine.dibhr --csv mine.csv\n"
+        "  dibhr export mine.dibhr --csv - | head");
+    if (!parse(app, arguments)) return 0;
+    const Session session(file);
     session.check();
     print_warning(session.warning());
     SessionReader::Query ticks(session.reader(), "SELECT * FROM tick ORDER BY tick");
-    SessionRows rows(options.csv, options.session);
+    RowFile rows(csv, {file}, "is the session that is read; give --csv another name");
     ProgressBar bar("Exporting");
     const auto add_row = [&](auto append) {
         for (int column = 0; column < ticks.columns(); ++column) {
@@ -47,7 +57,7 @@ int run_export(const ExportOptions& options) {
             append(column);
         }
         rows.text() += '\n';
-        rows.row_done();
+        rows.rows_done();
     };
     add_row([&](int column) { rows.text() += ticks.name(column); });
     for (std::int64_t done = 0; ticks.next(); ++done) {

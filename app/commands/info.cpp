@@ -1,17 +1,17 @@
 // `dibhr info`: describes media and session files.
-#include "app/commands/info.hpp"
-
-#include <cmath>
+#include <CLI/CLI.hpp>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "app/commands/command_line.hpp"
 #include "core/error.hpp"
-#include "core/files/error_line.hpp"
-#include "core/replay/moments.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/replay/media.hpp"
 #include "core/report/device_text.hpp"
 #include "core/session/session.hpp"
 #include "core/video/media.hpp"
@@ -27,12 +27,6 @@ void print_fact(std::string_view name, std::string_view value) {
               << one_line(value) << '\n';
 }
 
-std::string rounded(double value, int digits) {
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(digits) << value;
-    return text.str();
-}
-
 void print_media(std::string_view name, const SessionMedia& media) {
     if (media.file.empty()) return;
     print_fact(name,
@@ -46,14 +40,14 @@ void describe_session(const fs::path& file) {
     std::cout << one_line(file.string()) << '\n';
     print_fact("kind", "dibhr session");
     print_fact("rows", std::to_string(session.rows()));
-    print_fact("duration", rounded(session.end_s() - session.begin_s(), 3) + " s");
+    print_fact("duration", number_text(session.end_s() - session.begin_s(), 3) + " s");
     if (session.missing() > 0) print_fact("missing rows", std::to_string(session.missing()));
     for (const SessionSource& source : session.sources()) {
         print_media("colour", source.colour);
         print_media("depth", source.depth);
     }
     for (const SessionMark& mark : session.marks()) {
-        print_fact("mark", rounded(mark.t_s - session.begin_s(), 3) + " s  " + mark.tag +
+        print_fact("mark", number_text(mark.t_s - session.begin_s(), 3) + " s  " + mark.tag +
                                (mark.text.empty() ? "" : ": " + mark.text));
     }
     for (const auto& [name, value] : session.facts()) {
@@ -89,8 +83,8 @@ void describe_pictures(const fs::path& file) {
     print_fact("bits", std::to_string(media.depth_bits) + " a channel");
     if (!media.still) {
         print_fact("frames", (media.frames_exact ? "" : "about ") + std::to_string(media.frames));
-        print_fact("duration", rounded(media.duration_s, 3) + " s");
-        print_fact("rate", rounded(media.frames_per_s, 2) + " frames/s");
+        print_fact("duration", number_text(media.duration_s, 3) + " s");
+        print_fact("rate", number_text(media.frames_per_s, 2) + " frames/s");
     }
     if (!media.remark.empty()) print_fact("remark", media.remark);
     if (is_colour) describe_partner(file);
@@ -98,9 +92,13 @@ void describe_pictures(const fs::path& file) {
 
 }  // namespace
 
-int run_info(const std::vector<fs::path>& files) {
+int run_info(CLI::App& app, const Arguments& arguments) {
+    std::vector<std::string> files;
+    app.add_option("FILE", files, "Videos, images and session files")->type_name("")->required();
+    app.footer("Example:\n  dibhr info color.mp4 depth.mp4 mine.dibhr");
+    if (!parse(app, arguments)) return 0;
     int exit_code = 0;
-    for (const fs::path& file : files) {
+    for (const fs::path file : files) {
         try {
             if (names_session(file)) {
                 describe_session(file);

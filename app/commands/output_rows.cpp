@@ -1,59 +1,63 @@
-// Formats the rows of a computed stream of touches.
+// Formats rows and writes them.
 #include "app/commands/output_rows.hpp"
 
-#include <array>
-#include <charconv>
+#include <cstddef>
+#include <system_error>
+
+#include "core/error.hpp"
+#include "core/files/plain_text.hpp"
 
 namespace dibhr {
+
 namespace {
 
-void append_vector(std::string& text, const Vec3& vector) {
-    for (const double value : {vector.x, vector.y, vector.z}) {
-        append_real(text, value);
-        text += ',';
-    }
-}
+constexpr std::size_t kPiece_bytes = std::size_t{1} << 20;
 
 }  // namespace
 
-OutputRow row_of(double t_s, const Touch& touch, std::int64_t update_ns) {
-    OutputRow row;
-    row.t_s = t_s;
-    row.goal = touch.goal;
-    row.proxy = touch.proxy.position;
-    row.spring_newton = touch.spring_force_newton;
-    row.sent_newton = touch.sent_force_newton;
-    row.contact = touch.proxy.contact;
-    row.primitive = touch.proxy.active.kind;
-    row.i = touch.proxy.active.i;
-    row.j = touch.proxy.active.j;
-    row.moves = touch.proxy.moves;
-    row.update_ns = update_ns;
-    return row;
-}
-
-void append_real(std::string& text, double value) {
-    std::array<char, 32> digits{};
-    const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), value,
-                                      std::chars_format::general, 17);
-    text.append(digits.data(), result.ptr);
-}
-
 void append_row(std::string& text, const OutputRow& row) {
-    append_real(text, row.t_s);
-    text += ',';
-    append_vector(text, row.goal);
-    append_vector(text, row.proxy);
-    append_vector(text, row.spring_newton);
-    append_vector(text, row.sent_newton);
-    text += row.contact ? "1," : "0,";
-    text += name_of(row.primitive);
-    for (const auto number :
-         {std::int64_t{row.i}, std::int64_t{row.j}, std::int64_t{row.moves}, row.update_ns}) {
+    const Touch& touch = row.touch;
+    const Proxy& proxy = touch.proxy;
+    append_number(text, row.t_s);
+    for (const Vec3& vector :
+         {touch.goal, proxy.position, touch.spring_force_newton, touch.sent_force_newton}) {
+        for (const double value : {vector.x, vector.y, vector.z}) {
+            text += ',';
+            append_number(text, value);
+        }
+    }
+    text += proxy.contact ? ",1," : ",0,";
+    text += name_of(proxy.active.kind);
+    for (const std::int64_t number : {std::int64_t{proxy.active.i}, std::int64_t{proxy.active.j},
+                                      std::int64_t{proxy.moves}, row.update_ns}) {
         text += ',';
         text += std::to_string(number);
     }
     text += '\n';
+}
+
+RowFile::RowFile(const std::filesystem::path& target,
+                 const std::vector<std::filesystem::path>& inputs, const std::string& why) {
+    if (target.empty()) return;
+    for (const std::filesystem::path& input : inputs) {
+        std::error_code missing;
+        if (std::filesystem::equivalent(input, target, missing)) {
+            throw InputError(target.string() + ": " + why);
+        }
+    }
+    file_.emplace(target);
+}
+
+void RowFile::rows_done() {
+    if (text_.size() < kPiece_bytes || !file_) return;
+    file_->write(text_);
+    text_.clear();
+}
+
+void RowFile::commit() {
+    if (!file_) return;
+    file_->write(text_);
+    file_->commit();
 }
 
 }  // namespace dibhr

@@ -1,13 +1,16 @@
-// The rows of a computed stream of touches, one line an update: a contract that scripts depend on.
+// The rows of a computed stream of touches, one line an update: a contract that scripts depend on;
+// and the file that a command writes rows to.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "core/haptics/primitive.hpp"
+#include "core/files/output_file.hpp"
 #include "core/haptics/touch.hpp"
-#include "core/haptics/vec.hpp"
 
 namespace dibhr {
 
@@ -17,24 +20,30 @@ inline constexpr std::string_view kOutputHeader =
 /// One update. Grid space [px], forces [N] in the axes of grid space.
 struct OutputRow {
     double t_s{0.0};
-    Vec3 goal{0.0};
-    Vec3 proxy{0.0};
-    Vec3 spring_newton{0.0};  ///< before the safety stage
-    Vec3 sent_newton{0.0};    ///< after it
-    bool contact{false};
-    PrimitiveKind primitive{PrimitiveKind::none};
-    int i{-1};
-    int j{-1};
-    int moves{0};
+    Touch touch{};
     std::int64_t update_ns{0};
 };
 
-[[nodiscard]] OutputRow row_of(double t_s, const Touch& touch, std::int64_t update_ns);
-
-/// Appends a real with 17 significant digits, so that it reads back to the same bits.
-void append_real(std::string& text, double value);
-
 /// Appends one line.
 void append_row(std::string& text, const OutputRow& row);
+
+/// Written in large pieces; appears whole or not at all, at commit().
+class RowFile {
+  public:
+    /// "-" is standard output; an empty name writes nothing. Throws InputError when the target
+    /// cannot be written, or is one of the `inputs`, which `why` says.
+    RowFile(const std::filesystem::path& target, const std::vector<std::filesystem::path>& inputs,
+            const std::string& why);
+
+    [[nodiscard]] bool wanted() const noexcept { return file_.has_value(); }
+    /// Rows are appended here; after each, or after a few, `rows_done`.
+    [[nodiscard]] std::string& text() noexcept { return text_; }
+    void rows_done();
+    void commit();
+
+  private:
+    std::optional<OutputFile> file_{};
+    std::string text_{};
+};
 
 }  // namespace dibhr

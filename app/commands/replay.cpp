@@ -1,8 +1,9 @@
 // `dibhr replay`: all runs side by side, in one pass over the session and its video.
-#include "app/commands/replay.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <optional>
@@ -10,19 +11,31 @@
 #include <string>
 #include <utility>
 
+#include "app/commands/command_line.hpp"
 #include "app/commands/output_rows.hpp"
 #include "app/commands/progress_bar.hpp"
-#include "app/commands/session_rows.hpp"
-#include "core/files/error_line.hpp"
+#include "app/settings/command_options.hpp"
+#include "core/error.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/replay/comparison.hpp"
 #include "core/replay/frames.hpp"
-#include "core/video/library_versions.hpp"
+#include "core/video/libraries.hpp"
 
 namespace dibhr {
 
 namespace {
 
 constexpr std::int64_t kTicksPerStep = 1000;  // of the progress bar
+
+struct ReplayOptions {
+    std::filesystem::path session{};
+    std::vector<Algorithm> algorithms{};  ///< empty: as recorded
+    GivenParameters given{};              ///< numbers that beat the recorded ones
+    std::filesystem::path bump{};         ///< instead of the recorded one; empty: as recorded
+    bool raw_depth{false};                ///< no cleaning, whatever was recorded
+    bool any_media{false};                ///< also over files that have changed
+    std::filesystem::path csv{};          ///< rows of the one run, "-": standard output; or empty
+};
 
 struct Run {
     std::string name{};
@@ -75,7 +88,7 @@ void replay(const Session& session, SessionFrames& video, std::vector<Run>& runs
     std::vector<ParameterChange> changes;
     for (const Run& run : runs) changes.push_back(run.change);
     SessionReplay replay(session, video, std::move(changes));
-    SessionRows rows(csv, session.file());
+    RowFile rows(csv, {session.file()}, "is the session that is read; give --csv another name");
     rows.text() = kOutputHeader;
     ProgressBar bar("Replaying");
     for (std::int64_t done = 0; replay.next(); ++done) {
@@ -84,9 +97,9 @@ void replay(const Session& session, SessionFrames& video, std::vector<Run>& runs
             runs[k].comparison.add(tick, replay.touch(k), replay.update_us(k));
         }
         if (rows.wanted()) {
-            append_row(rows.text(), row_of(tick.t_s, replay.touch(0),
-                                           static_cast<std::int64_t>(replay.update_us(0) * 1e3)));
-            rows.row_done();
+            append_row(rows.text(), {tick.t_s, replay.touch(0),
+                                     static_cast<std::int64_t>(replay.update_us(0) * 1e3)});
+            rows.rows_done();
         }
         if (done % kTicksPerStep == 0) {
             bar.show(static_cast<double>(done) / static_cast<double>(session.rows()));
@@ -146,9 +159,7 @@ std::string difference_of(const Session& session, const Run& run) {
     return text.str();
 }
 
-}  // namespace
-
-int run_replay(const ReplayOptions& options) {
+int replay_all(const ReplayOptions& options) {
     if (!options.csv.empty() && options.algorithms.size() > 1) {
         throw UsageError("--csv writes the rows of one run: give one --algorithm with it");
     }
@@ -175,6 +186,32 @@ int run_replay(const ReplayOptions& options) {
         exit_code = 1;
     }
     return exit_code;
+}
+
+}  // namespace
+
+int run_replay(CLI::App& app, const Arguments& arguments) {
+    ReplayOptions options;
+    TouchRequest request;
+    add_session(app, options.session);
+    add_touch_options(app, request);
+    app.remove_option(app.get_option("--algorithm"));  // here it may be given several times
+    add_algorithms_option(app, options.algorithms);
+    add_file(app, "--csv", options.csv, "Writes the rows of one run; - is standard output");
+    app.add_flag("--any-media", options.any_media,
+                 "Also over a video or bump map that has changed since");
+    app.footer(
+        "Without --algorithm and other changes, says whether proxies and forces are those of the\n"
+        "recording, bit for bit, and ends with 1 if not. What is not given is as recorded.\n\n"
+        "Examples:\n"
+        "  dibhr replay mine.dibhr\n"
+        "  dibhr replay mine.dibhr --algorithm dibhr --algorithm pga --friction 0.2\n"
+        "  dibhr replay mine.dibhr --stiffness 1 --csv stiffer.csv");
+    if (!parse(app, arguments)) return 0;
+    options.given = request.given;
+    options.bump = request.bump;
+    options.raw_depth = request.raw_depth;
+    return replay_all(options);
 }
 
 }  // namespace dibhr

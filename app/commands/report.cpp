@@ -8,7 +8,7 @@
 
 #include "app/commands/progress_bar.hpp"
 #include "core/error.hpp"
-#include "core/files/error_line.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/replay/media.hpp"
 #include "core/report/session_report.hpp"
 #include "core/session/session.hpp"

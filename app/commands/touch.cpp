@@ -1,19 +1,18 @@
 // `dibhr touch`: computes first and formats afterwards, block by block, so that the times are the
 // updates' own.
-#include "app/commands/touch.hpp"
-
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <span>
-#include <string>
-#include <system_error>
 #include <vector>
 
+#include "app/commands/command_line.hpp"
 #include "app/commands/output_rows.hpp"
-#include "core/error.hpp"
-#include "core/files/output_file.hpp"
+#include "app/settings/command_options.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/haptics/touch.hpp"
 #include "core/video/depth_in_time.hpp"
 #include "device/goal_stream.hpp"
@@ -22,18 +21,17 @@ namespace dibhr {
 namespace {
 
 constexpr std::size_t kBlockRows = 4096;
-constexpr std::size_t kRoomPerRow_bytes = 400;
 constexpr double kUsualTick_s = 0.001;
 
-void refuse_to_overwrite_input(const TouchOptions& options) {
-    for (const auto& input : {options.depth, options.goals, options.bump}) {
-        std::error_code missing;
-        if (std::filesystem::equivalent(input, options.out, missing)) {
-            throw InputError(options.out.string() +
-                             ": is also read by this command; give --out another name");
-        }
-    }
-}
+struct TouchOptions {
+    std::filesystem::path depth{};
+    std::filesystem::path goals{};
+    std::filesystem::path out{"-"};  ///< "-": standard output
+    std::filesystem::path bump{};    ///< empty: none
+    bool video{false};               ///< frames blended in time; false: the first image
+    bool raw_depth{false};           ///< no cleaning
+    TouchParameters parameters{};
+};
 
 /// Keeps all that an update depends on from one block of goals to the next.
 class TouchRun {
@@ -67,8 +65,8 @@ class TouchRun {
 
         last_t_s_ = goal.t_s;
         input_.restart = false;
-        return row_of(goal.t_s, touch,
-                      std::chrono::duration_cast<std::chrono::nanoseconds>(end - start).count());
+        return {goal.t_s, touch,
+                std::chrono::duration_cast<std::chrono::nanoseconds>(end - start).count()};
     }
 
     TouchParameters parameters_;
@@ -80,26 +78,46 @@ class TouchRun {
     std::optional<double> last_t_s_{};
 };
 
-}  // namespace
-
-int run_touch(const TouchOptions& options) {
+void touch_all(const TouchOptions& options) {
     const std::vector<TimedGoal> goals = read_goals(options.goals);
     TouchRun run(options);
-    refuse_to_overwrite_input(options);
-    OutputFile out(options.out);
-
+    RowFile out(options.out, {options.depth, options.goals, options.bump},
+                "is also read by this command; give --out another name");
     std::vector<OutputRow> rows;
     rows.reserve(kBlockRows);
-    std::string text(kOutputHeader);
-    text.reserve(kBlockRows * kRoomPerRow_bytes);
+    out.text() = kOutputHeader;
     for (std::size_t done = 0; done < goals.size(); done += kBlockRows) {
         const std::size_t count = std::min(kBlockRows, goals.size() - done);
         run.compute(std::span(goals).subspan(done, count), rows);
-        for (const OutputRow& row : rows) append_row(text, row);
-        out.write(text);
-        text.clear();
+        for (const OutputRow& row : rows) append_row(out.text(), row);
+        out.rows_done();
     }
     out.commit();
+}
+
+}  // namespace
+
+int run_touch(CLI::App& app, const Arguments& arguments) {
+    TouchOptions options;
+    TouchRequest request;
+    add_file(app, "--depth", options.depth, "Depth video or image")->required();
+    add_file(app, "--goals", options.goals, "Goals, t,x,y,z a row: seconds and grid-space pixels",
+             "GOALS.csv")
+        ->required();
+    add_file(app, "--out", options.out, "One row an update; - is standard output", "OUT.csv")
+        ->default_str("-");
+    app.add_flag("--video", options.video, "Blends the frames in time; else the first image");
+    add_touch_options(app, request);
+    app.footer(
+        "Examples:\n"
+        "  dibhr touch --depth depth.png --goals goals.csv --out touched.csv\n"
+        "  dibhr touch --depth depth.mp4 --video --goals goals.csv --friction 0.2 | head");
+    if (!parse(app, arguments)) return 0;
+    options.bump = request.bump;
+    options.raw_depth = request.raw_depth;
+    request.given.apply(options.parameters);
+    print_warning(roughness_warning(request.given, !options.bump.empty()));
+    touch_all(options);
     return 0;
 }
 

@@ -1,36 +1,132 @@
 // `dibhr view`: puts the settings file and the command line together and opens the window.
-#include "app/commands/view.hpp"
+#include <CLI/CLI.hpp>
+#include <array>
+#include <charconv>
+#include <filesystem>
+#include <optional>
+#include <system_error>
+#include <tuple>
+#include <utility>
 
+#include "app/commands/command_line.hpp"
+#include "app/settings/command_options.hpp"
 #include "app/settings/settings.hpp"
-#include "core/replay/moments.hpp"
+#include "app/viewer/view_options.hpp"
+#include "core/replay/media.hpp"
 
 namespace dibhr {
 
 namespace {
 
+constexpr double kLongestRun_s = 1e6;
+
+/// "1280x800" and nothing else.
+std::pair<int, int> parse_size(const std::string& text) {
+    std::array<int, 2> size{};
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    for (std::size_t k = 0; k < size.size(); ++k) {
+        const auto [stop, error] = std::from_chars(at, end, size[k]);
+        const bool ends_well = k == 0 ? stop != end && *stop == 'x' : stop == end;
+        if (error != std::errc{} || !ends_well) {
+            throw CLI::ValidationError("--size", "'" + text + "' is not a size like 1280x800");
+        }
+        if (size[k] < kSmallestWindow || size[k] > kLargestWindow) {
+            throw CLI::ValidationError("--size", text + " is not in " +
+                                                     std::to_string(kSmallestWindow) + " to " +
+                                                     std::to_string(kLargestWindow));
+        }
+        at = stop + 1;
+    }
+    return {size[0], size[1]};
+}
+
+void check_device(const std::string& device) {
+    const bool is_goals = device.starts_with("goals:") && device.size() > 6;
+    const bool is_chosen = device.starts_with("falcon:") && device.size() > 7;
+    if (!is_goals && !is_chosen && device != "auto" && device != "falcon" && device != "mouse") {
+        throw CLI::ValidationError(
+            "--device",
+            "'" + device + "' is none of auto, falcon, falcon:SERIAL, mouse, goals:FILE");
+    }
+}
+
 /// A replay is what was recorded: there is nothing to record, and its surface is given.
-void require_replay_options(const ViewRequest& request) {
-    const bool wrong = !request.options.depth.empty() || !request.options.record.empty() ||
-                       !request.touch.bump.empty() || request.touch.raw_depth;
+void require_replay_options(const ViewOptions& options, const TouchRequest& touch) {
+    const bool wrong =
+        !options.depth.empty() || !options.record.empty() || !touch.bump.empty() || touch.raw_depth;
     if (!wrong) return;
-    throw UsageError(request.options.colour.string() +
+    throw UsageError(options.colour.string() +
                      " is a session, which is replayed as it was recorded: leave away a depth "
                      "file, --record, --bump and --raw-depth");
 }
 
 }  // namespace
 
-int run_view(const ViewRequest& request) {
-    if (names_session(request.options.colour)) require_replay_options(request);
-    ViewOptions options = request.options;
+int run_view(CLI::App& app, const Arguments& arguments) {
+    ViewOptions options;
+    TouchRequest touch;
+    std::optional<std::pair<int, int>> size;
+    add_file(app, "COLOR", options.colour,
+             "Colour video or image, or a recorded session to replay; none: the built-in sample",
+             "");
+    add_file(app, "DEPTH", options.depth,
+             "Depth video or image; none: *color* -> *depth* beside it", "");
+    app.add_option_function<std::string>(
+           "--device",
+           [&options](const std::string& device) {
+               check_device(device);
+               options.device = device;
+           },
+           "auto (a Falcon, and the mouse until one is there), falcon, falcon:SERIAL, mouse or "
+           "goals:FILE")
+        ->type_name("DEVICE")
+        ->default_str("auto");
+    add_firmware(app, options.firmware);
+    add_file(app, "--record", options.record,
+             "Records every tick into a new session file (.dibhr)");
+    add_file(app, "--screenshot", options.screenshot, "Saves the last picture as PNG");
+    app.add_option_function<std::string>(
+           "--seconds",
+           [&options](const std::string& text) {
+               options.seconds = parse_number("--seconds", text, 0.0, kLongestRun_s);
+           },
+           "Leaves after so long")
+        ->type_name("S");
+    app.add_flag_function(
+        "--no-sync", [&options](std::int64_t) { options.sync = false; },
+        "Does not wait for the display");
+    app.add_option_function<std::string>(
+           "--size", [&size](const std::string& text) { size = parse_size(text); },
+           "Size of the window")
+        ->type_name("WxH");
+    app.add_flag("--any-media", options.any_media,
+                 "Replays a session also over files that have changed since");
+    add_touch_options(app, touch);
+    app.footer(
+        "Examples:\n"
+        "  dibhr                                  the built-in sample\n"
+        "  dibhr color.mp4 depth.mp4 --friction 0.8\n"
+        "  dibhr view touch                       a file that is called like a command\n"
+        "  dibhr color.mp4 --record mine.dibhr --seconds 20 --screenshot last.png\n"
+        "  dibhr mine.dibhr --algorithm pga       what was recorded, through another algorithm");
+    if (!parse(app, arguments)) return 0;
+    const std::string colour = options.colour.string();
+    std::error_code unknown;
+    if (colour.find_first_of("./") == std::string::npos && !colour.empty() &&
+        !std::filesystem::exists(colour, unknown)) {
+        throw UsageError("neither a command nor a file is called '" + colour +
+                         "'; see dibhr --help");
+    }
+    if (names_session(options.colour)) require_replay_options(options, touch);
     options.settings = load_settings(settings_path());
     options.parameters = options.settings.touch;
-    request.touch.given.apply(options.parameters);
-    options.given = request.touch.given;
-    options.width = request.size ? request.size->first : options.settings.width;
-    options.height = request.size ? request.size->second : options.settings.height;
-    options.bump = request.touch.bump;
-    options.raw_depth = request.touch.raw_depth;
+    touch.given.apply(options.parameters);
+    options.given = touch.given;
+    std::tie(options.width, options.height) =
+        size.value_or(std::pair{options.settings.width, options.settings.height});
+    options.bump = touch.bump;
+    options.raw_depth = touch.raw_depth;
     return run_viewer(options);
 }
 

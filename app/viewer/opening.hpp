@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/panels/viewer_state.hpp"
-#include "core/replay/moments.hpp"
+#include "core/replay/session_player.hpp"
 #include "core/video/media.hpp"
 
 namespace dibhr {

@@ -9,8 +9,8 @@
 #include "app/settings/assets_path.hpp"
 #include "app/viewer/viewer.hpp"
 #include "core/error.hpp"
-#include "core/files/error_line.hpp"
-#include "core/replay/moments.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/replay/session_player.hpp"
 
 namespace dibhr {
 

@@ -1,13 +1,13 @@
 // The scene of one picture, and the facts of a session.
 #include "app/viewer/scene.hpp"
 
-#include <charconv>
 #include <glm/geometric.hpp>
 
+#include "core/files/plain_text.hpp"
 #include "core/haptics/facet.hpp"
 #include "core/haptics/parameter_table.hpp"
 #include "core/haptics/surface.hpp"
-#include "core/video/library_versions.hpp"
+#include "core/video/libraries.hpp"
 
 namespace dibhr {
 
@@ -36,12 +36,6 @@ TouchMarkers markers_of(const ViewerState& state, const DepthSurface& surface) {
         markers.recorded_proxy = Vec3{proxy[0], proxy[1], proxy[2]};
     }
     return markers;
-}
-
-std::string number_text(double value) {
-    char text[32];
-    const auto end = std::to_chars(text, text + sizeof text, value);
-    return {text, end.ptr};
 }
 
 }  // namespace

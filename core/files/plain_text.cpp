@@ -1,9 +1,19 @@
-// Text that people or files gave, made safe to show.
+// Text and numbers as the program writes them.
 #include "core/files/plain_text.hpp"
 
+extern "C" {
+#include <libavutil/base64.h>
+}
+
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+#include <utility>
 
 namespace dibhr {
 
@@ -65,48 +75,68 @@ std::string ascii_text(std::string_view text, std::size_t most) {
     return result.size() > most ? result.substr(0, most - 2) + ".." : result;
 }
 
+std::string one_line(std::string_view text) {
+    std::string line = utf8_text(text);
+    std::replace_if(
+        line.begin(), line.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
+    return line;
+}
+
+std::string in_quotes(std::string_view text, std::size_t longest) {
+    std::string shown(text.substr(0, longest));
+    std::replace_if(
+        shown.begin(), shown.end(), [](unsigned char c) { return is_control(c); }, '?');
+    return "'" + shown + (text.size() > longest ? "...'" : "'");
+}
+
 std::string html_text(std::string_view text) {
+    constexpr std::array<std::pair<char, std::string_view>, 5> kMeant{
+        {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&#39;"}}};
     std::string result;
     for (const char c : utf8_text(text)) {
-        switch (c) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            case '\'':
-                result += "&#39;";
-                break;
-            default:
-                result += c;
-        }
+        const auto* const meant = std::find_if(kMeant.begin(), kMeant.end(),
+                                               [c](const auto& each) { return each.first == c; });
+        result += meant == kMeant.end() ? std::string_view(&c, 1) : meant->second;
     }
     return result;
 }
 
 std::string base64_text(std::string_view bytes) {
-    constexpr std::string_view kDigits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t k = 0; k < bytes.size(); k += 3) {
-        const std::size_t there = std::min<std::size_t>(3, bytes.size() - k);
-        std::uint32_t three = 0;
-        for (std::size_t n = 0; n < 3; ++n) {
-            three = three << 8U | (n < there ? byte_at(bytes, k + n) : 0U);
-        }
-        for (std::size_t n = 0; n < 4; ++n) {
-            text += n <= there ? kDigits[three >> (18U - 6U * n) & 63U] : '=';
-        }
-    }
+    const auto size = static_cast<int>(bytes.size());
+    std::string text(AV_BASE64_SIZE(bytes.size()), '\0');
+    av_base64_encode(text.data(), static_cast<int>(text.size()),
+                     reinterpret_cast<const std::uint8_t*>(bytes.data()), size);
+    text.pop_back();  // the zero at its end
     return text;
+}
+
+std::string number_text(double value) {
+    std::array<char, 32> digits{};
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+    return {digits.data(), end};
+}
+
+std::string number_text(double value, int digits) {
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(digits) << value;
+    return text.str();
+}
+
+void append_number(std::string& text, double value) {
+    std::array<char, 32> digits{};
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
+                                   std::chars_format::general, 17)
+                         .ptr;
+    text.append(digits.data(), end);
+}
+
+void print_error_line(std::string_view message) {
+    while (!message.empty() && message.back() == '\n') message.remove_suffix(1);
+    std::cerr << "dibhr: " << one_line(message) << '\n';
+}
+
+void print_warning(std::string_view sentence) {
+    if (!sentence.empty()) print_error_line("warning: " + std::string(sentence));
 }
 
 }  // namespace dibhr

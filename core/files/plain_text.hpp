@@ -1,4 +1,5 @@
-// Text that people or files gave, made safe to show: in a page, in JSON, on a picture.
+// Text and numbers as the program writes them: what people or files gave made safe to show, numbers
+// that read back, and the one line on stderr.
 #pragma once
 
 #include <cstddef>
@@ -11,6 +12,12 @@ namespace dibhr {
 /// UTF-8.
 [[nodiscard]] std::string utf8_text(std::string_view text);
 
+/// As utf8_text, on one line.
+[[nodiscard]] std::string one_line(std::string_view text);
+
+/// In quotation marks on one line, cut short after `longest` bytes.
+[[nodiscard]] std::string in_quotes(std::string_view text, std::size_t longest = 40);
+
 /// On one line, with '?' for every letter the plots cannot write, and cut short where it is longer
 /// than `most` letters.
 [[nodiscard]] std::string ascii_text(std::string_view text, std::size_t most);
@@ -21,5 +28,20 @@ namespace dibhr {
 
 /// Bytes as a `data:` address takes them (RFC 4648, section 4).
 [[nodiscard]] std::string base64_text(std::string_view bytes);
+
+/// The shortest text that reads back to the same number.
+[[nodiscard]] std::string number_text(double value);
+
+/// With so many digits after the point.
+[[nodiscard]] std::string number_text(double value, int digits);
+
+/// Appends with 17 significant digits, as CSV files have it: reads back to the same bits.
+void append_number(std::string& text, double value);
+
+/// "dibhr: `message`" on stderr, on one line.
+void print_error_line(std::string_view message);
+
+/// "dibhr: warning: `sentence`" on stderr, on one line; nothing for an empty one.
+void print_warning(std::string_view sentence);
 
 }  // namespace dibhr

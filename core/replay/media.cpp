@@ -1,7 +1,10 @@
-// The files a session was recorded over.
+// The files of sessions.
 #include "core/replay/media.hpp"
 
+#include <array>
+#include <fstream>
 #include <optional>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -26,6 +29,18 @@ bool has_content(const fs::path& file, const SessionMedia& media) {
 }
 
 }  // namespace
+
+bool names_session(const std::filesystem::path& file) {
+    if (file.extension() == ".dibhr") return true;
+    std::error_code unknown;
+    if (!std::filesystem::is_regular_file(file, unknown)) return false;
+    constexpr std::string_view kMagic = "SQLite format 3";  // SQLite's file format, section 1.3
+    std::array<char, kMagic.size()> head{};
+    std::ifstream stream(file, std::ios::binary);
+    stream.read(head.data(), head.size());
+    return stream.gcount() == static_cast<std::streamsize>(head.size()) &&
+           std::string_view(head.data(), head.size()) == kMagic;
+}
 
 SessionMediaFinder::SessionMediaFinder(fs::path session, bool any_content)
     : session_(std::move(session)), any_content_(any_content) {}

@@ -1,4 +1,5 @@
-// The files a session was recorded over: where they are now, and whether they are still the same.
+// Which files are sessions; where those are that one was recorded over, and whether they are the
+// same.
 #pragma once
 
 #include <filesystem>
@@ -7,6 +8,9 @@
 #include "core/session/session.hpp"
 
 namespace dibhr {
+
+/// Whether a file is a session: by its name, or by how it begins.
+[[nodiscard]] bool names_session(const std::filesystem::path& file);
 
 /// Where to look for a recorded file: in its place, then beside the session.
 class SessionMediaFinder {

@@ -12,6 +12,7 @@
 #include <exception>
 #include <iterator>
 #include <mutex>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -28,8 +29,73 @@ constexpr double kTicksAhead = 400.0;  // at speed 1; what is decoded meanwhile 
 constexpr std::size_t kBatch = 25;
 constexpr double kLowestSpeed = 0.1;
 constexpr double kHighestSpeed = 4.0;
+constexpr double kRunIn_s = 1.0;
+
+/// The moments of a session, one after the other. One thread at a time, the opened session's.
+class SessionMoments {
+  public:
+    /// `opened` must outlive it.
+    explicit SessionMoments(OpenedSession& opened) : opened_(opened) {}
+
+    /// The next moment will be the first tick at or after `from_s`. With `other` parameters, what
+    /// they give is computed from a second earlier on, so that the proxy has found its place.
+    void begin(double from_s, const std::optional<TouchParameters>& other) {
+        std::vector<ParameterChange> changes;
+        if (other) changes.push_back([other](TouchParameters& parameters) { parameters = *other; });
+        computes_ = other.has_value();
+        from_s_ = from_s;
+        replay_.emplace(opened_.session, opened_.frames, std::move(changes),
+                        computes_ ? from_s - kRunIn_s : from_s);
+    }
+
+    /// Nothing after the last one, or when it was given up before the proxy had found its place.
+    /// Throws InputError for a session or video that cannot be read on.
+    [[nodiscard]] std::optional<SessionMoment> next(const std::atomic<bool>& given_up) {
+        while (replay_ && !given_up && replay_->next()) {
+            const TickRecord& tick = replay_->recorded();
+            if (tick.t_s >= from_s_) return moment_of(tick);
+        }
+        return {};
+    }
+
+    /// When the tick before this one was.
+    [[nodiscard]] double time_before(std::int64_t tick) const {
+        SessionReader::Query query(opened_.session.reader(), "SELECT t FROM tick WHERE tick < " +
+                                                                 std::to_string(tick) +
+                                                                 " ORDER BY tick DESC LIMIT 1");
+        return query.next() ? query.real(0) : opened_.session.begin_s();
+    }
+
+  private:
+    [[nodiscard]] SessionMoment moment_of(const TickRecord& tick) {
+        if (replay_->frames()) frames_ = replay_->frames();
+        SessionMoment moment;
+        moment.tick = tick;
+        moment.frames = frames_;
+        moment.parameters = opened_.session.parameters_of(tick.settings);
+        if (moment.parameters != nullptr) moment.bump = opened_.frames.bump(*moment.parameters);
+        if (computes_) {
+            moment.computed = replay_->touch(0);
+            moment.update_us = replay_->update_us(0);
+        }
+        return moment;
+    }
+
+    OpenedSession& opened_;
+    std::optional<SessionReplay> replay_{};
+    double from_s_{0.0};
+    bool computes_{false};
+    std::shared_ptr<const TouchedFrames> frames_{};  // of the last tick with a surface
+};
 
 }  // namespace
+
+OpenedSession::OpenedSession(const std::filesystem::path& file, bool any_media)
+    : session(file), frames((session.check(), session), {.any_media = any_media, .colour = true}) {
+    if (session.rows() == 0 || session.sources().empty()) {
+        throw InputError(file.string() + ": holds no tick over a video; record a longer one");
+    }
+}
 
 struct SessionPlayer::Implementation {
     /// Where to read on.
@@ -149,7 +215,7 @@ struct SessionPlayer::Implementation {
         pthread_setname_np(pthread_self(), "dibhr-session");
         std::unique_lock lock(mutex);
         for (;;) {
-            asked.wait(lock, [this] { return leaving || waiting_order || hungry(); });
+            asked.wait(lock, [this] { return leaving || waiting_order || wants_more(); });
             if (leaving) return;
             if (waiting_order) order = *std::exchange(waiting_order, std::nullopt);
             superseded = false;
@@ -165,7 +231,7 @@ struct SessionPlayer::Implementation {
         }
     }
 
-    [[nodiscard]] bool hungry() const {
+    [[nodiscard]] bool wants_more() const {
         return !complete && static_cast<double>(ahead.size()) < ticks_ahead;
     }
 

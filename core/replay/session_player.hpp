@@ -3,15 +3,40 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "core/haptics/parameters.hpp"
-#include "core/replay/moments.hpp"
+#include "core/replay/frames.hpp"
+#include "core/replay/session_replay.hpp"
+#include "core/session/session.hpp"
 
 namespace dibhr {
+
+/// A session and what it was recorded over. One thread at a time.
+struct OpenedSession {
+    /// Looks through the whole file. Throws InputError when it cannot be read, holds no tick, or a
+    /// file it was recorded over is missing or has changed (unless `any_media`).
+    OpenedSession(const std::filesystem::path& file, bool any_media);
+
+    Session session;
+    SessionFrames frames;
+};
+
+/// One tick, and what was seen and felt in it.
+struct SessionMoment {
+    TickRecord tick{};
+    std::shared_ptr<const TouchedFrames> frames{};  ///< the last there were; null before the first
+    const SessionParameters* parameters{nullptr};   ///< the session's; null: not known
+    std::shared_ptr<const BumpMap> bump{};
+    std::optional<Touch> computed{};  ///< through other parameters than the recorded ones
+    double update_us{0.0};            ///< of what was computed
+    bool preview{false};              ///< the same tick comes again, computed
+};
 
 /// What the window shows of it. Times are those of the ticks.
 struct SessionPlayback {

@@ -12,8 +12,7 @@ namespace dibhr {
 struct CleaningOptions {
     bool fill_holes{true};     ///< level 0 = no data: small holes take the levels around them
     bool remove_spikes{true};  ///< single pixels that stand out of all their neighbours
-    bool smooth_steps{
-        true};  ///< 8-bit terraces smoothed, never further than half a level from the data
+    bool smooth_steps{true};   ///< 8-bit terraces, within half a level of the data
 
     bool operator==(const CleaningOptions&) const = default;
     [[nodiscard]] bool any() const { return fill_holes || remove_spikes || smooth_steps; }

@@ -13,8 +13,8 @@
 namespace dibhr {
 namespace {
 
-/// Shorter rounds than this are taken for a file without time stamps.
-constexpr double kShortestRound_s = 1e-4;
+/// Shorter laps than this are taken for a file without time stamps.
+constexpr double kShortestLap_s = 1e-4;
 
 }  // namespace
 
@@ -57,11 +57,11 @@ bool DepthInTime::add(std::optional<Frame> frame) {
 }
 
 bool DepthInTime::start_again(double playback_s) {
-    const double round_s = frames_[0].time_s + last_interval_s_ - offset_s_;
-    if (!(round_s > kShortestRound_s)) return false;
-    // Whole rounds that nobody asks for are not decoded.
-    const double rounds = std::floor((playback_s - offset_s_) / round_s);
-    offset_s_ += std::fmax(rounds, 1.0) * round_s;
+    const double lap_s = frames_[0].time_s + last_interval_s_ - offset_s_;
+    if (!(lap_s > kShortestLap_s)) return false;
+    // Whole laps that nobody asks for are not decoded.
+    const double laps = std::floor((playback_s - offset_s_) / lap_s);
+    offset_s_ += std::fmax(laps, 1.0) * lap_s;
     return add(reader_.at(first_media_s_));
 }
 
@@ -90,8 +90,8 @@ DepthClip::DepthClip(std::vector<Frame> frames, const SurfaceShape& shape)
 
 DepthSurface DepthClip::at(double t_s) const noexcept {
     const double begin_s = frames_.front().time_s;
-    const double round_s = frames_.size() > 1 ? std::fmod(std::max(t_s, 0.0), duration_s()) : 0.0;
-    return depth_at(frames_, begin_s + round_s).surface(shape_);
+    const double lap_s = frames_.size() > 1 ? std::fmod(std::max(t_s, 0.0), duration_s()) : 0.0;
+    return depth_at(frames_, begin_s + lap_s).surface(shape_);
 }
 
 double DepthClip::time_of(std::int64_t frame, double blend) const noexcept {

@@ -38,7 +38,7 @@ class DepthInTime {
     std::vector<Frame> frames_{};  ///< one or two; one: the depth does not change any more
     double now_s_{0.0};
     double first_media_s_{0.0};
-    double offset_s_{0.0};  ///< playback time of this round's first frame
+    double offset_s_{0.0};  ///< playback time of this lap's first frame
     double last_interval_s_{0.0};
 };
 
@@ -60,13 +60,13 @@ class DepthClip {
 
     [[nodiscard]] int columns() const noexcept { return frames_.front().depth->columns; }
     [[nodiscard]] int rows() const noexcept { return frames_.front().depth->rows; }
-    /// Of one round [s]; 0 for a still.
+    /// Of one lap [s]; 0 for a still.
     [[nodiscard]] double duration_s() const noexcept {
         return frames_.back().time_s - frames_.front().time_s;
     }
 
   private:
-    std::vector<Frame> frames_;  ///< after a video's last one its first, at the end of the round
+    std::vector<Frame> frames_;  ///< after a video's last one its first, at the end of the lap
     SurfaceShape shape_;
 };
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/video/media.hpp"
 
 namespace dibhr {
@@ -96,11 +97,7 @@ std::optional<fs::path> with_stem(const fs::path& given, const std::string& stem
 }  // namespace
 
 std::string shown(const fs::path& file) {
-    std::string text = file.string();
-    std::replace_if(
-        text.begin(), text.end(),
-        [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; }, '?');
-    return "'" + text + "'";
+    return in_quotes(file.string(), std::string::npos);
 }
 
 bool named_depth(const fs::path& file) {

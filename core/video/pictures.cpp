@@ -1,6 +1,8 @@
 // Still pictures and the way from OpenCV's pictures to ours.
 #include "core/video/pictures.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <cstdint>
 #include <opencv2/core.hpp>
@@ -13,10 +15,11 @@
 #include "core/error.hpp"
 #include "core/files/output_file.hpp"
 #include "core/video/input_file.hpp"
-#include "core/video/library_setup.hpp"
+#include "core/video/libraries.hpp"
 #include "core/video/media.hpp"
 
 namespace dibhr {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -52,8 +55,7 @@ cv::Mat grey_of(const cv::Mat& picture) {
     return grey;
 }
 
-}  // namespace
-
+/// 8 or 16 bits, 1 to 4 channels, as the file has them.
 cv::Mat read_picture_unchanged(const fs::path& file) {
     cv::Mat picture = read_picture(file, cv::IMREAD_UNCHANGED);
     if (picture.depth() != CV_8U && picture.depth() != CV_16U)
@@ -65,6 +67,8 @@ cv::Mat read_picture_unchanged(const fs::path& file) {
 cv::Mat read_colour_picture(const fs::path& file) {
     return read_picture(file, cv::IMREAD_COLOR);
 }
+
+}  // namespace
 
 DepthImage depth_of(const cv::Mat& picture) {
     const cv::Mat grey = grey_of(picture);
@@ -126,6 +130,34 @@ void write_png(const ColourImage& picture, const fs::path& file) {
     OutputFile out(file);
     out.write(png);
     out.commit();
+}
+
+StillFile::StillFile(const std::filesystem::path& file, PictureRole role)
+    : picture_(role == PictureRole::depth ? read_picture_unchanged(file)
+                                          : read_colour_picture(file)) {
+    facts_.file = file;
+    facts_.columns = picture_.cols;
+    facts_.rows = picture_.rows;
+    facts_.bits = picture_.depth() == CV_16U ? 16 : 8;
+    facts_.channels = picture_.channels();
+    facts_.codec = file.extension().string();
+    if (!facts_.codec.empty()) facts_.codec.erase(0, 1);
+    std::transform(facts_.codec.begin(), facts_.codec.end(), facts_.codec.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    facts_.frames = 1;
+    facts_.frames_exact = true;
+    facts_.still = true;
+    require_size(file, facts_.columns, facts_.rows);
+}
+
+std::optional<TimedPicture> StillFile::next() {
+    if (given_) return std::nullopt;
+    given_ = true;
+    return TimedPicture{picture_, 0.0, 0};
+}
+
+void StillFile::seek(double /*time_s*/) {
+    given_ = false;
 }
 
 }  // namespace dibhr

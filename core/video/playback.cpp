@@ -15,8 +15,7 @@ namespace {
 
 constexpr double kSlowest = 0.1;
 constexpr double kFastest = 4.0;
-constexpr double kJump_s =
-    0.001;  ///< a jump begins this much later, so no playback time means two frames
+constexpr double kJump_s = 0.001;  ///< a jump begins later: no playback time means two frames
 
 }  // namespace
 
@@ -92,7 +91,7 @@ void Playback::step(int frames, Time now) {
 void Playback::set_looping(bool looping) {
     if (looping == looping_) return;
     looping_ = looping;
-    complete_ = false;  // asked again by the next feed
+    complete_ = false;  // asked again by the next reading
     if (looping) return;
     // Frames of the next lap are forgotten, unless the surface is moving towards one already.
     for (std::size_t k = 2; k < frames_.size(); ++k)
@@ -149,13 +148,13 @@ bool Playback::advance(Time now) {
     return changed;
 }
 
-bool Playback::hungry() const {
+bool Playback::needs_frame() const {
     return is_open() && !complete_ && frames_.size() < FrameWindow::kFrames;
 }
 
-bool Playback::feed() {
+bool Playback::read_ahead() {
     const Frame& newest = frames_.back();
-    starved_s_ = newest.time_s;
+    read_to_s_ = newest.time_s;
     double time_s = 0.0;
     auto next = reader_->after(newest.media_s);
     if (next) {
@@ -176,8 +175,8 @@ bool Playback::at_seam() const {
     return frames_.size() > 1 && frames_[1].media_s <= frames_[0].media_s;
 }
 
-void Playback::hold_if_starved(Time now) {
-    if (playing_ && clock_.playback_s(now) > starved_s_) anchor(starved_s_, now);
+void Playback::hold_if_behind(Time now) {
+    if (playing_ && clock_.playback_s(now) > read_to_s_) anchor(read_to_s_, now);
 }
 
 Playback::Time Playback::next_due() const {

@@ -35,14 +35,14 @@ class Playback {
     /// Leaves frames that are past, stops at the end. True when the window changed.
     bool advance(Time now);
     /// Whether a frame ahead is missing.
-    [[nodiscard]] bool hungry() const;
+    [[nodiscard]] bool needs_frame() const;
     /// Decodes one frame ahead. True when the window changed.
-    bool feed();
+    bool read_ahead();
     /// Reading failed: plays what is there and stops.
     void end_here() { complete_ = true; }
-    /// After `feed`: when the frames had run out, the clock goes on from where the surface was
-    /// held.
-    void hold_if_starved(Time now);
+    /// After `read_ahead`: when the frames had run out, the clock goes on from where the surface
+    /// was held.
+    void hold_if_behind(Time now);
     /// When `advance` is due next; never when paused.
     [[nodiscard]] Time next_due() const;
 
@@ -68,7 +68,7 @@ class Playback {
     CleaningOptions cleaning_{};
     std::uint64_t discontinuity_{0};
     double first_media_s_{0.0};
-    double starved_s_{0.0};  ///< time of the newest frame before the last feed
+    double read_to_s_{0.0};  ///< time of the newest frame before the last reading
     double speed_{1.0};
     bool playing_{false};
     bool looping_{true};

@@ -69,19 +69,20 @@ void Player::Implementation::ask(Command command) {
 
 /// False when the player is to end.
 bool Player::Implementation::wait_for_work(std::vector<Command>& taken) {
-    const bool hungry = playback.hungry();
+    const bool needs_frame = playback.needs_frame();
     const Time due = playback.next_due();
     std::unique_lock lock(mutex);
     const auto called = [this] { return leaving || !commands.empty(); };
-    if (!hungry && due == Time::max())
+    if (!needs_frame && due == Time::max())
         asked.wait(lock, called);
-    else if (!hungry)
+    else if (!needs_frame)
         asked.wait_until(lock, due, called);
     taken.swap(commands);
     return !leaving;
 }
 
-/// Obeys, or, with nothing to obey, decodes one frame ahead: commands wait for one frame at most.
+/// Performs the commands, or, without any, decodes one frame ahead: they wait for one frame at
+/// most.
 void Player::Implementation::work(const std::vector<Command>& taken) {
     bool changed = playback.advance(std::chrono::steady_clock::now());
     for (const Command& command : taken) {
@@ -89,9 +90,9 @@ void Player::Implementation::work(const std::vector<Command>& taken) {
         attempt([&] { command.action(playback, std::chrono::steady_clock::now()); });
         changed = true;
     }
-    if (!changed && playback.hungry()) {
+    if (!changed && playback.needs_frame()) {
         const bool readable = attempt([&] {
-            if (playback.feed()) playback.hold_if_starved(std::chrono::steady_clock::now());
+            if (playback.read_ahead()) playback.hold_if_behind(std::chrono::steady_clock::now());
         });
         if (!readable) playback.end_here();
         changed = true;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/session/recorder.hpp"
-#include "core/video/library_versions.hpp"
+#include "core/video/libraries.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/recorded_session.hpp"
 #include "tests/support/catch.hpp"

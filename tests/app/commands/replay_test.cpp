@@ -12,7 +12,7 @@
 
 #include "app/commands/output_rows.hpp"
 #include "app/settings/assets_path.hpp"
-#include "core/video/library_versions.hpp"
+#include "core/video/libraries.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/recorded_session.hpp"
 #include "tests/support/catch.hpp"

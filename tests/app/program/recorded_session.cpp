@@ -10,7 +10,7 @@
 #include "core/loop/haptic_loop.hpp"
 #include "core/session/recorder.hpp"
 #include "core/video/frame_reader.hpp"
-#include "core/video/library_versions.hpp"
+#include "core/video/libraries.hpp"
 #include "core/video/media.hpp"
 #include "core/video/playback.hpp"
 #include "tests/support/catch.hpp"
@@ -86,7 +86,7 @@ void record_session(const std::filesystem::path& file, const RecordedSession& wa
         if (k % (count / 2) == 0) hand_over();
         const auto now = begin + std::chrono::milliseconds(k);
         bool changed = playback.advance(now) || k == 0;
-        while (playback.hungry() && playback.feed()) changed = true;
+        while (playback.needs_frame() && playback.read_ahead()) changed = true;
         const bool surface = k < count - wanted.ticks_without_surface;
         if (changed && surface) frames.publish(playback.window());
         if (k == count - wanted.ticks_without_surface) frames.publish({});

@@ -14,7 +14,7 @@
 
 #include "app/settings/settings.hpp"
 #include "core/session/session.hpp"
-#include "core/video/library_versions.hpp"
+#include "core/video/libraries.hpp"
 #include "core/video/media.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/support/catch.hpp"

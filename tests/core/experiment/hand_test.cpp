@@ -156,8 +156,8 @@ TEST_CASE("a trace that cannot be used is refused in one line that says where", 
     CHECK(contains(refusal("t_s,x_mm\n0,1\n1,2\n"), "no columns of places"));
     CHECK(contains(refusal("t,x,y\n0,1,2\n"), "fewer than two rows"));
     CHECK(contains(refusal("t,x,y\n1,1,2\n1,2,3\n"), "fewer than two rows"));
-    CHECK(contains(refusal("t,x,y\n0,1,2\n1,nan,3\n"), "line 3"));
-    CHECK(contains(refusal("t,x,y\n0,1,2\n1,5\n"), "line 3"));
+    CHECK(contains(refusal("t,x,y\n0,1,2\n1,nan,3\n"), ":3: column x: 'nan'"));
+    CHECK(contains(refusal("t,x,y\n0,1,2\n1,5\n"), ":3: column y: no value"));
     CHECK(contains(refusal("t,x,y\n1,1,2\n0,2,3\n"), "time falls"));
     CHECK_THROWS_AS(read_trace("/nowhere/pen.csv"), InputError);
     CHECK_THROWS_AS(read_trace("/"), InputError);

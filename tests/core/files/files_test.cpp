@@ -1,15 +1,20 @@
-// Output that appears whole or not at all, and the words for what people wrote.
+// Output that appears whole or not at all, tables that people wrote, and text and numbers as
+// written.
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "core/error.hpp"
-#include "core/files/csv_text.hpp"
+#include "core/files/csv_table.hpp"
+#include "core/files/json.hpp"
 #include "core/files/output_file.hpp"
+#include "core/files/plain_text.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -22,6 +27,10 @@ namespace {
 std::string content_of(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+std::optional<std::size_t> column_of(const CsvTable& table, std::string_view name) {
+    return table.find({&name, 1});
 }
 
 }  // namespace
@@ -98,17 +107,40 @@ TEST_CASE("text is quoted short and on one line, and cells lose what stands arou
           "[files]") {
     CHECK(in_quotes("a\nb\tc") == "'a?b?c'");
     CHECK(in_quotes(std::string(100, 'x')).size() == 45);
-    CHECK(trimmed(" \t\"x y\" \r") == "x y");
-    CHECK(trimmed(" \r").empty());
-    CHECK(without_mark("\xEF\xBB\xBFt,x") == "t,x");
-    CHECK(without_mark("t,x") == "t,x");
+    const TemporaryFolder folder;
+    for (const char* mark : {"", "\xEF\xBB\xBF"}) {
+        std::ofstream(folder / "t.csv") << mark << "t, \t\"x y\" \r\n \r\n 1 , \"2\"\r\n";
+        CsvTable table(folder / "t.csv", "");
+        CHECK(column_of(table, "t") == 0U);
+        CHECK(column_of(table, "x y") == 1U);
+        CHECK_FALSE(column_of(table, "x"));
+        REQUIRE(table.next());
+        CHECK(table.number(0) == 1.0);
+        CHECK(table.number(1) == 2.0);
+        CHECK_FALSE(table.next());
+    }
+}
+
+TEST_CASE("numbers as text read back to the same bits", "[files]") {
+    const double value = GENERATE(0.1, 1.0 / 3.0, 1e-300, -0.0, 12345678.9);
+    CHECK(std::stod(number_text(value)) == value);
+    std::string text = "x=";
+    append_number(text, value);
+    CHECK(std::stod(text.substr(2)) == value);
+    CHECK(Json::parse(json_text(value)).get<double>() == value);
+    CHECK(number_text(2.345, 1) == "2.3");
+}
+
+TEST_CASE("JSON keeps the order of its members, whatever their values are", "[files]") {
+    CHECK(json_text({{"z", 1}, {"a", 1.0 / 0.0}, {"m", "a\xFF \"b\"\n"}}) ==
+          "{\n  \"z\": 1,\n  \"a\": null,\n  \"m\": \"a\xEF\xBF\xBD \\\"b\\\"\\n\"\n}\n");
 }
 
 TEST_CASE("a folder, a device or a missing file is refused with what to give instead", "[files]") {
     const TemporaryFolder folder;
     for (const fs::path& file : {folder / "", folder / "missing.csv", fs::path("/dev/zero")}) {
         try {
-            static_cast<void>(text_of_file(file, "give something else"));
+            const CsvTable table(file, "give something else");
             FAIL("not refused: " << file);
         } catch (const InputError& error) {
             const std::string words = error.what();

@@ -1,5 +1,5 @@
 // Which libraries decode.
-#include "core/video/library_versions.hpp"
+#include "core/video/libraries.hpp"
 
 #include <algorithm>
 #include <cctype>

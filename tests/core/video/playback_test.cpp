@@ -61,8 +61,8 @@ struct Scene {
     /// As the player's thread: leaves past frames and decodes ahead until the window is full.
     void settle() {
         playback.advance(now);
-        while (playback.hungry())
-            if (playback.feed()) playback.hold_if_starved(now);
+        while (playback.needs_frame())
+            if (playback.read_ahead()) playback.hold_if_behind(now);
         playback.advance(now);
     }
     /// In small steps: the thread is never late.
@@ -322,11 +322,11 @@ TEST_CASE("a file that breaks off plays what is there, and stops", "[playback]")
     Playback playback;
     Time now{};
     playback.open(std::make_unique<FrameReader>(std::make_unique<FlatMedia>(kTenths, 3)), now);
-    CHECK(playback.feed());
-    CHECK(playback.feed());
-    CHECK_THROWS_AS(playback.feed(), InputError);
+    CHECK(playback.read_ahead());
+    CHECK(playback.read_ahead());
+    CHECK_THROWS_AS(playback.read_ahead(), InputError);
     playback.end_here();
-    CHECK_FALSE(playback.hungry());
+    CHECK_FALSE(playback.needs_frame());
     playback.advance(now + std::chrono::seconds(1));
     CHECK_FALSE(playback.playing());
     CHECK(playback.window().frames[0].index == 2);

@@ -1,5 +1,11 @@
 // Brings OpenCV and FFmpeg into the state this room needs: silent, and on our own threads only.
-#include "core/video/library_setup.hpp"
+#include "core/video/libraries.hpp"
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libswscale/swscale.h>
+}
 
 #include <fcntl.h>
 #include <stdlib.h>
@@ -9,6 +15,7 @@
 #include <cstdlib>
 #include <mutex>
 #include <opencv2/core.hpp>
+#include <opencv2/core/utility.hpp>
 #include <opencv2/core/utils/logger.hpp>
 
 namespace dibhr {
@@ -50,6 +57,23 @@ QuietErrors::~QuietErrors() {
     std::fflush(stderr);
     ::dup2(kept_, STDERR_FILENO);
     ::close(kept_);
+}
+
+namespace {
+
+std::string text_of(unsigned version) {
+    return std::to_string(AV_VERSION_MAJOR(version)) + "." +
+           std::to_string(AV_VERSION_MINOR(version)) + "." +
+           std::to_string(AV_VERSION_MICRO(version));
+}
+
+}  // namespace
+
+std::map<std::string, std::string> library_versions() {
+    return {{"libavcodec", text_of(avcodec_version())},
+            {"libavformat", text_of(avformat_version())},
+            {"libswscale", text_of(swscale_version())},
+            {"opencv", cv::getVersionString()}};
 }
 
 }  // namespace dibhr

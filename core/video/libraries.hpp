@@ -1,7 +1,9 @@
 // Brings OpenCV and FFmpeg into the state this room needs: silent, and on our own threads only.
 #pragma once
 
+#include <map>
 #include <mutex>
+#include <string>
 
 namespace dibhr {
 
@@ -23,5 +25,9 @@ class QuietErrors {
     std::unique_lock<std::mutex> alone_;
     int kept_{-1};  ///< the stream's own descriptor
 };
+
+/// Versions by name: "libavcodec", "libavformat", "libswscale" ("59.37.100"), "opencv" ("4.6.0").
+/// Of the libraries that are loaded, not of those that the program was compiled against.
+[[nodiscard]] std::map<std::string, std::string> library_versions();
 
 }  // namespace dibhr

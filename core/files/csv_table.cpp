@@ -1,0 +1,106 @@
+// Splits the text of a CSV file and reads its numbers.
+#include "core/files/csv_table.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "core/error.hpp"
+#include "core/files/plain_text.hpp"
+
+namespace dibhr {
+
+namespace {
+
+std::string text_of_file(const std::filesystem::path& file, const std::string& wanted) {
+    const auto refuse = [&](const std::string& what) {
+        throw InputError(file.string() + ": " + what + "; " + wanted);
+    };
+    std::error_code ignored;
+    if (std::filesystem::is_directory(file, ignored)) refuse("is a folder");
+    if (std::filesystem::is_character_file(file, ignored)) refuse("is a device");
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) refuse(std::string("cannot be opened (") + std::strerror(errno) + ")");
+    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    if (stream.bad()) refuse("cannot be read");
+    return text;
+}
+
+std::string_view trimmed(std::string_view cell) {
+    constexpr std::string_view kAround = " \t\r\"";
+    const auto first = cell.find_first_not_of(kAround);
+    if (first == std::string_view::npos) return {};
+    return cell.substr(first, cell.find_last_not_of(kAround) - first + 1);
+}
+
+}  // namespace
+
+CsvTable::CsvTable(const std::filesystem::path& file, const std::string& wanted)
+    : file_(file.string()), text_(text_of_file(file, wanted)) {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (text_.starts_with(kByteOrderMark)) read_ = kByteOrderMark.size();
+    static_cast<void>(read_line());
+    line_ = 1;  // also of an empty file
+    names_ = cells_;
+}
+
+bool CsvTable::read_line() {
+    cells_.clear();
+    if (read_ >= text_.size()) return false;
+    ++line_;
+    const std::size_t end = std::min(text_.find('\n', read_), text_.size());
+    const std::string_view line = std::string_view(text_).substr(read_, end - read_);
+    for (std::size_t begin = 0; begin <= line.size();) {
+        const std::size_t comma = std::min(line.find(',', begin), line.size());
+        cells_.push_back(trimmed(line.substr(begin, comma - begin)));
+        begin = comma + 1;
+    }
+    read_ = end + 1;
+    return true;
+}
+
+std::optional<std::size_t> CsvTable::find(std::span<const std::string_view> names) const {
+    for (const std::string_view name : names) {
+        const auto found = std::find(names_.begin(), names_.end(), name);
+        if (found == names_.end()) continue;
+        if (std::find(found + 1, names_.end(), name) != names_.end()) {
+            refuse("column " + std::string(name) + " stands twice; keep one of them");
+        }
+        return static_cast<std::size_t>(found - names_.begin());
+    }
+    return std::nullopt;
+}
+
+bool CsvTable::next() {
+    while (read_line()) {
+        if (cells_.size() > 1 || !cells_.front().empty()) return true;
+    }
+    return false;
+}
+
+double CsvTable::number(std::size_t column) const {
+    const std::string_view cell = column < cells_.size() ? cells_[column] : std::string_view{};
+    const std::string which = "column " + std::string(names_[column]) + ": ";
+    if (cell.empty()) refuse(which + "no value; give a number");
+    double value = 0.0;
+    const char* const end = cell.data() + cell.size();
+    const auto [stop, error] = std::from_chars(cell.data(), end, value);
+    if (error == std::errc::result_out_of_range) {
+        refuse(which + in_quotes(cell) + " is out of range; give a smaller number");
+    }
+    if (error != std::errc() || stop != end || !std::isfinite(value)) {
+        refuse(which + in_quotes(cell) + " is no finite number; give one such as 12.5");
+    }
+    return value;
+}
+
+void CsvTable::refuse(const std::string& what) const {
+    throw InputError(file_ + ":" + std::to_string(line_) + ": " + what);
+}
+
+}  // namespace dibhr

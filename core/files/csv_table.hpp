@@ -1,0 +1,47 @@
+// A table that people wrote as CSV: a line of column names, in any order, then rows.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dibhr {
+
+/// Reads row by row. Space, quotation marks and carriage returns around a cell, empty lines and a
+/// byte order mark do not matter; more columns than are asked for are ignored.
+class CsvTable {
+  public:
+    /// Throws InputError when the file cannot be read: what is wrong with it, then `wanted`, what
+    /// to give instead.
+    CsvTable(const std::filesystem::path& file, const std::string& wanted);
+    CsvTable(const CsvTable&) = delete;
+    CsvTable& operator=(const CsvTable&) = delete;
+
+    /// The column of the first of these names that there is. Throws InputError when that name
+    /// stands twice.
+    [[nodiscard]] std::optional<std::size_t> find(std::span<const std::string_view> names) const;
+
+    /// Goes to the next row. False after the last one.
+    [[nodiscard]] bool next();
+
+    /// A cell of the row. Throws InputError with file, line and column when it is no finite number.
+    [[nodiscard]] double number(std::size_t column) const;
+
+    /// Throws InputError with the file and the line of the row; at first, of the column names.
+    [[noreturn]] void refuse(const std::string& what) const;
+
+  private:
+    [[nodiscard]] bool read_line();
+
+    std::string file_;
+    std::string text_;
+    std::size_t read_{0};  ///< bytes of the text
+    std::size_t line_{0};
+    std::vector<std::string_view> names_{}, cells_{};  // of the text
+};
+
+}  // namespace dibhr

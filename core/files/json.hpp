@@ -1,0 +1,17 @@
+// JSON by nlohmann's library, its members in the order in which they were added.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace dibhr {
+
+using Json = nlohmann::ordered_json;
+
+/// Indented, with a line break at the end. Numbers read back to the same bits; what is not finite
+/// becomes null, and bytes that are no UTF-8 become U+FFFD.
+[[nodiscard]] inline std::string json_text(const Json& json) {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace dibhr
