@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <string>
-#include <vector>
 
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
@@ -50,20 +49,10 @@ void draw_workspace(ViewerState& state) {
     draw_numbers(FalconTopic::workspace, state.settings.falcon);
 }
 
-void draw_button_choice(const char* label, ButtonAction standard, ButtonAction& action) {
-    std::vector<const char*> names;
-    for (const ButtonJob& job : button_jobs()) names.push_back(job.label);
-    int chosen = static_cast<int>(action);
-    choice_row(label, names, chosen, "What this button of the grip does",
-               static_cast<int>(standard));
-    action = static_cast<ButtonAction>(chosen);
-}
-
 void draw_buttons(ButtonActions& buttons) {
-    constexpr std::array<const char*, kFalconButtons> kNames{"Plus (right)", "Forward (top)",
-                                                             "Centre (logo)", "Minus (left)"};
-    for (std::size_t k = 0; k < kNames.size(); ++k) {
-        draw_button_choice(kNames[k], kStandardButtons[k], buttons[k]);
+    for (std::size_t k = 0; k < kFalconButtons; ++k) {
+        choice_row(kGripButtons[k].label, button_jobs(), buttons[k],
+                   "What this button of the grip does", kStandardButtons[k]);
     }
 }
 

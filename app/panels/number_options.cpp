@@ -1,11 +1,10 @@
-// Sliders made from the option table.
+// Sliders made from the table of touch parameters.
 #include "app/panels/number_options.hpp"
 
 #include <algorithm>
 #include <string>
 
 #include "app/panels/widgets.hpp"
-#include "core/haptics/parameter_table.hpp"
 
 namespace dibhr {
 
@@ -24,27 +23,29 @@ std::string format_of(const TouchNumber& option, double end) {
     return option.unit.empty() ? digits : std::string(digits) + " " + std::string(option.unit);
 }
 
+void draw_number(const TouchNumber& option, TouchParameters& parameters) {
+    const double standard = option.standard();
+    const double end = slider_end(option, standard);
+    const std::string label(option.label);
+    const std::string format = format_of(option, end);
+    const std::string help = std::string(option.help) + " (--" + std::string(option.name) + ")";
+    if (number_row({.label = label.c_str(),
+                    .format = format.c_str(),
+                    .lowest = option.lowest,
+                    .highest = end,
+                    .standard = standard,
+                    .help = help.c_str(),
+                    .zero = option.zero},
+                   option.in(parameters))) {
+        keep_in_range(parameters);
+    }
+}
+
 }  // namespace
 
-void draw_option(std::string_view name, TouchParameters& parameters) {
-    TouchParameters defaults;
+void draw_numbers(TouchTopic topic, TouchParameters& parameters) {
     for (const TouchNumber& option : touch_numbers()) {
-        if (option.name != name) continue;
-        const double standard = option.in(defaults);
-        const double end = slider_end(option, standard);
-        const std::string label(option.label);
-        const std::string format = format_of(option, end);
-        const std::string help = std::string(option.help) + " (--" + std::string(option.name) + ")";
-        if (number_row({.label = label.c_str(),
-                        .format = format.c_str(),
-                        .lowest = option.lowest,
-                        .highest = end,
-                        .standard = standard,
-                        .help = help.c_str(),
-                        .zero = option.zero},
-                       option.in(parameters))) {
-            keep_in_range(parameters);
-        }
+        if (option.topic == topic) draw_number(option, parameters);
     }
 }
 

@@ -1,13 +1,11 @@
-// A slider for an entry of the option table.
+// Sliders for the entries of the table of touch parameters.
 #pragma once
 
-#include <string_view>
-
-#include "core/haptics/parameters.hpp"
+#include "core/haptics/parameter_table.hpp"
 
 namespace dibhr {
 
-/// Draws the row of the option called `name`, with its label, unit, range and help.
-void draw_option(std::string_view name, TouchParameters& parameters);
+/// A row for each number of that topic, with its label, unit, range and help.
+void draw_numbers(TouchTopic topic, TouchParameters& parameters);
 
 }  // namespace dibhr

@@ -10,8 +10,7 @@ void draw_surface_panel(ViewerState& state) {
     ImGui::PushID("surface");
     Settings& settings = state.settings;
     const ReliefLook standard;
-    draw_option("relief", settings.touch);
-    draw_option("pixel-pitch", settings.touch);
+    draw_numbers(TouchTopic::shape, settings.touch);
     number_row({"Shading", "%.2f", 0.0, 1.0, standard.light, "0: flat colour, 1: strong"},
                settings.look.light);
     flag_row("Colour of the video", settings.look.textured, standard.textured,

@@ -1,28 +1,14 @@
 // The Touch panel: what is computed at each tick, from the table of options.
-#include <algorithm>
-#include <array>
 #include <string>
-#include <string_view>
 
 #include "app/panels/falcon_state.hpp"
 #include "app/panels/number_options.hpp"
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
-#include "core/haptics/parameter_table.hpp"
 
 namespace dibhr {
 
 namespace {
-
-constexpr std::array kAlgorithmLabels{"DIBHR", "Proxy graph (PGA)", "Neighborhood", "God-object"};
-
-void draw_algorithm(Algorithm& algorithm) {
-    int chosen = static_cast<int>(algorithm);
-    choice_row(
-        "Algorithm", kAlgorithmLabels, chosen,
-        "How the proxy follows the goal (--algorithm); another one goes on from where it is");
-    algorithm = static_cast<Algorithm>(chosen);
-}
 
 /// In a replay: whose parameters these are, and the way back to those of the recording.
 void draw_origin(ViewerState& state) {
@@ -69,14 +55,15 @@ void draw_touch_panel(ViewerState& state) {
     if (!section(state, "Touch", state.settings.panels.touch)) return;
     ImGui::PushID("touch");
     draw_origin(state);
-    draw_algorithm(state.settings.touch.algorithm);
-    draw_option("stiffness", state.settings.touch);
+    choice_row(
+        "Algorithm", algorithm_words(), state.settings.touch.algorithm,
+        "How the proxy follows the goal (--algorithm); another one goes on from where it is");
+    draw_numbers(TouchTopic::spring, state.settings.touch);
     draw_held_coupling(state);
-    for (const char* name : {"damping", "damping-cutoff", "static-friction", "dynamic-friction"}) {
-        draw_option(name, state.settings.touch);
-    }
+    draw_numbers(TouchTopic::damper, state.settings.touch);
+    draw_numbers(TouchTopic::friction, state.settings.touch);
     draw_bump(state);
-    draw_option("roughness", state.settings.touch);
+    draw_numbers(TouchTopic::texture, state.settings.touch);
     if (!state.bump && !state.replay) quiet_text("Roughness needs a bump map to be felt.");
     ImGui::PopID();
 }

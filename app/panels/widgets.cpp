@@ -143,8 +143,8 @@ bool flag_row(const char* label, bool& value, bool standard, const char* help) {
     return value != before;
 }
 
-bool choice_row(const char* label, std::span<const char* const> names, int& chosen,
-                const char* help, int standard) {
+bool index_row(const char* label, std::span<const char* const> names, int& chosen, const char* help,
+               int standard) {
     const int before = chosen;
     ImGui::PushID(label);
     row_label(label, help);

@@ -5,6 +5,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "app/panels/viewer_state.hpp"
 
@@ -33,8 +34,20 @@ bool flag_row(const char* label, bool& value, bool standard, const char* help);
 
 /// Label, a list to choose from, and an arrow back to the `standard` entry. True when the choice
 /// changed.
-bool choice_row(const char* label, std::span<const char* const> names, int& chosen,
-                const char* help, int standard = 0);
+bool index_row(const char* label, std::span<const char* const> names, int& chosen, const char* help,
+               int standard);
+
+/// The same for an enumeration, from its table of words, which has_all_in_order().
+template <typename Table, typename Enum>
+bool choice_row(const char* label, const Table& words, Enum& chosen, const char* help,
+                Enum standard = {}) {
+    std::vector<const char*> names;
+    for (const auto& word : words) names.push_back(word.label);
+    int index = static_cast<int>(chosen);
+    const bool changed = index_row(label, names, index, help, static_cast<int>(standard));
+    chosen = static_cast<Enum>(index);
+    return changed;
+}
 
 /// The bar below the relief, as wide as it; to be ended with ImGui::End().
 void begin_bottom_bar(const ViewerState& state, const char* name);

@@ -58,7 +58,6 @@ std::string range_of(double lowest, double highest) {
 
 void add_number(CLI::App& app, GivenParameters& given, const TouchNumber& option) {
     const std::string name = "--" + std::string(option.name);
-    TouchParameters defaults;
     app.add_option_function<std::string>(
            name,
            [&given, &option, name](const std::string& text) {
@@ -67,19 +66,23 @@ void add_number(CLI::App& app, GivenParameters& given, const TouchNumber& option
            },
            std::string(option.help) + ", " + range_of(option.lowest, option.highest))
         ->type_name(placeholder_of(option))
-        ->default_str(text_of(option.in(defaults)));
+        ->default_str(text_of(option.standard()));
 }
 
 }  // namespace
 
+const double* GivenParameters::value_of(const TouchNumber& number) const {
+    const auto last = std::find_if(numbers.rbegin(), numbers.rend(),
+                                   [&number](const auto& given) { return given.first == &number; });
+    return last == numbers.rend() ? nullptr : &last->second;
+}
+
 void GivenParameters::apply(TouchParameters& parameters) const {
     if (algorithm) parameters.algorithm = *algorithm;
     if (friction) parameters.friction = {*friction, *friction};
-    const double* dynamic = nullptr;
-    for (const auto& [option, value] : numbers) {
-        option->in(parameters) = value;
-        if (option->name == "dynamic-friction") dynamic = &value;
-    }
+    for (const auto& [option, value] : numbers) option->in(parameters) = value;
+    const double* const dynamic =
+        value_of(number_of(parameters.friction.dynamic_coefficient, parameters));
     if (dynamic != nullptr && *dynamic > parameters.friction.static_coefficient) {
         throw UsageError("--dynamic-friction " + text_of(*dynamic) +
                          " is above the static friction " +
@@ -90,11 +93,9 @@ void GivenParameters::apply(TouchParameters& parameters) const {
 }
 
 std::string roughness_warning(const GivenParameters& given, bool has_bump) {
-    const bool rough =
-        std::any_of(given.numbers.begin(), given.numbers.end(), [](const auto& number) {
-            return number.first->name == "roughness" && number.second != 0.0;
-        });
-    if (!rough || has_bump) return {};
+    TouchParameters any;
+    const double* const roughness = given.value_of(number_of(any.shape.roughness_px, any));
+    if (has_bump || roughness == nullptr || *roughness == 0.0) return {};
     return "--roughness changes nothing without a bump map; give one with --bump IMAGE";
 }
 
@@ -134,12 +135,10 @@ void add_touch_options(CLI::App& app, TouchRequest& request) {
            "--friction",
            [&request](const std::string& text) {
                // The range is that of the coefficients it stands for.
-               const auto options = touch_numbers();
-               const auto friction = std::find_if(
-                   options.begin(), options.end(),
-                   [](const TouchNumber& option) { return option.name == "static-friction"; });
+               TouchParameters any;
+               const TouchNumber& number = number_of(any.friction.static_coefficient, any);
                request.given.friction =
-                   parse_number("--friction", text, friction->lowest, friction->highest);
+                   parse_number("--friction", text, number.lowest, number.highest);
            },
            "Both coefficients of friction; one given by itself wins")
         ->type_name("MU");

@@ -23,9 +23,10 @@ class UsageError : public Error {
 struct GivenParameters {
     std::optional<Algorithm> algorithm{};
     std::vector<std::pair<const TouchNumber*, double>> numbers{};
-    std::optional<double>
-        friction{};  ///< --friction: both coefficients, unless one is given by itself
+    std::optional<double> friction{};  ///< both coefficients, unless one is given by itself
 
+    /// What was given for that entry of touch_numbers(); null: nothing.
+    [[nodiscard]] const double* value_of(const TouchNumber& number) const;
     /// Throws UsageError when --dynamic-friction ends above the static coefficient.
     void apply(TouchParameters& parameters) const;
 };

@@ -2,17 +2,16 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
 
 #include "app/settings/keys.hpp"
+#include "core/haptics/words.hpp"
 
 namespace dibhr {
-
-/// In the order of the grip's buttons in falcon::Status::presses: plus, forward, centre, minus.
-inline constexpr std::size_t kFalconButtons = 4;
 
 enum class ButtonAction {
     none,
@@ -27,11 +26,8 @@ enum class ButtonAction {
 };
 
 /// One thing that a button can do.
-struct ButtonJob {
-    ButtonAction action;
-    std::string_view name;          ///< "play-or-pause", in the settings file
-    const char* label;              ///< "Play, pause", in the panel
-    std::optional<Action> perform;  ///< nothing: the device itself does it, or nobody
+struct ButtonJob : Word<ButtonAction> {
+    std::optional<Action> perform{};  ///< nothing: the device itself does it, or nobody
 };
 
 /// All of them, in the order of the enumeration.
@@ -40,11 +36,28 @@ struct ButtonJob {
 [[nodiscard]] const char* name_of(ButtonAction action) noexcept;
 [[nodiscard]] std::optional<ButtonAction> button_action_named(std::string_view name) noexcept;
 
+/// One button of the grip.
+struct GripButton {
+    std::string_view setting;  ///< in the settings file
+    const char* label;         ///< in the panel
+    ButtonAction standard;
+};
+
+/// In the order of falcon::Status::presses.
+inline constexpr std::array kGripButtons{
+    GripButton{"button-plus", "Plus (right)", ButtonAction::record},
+    GripButton{"button-forward", "Forward (top)", ButtonAction::play_or_pause},
+    GripButton{"button-centre", "Centre (logo)", ButtonAction::clutch},
+    GripButton{"button-minus", "Minus (left)", ButtonAction::force_off}};
+inline constexpr std::size_t kFalconButtons = kGripButtons.size();
+
 using ButtonActions = std::array<ButtonAction, kFalconButtons>;
 
-/// Plus: record; forward: play, pause; centre: clutch; minus: force off.
-inline constexpr ButtonActions kStandardButtons{ButtonAction::record, ButtonAction::play_or_pause,
-                                                ButtonAction::clutch, ButtonAction::force_off};
+inline constexpr ButtonActions kStandardButtons = [] {
+    ButtonActions actions{};
+    for (std::size_t k = 0; k < actions.size(); ++k) actions[k] = kGripButtons[k].standard;
+    return actions;
+}();
 
 /// Bits of falcon::Button whose button has this job.
 [[nodiscard]] std::uint8_t buttons_for(ButtonAction action, const ButtonActions& actions) noexcept;

@@ -41,10 +41,9 @@ void visit_falcon_settings(FalconSettings& s, Visitor& visit) {
     for (const FalconNumber& number : falcon_numbers()) {
         visit.number("falcon", number.name, number.in(s), {number.lowest, number.highest});
     }
-    visit.word("falcon", "button-plus", s.buttons[0], kButtonWords);
-    visit.word("falcon", "button-forward", s.buttons[1], kButtonWords);
-    visit.word("falcon", "button-centre", s.buttons[2], kButtonWords);
-    visit.word("falcon", "button-minus", s.buttons[3], kButtonWords);
+    for (std::size_t k = 0; k < kFalconButtons; ++k) {
+        visit.word("falcon", kGripButtons[k].setting, s.buttons[k], kButtonWords);
+    }
 }
 
 /// Every value that a settings file holds, visited with table, name and range. `Visitor` has a

@@ -41,8 +41,7 @@ std::vector<Action> ViewerFalcon::take_presses(const ViewerState& state) {
     std::vector<Action> asked;
     if (device_ == nullptr) return asked;
     for (std::size_t k = 0; k < presses_.size(); ++k) {
-        const auto action = static_cast<std::size_t>(state.settings.falcon.buttons[k]);
-        const ButtonJob& job = button_jobs()[action];
+        const ButtonJob& job = entry_of(button_jobs(), state.settings.falcon.buttons[k]);
         for (; presses_[k] < state.falcon->status.presses[k]; ++presses_[k]) {
             if (job.perform) asked.push_back(*job.perform);
         }

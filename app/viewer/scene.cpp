@@ -71,9 +71,8 @@ std::map<std::string, std::string> session_facts(const ViewerState& state) {
         {"max-force", number_text(state.settings.max_force_newton)},
     };
     facts.merge(library_versions());
-    TouchParameters parameters = state.settings.touch;
-    for (const TouchNumber& option : touch_numbers()) {
-        facts.emplace(std::string(option.name), number_text(option.in(parameters)));
+    for (const TouchNumber& number : touch_numbers()) {
+        facts.emplace(std::string(number.name), number_text(number.of(state.settings.touch)));
     }
     const CleaningOptions& cleaning = state.settings.cleaning;
     facts.emplace("fill-holes", cleaning.fill_holes ? "yes" : "no");

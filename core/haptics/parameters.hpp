@@ -5,11 +5,14 @@
 
 namespace dibhr {
 
+/// The Falcon's 4 inches over the 720 columns of the paper's videos [mm].
+inline constexpr double kPaperPitch_mm = 101.6 / 720.0;
+
 /// How depth becomes elevation: relief * depth + roughness * bump, pixels.
 struct SurfaceShape {
     double relief_px{
-        255.0};  ///< elevation of depth 1.0 [px]; 255 makes a grey level a pixel, as in the paper
-    double roughness_px{0.0};  ///< elevation of bump height 1.0 [px]
+        255.0};  ///< elevation of depth 1.0; so a grey level is a pixel, as in the paper
+    double roughness_px{0.0};  ///< elevation of bump height 1.0
 
     bool operator==(const SurfaceShape&) const = default;
 };
@@ -27,8 +30,7 @@ struct Coupling {
     double stiffness_newton_per_mm{0.5};
     double damping_newton_s_per_m{0.0};
     double damping_cutoff_hz{0.0};  ///< of the low-pass on the velocity that is damped; 0: none
-    double pixel_pitch_mm{101.6 /
-                          720.0};  ///< the Falcon's 4 inches over 720 columns, as in the paper
+    double pixel_pitch_mm{kPaperPitch_mm};
 
     bool operator==(const Coupling&) const = default;
 };

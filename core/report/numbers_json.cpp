@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/files/json_text.hpp"
@@ -121,27 +122,15 @@ std::string source_json(const SessionSource& source) {
         .text();
 }
 
-std::string parameters_json(const SessionParameters& parameters) {
-    const TouchParameters& touch = parameters.touch;
-    const SafetyLimits& limits = parameters.limits;
-    return JsonObject()
-        .add("version", parameters.version)
+std::string parameters_json(SessionParameters parameters) {
+    JsonObject object;
+    object.add("version", parameters.version)
         .add("first_tick", parameters.first_tick)
-        .add_text("algorithm", name_of(touch.algorithm))
-        .add("relief_px", touch.shape.relief_px)
-        .add("roughness_px", touch.shape.roughness_px)
-        .add("static_friction", touch.friction.static_coefficient)
-        .add("dynamic_friction", touch.friction.dynamic_coefficient)
-        .add("stiffness_newton_per_mm", touch.coupling.stiffness_newton_per_mm)
-        .add("damping_newton_s_per_m", touch.coupling.damping_newton_s_per_m)
-        .add("damping_cutoff_hz", touch.coupling.damping_cutoff_hz)
-        .add("pixel_pitch_mm", touch.coupling.pixel_pitch_mm)
-        .add("max_force_newton", limits.max_force_newton)
-        .add("max_change_newton_per_ms", limits.max_change_newton_per_ms)
-        .add("ramp_s", limits.ramp_s)
-        .add("max_tick_s", limits.max_tick_s)
-        .add("max_goal_speed_mm_per_ms", limits.max_goal_speed_mm_per_ms)
-        .add("force_enabled", flag(parameters.force_enabled))
+        .add_text("algorithm", name_of(parameters.touch.algorithm));
+    visit_numbers(parameters, [&object](std::string_view column, double number) {
+        object.add(std::string(column), number);
+    });
+    return object.add("force_enabled", flag(parameters.force_enabled))
         .add("bump", media_json(parameters.bump))
         .text();
 }

@@ -2,6 +2,7 @@
 #include "core/report/page_tables.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <numeric>
 #include <set>
@@ -80,25 +81,35 @@ std::string file_cell(const SessionMedia& media) {
            html_text(media.file.filename().string()) + "</span>";
 }
 
+/// "damping [N s/m]"
+std::string head_of(const TouchNumber& number) {
+    std::string head(number.label);
+    head[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(head[0])));
+    return number.unit.empty() ? head : head + " [" + std::string(number.unit) + "]";
+}
+
+Cells parameters_heads() {
+    Cells heads{"from [s]", "algorithm"};
+    for (const TouchNumber& number : touch_numbers()) heads.push_back(head_of(number));
+    heads.insert(heads.end(), {"bump map", "force limit [N]", "force"});
+    return heads;
+}
+
 Cells parameters_row(const SessionReport& report, const SessionParameters& parameters) {
-    const TouchParameters& touch = parameters.touch;
     const auto from = report.numbers.settings_from_s.find(parameters.version);
-    return {from == report.numbers.settings_from_s.end()
-                ? "not used"
-                : decimals(from->second - report.session.begin_s(), 3),
-            html_text(name_of(touch.algorithm)),
-            tick_text(touch.shape.relief_px),
-            tick_text(touch.shape.roughness_px),
-            file_cell(parameters.bump),
-            tick_text(touch.friction.static_coefficient),
-            tick_text(touch.friction.dynamic_coefficient),
-            tick_text(touch.coupling.stiffness_newton_per_mm),
-            tick_text(touch.coupling.damping_newton_s_per_m),
-            touch.coupling.damping_cutoff_hz > 0.0 ? tick_text(touch.coupling.damping_cutoff_hz)
-                                                   : "off",
-            tick_text(touch.coupling.pixel_pitch_mm),
-            tick_text(parameters.limits.max_force_newton),
-            parameters.force_enabled ? "on" : "off"};
+    Cells row{from == report.numbers.settings_from_s.end()
+                  ? "not used"
+                  : decimals(from->second - report.session.begin_s(), 3),
+              html_text(name_of(parameters.touch.algorithm))};
+    for (const TouchNumber& number : touch_numbers()) {
+        const double value = number.of(parameters.touch);
+        const bool named = number.zero != nullptr && !(value > 0.0);
+        row.push_back(named ? number.zero : tick_text(value));
+    }
+    row.insert(row.end(),
+               {file_cell(parameters.bump), tick_text(parameters.limits.max_force_newton),
+                parameters.force_enabled ? "on" : "off"});
+    return row;
 }
 
 Cells media_row(const std::string& what, const SessionMedia& media) {
@@ -157,14 +168,8 @@ std::string parameters_section(const SessionReport& report) {
         if (rows.size() == kMostRows) break;
         rows.push_back(parameters_row(report, parameters));
     }
-    return section("Parameters",
-                   rows.empty()
-                       ? "<p>None were recorded.</p>\n"
-                       : table_of({"from [s]", "algorithm", "relief [px]", "roughness [px]",
-                                   "bump map", "static friction", "dynamic friction",
-                                   "stiffness [N/mm]", "damping [N s/m]", "damping cutoff [Hz]",
-                                   "pixel pitch [mm]", "force limit [N]", "force"},
-                                  rows));
+    return section("Parameters", rows.empty() ? "<p>None were recorded.</p>\n"
+                                              : table_of(parameters_heads(), rows));
 }
 
 std::string files_section(const SessionReport& report) {

@@ -2,8 +2,9 @@
 #include "core/session/session.hpp"
 
 #include <algorithm>
-#include <map>
+#include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "core/error.hpp"
@@ -49,6 +50,14 @@ class Row {
     const SessionReader::Query& query_;
     int column_{0};
 };
+
+/// A file of before a parameter has no column for it: the parameter then was what it is by default.
+std::set<std::string> columns_of_parameters(const SessionReader& reader) {
+    std::set<std::string> columns;
+    SessionReader::Query query(reader, "SELECT name FROM pragma_table_info('parameters')");
+    while (query.next()) columns.insert(query.text(0));
+    return columns;
+}
 
 PrimitiveKind primitive_named(const std::string& name) {
     for (const auto kind : {PrimitiveKind::triangle, PrimitiveKind::edge, PrimitiveKind::vertex}) {
@@ -115,13 +124,16 @@ void Session::read_facts() {
 }
 
 void Session::read_parameters() {
+    const std::set<std::string> columns = columns_of_parameters(reader_);
+    std::string question =
+        "SELECT version, first_tick, algorithm, force_enabled, m.file, m.bytes, m.sha256";
+    SessionParameters standard;
+    visit_numbers(standard, [&](std::string_view column, double) {
+        if (columns.contains(std::string(column))) question += ", " + std::string(column);
+    });
     SessionReader::Query query(
         reader_,
-        "SELECT version, first_tick, algorithm, relief_px, roughness_px, static_friction, "
-        "dynamic_friction, stiffness_newton_per_mm, damping_newton_s_per_m, damping_cutoff_hz, "
-        "pixel_pitch_mm, max_force_newton, max_change_newton_per_ms, ramp_s, max_tick_s, "
-        "max_goal_speed_mm_per_ms, force_enabled, m.file, m.bytes, m.sha256 "
-        "FROM parameters LEFT JOIN media m ON m.id = bump ORDER BY first_tick");
+        question + " FROM parameters LEFT JOIN media m ON m.id = bump ORDER BY first_tick");
     while (query.next()) {
         Row row(query);
         SessionParameters parameters;
@@ -133,24 +145,12 @@ void Session::read_parameters() {
             throw InputError(file().string() + ": was recorded with an algorithm '" + name +
                              "' that is not known here; update dibhr");
         }
-        TouchParameters& touch = parameters.touch;
-        touch.algorithm = *algorithm;
-        touch.shape.relief_px = row.real();
-        touch.shape.roughness_px = row.real();
-        touch.friction.static_coefficient = row.real();
-        touch.friction.dynamic_coefficient = row.real();
-        touch.coupling.stiffness_newton_per_mm = row.real();
-        touch.coupling.damping_newton_s_per_m = row.real();
-        touch.coupling.damping_cutoff_hz = row.real();
-        touch.coupling.pixel_pitch_mm = row.real();
-        SafetyLimits& limits = parameters.limits;
-        limits.max_force_newton = row.real();
-        limits.max_change_newton_per_ms = row.real();
-        limits.ramp_s = row.real();
-        limits.max_tick_s = row.real();
-        limits.max_goal_speed_mm_per_ms = row.real();
+        parameters.touch.algorithm = *algorithm;
         parameters.force_enabled = row.yes();
         parameters.bump = row.media();
+        visit_numbers(parameters, [&](std::string_view column, double& number) {
+            if (columns.contains(std::string(column))) number = row.real();
+        });
         parameters_.push_back(std::move(parameters));
     }
 }

@@ -63,10 +63,18 @@ Database made_database(const std::filesystem::path& file) {
     return database;
 }
 
-std::string insert_tick() {
+/// For a row with all the columns of that table.
+std::string insertion(const std::string& into, int columns) {
     std::string marks = "?";
-    for (int k = 1; k < kTickDataColumns; ++k) marks += ", ?";
-    return "INSERT INTO tick_data VALUES (" + marks + ")";
+    for (int k = 1; k < columns; ++k) marks += ", ?";
+    return "INSERT " + into + " VALUES (" + marks + ")";
+}
+
+std::string insert_parameters() {
+    int columns = 5;  // version, first_tick, algorithm, force_enabled, bump
+    SessionParameters parameters;
+    visit_numbers(parameters, [&columns](std::string_view, double) { ++columns; });
+    return insertion("OR IGNORE INTO parameters", columns);
 }
 
 /// "2026-05-31T12:00:00Z"
@@ -116,7 +124,7 @@ std::optional<std::int64_t> off_direction(double sent, double wanted, double sho
 SessionFile::SessionFile(const std::filesystem::path& file, const SessionFacts& facts) try
     : path_(file),
       database_(made_database(file)),
-      insert_tick_(database_, insert_tick()),
+      insert_tick_(database_, insertion("INTO tick_data", kTickDataColumns)),
       insert_pair_(database_, "INSERT INTO pair VALUES (?, ?, ?, ?, ?, ?, ?)"),
       insert_fact_(database_, "INSERT OR REPLACE INTO session VALUES (?, ?)"),
       place_(place_of(file)) {
@@ -286,24 +294,13 @@ void SessionFile::use_settings(const TickRecord& record) {
     }
 }
 
-void SessionFile::add_parameters(const SessionParameters& parameters) {
-    const TouchParameters& touch = parameters.touch;
-    Statement insert(database_,
-                     "INSERT OR IGNORE INTO parameters VALUES "
-                     "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+void SessionFile::add_parameters(SessionParameters parameters) {
+    Statement insert(database_, insert_parameters());
     RowBinder row(insert);
     row.integer(static_cast<std::int64_t>(parameters.version));
     row.integer(parameters.first_tick);
-    row.text(name_of(touch.algorithm));
-    for (const double value :
-         {touch.shape.relief_px, touch.shape.roughness_px, touch.friction.static_coefficient,
-          touch.friction.dynamic_coefficient, touch.coupling.stiffness_newton_per_mm,
-          touch.coupling.damping_newton_s_per_m, touch.coupling.damping_cutoff_hz,
-          touch.coupling.pixel_pitch_mm, parameters.limits.max_force_newton,
-          parameters.limits.max_change_newton_per_ms, parameters.limits.ramp_s,
-          parameters.limits.max_tick_s, parameters.limits.max_goal_speed_mm_per_ms}) {
-        row.real(value);
-    }
+    row.text(name_of(parameters.touch.algorithm));
+    visit_numbers(parameters, [&row](std::string_view, double number) { row.real(number); });
     row.integer(parameters.force_enabled ? 1 : 0);
     row.reference(media_row(parameters.bump.file));
     insert.run();

@@ -77,7 +77,7 @@ class SessionFile {
 
     void try_to(const char* sql) noexcept;
     void use_settings(const TickRecord& record);
-    void add_parameters(const SessionParameters& parameters);
+    void add_parameters(SessionParameters parameters);
     void add_pair(const FramePair& frames, std::int64_t tick);
     void bind_times(RowBinder& row, const TickRecord& record);
     void bind_forces(RowBinder& row, const TickRecord& record) const;

@@ -5,8 +5,9 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 
-#include "core/haptics/parameters.hpp"
+#include "core/haptics/parameter_table.hpp"
 #include "core/haptics/safety.hpp"
 #include "core/session/tick_record.hpp"
 
@@ -31,6 +32,20 @@ struct SessionParameters {
     SessionMedia bump{};         ///< for writing, the file suffices
     std::int64_t first_tick{0};  ///< set by reading back
 };
+
+/// Every number of them, in the order of the columns of table `parameters`: visit(column, number).
+template <typename Visit>
+void visit_numbers(SessionParameters& parameters, const Visit& visit) {
+    for (const TouchNumber& number : touch_numbers()) {
+        visit(number.column, number.in(parameters.touch));
+    }
+    SafetyLimits& limits = parameters.limits;
+    visit(std::string_view("max_force_newton"), limits.max_force_newton);
+    visit(std::string_view("max_change_newton_per_ms"), limits.max_change_newton_per_ms);
+    visit(std::string_view("ramp_s"), limits.ramp_s);
+    visit(std::string_view("max_tick_s"), limits.max_tick_s);
+    visit(std::string_view("max_goal_speed_mm_per_ms"), limits.max_goal_speed_mm_per_ms);
+}
 
 /// What frames were made of.
 struct SessionSource {

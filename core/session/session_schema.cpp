@@ -6,6 +6,7 @@
 
 #include "core/haptics/primitive.hpp"
 #include "core/haptics/safety.hpp"
+#include "core/session/session_parts.hpp"
 
 namespace dibhr {
 
@@ -17,11 +18,6 @@ CREATE TABLE session(key TEXT PRIMARY KEY, value TEXT);
 CREATE TABLE media(id INTEGER PRIMARY KEY, file TEXT UNIQUE, bytes INTEGER, sha256 TEXT);
 CREATE TABLE source(id INTEGER PRIMARY KEY, first_tick INTEGER, media INTEGER, colour INTEGER,
   depth INTEGER, fill_holes INTEGER, remove_spikes INTEGER, smooth_steps INTEGER);
-CREATE TABLE parameters(version INTEGER PRIMARY KEY, first_tick INTEGER, algorithm TEXT,
-  relief_px REAL, roughness_px REAL, static_friction REAL, dynamic_friction REAL,
-  stiffness_newton_per_mm REAL, damping_newton_s_per_m REAL, damping_cutoff_hz REAL,
-  pixel_pitch_mm REAL, max_force_newton REAL, max_change_newton_per_ms REAL, ramp_s REAL,
-  max_tick_s REAL, max_goal_speed_mm_per_ms REAL, force_enabled INTEGER, bump INTEGER);
 CREATE TABLE pair(id INTEGER PRIMARY KEY, source INTEGER, from_frame INTEGER, to_frame INTEGER,
   from_s, to_s, span_s);
 CREATE TABLE clock(t_ns INTEGER PRIMARY KEY, utc_s REAL, dropped INTEGER, high_water INTEGER);
@@ -29,6 +25,16 @@ CREATE TABLE mark(id INTEGER PRIMARY KEY, t REAL, tag TEXT, text TEXT);
 CREATE TABLE cut(code INTEGER PRIMARY KEY, name TEXT);
 CREATE TABLE tick_column(name TEXT, unit TEXT, meaning TEXT);
 )";
+
+std::string parameters_table() {
+    std::string table =
+        "CREATE TABLE parameters(version INTEGER PRIMARY KEY, first_tick INTEGER, algorithm TEXT";
+    SessionParameters parameters;
+    visit_numbers(parameters, [&table](std::string_view column, double) {
+        table += ", " + std::string(column) + " REAL";
+    });
+    return table + ", force_enabled INTEGER, bump INTEGER);\n";
+}
 
 /// A column of the view `tick`: its type and the expression that gives it.
 struct Column {
@@ -216,8 +222,9 @@ std::string session_schema() {
     std::string typed = tick_data_columns();
     typed.replace(typed.find("tick,"), 4, "tick INTEGER PRIMARY KEY");
     typed.replace(typed.find("settings"), 8, "settings INTEGER");
-    return std::string(kTables) + "CREATE TABLE tick_data(" + typed + ");\n" + tick_view() +
-           explanations() + "PRAGMA application_id = " + std::to_string(kSessionApplicationId) +
+    return std::string(kTables) + parameters_table() + "CREATE TABLE tick_data(" + typed + ");\n" +
+           tick_view() + explanations() +
+           "PRAGMA application_id = " + std::to_string(kSessionApplicationId) +
            ";\nPRAGMA user_version = " + std::to_string(kSessionSchemaVersion) + ";\n";
 }
 

@@ -112,8 +112,8 @@ TEST_CASE("a button keeps its job when the file asks for one that there is not",
 
 TEST_CASE("every job of a button is found by its name", "[falcon][buttons]") {
     for (const ButtonJob& job : button_jobs()) {
-        CHECK(name_of(job.action) == job.name);
-        CHECK(button_action_named(job.name) == job.action);
+        CHECK(std::string_view(job.name) == name_of(job.value));
+        CHECK(button_action_named(job.name) == job.value);
     }
     CHECK_FALSE(button_action_named("dance"));
 }
