@@ -8,17 +8,20 @@
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <optional>
 #include <set>
 #include <sstream>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <variant>
 #include <vector>
 
 #include "app/settings/settings_list.hpp"
 #include "core/error.hpp"
 #include "core/files/output_file.hpp"
+#include "core/haptics/parameter_table.hpp"
 
 namespace dibhr {
 
@@ -28,6 +31,59 @@ namespace {
 
 constexpr std::int64_t kVersion = 1;
 
+// What a value of the file lacks to be that setting; empty: nothing, and it is taken.
+
+template <typename T>
+std::string take_exact(const toml::node& node, T& value, const char* lacking) {
+    const auto read = node.value_exact<T>();
+    if (!read) return lacking;
+    value = *read;
+    return {};
+}
+
+template <typename Enum>
+std::string take_word(std::optional<Enum> named, Enum& value, const char* lacking) {
+    if (!named) return lacking;
+    value = *named;
+    return {};
+}
+
+std::string take(const toml::node& node, const Setting&, bool& value) {
+    return take_exact(node, value, "is not true or false");
+}
+
+std::string take(const toml::node& node, const Setting&, std::string& value) {
+    return take_exact(node, value, "is not a text in quotes");
+}
+
+std::string take(const toml::node& node, const Setting& setting, double& value) {
+    const auto read = node.is_number() ? node.value<double>() : std::nullopt;
+    if (!read || !(*read >= setting.lowest && *read <= setting.highest)) {
+        std::ostringstream lacking;
+        lacking << "is not a number from " << setting.lowest << " to " << setting.highest;
+        return lacking.str();
+    }
+    value = *read;
+    return {};
+}
+
+std::string take(const toml::node& node, const Setting& setting, int& value) {
+    double read = value;
+    const std::string lacking = take(node, setting, read);
+    value = static_cast<int>(std::lround(read));
+    return lacking;
+}
+
+std::string take(const toml::node& node, const Setting&, Algorithm& value) {
+    const auto word = node.value<std::string_view>().value_or("");
+    return take_word(algorithm_named(word), value, "is not the name of an algorithm");
+}
+
+std::string take(const toml::node& node, const Setting&, ButtonAction& value) {
+    const auto word = node.value<std::string_view>().value_or("");
+    return take_word(button_action_named(word), value, "is not what a button can do");
+}
+
 /// Takes values out of a parsed file; what does not fit is told with its line and left at its
 /// default.
 class Reading {
@@ -35,75 +91,16 @@ class Reading {
     Reading(const toml::table& root, const fs::path& file, std::vector<std::string>& warnings)
         : root_(root), file_(file), warnings_(warnings) {}
 
-    void flag(std::string_view table, std::string_view name, bool& value) {
-        if (const toml::node* node = find(table, name)) {
-            if (const auto read = node->value_exact<bool>()) {
-                value = *read;
-            } else {
-                warn(*node, table, name, "is not true or false");
-            }
+    void take_all(const std::vector<Setting>& settings) {
+        for (const Setting& setting : settings) {
+            known_[setting.table].insert(setting.name);
+            const toml::node* node = root_[setting.table][setting.name].node();
+            if (node == nullptr) continue;
+            const std::string lacking = std::visit(
+                [&](auto* value) { return take(*node, setting, *value); }, setting.value);
+            if (!lacking.empty()) warn(*node, setting.table, setting.name, lacking);
         }
-    }
-
-    void number(std::string_view table, std::string_view name, double& value, Range range) {
-        if (const toml::node* node = find(table, name)) {
-            const auto read = node->is_number() ? node->value<double>() : std::nullopt;
-            if (read && *read >= range.lowest && *read <= range.highest) {
-                value = *read;
-            } else {
-                std::ostringstream wrong;
-                wrong << "is not a number from " << range.lowest << " to " << range.highest;
-                warn(*node, table, name, wrong.str());
-            }
-        }
-    }
-
-    void integer(std::string_view table, std::string_view name, int& value, Range range) {
-        double read = value;
-        number(table, name, read, range);
-        value = static_cast<int>(std::lround(read));
-    }
-
-    template <typename Enum>
-    void word(std::string_view table, std::string_view name, Enum& value,
-              const Words<Enum>& words) {
-        if (const toml::node* node = find(table, name)) {
-            const auto read = words.named(node->value<std::string_view>().value_or(""));
-            if (read) {
-                value = *read;
-            } else {
-                warn(*node, table, name, "is not " + std::string(words.what));
-            }
-        }
-    }
-
-    void text(std::string_view table, std::string_view name, std::string& value) {
-        if (const toml::node* node = find(table, name)) {
-            if (const auto read = node->value_exact<std::string>()) {
-                value = *read;
-            } else {
-                warn(*node, table, name, "is not a text in quotes");
-            }
-        }
-    }
-
-    /// After all known values: tells what else stands in the file.
-    void tell_unknown() {
-        for (const auto& [table_key, node] : root_) {
-            if (table_key == "version") continue;
-            const toml::table* table = node.as_table();
-            if (table == nullptr || !known_tables_.contains(std::string(table_key.str()))) {
-                warn(node, "", table_key.str(), "is not a setting");
-                continue;
-            }
-            for (const auto& [key, value] : *table) {
-                const std::string full =
-                    std::string(table_key.str()) + "." + std::string(key.str());
-                if (!known_.contains(full)) {
-                    warn(value, table_key.str(), key.str(), "is not a setting");
-                }
-            }
-        }
+        tell_unknown();
     }
 
     void warn(const toml::node& node, std::string_view table, std::string_view name,
@@ -116,58 +113,69 @@ class Reading {
     }
 
   private:
-    const toml::node* find(std::string_view table, std::string_view name) {
-        known_tables_.emplace(table);
-        known_.insert(std::string(table) + "." + std::string(name));
-        const toml::node* node = root_.get(table);
-        const toml::table* inside = node != nullptr ? node->as_table() : nullptr;
-        return inside != nullptr ? inside->get(name) : nullptr;
+    void tell_unknown() {
+        for (const auto& [table, node] : root_) {
+            if (table == "version") continue;
+            const auto known = known_.find(table.str());
+            if (!node.is_table() || known == known_.end()) {
+                warn(node, "", table.str(), "is not a setting");
+                continue;
+            }
+            for (const auto& [name, value] : *node.as_table()) {
+                if (known->second.contains(name.str())) continue;
+                warn(value, table.str(), name.str(), "is not a setting");
+            }
+        }
     }
 
     const toml::table& root_;
     const fs::path& file_;
     std::vector<std::string>& warnings_;
-    std::set<std::string> known_{};
-    std::set<std::string> known_tables_{};
+    std::map<std::string_view, std::set<std::string_view>> known_{};
 };
 
-/// Writes values as TOML, a heading before each table; numbers as short as they come back the same.
-class Writing {
-  public:
-    void flag(std::string_view table, std::string_view name, bool& value) {
-        line(table, name, value ? "true" : "false");
-    }
-    void number(std::string_view table, std::string_view name, double& value, Range) {
-        char digits[32];
-        const auto end = std::to_chars(digits, digits + sizeof digits, value);
-        line(table, name, {digits, static_cast<std::size_t>(end.ptr - digits)});
-    }
-    void integer(std::string_view table, std::string_view name, int& value, Range) {
-        line(table, name, std::to_string(value));
-    }
-    template <typename Enum>
-    void word(std::string_view table, std::string_view name, Enum& value,
-              const Words<Enum>& words) {
-        line(table, name, '"' + std::string(words.name_of(value)) + '"');
-    }
-    void text(std::string_view table, std::string_view name, std::string& value) {
-        std::ostringstream quoted;
-        quoted << toml::value<std::string>(value);
-        line(table, name, quoted.str());
-    }
+// As TOML, numbers as short as they come back the same.
 
-    [[nodiscard]] std::string text() const { return text_.str(); }
+std::string toml_text(bool value) {
+    return value ? "true" : "false";
+}
 
-  private:
-    void line(std::string_view table, std::string_view name, std::string_view value) {
-        if (table != table_) text_ << "\n[" << table << "]\n";
-        table_ = table;
-        text_ << name << " = " << value << "\n";
+std::string toml_text(int value) {
+    return std::to_string(value);
+}
+
+std::string toml_text(double value) {
+    char digits[32];
+    return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+std::string toml_text(const std::string& value) {
+    std::ostringstream quoted;
+    quoted << toml::value<std::string>(value);
+    return quoted.str();
+}
+
+std::string toml_text(Algorithm value) {
+    return '"' + std::string(name_of(value)) + '"';
+}
+
+std::string toml_text(ButtonAction value) {
+    return '"' + std::string(name_of(value)) + '"';
+}
+
+/// The whole file but its head, a heading before each table.
+std::string toml_text(Settings settings) {
+    std::string text;
+    std::string_view table;
+    for (const Setting& setting : list_of(settings)) {
+        if (setting.table != table) text += "\n[" + std::string(setting.table) + "]\n";
+        table = setting.table;
+        text += std::string(setting.name) + " = " +
+                std::visit([](const auto* value) { return toml_text(*value); }, setting.value) +
+                "\n";
     }
-
-    std::ostringstream text_{};
-    std::string table_{};
-};
+    return text;
+}
 
 std::string content_of(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
@@ -212,8 +220,7 @@ Settings load_settings(const fs::path& file, std::vector<std::string>& warnings)
             reading.warn(*version, "", "version", "is not 1, the one this program writes");
         }
     }
-    visit_settings(settings, reading);
-    reading.tell_unknown();
+    reading.take_all(list_of(settings));
     keep_in_range(settings.touch);
     return settings;
 }
@@ -226,15 +233,12 @@ Settings load_settings(const fs::path& file) {
 }
 
 void save_settings(const Settings& settings, const fs::path& file) {
-    Writing writing;
-    Settings copy = settings;
-    visit_settings(copy, writing);
     std::error_code failed;
     fs::create_directories(file.parent_path(), failed);
     try {
         OutputFile out(file);
         out.write("# dibhr writes this file; change it while it is not running.\nversion = " +
-                  std::to_string(kVersion) + "\n" + writing.text());
+                  std::to_string(kVersion) + "\n" + toml_text(settings));
         out.commit();
     } catch (const InputError& error) {
         throw InputError(std::string("the settings are not kept: ") + error.what());

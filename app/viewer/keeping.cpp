@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "app/settings/settings_changes.hpp"
+#include "app/settings/settings_list.hpp"
 
 namespace dibhr {
 

@@ -14,7 +14,7 @@
 #include "app/settings/falcon_buttons.hpp"
 #include "app/settings/falcon_settings.hpp"
 #include "app/settings/settings.hpp"
-#include "app/settings/settings_changes.hpp"
+#include "app/settings/settings_list.hpp"
 #include "app/viewer/falcon.hpp"
 #include "app/window/window.hpp"
 #include "core/haptics/safety.hpp"

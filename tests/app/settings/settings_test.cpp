@@ -7,7 +7,7 @@
 #include "app/panels/viewer_state.hpp"
 #include "app/settings/keys.hpp"
 #include "app/settings/settings.hpp"
-#include "app/settings/settings_changes.hpp"
+#include "app/settings/settings_list.hpp"
 #include "app/viewer/actions.hpp"
 #include "app/viewer/keeping.hpp"
 #include "core/error.hpp"
