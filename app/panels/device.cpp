@@ -3,7 +3,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <string>
-#include <utility>
 
 #include "app/panels/falcon_state.hpp"
 #include "app/panels/panels.hpp"
@@ -78,11 +77,7 @@ void draw_force_switch(ViewerState& state, float width) {
 }
 
 void draw_device_panel(ViewerState& state) {
-    const bool wanted = std::exchange(state.show_device, false);
-    state.settings.panels.device = state.settings.panels.device || wanted;
-    const bool open = section(state, "Device", state.settings.panels.device);
-    if (wanted) ImGui::SetScrollHereY(0.0F);
-    if (!open) return;
+    if (!section(state, "Device", state.settings.panels.device, state.show_device)) return;
     ImGui::PushID("device");
     if (state.falcon) {
         draw_falcon_state(state);

@@ -71,11 +71,8 @@ void draw_exchange(const ViewerState& state) {
 }  // namespace
 
 void draw_firmware_field(ViewerState& state) {
-    ImGui::SetNextItemWidth(-1.0F);
-    const bool entered = ImGui::InputTextWithHint(
-        "##firmware", "Firmware file (.bin)", state.fields.firmware.data(),
-        state.fields.firmware.size(), ImGuiInputTextFlags_EnterReturnsTrue);
-    explain(
+    const bool entered = text_field(
+        "##firmware", "Firmware file (.bin)", state.fields.firmware,
         "Path of the firmware; Enter takes it. It is checked first, and kept for the next time");
     ImGui::BeginDisabled(state.fields.firmware[0] == '\0');
     const bool pressed = ImGui::Button("Load");

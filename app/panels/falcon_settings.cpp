@@ -68,12 +68,10 @@ void draw_connection(ViewerState& state) {
              "140 351 baud instead of 142 857; both are reported to work");
     std::array<char, 64> serial{};
     connection.serial.copy(serial.data(), serial.size() - 1);
-    ImGui::SetNextItemWidth(-1.0F);
-    if (ImGui::InputTextWithHint("##serial", "Serial: the first one found", serial.data(),
-                                 serial.size())) {
+    if (text_field("##serial", "Serial: the first one found", serial,
+                   "Which Falcon, when several are attached", false)) {
         connection.serial = serial.data();
     }
-    explain("Which Falcon, when several are attached");
     quiet_text("These are used from the next start of the program.");
 }
 

@@ -1,4 +1,5 @@
-// What is written over the relief: the force in numbers, the first hint, and short notices.
+// What is written over the relief: the force in numbers, the first hint, short notices, and the box
+// that tells what went wrong.
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <string>
@@ -113,6 +114,22 @@ void draw_hint(const ViewerState& state, float alpha) {
     const float room = ImGui::GetIO().DisplaySize.x - panel_column_width(state);
     const bool fits = ImGui::CalcTextSize(whole.c_str()).x + 40.0F * state.scale < room;
     centred_label(state, fits ? whole : "Hold the left button to touch.", 0.0F, alpha);
+}
+
+void draw_message_box(ViewerState& state) {
+    if (state.message.empty()) return;
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({display.x * 0.5F, display.y * 0.4F}, ImGuiCond_Always, {0.5F, 0.5F});
+    ImGui::SetNextWindowSize({ImGui::GetFontSize() * 32.0F, 0.0F});
+    bool open = true;
+    ImGui::Begin("That did not work", &open,
+                 ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings);
+    ImGui::TextWrapped("%s", state.message.c_str());
+    ImGui::Spacing();
+    if (ImGui::Button("Close (Esc)")) open = false;
+    ImGui::End();
+    if (!open) state.message.clear();
 }
 
 }  // namespace dibhr

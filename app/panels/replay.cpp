@@ -27,13 +27,6 @@ void draw_about(const ReplayNews& replay) {
     fact_if_any("Note", replay.note);
 }
 
-void draw_speed(const ReplayNews& replay, SessionPlayer& player) {
-    double speed = replay.playback.speed;
-    if (number_row({"Speed", "x %.2f", 0.1, 4.0, 1.0, "[ slower, ] faster"}, speed)) {
-        player.set_speed(speed);
-    }
-}
-
 void draw_moment(const ViewerState& state) {
     const ReplayNews& replay = *state.replay;
     const Touch& touch = state.haptic.touch;
@@ -81,7 +74,7 @@ void draw_replay_panel(ViewerState& state, SessionPlayer& replay) {
     if (ImGui::Button("Touch this video", {-1.0F, 0.0F})) state.requests.leave_replay = true;
     explain("Leaves the replay: the hand touches the video it was recorded over");
     if (!news.playback.failure.empty()) trouble_text(capitalised(news.playback.failure));
-    draw_speed(news, replay);
+    speed_row(news.playback.speed, replay);
     draw_moment(state);
     draw_force_chart(state);
     draw_marks(news, replay);

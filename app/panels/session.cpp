@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "app/panels/panels.hpp"
@@ -39,23 +38,18 @@ void draw_progress(const RecordingNews& recording) {
 }
 
 void draw_about(TextFields& fields) {
-    ImGui::SetNextItemWidth(-1.0F);
-    ImGui::InputTextWithHint("##participant", "Participant", fields.participant.data(),
-                             fields.participant.size());
-    explain("Kept with the session; may be typed before or during the recording");
-    ImGui::SetNextItemWidth(-1.0F);
-    ImGui::InputTextWithHint("##note", "Note", fields.note.data(), fields.note.size());
-    explain("Kept with the session; may be typed before or during the recording");
+    const char* help = "Kept with the session; may be typed before or during the recording";
+    text_field("##participant", "Participant", fields.participant, help, false);
+    text_field("##note", "Note", fields.note, help, false);
 }
 
 void draw_marks(ViewerState& state) {
     const ImGuiStyle& style = ImGui::GetStyle();
     const float button = ImGui::CalcTextSize("Mark").x + 2.0F * style.FramePadding.x;
-    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - style.ItemSpacing.x);
     const bool entered =
-        ImGui::InputTextWithHint("##tag", "Tag of the next mark", state.fields.tag.data(),
-                                 state.fields.tag.size(), ImGuiInputTextFlags_EnterReturnsTrue);
-    explain("Enter, or M while nothing is typed, marks the moment with it");
+        text_field("##tag", "Tag of the next mark", state.fields.tag,
+                   "Enter, or M while nothing is typed, marks the moment with it", true,
+                   ImGui::GetContentRegionAvail().x - button - style.ItemSpacing.x);
     ImGui::SameLine();
     if (ImGui::Button("Mark") || entered) state.requests.mark = true;
     explain("Marks this moment (M)");
@@ -69,11 +63,7 @@ void draw_marks(ViewerState& state) {
 }  // namespace
 
 void draw_session_panel(ViewerState& state) {
-    const bool wanted = std::exchange(state.show_session, false);
-    state.settings.panels.session = state.settings.panels.session || wanted;
-    const bool open = section(state, "Session", state.settings.panels.session);
-    if (wanted) ImGui::SetScrollHereY(0.0F);
-    if (!open) return;
+    if (!section(state, "Session", state.settings.panels.session, state.show_session)) return;
     ImGui::PushID("session");
     draw_switch(state);
     if (!state.recording_trouble.empty()) trouble_text(capitalised(state.recording_trouble));

@@ -1,5 +1,4 @@
 // The Surface panel: the shape of the relief, how it is drawn, and from where.
-#include "app/panels/number_options.hpp"
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 

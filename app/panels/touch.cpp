@@ -2,7 +2,6 @@
 #include <string>
 
 #include "app/panels/falcon_state.hpp"
-#include "app/panels/number_options.hpp"
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 
@@ -38,12 +37,10 @@ void draw_bump(ViewerState& state) {
         if (state.bump) fact_row("Bump map", state.bump_file.filename().string());
         return;
     }
-    ImGui::SetNextItemWidth(-1.0F);
-    if (ImGui::InputTextWithHint("##bump", "Bump map: a grey picture", state.fields.bump.data(),
-                                 state.fields.bump.size(), ImGuiInputTextFlags_EnterReturnsTrue)) {
+    if (text_field("##bump", "Bump map: a grey picture", state.fields.bump,
+                   "Path of a picture laid over the surface as fine relief; Enter takes it")) {
         state.requests.bump = std::filesystem::path(state.fields.bump.data());
     }
-    explain("Path of a picture laid over the surface as fine relief; Enter takes it");
     if (!state.bump) return;
     fact_row("Bump map", state.bump_file.filename().string());
     if (ImGui::Button("Remove the bump map")) state.requests.bump = std::filesystem::path{};

@@ -1,4 +1,6 @@
-// The bar under the relief: playback and the force switch, always in reach.
+// The bar under the relief: playback and the force switch, always in reach; or a replay.
+#include <string>
+
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 
@@ -8,10 +10,7 @@ namespace {
 
 void draw_playback(const ViewerState& state, Player& player, float right_of_line) {
     const PlaybackStatus& playback = state.playback;
-    if (icon_button("play", playback.playing ? Icon::pause : Icon::play,
-                    playback.playing ? "Pause (Space)" : "Play (Space)")) {
-        playback.playing ? player.pause() : player.play();
-    }
+    play_button(playback.playing, player);
     ImGui::SameLine();
     const std::string time = clock_text(playback.media_s) + " / " + clock_text(playback.duration_s);
     const std::string frame = formatted("frame %lld", static_cast<long long>(playback.frame + 1));
@@ -32,6 +31,28 @@ void draw_playback(const ViewerState& state, Player& player, float right_of_line
     ImGui::SameLine(begin + ImGui::CalcTextSize("frame 00000").x + gap);
 }
 
+void draw_buttons(const SessionPlayback& playback, SessionPlayer& replay) {
+    if (icon_button("back", Icon::step_back, "One tick back ( , )")) replay.step(-1);
+    ImGui::SameLine(0.0F, 0.0F);
+    play_button(playback.playing, replay);
+    ImGui::SameLine(0.0F, 0.0F);
+    if (icon_button("forward", Icon::step_forward, "One tick forward ( . )")) replay.step(1);
+    ImGui::SameLine(0.0F, 0.0F);
+    if (icon_button("loop", Icon::loop, "Start again at the end (L)", playback.looping)) {
+        replay.set_looping(!playback.looping);
+    }
+}
+
+TimeLineContents line_of(const ReplayNews& news) {
+    const SessionPlayback& playback = news.playback;
+    TimeLineContents line{.now_s = playback.now_s - playback.begin_s,
+                          .length_s = playback.end_s - playback.begin_s,
+                          .contacts = news.contacts,
+                          .marks = news.marks};
+    for (SessionMark& mark : line.marks) mark.t_s -= playback.begin_s;
+    return line;
+}
+
 }  // namespace
 
 void draw_transport_bar(ViewerState& state, Player& player) {
@@ -47,6 +68,30 @@ void draw_transport_bar(ViewerState& state, Player& player) {
         draw_playback(state, player, force_width + style.ItemSpacing.x);
     }
     draw_force_switch(state, force_width);
+    ImGui::End();
+}
+
+void draw_replay_bar(ViewerState& state, SessionPlayer& replay) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    begin_bottom_bar(state, "Replay");
+    const SessionPlayback& playback = state.replay->playback;
+    draw_buttons(playback, replay);
+    ImGui::SameLine();
+    const TimeLineContents line = line_of(*state.replay);
+    const std::string time = clock_text(line.now_s) + " / " + clock_text(line.length_s);
+    const std::string video = "video " + clock_text(state.replay->tick.video_s);
+    const float texts = ImGui::CalcTextSize(time.c_str()).x + ImGui::CalcTextSize(video.c_str()).x;
+    const float width = ImGui::GetContentRegionAvail().x - texts - 3.0F * style.ItemSpacing.x;
+    if (width > 40.0F) {
+        if (const auto wanted_s = draw_time_line(line, width)) {
+            replay.seek(playback.begin_s + *wanted_s);
+        }
+        ImGui::SameLine();
+    }
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(time.c_str());
+    ImGui::SameLine();
+    ImGui::TextDisabled("%s", video.c_str());
     ImGui::End();
 }
 

@@ -9,23 +9,17 @@ namespace dibhr {
 
 namespace {
 
-/// A text field as wide as the panel; true when Enter was pressed in it.
-bool path_field(const char* id, const char* hint, TextFields::Field& field) {
-    ImGui::SetNextItemWidth(-1.0F);
-    return ImGui::InputTextWithHint(id, hint, field.data(), field.size(),
-                                    ImGuiInputTextFlags_EnterReturnsTrue);
-}
-
 void draw_open(ViewerState& state) {
     if (state.fields.ask_for_keyboard > 0) {
         ImGui::SetKeyboardFocusHere();
         --state.fields.ask_for_keyboard;
     }
-    const bool from_colour = path_field("##colour", "Colour file, or session", state.fields.colour);
-    explain("Path of a colour video or picture, or of a recorded session (Ctrl+O)");
+    const bool from_colour =
+        text_field("##colour", "Colour file, or session", state.fields.colour,
+                   "Path of a colour video or picture, or of a recorded session (Ctrl+O)");
     const bool from_depth =
-        path_field("##depth", "Depth file: found beside it", state.fields.depth);
-    explain("Empty: the file called like the colour file, with depth in place of color");
+        text_field("##depth", "Depth file: found beside it", state.fields.depth,
+                   "Empty: the file called like the colour file, with depth in place of color");
     ImGui::BeginDisabled(state.opening || state.fields.colour[0] == '\0');
     const bool pressed = ImGui::Button(state.opening ? "Opening" : "Open");
     ImGui::EndDisabled();
@@ -51,10 +45,7 @@ void draw_playback(const ViewerState& state, Player& player) {
     const PlaybackStatus& playback = state.playback;
     if (icon_button("back", Icon::step_back, "One frame back ( , )")) player.step(-1);
     ImGui::SameLine();
-    if (icon_button("play", playback.playing ? Icon::pause : Icon::play,
-                    playback.playing ? "Pause (Space)" : "Play (Space)")) {
-        playback.playing ? player.pause() : player.play();
-    }
+    play_button(playback.playing, player);
     ImGui::SameLine();
     if (icon_button("forward", Icon::step_forward, "One frame forward ( . )")) player.step(1);
     ImGui::SameLine();
@@ -65,10 +56,7 @@ void draw_playback(const ViewerState& state, Player& player) {
     fact_row("Frame",
              formatted("%lld of %lld", static_cast<long long>(playback.frame + 1),
                        static_cast<long long>(std::max(playback.frames, playback.frame + 1))));
-    double speed = playback.speed;
-    if (number_row({"Speed", "x %.2f", 0.1, 4.0, 1.0, "[ slower, ] faster"}, speed)) {
-        player.set_speed(std::clamp(speed, 0.1, 4.0));
-    }
+    speed_row(playback.speed, player);
 }
 
 }  // namespace

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <numbers>
+#include <string>
+#include <utility>
 
 #include "app/panels/panels.hpp"
 
@@ -42,7 +45,7 @@ bool put_back_arrow(bool changed) {
 }
 
 void draw_put_back(ImDrawList& list, ImVec2 centre, float r, ImU32 colour) {
-    constexpr float kPi = 3.14159265F;
+    constexpr float kPi = std::numbers::pi_v<float>;
     list.PathArcTo(centre, r, -0.75F * kPi, 0.9F * kPi, 20);
     list.PathStroke(colour, 0, std::max(1.5F, r * 0.28F));
     const ImVec2 tip{centre.x + r * std::cos(-0.75F * kPi), centre.y + r * std::sin(-0.75F * kPi)};
@@ -99,6 +102,37 @@ void draw_icon(ImDrawList& list, Icon icon, ImVec2 centre, float r, ImU32 colour
     }
 }
 
+/// The slider ends where people work; a typed number may go on to the option's own end.
+double slider_end(const TouchNumber& option, double standard) {
+    return std::min(option.highest, standard > 0.0 ? 4.0 * standard : option.highest / 4.0);
+}
+
+std::string format_of(const TouchNumber& option, double end) {
+    const char* digits = end >= 200.0  ? "%.0f"
+                         : end >= 10.0 ? "%.1f"
+                         : end >= 1.0  ? "%.2f"
+                                       : "%.3f";
+    return option.unit.empty() ? digits : std::string(digits) + " " + std::string(option.unit);
+}
+
+void draw_number(const TouchNumber& option, TouchParameters& parameters) {
+    const double standard = option.standard();
+    const double end = slider_end(option, standard);
+    const std::string label(option.label);
+    const std::string format = format_of(option, end);
+    const std::string help = std::string(option.help) + " (--" + std::string(option.name) + ")";
+    if (number_row({.label = label.c_str(),
+                    .format = format.c_str(),
+                    .lowest = option.lowest,
+                    .highest = end,
+                    .standard = standard,
+                    .help = help.c_str(),
+                    .zero = option.zero},
+                   option.in(parameters))) {
+        keep_in_range(parameters);
+    }
+}
+
 }  // namespace
 
 bool section(const ViewerState& state, const char* title, bool& open) {
@@ -107,6 +141,14 @@ bool section(const ViewerState& state, const char* title, bool& open) {
     ImGui::PushFont(state.fonts.heading);
     open = ImGui::CollapsingHeader(title);
     ImGui::PopFont();
+    return open;
+}
+
+bool section(const ViewerState& state, const char* title, bool& open, bool& wanted) {
+    const bool asked = std::exchange(wanted, false);
+    open = open || asked;
+    section(state, title, open);
+    if (asked) ImGui::SetScrollHereY(0.0F);
     return open;
 }
 
@@ -155,6 +197,15 @@ bool index_row(const char* label, std::span<const char* const> names, int& chose
     if (put_back_arrow(chosen != standard)) chosen = standard;
     ImGui::PopID();
     return chosen != before;
+}
+
+bool text_field(const char* id, const char* hint, std::span<char> text, const char* help,
+                bool enter, float width) {
+    ImGui::SetNextItemWidth(width);
+    const bool done = ImGui::InputTextWithHint(id, hint, text.data(), text.size(),
+                                               enter ? ImGuiInputTextFlags_EnterReturnsTrue : 0);
+    explain(help);
+    return done;
 }
 
 void begin_bottom_bar(const ViewerState& state, const char* name) {
@@ -262,6 +313,12 @@ std::string clock_text(double seconds) {
     const long milliseconds = std::lround(std::max(0.0, seconds) * 1000.0);
     return formatted("%02ld:%02ld.%03ld", milliseconds / 60000, milliseconds / 1000 % 60,
                      milliseconds % 1000);
+}
+
+void draw_numbers(TouchTopic topic, TouchParameters& parameters) {
+    for (const TouchNumber& option : touch_numbers()) {
+        if (option.topic == topic) draw_number(option, parameters);
+    }
 }
 
 }  // namespace dibhr

@@ -3,16 +3,21 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "app/panels/viewer_state.hpp"
+#include "core/haptics/parameter_table.hpp"
 
 namespace dibhr {
 
 /// A collapsible section; `open` is kept by the caller.
 bool section(const ViewerState& state, const char* title, bool& open);
+
+/// The same; once `wanted`, it opens and comes into sight.
+bool section(const ViewerState& state, const char* title, bool& open, bool& wanted);
 
 /// How a number is shown, moved and put back.
 struct NumberRow {
@@ -49,6 +54,14 @@ bool choice_row(const char* label, const Table& words, Enum& chosen, const char*
     return changed;
 }
 
+/// A line to type into, as wide as `width` (negative: up to so far from the panel's edge), with
+/// what belongs there written in it. True when it changed; with `enter`, when Enter was pressed.
+bool text_field(const char* id, const char* hint, std::span<char> text, const char* help,
+                bool enter = true, float width = -1.0F);
+
+/// A row for each touch parameter of that topic, with its label, unit, range and help.
+void draw_numbers(TouchTopic topic, TouchParameters& parameters);
+
 /// The bar below the relief, as wide as it; to be ended with ImGui::End().
 void begin_bottom_bar(const ViewerState& state, const char* name);
 
@@ -71,6 +84,24 @@ enum class Icon { play, pause, step_back, step_forward, loop, put_back };
 
 /// A square button with a drawn icon and a tooltip; a lit one says that what it stands for is on.
 bool icon_button(const char* id, Icon icon, const char* help, bool lit = false);
+
+/// Play or pause, for a video or a session.
+template <typename AnyPlayer>
+void play_button(bool playing, AnyPlayer& player) {
+    if (icon_button("play", playing ? Icon::pause : Icon::play,
+                    playing ? "Pause (Space)" : "Play (Space)")) {
+        playing ? player.pause() : player.play();
+    }
+}
+
+template <typename AnyPlayer>
+void speed_row(double speed, AnyPlayer& player) {
+    constexpr double kSlowest = 0.1;
+    constexpr double kFastest = 4.0;
+    if (number_row({"Speed", "x %.2f", kSlowest, kFastest, 1.0, "[ slower, ] faster"}, speed)) {
+        player.set_speed(std::clamp(speed, kSlowest, kFastest));
+    }
+}
 
 /// A line for stderr as a sentence for the window: with a capital letter.
 std::string capitalised(std::string line);

@@ -1,11 +1,13 @@
-// Files that the viewer makes in the current folder: their names, and pictures of the window.
+// What the viewer writes: pictures of the window, and the settings a person changed.
 #pragma once
 
+#include <filesystem>
 #include <future>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/settings/settings.hpp"
 #include "core/video/media.hpp"
 
 namespace dibhr {
@@ -28,6 +30,31 @@ class Screenshots {
 
   private:
     std::vector<std::future<std::string>> writing_{};
+};
+
+/// Saves the settings a person changed in the window, a little after each change and at the end.
+class SettingsKeeper {
+  public:
+    /// `in_file`: as read; `started`: as the window started, the command line's values on top. A
+    /// value that still is what it started as stays in the file as it was.
+    SettingsKeeper(Settings in_file, Settings started, std::filesystem::path file);
+
+    /// Once a picture. Writes when a change is two seconds old. Throws InputError, once for a
+    /// change.
+    void look(const Settings& now, double now_s);
+
+    /// At the end: writes what is not yet written. Throws InputError.
+    void finish(const Settings& now);
+
+  private:
+    void save();
+
+    Settings in_file_;
+    Settings started_;
+    Settings wanted_;  // for the file
+    Settings written_;
+    std::filesystem::path file_;
+    double changed_s_{0.0};
 };
 
 }  // namespace dibhr

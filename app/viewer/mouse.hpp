@@ -3,11 +3,19 @@
 
 #include <glm/vec2.hpp>
 
-#include "app/viewer/hand_pointer.hpp"
 #include "app/window/window.hpp"
+#include "core/haptics/surface.hpp"
+#include "device/mouse_hand.hpp"
 #include "render/camera.hpp"
 
 namespace dibhr {
+
+/// What the mouse does over the relief in one picture.
+struct PointerUse {
+    bool over_relief{false};  ///< neither over a panel nor outside the window
+    bool pressed{false};      ///< left button, first pressed over the relief
+    double wheel_steps{0.0};  ///< turned while pressed, > 0: deeper
+};
 
 /// Follows the buttons from picture to picture: a press belongs to where it began.
 class ReliefMouse {
@@ -23,5 +31,26 @@ class ReliefMouse {
     Drag drag_{Drag::none};
     glm::dvec2 last_px_{0.0};
 };
+
+/// Turns the ray under the cursor into the virtual hand's target, on the surface that is seen.
+class HandPointer {
+  public:
+    /// Beside the relief the target slides on in the height last met, so that a stroke over the
+    /// edge goes on.
+    [[nodiscard]] MouseTarget target(const Camera::Ray& ray, const DepthSurface& surface,
+                                     const PointerUse& use);
+
+  private:
+    MouseTarget last_{};
+    double height_px_{0.0};
+};
+
+/// The point of the surface that a ray meets first, entering the image's rectangle through its side
+/// or from above; `met` is false when it passes by.
+struct SurfacePoint {
+    Vec3 in_grid{0.0};
+    bool met{false};
+};
+[[nodiscard]] SurfacePoint surface_under(const Camera::Ray& ray, const DepthSurface& surface);
 
 }  // namespace dibhr

@@ -117,7 +117,7 @@ void ViewerReplay::show(const SessionMoment& moment, ViewerState& state) {
     }
 }
 
-void ViewerReplay::obey_panels(ViewerState& state) {
+void ViewerReplay::follow_panels(ViewerState& state) {
     if (std::exchange(state.requests.as_recorded, false)) {
         chosen_.reset();
         state.settings.touch = recorded_;

@@ -26,7 +26,7 @@ class ViewerReplay {
     /// Once a picture, before the panels: the moment that is due, into `state`.
     void advance(ViewerState& state);
     /// After the panels: whether a person chose other parameters, or those of the recording.
-    void obey_panels(ViewerState& state);
+    void follow_panels(ViewerState& state);
 
     /// The frames of the moment that is shown.
     [[nodiscard]] DepthBlend shown() const;

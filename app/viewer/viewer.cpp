@@ -76,7 +76,7 @@ void Viewer::run() {
 }
 
 void Viewer::finish() {
-    if (loop_) loop_->stop();  // the hand is at rest before anything is written
+    if (loop_) loop_->stop();  // no force is sent any more when files are written
     std::string failure;
     const auto attempt = [&failure](auto&& step) {
         try {
@@ -96,7 +96,7 @@ void Viewer::show_one_picture() {
     const WindowInput input = window_.take_input();
     state_.in_front = input.focus.in_front();
     take_news();
-    obey_keys(input);
+    take_keys(input);
     take_dropped(input.dropped);
     state_.window_width = static_cast<float>(window_.framebuffer_size().x);
     const glm::ivec2 viewport = relief_viewport();
@@ -114,7 +114,7 @@ void Viewer::take_news() {
     if (loop_) state_.haptic = haptic_state_.front();
     if (replay_.player() != nullptr) replay_.advance(state_);
     if (const auto notice = falcon_.take_news(state_)) tell(*notice);
-    for (const Action action : falcon_.take_presses(state_)) obey(action);
+    for (const Action action : falcon_.take_presses(state_)) perform(action);
     state_.touched = state_.touched || state_.haptic.touch.proxy.contact;
     if (!state_.grants && loop_) state_.grants = loop_->grants();
     recording_.take_news(state_);
@@ -126,24 +126,24 @@ void Viewer::take_news() {
     collect_screenshots();
 }
 
-void Viewer::obey_keys(const WindowInput& input) {
+void Viewer::take_keys(const WindowInput& input) {
     if (gui_.wants_keyboard()) state_.fields.ask_for_keyboard = 0;
     // A name typed right after Ctrl+O is no key, even before the field has the keyboard.
     const bool typing = gui_.wants_keyboard() || state_.fields.ask_for_keyboard > 0;
     for (const KeyPress& press : input.keys) {
         if (const auto action = action_of_key(press.key, press.control, typing, press.repeated))
-            obey(*action);
+            perform(*action);
     }
     if (typing) return;
     for (const TypedCharacter& typed : input.characters) {
-        if (const auto action = action_of_character(typed.code, typed.repeated)) obey(*action);
+        if (const auto action = action_of_character(typed.code, typed.repeated)) perform(*action);
     }
 }
 
-void Viewer::obey(Action action) {
+void Viewer::perform(Action action) {
     SessionPlayer* const replay = replay_.player();
     if (replay != nullptr && perform_in_replay(action, *replay)) return;
-    perform(action, state_, player_);
+    dibhr::perform(action, state_, player_);
 }
 
 void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {
@@ -189,7 +189,7 @@ void Viewer::draw_panels() {
 }
 
 void Viewer::carry_out_requests() {
-    if (state_.replay) replay_.obey_panels(state_);
+    if (state_.replay) replay_.follow_panels(state_);
     const Requests asked = std::exchange(state_.requests, {});
     if (asked.open && !opening_.start(*asked.open)) tell("Still opening the last files");
     if (asked.bump) load_bump(*asked.bump);

@@ -11,14 +11,12 @@
 #include "app/settings/keys.hpp"
 #include "app/viewer/falcon.hpp"
 #include "app/viewer/files.hpp"
-#include "app/viewer/keeping.hpp"
 #include "app/viewer/mouse.hpp"
 #include "app/viewer/opening.hpp"
 #include "app/viewer/recording.hpp"
 #include "app/viewer/replay.hpp"
 #include "app/viewer/view_options.hpp"
 #include "app/window/gui.hpp"
-#include "app/window/pace.hpp"
 #include "app/window/signals.hpp"
 #include "app/window/window.hpp"
 #include "core/loop/haptic_loop.hpp"
@@ -49,8 +47,8 @@ class Viewer {
     void show_one_picture();
     void take_news();
     void take_opened();
-    void obey_keys(const WindowInput& input);
-    void obey(Action action);
+    void take_keys(const WindowInput& input);
+    void perform(Action action);
     void take_dropped(const std::vector<std::filesystem::path>& files);
     void move_hand(const WindowInput& input, glm::ivec2 viewport);
     void draw_scene(glm::ivec2 viewport);
@@ -76,7 +74,7 @@ class Viewer {
     [[nodiscard]] bool over();
     [[nodiscard]] glm::ivec2 relief_viewport() const;
 
-    // In order of making; the loop goes first, so that the hand is at rest before anything else
+    // In order of making; the loop goes first, so that no force is sent while the rest
     // ends.
     ViewOptions options_;
     EndingSignals& signals_;

@@ -1,15 +1,18 @@
 // The window, through GLFW.
 #include "app/window/window.hpp"
 
-#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <thread>
 #include <utility>
 
 #include "app/settings/settings.hpp"
 #include "core/error.hpp"
+
+#define GLFW_INCLUDE_NONE
 
 namespace dibhr {
 
@@ -166,6 +169,18 @@ void Window::toggle_full_screen() {
 
 void Window::show_picture() {
     glfwSwapBuffers(window_);
+}
+
+void PicturePace::wait() {
+    if (next_ == Clock::time_point{}) next_ = second_begin_ = Clock::now();
+    next_ = std::max(next_ + shortest_, Clock::now());
+    std::this_thread::sleep_until(next_);
+    ++pictures_;
+    const double age_s = std::chrono::duration<double>(Clock::now() - second_begin_).count();
+    if (age_s < 1.0) return;
+    pictures_per_s_ = pictures_ / age_s;
+    pictures_ = 0;
+    second_begin_ = Clock::now();
 }
 
 }  // namespace dibhr

@@ -1,6 +1,7 @@
 // The program's window with its OpenGL context, and what people did in it.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <glm/vec2.hpp>
 #include <memory>
@@ -82,6 +83,28 @@ class Window {
     WindowInput input_{};
     glm::ivec2 place_{0};  // before the full screen
     glm::ivec2 size_{0};
+};
+
+/// Waits between pictures, so that the haptic thread and the decoder keep their share of the
+/// processor, and counts them.
+class PicturePace {
+  public:
+    /// `shortest`: least time from picture to picture; zero: do not wait.
+    explicit PicturePace(std::chrono::nanoseconds shortest) : shortest_(shortest) {}
+
+    /// After a picture was shown: waits until the next one may be drawn.
+    void wait();
+
+    [[nodiscard]] double pictures_per_s() const { return pictures_per_s_; }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    std::chrono::nanoseconds shortest_;
+    Clock::time_point next_{};
+    Clock::time_point second_begin_{};
+    int pictures_{0};
+    double pictures_per_s_{0.0};
 };
 
 }  // namespace dibhr

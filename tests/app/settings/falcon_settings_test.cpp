@@ -11,7 +11,6 @@
 
 #include "app/panels/falcon_state.hpp"
 #include "app/panels/viewer_state.hpp"
-#include "app/settings/falcon_buttons.hpp"
 #include "app/settings/falcon_settings.hpp"
 #include "app/settings/settings.hpp"
 #include "app/settings/settings_list.hpp"

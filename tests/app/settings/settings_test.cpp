@@ -9,7 +9,7 @@
 #include "app/settings/settings.hpp"
 #include "app/settings/settings_list.hpp"
 #include "app/viewer/actions.hpp"
-#include "app/viewer/keeping.hpp"
+#include "app/viewer/files.hpp"
 #include "core/error.hpp"
 #include "core/haptics/parameter_table.hpp"
 #include "core/video/player.hpp"

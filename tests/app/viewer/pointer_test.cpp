@@ -3,7 +3,6 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "app/viewer/hand_pointer.hpp"
 #include "app/viewer/mouse.hpp"
 #include "app/viewer/opening.hpp"
 #include "core/error.hpp"
