@@ -9,13 +9,14 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 #include <glm/vec4.hpp>
+#include <numbers>
 
 namespace dibhr {
 namespace {
 
-constexpr double kHomeYaw_rad = 20.0 * 3.14159265358979323846 / 180.0;
-constexpr double kHomePitch_rad = 12.0 * 3.14159265358979323846 / 180.0;
-constexpr double kMostPitch_rad = 85.0 * 3.14159265358979323846 / 180.0;
+constexpr double kHomeYaw_rad = 20.0 * std::numbers::pi / 180.0;
+constexpr double kHomePitch_rad = 12.0 * std::numbers::pi / 180.0;
+constexpr double kMostPitch_rad = 85.0 * std::numbers::pi / 180.0;
 constexpr double kDistanceInRadii = 3.2;  // a calm perspective, about 35 degrees of view
 constexpr double kMargin = 1.03;          // air around the relief
 constexpr double kLeastZoom = 0.2;

@@ -1,6 +1,7 @@
 // The Loop panel: how well the 1 kHz loop keeps its time, and the strip chart of the force sent.
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
@@ -16,14 +17,12 @@ void draw_loop_panel(ViewerState& state) {
     fact_row("Rate", formatted("%.1f per second", second.rate_hz));
     fact_row("Worst tick", formatted("%.3f ms late (last second)", second.worst_lateness_ms));
     fact_row("Late ticks",
-             formatted("%llu of %llu", static_cast<unsigned long long>(haptic.late_ticks),
-                       static_cast<unsigned long long>(haptic.ticks)));
+             std::to_string(haptic.late_ticks) + " of " + std::to_string(haptic.ticks));
     fact_row("Update",
              formatted("%.2f us, worst %.1f us", second.update_us, second.worst_update_us));
     fact_row("Moves", formatted("%.2f per update", second.moves));
     if (haptic.bounds_met > 0) {
-        fact_row("Fault", formatted("%llu walks broken off",
-                                    static_cast<unsigned long long>(haptic.bounds_met)));
+        fact_row("Fault", std::to_string(haptic.bounds_met) + " walks broken off");
     }
     fact_row("Decoding", formatted("%.1f ms a frame", state.playback.decode_ms));
     fact_row("Pictures", formatted("%.0f per second", state.pictures_per_s));

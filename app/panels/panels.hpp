@@ -1,9 +1,6 @@
 // The panels, each in a file of its own. They draw, and edit the state they are given.
 #pragma once
 
-#include <optional>
-#include <vector>
-
 #include "app/panels/viewer_state.hpp"
 
 namespace dibhr {
@@ -26,9 +23,6 @@ void draw_falcon_settings(ViewerState& state);
 /// Where a person names the firmware file.
 void draw_firmware_field(ViewerState& state);
 
-/// How to home it, as a moving picture with words, and which axes are homed.
-void draw_homing_guide(const ViewerState& state);
-
 /// In a replay: whose it is, what was felt at the moment shown, its marks.
 void draw_replay_panel(ViewerState& state, SessionPlayer& replay);
 
@@ -41,16 +35,6 @@ void draw_panel_column(ViewerState& state, Player& player, SessionPlayer* replay
 void draw_transport_bar(ViewerState& state, Player& player);
 /// The same for a replay: with the contacts and marks on the time line.
 void draw_replay_bar(ViewerState& state, SessionPlayer& replay);
-
-/// A line of time to go along.
-struct TimeLineContents {
-    double now_s{0.0};  ///< from the line's beginning, like all its times
-    double length_s{0.0};
-    const ContactBand* contacts{nullptr};  ///< null: none to show
-    std::vector<SessionMark> marks{};
-};
-/// Click or drag to go there: gives back where to. `width` in pixels.
-[[nodiscard]] std::optional<double> draw_time_line(const TimeLineContents& line, float width);
 
 /// Over the relief: the force in numbers, notices; `now_s` counts from the start.
 void draw_overlay(const ViewerState& state, double now_s);

@@ -18,8 +18,7 @@ void fact_if_any(const char* label, const std::string& value) {
 }
 
 void draw_about(const ReplayNews& replay) {
-    fact_row("Session", replay.file.filename().string());
-    explain(replay.file.c_str());
+    file_row("Session", replay.file);
     fact_if_any("Participant", replay.participant);
     fact_if_any("Recorded", date_text(replay.started));
     const HandTicks hand = replay.contacts == nullptr ? HandTicks{} : replay.contacts->hand;
@@ -31,11 +30,9 @@ void draw_moment(const ViewerState& state) {
     const ReplayNews& replay = *state.replay;
     const Touch& touch = state.haptic.touch;
     fact_row("Tick", std::to_string(replay.tick.tick));
-    fact_row("Video", replay.tick.surface
-                          ? clock_text(replay.tick.video_s) +
-                                formatted(", frame %lld",
-                                          static_cast<long long>(replay.tick.frames.from_frame + 1))
-                          : "no surface");
+    fact_row("Video", replay.tick.surface ? clock_text(replay.tick.video_s) + ", frame " +
+                                                std::to_string(replay.tick.frames.from_frame + 1)
+                                          : "no surface");
     const Primitive& on = touch.proxy.active;
     fact_row("Touches", touch.proxy.contact ? formatted("%s (%d, %d)", name_of(on.kind), on.i, on.j)
                                             : std::string("nothing"));

@@ -27,8 +27,7 @@ void draw_switch(ViewerState& state) {
 
 void draw_progress(const RecordingNews& recording) {
     const RecorderStatus& status = recording.status;
-    fact_row("File", recording.file.filename().string());
-    explain(recording.file.c_str());
+    file_row("File", recording.file);
     fact_row("Time", clock_text(recording.time_s));
     fact_row("Ticks", std::to_string(status.rows));
     const double per_minute = status.bytes_per_minute / kBytesPerMegabyte;
@@ -70,8 +69,7 @@ void draw_session_panel(ViewerState& state) {
     if (state.recording) {
         draw_progress(*state.recording);
     } else if (!state.recorded_file.empty()) {
-        fact_row("Recorded", state.recorded_file.filename().string());
-        explain(state.recorded_file.c_str());
+        file_row("Recorded", state.recorded_file);
         if (ImGui::Button("Replay it", {-1.0F, 0.0F})) {
             state.requests.open = OpenRequest{.colour = state.recorded_file};
         }

@@ -32,10 +32,8 @@ void draw_open(ViewerState& state) {
 }
 
 void draw_files(const MediaDescription& media) {
-    fact_row("Colour", media.colour_path.filename().string());
-    explain(media.colour_path.c_str());
-    fact_row("Depth", media.depth_path.filename().string());
-    explain(media.depth_path.c_str());
+    file_row("Colour", media.colour_path);
+    file_row("Depth", media.depth_path);
     fact_row("Size", formatted("%d x %d", media.colour_columns, media.colour_rows));
     fact_row("Depth size",
              formatted("%d x %d, %d bit", media.depth_columns, media.depth_rows, media.depth_bits));
@@ -53,9 +51,8 @@ void draw_playback(const ViewerState& state, Player& player) {
     if (ImGui::Checkbox("Loop", &looping)) player.set_looping(looping);
     explain("Start again at the end (L)");
     fact_row("Time", clock_text(playback.media_s) + " of " + clock_text(playback.duration_s));
-    fact_row("Frame",
-             formatted("%lld of %lld", static_cast<long long>(playback.frame + 1),
-                       static_cast<long long>(std::max(playback.frames, playback.frame + 1))));
+    fact_row("Frame", std::to_string(playback.frame + 1) + " of " +
+                          std::to_string(std::max(playback.frames, playback.frame + 1)));
     speed_row(playback.speed, player);
 }
 

@@ -208,18 +208,6 @@ bool text_field(const char* id, const char* hint, std::span<char> text, const ch
     return done;
 }
 
-void begin_bottom_bar(const ViewerState& state, const char* name) {
-    const ImVec2 display = ImGui::GetIO().DisplaySize;
-    const ImGuiStyle& style = ImGui::GetStyle();
-    const float height = ImGui::GetFrameHeight() + 2.0F * style.WindowPadding.y;
-    ImGui::SetNextWindowPos({0.0F, display.y - height});
-    ImGui::SetNextWindowSize({display.x - panel_column_width(state), height});
-    ImGui::SetNextWindowBgAlpha(0.85F);
-    ImGui::Begin(name, nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
-}
-
 void fact_row(const char* label, const std::string& value) {
     const float begin = ImGui::GetCursorPosX();
     const float width = ImGui::GetContentRegionAvail().x;
@@ -228,6 +216,11 @@ void fact_row(const char* label, const std::string& value) {
     ImGui::PushTextWrapPos(begin + width);
     ImGui::TextUnformatted(value.c_str());
     ImGui::PopTextWrapPos();
+}
+
+void file_row(const char* label, const std::filesystem::path& file) {
+    fact_row(label, file.filename().string());
+    explain(file.c_str());
 }
 
 void explain(const char* text) {

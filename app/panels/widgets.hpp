@@ -62,11 +62,11 @@ bool text_field(const char* id, const char* hint, std::span<char> text, const ch
 /// A row for each touch parameter of that topic, with its label, unit, range and help.
 void draw_numbers(TouchTopic topic, TouchParameters& parameters);
 
-/// The bar below the relief, as wide as it; to be ended with ImGui::End().
-void begin_bottom_bar(const ViewerState& state, const char* name);
-
 /// A name and a value to read.
 void fact_row(const char* label, const std::string& value);
+
+/// The same for a file: its name, and the whole path as a tooltip.
+void file_row(const char* label, const std::filesystem::path& file);
 
 /// The tooltip of the last item.
 void explain(const char* text);

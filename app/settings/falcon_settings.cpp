@@ -12,8 +12,8 @@ using Settings = FalconSettings;
 
 constexpr double kMillimetres = 1000.0;  // in a metre
 
-// The constants of the mechanism: fact sheet, section 10, libnifalcon's set; the helps give Martin
-// & Hillier's where it differs. The ranges keep a mechanism that can be built.
+// The constants of the mechanism: libnifalcon's set, see device/falcon/README.md; the helps give
+// Martin & Hillier's where it differs. The ranges keep a mechanism that can be built.
 constexpr std::array kNumbers{
     FalconNumber{FalconTopic::workspace, "scale", "Scale", "x %.2f", 1.0, 0.1, 10.0,
                  "Image millimetres a hand millimetre. A larger image is softer under the hand: "
@@ -40,8 +40,7 @@ constexpr std::array kNumbers{
     FalconNumber{FalconTopic::workspace, "boundary-stiffness", "Boundary", "%.2f N/mm", 1.0, 0.0,
                  0.5, "How hard the boundary of the usable volume is; 0: none",
                  [](Settings& s) -> double& { return s.workspace.boundary_newton_per_mm; }},
-    // Fact sheet, section 11. No source is above 10000, so a higher scale is a mistake in the
-    // making.
+    // No source is above 10000, so a higher scale is a mistake in the making.
     FalconNumber{FalconTopic::motors, "counts-per-newton-metre", "Torque scale", "%.0f / N m", 1.0,
                  1000.0, 10000.0,
                  "Motor counts a newton metre at the thigh. Nobody has measured it: 10000 is "

@@ -5,7 +5,6 @@
 
 #include "app/panels/widgets.hpp"
 #include "app/viewer/viewer.hpp"
-#include "core/error.hpp"
 
 namespace dibhr {
 
@@ -57,20 +56,10 @@ void Viewer::frame_relief() {
 }
 
 void Viewer::load_bump(const std::filesystem::path& file) {
-    try {
+    attempt([&] {
         state_.bump = file.empty() ? nullptr : std::make_shared<const BumpMap>(read_bump_map(file));
         state_.bump_file = file;
-    } catch (const Error& error) {
-        state_.message = error.what();
-    }
-}
-
-void Viewer::load_firmware(const std::filesystem::path& file) {
-    try {
-        tell(falcon_.use_firmware(file, state_));
-    } catch (const Error& error) {
-        state_.message = error.what();
-    }
+    });
 }
 
 void Viewer::start_loop() {

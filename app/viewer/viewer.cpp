@@ -78,17 +78,17 @@ void Viewer::run() {
 void Viewer::finish() {
     if (loop_) loop_->stop();  // no force is sent any more when files are written
     std::string failure;
-    const auto attempt = [&failure](auto&& step) {
+    const auto try_to = [&failure](auto&& step) {
         try {
             step();
         } catch (const Error& error) {
             if (failure.empty()) failure = error.what();
         }
     };
-    attempt([this] { write_last_picture(); });
-    attempt([this] { keeper_.finish(replay_.lasting(state_)); });
-    attempt([this] { screenshots_.finish(); });
-    attempt([this] { recording_.finish(); });
+    try_to([this] { write_last_picture(); });
+    try_to([this] { keeper_.finish(replay_.lasting(state_)); });
+    try_to([this] { screenshots_.finish(); });
+    try_to([this] { recording_.finish(); });
     if (!failure.empty()) throw InputError(failure);
 }
 
@@ -123,7 +123,9 @@ void Viewer::take_news() {
     take_opened();
     tell_once(state_.replay ? state_.replay->playback.failure : state_.playback.failure,
               playback_failure_);
-    collect_screenshots();
+    attempt([this] {
+        while (const auto notice = screenshots_.take()) tell(*notice);
+    });
 }
 
 void Viewer::take_keys(const WindowInput& input) {
@@ -193,7 +195,7 @@ void Viewer::carry_out_requests() {
     const Requests asked = std::exchange(state_.requests, {});
     if (asked.open && !opening_.start(*asked.open)) tell("Still opening the last files");
     if (asked.bump) load_bump(*asked.bump);
-    if (asked.firmware) load_firmware(*asked.firmware);
+    if (asked.firmware) attempt([&] { tell(falcon_.use_firmware(*asked.firmware, state_)); });
     if (asked.reset_view) frame_relief();
     if (asked.full_screen) window_.toggle_full_screen();
     if (asked.toggle_recording) start_or_stop_recording();
@@ -231,11 +233,7 @@ void Viewer::keep_settings() {
     const glm::ivec2 size = window_.window_size();
     state_.settings.width = size.x;
     state_.settings.height = size.y;
-    try {
-        keeper_.look(replay_.lasting(state_), now_s());
-    } catch (const InputError& error) {
-        state_.message = error.what();
-    }
+    attempt([this] { keeper_.look(replay_.lasting(state_), now_s()); });
 }
 
 void Viewer::start_or_stop_recording() {
@@ -246,22 +244,12 @@ void Viewer::start_or_stop_recording() {
     } else if (handed_.recording) {
         state_.requests.toggle_recording = true;  // when the loop has seen the last one's end
     } else {
-        try {
+        attempt([this] {
             const std::string file = new_file_name("dibhr");
             recording_.start(file, state_);
             state_.show_session = true;
             tell("Recording into " + file);
-        } catch (const InputError& error) {
-            state_.message = error.what();
-        }
-    }
-}
-
-void Viewer::collect_screenshots() {
-    try {
-        while (const auto notice = screenshots_.take()) tell(*notice);
-    } catch (const InputError& error) {
-        state_.message = error.what();
+        });
     }
 }
 

@@ -19,6 +19,7 @@
 #include "app/window/gui.hpp"
 #include "app/window/signals.hpp"
 #include "app/window/window.hpp"
+#include "core/error.hpp"
 #include "core/loop/haptic_loop.hpp"
 #include "device/hand_device.hpp"
 #include "render/camera.hpp"
@@ -62,12 +63,19 @@ class Viewer {
     void start_loop();
     void frame_relief();
     void load_bump(const std::filesystem::path& file);
-    void load_firmware(const std::filesystem::path& file);
     void start_or_stop_recording();
-    void collect_screenshots();
     void finish();
     void write_last_picture();
     void tell(const std::string& notice);
+    /// Takes a step; its failure goes into the message box, and the program goes on.
+    template <typename Step>
+    void attempt(const Step& step) {
+        try {
+            step();
+        } catch (const Error& error) {
+            state_.message = error.what();
+        }
+    }
     /// A message box when another thread's failure is not the one `told` before.
     void tell_once(const std::string& failure, std::string& told);
     [[nodiscard]] double now_s() const;

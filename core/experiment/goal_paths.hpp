@@ -2,12 +2,13 @@
 // speed.
 #pragma once
 
+#include "core/haptics/parameters.hpp"
 #include "core/haptics/vec.hpp"
 
 namespace dibhr {
 
-/// 700 mm/s x 720 px / 101.6 mm at 1 kHz: px per update.
-inline constexpr double kHandStep_px = 700.0 * 720.0 / 101.6 / 1000.0;
+/// 700 mm/s at 1 kHz: px per update.
+inline constexpr double kHandStep_px = 700.0 / kPaperPitch_mm / 1000.0;
 
 /// Where the paper's runs take place: the middle of an image, the goal `depth_px` below elevation
 /// `surface_px`.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <random>
 #include <utility>
 
@@ -12,7 +13,7 @@ namespace dibhr {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kPi = std::numbers::pi;
 constexpr double kUpdate_s = 1e-3;
 constexpr double kTremor_px = 0.25;
 constexpr double kLightest_px = 6.0;

@@ -17,7 +17,6 @@
 namespace dibhr {
 namespace {
 
-constexpr double kDegPerRad = 180.0 / 3.14159265358979323846;
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLeastError_deg = 1e-15;  // drawn for less: an error of 0 has no logarithm
 // Directions from -90 to 270 degrees: the line's 0 and 180 are away from the ends.

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "core/experiment/plots.hpp"
+#include "core/metrics/force_variation.hpp"
 #include "core/plot/axes.hpp"
 #include "core/plot/style.hpp"
 
 namespace dibhr {
 namespace {
 
-constexpr double kDegPerRad = 180.0 / 3.14159265358979323846;
 constexpr std::size_t kMostColumns = 8;
 constexpr Box kPanels{110.0, 130.0, 1560.0, 820.0};
 constexpr double kGap_px = 16.0;

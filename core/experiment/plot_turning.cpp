@@ -14,8 +14,6 @@
 namespace dibhr {
 namespace {
 
-constexpr double kDegPerRad = 180.0 / 3.14159265358979323846;
-
 /// Turn of each update [deg]; NaN where one of the two was not in contact.
 std::vector<Vec2> turns_deg(const PathRun& path, std::span<const Vec3> proxies,
                             std::span<const char> contact, UpdateSpan updates) {

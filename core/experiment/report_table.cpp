@@ -9,12 +9,12 @@
 
 #include "core/experiment/paper_table.hpp"
 #include "core/experiment/sweep.hpp"
+#include "core/metrics/force_variation.hpp"
 
 namespace dibhr {
 
 namespace {
 
-constexpr double kDegPerRad = 180.0 / 3.14159265358979323846;
 constexpr int kNameWidth = 16;
 constexpr int kPaperWidth = 15;
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "core/haptics/parameters.hpp"
 #include "core/haptics/safety.hpp"
 #include "core/haptics/surface.hpp"
 #include "core/haptics/vec.hpp"
@@ -26,7 +27,7 @@ inline constexpr DeviceLimits kVirtualHandLimits{.max_stiffness_newton_per_mm = 
 struct HandContext {
     double dt_s{0.001};
     const DepthSurface& surface;
-    double pixel_pitch_mm{101.6 / 720.0};
+    double pixel_pitch_mm{kPaperPitch_mm};
 };
 
 /// One reading, already in grid space: only `device` knows its own millimetres.

@@ -10,8 +10,6 @@ namespace dibhr {
 
 namespace {
 
-constexpr double kDegPerRad = 180.0 / 3.14159265358979323846;
-
 /// Mean and standard deviation, gathered one by one (Welford).
 class Spread {
   public:

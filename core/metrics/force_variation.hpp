@@ -3,12 +3,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <span>
 #include <vector>
 
 #include "core/haptics/vec.hpp"
 
 namespace dibhr {
+
+inline constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 /// How the direction of the force turned from one update to the next, both in contact [deg].
 struct VariationStatistics {

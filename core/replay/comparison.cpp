@@ -16,7 +16,6 @@ namespace dibhr {
 namespace {
 
 constexpr std::size_t kMostKept = std::size_t{1} << 20;
-constexpr double kDegPerRad = 180.0 / 3.14159265358979323846;
 constexpr int kNameWidth = 14;
 constexpr int kCellWidth = 10;
 

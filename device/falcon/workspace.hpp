@@ -1,6 +1,7 @@
 // Where the grip's point is in the image: scale, offset, clutch, and the soft boundary.
 #pragma once
 
+#include "core/haptics/parameters.hpp"
 #include "core/haptics/vec.hpp"
 
 namespace dibhr::falcon {
@@ -24,7 +25,7 @@ struct ImageFrame {
     int columns{0};
     int rows{0};
     double relief_px{0.0};
-    double pixel_pitch_mm{101.6 / 720.0};
+    double pixel_pitch_mm{kPaperPitch_mm};
 };
 
 /// Lays the device's millimetres over the image; the clutch shifts it. No allocation. Options and
