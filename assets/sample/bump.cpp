@@ -12,11 +12,12 @@ namespace {
 
 /// Stretches to the whole of 0..255.
 std::vector<std::uint8_t> stretched(const std::vector<float>& height) {
-    const auto [low, high] = std::minmax_element(height.begin(), height.end());
-    const float scale = 255.0F / (*high - *low);
+    const auto ends = std::minmax_element(height.begin(), height.end());
+    const float low = *ends.first;
+    const float scale = 255.0F / (*ends.second - low);
     std::vector<std::uint8_t> bytes(height.size());
     std::transform(height.begin(), height.end(), bytes.begin(), [&](float x) {
-        return static_cast<std::uint8_t>(std::lround((x - *low) * scale));
+        return static_cast<std::uint8_t>(std::lround((x - low) * scale));
     });
     return bytes;
 }

@@ -2,7 +2,6 @@
 #include "core/haptics/collision.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -88,8 +87,8 @@ class CellCorners {
     }
 
   private:
-    std::array<double, 2> first_row_;
-    std::array<double, 2> second_row_;
+    double first_row_[2];
+    double second_row_[2];
 };
 
 /// Walks one segment cell by cell; `t_` is how far it has come.

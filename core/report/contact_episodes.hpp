@@ -44,6 +44,13 @@ struct Episode {
     }
 };
 
+/// An episode going on; what will be means are sums over time.
+struct OpenEpisode {
+    Episode episode{};
+    std::int64_t last_tick{0};
+    Vec3 last_proxy_px{0.0};
+};
+
 /// An episode also ends where the hand lets go or another video comes.
 class ContactEpisodes {
   public:
@@ -54,19 +61,12 @@ class ContactEpisodes {
     [[nodiscard]] std::vector<Episode> finish();
 
   private:
-    /// An episode going on; what will be means are sums over time.
-    struct Open {
-        Episode episode{};
-        std::int64_t last_tick{0};
-        Vec3 last_proxy_px{0.0};
-    };
-
     void begin(const TickRecord& tick);
     void go_on(const TickRecord& tick, double pitch_mm);
     void end();
 
     std::vector<Episode> episodes_{};
-    std::optional<Open> open_{};
+    std::optional<OpenEpisode> open_{};
 };
 
 }  // namespace dibhr
