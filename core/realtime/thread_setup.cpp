@@ -23,8 +23,8 @@ namespace {
 // Above ordinary real-time services (50 is the kernel's interrupt threads), below the watchdogs
 // at 99.
 constexpr int kPriority = 80;
-constexpr std::size_t kLongestThreadName = 15;  // the kernel's limit
-constexpr std::size_t kStackTouched_bytes = 128 * 1024;
+constexpr std::size_t kLongestThreadName = 15;       // the kernel's limit
+constexpr std::size_t kStackTouched_bytes = 131072;  // 128 KiB
 
 void name_thread(const char* thread_name) {
     const std::string name = std::string(thread_name).substr(0, kLongestThreadName);

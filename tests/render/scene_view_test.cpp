@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
+#include <initializer_list>
 #include <random>
 #include <vector>
 
@@ -337,7 +338,8 @@ TEST_CASE("drawing leaves the framebuffer to others: no depth test, blending or 
     glGetIntegerv(GL_FRAMEBUFFER_BINDING, &framebuffer);
     CHECK(viewport[2] == 30);
     CHECK(framebuffer == 0);
-    for (const GLenum state : {GL_DEPTH_TEST, GL_BLEND, GL_SCISSOR_TEST, GL_CULL_FACE}) {
+    for (const GLenum state :
+         std::initializer_list<GLenum>{GL_DEPTH_TEST, GL_BLEND, GL_SCISSOR_TEST, GL_CULL_FACE}) {
         CHECK(glIsEnabled(state) == GL_FALSE);
     }
     view.draw(content, straight(8, 8), {0, 0});  // a minimised window

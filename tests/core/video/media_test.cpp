@@ -135,7 +135,8 @@ TEST_CASE("each depth frame comes with the colour shown at its time, whatever th
     CHECK(media->description().depth_path == folder / "depth.mkv");
     CHECK(media->description().colour_columns == 96);
     CHECK(media->description().depth_columns == 64);
-    const auto paired = [&](const RawFrame& frame) {
+    const auto paired = [colour_rate = colour_rate,
+                         depth_rate = depth_rate](const RawFrame& frame) {
         const double exact = static_cast<double>(frame_of(frame.depth)) * colour_rate / depth_rate;
         const int newest = static_cast<int>(std::floor(exact + 0.01));
         CHECK(frame_of(frame.colour) == std::min(newest, colour_rate - 1));

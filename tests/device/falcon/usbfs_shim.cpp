@@ -125,10 +125,11 @@ bool in_simulated_kernel() noexcept {
 namespace bench = dibhr::test::falcon;
 
 // A race that the thread sanitizer saw in them it would report through them, and wait for itself.
+#define SEEN_BY_LIBRARIES __attribute__((visibility("default"), no_sanitize("thread")))
+
 extern "C" {
 
-[[gnu::visibility("default"), gnu::no_sanitize("thread")]] int open(const char* path, int flags,
-                                                                    ...) {
+SEEN_BY_LIBRARIES int open(const char* path, int flags, ...) {
     if (auto unit = bench::unit_at(path)) return bench::open_unit(std::move(unit));
     va_list arguments;
     va_start(arguments, flags);
@@ -138,8 +139,7 @@ extern "C" {
     return next(path, flags, mode);
 }
 
-[[gnu::visibility("default"), gnu::no_sanitize("thread")]] int open64(const char* path, int flags,
-                                                                      ...) {
+SEEN_BY_LIBRARIES int open64(const char* path, int flags, ...) {
     if (auto unit = bench::unit_at(path)) return bench::open_unit(std::move(unit));
     va_list arguments;
     va_start(arguments, flags);
@@ -150,23 +150,19 @@ extern "C" {
 }
 
 // Debian's libusb is built with _FORTIFY_SOURCE: its usbfs open() is a call to one of these.
-[[gnu::visibility("default"), gnu::no_sanitize("thread")]] int __open_2(
-    const char* path, int flags) {  // NOLINT: its name
+SEEN_BY_LIBRARIES int __open_2(const char* path, int flags) {  // NOLINT: its name
     if (auto unit = bench::unit_at(path)) return bench::open_unit(std::move(unit));
     static const auto next = bench::next_in_line<int (*)(const char*, int)>("__open_2");
     return next(path, flags);
 }
 
-[[gnu::visibility("default"), gnu::no_sanitize("thread")]] int __open64_2(
-    const char* path, int flags) {  // NOLINT: its name
+SEEN_BY_LIBRARIES int __open64_2(const char* path, int flags) {  // NOLINT: its name
     if (auto unit = bench::unit_at(path)) return bench::open_unit(std::move(unit));
     static const auto next = bench::next_in_line<int (*)(const char*, int)>("__open64_2");
     return next(path, flags);
 }
 
-[[gnu::visibility("default"), gnu::no_sanitize("thread")]] int ioctl(int descriptor,
-                                                                     unsigned long request,
-                                                                     ...) noexcept {
+SEEN_BY_LIBRARIES int ioctl(int descriptor, unsigned long request, ...) noexcept {
     va_list arguments;
     va_start(arguments, request);
     void* const argument = va_arg(arguments, void*);
@@ -178,7 +174,7 @@ extern "C" {
     return next(descriptor, request, argument);
 }
 
-[[gnu::visibility("default"), gnu::no_sanitize("thread")]] int close(int descriptor) {
+SEEN_BY_LIBRARIES int close(int descriptor) {
     if (bench::opened_at(descriptor) != nullptr) bench::close_unit(descriptor);
     static const auto next = bench::next_in_line<int (*)(int)>("close");
     return next(descriptor);
