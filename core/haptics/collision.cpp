@@ -78,7 +78,8 @@ class CellCorners {
         std::swap(first_row_, second_row_);
         auto& fresh = step > 0 ? second_row_ : first_row_;
         const int row = step > 0 ? j + 1 : j;
-        fresh = {surface.elevation(i, row), surface.elevation(i + 1, row)};
+        fresh[0] = surface.elevation(i, row);
+        fresh[1] = surface.elevation(i + 1, row);
     }
 
     [[nodiscard]] double highest() const noexcept {
