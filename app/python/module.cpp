@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <exception>
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace py = pybind11;
 
@@ -13,12 +15,15 @@ namespace {
 
 /// The classes of the errors are the package's own.
 void raise(const char* name, const std::exception& error) {
-    PyErr_SetString(py::module_::import("dibhr").attr(name).ptr(), error.what());
+    const std::string_view text = error.what();  // names of files need not be UTF-8
+    const auto words = py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(
+        text.data(), static_cast<py::ssize_t>(text.size()), "backslashreplace"));
+    PyErr_SetObject(py::module_::import("dibhr").attr(name).ptr(), words.ptr());
 }
 
 void translate(std::exception_ptr thrown) {
     try {
-        std::rethrow_exception(thrown);
+        std::rethrow_exception(std::move(thrown));
     } catch (const InputError& error) {
         raise("InputError", error);
     } catch (const BusyError& error) {

@@ -91,7 +91,8 @@ std::int64_t read_ticks(const Session& session, double begin_s, double end_s,
 }
 
 py::object path_of(const SessionMedia& media) {
-    return media.file.empty() ? py::none() : py::cast(media.file.string());
+    if (media.file.empty()) return py::none();
+    return py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefault(media.file.c_str()));
 }
 
 py::list parameters_of(const Session& session) {

@@ -63,6 +63,7 @@ const std::vector<Room> kRooms{
      {"app/viewer/", "app/panels/", "app/settings/", "app/window/", "render/", "device/", "core/"}},
     {"app/commands/",
      {"app/commands/", "app/viewer/", "app/settings/", "app/window/", "device/", "core/"}},
+    {"app/python/", {"app/python/", "core/haptics/", "core/session/", "core/error.hpp"}},
     {"app/", {"app/", "core/"}},
 };
 
@@ -81,6 +82,7 @@ const std::vector<Ownership> kOwnerships{
     {"GLFW/", {"app/window/", "app/settings/keys.cpp"}},
     {"CLI/", {"app/settings/", "app/commands/"}},
     {"toml", {"app/settings/"}},
+    {"pybind11/", {"app/python/"}},
     {"opencv2/", {"core/video/", "core/plot/", "assets/"}},
 };
 
@@ -210,6 +212,7 @@ TEST_CASE("the checks of the arrows find what they are there to find", "[rooms]"
     CHECK(breaks_arrow({"core/experiment/sweep.cpp", "core/report/report_page.hpp", true}));
     CHECK(breaks_arrow({"core/report/report_page.cpp", "core/experiment/sweep.hpp", true}));
     CHECK(breaks_arrow({"app/panels/touch.cpp", "app/viewer/viewer.hpp", true}));
+    CHECK(breaks_arrow({"app/python/session.cpp", "app/settings/settings.hpp", true}));
     CHECK(breaks_arrow({"device/falcon/link.cpp", "device/mouse_hand.hpp", true}));
     CHECK_FALSE(breaks_arrow({"app/main.cpp", "core/error.hpp", true}));
     CHECK_FALSE(breaks_arrow({"render/relief_pass.cpp", "shader_sources.hpp", true}));

@@ -42,7 +42,7 @@ class Session:
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         try:
-            self._core = _dibhr.Session(os.fspath(path))
+            self._core = _dibhr.Session(os.fsencode(path))
         except InputError as error:
             if os.path.exists(path):
                 raise

@@ -89,6 +89,13 @@ class Sessions(FolderTest):
         rows = renderer.run(dibhr.vectors(ticks, "g"), ticks["t"])
         np.testing.assert_array_equal(dibhr.vectors(rows, "g"), dibhr.vectors(ticks, "g"))
 
+    def test_may_have_any_name(self):
+        name = self.folder / os.fsdecode(b"m\xff \xc3\xa9%?.dibhr")
+        with self.assertRaises(FileNotFoundError):
+            dibhr.Session(name)
+        self.file.rename(name)
+        self.assertEqual(len(dibhr.Session(str(name)).ticks()), TICKS)
+
     def test_that_cannot_be_read_are_errors_in_the_programs_words(self):
         (self.folder / "text.dibhr").write_text("no session\n" * 1000)
         (self.folder / "cut.dibhr").write_bytes(self.file.read_bytes()[:5000])
