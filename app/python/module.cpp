@@ -36,11 +36,10 @@ void translate(std::exception_ptr thrown) {
 /// (name, label, unit, lowest, highest, default, help) of each.
 py::list table_of_numbers() {
     py::list table;
-    TouchParameters defaults;
     for (const TouchNumber& number : touch_numbers()) {
         table.append(py::make_tuple(keyword_of(number), std::string(number.label),
                                     std::string(number.unit), number.lowest, number.highest,
-                                    number.in(defaults), std::string(number.help)));
+                                    number.standard(), std::string(number.help)));
     }
     return table;
 }

@@ -98,11 +98,10 @@ py::object path_of(const SessionMedia& media) {
 py::list parameters_of(const Session& session) {
     py::list all;
     for (const SessionParameters& version : session.parameters()) {
-        TouchParameters values = version.touch;
         py::dict touch;
-        touch["algorithm"] = name_of(values.algorithm);
+        touch["algorithm"] = name_of(version.touch.algorithm);
         for (const TouchNumber& number : touch_numbers()) {
-            touch[keyword_of(number)] = number.in(values);
+            touch[keyword_of(number)] = number.of(version.touch);
         }
         touch["max_force"] = version.limits.max_force_newton;
         all.append(py::dict(py::arg("version") = version.version,
