@@ -18,15 +18,18 @@ ImU32 with_alpha(ImGuiCol colour, float alpha) {
     return ImGui::GetColorU32(value);
 }
 
+void draw_ground(ImVec2 low, ImVec2 size, float alpha) {
+    ImGui::GetBackgroundDrawList()->AddRectFilled(low, {low.x + size.x, low.y + size.y},
+                                                  with_alpha(ImGuiCol_PopupBg, alpha), 5.0F);
+}
+
 /// Text on a dark rounded ground, so that it can be read over any picture.
 void label(const std::string& text, ImVec2 low, float alpha) {
-    ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
     const ImVec2 pad = ImGui::GetStyle().FramePadding;
-    list.AddRectFilled({low.x, low.y},
-                       {low.x + size.x + 2.0F * pad.x, low.y + size.y + 2.0F * pad.y},
-                       with_alpha(ImGuiCol_PopupBg, 0.8F * alpha), 5.0F);
-    list.AddText({low.x + pad.x, low.y + pad.y}, with_alpha(ImGuiCol_Text, alpha), text.c_str());
+    draw_ground(low, {size.x + 2.0F * pad.x, size.y + 2.0F * pad.y}, 0.8F * alpha);
+    ImGui::GetBackgroundDrawList()->AddText({low.x + pad.x, low.y + pad.y},
+                                            with_alpha(ImGuiCol_Text, alpha), text.c_str());
 }
 
 /// What the Falcon lacks, at the top in the middle of the relief, as wide as there is room.
@@ -38,12 +41,11 @@ void draw_banner(const ViewerState& state, const std::string& text) {
     const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
     const ImVec2 pad = style.WindowPadding;
     const ImVec2 low{(room - size.x) * 0.5F, 3.2F * ImGui::GetFrameHeight()};
-    ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    list.AddRectFilled({low.x - pad.x, low.y - pad.y},
-                       {low.x + size.x + pad.x, low.y + size.y + pad.y},
-                       with_alpha(ImGuiCol_PopupBg, 0.88F), 5.0F);
-    list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), low, with_alpha(ImGuiCol_Text, 1.0F),
-                 text.c_str(), nullptr, wrap);
+    draw_ground({low.x - pad.x, low.y - pad.y}, {size.x + 2.0F * pad.x, size.y + 2.0F * pad.y},
+                0.88F);
+    ImGui::GetBackgroundDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(), low,
+                                            with_alpha(ImGuiCol_Text, 1.0F), text.c_str(), nullptr,
+                                            wrap);
 }
 
 void centred_label(const ViewerState& state, const std::string& text, float lines_above_bar,

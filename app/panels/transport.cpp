@@ -98,6 +98,24 @@ std::optional<double> draw_time_line(const TimeLineContents& line, float width) 
     return {};
 }
 
+/// The line, as long as it can be with `right_of_line` pixels free beside the time. Gives back
+/// where to go.
+std::optional<double> draw_line_and_time(const TimeLineContents& line, float right_of_line) {
+    const std::string time = clock_text(line.now_s) + " / " + clock_text(line.length_s);
+    const float beside = ImGui::CalcTextSize(time.c_str()).x + right_of_line;
+    const float width =
+        ImGui::GetContentRegionAvail().x - beside - 2.0F * ImGui::GetStyle().ItemSpacing.x;
+    std::optional<double> wanted_s;
+    if (width > 40.0F) {
+        wanted_s = draw_time_line(line, width);
+        ImGui::SameLine();
+    }
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(time.c_str());
+    ImGui::SameLine();
+    return wanted_s;
+}
+
 /// As wide as the relief; to be ended with ImGui::End().
 void begin_bottom_bar(const ViewerState& state, const char* name) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
@@ -115,23 +133,15 @@ void draw_playback(const ViewerState& state, Player& player, float right_of_line
     const PlaybackStatus& playback = state.playback;
     play_button(playback.playing, player);
     ImGui::SameLine();
-    const std::string time = clock_text(playback.media_s) + " / " + clock_text(playback.duration_s);
-    const std::string frame = formatted("frame %lld", static_cast<long long>(playback.frame + 1));
+    const float frame_width = ImGui::CalcTextSize("frame 00000").x;
     const float gap = ImGui::GetStyle().ItemSpacing.x;
-    const float texts =
-        ImGui::CalcTextSize(time.c_str()).x + gap + ImGui::CalcTextSize("frame 00000").x;
-    const float line = ImGui::GetContentRegionAvail().x - texts - 2.0F * gap - right_of_line;
-    if (line > 40.0F) {
-        const TimeLineContents times{.now_s = playback.media_s, .length_s = playback.duration_s};
-        if (const auto wanted_s = draw_time_line(times, line)) player.seek(*wanted_s);
-        ImGui::SameLine();
+    const TimeLineContents times{.now_s = playback.media_s, .length_s = playback.duration_s};
+    if (const auto wanted_s = draw_line_and_time(times, frame_width + gap + right_of_line)) {
+        player.seek(*wanted_s);
     }
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(time.c_str());
-    ImGui::SameLine();
     const float begin = ImGui::GetCursorPosX();
-    ImGui::TextDisabled("%s", frame.c_str());
-    ImGui::SameLine(begin + ImGui::CalcTextSize("frame 00000").x + gap);
+    ImGui::TextDisabled("frame %lld", static_cast<long long>(playback.frame + 1));
+    ImGui::SameLine(begin + frame_width + gap);
 }
 
 void draw_buttons(const SessionPlayback& playback, SessionPlayer& replay) {
@@ -175,25 +185,17 @@ void draw_transport_bar(ViewerState& state, Player& player) {
 }
 
 void draw_replay_bar(ViewerState& state, SessionPlayer& replay) {
-    const ImGuiStyle& style = ImGui::GetStyle();
     begin_bottom_bar(state, "Replay");
     const SessionPlayback& playback = state.replay->playback;
     draw_buttons(playback, replay);
     ImGui::SameLine();
     const TimeLineContents line = line_of(*state.replay);
-    const std::string time = clock_text(line.now_s) + " / " + clock_text(line.length_s);
     const std::string video = "video " + clock_text(state.replay->tick.video_s);
-    const float texts = ImGui::CalcTextSize(time.c_str()).x + ImGui::CalcTextSize(video.c_str()).x;
-    const float width = ImGui::GetContentRegionAvail().x - texts - 3.0F * style.ItemSpacing.x;
-    if (width > 40.0F) {
-        if (const auto wanted_s = draw_time_line(line, width)) {
-            replay.seek(playback.begin_s + *wanted_s);
-        }
-        ImGui::SameLine();
+    const float right_of_line =
+        ImGui::CalcTextSize(video.c_str()).x + ImGui::GetStyle().ItemSpacing.x;
+    if (const auto wanted_s = draw_line_and_time(line, right_of_line)) {
+        replay.seek(playback.begin_s + *wanted_s);
     }
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(time.c_str());
-    ImGui::SameLine();
     ImGui::TextDisabled("%s", video.c_str());
     ImGui::End();
 }

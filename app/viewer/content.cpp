@@ -1,12 +1,60 @@
-// What the viewer shows: a video to touch or a session to replay, and the files that go with it.
+// What the viewer shows: a video to touch or a session to replay, the files that go with it, and
+// the scene made of them.
 #include <filesystem>
+#include <glm/geometric.hpp>
 #include <memory>
 #include <utility>
 
 #include "app/panels/widgets.hpp"
 #include "app/viewer/viewer.hpp"
+#include "core/haptics/facet.hpp"
+#include "core/haptics/surface.hpp"
 
 namespace dibhr {
+
+namespace {
+
+Vec3 normal_at(const DepthSurface& surface, Vec3 p) {
+    const Vec3 inside = surface.clamped_to_frame(p);
+    const Facet facet(surface, surface.triangle_at(inside.x, inside.y));
+    return glm::normalize(Vec3{-facet.slope_x(), -facet.slope_y(), 1.0});
+}
+
+TouchMarkers markers_of(const ViewerState& state, const DepthSurface& surface) {
+    const Touch& touch = state.haptic.touch;
+    const Friction& friction = state.settings.touch.friction;
+    TouchMarkers markers;
+    markers.visible = state.haptic.touchable;
+    markers.contact = touch.proxy.contact;
+    markers.goal = touch.goal;
+    markers.proxy = touch.proxy.position;
+    markers.normal = normal_at(surface, touch.proxy.position);
+    markers.friction =
+        touch.proxy.slipping ? friction.dynamic_coefficient : friction.static_coefficient;
+    markers.force_newton = touch.sent_force_newton;
+    if (state.replay && state.replay->computed) {
+        const double(&proxy)[3] = state.replay->tick.proxy;
+        markers.recorded_proxy = Vec3{proxy[0], proxy[1], proxy[2]};
+    }
+    return markers;
+}
+
+/// What to draw now. The markers are those of the last tick; the colour is that of the `from`
+/// frame.
+SceneContent scene_content(const ViewerState& state, const DepthBlend& shown) {
+    SceneContent content;
+    content.shape = state.settings.touch.shape;
+    content.bump = state.bump.get();
+    content.look = state.settings.look;
+    if (!shown.makes_surface()) return content;
+    content.depth = shown;
+    content.colour = shown.from;
+    const DepthSurface surface = shown.surface(content.shape, content.bump);
+    content.markers = markers_of(state, surface);
+    return content;
+}
+
+}  // namespace
 
 void Viewer::take_opened() {
     if (auto opened = opening_.take()) {
@@ -66,6 +114,12 @@ void Viewer::start_loop() {
     hand_over_settings();
     loop_ = std::make_unique<HapticLoop>(HapticConnections{
         *hand_.device, player_.haptics(), haptic_settings_, haptic_state_, *forces_, *ticks_});
+}
+
+void Viewer::draw_scene(glm::ivec2 viewport) {
+    camera_.set_projection(state_.settings.straight_view ? Camera::Projection::straight
+                                                         : Camera::Projection::perspective);
+    scene_.draw(scene_content(state_, shown_), camera_, viewport);
 }
 
 }  // namespace dibhr

@@ -4,8 +4,10 @@
 #include <map>
 
 #include "app/panels/widgets.hpp"
-#include "app/viewer/scene.hpp"
 #include "core/error.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/haptics/parameter_table.hpp"
+#include "core/video/libraries.hpp"
 
 namespace dibhr {
 
@@ -14,6 +16,42 @@ namespace {
 constexpr const char* kPlainTag = "mark";
 constexpr const char* kParticipant = "participant";
 constexpr const char* kNote = "note";
+
+/// What is kept with a recording: versions of program and libraries, files, parameters, device.
+std::map<std::string, std::string> session_facts(const ViewerState& state) {
+    std::map<std::string, std::string> facts{
+        {"program", "dibhr " DIBHR_VERSION},
+        {"device", state.device.name},
+        {"device-max-force", number_text(state.device.limits.max_force_newton)},
+        {"device-max-stiffness", number_text(state.device.limits.max_stiffness_newton_per_mm)},
+        {"device-workspace-mm", number_text(state.device.workspace_mm.x) + " x " +
+                                    number_text(state.device.workspace_mm.y) + " x " +
+                                    number_text(state.device.workspace_mm.z)},
+        {"algorithm", name_of(state.settings.touch.algorithm)},
+        {"colour", state.media.colour_path.string()},
+        {"depth", state.media.depth_path.string()},
+        {"depth-columns", std::to_string(state.media.depth_columns)},
+        {"depth-rows", std::to_string(state.media.depth_rows)},
+        {"bump", state.bump_file.string()},
+        {"max-force", number_text(state.settings.max_force_newton)},
+    };
+    facts.merge(library_versions());
+    for (const TouchNumber& number : touch_numbers()) {
+        facts.emplace(std::string(number.name), number_text(number.of(state.settings.touch)));
+    }
+    const CleaningOptions& cleaning = state.settings.cleaning;
+    facts.emplace("fill-holes", cleaning.fill_holes ? "yes" : "no");
+    facts.emplace("remove-spikes", cleaning.remove_spikes ? "yes" : "no");
+    facts.emplace("smooth-steps", cleaning.smooth_steps ? "yes" : "no");
+    if (state.falcon) {
+        FalconSettings falcon = state.settings.falcon;
+        facts.emplace("falcon-serial", state.falcon->status.serial);
+        for (const FalconNumber& number : falcon_numbers()) {
+            facts.emplace("falcon-" + std::string(number.name), number_text(number.in(falcon)));
+        }
+    }
+    return facts;
+}
 
 }  // namespace
 

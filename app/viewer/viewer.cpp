@@ -7,7 +7,6 @@
 #include "app/panels/falcon_state.hpp"
 #include "app/panels/panels.hpp"
 #include "app/viewer/actions.hpp"
-#include "app/viewer/scene.hpp"
 #include "core/error.hpp"
 #include "core/haptics/surface.hpp"
 #include "render/gl_objects.hpp"
@@ -162,12 +161,6 @@ void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {
                                state_.settings.touch.shape, state_.bump.get());
     const Camera::Ray ray = camera_.ray_under(pointer.position_px, viewport);
     hand_.mouse->target().publish(pointer_.target(ray, surface, use));
-}
-
-void Viewer::draw_scene(glm::ivec2 viewport) {
-    camera_.set_projection(state_.settings.straight_view ? Camera::Projection::straight
-                                                         : Camera::Projection::perspective);
-    scene_.draw(scene_content(state_, shown_), camera_, viewport);
 }
 
 void Viewer::draw_panels() {
