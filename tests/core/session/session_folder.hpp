@@ -44,6 +44,15 @@ inline std::vector<Row> query(const std::filesystem::path& file, const std::stri
     return rows;
 }
 
+/// Changes a file past all of our own code; false when SQLite refuses.
+inline bool change(const std::filesystem::path& file, const std::string& sql) {
+    sqlite3* database = nullptr;
+    sqlite3_open(file.c_str(), &database);
+    const int answered = sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr);
+    sqlite3_close(database);
+    return answered == SQLITE_OK;
+}
+
 /// The one cell of a query that gives one.
 inline std::string answer(const std::filesystem::path& file, const std::string& sql) {
     const auto rows = query(file, sql);

@@ -37,10 +37,7 @@ std::string refusal_of(const std::filesystem::path& file) {
 }
 
 void run_sql(const std::filesystem::path& file, const std::string& sql) {
-    sqlite3* database = nullptr;
-    REQUIRE(sqlite3_open(file.c_str(), &database) == SQLITE_OK);
-    CHECK(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
-    sqlite3_close(database);
+    CHECK(change(file, sql));
 }
 
 }  // namespace

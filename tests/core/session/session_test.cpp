@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <fstream>
 #include <memory>
+#include <string_view>
 #include <thread>
 
 #include "core/files/content_hash.hpp"
@@ -33,6 +34,29 @@ TEST_CASE("ticks are read from any time on", "[session]") {
     Session::Ticks none(session, 1.0);
     TickRecord tick;
     CHECK_FALSE(none.next(tick));
+}
+
+TEST_CASE("a file of before a parameter gives its default, and the others as they were",
+          "[session]") {
+    const SessionFolder folder;
+    SessionParameters recorded{.version = 5, .touch = {}, .limits = {}, .bump = {}};
+    double unusual = 0.3;
+    visit_numbers(recorded,
+                  [&unusual](std::string_view, double& number) { number = unusual += 0.1; });
+    {
+        const auto ring = std::make_unique<TickRing>();
+        Recorder recorder(folder.file(), *ring, {});
+        recorder.parameters(recorded);
+        TickRecord tick = tick_record(0);
+        tick.settings = recorded.version;
+        push(*ring, tick);
+    }
+    CHECK(Session(folder.file()).parameters().at(0).touch == recorded.touch);
+    CHECK(Session(folder.file()).parameters().at(0).limits == recorded.limits);
+    REQUIRE(change(folder.file(), "ALTER TABLE parameters DROP COLUMN damping_cutoff_hz"));
+    recorded.touch.coupling.damping_cutoff_hz = Coupling{}.damping_cutoff_hz;
+    CHECK(Session(folder.file()).parameters().at(0).touch == recorded.touch);
+    CHECK(Session(folder.file()).parameters().at(0).limits == recorded.limits);
 }
 
 TEST_CASE("parameters, files and marks are kept with the tick that first used them", "[session]") {
