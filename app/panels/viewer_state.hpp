@@ -55,9 +55,8 @@ struct TextFields {
     Field firmware{};
     Field participant{};  ///< kept with a recording
     Field note{};
-    Field tag{};  ///< of the next mark
-    int ask_for_keyboard{
-        0};  ///< Ctrl+O: pictures left in which the colour field asks for the keyboard
+    Field tag{};              ///< of the next mark
+    int ask_for_keyboard{0};  ///< Ctrl+O: pictures left in which the colour field asks for it
 };
 
 /// What a panel asks the viewer to do after the picture.
@@ -88,10 +87,8 @@ struct ReplayNews {
     std::filesystem::path file{};
     std::string participant{}, note{}, started{}, device{};
     std::vector<SessionMark> marks{};  ///< times as the ticks'
-    std::int64_t ticks{0};
     SessionPlayback playback{};
-    TickRecord tick{};  ///< as recorded
-    double update_us{0.0};
+    TickRecord tick{};                     ///< as recorded
     bool computes{false};                  ///< other parameters were chosen
     bool computed{false};                  ///< what is shown was computed through them
     const ContactBand* contacts{nullptr};  ///< null: not yet summed up

@@ -16,7 +16,7 @@ namespace dibhr {
 /// A collapsible section; `open` is kept by the caller.
 bool section(const ViewerState& state, const char* title, bool& open);
 
-/// The same; once `wanted`, it opens and comes into sight.
+/// The same; `wanted` opens it once and brings it into sight.
 bool section(const ViewerState& state, const char* title, bool& open, bool& wanted);
 
 /// How a number is shown, moved and put back.
@@ -54,8 +54,8 @@ bool choice_row(const char* label, const Table& words, Enum& chosen, const char*
     return changed;
 }
 
-/// A line to type into, as wide as `width` (negative: up to so far from the panel's edge), with
-/// what belongs there written in it. True when it changed; with `enter`, when Enter was pressed.
+/// A line to type into, `hint` while it is empty; `width` in pixels, negative: up to so far from
+/// the panel's edge. True when it changed; with `enter`, when Enter was pressed.
 bool text_field(const char* id, const char* hint, std::span<char> text, const char* help,
                 bool enter = true, float width = -1.0F);
 

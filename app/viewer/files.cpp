@@ -12,6 +12,12 @@
 
 namespace dibhr {
 
+namespace {
+
+constexpr double kSettleTime_s = 2.0;
+
+}  // namespace
+
 std::string new_file_name(const char* ending) {
     const auto now = std::chrono::system_clock::now();
     const std::time_t seconds = std::chrono::system_clock::to_time_t(now);
@@ -47,12 +53,6 @@ std::optional<std::string> Screenshots::take() {
 void Screenshots::finish() {
     for (auto& picture : std::exchange(writing_, {})) picture.get();
 }
-
-namespace {
-
-constexpr double kSettleTime_s = 2.0;
-
-}  // namespace
 
 SettingsKeeper::SettingsKeeper(Settings in_file, Settings started, std::filesystem::path file)
     : in_file_(std::move(in_file)),

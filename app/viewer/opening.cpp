@@ -14,8 +14,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kGreyTolerance =
-    12;  // levels between channels that video compression leaves in a grey picture
+// Levels between channels that video compression leaves in a grey picture.
+constexpr int kGreyTolerance = 12;
 
 bool is_grey(const ColourImage& picture) {
     std::size_t coloured = 0;

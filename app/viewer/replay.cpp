@@ -39,7 +39,6 @@ ReplayNews news_of(const Session& session) {
     news.started = session.fact("started");
     news.device = session.fact("device");
     news.marks = session.marks();
-    news.ticks = session.rows();
     return news;
 }
 
@@ -97,7 +96,6 @@ void ViewerReplay::show(const SessionMoment& moment, ViewerState& state) {
     const TickRecord& tick = moment.tick;
     state.replay->tick = tick;
     state.replay->computed = moment.computed.has_value();
-    state.replay->update_us = moment.computed ? moment.update_us : tick.update_us;
     state.haptic.touch = touch_of(moment);
     state.haptic.touchable = tick.surface;
     state.haptic.hand = {.goal_in_grid = vector_of(tick.goal),

@@ -50,8 +50,8 @@ void set_colours(ImGuiStyle& style) {
     colours[ImGuiCol_Button] = grey_blue(0.20F);
     colours[ImGuiCol_ButtonHovered] = grey_blue(0.27F);
     colours[ImGuiCol_ButtonActive] = grey_blue(0.32F);
-    colours[ImGuiCol_SliderGrab] = {accent.x, accent.y, accent.z,
-                                    0.45F};  // the value is written over it
+    // The value is written over it.
+    colours[ImGuiCol_SliderGrab] = {accent.x, accent.y, accent.z, 0.45F};
     colours[ImGuiCol_SliderGrabActive] = accent;
     colours[ImGuiCol_CheckMark] = accent_bright;
     colours[ImGuiCol_Separator] = grey_blue(0.20F);
