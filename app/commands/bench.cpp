@@ -12,6 +12,7 @@
 #include "app/commands/command_line.hpp"
 #include "core/files/json.hpp"
 #include "core/files/output_file.hpp"
+#include "core/files/plain_text.hpp"
 
 namespace dibhr {
 
@@ -67,9 +68,9 @@ std::string table_of(const BenchResults& results) {
     for (const auto& [name, lateness] :
          {std::pair{"empty loop", loop.empty}, std::pair{"haptic loop", loop.haptic}}) {
         text << "  " << std::left << std::setw(16) << name << std::right << lateness.ticks
-             << " ticks, " << lateness.late_ticks << " late, 99 % within " << std::setprecision(0)
-             << std::fixed << lateness.p99_us << " us, worst " << lateness.worst_us << " us\n"
-             << std::defaultfloat << std::setprecision(6);
+             << " ticks, " << lateness.late_ticks << " late, 99 % within "
+             << number_text(lateness.p99_us, 0) << " us, worst "
+             << number_text(lateness.worst_us, 0) << " us\n";
     }
     return text.str();
 }

@@ -2,7 +2,6 @@
 #include "app/settings/settings.hpp"
 
 #include <toml++/toml.h>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -21,6 +20,7 @@
 #include "app/settings/settings_list.hpp"
 #include "core/error.hpp"
 #include "core/files/output_file.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/haptics/parameter_table.hpp"
 
 namespace dibhr {
@@ -145,8 +145,7 @@ std::string toml_text(int value) {
 }
 
 std::string toml_text(double value) {
-    char digits[32];
-    return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+    return number_text(value);
 }
 
 std::string toml_text(const std::string& value) {

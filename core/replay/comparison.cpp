@@ -25,15 +25,10 @@ Vec3 vector_of(const double (&values)[3]) {
 
 std::string cell(double value) {
     std::ostringstream text;
-    const double size = std::abs(value);
-    if (size > 0.0 && size < 1e-3) {
-        text << std::scientific << std::setprecision(1) << value;
-    } else {
-        text << std::fixed << std::setprecision(3) << value;
-    }
-    std::ostringstream padded;
-    padded << ' ' << std::right << std::setw(kCellWidth - 1) << text.str();
-    return padded.str();
+    const bool small = value != 0.0 && std::abs(value) < 1e-3;
+    text << ' ' << std::right << std::setw(kCellWidth - 1) << (small ? std::scientific : std::fixed)
+         << std::setprecision(small ? 1 : 3) << value;
+    return text.str();
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include "core/error.hpp"
 #include "core/video/input_file.hpp"
 #include "core/video/libraries.hpp"
-#include "core/video/picture_source.hpp"
 #include "core/video/pictures.hpp"
 #include "core/video/video_file.hpp"
 

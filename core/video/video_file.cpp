@@ -13,16 +13,15 @@ extern "C" {
 #include <cmath>
 #include <cstdint>
 #include <fstream>
-#include <iomanip>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/video/input_file.hpp"
 #include "core/video/libraries.hpp"
 #include "core/video/media.hpp"
@@ -168,10 +167,8 @@ void require_whole(const std::filesystem::path& file, double promised_s) {
     if (!(least_s > 0.0)) return;
     const std::optional<double> end_s = packets_end_s(file, least_s);
     if (!end_s || *end_s >= least_s) return;
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(1) << shown(file) << " is cut off: it ends at "
-         << *end_s << " s of " << promised_s << " s; copy or export it again";
-    throw InputError(text.str());
+    throw InputError(shown(file) + " is cut off: it ends at " + number_text(*end_s, 1) + " s of " +
+                     number_text(promised_s, 1) + " s; copy or export it again");
 }
 
 }  // namespace

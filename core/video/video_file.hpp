@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/video/picture_source.hpp"
+#include "core/video/pictures.hpp"
 
 namespace dibhr {
 
