@@ -22,10 +22,13 @@ int report(CLI::App& app, const Arguments& arguments) {
     add_file(app, "--out", options.out, "Folder for report.html, report.json and the pictures",
              "DIR")
         ->required();
+    add_plot_format_option(app, options.plot_formats);
     app.footer(
-        "The folder is made if it is missing; an earlier report in it is replaced.\n\n"
-        "Example:\n"
-        "  dibhr report mine.dibhr --out mine-report");
+        "The folder is made if it is missing; an earlier report in it is replaced. The pictures "
+        "in the page are PNG in any case.\n\n"
+        "Examples:\n"
+        "  dibhr report mine.dibhr --out mine-report\n"
+        "  dibhr report mine.dibhr --out mine-report --plot-format png,pdf");
     if (!parse(app, arguments)) return 0;
     return run_report(options);
 }

@@ -80,7 +80,7 @@ void run_sweep_command(const ExperimentOptions& options, Outputs& outputs) {
         points =
             run_sweep(range, algorithms_of(options), [&bar](double share) { bar.show(share); });
     }
-    if (!options.plots.empty()) write_sweep_plot(points, options.plots);
+    if (!options.plots.empty()) write_sweep_plot(points, {options.plots, options.plot_formats});
     outputs.write(sweep_table_of(points, clock_us), sweep_json_of(points, range.updates, clock_us));
 }
 
@@ -106,7 +106,8 @@ void run_paths(const ExperimentOptions& options, Outputs& outputs) {
     }
     if (human) paths.push_back(run_path(std::move(*human), sample->depth, options));
     if (!options.plots.empty()) {
-        write_plots(paths, sample ? &sample->colour : nullptr, options.plots);
+        write_plots(paths, sample ? &sample->colour : nullptr,
+                    {options.plots, options.plot_formats});
     }
     outputs.write(table_of(paths, clock_us), json_of(paths, clock_us));
 }

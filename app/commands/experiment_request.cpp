@@ -26,23 +26,6 @@ void check_path(const std::string& path) {
     throw CLI::ValidationError("PATH", "'" + path + "' is none of " + choices);
 }
 
-std::string algorithm_names() {
-    std::string names;
-    for (const Algorithm algorithm : all_algorithms()) {
-        names += (names.empty() ? "" : ", ") + std::string(name_of(algorithm));
-    }
-    return names;
-}
-
-void add_algorithm(ExperimentOptions& options, const std::string& name) {
-    const auto algorithm = algorithm_named(name);
-    if (!algorithm) {
-        throw CLI::ValidationError("--algorithm", "'" + name + "' is none of " + algorithm_names());
-    }
-    auto& all = options.algorithms;
-    if (std::find(all.begin(), all.end(), *algorithm) == all.end()) all.push_back(*algorithm);
-}
-
 void add_numbers(CLI::App& app, ExperimentRequest& request) {
     app.add_option_function<std::string>(
            "--friction,--mu",
@@ -89,23 +72,15 @@ void add_experiment_options(CLI::App& app, ExperimentRequest& request) {
         ->default_str("all");
     app.add_option("--json", request.json, "Writes all numbers as JSON; - is standard output")
         ->type_name("FILE");
-    app.add_option("--plots", request.plots, "Writes pictures (PNG) into this folder")
-        ->type_name("DIR");
+    app.add_option("--plots", request.plots, "Writes pictures into this folder")->type_name("DIR");
+    add_plot_format_option(app, options.plot_formats);
     app.add_option("--session", request.session, "Hand of human: the goals of a recorded session")
         ->type_name("FILE");
     app.add_option("--trace", request.trace,
                    "Hand of human: a pen's or mouse's trace (CSV: t_s,x_mm,y_mm[,pressure01]"
                    "[,pen_down]); without either a modelled one")
         ->type_name("FILE");
-    app.add_option_function<std::vector<std::string>>(
-           "--algorithm",
-           [&options](const std::vector<std::string>& names) {
-               for (const std::string& name : names) add_algorithm(options, name);
-           },
-           algorithm_names() + "; may be given again; none: all")
-        ->type_name("NAME")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_algorithms_option(app, options.algorithms);
     add_numbers(app, request);
     app.add_flag("--raw-depth", options.human.raw_depth, "The sample's depth without cleaning");
     app.footer(
@@ -118,7 +93,8 @@ void add_experiment_options(CLI::App& app, ExperimentRequest& request) {
         "  dibhr experiment --plots pictures --json numbers.json\n"
         "  dibhr experiment human --trace pen.csv\n"
         "  dibhr experiment circle --friction 0.8 --depth 5 --algorithm dibhr --algorithm pga\n"
-        "  dibhr experiment sweep --json sweep.json --plots pictures");
+        "  dibhr experiment sweep --json sweep.json --plots pictures\n"
+        "  dibhr experiment circle --plots pictures --plot-format pdf,svg");
 }
 
 ExperimentOptions experiment_options(const ExperimentRequest& request) {
@@ -138,6 +114,11 @@ ExperimentOptions experiment_options(const ExperimentRequest& request) {
             "experiment --help)");
     }
     ExperimentOptions options = request.options;
+    options.algorithms.clear();
+    for (const Algorithm algorithm : request.options.algorithms) {  // each once
+        auto& all = options.algorithms;
+        if (std::find(all.begin(), all.end(), algorithm) == all.end()) all.push_back(algorithm);
+    }
     options.json = request.json;
     options.plots = request.plots;
     options.human.session = request.session;

@@ -54,11 +54,12 @@ int run_report(const ReportOptions& options) {
     print_warning(session.warning());
     {
         ProgressBar bar("reading the session");
-        write_session_report(session, {options.out, "dibhr " DIBHR_VERSION,
-                                       [&session](const SessionSource& source, double media_s) {
-                                           return picture_or_remark(session, source, media_s);
-                                       },
-                                       [&bar](double share) { bar.show(share); }});
+        write_session_report(session,
+                             {options.out, "dibhr " DIBHR_VERSION,
+                              [&session](const SessionSource& source, double media_s) {
+                                  return picture_or_remark(session, source, media_s);
+                              },
+                              [&bar](double share) { bar.show(share); }, options.plot_formats});
     }
     std::cout << (options.out / "report.html").string() << '\n';
     return 0;

@@ -52,6 +52,22 @@ Algorithm known_algorithm(const std::string& name) {
     return *algorithm;
 }
 
+std::string format_names() {
+    std::string names;
+    for (const PlotFormat format : kPlotFormats) {
+        names += (names.empty() ? "" : ", ") + std::string(name_of(format));
+    }
+    return names;
+}
+
+/// Throws CLI::ValidationError.
+PlotFormat known_format(const std::string& name) {
+    for (const PlotFormat format : kPlotFormats) {
+        if (name == name_of(format)) return format;
+    }
+    throw CLI::ValidationError("--plot-format", "'" + name + "' is none of " + format_names());
+}
+
 std::string range_of(double lowest, double highest) {
     return text_of(lowest) + " to " + text_of(highest);
 }
@@ -122,6 +138,21 @@ void add_algorithms_option(CLI::App& app, std::vector<Algorithm>& algorithms) {
            "How the proxy follows the goal, once or several times: " + algorithm_names())
         ->type_name("NAME")
         ->allow_extra_args(false);
+}
+
+void add_plot_format_option(CLI::App& app, std::vector<PlotFormat>& formats) {
+    app.add_option_function<std::vector<std::string>>(
+           "--plot-format",
+           [&formats](const std::vector<std::string>& names) {
+               formats.clear();
+               for (const std::string& name : names) formats.push_back(known_format(name));
+           },
+           "How the pictures are written, one or several with commas: " + format_names() +
+               "; SVG and PDF are for papers")
+        ->type_name("FORMAT")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->default_str("png");
 }
 
 void add_touch_options(CLI::App& app, TouchRequest& request) {

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/haptics/parameter_table.hpp"
+#include "core/plot/canvas.hpp"
 
 namespace dibhr {
 
@@ -48,6 +49,10 @@ struct TouchRequest {
 
 /// --algorithm NAME, several times. `algorithms` must outlive the parsing of `app`.
 void add_algorithms_option(CLI::App& app, std::vector<Algorithm>& algorithms);
+
+/// --plot-format png,svg,pdf. `formats` must outlive the parsing of `app`; it stays as it is when
+/// none is given.
+void add_plot_format_option(CLI::App& app, std::vector<PlotFormat>& formats);
 
 /// --algorithm, --friction, --bump, --raw-depth and every entry of touch_numbers(). `request` must
 /// outlive the parsing of `app`.

@@ -22,7 +22,7 @@ MagnifiedPlace explained_place(const PathRun& circle) {
 
 }  // namespace
 
-ColourImage plot_explanation(const PathRun& circle) {
+Canvas plot_explanation(const PathRun& circle) {
     constexpr Box kMagnified{70.0, 100.0, 570.0, 600.0};
     constexpr double kGap_px = 36.0;
     Canvas canvas(1200, 680, kPaper);
@@ -47,7 +47,7 @@ ColourImage plot_explanation(const PathRun& circle) {
         draw_turning(canvas, area, circle, run, {highest, &run == &circle.runs.back()});
         top += each + kGap_px;
     }
-    return canvas.finished();
+    return canvas;
 }
 
 }  // namespace dibhr

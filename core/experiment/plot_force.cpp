@@ -74,7 +74,7 @@ std::vector<Vec2> errors_deg(const PathRun& path, const AlgorithmRun& run, Updat
 
 }  // namespace
 
-ColourImage plot_force(const PathRun& path) {
+Canvas plot_force(const PathRun& path) {
     constexpr double kTop_px = 118.0;
     constexpr double kGap_px = 44.0;
     const auto panels = static_cast<double>(std::max<std::size_t>(path.runs.size(), 1));
@@ -96,10 +96,10 @@ ColourImage plot_force(const PathRun& path) {
         draw_turning(canvas, right, path, run, {highest, lowest});
         top += each + kGap_px;
     }
-    return canvas.finished();
+    return canvas;
 }
 
-ColourImage plot_error(const PathRun& path) {
+Canvas plot_error(const PathRun& path) {
     constexpr Box kArea{110.0, 110.0, 930.0, 730.0};
     Canvas canvas(1200, 800, kPaper);
     draw_title(canvas, "How far the force was from exact: " + path.name, settings_of(path));
@@ -120,7 +120,7 @@ ColourImage plot_error(const PathRun& path) {
     const double least_y = axes.at(0.0, kLeastError_deg).y;
     canvas.text({kArea.right + 12.0, least_y + kNumberCap_px / 2.0}, "0, or 1e-15 at most",
                 {kQuietInk, kNumberCap_px});
-    return canvas.finished();
+    return canvas;
 }
 
 }  // namespace dibhr

@@ -80,13 +80,13 @@ std::string magnified_words(const PathRun& path, const MagnifiedPlace& place) {
     const std::size_t step = updates_a_marker(path, place);
     const std::string markers = step == 1 ? "an update" : "in " + std::to_string(step) + " updates";
     const bool together = separation_px(path, place.update) < 0.01 * place.side_px;
-    return side + " x " + side + " px, one marker " + markers +
+    return side + " \u00d7 " + side + " px, one marker " + markers +
            (together ? "; all proxies coincide" : "; springs of one update");
 }
 
 }  // namespace
 
-ColourImage plot_paths(const PathRun& path, const ColourImage* under) {
+Canvas plot_paths(const PathRun& path, const ColourImage* under) {
     Canvas canvas(1200, 730, kPaper);
     const MagnifiedPlace place = typical_place(path);
     draw_title(canvas, "Where the proxy went: " + path.name, settings_of(path));
@@ -98,7 +98,7 @@ ColourImage plot_paths(const PathRun& path, const ColourImage* under) {
                 head);
     draw_magnified(canvas, kMagnifiedArea, path, place, under);
     draw_legend(canvas, {overview.left, overview.bottom + 60.0}, legend_of(path));
-    return canvas.finished();
+    return canvas;
 }
 
 }  // namespace dibhr

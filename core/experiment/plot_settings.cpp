@@ -7,7 +7,7 @@ namespace dibhr {
 
 std::string settings_of(const PathRun& path) {
     const bool mean = path.exact_proxies.empty();
-    return "friction mu " + tick_text(path.mu) + ",  " + (mean ? "mean depth " : "depth ") +
+    return "friction \u03bc " + tick_text(path.mu) + ",  " + (mean ? "mean depth " : "depth ") +
            tick_text(path.depth_px) + " px,  1 kHz,  " + path.source;
 }
 

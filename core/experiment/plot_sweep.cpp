@@ -109,11 +109,11 @@ std::vector<Algorithm> from_the_back(const std::vector<SweepPoint>& points) {
 
 }  // namespace
 
-ColourImage plot_sweep(const std::vector<SweepPoint>& points) {
+Canvas plot_sweep(const std::vector<SweepPoint>& points) {
     Canvas canvas(1600, 960, kPaper);
     draw_title(canvas, "How friction and depth change the force's turning: circle",
                "thin dotted lines: what the paper prints for DIBHR (0.53), PGA (4.13) and "
-               "Neighborhood (7.45) without saying mu or depth");
+               "Neighborhood (7.45) without saying \u03bc or depth");
     const std::vector<double> depths = shown_depths(points);
     const std::vector<Algorithm> algorithms = from_the_back(points);
     const ValueSpan mu = span_of_mu(points);
@@ -127,7 +127,7 @@ ColourImage plot_sweep(const std::vector<SweepPoint>& points) {
                     {kTextInk, kLabelCap_px, Align::centre, true});
         for (const Quantity& quantity : kQuantities) {
             const bool lowest = &quantity == &kQuantities.back();
-            Axis x{mu, lowest ? "friction mu" : "", false, lowest, 6};
+            Axis x{mu, lowest ? "friction \u03bc" : "", false, lowest, 6};
             Axis y{quantity.span, column == 0 ? quantity.label : "", true, column == 0, 9};
             const Axes axes({left, top, left + width, top + height}, x, y);
             axes.draw_ground(canvas);
@@ -145,7 +145,7 @@ ColourImage plot_sweep(const std::vector<SweepPoint>& points) {
         draw_legend(canvas, {left, 900.0}, {look_of(*algorithm)});
         left += 280.0;
     }
-    return canvas.finished();
+    return canvas;
 }
 
 }  // namespace dibhr

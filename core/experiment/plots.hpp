@@ -11,32 +11,38 @@ namespace dibhr {
 
 // Every path drawn has at least one goal and one run; all runs are as long as the goals.
 
-/// For each path `paths-NAME.png`, `force-NAME.png` and, where an exact answer is known,
-/// `error-NAME.png`, and for the circle `explained.png`, in `folder`, which is made if it is
-/// missing. `torso_colour` lies under the human path; null for none. Throws InputError when the
-/// folder or a file cannot be written.
-void write_plots(const std::vector<PathRun>& paths, const ColourImage* torso_colour,
-                 const std::filesystem::path& folder);
+/// Where plots go: a folder, which is made if it is missing, and as what.
+struct PlotFiles {
+    std::filesystem::path folder{};
+    std::vector<PlotFormat> formats{PlotFormat::png};
+};
 
-/// `sweep.png` in `folder`, likewise.
-void write_sweep_plot(const std::vector<SweepPoint>& points, const std::filesystem::path& folder);
+/// For each path `paths-NAME.png`, `force-NAME.png` and, where an exact answer is known,
+/// `error-NAME.png`, and for the circle `explained.png`, likewise in the other formats.
+/// `torso_colour` lies under the human path; null for none. Throws InputError when the folder or a
+/// file cannot be written.
+void write_plots(const std::vector<PathRun>& paths, const ColourImage* torso_colour,
+                 const PlotFiles& files);
+
+/// `sweep.png`, likewise.
+void write_sweep_plot(const std::vector<SweepPoint>& points, const PlotFiles& files);
 
 /// The proxies from above over the image, whole and a few pixels of it magnified: the paper's
 /// figure 5. `under` lies beneath; null for none.
-[[nodiscard]] ColourImage plot_paths(const PathRun& path, const ColourImage* under);
+[[nodiscard]] Canvas plot_paths(const PathRun& path, const ColourImage* under);
 
 /// The direction of the force and how much it turns in each update: the paper's figure 12.
-[[nodiscard]] ColourImage plot_force(const PathRun& path);
+[[nodiscard]] Canvas plot_force(const PathRun& path);
 
 /// Angle between each algorithm's force and the exact one over time. The path must have an exact
 /// answer.
-[[nodiscard]] ColourImage plot_error(const PathRun& path);
+[[nodiscard]] Canvas plot_error(const PathRun& path);
 
 /// Turning and error of the force over friction, one column a depth.
-[[nodiscard]] ColourImage plot_sweep(const std::vector<SweepPoint>& points);
+[[nodiscard]] Canvas plot_sweep(const std::vector<SweepPoint>& points);
 
 /// A few pixels of the circle beside the turning of the force: the picture of the page that
 /// explains.
-[[nodiscard]] ColourImage plot_explanation(const PathRun& circle);
+[[nodiscard]] Canvas plot_explanation(const PathRun& circle);
 
 }  // namespace dibhr

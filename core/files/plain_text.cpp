@@ -64,15 +64,19 @@ std::string utf8_text(std::string_view text) {
     return result;
 }
 
-std::string ascii_text(std::string_view text, std::size_t most) {
+std::string one_line_text(std::string_view text, std::size_t most) {
+    const std::string clean = utf8_text(text);
     std::string result;
-    for (std::size_t k = 0; k < text.size();) {
-        const std::size_t bytes = letter_bytes(text, k);
-        const bool plain = bytes == 1 && !is_control(byte_at(text, k));
-        result += plain ? text[k] : (text[k] == '\n' || text[k] == '\t') ? ' ' : '?';
-        k += bytes > 0 ? bytes : 1;
+    std::size_t shortened = 0;  // bytes of the result's first letters, with room for two dots
+    std::size_t letters = 0;
+    for (std::size_t k = 0; k < clean.size(); ++letters) {
+        if (letters + 2 == most) shortened = result.size();
+        if (letters == most) return result.substr(0, shortened) + "..";
+        const std::size_t bytes = letter_bytes(clean, k);
+        result += is_control(byte_at(clean, k)) ? " " : clean.substr(k, bytes);
+        k += bytes;
     }
-    return result.size() > most ? result.substr(0, most - 2) + ".." : result;
+    return result;
 }
 
 std::string one_line(std::string_view text) {

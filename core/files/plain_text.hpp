@@ -18,9 +18,8 @@ namespace dibhr {
 /// In quotation marks on one line, cut short after `longest` bytes.
 [[nodiscard]] std::string in_quotes(std::string_view text, std::size_t longest = 40);
 
-/// On one line, with '?' for every letter the plots cannot write, and cut short where it is longer
-/// than `most` letters.
-[[nodiscard]] std::string ascii_text(std::string_view text, std::size_t most);
+/// As one_line, and cut short where it is longer than `most` letters.
+[[nodiscard]] std::string one_line_text(std::string_view text, std::size_t most);
 
 /// As utf8_text, and means nothing to a browser: for the text of an element or an attribute in
 /// double quotes.

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <utility>
 
+#include <glm/common.hpp>
+
 #include "core/plot/style.hpp"
 
 namespace dibhr {
@@ -123,25 +125,31 @@ Vec2 Axes::at(double x, double y) const noexcept {
             area_.bottom - share(y, y_) * area_.height()};
 }
 
+Vec2 Axes::sharp_at(double x, double y) const noexcept {
+    return glm::floor(at(x, y)) + 0.5;
+}
+
 void Axes::draw_ground(Canvas& canvas) const {
     canvas.fill(area_, kPlotGround);
     const Stroke grid{kGridInk, 1.0, Dash::solid};
     for (const double tick : x_.ticks) {
-        const double x = at(tick, y_.span.low).x;
+        const double x = sharp_at(tick, y_.span.low).x;
         canvas.line({x, area_.top}, {x, area_.bottom}, grid);
     }
     for (const double tick : y_.ticks) {
-        const double y = at(x_.span.low, tick).y;
+        const double y = sharp_at(x_.span.low, tick).y;
         canvas.line({area_.left, y}, {area_.right, y}, grid);
     }
 }
 
 void Axes::draw_frame(Canvas& canvas) const {
     const Stroke frame{kQuietInk, 1.0, Dash::solid};
-    canvas.outline(area_, frame);
+    const Vec2 corner = glm::floor(Vec2(area_.left, area_.top)) + 0.5;
+    const Vec2 far = glm::floor(Vec2(area_.right, area_.bottom)) + 0.5;
+    canvas.outline({corner.x, corner.y, far.x, far.y}, frame);
     const TextStyle numbers{kTextInk, kNumberCap_px, Align::centre};
     for (const double tick : x_.ticks) {
-        const double x = at(tick, y_.span.low).x;
+        const double x = sharp_at(tick, y_.span.low).x;
         canvas.line({x, area_.bottom}, {x, area_.bottom + kTick_px}, frame);
         if (x_.numbered) canvas.text({x, area_.bottom + 18.0}, number_of(tick, x_), numbers);
     }
@@ -149,7 +157,7 @@ void Axes::draw_frame(Canvas& canvas) const {
     right.align = Align::right;
     double widest_px = 0.0;
     for (const double tick : y_.ticks) {
-        const double y = at(x_.span.low, tick).y;
+        const double y = sharp_at(x_.span.low, tick).y;
         canvas.line({area_.left - kTick_px, y}, {area_.left, y}, frame);
         if (!y_.numbered) continue;
         const std::string text = number_of(tick, y_);

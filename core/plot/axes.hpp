@@ -62,6 +62,9 @@ class Axes {
     void draw_series(Canvas& canvas, std::span<const Vec2> values, const Stroke& stroke) const;
 
   private:
+    /// Likewise, on the middle of a pixel: a thin line along an axis is not blurred over two.
+    [[nodiscard]] Vec2 sharp_at(double x, double y) const noexcept;
+
     Box area_;
     Axis x_;
     Axis y_;

@@ -1,10 +1,12 @@
-// A small drawing surface for plots: anti-aliased lines, shapes, pictures and text.
+// A drawing surface for plots: lines, shapes, pictures and text, kept as vectors and written as
+// PNG, SVG or PDF.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <string>
 #include <string_view>
-#include <vector>
 
 #include "core/haptics/vec.hpp"
 #include "core/video/frame_window.hpp"
@@ -19,19 +21,22 @@ struct Ink {
     double opacity{1.0};
 };
 
-/// The same colour, as opaque as asked.
-[[nodiscard]] constexpr Ink with_opacity(Ink ink, double opacity) noexcept {
-    ink.opacity = opacity;
-    return ink;
-}
-
 enum class Dash { solid, dashed, dotted, dash_dot };
 enum class Marker { none, circle, square, triangle, diamond };
 enum class Align { left, centre, right };
 
+/// How a plot is written. An SVG's text can be selected and searched; so can a PDF's, which is one
+/// page as wide as a paper's text.
+enum class PlotFormat { png, svg, pdf };
+
+inline constexpr PlotFormat kPlotFormats[]{PlotFormat::png, PlotFormat::svg, PlotFormat::pdf};
+
+/// "png": its name on the command line, and a file's ending without the dot.
+[[nodiscard]] std::string_view name_of(PlotFormat format) noexcept;
+
 struct Stroke {
     Ink ink{};
-    double width_px{1.5};  ///< drawn in steps of half a pixel
+    double width_px{1.5};
     Dash dash{Dash::solid};
 };
 
@@ -57,13 +62,14 @@ struct TextStyle {
     bool upwards{false};  ///< reads from the bottom to the top
 };
 
-/// Drawn at twice the size and reduced at the end, so that thin lines and small letters are even.
 /// What lies outside the clip (at first everything is inside) is not drawn; points may be any
-/// finite number. Later strokes cover earlier ones.
+/// finite number. Later strokes cover earlier ones. Needs no display, and writes no dates.
 class Canvas {
   public:
-    /// Throws InputError for a size that is not positive or beyond 16384.
+    /// Throws InputError for a size that is not positive or beyond 16383.
     Canvas(int columns, int rows, Ink paper);
+    ~Canvas();
+    Canvas(Canvas&& other) noexcept;
 
     [[nodiscard]] Box whole() const noexcept;
     void clip_to(Box box) noexcept;
@@ -80,17 +86,18 @@ class Canvas {
     void marker(Vec2 centre, Marker marker, double size_px, Ink ink, Ink rim);
     /// The picture stretched over the box, its pixels kept as squares when enlarged.
     void picture(const ColourImage& picture, Box box, double opacity);
-    /// One line of ASCII; `where` is the baseline's left end, middle or right end, as aligned.
+    /// One line of any alphabet, in UTF-8; `where` is the baseline's left end, middle or right end,
+    /// as aligned.
     void text(Vec2 where, std::string_view text, const TextStyle& style);
 
     /// The drawing so far, at the canvas's size.
     [[nodiscard]] ColourImage finished() const;
+    /// The drawing so far as a file's bytes.
+    [[nodiscard]] std::string encoded(PlotFormat format) const;
 
   private:
-    int columns_;
-    int rows_;
-    std::vector<std::uint8_t> rgb_;  ///< at twice the size
-    Box clip_{};
+    struct Drawing;
+    std::unique_ptr<Drawing> drawing_;
 };
 
 /// How wide the text will be [px].

@@ -13,7 +13,7 @@ namespace dibhr {
 inline constexpr Ink kPaper{255, 255, 255};
 inline constexpr Ink kPlotGround{250, 250, 248};
 inline constexpr Ink kGridInk{226, 226, 222};
-inline constexpr Ink kQuietInk{120, 120, 120};
+inline constexpr Ink kQuietInk{100, 100, 100};
 inline constexpr Ink kTextInk{35, 35, 35};
 inline constexpr Ink kExactInk{196, 196, 190};
 inline constexpr Ink kGoalInk{60, 60, 60};

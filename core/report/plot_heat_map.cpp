@@ -182,9 +182,9 @@ double heat_map_sigma_px(int columns) {
     return std::max(1.0, std::round(2.0 * columns / kColumns) / 2.0);
 }
 
-ColourImage plot_heat_map(const TouchedPlaces& places, const HeatMapGround& ground,
-                          const std::vector<Episode>& episodes, std::uint32_t media,
-                          const std::string& subtitle) {
+Canvas plot_heat_map(const TouchedPlaces& places, const HeatMapGround& ground,
+                     const std::vector<Episode>& episodes, std::uint32_t media,
+                     const std::string& subtitle) {
     const double sigma_px = heat_map_sigma_px(ground.columns);
     const PixelValues map = places.smoothed(ground.columns, ground.rows, sigma_px);
     const HeatScale scale = scale_of(map);
@@ -208,7 +208,7 @@ ColourImage plot_heat_map(const TouchedPlaces& places, const HeatMapGround& grou
                 "Spread by a Gaussian of " + tick_text(sigma_px) +
                     " px (standard deviation); numbers: the longest contacts, at their centres",
                 {kQuietInk, kNumberCap_px});
-    return canvas.finished();
+    return canvas;
 }
 
 }  // namespace dibhr

@@ -67,9 +67,9 @@ void draw_values(Canvas& canvas, const Axes& axes,
 }
 
 /// Time per value, with median, 95 % and what is beyond the plot.
-ColourImage plot_distribution(const std::string& title, const std::string& quantity,
-                              const std::string& unit, const Distribution& values, double upto,
-                              const PlotWords& words) {
+Canvas plot_distribution(const std::string& title, const std::string& quantity,
+                         const std::string& unit, const Distribution& values, double upto,
+                         const PlotWords& words) {
     const Bars bars = values.bars(upto, kMostBars);
     std::vector<Bar> drawn;
     for (std::size_t k = 0; k < bars.seconds.size(); ++k) {
@@ -95,7 +95,7 @@ ColourImage plot_distribution(const std::string& title, const std::string& quant
                         tick_text(std::round(values.peak())) + " " + unit,
                     {kTextInk, kNumberCap_px, Align::right});
     }
-    return canvas.finished();
+    return canvas;
 }
 
 /// 1, 2 and 5 times the powers of ten, in their order; 0 is 1.
@@ -126,19 +126,19 @@ std::vector<double> whole_ticks(double highest) {
 
 }  // namespace
 
-ColourImage plot_force_histogram(const SessionNumbers& numbers, const PlotWords& words) {
+Canvas plot_force_histogram(const SessionNumbers& numbers, const PlotWords& words) {
     return plot_distribution("Force sent while in contact", "force", "N", numbers.sent_newton,
                              numbers.sent_newton.peak(), words);
 }
 
-ColourImage plot_speed_histogram(const SessionNumbers& numbers, const PlotWords& words) {
+Canvas plot_speed_histogram(const SessionNumbers& numbers, const PlotWords& words) {
     constexpr double kNearlyAll = 0.995;  // a single fast move does not squeeze the rest
     return plot_distribution("Speed on the surface while in contact", "speed of the proxy", "mm/s",
                              numbers.proxy_mm_per_s, numbers.proxy_mm_per_s.quantile(kNearlyAll),
                              words);
 }
 
-ColourImage plot_contact_histogram(const SessionNumbers& numbers, const PlotWords& words) {
+Canvas plot_contact_histogram(const SessionNumbers& numbers, const PlotWords& words) {
     std::vector<double> lengths;
     for (const Episode& episode : numbers.episodes) {
         lengths.push_back(std::max(episode.length_s(), 1e-4));  // no tick is shorter
@@ -165,7 +165,7 @@ ColourImage plot_contact_histogram(const SessionNumbers& numbers, const PlotWord
     axes.draw_frame(canvas);
     const double median = lengths[lengths.size() / 2];
     draw_values(canvas, axes, {{median, "median " + short_text(median) + " s"}});
-    return canvas.finished();
+    return canvas;
 }
 
 }  // namespace dibhr

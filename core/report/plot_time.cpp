@@ -144,7 +144,7 @@ void draw_marks(Canvas& canvas, const Axes& axes, double bottom_px, const PlotWo
         const double x = axes.at(mark.t_s - words.begin_s, 0.0).x;
         if (!(x >= area.left - 0.5 && x <= area.right + 0.5)) continue;
         canvas.line({x, area.top}, {x, bottom_px}, {kTextInk, 1.0, Dash::dashed});
-        const std::string name = ascii_text(mark.tag, kLongestName);
+        const std::string name = one_line_text(mark.tag, kLongestName);
         const double width = text_width(name, style);
         const double left = std::min(x - 2.0, area.right + 24.0 - width);
         for (int row = 0; row < kRows; ++row) {
@@ -157,9 +157,9 @@ void draw_marks(Canvas& canvas, const Axes& axes, double bottom_px, const PlotWo
     }
 }
 
-ColourImage plot_over_time(const std::string& title, const std::string& label,
-                           const std::vector<Curve>& curves, const SessionNumbers& numbers,
-                           const PlotWords& words) {
+Canvas plot_over_time(const std::string& title, const std::string& label,
+                      const std::vector<Curve>& curves, const SessionNumbers& numbers,
+                      const PlotWords& words) {
     const double down_px = words.marks.empty() ? 0.0 : kMarkNames_px;
     Canvas canvas(1200, 652 + static_cast<int>(down_px), kPaper);
     draw_title(canvas, title, words.subtitle);
@@ -196,7 +196,7 @@ ColourImage plot_over_time(const std::string& title, const std::string& label,
     video.draw_frame(canvas);
     draw_marks(canvas, axes, video.area().bottom, words);
     draw_legend(canvas, {920.0, 12.0}, entries);
-    return canvas.finished();
+    return canvas;
 }
 
 }  // namespace
@@ -206,7 +206,7 @@ bool shows_means(const TimeLine& line) {
     return line.piece_s() >= kLong_s;
 }
 
-ColourImage plot_force_over_time(const SessionNumbers& numbers, const PlotWords& words) {
+Canvas plot_force_over_time(const SessionNumbers& numbers, const PlotWords& words) {
     const Stroke sent = look_of(Algorithm::dibhr).stroke;
     return plot_over_time(
         "Force over time", "force [N]",
@@ -215,7 +215,7 @@ ColourImage plot_force_over_time(const SessionNumbers& numbers, const PlotWords&
         numbers, words);
 }
 
-ColourImage plot_speed_over_time(const SessionNumbers& numbers, const PlotWords& words) {
+Canvas plot_speed_over_time(const SessionNumbers& numbers, const PlotWords& words) {
     const Stroke proxy = look_of(Algorithm::dibhr).stroke;
     return plot_over_time(
         "Speed in contact over time", "speed [mm/s]",

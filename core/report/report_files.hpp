@@ -26,6 +26,7 @@ class ReportFiles {
 
     /// `name` is one of the names, and new.
     void add(const std::string& name, std::string_view bytes);
+    [[nodiscard]] bool has(const std::string& name) const { return added_.contains(name); }
     void commit();
 
   private:

@@ -52,12 +52,12 @@ dd { margin: 0; max-width: 60rem; }
 )";
 
 std::string figure_html(const Figure& figure) {
-    const bool is_map = figure.file.starts_with("heat-map");
+    const bool is_map = figure.name.starts_with("heat-map");
     return std::string("<figure") + (is_map ? " class=\"map\"" : "") + ">\n<img alt=\"" +
            html_text(figure.title) + "\" width=\"" + std::to_string(figure.columns) +
            "\" height=\"" + std::to_string(figure.rows) + "\" src=\"data:image/png;base64," +
            base64_text(figure.png) + "\">\n<figcaption>" + html_text(figure.caption) +
-           " <span class=\"quiet\">(" + html_text(figure.file) + ")</span></figcaption>\n" +
+           " <span class=\"quiet\">(" + html_text(figure.files) + ")</span></figcaption>\n" +
            "</figure>\n";
 }
 
@@ -66,7 +66,7 @@ std::string figures_html(const SessionReport& report) {
     std::string whole;
     std::string pair;
     for (const Figure& figure : report.figures) {
-        (figure.file.ends_with("-histogram.png") ? pair : whole) += figure_html(figure);
+        (figure.name.ends_with("-histogram") ? pair : whole) += figure_html(figure);
     }
     return pair.empty() ? whole : whole + "<div class=\"pair\">\n" + pair + "</div>\n";
 }

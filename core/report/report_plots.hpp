@@ -25,9 +25,9 @@ struct HeatMapGround {
 /// Contact time per pixel, spread by the Gaussian, over the picture, with scales in seconds and
 /// millimetres. The longest of the episodes are numbered as in `episodes`; those of other media are
 /// not shown. There must be a touched pixel in the ground.
-[[nodiscard]] ColourImage plot_heat_map(const TouchedPlaces& places, const HeatMapGround& ground,
-                                        const std::vector<Episode>& episodes, std::uint32_t media,
-                                        const std::string& subtitle);
+[[nodiscard]] Canvas plot_heat_map(const TouchedPlaces& places, const HeatMapGround& ground,
+                                   const std::vector<Episode>& episodes, std::uint32_t media,
+                                   const std::string& subtitle);
 
 /// What the plots over time and the histograms say beside the numbers.
 struct PlotWords {
@@ -41,20 +41,15 @@ struct PlotWords {
 [[nodiscard]] bool shows_means(const TimeLine& line);
 
 /// Spring force and force sent, with the times in contact, the video's time and the marks.
-[[nodiscard]] ColourImage plot_force_over_time(const SessionNumbers& numbers,
-                                               const PlotWords& words);
+[[nodiscard]] Canvas plot_force_over_time(const SessionNumbers& numbers, const PlotWords& words);
 /// Likewise the speeds of goal and proxy; there must be some.
-[[nodiscard]] ColourImage plot_speed_over_time(const SessionNumbers& numbers,
-                                               const PlotWords& words);
+[[nodiscard]] Canvas plot_speed_over_time(const SessionNumbers& numbers, const PlotWords& words);
 
 /// There must be a contact of some time.
-[[nodiscard]] ColourImage plot_force_histogram(const SessionNumbers& numbers,
-                                               const PlotWords& words);
+[[nodiscard]] Canvas plot_force_histogram(const SessionNumbers& numbers, const PlotWords& words);
 /// There must be a contact.
-[[nodiscard]] ColourImage plot_contact_histogram(const SessionNumbers& numbers,
-                                                 const PlotWords& words);
+[[nodiscard]] Canvas plot_contact_histogram(const SessionNumbers& numbers, const PlotWords& words);
 /// There must be speeds.
-[[nodiscard]] ColourImage plot_speed_histogram(const SessionNumbers& numbers,
-                                               const PlotWords& words);
+[[nodiscard]] Canvas plot_speed_histogram(const SessionNumbers& numbers, const PlotWords& words);
 
 }  // namespace dibhr

@@ -23,24 +23,48 @@ namespace {
 
 constexpr std::size_t kMostMaps = 4;  // one for each of the videos that were touched longest
 
-/// "heat-map.png", "heat-map-2.png", ...
+/// "heat-map", "heat-map-2", ...
 std::string map_name(std::size_t number) {
-    return number == 1 ? "heat-map.png" : "heat-map-" + std::to_string(number) + ".png";
+    return number == 1 ? "heat-map" : "heat-map-" + std::to_string(number);
+}
+
+std::string file_name(const std::string& picture, PlotFormat format) {
+    return picture + "." + std::string(name_of(format));
 }
 
 std::vector<std::string> all_names() {
-    std::vector<std::string> names{
-        "report.html",         "report.json",         "force-over-time.png",  "speed-over-time.png",
-        "force-histogram.png", "speed-histogram.png", "contact-histogram.png"};
-    for (std::size_t number = 1; number <= kMostMaps; ++number) names.push_back(map_name(number));
+    std::vector<std::string> pictures{"force-over-time", "speed-over-time", "force-histogram",
+                                      "speed-histogram", "contact-histogram"};
+    for (std::size_t number = 1; number <= kMostMaps; ++number) {
+        pictures.push_back(map_name(number));
+    }
+    std::vector<std::string> names{"report.html", "report.json"};
+    for (const std::string& picture : pictures) {
+        for (const PlotFormat format : kPlotFormats) names.push_back(file_name(picture, format));
+    }
     return names;
 }
 
-void add_figure(SessionReport& report, const std::string& file, const std::string& title,
-                const std::string& caption, const ColourImage& picture) {
-    report.figures.push_back(
-        {file, title, caption, picture.columns, picture.rows, png_of(picture)});
-}
+/// A report in the making: what it says, where its files go, and what was asked for.
+struct Making {
+    SessionReport& report;
+    ReportFiles& files;
+    const ReportRequest& request;
+
+    void add_figure(const std::string& name, const std::string& title, const std::string& caption,
+                    const Canvas& plot) const {
+        std::string names;
+        for (const PlotFormat format : request.plot_formats) {
+            const std::string file = file_name(name, format);
+            if (files.has(file)) continue;  // asked for twice
+            files.add(file, plot.encoded(format));
+            names += (names.empty() ? "" : ", ") + file;
+        }
+        const ColourImage picture = plot.finished();
+        report.figures.push_back(
+            {name, names, title, caption, picture.columns, picture.rows, png_of(picture)});
+    }
+};
 
 /// A fact that is a whole number of pixels; 0 for any other.
 int pixels_of(const std::string& fact) {
@@ -96,16 +120,17 @@ std::string map_caption(const HeatMapFacts& map) {
            " px; the numbers are those of the contacts below.";
 }
 
-void draw_map(SessionReport& report, const TouchedPlaces& places, std::uint32_t media,
-              const RecordedPictures& pictures) {
+void draw_map(const Making& making, const TouchedPlaces& places, std::uint32_t media) {
+    SessionReport& report = making.report;
     const PixelBounds touched = places.bounds();
     if (touched.right == 0 || !(places.total_s() > 0.0)) return;  // no place that could be shown
     HeatMapFacts map;
-    map.picture = map_name(report.maps.size() + 1);
+    const std::string name = map_name(report.maps.size() + 1);
+    map.picture = file_name(name, making.request.plot_formats.front());
     map.source = source_of(report.session, media);
     map.frame_s = places.longest_frame_s();
     map.contact_s = places.total_s();
-    RecordedPicture picture = pictures(map.source, map.frame_s);
+    RecordedPicture picture = making.request.pictures(map.source, map.frame_s);
     map.remark = picture.remark;
     const std::string warning = picture.warning;
     const bool size_known = picture.columns > 0;
@@ -126,32 +151,34 @@ void draw_map(SessionReport& report, const TouchedPlaces& places, std::uint32_t 
     map.rows = ground.rows;
     map.sigma_px = heat_map_sigma_px(ground.columns);
     const std::string under =
-        ascii_text(report.session.file().filename().string(), kLongestFile) + ", " +
-        (map.remark.empty() ? ascii_text(map.source.colour.file.filename().string(), kLongestFile) +
-                                  " at " + decimals(map.frame_s, 2) + " s"
-                            : "plain ground") +
+        one_line_text(report.session.file().filename().string(), kLongestFile) + ", " +
+        (map.remark.empty()
+             ? one_line_text(map.source.colour.file.filename().string(), kLongestFile) + " at " +
+                   decimals(map.frame_s, 2) + " s"
+             : "plain ground") +
         ", " + decimals(map.contact_s, 1) + " s in contact";
-    add_figure(report, map.picture, "Heat map of where the surface was touched", map_caption(map),
-               plot_heat_map(places, ground, report.numbers.episodes, media, under));
+    making.add_figure(name, "Heat map of where the surface was touched", map_caption(map),
+                      plot_heat_map(places, ground, report.numbers.episodes, media, under));
     report.maps.push_back(std::move(map));
 }
 
-void draw_maps(SessionReport& report, const RecordedPictures& pictures) {
+void draw_maps(const Making& making) {
+    const SessionNumbers& numbers = making.report.numbers;
     std::vector<std::pair<double, std::uint32_t>> longest;
-    for (const auto& [media, places] : report.numbers.places) {
+    for (const auto& [media, places] : numbers.places) {
         longest.emplace_back(-places.total_s(), media);
     }
     std::sort(longest.begin(), longest.end());
     if (longest.size() > kMostMaps) longest.resize(kMostMaps);
     for (const auto& [time, media] : longest) {
-        draw_map(report, report.numbers.places.at(media), media, pictures);
+        draw_map(making, numbers.places.at(media), media);
     }
 }
 
 PlotWords plot_words(const SessionReport& report) {
     const Session& session = report.session;
-    std::string subtitle = ascii_text(session.file().filename().string(), kLongestFile);
-    const std::string who = ascii_text(session.fact("participant"), kLongestName);
+    std::string subtitle = one_line_text(session.file().filename().string(), kLongestFile);
+    const std::string who = one_line_text(session.fact("participant"), kLongestName);
     if (!who.empty()) subtitle += ", " + who;
     const auto contacts = static_cast<std::int64_t>(report.numbers.episodes.size());
     subtitle += ", " + counted(contacts, "contact") + ", " + decimals(report.numbers.contact_s, 1) +
@@ -159,35 +186,38 @@ PlotWords plot_words(const SessionReport& report) {
     return {subtitle, session.begin_s(), session.marks()};
 }
 
-void draw_plots(SessionReport& report) {
+void draw_plots(const Making& making) {
+    const SessionReport& report = making.report;
     const SessionNumbers& numbers = report.numbers;
     const PlotWords words = plot_words(report);
     const std::string range =
         shows_means(numbers.time_line) ? " Pale: the range of the values; dark: the mean." : "";
-    add_figure(report, "force-over-time.png", "Force over time",
-               "Spring force and force sent to the hand; below, when there was contact and which "
-               "moment of the video was touched. Dashed lines are marks." +
-                   range,
-               plot_force_over_time(numbers, words));
+    making.add_figure(
+        "force-over-time", "Force over time",
+        "Spring force and force sent to the hand; below, when there was contact and which "
+        "moment of the video was touched. Dashed lines are marks." +
+            range,
+        plot_force_over_time(numbers, words));
     const bool speeds = numbers.proxy_mm_per_s.total_s() > 0.0;
     if (speeds) {
-        add_figure(report, "speed-over-time.png", "Speed over time",
-                   "Speed of the hand and of the point on the surface, while in contact." + range,
-                   plot_speed_over_time(numbers, words));
+        making.add_figure(
+            "speed-over-time", "Speed over time",
+            "Speed of the hand and of the point on the surface, while in contact." + range,
+            plot_speed_over_time(numbers, words));
     }
     if (numbers.sent_newton.total_s() > 0.0) {
-        add_figure(report, "force-histogram.png", "Histogram of the force sent",
-                   "For how long which force was sent while in contact.",
-                   plot_force_histogram(numbers, words));
+        making.add_figure("force-histogram", "Histogram of the force sent",
+                          "For how long which force was sent while in contact.",
+                          plot_force_histogram(numbers, words));
     }
     if (numbers.episodes.empty()) return;
-    add_figure(report, "contact-histogram.png", "Histogram of the contacts' lengths",
-               "How many contacts lasted how long (logarithmic).",
-               plot_contact_histogram(numbers, words));
+    making.add_figure("contact-histogram", "Histogram of the contacts' lengths",
+                      "How many contacts lasted how long (logarithmic).",
+                      plot_contact_histogram(numbers, words));
     if (speeds) {
-        add_figure(report, "speed-histogram.png", "Histogram of the speed",
-                   "For how long the point on the surface had which speed.",
-                   plot_speed_histogram(numbers, words));
+        making.add_figure("speed-histogram", "Histogram of the speed",
+                          "For how long the point on the surface had which speed.",
+                          plot_speed_histogram(numbers, words));
     }
 }
 
@@ -201,9 +231,9 @@ void write_session_report(const Session& session, const ReportRequest& request) 
     ReportFiles files(request.folder, all_names());
     session.check();
     SessionReport report{session, numbers_of(session, request.progress), {}, {}, request.program};
-    draw_maps(report, request.pictures);
-    draw_plots(report);
-    for (const Figure& figure : report.figures) files.add(figure.file, figure.png);
+    const Making making{report, files, request};
+    draw_maps(making);
+    draw_plots(making);
     files.add("report.json", json_of(report));
     files.add("report.html", page_of(report));
     files.commit();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/plot/canvas.hpp"
 #include "core/report/session_numbers.hpp"
 #include "core/session/session.hpp"
 #include "core/video/frame_window.hpp"
@@ -36,7 +37,8 @@ struct HeatMapFacts {
 
 /// A picture of the report.
 struct Figure {
-    std::string file{};  ///< its name
+    std::string name{};   ///< "heat-map": of its files, without their endings
+    std::string files{};  ///< "heat-map.svg, heat-map.pdf"
     std::string title{};
     std::string caption{};
     int columns{0}, rows{0};
@@ -58,6 +60,7 @@ struct ReportRequest {
     std::string program{};
     RecordedPictures pictures{};
     std::function<void(double)> progress{};  ///< hears the share done; may be empty
+    std::vector<PlotFormat> plot_formats{PlotFormat::png};
 };
 
 /// Reads the session once and writes `report.html`, `report.json` and the pictures into the folder,

@@ -83,7 +83,9 @@ const std::vector<Ownership> kOwnerships{
     {"CLI/", {"app/settings/", "app/commands/"}},
     {"toml", {"app/settings/"}},
     {"pybind11/", {"app/python/"}},
-    {"opencv2/", {"core/video/", "core/plot/", "assets/"}},
+    {"opencv2/", {"core/video/", "assets/"}},
+    {"cairo", {"core/plot/"}},
+    {"pango/", {"core/plot/"}},
 };
 
 // No file, clock, thread, log or picture library: numbers in, numbers out.

@@ -99,7 +99,23 @@ TEST_CASE("experiment human says whose hand it is", "[experiment]") {
     CHECK(contains(session, "300 updates"));
 }
 
-TEST_CASE("an unknown path or algorithm is refused with the choices", "[experiment]") {
+TEST_CASE("experiment writes its pictures in the formats that are asked for", "[experiment]") {
+    const TemporaryFolder folder;
+    const ProgramResult result =
+        run_dibhr(folder, {"experiment", "linear", "--algorithm", "dibhr", "--plots", "pictures",
+                           "--plot-format", "svg,pdf"});
+    INFO(result.errors);
+    REQUIRE(result.exit_code == 0);
+    const std::string svg = read_text(folder / "pictures/force-linear.svg");
+    CHECK(svg.starts_with("<?xml"));
+    CHECK(contains(svg, ">How the force turned: linear</text>"));
+    CHECK(read_text(folder / "pictures/force-linear.pdf").starts_with("%PDF"));
+    CHECK_FALSE(std::filesystem::exists(folder / "pictures/force-linear.png"));
+}
+
+TEST_CASE("an unknown path, algorithm or format is refused with the choices", "[experiment]") {
+    CHECK(contains(usage_error({"--plot-format", "gif"}), "png, svg, pdf"));
+    CHECK(contains(usage_error({"--plot-format", "png,gif"}), "'gif' is none of"));
     CHECK(contains(usage_error({"square"}), "linear, circle, human, all, sweep"));
     CHECK(contains(usage_error({"--algorithm", "magic"}), "dibhr, pga, neighborhood, god-object"));
     const TemporaryFolder folder;

@@ -48,6 +48,33 @@ void record_touch(const TemporaryFolder& folder, const std::string& name) {
 
 }  // namespace
 
+TEST_CASE("report writes its pictures in the formats that are asked for, the page's are PNG",
+          "[report]") {
+    const TemporaryFolder folder;
+    record_touch(folder, "touch.dibhr");
+    const auto report_as = [&](const std::string& formats) {
+        return run_dibhr(folder,
+                         {"report", "touch.dibhr", "--out", "mine", "--plot-format", formats});
+    };
+    REQUIRE(report_as("svg,pdf").exit_code == 0);
+    const std::string svg = read_text(folder / "mine/force-over-time.svg");
+    CHECK(contains(svg, "touch.dibhr, P07, 1 contact"));
+    CHECK(read_text(folder / "mine/heat-map.pdf").starts_with("%PDF"));
+    CHECK_FALSE(fs::exists(folder / "mine/heat-map.png"));
+    const std::string page = read_text(folder / "mine/report.html");
+    CHECK(contains(page, "src=\"data:image/png;base64,iVBORw0KGgo"));
+    CHECK(contains(page, "(heat-map.svg, heat-map.pdf)"));
+    CHECK(contains(read_text(folder / "mine/report.json"), "\"heat-map.svg\""));
+    REQUIRE(report_as("png").exit_code == 0);  // takes the place of the one before
+    CHECK_FALSE(fs::exists(folder / "mine/heat-map.pdf"));
+    CHECK(fs::exists(folder / "mine/heat-map.png"));
+
+    const ProgramResult refused = report_as("gif");
+    CHECK(refused.exit_code == 2);
+    CHECK(std::count(refused.errors.begin(), refused.errors.end(), '\n') == 1);
+    CHECK(contains(refused.errors, "'gif' is none of png, svg, pdf"));
+}
+
 TEST_CASE("report writes a page, pictures over the touched frame, and numbers", "[report]") {
     const TemporaryFolder folder;
     record_touch(folder, "touch.dibhr");

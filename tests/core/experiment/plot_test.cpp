@@ -219,7 +219,8 @@ TEST_CASE("the scale of the turns holds the restless algorithm and is round", "[
 TEST_CASE("every picture of a path shows each algorithm in its own ink", "[plots]") {
     const PathRun path = circle_with_runs();
     for (const ColourImage& picture :
-         {plot_paths(path, nullptr), plot_force(path), plot_error(path), plot_explanation(path)}) {
+         {plot_paths(path, nullptr).finished(), plot_force(path).finished(),
+          plot_error(path).finished(), plot_explanation(path).finished()}) {
         CHECK(picture.columns == 1200);
         CHECK(picture.rows >= 600);
         for (const AlgorithmRun& run : path.runs) {
@@ -244,10 +245,10 @@ TEST_CASE("the sweep's picture shows each algorithm that was swept, and no point
             points.push_back(point);
         }
     }
-    const ColourImage picture = plot_sweep(points);
+    const ColourImage picture = plot_sweep(points).finished();
     CHECK(pixels_of(picture, look_of(Algorithm::neighborhood).stroke.ink) > 200);
     CHECK(pixels_of(picture, look_of(Algorithm::god_object).stroke.ink) == 0);
-    CHECK(plot_sweep({}).columns == picture.columns);
+    CHECK(plot_sweep({}).finished().columns == picture.columns);
 }
 
 TEST_CASE("the pictures are written into a folder that is made for them", "[plots]") {
@@ -257,8 +258,8 @@ TEST_CASE("the pictures are written into a folder that is made for them", "[plot
     human.name = "human";
     human.exact_proxies.clear();
     const ColourImage torso{2, 2, std::vector<std::uint8_t>(12, 90)};
-    write_plots({circle_with_runs(), human}, &torso, folder);
-    write_sweep_plot({}, folder);
+    write_plots({circle_with_runs(), human}, &torso, {folder});
+    write_sweep_plot({}, {folder});
     std::set<std::string> names;
     for (const auto& entry : fs::directory_iterator(folder)) {
         names.insert(entry.path().filename().string());
@@ -274,7 +275,7 @@ TEST_CASE("a folder that cannot be made is said in one line", "[plots]") {
     const fs::path file = own / "file";
     std::ofstream(file) << "in the way";
     try {
-        write_sweep_plot({}, file / "plots");
+        write_sweep_plot({}, {file / "plots"});
         FAIL("a folder inside a file was accepted");
     } catch (const InputError& error) {
         const std::string line = error.what();

@@ -342,7 +342,7 @@ TEST_CASE("heat lies where it was touched, whatever the sizes of depth and colou
     CAPTURE(columns, colour_columns);
     TouchedPlaces places;
     places.add({0.25 * columns, 0.5 * columns}, 0.0, 1.0);
-    const ColourImage picture = plot_heat_map(places, ground, {}, 1, "");
+    const ColourImage picture = plot_heat_map(places, ground, {}, 1, "").finished();
     const auto chroma_at = [&](double x_share, double y_share) {
         const auto x = static_cast<std::size_t>(36.0 + 960.0 * x_share);
         const auto y = static_cast<std::size_t>(92.0 + 720.0 * y_share);
