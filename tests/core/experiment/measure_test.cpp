@@ -20,7 +20,6 @@ using Catch::Matchers::WithinAbs;
 
 namespace {
 
-constexpr double kDegPerRad = 57.29577951308232;
 constexpr double kExact = 1e-9;
 constexpr Algorithm kDibhr[]{Algorithm::dibhr};
 constexpr int kUpdates = 2000;
