@@ -12,11 +12,6 @@ namespace dibhr {
 
 namespace {
 
-/// A segment must dive this far below the surface to hit it [px]: more than round-off at the
-/// steepest cliff of an 8K image, less than anybody can feel. A path along the surface does not hit
-/// it.
-constexpr double kTouchDepth_px = 1e-10;
-
 /// One family of grid lines, x = i or y = j, crossed by the segment one after the other.
 class LineCrossings {
   public:
@@ -34,10 +29,10 @@ class LineCrossings {
 
     [[nodiscard]] int cell() const noexcept { return cell_; }
     [[nodiscard]] int step() const noexcept { return step_; }
-    [[nodiscard]] double next() const noexcept {
-        return next_;
-    }                                        ///< segment parameter of the next line
-    [[nodiscard]] bool advance() noexcept {  ///< false: out of the image
+    /// Segment parameter of the next line.
+    [[nodiscard]] double next() const noexcept { return next_; }
+    /// False: out of the image.
+    [[nodiscard]] bool advance() noexcept {
         cell_ += step_;
         find_next();
         return cell_ >= 0 && cell_ < cells_;

@@ -9,6 +9,11 @@
 
 namespace dibhr {
 
+/// A segment must dive this far below the surface to hit it [px]: more than round-off at the
+/// steepest cliff of an 8K image, less than anybody can feel. A path along the surface does not hit
+/// it.
+inline constexpr double kTouchDepth_px = 1e-10;
+
 struct Hit {
     Vec3 position{0.0};
     Primitive triangle{};

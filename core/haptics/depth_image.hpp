@@ -11,8 +11,8 @@ namespace dibhr {
 struct DepthImage {
     int columns{0};
     int rows{0};
-    double highest_level{
-        255.0};  ///< the level of depth 1.0: 255 for 8-bit, 65535 for 16-bit sources
+    /// The level of depth 1.0: 255 for 8-bit, 65535 for 16-bit sources.
+    double highest_level{255.0};
     std::vector<float> levels{};
 
     [[nodiscard]] float& at(int i, int j) { return levels[index(i, j)]; }

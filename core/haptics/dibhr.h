@@ -94,8 +94,8 @@ typedef struct dibhr_parameter {
     double initial; /* what a new handle has */
 } dibhr_parameter;
 
-/* How many there are: relief, pixel-pitch, stiffness, damping, damping-cutoff, static-friction,
- * dynamic-friction, roughness. */
+/* How many there are: relief, roughness, static-friction, dynamic-friction, stiffness, damping,
+ * damping-cutoff, pixel-pitch. */
 size_t dibhr_parameter_count(void);
 
 /* The one of this index, 0 to count - 1; DIBHR_BAD_ARGUMENT past the end. */

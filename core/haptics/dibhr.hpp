@@ -2,7 +2,7 @@
 // itself.
 #pragma once
 
-#include "core/haptics/surface_proxy.hpp"
+#include "core/haptics/proxy.hpp"
 
 namespace dibhr {
 
@@ -12,10 +12,9 @@ namespace dibhr {
 /// The walk ends where the distance to the goal has a local minimum over the surface (no friction),
 /// or on or in the friction cone of the piece it was on. Cost: a fraction of a microsecond for a
 /// hand's step; proportional to the cells crossed.
-class Dibhr final : public SurfaceProxy {
-  public:
-    const Proxy& update(const DepthSurface& surface, Vec3 goal,
-                        const Friction& friction) noexcept override;
+class Dibhr final : public ProxyAlgorithm {
+    void walk(const DepthSurface& surface, Vec3 goal, const Friction& friction, int most_moves,
+              Proxy& proxy) const noexcept override;
 };
 
 }  // namespace dibhr

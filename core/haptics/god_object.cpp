@@ -1,10 +1,16 @@
-// The walk from constraint to constraint.
+// The walk from constraint to constraint, and the nearest point that the constraints allow.
 #include "core/haptics/god_object.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <initializer_list>
 #include <optional>
+#include <span>
+
+#include <glm/geometric.hpp>
 
 #include "core/haptics/collision.hpp"
-#include "core/haptics/constraint_planes.hpp"
 #include "core/haptics/facet.hpp"
 #include "core/haptics/proxy_walk.hpp"
 
@@ -12,14 +18,135 @@ namespace dibhr {
 
 namespace {
 
+/// Planes at less than about a millionth of a radian are one plane.
+constexpr double kParallel = 1e-12;
+
+/// A half-space that the proxy may not leave, as the goal sees it.
+struct ConstraintPlane {
+    Vec3 normal{0.0};   ///< out of the solid, any length
+    double below{0.0};  ///< how far the goal is inside the solid, times |normal|
+
+    bool operator==(const ConstraintPlane&) const = default;
+};
+
+/// From the goal to the nearest point of planes that all hold the proxy back from it; nothing where
+/// they do not.
+std::optional<Vec3> bound_by(const ConstraintPlane& plane) noexcept {
+    const auto& [n, below] = plane;
+    if (below <= 0.0) return std::nullopt;
+    return below / glm::dot(n, n) * n;
+}
+
+std::optional<Vec3> bound_by(const ConstraintPlane& first, const ConstraintPlane& second) noexcept {
+    const auto& [n1, below1] = first;
+    const auto& [n2, below2] = second;
+    const double n11 = glm::dot(n1, n1);
+    const double n12 = glm::dot(n1, n2);
+    const double n22 = glm::dot(n2, n2);
+    const Vec3 line = glm::cross(n1, n2);
+    const double determinant = glm::dot(line, line);
+    if (determinant <= kParallel * n11 * n22) return std::nullopt;
+    const double push1 = below1 * n22 - below2 * n12;
+    const double push2 = below2 * n11 - below1 * n12;
+    if (push1 < 0.0 || push2 < 0.0) return std::nullopt;
+    return (push1 * n1 + push2 * n2) / determinant;
+}
+
+std::optional<Vec3> bound_by(const ConstraintPlane& first, const ConstraintPlane& second,
+                             const ConstraintPlane& third) noexcept {
+    const auto& [n1, below1] = first;
+    const auto& [n2, below2] = second;
+    const auto& [n3, below3] = third;
+    const Vec3 along1 = glm::cross(n2, n3);
+    const Vec3 along2 = glm::cross(n3, n1);
+    const Vec3 along3 = glm::cross(n1, n2);
+    const double volume = glm::dot(n1, along1);
+    if (volume * volume <= kParallel * glm::dot(n1, n1) * glm::dot(n2, n2) * glm::dot(n3, n3)) {
+        return std::nullopt;
+    }
+    const Vec3 point = (below1 * along1 + below2 * along2 + below3 * along3) / volume;
+    // point = sum of push_k n_k, so push_k volume = point . along_k.
+    for (const Vec3& along : {along1, along2, along3}) {
+        if (glm::dot(point, along) * volume < 0.0) return std::nullopt;
+    }
+    return point;
+}
+
+/// The planes met at one place. At most three of them bind at the nearest point; the others are
+/// kept because another three may bind next.
+class ConstraintPlanes {
+  public:
+    [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
+    void clear() noexcept { count_ = 0; }
+
+    /// False when the plane is held already or there is no room for it: the proxy cannot go on.
+    [[nodiscard]] bool add(const ConstraintPlane& plane) noexcept {
+        const auto held = std::span(planes_).first(count_);
+        if (count_ == kRoom || std::find(held.begin(), held.end(), plane) != held.end()) {
+            return false;
+        }
+        planes_[count_++] = plane;
+        return true;
+    }
+
+    /// The point nearest to `goal` in all half-spaces, which Zilles and Salisbury find with a
+    /// Lagrange multiplier a plane: those that push outwards bind. Every set of one, two or three
+    /// planes is tried, the smallest first. Nothing if planes that are nearly parallel leave none.
+    [[nodiscard]] std::optional<Vec3> nearest_to(Vec3 goal) noexcept {
+        const auto& p = planes_;
+        for (std::size_t a = 0; a < count_; ++a) {
+            if (const auto way = bound_by(p[a]); binds(way, {a})) return goal + *way;
+        }
+        for (std::size_t a = 0; a < count_; ++a) {
+            for (std::size_t b = a + 1; b < count_; ++b) {
+                if (const auto way = bound_by(p[a], p[b]); binds(way, {a, b})) return goal + *way;
+            }
+        }
+        for (std::size_t a = 0; a < count_; ++a) {
+            for (std::size_t b = a + 1; b < count_; ++b) {
+                for (std::size_t c = b + 1; c < count_; ++c) {
+                    const auto way = bound_by(p[a], p[b], p[c]);
+                    if (binds(way, {a, b, c})) return goal + *way;
+                }
+            }
+        }
+        return std::nullopt;
+    }
+
+    /// Forgets the planes that did not bind at the last nearest point: the proxy has gone off them.
+    void keep_binding() noexcept {
+        for (std::size_t k = 0; k < binding_count_; ++k) planes_[k] = planes_[binding_[k]];
+        count_ = binding_count_;
+    }
+
+  private:
+    static constexpr std::size_t kRoom =
+        8;  // six TRIANGLEs meet at a VERTEX, two walls in a corner
+
+    /// No plane forbids the point: these are the ones that bind, in rising order.
+    bool binds(const std::optional<Vec3>& from_goal,
+               std::initializer_list<std::size_t> these) noexcept {
+        if (!from_goal) return false;
+        for (const auto& [n, below] : std::span(planes_).first(count_)) {
+            if (glm::dot(n, *from_goal) < below - kTouchDepth_px) return false;
+        }
+        std::copy(these.begin(), these.end(), binding_.begin());
+        binding_count_ = these.size();
+        return true;
+    }
+
+    std::array<ConstraintPlane, kRoom> planes_{};
+    std::size_t count_{0};
+    std::array<std::size_t, 3> binding_{};
+    std::size_t binding_count_{0};
+};
+
 class ConstraintWalk : private ProxyWalk {
   public:
-    ConstraintWalk(const DepthSurface& surface, Vec3 goal, const Friction& friction,
-                   Proxy& proxy) noexcept
-        : ProxyWalk(surface, goal, friction, proxy) {}
+    using ProxyWalk::ProxyWalk;
 
-    void run(int most_moves) noexcept {
-        visit_until_rest(most_moves, [this] {
+    void run() noexcept {
+        visit_until_rest([this] {
             if (planes_.empty() && (gets_nowhere() || !touch_on_way_to_goal())) return Next::rest;
             return go_as_near_as_allowed();
         });
@@ -91,8 +218,7 @@ class ConstraintWalk : private ProxyWalk {
 
     [[nodiscard]] ConstraintPlane plane_of(const Primitive& triangle) const noexcept {
         const Facet facet(surface_, triangle);
-        return {{-facet.slope_x(), -facet.slope_y(), 1.0},
-                facet.elevation_at(goal_.x, goal_.y) - goal_.z};
+        return {facet.normal(), facet.elevation_at(goal_.x, goal_.y) - goal_.z};
     }
 
     /// A way up to the frame, and the wall it ends at.
@@ -136,11 +262,9 @@ class ConstraintWalk : private ProxyWalk {
 
 }  // namespace
 
-const Proxy& GodObject::update(const DepthSurface& surface, Vec3 goal,
-                               const Friction& friction) noexcept {
-    const Vec3 goal_in_frame = begin_update(surface, goal);
-    ConstraintWalk(surface, goal_in_frame, friction, proxy_).run(most_moves(goal_in_frame));
-    return proxy_;
+void GodObject::walk(const DepthSurface& surface, Vec3 goal, const Friction& friction,
+                     int most_moves, Proxy& proxy) const noexcept {
+    ConstraintWalk(surface, goal, friction, most_moves, proxy).run();
 }
 
 }  // namespace dibhr

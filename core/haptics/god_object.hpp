@@ -1,7 +1,7 @@
 // The god-object: held by up to three planes, as near to the goal as they allow.
 #pragma once
 
-#include "core/haptics/surface_proxy.hpp"
+#include "core/haptics/proxy.hpp"
 
 namespace dibhr {
 
@@ -18,10 +18,9 @@ namespace dibhr {
 /// - Friction is that of the other algorithms, before each straight piece.
 /// Guaranteed: the distance to the goal never grows; the proxy is never below the surface; on a
 /// plane it goes as DIBHR does. Its active primitive is the TRIANGLE under it.
-class GodObject final : public SurfaceProxy {
-  public:
-    const Proxy& update(const DepthSurface& surface, Vec3 goal,
-                        const Friction& friction) noexcept override;
+class GodObject final : public ProxyAlgorithm {
+    void walk(const DepthSurface& surface, Vec3 goal, const Friction& friction, int most_moves,
+              Proxy& proxy) const noexcept override;
 };
 
 }  // namespace dibhr

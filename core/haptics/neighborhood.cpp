@@ -20,12 +20,10 @@ struct NearestPoint {
 
 class NeighborhoodWalk : private ProxyWalk {
   public:
-    NeighborhoodWalk(const DepthSurface& surface, Vec3 goal, const Friction& friction,
-                     Proxy& proxy) noexcept
-        : ProxyWalk(surface, goal, friction, proxy) {}
+    using ProxyWalk::ProxyWalk;
 
-    void run(int most_moves) noexcept {
-        visit_until_rest(most_moves, [this] {
+    void run() noexcept {
+        visit_until_rest([this] {
             if (proxy_.active.kind == PrimitiveKind::none) return visit_free();
             stand_on_lowest();
             nearest_ = {proxy_.position, proxy_.active, squared_distance(proxy_.position, goal_)};
@@ -92,13 +90,9 @@ class NeighborhoodWalk : private ProxyWalk {
 
     [[nodiscard]] NearestPoint nearest_in(const Primitive& which) const noexcept {
         const Facet facet(surface_, which);
-        const double rise = goal_.z - facet.elevation_at(goal_.x, goal_.y);
-        const double fall = rise / (1.0 + square(facet.slope_x()) + square(facet.slope_y()));
-        const double x = goal_.x + facet.slope_x() * fall;
-        const double y = goal_.y + facet.slope_y() * fall;
-        const Barycentric share = facet.barycentric(x, y);
+        const Vec3 foot = facet.project(goal_).foot;
+        const Barycentric share = facet.barycentric(foot.x, foot.y);
         if (share.row >= 0.0 && share.column >= 0.0 && share.diagonal >= 0.0) {
-            const Vec3 foot(x, y, facet.elevation_at(x, y));
             return {foot, which, squared_distance(foot, goal_)};
         }
         NearestPoint nearest;
@@ -113,11 +107,10 @@ class NeighborhoodWalk : private ProxyWalk {
 
     [[nodiscard]] NearestPoint nearest_on(const Primitive& edge) const noexcept {
         const EdgeEnds ends = ends_of(edge);
-        const Vec3 begin(ends.begin_i, ends.begin_j,
-                         surface_.elevation(ends.begin_i, ends.begin_j));
-        const Vec3 end(ends.end_i, ends.end_j, surface_.elevation(ends.end_i, ends.end_j));
+        const Vec3 begin = surface_.vertex_at(ends.begin_i, ends.begin_j);
+        const Vec3 end = surface_.vertex_at(ends.end_i, ends.end_j);
         const Vec3 along = end - begin;
-        const double t = dot(goal_ - begin, along) / dot(along, along);
+        const double t = glm::dot(goal_ - begin, along) / glm::dot(along, along);
         if (t <= 0.0) {
             return {begin, vertex(ends.begin_i, ends.begin_j), squared_distance(begin, goal_)};
         }
@@ -163,11 +156,9 @@ class NeighborhoodWalk : private ProxyWalk {
 
 }  // namespace
 
-const Proxy& Neighborhood::update(const DepthSurface& surface, Vec3 goal,
-                                  const Friction& friction) noexcept {
-    const Vec3 goal_in_frame = begin_update(surface, goal);
-    NeighborhoodWalk(surface, goal_in_frame, friction, proxy_).run(most_moves(goal_in_frame));
-    return proxy_;
+void Neighborhood::walk(const DepthSurface& surface, Vec3 goal, const Friction& friction,
+                        int most_moves, Proxy& proxy) const noexcept {
+    NeighborhoodWalk(surface, goal, friction, most_moves, proxy).run();
 }
 
 }  // namespace dibhr

@@ -1,7 +1,7 @@
 // Neighborhood search: the proxy goes to the nearest point of the nearest neighbouring primitive.
 #pragma once
 
-#include "core/haptics/surface_proxy.hpp"
+#include "core/haptics/proxy.hpp"
 
 namespace dibhr {
 
@@ -23,10 +23,9 @@ namespace dibhr {
 /// - It leaves as DIBHR does: where it would rest, if the goal is above the plane there.
 /// Guaranteed: the distance to the goal never grows; without friction the resting place is a local
 /// minimum of the distance over the surface.
-class Neighborhood final : public SurfaceProxy {
-  public:
-    const Proxy& update(const DepthSurface& surface, Vec3 goal,
-                        const Friction& friction) noexcept override;
+class Neighborhood final : public ProxyAlgorithm {
+    void walk(const DepthSurface& surface, Vec3 goal, const Friction& friction, int most_moves,
+              Proxy& proxy) const noexcept override;
 };
 
 }  // namespace dibhr

@@ -27,12 +27,10 @@ struct Place {
 
 class GraphWalk : private ProxyWalk {
   public:
-    GraphWalk(const DepthSurface& surface, Vec3 goal, const Friction& friction,
-              Proxy& proxy) noexcept
-        : ProxyWalk(surface, goal, friction, proxy) {}
+    using ProxyWalk::ProxyWalk;
 
-    void run(int most_moves) noexcept {
-        visit_until_rest(most_moves, [this] {
+    void run() noexcept {
+        visit_until_rest([this] {
             stand_on_lowest();
             switch (proxy_.active.kind) {
                 case PrimitiveKind::triangle:
@@ -50,7 +48,7 @@ class GraphWalk : private ProxyWalk {
 
   private:
     [[nodiscard]] Place place(int i, int j) const noexcept {
-        const Vec3 position(i, j, surface_.elevation(i, j));
+        const Vec3 position = surface_.vertex_at(i, j);
         return {i, j, position, squared_distance(position, goal_)};
     }
 
@@ -151,26 +149,19 @@ class GraphWalk : private ProxyWalk {
             const int way = k < 6 ? k : k - 6;
             const int i = at.i + kAround[way].i;
             const int j = at.j + kAround[way].j;
-            if (((held >> way) & 1U) != 0 || !is_vertex(i, j)) continue;
+            if (((held >> way) & 1U) != 0 || !surface_.has_vertex(i, j)) continue;
             const Place candidate = place(i, j);
             if (candidate.to_goal2 < ahead.place.to_goal2) ahead = {candidate, way};
         }
         return ahead;
     }
-
-    [[nodiscard]] bool is_vertex(int i, int j) const noexcept {
-        return static_cast<unsigned>(i) < static_cast<unsigned>(surface_.columns()) &&
-               static_cast<unsigned>(j) < static_cast<unsigned>(surface_.rows());
-    }
 };
 
 }  // namespace
 
-const Proxy& Pga::update(const DepthSurface& surface, Vec3 goal,
-                         const Friction& friction) noexcept {
-    const Vec3 goal_in_frame = begin_update(surface, goal);
-    GraphWalk(surface, goal_in_frame, friction, proxy_).run(most_moves(goal_in_frame));
-    return proxy_;
+void Pga::walk(const DepthSurface& surface, Vec3 goal, const Friction& friction, int most_moves,
+               Proxy& proxy) const noexcept {
+    GraphWalk(surface, goal, friction, most_moves, proxy).run();
 }
 
 }  // namespace dibhr

@@ -1,7 +1,7 @@
 // The proxy graph algorithm: the proxy goes from VERTEX to VERTEX.
 #pragma once
 
-#include "core/haptics/surface_proxy.hpp"
+#include "core/haptics/proxy.hpp"
 
 namespace dibhr {
 
@@ -20,10 +20,9 @@ namespace dibhr {
 /// Guaranteed: the distance to the goal never grows; the proxy is always on the surface or in free
 /// space; without friction a proxy on a VERTEX of a plane rests within half a cell's diagonal of
 /// the goal's foot. Cost: three elevations a VERTEX on its way.
-class Pga final : public SurfaceProxy {
-  public:
-    const Proxy& update(const DepthSurface& surface, Vec3 goal,
-                        const Friction& friction) noexcept override;
+class Pga final : public ProxyAlgorithm {
+    void walk(const DepthSurface& surface, Vec3 goal, const Friction& friction, int most_moves,
+              Proxy& proxy) const noexcept override;
 };
 
 }  // namespace dibhr

@@ -41,6 +41,18 @@ struct Primitive {
 }
 
 /// "none", "triangle", "edge" or "vertex", as in the output rows.
-[[nodiscard]] const char* name_of(PrimitiveKind kind) noexcept;
+[[nodiscard]] constexpr const char* name_of(PrimitiveKind kind) noexcept {
+    switch (kind) {
+        case PrimitiveKind::triangle:
+            return "triangle";
+        case PrimitiveKind::edge:
+            return "edge";
+        case PrimitiveKind::vertex:
+            return "vertex";
+        case PrimitiveKind::none:
+            break;
+    }
+    return "none";
+}
 
 }  // namespace dibhr

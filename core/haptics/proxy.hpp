@@ -1,4 +1,4 @@
-// What every proxy algorithm takes and gives, so that they can be run side by side.
+// A proxy that follows goals over a surface: what every algorithm takes and gives.
 #pragma once
 
 #include "core/haptics/parameters.hpp"
@@ -18,21 +18,37 @@ struct Proxy {
     bool bound_met{false};  ///< the walk was stopped by its bound: a fault, counted and reported
 };
 
-/// A proxy that follows goals over a surface. No allocation, lock, clock or exception in `update`.
+/// Where the proxy starts, how it follows a surface that moves, and where it goes on from when
+/// another algorithm brought it there. The walk is the algorithm's own, so that all can be run side
+/// by side. No allocation, lock, clock or exception in `update`.
 class ProxyAlgorithm {
   public:
     virtual ~ProxyAlgorithm() = default;
 
     /// Moves the proxy towards `goal` over `surface`, which may have moved since the last update.
     /// The goal must be finite. The first update starts the proxy above the goal, in free space.
-    virtual const Proxy& update(const DepthSurface& surface, Vec3 goal,
-                                const Friction& friction) noexcept = 0;
+    const Proxy& update(const DepthSurface& surface, Vec3 goal, const Friction& friction) noexcept;
 
     /// Forgets everything: the next update is a first one.
-    virtual void restart() noexcept = 0;
+    void restart() noexcept { started_ = false; }
 
     /// Goes on from where another algorithm left its proxy on this surface.
-    virtual void resume(const DepthSurface& surface, const Proxy& proxy) noexcept = 0;
+    void resume(const DepthSurface& surface, const Proxy& proxy) noexcept;
+
+  protected:
+    /// From where the proxy is to where it rests. `goal` lies inside the image rectangle; after
+    /// `most_moves` primitives `bound_met` is set.
+    virtual void walk(const DepthSurface& surface, Vec3 goal, const Friction& friction,
+                      int most_moves, Proxy& proxy) const noexcept = 0;
+
+  private:
+    void start_above(const DepthSurface& surface, Vec3 goal) noexcept;
+    void follow_surface(const DepthSurface& surface) noexcept;
+
+    Proxy proxy_{};
+    int columns_{0};
+    int rows_{0};
+    bool started_{false};
 };
 
 }  // namespace dibhr

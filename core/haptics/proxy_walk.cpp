@@ -49,8 +49,9 @@ void ProxyWalk::stand_on_lowest() noexcept {
     if (active.kind != PrimitiveKind::triangle && active.kind != PrimitiveKind::edge) return;
     Vec3& p = proxy_.position;
     proxy_.active = lowest_under(active, p.x, p.y, kOnGrid_px);
-    if (proxy_.active.kind != PrimitiveKind::vertex) return;
-    p = {proxy_.active.i, proxy_.active.j, surface_.elevation(proxy_.active.i, proxy_.active.j)};
+    if (proxy_.active.kind == PrimitiveKind::vertex) {
+        p = surface_.vertex_at(proxy_.active.i, proxy_.active.j);
+    }
 }
 
 bool ProxyWalk::is_above(const Primitive& triangle) const noexcept {

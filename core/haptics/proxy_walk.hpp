@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include <glm/geometric.hpp>
+
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/proxy.hpp"
 #include "core/haptics/surface.hpp"
@@ -13,11 +15,16 @@ namespace dibhr {
 /// The proxy of one update on its way to `goal`, which lies inside the image rectangle. A class
 /// derived from it gives the visits.
 class ProxyWalk {
-  protected:
-    ProxyWalk(const DepthSurface& surface, Vec3 goal, const Friction& friction,
+  public:
+    ProxyWalk(const DepthSurface& surface, Vec3 goal, const Friction& friction, int most_moves,
               Proxy& proxy) noexcept
-        : surface_(surface), goal_(goal), friction_(friction), proxy_(proxy) {}
+        : surface_(surface),
+          goal_(goal),
+          friction_(friction),
+          most_moves_(most_moves),
+          proxy_(proxy) {}
 
+  protected:
     enum class Next { visit, rest };
 
     /// A proxy that stopped on the cone is inside it at the next update whatever the last bit says.
@@ -28,20 +35,16 @@ class ProxyWalk {
     static constexpr double kThere_px = 1e-11;
 
     [[nodiscard]] static double square(double x) noexcept { return x * x; }
-    [[nodiscard]] static double dot(Vec3 a, Vec3 b) noexcept {
-        return a.x * b.x + a.y * b.y + a.z * b.z;
-    }
     [[nodiscard]] static double squared_distance(Vec3 a, Vec3 b) noexcept {
-        return dot(a - b, a - b);
+        return glm::dot(a - b, a - b);
     }
 
-    /// Calls `visit()` until the proxy rests; after `most_moves` of them `bound_met` is set.
+    /// Calls `visit()` until the proxy rests; after too many of them `bound_met` is set.
     template <typename Visit>
-    void visit_until_rest(int most_moves, Visit&& visit) noexcept {
-        most_moves_ = most_moves;
+    void visit_until_rest(Visit&& visit) noexcept {
         Next next = proxy_.contact ? Next::visit : visit_free();
         while (next == Next::visit) {
-            if (proxy_.moves >= most_moves) {
+            if (proxy_.moves >= most_moves_) {
                 proxy_.bound_met = true;
                 break;
             }
@@ -68,11 +71,6 @@ class ProxyWalk {
 
     [[nodiscard]] bool is_above(const Primitive& triangle) const noexcept;
 
-    /// The coefficient a proxy must overcome now.
-    [[nodiscard]] double holding_coefficient() const noexcept {
-        return proxy_.slipping ? friction_.dynamic_coefficient : friction_.static_coefficient;
-    }
-
     void move_to(Vec3 position) noexcept {
         if (position == proxy_.position) return;
         proxy_.position = position;
@@ -80,64 +78,77 @@ class ProxyWalk {
         moved_ = true;
     }
 
-    /// How far friction lets the proxy go along a straight piece.
-    struct Reach {
-        enum class End { held, cone, all };
-        End end{End::all};
-        Vec3 to{0.0};  ///< the proxy's place, the place on the cone, or the piece's end
+    /// The friction cone around F, the goal's foot on the line of a straight piece: radii of
+    /// mu |goal - F|, squared, so that comparing them costs no root (README.md, "Friction").
+    struct Cone {
+        double moving2{0.0};   ///< for a proxy that moves: it goes no nearer to F
+        double holding2{0.0};  ///< for the proxy as it is, sticking or slipping: inside, it stays
     };
 
-    /// A straight piece as the friction rule sees it: F is the goal's foot on the piece's line, and
-    /// the cone around it has the radius mu |goal - F|. All but `along` are squares, and all are
-    /// times the piece's length, so that comparing them costs no root and no division.
+    [[nodiscard]] Cone cone_at(double foot_to_goal2) const noexcept {
+        const double holding =
+            proxy_.slipping ? friction_.dynamic_coefficient : friction_.static_coefficient;
+        return {square(friction_.dynamic_coefficient) * foot_to_goal2,
+                square(holding) * foot_to_goal2};
+    }
+
+    /// The proxy, this far from F, is inside the cone already, or at F. Both squares may be times
+    /// the same `scale2`.
+    [[nodiscard]] static bool is_held(const Cone& cone, double to_foot2,
+                                      double scale2 = 1.0) noexcept {
+        return to_foot2 <= cone.holding2 * kConeRounding + square(kThere_px) * scale2;
+    }
+
+    /// Where the cone around a known F stops the proxy.
+    [[nodiscard]] Vec3 place_on_cone(Vec3 foot, double to_foot2, const Cone& cone) const noexcept {
+        return foot + std::sqrt(cone.moving2 / to_foot2) * (proxy_.position - foot);
+    }
+
+    /// A straight piece to an end that need not be F, nor lie on this side of it. All but `piece`
+    /// and `length2` are times the piece's length (squares: its square): no root and no division.
     struct ConeView {
         Vec3 piece{0.0};
         double length2{0.0};
         double along{0.0};  ///< from the proxy to F
-        double away2{0.0};  ///< from F to the goal
+        Cone cone{};
     };
 
     [[nodiscard]] ConeView cone_view(Vec3 end) const noexcept {
-        const Vec3 w = goal_ - proxy_.position;
-        const Vec3 a = end - proxy_.position;
-        const Vec3 off{w.y * a.z - w.z * a.y, w.z * a.x - w.x * a.z, w.x * a.y - w.y * a.x};
-        return {a, dot(a, a), dot(w, a), dot(off, off)};
+        const Vec3 to_goal = goal_ - proxy_.position;
+        const Vec3 piece = end - proxy_.position;
+        const Vec3 off = glm::cross(to_goal, piece);
+        return {piece, glm::dot(piece, piece), glm::dot(to_goal, piece),
+                cone_at(glm::dot(off, off))};
     }
 
-    /// The proxy is inside the cone already, or at F.
-    [[nodiscard]] bool is_held(const ConeView& view) const noexcept {
-        const double cone2 = square(holding_coefficient()) * view.away2 * kConeRounding;
-        return square(view.along) <= cone2 + square(kThere_px) * view.length2;
+    [[nodiscard]] static bool is_held(const ConeView& view) noexcept {
+        return is_held(view.cone, square(view.along), view.length2);
     }
 
-    /// The piece enters the cone before its end.
-    [[nodiscard]] bool enters_cone(const ConeView& view) const noexcept {
-        const double cone2 = square(friction_.dynamic_coefficient) * view.away2;
+    /// The piece enters the cone before its end. Without friction there is no cone.
+    [[nodiscard]] static bool enters_cone(const ConeView& view) noexcept {
         const double beyond = view.along - view.length2;  // from the end to F
-        return cone2 > 0.0 && (beyond < 0.0 || square(beyond) < cone2);
-    }
-
-    /// Goes along a piece that does not hold the proxy, up to the cone (README.md,
-    /// "Friction"); false if that is before its end. Without friction there is no cone.
-    bool slide_to(Vec3 end, const ConeView& view) noexcept {
-        if (!enters_cone(view)) {
-            move_to(end);
-            return true;
-        }
-        move_to(place_on_cone(view));
-        return false;
+        return view.cone.moving2 > 0.0 && (beyond < 0.0 || square(beyond) < view.cone.moving2);
     }
 
     [[nodiscard]] Vec3 place_on_cone(const ConeView& view) const noexcept {
-        const double cone2 = square(friction_.dynamic_coefficient) * view.away2;
-        return proxy_.position + ((view.along - std::sqrt(cone2)) / view.length2) * view.piece;
+        const double gone = (view.along - std::sqrt(view.cone.moving2)) / view.length2;
+        return proxy_.position + gone * view.piece;
+    }
+
+    /// Goes along a piece that does not hold the proxy, up to the cone; false if that is before its
+    /// end.
+    bool slide_to(Vec3 end, const ConeView& view) noexcept {
+        const bool stops = enters_cone(view);
+        move_to(stops ? place_on_cone(view) : end);
+        return !stops;
     }
 
     const DepthSurface& surface_;
     const Vec3 goal_;
     const Friction friction_;
+    const int most_moves_;
     Proxy& proxy_;
-    int most_moves_{0};
     bool moved_{false};
 };
 

@@ -1,5 +1,4 @@
-// The touchable surface at one moment: two depth images, a blend and a bump map, read at the
-// vertex.
+// The touchable surface at one moment: two depth images, a blend and a bump map.
 #pragma once
 
 #include <cstddef>
@@ -33,6 +32,14 @@ class DepthSurface {
         const double z = relief_px_ * level / highest_level_;
         return bump_ == nullptr ? z : z + roughness_px_ * bump_height(i, j);
     }
+
+    [[nodiscard]] bool has_vertex(int i, int j) const noexcept {
+        return static_cast<unsigned>(i) < static_cast<unsigned>(columns_) &&
+               static_cast<unsigned>(j) < static_cast<unsigned>(rows_);
+    }
+
+    /// The place of vertex (i, j).
+    [[nodiscard]] Vec3 vertex_at(int i, int j) const noexcept { return {i, j, elevation(i, j)}; }
 
     /// Elevation of the triangulated surface under (x, y) [px], clamped to the image rectangle.
     [[nodiscard]] double elevation_at(double x, double y) const noexcept;

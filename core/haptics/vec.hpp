@@ -1,4 +1,5 @@
 // The vectors of grid space: x = column, y = row (down), z = elevation towards the viewer, pixels.
+// In all of core the *goal* is the haptic interaction point (HIP), the *proxy* the god-object.
 #pragma once
 
 #include <cmath>

@@ -1,11 +1,15 @@
 # Copies headers of the source tree as programs outside include them:
 #   cmake -Dnames=a.hpp,b.hpp -Dto=FOLDER -P public_headers.cmake, in the headers' folder
+cmake_minimum_required(VERSION 3.22)
 string(REPLACE "," ";" names ${names})
 foreach(name ${names})
   file(READ ${name} text)
   string(REGEX REPLACE "#include \"core/haptics/([a-z_]+[.]h(pp)?)\"" "#include <dibhr/\\1>" text "${text}")
-  if(text MATCHES "#include \"")
-    message(FATAL_ERROR "${name} includes a header that is not installed with it")
-  endif()
+  string(REGEX MATCHALL "#include (\"[^\"]*\"|<dibhr/[^>]*>)" includes "${text}")
+  foreach(include ${includes})
+    if(NOT include MATCHES "<dibhr/(.*)>" OR NOT CMAKE_MATCH_1 IN_LIST names)
+      message(FATAL_ERROR "${name}: ${include}, which is not installed; see `headers` in core/haptics/CMakeLists.txt")
+    endif()
+  endforeach()
   file(WRITE ${to}/${name} "${text}")
 endforeach()

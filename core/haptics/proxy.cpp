@@ -1,32 +1,38 @@
 // Start, surface following and resuming.
-#include "core/haptics/surface_proxy.hpp"
+#include "core/haptics/proxy.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace dibhr {
 
-Vec3 SurfaceProxy::begin_update(const DepthSurface& surface, Vec3 goal) noexcept {
+namespace {
+
+/// Far more primitives than any path of a hand's step visits; grows with the cells it may cross.
+int most_moves(Vec3 proxy, Vec3 goal) noexcept {
+    // The foot of a goal far below a slope lies as far to the side.
+    const double way =
+        std::abs(goal.x - proxy.x) + std::abs(goal.y - proxy.y) + std::abs(goal.z - proxy.z);
+    return 256 + static_cast<int>(64.0 * std::min(way, 1e6));
+}
+
+}  // namespace
+
+const Proxy& ProxyAlgorithm::update(const DepthSurface& surface, Vec3 goal,
+                                    const Friction& friction) noexcept {
     const Vec3 goal_in_frame = surface.clamped_to_frame(goal);
-    const bool fits = surface.columns() == columns_ && surface.rows() == rows_;
-    if (started_ && fits) {
+    if (started_ && surface.columns() == columns_ && surface.rows() == rows_) {
         follow_surface(surface);
     } else {
         start_above(surface, goal_in_frame);
     }
     proxy_.moves = 0;
     proxy_.bound_met = false;
-    return goal_in_frame;
+    walk(surface, goal_in_frame, friction, most_moves(proxy_.position, goal_in_frame), proxy_);
+    return proxy_;
 }
 
-int SurfaceProxy::most_moves(Vec3 goal) const noexcept {
-    const Vec3& p = proxy_.position;
-    // The foot of a goal far below a slope lies as far to the side.
-    const double way = std::abs(goal.x - p.x) + std::abs(goal.y - p.y) + std::abs(goal.z - p.z);
-    return 256 + static_cast<int>(64.0 * std::min(way, 1e6));
-}
-
-void SurfaceProxy::resume(const DepthSurface& surface, const Proxy& proxy) noexcept {
+void ProxyAlgorithm::resume(const DepthSurface& surface, const Proxy& proxy) noexcept {
     proxy_ = proxy;
     proxy_.bound_met = false;
     columns_ = surface.columns();
@@ -34,7 +40,7 @@ void SurfaceProxy::resume(const DepthSurface& surface, const Proxy& proxy) noexc
     started_ = true;
 }
 
-void SurfaceProxy::start_above(const DepthSurface& surface, Vec3 goal) noexcept {
+void ProxyAlgorithm::start_above(const DepthSurface& surface, Vec3 goal) noexcept {
     proxy_ = Proxy{};
     proxy_.position = {goal.x, goal.y, std::max(goal.z, surface.elevation_at(goal.x, goal.y))};
     columns_ = surface.columns();
@@ -42,7 +48,7 @@ void SurfaceProxy::start_above(const DepthSurface& surface, Vec3 goal) noexcept 
     started_ = true;
 }
 
-void SurfaceProxy::follow_surface(const DepthSurface& surface) noexcept {
+void ProxyAlgorithm::follow_surface(const DepthSurface& surface) noexcept {
     Vec3& p = proxy_.position;
     const double elevation = surface.elevation_at(p.x, p.y);
     if (proxy_.contact) {
