@@ -41,7 +41,7 @@ class TouchRun {
           depth_(open_depth(options.depth), options.video,
                  options.raw_depth ? CleaningOptions{false, false, false} : CleaningOptions{}) {
         if (!options.bump.empty()) bump_ = read_bump_map(options.bump);
-        input_.restart = true;
+        input_.from_zero = true;
     }
 
     void compute(std::span<const TimedGoal> goals, std::vector<OutputRow>& rows) {
@@ -51,7 +51,7 @@ class TouchRun {
 
   private:
     OutputRow update(const TimedGoal& goal) {
-        if (depth_.advance_to(goal.t_s)) input_.restart = true;
+        if (depth_.advance_to(goal.t_s)) input_.from_zero = true;
         // Recorded hands have equal time stamps: still an update, of the usual length.
         const double step_s = last_t_s_ ? goal.t_s - *last_t_s_ : 0.0;
         input_.dt_s = step_s > 0.0 ? step_s : kUsualTick_s;
@@ -64,7 +64,7 @@ class TouchRun {
         const auto end = std::chrono::steady_clock::now();
 
         last_t_s_ = goal.t_s;
-        input_.restart = false;
+        input_.from_zero = false;
         return {goal.t_s, touch,
                 std::chrono::duration_cast<std::chrono::nanoseconds>(end - start).count()};
     }

@@ -38,10 +38,8 @@ void draw_moment(const ViewerState& state) {
                                             : std::string("nothing"));
     fact_row("Force", formatted("%.2f N", glm::length(touch.sent_force_newton)));
     if (replay.computed) {
-        const double(&was)[3] = replay.tick.proxy;
         fact_row("From recorded",
-                 formatted("%.2f px",
-                           glm::distance(touch.proxy.position, Vec3{was[0], was[1], was[2]})));
+                 formatted("%.2f px", glm::distance(touch.proxy.position, replay.tick.proxy)));
     }
 }
 

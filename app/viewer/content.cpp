@@ -32,10 +32,7 @@ TouchMarkers markers_of(const ViewerState& state, const DepthSurface& surface) {
     markers.friction =
         touch.proxy.slipping ? friction.dynamic_coefficient : friction.static_coefficient;
     markers.force_newton = touch.sent_force_newton;
-    if (state.replay && state.replay->computed) {
-        const double(&proxy)[3] = state.replay->tick.proxy;
-        markers.recorded_proxy = Vec3{proxy[0], proxy[1], proxy[2]};
-    }
+    if (state.replay && state.replay->computed) markers.recorded_proxy = state.replay->tick.proxy;
     return markers;
 }
 

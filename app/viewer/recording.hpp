@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/panels/viewer_state.hpp"
-#include "core/loop/haptic_loop.hpp"
+#include "core/loop/haptic_tick.hpp"
 #include "core/session/recorder.hpp"
 #include "core/video/media.hpp"
 

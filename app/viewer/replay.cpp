@@ -8,21 +8,17 @@ namespace dibhr {
 
 namespace {
 
-Vec3 vector_of(const double (&values)[3]) {
-    return {values[0], values[1], values[2]};
-}
-
 Touch recorded_touch(const TickRecord& tick) {
     Touch touch;
-    touch.goal = vector_of(tick.goal);
-    touch.proxy.position = vector_of(tick.proxy);
+    touch.goal = tick.goal;
+    touch.proxy.position = tick.proxy;
     touch.proxy.active.kind = static_cast<PrimitiveKind>(tick.primitive);
     touch.proxy.active.i = tick.i;
     touch.proxy.active.j = tick.j;
     touch.proxy.moves = tick.moves;
     touch.proxy.contact = tick.contact;
-    touch.spring_force_newton = vector_of(tick.spring_newton);
-    touch.sent_force_newton = vector_of(tick.sent_newton);
+    touch.spring_force_newton = tick.spring_newton;
+    touch.sent_force_newton = tick.sent_newton;
     touch.cut = static_cast<SafetyCut>(tick.cut);
     return touch;
 }
@@ -98,7 +94,7 @@ void ViewerReplay::show(const SessionMoment& moment, ViewerState& state) {
     state.replay->computed = moment.computed.has_value();
     state.haptic.touch = touch_of(moment);
     state.haptic.touchable = tick.surface;
-    state.haptic.hand = {.goal_in_grid = vector_of(tick.goal),
+    state.haptic.hand = {.goal_in_grid = tick.goal,
                          .buttons = tick.buttons,
                          .ready = tick.device_ready,
                          .stand_in = tick.stand_in};

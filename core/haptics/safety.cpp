@@ -94,7 +94,7 @@ const char* name_of(SafetyCut cut) noexcept {
     return "";
 }
 
-void SafetyStage::rest() noexcept {
+void SafetyStage::drop_to_zero() noexcept {
     ramp_age_s_ = 0.0;
     sent_newton_ = Vec3(0.0);
 }
@@ -103,11 +103,11 @@ Vec3 SafetyStage::limit(Vec3 force_newton, const SafetyInput& input,
                         const SafetyLimits& limits) noexcept {
     cut_ = reason_to_cut(force_newton, input, limits);
     if (cut_ != SafetyCut::none) {
-        rest();
+        drop_to_zero();
         return sent_newton_;
     }
-    if (input.restart) rest();  // what was sent was another hand's, or another scale's
-    ramp_age_s_ = input.restart ? 0.0 : ramp_age_s_ + input.dt_s;
+    if (input.from_zero) drop_to_zero();  // what was sent was another hand's, or another scale's
+    ramp_age_s_ = input.from_zero ? 0.0 : ramp_age_s_ + input.dt_s;
     const double ramp = limits.ramp_s > 0.0 ? std::min(1.0, ramp_age_s_ / limits.ramp_s) : 1.0;
     const Vec3 wanted = shortened(force_newton, limits.max_force_newton) * ramp;
     const double most_change = limits.max_change_newton_per_ms * bounded_ms(input.dt_s);

@@ -11,7 +11,7 @@ namespace dibhr {
 struct SafetyLimits {
     double max_force_newton{4.0};          ///< the smaller of the device's limit and the user's
     double max_change_newton_per_ms{0.5};  ///< Falcon fact sheet, section 11: suggested slew limit
-    double ramp_s{0.5};                    ///< from zero to full force after a restart
+    double ramp_s{0.5};                    ///< from zero to full force from zero on
     double max_tick_s{0.020};  ///< a longer tick is late: no force (reply older than 20 ms)
     /// A faster goal is a jump, not a hand (10 m/s) [image mm].
     double max_goal_speed_mm_per_ms{10.0};
@@ -66,7 +66,7 @@ struct SafetyInput {
     /// What the device itself adds on the hand, such as its soft boundary [N]; limited like the
     /// rest.
     Vec3 device_force_newton{0.0};
-    bool restart{false};  ///< start, engaging, seek, loop, new file or parameters: from zero
+    bool from_zero{false};  ///< start, engaging, seek, loop, new file or parameters
 };
 
 /// The goal moved farther than a hand can in that time, or there was no time to move in.
@@ -82,7 +82,7 @@ class SafetyStage {
                              const SafetyLimits& limits) noexcept;
 
     /// No force is sent until the next `limit`, which then begins from zero.
-    void rest() noexcept;
+    void drop_to_zero() noexcept;
 
     [[nodiscard]] SafetyCut last_cut() const noexcept { return cut_; }
 

@@ -41,7 +41,7 @@ TouchRenderer::TouchRenderer() {
     }
 }
 
-void TouchRenderer::restart() noexcept {
+void TouchRenderer::reset() noexcept {
     for (const auto& algorithm : algorithms_) algorithm->restart();
     running_ = Algorithm::dibhr;
     goal_velocity_ = {};
@@ -54,9 +54,9 @@ void TouchRenderer::let_go() noexcept {
     algorithms_[static_cast<std::size_t>(running_)]->restart();
 }
 
-void TouchRenderer::rest() noexcept {
+void TouchRenderer::pause() noexcept {
     goal_velocity_.forget();
-    safety_.rest();
+    safety_.drop_to_zero();
 }
 
 bool TouchRenderer::run_with(Algorithm algorithm, const DepthSurface& surface) noexcept {
@@ -79,13 +79,13 @@ const Touch& TouchRenderer::update(const DepthSurface& surface, Vec3 goal,
     const Vec3 goal_step = started_ ? goal - last_.goal : Vec3(0.0);
     input.goal_step_mm = glm::length(goal_step) * parameters.coupling.pixel_pitch_mm;
     const bool changed = run_with(parameters.algorithm, surface);
-    input.restart = input.restart || changed || !started_;
+    input.from_zero = input.from_zero || changed || !started_;
     started_ = true;
 
     last_.goal = goal;
     last_.proxy =
         algorithms_[static_cast<std::size_t>(running_)]->update(surface, goal, parameters.friction);
-    if (input.restart || goal_jumped(input, limits)) goal_velocity_.forget();
+    if (input.from_zero || goal_jumped(input, limits)) goal_velocity_.forget();
     const Vec3 goal_velocity =
         goal_velocity_.after(goal_step, input.dt_s, parameters.coupling.damping_cutoff_hz);
     last_.spring_force_newton =

@@ -41,13 +41,13 @@ class TouchRenderer {
                         SafetyInput input, const SafetyLimits& limits) noexcept;
 
     /// Forgets everything: the next update is as the first one. No allocation.
-    void restart() noexcept;
+    void reset() noexcept;
 
     /// The proxy lets go of what it touches: the next update begins above its goal, in free space.
     void let_go() noexcept;
 
     /// No update is due, and zero force is sent meanwhile: the next one's force begins from zero.
-    void rest() noexcept;
+    void pause() noexcept;
 
   private:
     /// Makes the algorithm the running one; true when it was not.

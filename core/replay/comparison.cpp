@@ -19,10 +19,6 @@ constexpr std::size_t kMostKept = std::size_t{1} << 20;
 constexpr int kNameWidth = 14;
 constexpr int kCellWidth = 10;
 
-Vec3 vector_of(const double (&values)[3]) {
-    return {values[0], values[1], values[2]};
-}
-
 std::string cell(double value) {
     std::ostringstream text;
     const bool small = value != 0.0 && std::abs(value) < 1e-3;
@@ -63,19 +59,19 @@ void RunComparison::add(const TickRecord& recorded, const Touch& touch, double u
         ++differing_;
         if (!first_difference_) {
             first_difference_ = {recorded.tick,           recorded.t_s,
-                                 touch.proxy.position,    vector_of(recorded.proxy),
-                                 touch.sent_force_newton, vector_of(recorded.sent_newton)};
+                                 touch.proxy.position,    recorded.proxy,
+                                 touch.sent_force_newton, recorded.sent_newton};
         }
     }
     ++ticks_;
     if (!recorded.surface) return;
     time_us_.add(update_us);
-    off_px_.add(glm::length(touch.proxy.position - vector_of(recorded.proxy)));
+    off_px_.add(glm::length(touch.proxy.position - recorded.proxy));
     const Vec3 lag = touch.proxy.position - touch.goal;
     const bool contact = touch.proxy.contact;
     if (contact) ++in_contact_;
     if (contact && recorded.contact) {
-        const Vec3 recorded_lag = vector_of(recorded.proxy) - vector_of(recorded.goal);
+        const Vec3 recorded_lag = recorded.proxy - recorded.goal;
         astray_deg_.add(kDegPerRad * angle_between_rad(lag, recorded_lag));
     }
     if (contact && last_lag_) turn_deg_.add(kDegPerRad * angle_between_rad(*last_lag_, lag));

@@ -14,23 +14,12 @@ namespace dibhr {
 
 namespace {
 
-Vec3 vector_of(const double (&values)[3]) noexcept {
-    return {values[0], values[1], values[2]};
-}
-
-bool all_same(Vec3 a, const double (&b)[3]) noexcept {
-    for (int axis = 0; axis < 3; ++axis) {
-        if (!same_bits(a[axis], b[axis])) return false;
-    }
-    return true;
-}
-
 SafetyInput safety_input(const TickRecord& tick, const SessionParameters& parameters) noexcept {
     return {.dt_s = tick.dt_s,
             .force_enabled = parameters.force_enabled,
             .device_ready = tick.device_ready,
-            .device_force_newton = vector_of(tick.own_newton),
-            .restart = tick.restart};
+            .device_force_newton = tick.own_newton,
+            .from_zero = tick.from_zero};
 }
 
 }  // namespace
@@ -90,7 +79,7 @@ void SessionReplay::take_frames() {
 void SessionReplay::update(Run& run) {
     run.update_us = 0.0;
     if (!tick_.surface) {
-        run.renderer.rest();
+        run.renderer.pause();
         run.touch.spring_force_newton = Vec3(0.0);
         run.touch.sent_force_newton = Vec3(0.0);
         run.touch.proxy.contact = false;
@@ -98,7 +87,7 @@ void SessionReplay::update(Run& run) {
     }
     const DepthSurface surface = DepthBlend{&touched_->from, &touched_->to, tick_.blend}.surface(
         run.parameters.shape, bump_.get());
-    const Vec3 goal = tick_.goal_refused ? Vec3(NAN) : vector_of(tick_.goal);
+    const Vec3 goal = tick_.goal_refused ? Vec3(NAN) : tick_.goal;
     if (tick_.lets_go && run.holds) run.renderer.let_go();
     const auto begin = std::chrono::steady_clock::now();
     run.touch = run.renderer.update(surface, goal, run.parameters,
@@ -109,9 +98,10 @@ void SessionReplay::update(Run& run) {
 }
 
 bool same_bits(const Touch& touch, const TickRecord& recorded) noexcept {
-    return all_same(touch.goal, recorded.goal) && all_same(touch.proxy.position, recorded.proxy) &&
-           all_same(touch.spring_force_newton, recorded.spring_newton) &&
-           all_same(touch.sent_force_newton, recorded.sent_newton) &&
+    return same_bits(touch.goal, recorded.goal) &&
+           same_bits(touch.proxy.position, recorded.proxy) &&
+           same_bits(touch.spring_force_newton, recorded.spring_newton) &&
+           same_bits(touch.sent_force_newton, recorded.sent_newton) &&
            touch.proxy.contact == recorded.contact &&
            static_cast<std::uint8_t>(touch.proxy.active.kind) == recorded.primitive &&
            touch.proxy.active.i == recorded.i && touch.proxy.active.j == recorded.j &&

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "core/haptics/primitive.hpp"
-#include "core/report/tick_vectors.hpp"
 
 namespace dibhr {
 
@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kRounding_s = 1e-9;  // times are sums of milliseconds
 
-void add_force(ForceSummary& sum, const double (&newton)[3], double held_s) {
-    const double length = length_of(newton);
+void add_force(ForceSummary& sum, const Vec3& newton, double held_s) {
+    const double length = glm::length(newton);
     if (!std::isfinite(length)) return;
     sum.mean_newton += length * held_s;
     sum.peak_newton = std::max(sum.peak_newton, length);
@@ -56,12 +56,12 @@ void ContactEpisodes::add(const TickRecord& tick, double held_s, double pitch_mm
     episode.end_s = tick.t_s + held_s;
     episode.video_end_s = tick.video_s;
     episode.contact_s += held_s;
-    episode.centre_px += held_s * Vec2(tick.proxy[0], tick.proxy[1]);
+    episode.centre_px += held_s * Vec2(tick.proxy);
     add_force(episode.sent, tick.sent_newton, held_s);
     add_force(episode.spring, tick.spring_newton, held_s);
     add_primitive(episode.shares, tick.primitive, held_s);
     open_->last_tick = tick.tick;
-    open_->last_proxy_px = vector_of(tick.proxy);
+    open_->last_proxy_px = tick.proxy;
 }
 
 std::vector<Episode> ContactEpisodes::finish() {
@@ -79,8 +79,8 @@ void ContactEpisodes::begin(const TickRecord& tick) {
 /// A force that begins from zero again follows a jump of the video or of what is felt, over which
 /// no path leads.
 void ContactEpisodes::go_on(const TickRecord& tick, double pitch_mm) {
-    if (tick.restart) return;
-    open_->episode.path_mm += pitch_mm * glm::length(vector_of(tick.proxy) - open_->last_proxy_px);
+    if (tick.from_zero) return;
+    open_->episode.path_mm += pitch_mm * glm::length(tick.proxy - open_->last_proxy_px);
 }
 
 void ContactEpisodes::end() {

@@ -14,6 +14,11 @@ namespace dibhr {
 /// an edge, not one that came back.
 inline constexpr double kJoinedGap_s = 0.020;
 
+/// Whether the tick touched a surface at a place that can be told.
+[[nodiscard]] inline bool touches(const TickRecord& tick) noexcept {
+    return tick.contact && tick.surface && is_finite(tick.proxy);
+}
+
 /// What was felt on average and at most.
 struct ForceSummary {
     double mean_newton{0.0};  ///< over time

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/report/speed_window.hpp"
-#include "core/report/tick_vectors.hpp"
 
 namespace dibhr {
 
@@ -33,8 +33,8 @@ class Counter {
         const std::optional<Speeds> speeds = speed_.add(tick, pitch_mm);
         TimePiece& piece = numbers_.time_line.piece_at(tick.t_s);
         piece.seconds += held_s;
-        piece.sent_newton.add(length_of(tick.sent_newton), held_s);
-        piece.spring_newton.add(length_of(tick.spring_newton), held_s);
+        piece.sent_newton.add(glm::length(tick.sent_newton), held_s);
+        piece.spring_newton.add(glm::length(tick.spring_newton), held_s);
         if (tick.surface) piece.add_video(tick.video_s);
         if (touches(tick)) add_contact(tick, held_s, speeds, piece);
     }
@@ -68,12 +68,11 @@ class Counter {
     void add_contact(const TickRecord& tick, double held_s, const std::optional<Speeds>& speeds,
                      TimePiece& piece) {
         numbers_.contact_s += held_s;
-        numbers_.sent_newton.add(length_of(tick.sent_newton), held_s);
-        numbers_.spring_newton.add(length_of(tick.spring_newton), held_s);
+        numbers_.sent_newton.add(glm::length(tick.sent_newton), held_s);
+        numbers_.spring_newton.add(glm::length(tick.spring_newton), held_s);
         piece.contact_s += held_s;
         numbers_.places[tick.frames.source.media].add(
-            {tick.proxy[0], tick.proxy[1]},
-            tick.blend < 0.5 ? tick.frames.from_s : tick.frames.to_s, held_s);
+            Vec2(tick.proxy), tick.blend < 0.5 ? tick.frames.from_s : tick.frames.to_s, held_s);
         if (!speeds) return;
         numbers_.goal_mm_per_s.add(speeds->goal_mm_per_s, held_s);
         numbers_.proxy_mm_per_s.add(speeds->proxy_mm_per_s, held_s);

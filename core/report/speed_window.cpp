@@ -1,7 +1,7 @@
 // How fast the hand and the point on the surface move.
 #include "core/report/speed_window.hpp"
 
-#include "core/report/tick_vectors.hpp"
+#include <glm/geometric.hpp>
 
 namespace dibhr {
 
@@ -13,9 +13,9 @@ constexpr double kLongestWindow_s = 3.0 * kSpeedWindow_s;  // longer: something 
 }  // namespace
 
 std::optional<Speeds> SpeedWindow::add(const TickRecord& tick, double pitch_mm) {
-    const Place now{tick.t_s, vector_of(tick.goal), vector_of(tick.proxy)};
+    const Place now{tick.t_s, tick.goal, tick.proxy};
     // What comes after a jump is compared with nothing before it.
-    if (!tick.surface || tick.lets_go || tick.restart) places_.clear();
+    if (!tick.surface || tick.lets_go || tick.from_zero) places_.clear();
     if (!tick.surface || !is_finite(now.goal_px) || !is_finite(now.proxy_px)) return std::nullopt;
     places_.push_back(now);
     const double begin_s = now.t_s - kSpeedWindow_s + kRounding_s;

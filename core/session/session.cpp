@@ -27,9 +27,7 @@ class Row {
     Number whole() {
         return static_cast<Number>(integer());
     }
-    void vector(double (&to)[3]) {
-        for (double& value : to) value = real();
-    }
+    Vec3 vector() { return {real(), real(), real()}; }  // braces: from left to right
     SessionMedia media() {
         SessionMedia media;
         media.file = text();
@@ -251,11 +249,11 @@ bool Session::Ticks::next(TickRecord& tick) {
     tick.blend = row.real();
     tick.utc_s = row.real();
     tick.video_s = row.real();
-    row.vector(tick.goal);
-    row.vector(tick.proxy);
-    row.vector(tick.spring_newton);
-    row.vector(tick.sent_newton);
-    row.vector(tick.own_newton);
+    tick.goal = row.vector();
+    tick.proxy = row.vector();
+    tick.spring_newton = row.vector();
+    tick.sent_newton = row.vector();
+    tick.own_newton = row.vector();
     tick.moves = row.whole<std::int32_t>();
     tick.i = row.whole<std::int32_t>();
     tick.j = row.whole<std::int32_t>();
@@ -266,7 +264,7 @@ bool Session::Ticks::next(TickRecord& tick) {
     tick.surface = row.yes();
     tick.device_ready = row.yes();
     tick.stand_in = row.yes();
-    tick.restart = row.yes();
+    tick.from_zero = row.yes();
     tick.lets_go = row.yes();
     tick.goal_refused = row.yes();
     return true;

@@ -94,7 +94,7 @@ std::int64_t state_of(const TickRecord& record) {
     return bit(record.contact, at::kContact) | primitive << at::kPrimitive |
            std::int64_t{record.buttons} << at::kButtons | bit(!record.surface, at::kNoSurface) |
            bit(!record.device_ready, at::kNotReady) | bit(record.stand_in, at::kStandIn) |
-           bit(record.restart, at::kRestart) | bit(record.lets_go, at::kLetsGo) |
+           bit(record.from_zero, at::kRestart) | bit(record.lets_go, at::kLetsGo) |
            bit(record.goal_refused, at::kRefused) | std::int64_t{record.cut} << at::kCut;
 }
 
@@ -172,9 +172,9 @@ void SessionFile::add(const TickRecord& record) {
     row.real(record.blend);
     row.integer(static_cast<std::int64_t>(settings_));
     row.integer(record.moves);
-    row.integer_unless(record.i, pixel_of(record.proxy[0]));
-    row.integer_unless(record.j, pixel_of(record.proxy[1]));
-    for (const double value : record.goal) row.real(value);
+    row.integer_unless(record.i, pixel_of(record.proxy.x));
+    row.integer_unless(record.j, pixel_of(record.proxy.y));
+    for (int axis = 0; axis < 3; ++axis) row.real(record.goal[axis]);
     for (int axis = 0; axis < 3; ++axis) row.real_unless(record.proxy[axis], record.goal[axis]);
     bind_forces(row, record);
     insert_tick_.run();
@@ -199,15 +199,14 @@ void SessionFile::bind_times(RowBinder& row, const TickRecord& record) {
 /// As the view takes them; this file is compiled so that products and sums are rounded one by one,
 /// as in SQLite.
 void SessionFile::bind_forces(RowBinder& row, const TickRecord& record) const {
-    double wanted[3]{};
+    const Vec3 wanted = record.spring_newton + record.own_newton;
     for (int axis = 0; axis < 3; ++axis) {
         const double follows =
             newton_per_px_.value_or(std::nan("")) * (record.proxy[axis] - record.goal[axis]);
         row.real_unless(record.spring_newton[axis], follows);
-        wanted[axis] = record.spring_newton[axis] + record.own_newton[axis];
     }
     const auto follows = [&](int axis) { return record.cut == 0 ? wanted[axis] : 0.0; };
-    const double shortening = record.sent_newton[2] / wanted[2];
+    const double shortening = record.sent_newton.z / wanted.z;
     for (int axis = 0; axis < 2; ++axis) {
         const double sent = record.sent_newton[axis];
         const auto off = off_direction(sent, wanted[axis], shortening);
@@ -219,8 +218,8 @@ void SessionFile::bind_forces(RowBinder& row, const TickRecord& record) const {
             row.plain_real(sent);
         }
     }
-    row.real_unless(record.sent_newton[2], follows(2));
-    for (const double value : record.own_newton) row.real_unless(value, 0.0);
+    row.real_unless(record.sent_newton.z, follows(2));
+    for (int axis = 0; axis < 3; ++axis) row.real_unless(record.own_newton[axis], 0.0);
 }
 
 void SessionFile::commit() {

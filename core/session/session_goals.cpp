@@ -21,9 +21,8 @@ RecordedGoals read_session_goals(const std::filesystem::path& file, int lead_in,
     bool touched = false;
     Session::Ticks ticks(session);
     for (TickRecord tick; ticks.next(tick);) {
-        const Vec3 goal{tick.goal[0], tick.goal[1], tick.goal[2]};
-        if (!tick.surface || !is_finite(goal)) continue;
-        const RecordedGoal one{goal, tick.frames.from_frame, tick.blend};
+        if (!tick.surface || !is_finite(tick.goal)) continue;
+        const RecordedGoal one{tick.goal, tick.frames.from_frame, tick.blend};
         if (!touched && !tick.contact) {
             before.push_back(one);
             if (before.size() > lead) before.pop_front();

@@ -49,8 +49,8 @@ struct TickRecord {
     double utc_s{0.0};    ///< wall time since 1970; set by reading back
     double video_s{0.0};  ///< presentation time of what was touched; set by reading back
 
-    double goal[3]{}, proxy[3]{}, spring_newton[3]{}, sent_newton[3]{};
-    double own_newton[3]{};  ///< what the device itself adds on the hand
+    Vec3 goal{0.0}, proxy{0.0}, spring_newton{0.0}, sent_newton{0.0};
+    Vec3 own_newton{0.0};  ///< what the device itself adds on the hand
     std::int32_t moves{0};
     std::int32_t i{-1}, j{-1};
     bool contact{false};        ///< never without a surface
@@ -61,7 +61,7 @@ struct TickRecord {
     bool surface{true};        ///< there was one; without, nothing was updated
     bool device_ready{true};   ///< attached and homed
     bool stand_in{false};      ///< the mouse, for a device that was not ready
-    bool restart{false};       ///< the force began from zero again
+    bool from_zero{false};     ///< the force began from zero again
     bool lets_go{false};       ///< the hand was lifted or replaced: a contact was let go first
     bool goal_refused{false};  ///< the hand's reading was no number: `goal` is the one before
 };

@@ -38,8 +38,7 @@ void write_session(const std::filesystem::path& file, const std::string& rows, i
         tick.t_s = 0.001 * k;
         tick.frames.from_frame = k / 33;
         tick.contact = true;
-        const double goal[3]{250.0 + 0.1 * k, 400.0, 90.0};
-        std::copy(goal, goal + 3, tick.goal);
+        tick.goal = {250.0 + 0.1 * k, 400.0, 90.0};
         session.add(tick);
     }
     session.commit();

@@ -7,7 +7,7 @@
 #include <memory>
 #include <thread>
 
-#include "core/loop/haptic_loop.hpp"
+#include "core/loop/haptic_tick.hpp"
 #include "core/session/recorder.hpp"
 #include "core/video/frame_reader.hpp"
 #include "core/video/libraries.hpp"

@@ -199,7 +199,7 @@ TEST_CASE("with a cutoff of 0 the force is the spring's and the plain damper's, 
     hand.update(before);
     for (int k = 0; k < 2000; ++k) {
         const Vec3 goal = before + Vec3(dice.uniform(-1.0, 1.0), 0.0, dice.uniform(-1.0, 1.0));
-        const SafetyInput input{.dt_s = dice.uniform(0.0005, 0.003), .restart = k % 300 == 0};
+        const SafetyInput input{.dt_s = dice.uniform(0.0005, 0.003), .from_zero = k % 300 == 0};
         const Touch& touch = hand.update(goal, input);
         const Vec3 velocity = (goal - before) / input.dt_s;
         REQUIRE(touch.spring_force_newton ==
@@ -215,8 +215,8 @@ TEST_CASE("what is no motion of the hand is not damped, then or afterwards", "[c
     REQUIRE(glm::length(hand.damper_newton(hand.update(before + Vec3{0.5, 0.0, 0.0}))) > 1.0);
     SafetyInput input;
     const auto interruption = GENERATE(values<Interruption>({
-        {"a restart: a seek, other parameters, another hand",
-         [](SlidingHand&, SafetyInput& next) { next.restart = true; }},
+        {"a force from zero: a seek, other parameters, another hand",
+         [](SlidingHand&, SafetyInput& next) { next.from_zero = true; }},
         {"another algorithm",
          [](SlidingHand& at, SafetyInput&) { at.parameters.algorithm = Algorithm::god_object; }},
         {"a goal that was no number, for two ticks",
@@ -225,8 +225,8 @@ TEST_CASE("what is no motion of the hand is not damped, then or afterwards", "[c
              at.update(Vec3(std::nan("")));
          }},
         {"no time has passed", [](SlidingHand&, SafetyInput& next) { next.dt_s = 0.0; }},
-        {"a rest without a surface", [](SlidingHand& at, SafetyInput&) { at.renderer.rest(); }},
-        {"a restarted renderer", [](SlidingHand& at, SafetyInput&) { at.renderer.restart(); }},
+        {"a pause without a surface", [](SlidingHand& at, SafetyInput&) { at.renderer.pause(); }},
+        {"a renderer that was reset", [](SlidingHand& at, SafetyInput&) { at.renderer.reset(); }},
     }));
     CAPTURE(interruption.name);
     interruption.happens(hand, input);

@@ -90,13 +90,13 @@ TEST_CASE("a force that is too long keeps its direction", "[safety]") {
     CHECK_THAT(glm::length(glm::cross(sent, force)), WithinAbs(0.0, 1e-6));
 }
 
-TEST_CASE("a restart sends zero at once, and the force ramps up from there", "[safety]") {
+TEST_CASE("a force from zero is zero at once, and the force ramps up from there", "[safety]") {
     const SafetyLimits limits;
     const Vec3 force(0.0, 0.0, 2.0);
     SafetyStage stage = warmed_up(force, limits);
-    SafetyInput restart;
-    restart.restart = true;
-    double last = stage.limit(force, restart, limits).z;
+    SafetyInput again;
+    again.from_zero = true;
+    double last = stage.limit(force, again, limits).z;
     CHECK_THAT(last, WithinAbs(0.0, 1e-12));
     for (int k = 1; k <= 500; ++k) {
         const double now = stage.limit(force, {}, limits).z;

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "core/loop/haptic_loop.hpp"
+#include "core/loop/haptic_tick.hpp"
 #include "tests/core/haptics/surfaces.hpp"
 #include "tests/core/loop/loop_bench.hpp"
 #include "tests/support/catch.hpp"

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/loop/haptic_loop.hpp"
+#include "core/loop/haptic_tick.hpp"
 
 namespace dibhr::test {
 

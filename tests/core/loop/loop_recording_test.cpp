@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "core/loop/haptic_loop.hpp"
+#include "core/loop/haptic_tick.hpp"
 #include "core/replay/session_replay.hpp"
 #include "core/session/recorder.hpp"
 #include "core/session/session.hpp"
@@ -108,7 +108,7 @@ TEST_CASE("recording can begin and end while the loop runs, and begins as at the
     for (int k = 0; k < 1500; ++k) {
         REQUIRE(bench.ticks->pop(row));
         if (k == 0) {
-            CHECK(row.restart);
+            CHECK(row.from_zero);
             CHECK_THAT(row.sent_newton[2], WithinAbs(0.0, 0.0));
         }
         CHECK(row.sent_newton[2] >= strongest);  // it rises again as after any start

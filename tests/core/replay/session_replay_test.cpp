@@ -118,7 +118,7 @@ TEST_CASE("a session without its parameters can be read, but says why it is not 
     CHECK_THROWS_AS(replay.next(), InputError);
 }
 
-TEST_CASE("the renderer after a restart is as a new one", "[replay]") {
+TEST_CASE("a renderer that was reset is as a new one", "[replay]") {
     MovingSurface surface;
     const auto image = surface.frame({}, 0.0).depth;
     const DepthSurface ground(*image, *image, 0.0, {});
@@ -129,7 +129,7 @@ TEST_CASE("the renderer after a restart is as a new one", "[replay]") {
     for (int k = 0; k < 700; ++k) {
         used.update(ground, goal + Vec3{0.01 * k, 0.0, 0.0}, other, {}, {});
     }
-    used.restart();
+    used.reset();
     TouchRenderer fresh;
     for (int k = 0; k < 700; ++k) {
         const Vec3 place = goal + Vec3{0.0, 0.02 * k, 20.0 - 0.1 * k};

@@ -121,7 +121,7 @@ TEST_CASE("an episode tells its forces, path, place, primitives and the video's 
 TEST_CASE("no path leads over a jump, and no force is no number", "[report]") {
     auto ticks = ticks_touching(20, 0, 20);
     for (std::size_t k = 10; k < 20; ++k) ticks[k].proxy[2] += 500.0;
-    ticks[10].restart = true;
+    ticks[10].from_zero = true;
     ticks[5].sent_newton[0] = std::numeric_limits<double>::infinity();
     const auto episodes = episodes_of(ticks);
     REQUIRE(episodes.size() == 1);

@@ -27,9 +27,7 @@ TickRecord tick_above(std::int64_t number) {
     tick.frames.to_frame = 1;
     tick.frames.to_s = 1.0;
     tick.frames.span_s = 1.0;
-    const double place[3]{100.0, 100.0, 60.0};
-    std::copy(place, place + 3, tick.goal);
-    std::copy(place, place + 3, tick.proxy);
+    tick.goal = tick.proxy = {100.0, 100.0, 60.0};
     return tick;
 }
 
@@ -37,10 +35,8 @@ TickRecord tick_in_contact(std::int64_t number, double x, double y, double sent_
     TickRecord tick = tick_above(number);
     tick.contact = true;
     tick.primitive = static_cast<std::uint8_t>(PrimitiveKind::triangle);
-    const double proxy[3]{x, y, 50.0};
-    const double goal[3]{x, y, 40.0};
-    std::copy(proxy, proxy + 3, tick.proxy);
-    std::copy(goal, goal + 3, tick.goal);
+    tick.proxy = {x, y, 50.0};
+    tick.goal = {x, y, 40.0};
     tick.spring_newton[2] = 0.5;
     tick.sent_newton[2] = sent_newton;
     return tick;

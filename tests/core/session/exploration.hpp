@@ -88,16 +88,14 @@ class Exploration {
         record.settings = parameters.version;
         record.surface = surface;
         record.lets_go = lets_go;
-        surface ? touch_surface(record) : rest();
+        surface ? touch_surface(record) : pause();
         lets_go = false;
         const Touch& touch = touch_;
-        for (int axis = 0; axis < 3; ++axis) {
-            record.goal[axis] = touch.goal[axis];
-            record.proxy[axis] = touch.proxy.position[axis];
-            record.spring_newton[axis] = touch.spring_force_newton[axis];
-            record.sent_newton[axis] = touch.sent_force_newton[axis];
-            record.own_newton[axis] = surface ? own_force_newton[axis] : 0.0;
-        }
+        record.goal = touch.goal;
+        record.proxy = touch.proxy.position;
+        record.spring_newton = touch.spring_force_newton;
+        record.sent_newton = touch.sent_force_newton;
+        record.own_newton = surface ? own_force_newton : Vec3(0.0);
         record.moves = touch.proxy.moves;
         record.i = touch.proxy.active.i;
         record.j = touch.proxy.active.j;
@@ -117,22 +115,22 @@ class Exploration {
         const DepthSurface ground(*from.depth, *to.depth, record.blend, parameters.touch.shape);
         const Vec3 goal{48.0 + 40.0 * std::sin(1.7 * t), 32.0 + 25.0 * std::sin(2.3 * t + 1.0),
                         100.0 - depth_px * std::min(1.0, t) + tremor_px * std::sin(31.0 * t)};
-        record.restart = restart_;
-        restart_ = false;
+        record.from_zero = from_zero_;
+        from_zero_ = false;
         if (lets_go && touch_.proxy.contact) renderer_.let_go();
         touch_ = renderer_.update(ground, goal, parameters.touch,
                                   {.dt_s = record.dt_s,
                                    .force_enabled = parameters.force_enabled,
                                    .device_force_newton = own_force_newton,
-                                   .restart = record.restart},
+                                   .from_zero = record.from_zero},
                                   parameters.limits);
     }
 
-    void rest() {
-        renderer_.rest();
+    void pause() {
+        renderer_.pause();
         touch_.spring_force_newton = Vec3(0.0);
         touch_.sent_force_newton = Vec3(0.0);
-        restart_ = true;
+        from_zero_ = true;
     }
 
     MovingSurface& frames_;
@@ -140,7 +138,7 @@ class Exploration {
     Touch touch_{};
     std::int64_t number_{0};
     std::int64_t ns_{0};
-    bool restart_{true};
+    bool from_zero_{true};
 };
 
 }  // namespace dibhr::test

@@ -78,7 +78,7 @@ TEST_CASE("every field of a tick comes back under the output rows' names", "[ses
     double next = 1.0 / 3.0;
     for (auto* vector : {&record.goal, &record.proxy, &record.spring_newton, &record.sent_newton,
                          &record.own_newton}) {
-        for (double& value : *vector) value = next += 1.0;
+        for (int axis = 0; axis < 3; ++axis) (*vector)[axis] = next += 1.0;
     }
     record.dt_s = 0.0011;
     record.lateness_us = 12.5;
@@ -91,7 +91,7 @@ TEST_CASE("every field of a tick comes back under the output rows' names", "[ses
     record.buttons = 5;
     record.cut = 5;
     record.stand_in = true;
-    record.restart = true;
+    record.from_zero = true;
     push(*ring, record);
     { const Recorder recorder(folder.file(), *ring, {}); }
     CHECK(

@@ -50,7 +50,7 @@ TickRecord any_tick(std::int64_t number, AnyReal& real) {
     tick.frames = {{2, true, false, true}, number / 30, number / 30 + 1, real(), real(), real()};
     tick.blend = real();
     for (auto* vector : {&tick.goal, &tick.spring_newton, &tick.own_newton}) {
-        for (double& value : *vector) value = real();
+        for (int axis = 0; axis < 3; ++axis) (*vector)[axis] = real();
     }
     // Often the same as something else, which is then not stored.
     for (int axis = 0; axis < 3; ++axis) {
@@ -70,29 +70,23 @@ TickRecord any_tick(std::int64_t number, AnyReal& real) {
     tick.cut = static_cast<std::uint8_t>(number % 6);
     tick.device_ready = bit(1);
     tick.stand_in = bit(2);
-    tick.restart = bit(3);
+    tick.from_zero = bit(3);
     tick.lets_go = bit(4);
     tick.goal_refused = bit(5);
     return tick;
-}
-
-template <std::size_t N>
-bool same(const double (&a)[N], const double (&b)[N]) {
-    return std::equal(std::begin(a), std::end(a), std::begin(b),
-                      [](const auto& x, const auto& y) { return same_bits(x, y); });
 }
 
 bool same(const TickRecord& a, const TickRecord& b) {
     return a.tick == b.tick && same_bits(a.t_s, b.t_s) && same_bits(a.dt_s, b.dt_s) &&
            same_bits(a.lateness_us, b.lateness_us) && same_bits(a.update_us, b.update_us) &&
            a.settings == b.settings && a.frames == b.frames && same_bits(a.blend, b.blend) &&
-           same(a.goal, b.goal) && same(a.proxy, b.proxy) &&
-           same(a.spring_newton, b.spring_newton) && same(a.sent_newton, b.sent_newton) &&
-           same(a.own_newton, b.own_newton) && a.moves == b.moves && a.i == b.i && a.j == b.j &&
-           a.contact == b.contact && a.primitive == b.primitive && a.buttons == b.buttons &&
-           a.cut == b.cut && a.surface == b.surface && a.device_ready == b.device_ready &&
-           a.stand_in == b.stand_in && a.restart == b.restart && a.lets_go == b.lets_go &&
-           a.goal_refused == b.goal_refused;
+           same_bits(a.goal, b.goal) && same_bits(a.proxy, b.proxy) &&
+           same_bits(a.spring_newton, b.spring_newton) && same_bits(a.sent_newton, b.sent_newton) &&
+           same_bits(a.own_newton, b.own_newton) && a.moves == b.moves && a.i == b.i &&
+           a.j == b.j && a.contact == b.contact && a.primitive == b.primitive &&
+           a.buttons == b.buttons && a.cut == b.cut && a.surface == b.surface &&
+           a.device_ready == b.device_ready && a.stand_in == b.stand_in &&
+           a.from_zero == b.from_zero && a.lets_go == b.lets_go && a.goal_refused == b.goal_refused;
 }
 
 }  // namespace

@@ -1,0 +1,169 @@
+// One haptic tick.
+#include "core/loop/haptic_tick.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace dibhr {
+
+namespace {
+
+double microseconds(std::chrono::steady_clock::duration span) {
+    return std::chrono::duration<double, std::micro>(span).count();
+}
+
+double seconds(std::chrono::steady_clock::duration span) {
+    return std::chrono::duration<double>(span).count();
+}
+
+FramePair frames_of(const DepthBlend& pair) {
+    const Frame& from = *pair.from;
+    const Frame& to = *pair.to;
+    const CleaningOptions& cleaning = from.cleaning;
+    return {{from.media, cleaning.fill_holes, cleaning.remove_spikes, cleaning.smooth_steps},
+            from.index,
+            to.index,
+            from.media_s,
+            to.media_s,
+            to.time_s - from.time_s};
+}
+
+}  // namespace
+
+HapticTick::HapticTick(const HapticConnections& connections)
+    : to_(connections), limits_(usable(connections.device.specification().limits)) {}
+
+void HapticTick::run(const TickTiming& timing, std::uint64_t late_ticks) noexcept {
+    if (state_.ticks == 0) start_ = second_begin_ = timing.begin;
+    const FrameWindow& frames = to_.frames.front();
+    const HapticSettings& settings = to_.settings.front();
+    state_.playback_s = frames.clock.playback_s(timing.begin);
+    state_.late_ticks = late_ticks;
+    notice_changes(settings, frames);
+    const DepthBlend pair = frames.at(state_.playback_s);
+    state_.touchable = pair.makes_surface();
+    TickRecord row = state_.touchable ? touch_surface(pair, settings, timing) : touch_nothing();
+    row.settings = settings.version;
+    if (settings.recording) record(row, timing);
+    count(timing, row.update_us);
+    to_.state.publish(state_);
+}
+
+void HapticTick::notice_changes(const HapticSettings& settings,
+                                const FrameWindow& frames) noexcept {
+    const bool recording_begins = settings.recording && !recording_;
+    if (recording_begins) {
+        renderer_.reset();
+        state_.touch = {};
+    }
+    if (recording_begins || settings.version != version_ ||
+        frames.discontinuity != discontinuity_) {
+        from_zero_ = true;
+    }
+    recording_ = settings.recording;
+    version_ = settings.version;
+    discontinuity_ = frames.discontinuity;
+}
+
+TickRecord HapticTick::touch_nothing() noexcept {
+    send_zero_force();
+    return {.surface = false};
+}
+
+void HapticTick::send_zero_force() noexcept {
+    to_.device.send(Vec3{0.0});
+    renderer_.pause();
+    state_.touch.spring_force_newton = Vec3{0.0};
+    state_.touch.sent_force_newton = Vec3{0.0};
+    from_zero_ = true;
+}
+
+TickRecord HapticTick::touch_surface(const DepthBlend& pair, const HapticSettings& settings,
+                                     const TickTiming& timing) noexcept {
+    const DepthSurface surface = pair.surface(settings.parameters.shape, settings.bump.get());
+    const HandReading hand =
+        to_.device.read({timing.dt_s, surface, settings.parameters.coupling.pixel_pitch_mm});
+    limits_ = usable(hand.limits.value_or(to_.device.specification().limits));
+    TouchParameters parameters = settings.parameters;
+    parameters.coupling = held_coupling(parameters.coupling, limits_);
+    const SafetyLimits limits = held_limits(settings.limits, limits_);
+    const SafetyInput input{.dt_s = timing.dt_s,
+                            .force_enabled = settings.force_enabled,
+                            .device_ready = hand.ready && !taken_off(hand, settings),
+                            .device_force_newton = hand.own_force_newton,
+                            .from_zero = from_zero_ || hand.taken_over};
+    const bool lets_go = hand.lifted || hand.taken_over;
+    if (lets_go && state_.touch.proxy.contact) renderer_.let_go();
+    const auto begin = std::chrono::steady_clock::now();
+    state_.touch = renderer_.update(surface, hand.goal_in_grid, parameters, input, limits);
+    const double update_us = microseconds(std::chrono::steady_clock::now() - begin);
+    to_.device.send(state_.touch.sent_force_newton);
+    from_zero_ = false;
+    state_.hand = hand;
+    state_.blend = pair.blend;
+    to_.forces.push({seconds(timing.begin - start_), glm::length(state_.touch.sent_force_newton)});
+    return {.update_us = update_us,
+            .frames = frames_of(pair),
+            .blend = pair.blend,
+            .own_newton = hand.own_force_newton,
+            .buttons = hand.buttons,
+            .device_ready = input.device_ready,
+            .stand_in = hand.stand_in,
+            .from_zero = input.from_zero,
+            .lets_go = lets_go,
+            .goal_refused = !is_finite(hand.goal_in_grid)};
+}
+
+bool HapticTick::taken_off(const HandReading& hand, const HapticSettings& settings) noexcept {
+    const bool pressed = hand.force_off && !force_off_pressed_;
+    force_off_pressed_ = hand.force_off;
+    taken_off_ = (taken_off_ || pressed) && settings.force_enabled;
+    return taken_off_;
+}
+
+void HapticTick::record(TickRecord& row, const TickTiming& timing) noexcept {
+    const Touch& touch = state_.touch;
+    row.tick = static_cast<std::int64_t>(state_.ticks);
+    row.t_s = seconds(timing.begin - start_);
+    row.zero_ns = std::chrono::nanoseconds(start_.time_since_epoch()).count();
+    row.dt_s = timing.dt_s;
+    row.lateness_us = microseconds(timing.lateness);
+    row.limits = limits_;
+    row.goal = touch.goal;
+    row.proxy = touch.proxy.position;
+    row.spring_newton = touch.spring_force_newton;
+    row.sent_newton = touch.sent_force_newton;
+    row.moves = touch.proxy.moves;
+    row.i = touch.proxy.active.i;
+    row.j = touch.proxy.active.j;
+    row.contact = row.surface && touch.proxy.contact;
+    row.primitive = static_cast<std::uint8_t>(touch.proxy.active.kind);
+    row.cut = static_cast<std::uint8_t>(touch.cut);
+    to_.ticks.push(row);
+}
+
+void HapticTick::count(const TickTiming& timing, double update_us) noexcept {
+    ++state_.ticks;
+    ++second_ticks_;
+    const double lateness_ms = std::chrono::duration<double, std::milli>(timing.lateness).count();
+    sums_.worst_lateness_ms = std::max(sums_.worst_lateness_ms, lateness_ms);
+    if (state_.touchable) {
+        ++second_updates_;
+        sums_.update_us += update_us;
+        sums_.worst_update_us = std::max(sums_.worst_update_us, update_us);
+        sums_.moves += state_.touch.proxy.moves;
+        if (state_.touch.proxy.bound_met) ++state_.bounds_met;
+    }
+    const double age_s = seconds(timing.begin - second_begin_);
+    if (age_s < 1.0) return;
+    const double updates = static_cast<double>(std::max<std::uint64_t>(second_updates_, 1));
+    state_.second = {static_cast<double>(second_ticks_) / age_s, sums_.worst_lateness_ms,
+                     sums_.update_us / updates, sums_.worst_update_us, sums_.moves / updates};
+    sums_ = {};
+    second_ticks_ = second_updates_ = 0;
+    second_begin_ = timing.begin;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,113 @@
+// One haptic tick: reads the hand, moves the proxy over the newest surface, sends the force.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+
+#include "core/haptics/parameters.hpp"
+#include "core/haptics/safety.hpp"
+#include "core/haptics/touch.hpp"
+#include "core/loop/device.hpp"
+#include "core/realtime/spsc_ring.hpp"
+#include "core/realtime/tick_timer.hpp"
+#include "core/realtime/triple_buffer.hpp"
+#include "core/session/tick_record.hpp"
+#include "core/video/frame_window.hpp"
+
+namespace dibhr {
+
+/// What a person tunes, handed whole to the next tick, which holds it to what the device can stand.
+struct HapticSettings {
+    TouchParameters parameters{};
+    SafetyLimits limits{};
+    bool force_enabled{true};
+    std::shared_ptr<const BumpMap> bump{};  ///< null: none
+    bool recording{false};                  ///< every tick goes into the ring
+    std::uint64_t version{0};               ///< counts changes: the force ramps after each
+};
+
+/// How the loop did over the last whole second.
+struct LoopSecond {
+    double rate_hz{0.0};
+    double worst_lateness_ms{0.0};
+    double update_us{0.0};  ///< mean time of one update
+    double worst_update_us{0.0};
+    double moves{0.0};  ///< mean primitives visited in an update
+};
+
+/// What the window shows of the last tick.
+struct HapticState {
+    Touch touch{};
+    bool touchable{false};  ///< there is a surface; without, no update and no force
+    HandReading hand{.ready = false};
+    double playback_s{0.0};
+    double blend{0.0};
+    std::uint64_t ticks{0};
+    std::uint64_t late_ticks{0};
+    std::uint64_t bounds_met{0};  ///< walks stopped by their bound: a fault
+    LoopSecond second{};
+};
+
+/// One point of the strip chart.
+struct ForceSample {
+    double t_s{0.0};          ///< since the loop began
+    double sent_newton{0.0};  ///< length of the force sent
+};
+using ForceRing = SpscRing<ForceSample, 4096>;
+
+/// Where a loop gets its surface and leaves what it did. All must outlive it.
+struct HapticConnections {
+    Device& device;
+    TripleBuffer<FrameWindow>& frames;
+    TripleBuffer<HapticSettings>& settings;
+    TripleBuffer<HapticState>& state;
+    ForceRing& forces;
+    TickRing& ticks;  ///< for the recorder
+};
+
+/// One tick of the loop, without a thread: nothing in it allocates, locks, waits or throws.
+/// Whatever the settings ask for, the device gets no more than it can stand.
+class HapticTick {
+  public:
+    explicit HapticTick(const HapticConnections& connections);
+
+    /// `late_ticks` is the timer's count so far.
+    void run(const TickTiming& timing, std::uint64_t late_ticks) noexcept;
+
+    /// How the loop ends, and what it does while there is nothing to touch; the next force begins
+    /// from zero.
+    void send_zero_force() noexcept;
+
+  private:
+    /// What lets the force begin from zero: other settings, a jump in the video, and a recording,
+    /// which begins as the program does so that it can be replayed.
+    void notice_changes(const HapticSettings& settings, const FrameWindow& frames) noexcept;
+    // What the tick depended on, for record().
+    [[nodiscard]] TickRecord touch_surface(const DepthBlend& pair, const HapticSettings& settings,
+                                           const TickTiming& timing) noexcept;
+    [[nodiscard]] TickRecord touch_nothing() noexcept;
+    /// The hand's button acts in this very tick, and until the window has switched the force off.
+    [[nodiscard]] bool taken_off(const HandReading& hand, const HapticSettings& settings) noexcept;
+    /// Adds what came of the tick.
+    void record(TickRecord& row, const TickTiming& timing) noexcept;
+    void count(const TickTiming& timing, double update_us) noexcept;
+
+    HapticConnections to_;
+    TouchRenderer renderer_{};
+    HapticState state_{};
+    std::uint64_t version_{~0ull};
+    std::uint64_t discontinuity_{~0ull};
+    DeviceLimits limits_;  // what the hand of the last reading can stand
+    bool from_zero_{true};
+    bool force_off_pressed_{false};
+    bool taken_off_{false};
+    bool recording_{false};
+    std::chrono::steady_clock::time_point start_{};
+    std::chrono::steady_clock::time_point second_begin_{};
+    LoopSecond sums_{};  // of the running second
+    std::uint64_t second_ticks_{0};
+    std::uint64_t second_updates_{0};
+};
+
+}  // namespace dibhr
