@@ -94,9 +94,11 @@ DepthImage flat_image(int columns, int rows) {
     return image;
 }
 
-LoopRun::Lateness lateness_of(const LatenessHistogram& lateness, std::uint64_t late_ticks) {
+LoopRun::Lateness lateness_of(const TickSchedule& schedule) {
+    const LatenessHistogram& lateness = schedule.lateness();
     const auto us = [](std::chrono::nanoseconds t) { return static_cast<double>(t.count()) / 1e3; };
-    return {lateness.count(), late_ticks, us(lateness.quantile(0.99)), us(lateness.worst())};
+    return {lateness.count(), schedule.late_ticks(), us(lateness.quantile(0.99)),
+            us(lateness.worst())};
 }
 
 }  // namespace
@@ -197,8 +199,7 @@ LoopRun measure_loops(double seconds) {
     stop.store(true);
     empty.join();
     loop.stop();
-    return {seconds, lateness_of(empty_timer.lateness(), empty_timer.late_ticks()),
-            lateness_of(loop.timer().lateness(), loop.timer().late_ticks())};
+    return {seconds, lateness_of(empty_timer.schedule()), lateness_of(loop.timer().schedule())};
 }
 
 }  // namespace dibhr

@@ -1,7 +1,9 @@
 // What the human path needs: the built-in sample in memory, and a hand's goals over it.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,7 +11,6 @@
 #include "core/experiment/experiment.hpp"
 #include "core/experiment/hand_trace.hpp"
 #include "core/haptics/parameters.hpp"
-#include "core/session/session_goals.hpp"
 #include "core/video/frame_window.hpp"
 
 namespace dibhr {
@@ -21,6 +22,24 @@ struct HumanOptions {
     bool raw_depth{false};  ///< no cleaning
     SurfaceShape shape{};
 };
+
+/// Where the hand was in one tick, and which moment of the depth video it touched.
+struct RecordedGoal {
+    Vec3 goal{0.0};  ///< grid space
+    std::int64_t frame{0};
+    double blend{0.0};  ///< 0: that frame, 1: the one after it
+};
+
+struct RecordedGoals {
+    std::map<std::string, std::string> facts{};  ///< the session table
+    std::vector<RecordedGoal> goals{};           ///< in order of time
+};
+
+/// The ticks from `lead_in` before the first one in contact on, at most `count`; ticks without a
+/// finite goal are left out. Throws InputError for a file that is no session, and one without a
+/// tick in contact.
+[[nodiscard]] RecordedGoals read_session_goals(const std::filesystem::path& file, int lead_in,
+                                               int count);
 
 /// What moves the hand, read and checked as far as it can be without the sample.
 struct HandInput {

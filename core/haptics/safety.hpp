@@ -63,8 +63,7 @@ struct SafetyInput {
     double goal_step_mm{0.0};  ///< how far the goal moved since the last tick [image mm]
     bool force_enabled{true};  ///< the switch of the force
     bool device_ready{true};   ///< attached and homed
-    /// What the device itself adds on the hand, such as its soft boundary [N]; limited like the
-    /// rest.
+    /// What the device itself adds on the hand, such as its soft boundary [N]; limited with it.
     Vec3 device_force_newton{0.0};
     bool from_zero{false};  ///< start, engaging, seek, loop, new file or parameters
 };

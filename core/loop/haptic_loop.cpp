@@ -22,7 +22,7 @@ void HapticLoop::run() {
     granted_.store(true, std::memory_order_release);
     while (!stopping_.load(std::memory_order_relaxed)) {
         const TickTiming timing = timer_.wait();
-        tick_.run(timing, timer_.late_ticks());
+        tick_.run(timing, timer_.schedule().late_ticks());
     }
     tick_.send_zero_force();
 }

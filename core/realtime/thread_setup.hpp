@@ -8,8 +8,7 @@ namespace dibhr {
 /// Granted, or why not, in words for the Loop panel.
 struct Grant {
     bool granted{false};
-    std::string
-        answer{};  ///< "SCHED_FIFO 80" or "refused: needs rtprio in /etc/security/limits.conf"
+    std::string answer{};  ///< "SCHED_FIFO 80", "refused: needs rtprio in /etc/security/..."
 };
 
 struct RealtimeGrants {

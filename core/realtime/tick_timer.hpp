@@ -53,6 +53,7 @@ class TickSchedule {
 
     [[nodiscard]] std::uint64_t ticks() const noexcept { return ticks_; }
     [[nodiscard]] std::uint64_t late_ticks() const noexcept { return late_ticks_; }
+    /// Deadlines that passed without a tick of their own.
     [[nodiscard]] std::uint64_t skipped() const noexcept { return skipped_; }
     [[nodiscard]] const LatenessHistogram& lateness() const noexcept { return histogram_; }
 
@@ -76,13 +77,8 @@ class TickTimer {
     /// first call.
     TickTiming wait() noexcept;
 
-    [[nodiscard]] std::uint64_t ticks() const noexcept { return schedule_.ticks(); }
-    [[nodiscard]] std::uint64_t late_ticks() const noexcept { return schedule_.late_ticks(); }
-    /// Deadlines that passed without a tick of their own.
-    [[nodiscard]] std::uint64_t skipped() const noexcept { return schedule_.skipped(); }
-    [[nodiscard]] const LatenessHistogram& lateness() const noexcept {
-        return schedule_.lateness();
-    }
+    /// Its counts, and how late ticks were.
+    [[nodiscard]] const TickSchedule& schedule() const noexcept { return schedule_; }
 
   private:
     TickSchedule schedule_;

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/session/same_bits.hpp"
 
 namespace dibhr {
 

@@ -3,8 +3,11 @@
 
 #include <sqlite3.h>
 
-#include <cstdlib>
+#include <cmath>
 #include <cstring>
+#include <limits>
+
+#include "core/session/tick_record.hpp"
 
 namespace dibhr {
 
@@ -13,10 +16,19 @@ namespace {
 // Someone who reads the session while it is recorded may hold it for a moment.
 constexpr int kPatience_ms = 2000;
 
+/// What of it is recorded: a database has no such thing as "no number".
+double recordable(double value) noexcept {
+    return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
+}
+
 }  // namespace
 
-void Database::Closer::operator()(sqlite3* handle) const noexcept {
-    sqlite3_close_v2(handle);
+void SqliteCloser::operator()(sqlite3* database) const noexcept {
+    sqlite3_close_v2(database);
+}
+
+void SqliteCloser::operator()(sqlite3_stmt* statement) const noexcept {
+    sqlite3_finalize(statement);
 }
 
 Database::Database(const std::filesystem::path& file) {
@@ -37,17 +49,9 @@ void Database::execute(const std::string& sql) {
 }
 
 std::int64_t Database::number(const std::string& sql) {
-    std::int64_t value = 0;
-    const auto keep = [](void* to, int columns, char** cells, char**) {
-        if (columns > 0 && cells[0] != nullptr) {
-            *static_cast<std::int64_t*>(to) = std::strtoll(cells[0], nullptr, 10);
-        }
-        return 0;
-    };
-    if (sqlite3_exec(handle_.get(), sql.c_str(), keep, &value, nullptr) != SQLITE_OK) {
-        throw DatabaseError(last_error());
-    }
-    return value;
+    const Statement question(*this, sql);
+    if (sqlite3_step(question.handle_.get()) != SQLITE_ROW) throw DatabaseError(last_error());
+    return sqlite3_column_int64(question.handle_.get(), 0);
 }
 
 LogState Database::merge_log(bool cut) {
@@ -67,10 +71,6 @@ std::string Database::last_error() const {
     return words;
 }
 
-void Statement::Finalizer::operator()(sqlite3_stmt* handle) const noexcept {
-    sqlite3_finalize(handle);
-}
-
 Statement::Statement(Database& database, std::string_view sql) : database_(database) {
     sqlite3_stmt* handle = nullptr;
     const int result = sqlite3_prepare_v2(database.handle_.get(), sql.data(),
@@ -79,31 +79,65 @@ Statement::Statement(Database& database, std::string_view sql) : database_(datab
     if (result != SQLITE_OK) throw DatabaseError(database.last_error());
 }
 
-void Statement::bind(int parameter, double value) noexcept {
-    sqlite3_bind_double(handle_.get(), parameter, value);
-}
-
-void Statement::bind(int parameter, std::int64_t value) noexcept {
-    sqlite3_bind_int64(handle_.get(), parameter, value);
-}
-
-void Statement::bind(int parameter, std::string_view value) noexcept {
-    sqlite3_bind_text(handle_.get(), parameter, value.data(), static_cast<int>(value.size()),
+void Statement::cell(std::string_view text) noexcept {
+    sqlite3_bind_text(handle_.get(), ++cells_, text.data(), static_cast<int>(text.size()),
                       SQLITE_TRANSIENT);
 }
 
-void Statement::bind_null(int parameter) noexcept {
-    sqlite3_bind_null(handle_.get(), parameter);
+void Statement::cell(double value) noexcept {
+    constexpr double kShortest = 1e9;  // in five bytes instead of eight
+    const auto whole = std::abs(value) < kShortest ? static_cast<std::int64_t>(value) : 0;
+    if (same_bits(static_cast<double>(whole), value)) {
+        integer(whole);
+    } else {
+        plain_real(value);
+    }
 }
 
-void Statement::run() {
+void Statement::cell(const std::optional<std::int64_t>& value) noexcept {
+    value ? integer(*value) : null();
+}
+
+void Statement::plain_real(double value) noexcept {
+    sqlite3_bind_double(handle_.get(), ++cells_, recordable(value));
+}
+
+void Statement::time(double value, double nanoseconds) noexcept {
+    const auto whole = whole_nanoseconds(value, nanoseconds);
+    whole ? integer(*whole) : plain_real(value);
+}
+
+void Statement::real_unless(double value, double follows) noexcept {
+    same_bits(recordable(value), follows) ? null() : cell(value);
+}
+
+void Statement::integer_unless(std::int64_t value, std::optional<std::int64_t> follows) noexcept {
+    value == follows ? null() : integer(value);
+}
+
+void Statement::integer(std::int64_t value) noexcept {
+    sqlite3_bind_int64(handle_.get(), ++cells_, value);
+}
+
+void Statement::null() noexcept {
+    sqlite3_bind_null(handle_.get(), ++cells_);
+}
+
+void Statement::run_once() {
+    cells_ = 0;
     const int result = sqlite3_step(handle_.get());
-    if (result != SQLITE_DONE && result != SQLITE_ROW) {
-        const std::string words = database_.last_error();
-        sqlite3_reset(handle_.get());
-        throw DatabaseError(words);
-    }
+    const std::string words =
+        result == SQLITE_DONE || result == SQLITE_ROW ? "" : database_.last_error();
     sqlite3_reset(handle_.get());
+    if (!words.empty()) throw DatabaseError(words);
+}
+
+std::optional<std::int64_t> whole_nanoseconds(double value, double nanoseconds) noexcept {
+    constexpr double kMost = 9e15;  // beyond, a real has no whole nanoseconds
+    const double count = std::round(value * nanoseconds);
+    const auto whole = std::abs(count) < kMost ? static_cast<std::int64_t>(count) : 0;
+    if (!same_bits(static_cast<double>(whole) / nanoseconds, value)) return std::nullopt;
+    return whole;
 }
 
 }  // namespace dibhr

@@ -1,9 +1,11 @@
 // SQLite with owners: an open file and a prepared statement, errors as exceptions in plain words.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -12,6 +14,14 @@ struct sqlite3;
 struct sqlite3_stmt;
 
 namespace dibhr {
+
+/// Owners' way to let go of what SQLite opened.
+struct SqliteCloser {
+    void operator()(sqlite3* database) const noexcept;
+    void operator()(sqlite3_stmt* statement) const noexcept;
+};
+using SqliteDatabase = std::unique_ptr<sqlite3, SqliteCloser>;
+using SqliteStatement = std::unique_ptr<sqlite3_stmt, SqliteCloser>;
 
 /// What SQLite and the system said, without a file's name: whoever knows the file adds it.
 class DatabaseError : public std::runtime_error {
@@ -44,30 +54,53 @@ class Database {
 
   private:
     friend class Statement;
-    struct Closer {
-        void operator()(sqlite3* handle) const noexcept;
-    };
-    std::unique_ptr<sqlite3, Closer> handle_{};
+    SqliteDatabase handle_{};
 };
 
-/// A prepared statement; must not outlive its database. Parameters count from 1.
+/// A prepared statement that writes; must not outlive its database. Takes the cells of a row one
+/// after the other, each in the shortest form that gives the same bits again: columns without a
+/// type keep them as they are.
 class Statement {
   public:
     Statement(Database& database, std::string_view sql);
 
-    void bind(int parameter, double value) noexcept;
-    void bind(int parameter, std::int64_t value) noexcept;
-    void bind(int parameter, std::string_view value) noexcept;
-    void bind_null(int parameter) noexcept;
-    /// Runs it once and makes it ready to run again; throws DatabaseError.
-    void run();
+    /// Runs it once with these cells, after those it already has, and makes it ready for the next
+    /// row. Throws DatabaseError.
+    template <typename... Cells>
+    void run(const Cells&... cells) {
+        (cell(cells), ...);
+        run_once();
+    }
+
+    void cell(std::string_view text) noexcept;
+    template <std::integral Integer>
+    void cell(Integer value) noexcept {
+        integer(static_cast<std::int64_t>(value));
+    }
+    void cell(double value) noexcept;
+    /// Nothing: no value.
+    void cell(const std::optional<std::int64_t>& value) noexcept;
+    /// Also a whole number as a real, where an integer means something else.
+    void plain_real(double value) noexcept;
+    /// A time as whole nanoseconds, of which its unit has `nanoseconds`.
+    void time(double value, double nanoseconds) noexcept;
+    /// No value where it equals what the view takes instead.
+    void real_unless(double value, double follows) noexcept;
+    void integer_unless(std::int64_t value, std::optional<std::int64_t> follows) noexcept;
 
   private:
-    struct Finalizer {
-        void operator()(sqlite3_stmt* handle) const noexcept;
-    };
+    friend class Database;
+    void integer(std::int64_t value) noexcept;
+    void null() noexcept;
+    void run_once();
+
     Database& database_;
-    std::unique_ptr<sqlite3_stmt, Finalizer> handle_{};
+    int cells_{0};  ///< of the row so far
+    SqliteStatement handle_{};
 };
+
+/// A time in nanoseconds, of which its unit has `nanoseconds`, where the same bits come of them.
+[[nodiscard]] std::optional<std::int64_t> whole_nanoseconds(double value,
+                                                            double nanoseconds) noexcept;
 
 }  // namespace dibhr

@@ -72,18 +72,14 @@ void LogKeeper::run() {
         lock.unlock();
         std::string failure;
         try {
-            keep();
+            flush();
+            if (log_is_long()) empty();
         } catch (const DatabaseError& error) {
             failure = error.what();
         }
         lock.lock();
         failure_ = failure;
     }
-}
-
-void LogKeeper::keep() {
-    flush();
-    if (log_is_long()) empty();
 }
 
 void LogKeeper::flush() {
@@ -99,7 +95,8 @@ void LogKeeper::empty() {
     }
     database_.merge_log(false);
     std::unique_lock lock(mutex_);
-    wait_for_pause(lock);
+    wanted_ = true;
+    changed_.wait_for(lock, kPatience, [this] { return paused_ || leaving_; });
     if (paused_) {
         lock.unlock();
         const LogState state = database_.merge_log(false);
@@ -110,11 +107,6 @@ void LogKeeper::empty() {
     }
     wanted_ = false;
     changed_.notify_all();
-}
-
-void LogKeeper::wait_for_pause(std::unique_lock<std::mutex>& lock) {
-    wanted_ = true;
-    changed_.wait_for(lock, kPatience, [this] { return paused_ || leaving_; });
 }
 
 bool LogKeeper::log_is_long() const {

@@ -35,10 +35,8 @@ class LogKeeper {
     };
 
     void run();
-    void keep();
     void flush();
     void empty();
-    void wait_for_pause(std::unique_lock<std::mutex>& lock);
     [[nodiscard]] bool log_is_long() const;
 
     Database database_;

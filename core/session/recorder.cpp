@@ -4,12 +4,14 @@
 #include <pthread.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
 #include <functional>
+#include <future>
 #include <mutex>
 #include <optional>
 #include <system_error>
@@ -17,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/session/file_sums.hpp"
+#include "core/files/content_hash.hpp"
 #include "core/session/session_file.hpp"
 
 namespace dibhr {
@@ -51,6 +53,58 @@ std::filesystem::path whole_path(const std::filesystem::path& file) {
     std::filesystem::path whole = std::filesystem::absolute(file, gone);
     return file.empty() || gone ? file : whole;
 }
+
+/// Nothing when the file cannot be read or `leaving` became true.
+std::optional<SessionMedia> content_of(const std::filesystem::path& file,
+                                       const std::atomic<bool>& leaving) {
+    std::error_code failed;
+    const auto bytes = std::filesystem::file_size(file, failed);
+    if (failed) return std::nullopt;
+    try {
+        auto sum = sha256_of_file(file, leaving);
+        if (!sum) return std::nullopt;
+        return SessionMedia{file, bytes, std::move(*sum)};
+    } catch (const std::exception&) {
+        return std::nullopt;  // the session says nothing of its content then
+    }
+}
+
+/// Sums up the content of files on threads of their own, so that nobody waits for large ones. For
+/// one thread. Files that cannot be read are left out.
+class FileSums {
+  public:
+    FileSums() = default;
+    ~FileSums() { leaving_ = true; }  // gives up the sums that are not ready, and waits for that
+    FileSums(const FileSums&) = delete;
+    FileSums& operator=(const FileSums&) = delete;
+
+    void ask(const std::filesystem::path& file) try {
+        sums_.push_back(
+            std::async(std::launch::async, [this, file] { return content_of(file, leaving_); }));
+    } catch (const std::system_error&) {  // no thread for it: left out, too
+    }
+    /// What has become known since the last call.
+    [[nodiscard]] std::vector<SessionMedia> take() {
+        std::vector<SessionMedia> known;
+        for (Sum& sum : sums_) {
+            if (!ready(sum)) continue;
+            if (auto content = sum.get()) known.push_back(std::move(*content));
+        }
+        std::erase_if(sums_, [](const Sum& sum) { return !sum.valid(); });
+        return known;
+    }
+    [[nodiscard]] bool all_ready() const { return std::all_of(sums_.begin(), sums_.end(), ready); }
+
+  private:
+    using Sum = std::future<std::optional<SessionMedia>>;
+
+    static bool ready(const Sum& sum) {
+        return sum.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    }
+
+    std::atomic<bool> leaving_{false};
+    std::vector<Sum> sums_{};
+};
 
 }  // namespace
 
@@ -131,7 +185,7 @@ struct Recorder::Implementation {
             const std::lock_guard lock(mutex);
             left.swap(notes);
         }
-        if (left.empty() && batch.empty() && sums.idle()) return;
+        if (left.empty() && batch.empty() && sums.all_ready()) return;
         open_transaction();
         if (!zero_ns && !batch.empty()) {
             zero_ns = batch.front().zero_ns;
@@ -165,7 +219,7 @@ struct Recorder::Implementation {
 
     void add_contents() {
         for (const auto& file : session->take_new_files()) sums.ask(file);
-        for (const FileContent& content : sums.take()) session->set_content(content);
+        for (const SessionMedia& content : sums.take()) session->set_content(content);
     }
 
     void add_mark(Clock::time_point moment, const std::string& tag, const std::string& text) {
@@ -205,7 +259,7 @@ struct Recorder::Implementation {
 
     void close() {
         const Clock::time_point patience = Clock::now() + kMostWaitForSums;
-        while (session && !sums.idle() && Clock::now() < patience) {
+        while (session && !sums.all_ready() && Clock::now() < patience) {
             std::this_thread::sleep_for(kBetweenDrains / 4);
         }
         write([this] {

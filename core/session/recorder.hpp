@@ -18,8 +18,7 @@ struct RecorderStatus {
     std::uint64_t high_water{0};   ///< the most ticks that waited in the ring
     std::uint64_t bytes{0};        ///< on the disk
     double bytes_per_minute{0.0};  ///< by which the file grows; 0 in the first second
-    std::string
-        failure{};  ///< a plain sentence when writing broke off; what was written stays readable
+    std::string failure{};  ///< a sentence when writing broke off; what was written stays readable
 };
 
 /// Drains the ring into `file` (write-ahead log, a transaction at least every 250 ms). What is in

@@ -2,6 +2,7 @@
 #include "core/session/session.hpp"
 
 #include <algorithm>
+#include <concepts>
 #include <set>
 #include <string>
 #include <string_view>
@@ -13,41 +14,6 @@
 namespace dibhr {
 
 namespace {
-
-/// Takes the columns of a row one after the other.
-class Row {
-  public:
-    explicit Row(const SessionReader::Query& query) : query_(query) {}
-
-    double real() { return query_.real(column_++); }
-    std::int64_t integer() { return query_.integer(column_++); }
-    bool yes() { return integer() != 0; }
-    std::string text() { return query_.text(column_++); }
-    template <typename Number>
-    Number whole() {
-        return static_cast<Number>(integer());
-    }
-    Vec3 vector() { return {real(), real(), real()}; }  // braces: from left to right
-    SessionMedia media() {
-        SessionMedia media;
-        media.file = text();
-        media.bytes = whole<std::uint64_t>();
-        media.sha256 = text();
-        return media;
-    }
-    FrameSource source() {
-        FrameSource source;
-        source.media = whole<std::uint32_t>();
-        source.fill_holes = yes();
-        source.remove_spikes = yes();
-        source.smooth_steps = yes();
-        return source;
-    }
-
-  private:
-    const SessionReader::Query& query_;
-    int column_{0};
-};
 
 /// A file of before a parameter has no column for it: the parameter then was what it is by default.
 std::set<std::string> columns_of_parameters(const SessionReader& reader) {
@@ -63,6 +29,42 @@ PrimitiveKind primitive_named(const std::string& name) {
     }
     return PrimitiveKind::none;
 }
+
+/// Takes the columns of a row one after the other.
+class Row {
+  public:
+    explicit Row(const SessionReader::Query& query) : query_(query) {}
+
+    template <typename... Values>
+    void take(Values&... values) {
+        (take_one(values), ...);
+    }
+
+    double real() { return query_.real(column_++); }
+    std::int64_t integer() { return query_.integer(column_++); }
+    bool yes() { return integer() != 0; }
+    std::string text() { return query_.text(column_++); }
+
+  private:
+    template <std::integral Integer>
+    void take_one(Integer& value) {
+        value = static_cast<Integer>(integer());
+    }
+    void take_one(bool& value) { value = yes(); }
+    void take_one(double& value) { value = real(); }
+    void take_one(std::string& value) { value = text(); }
+    void take_one(Vec3& value) { take(value.x, value.y, value.z); }
+    void take_one(FrameSource& source) {
+        take(source.media, source.fill_holes, source.remove_spikes, source.smooth_steps);
+    }
+    void take_one(SessionMedia& media) {
+        media.file = text();
+        take(media.bytes, media.sha256);
+    }
+
+    const SessionReader::Query& query_;
+    int column_{0};
+};
 
 // In the order in which Ticks::next takes them.
 constexpr const char* kTickQuestion =
@@ -135,8 +137,7 @@ void Session::read_parameters() {
     while (query.next()) {
         Row row(query);
         SessionParameters parameters;
-        parameters.version = row.whole<std::uint64_t>();
-        parameters.first_tick = row.integer();
+        row.take(parameters.version, parameters.first_tick);
         const std::string name = row.text();
         const auto algorithm = algorithm_named(name);
         if (!algorithm) {
@@ -144,8 +145,7 @@ void Session::read_parameters() {
                              "' that is not known here; update dibhr");
         }
         parameters.touch.algorithm = *algorithm;
-        parameters.force_enabled = row.yes();
-        parameters.bump = row.media();
+        row.take(parameters.force_enabled, parameters.bump);
         visit_numbers(parameters, [&](std::string_view column, double& number) {
             if (columns.contains(std::string(column))) number = row.real();
         });
@@ -160,23 +160,16 @@ void Session::read_sources() {
         "d.file, d.bytes, d.sha256, first_tick FROM source s LEFT JOIN media c ON c.id = s.colour "
         "LEFT JOIN media d ON d.id = s.depth ORDER BY first_tick");
     while (query.next()) {
-        Row row(query);
-        SessionSource source;
-        source.source = row.source();
-        source.colour = row.media();
-        source.depth = row.media();
-        source.first_tick = row.integer();
-        sources_.push_back(std::move(source));
+        SessionSource& source = sources_.emplace_back();
+        Row(query).take(source.source, source.colour, source.depth, source.first_tick);
     }
 }
 
 void Session::read_marks() {
     SessionReader::Query query(reader_, "SELECT t, tag, text FROM mark ORDER BY t, id");
     while (query.next()) {
-        Row row(query);
-        const double t_s = row.real();
-        std::string tag = row.text();
-        marks_.push_back({t_s, std::move(tag), row.text()});
+        SessionMark& mark = marks_.emplace_back();
+        Row(query).take(mark.t_s, mark.tag, mark.text);
     }
 }
 
@@ -233,40 +226,18 @@ Session::Ticks::Ticks(const Session& session, double from_s)
 
 bool Session::Ticks::next(TickRecord& tick) {
     if (!query_.next()) return false;
-    Row row(query_);
-    tick.tick = row.integer();
-    tick.t_s = row.real();
-    tick.dt_s = row.real();
-    tick.lateness_us = row.real();
-    tick.update_us = static_cast<double>(row.integer()) / 1e3;
-    tick.settings = row.whole<std::uint64_t>();
-    tick.frames.source = row.source();
-    tick.frames.from_frame = row.integer();
-    tick.frames.to_frame = row.integer();
-    tick.frames.from_s = row.real();
-    tick.frames.to_s = row.real();
-    tick.frames.span_s = row.real();
-    tick.blend = row.real();
-    tick.utc_s = row.real();
-    tick.video_s = row.real();
-    tick.goal = row.vector();
-    tick.proxy = row.vector();
-    tick.spring_newton = row.vector();
-    tick.sent_newton = row.vector();
-    tick.own_newton = row.vector();
-    tick.moves = row.whole<std::int32_t>();
-    tick.i = row.whole<std::int32_t>();
-    tick.j = row.whole<std::int32_t>();
-    tick.contact = row.yes();
-    tick.primitive = static_cast<std::uint8_t>(primitive_named(row.text()));
-    tick.buttons = row.whole<std::uint8_t>();
-    tick.cut = row.whole<std::uint8_t>();
-    tick.surface = row.yes();
-    tick.device_ready = row.yes();
-    tick.stand_in = row.yes();
-    tick.from_zero = row.yes();
-    tick.lets_go = row.yes();
-    tick.goal_refused = row.yes();
+    std::int64_t update_ns = 0;
+    std::string primitive;
+    FramePair& frames = tick.frames;
+    Row(query_).take(tick.tick, tick.t_s, tick.dt_s, tick.lateness_us, update_ns, tick.settings,
+                     frames.source, frames.from_frame, frames.to_frame, frames.from_s, frames.to_s,
+                     frames.span_s, tick.blend, tick.utc_s, tick.video_s, tick.goal, tick.proxy,
+                     tick.spring_newton, tick.sent_newton, tick.own_newton, tick.moves, tick.i,
+                     tick.j, tick.contact, primitive, tick.buttons, tick.cut, tick.surface,
+                     tick.device_ready, tick.stand_in, tick.from_zero, tick.lets_go,
+                     tick.goal_refused);
+    tick.update_us = static_cast<double>(update_ns) / 1e3;
+    tick.primitive = static_cast<std::uint8_t>(primitive_named(primitive));
     return true;
 }
 

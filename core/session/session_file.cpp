@@ -18,8 +18,6 @@
 
 #include "core/error.hpp"
 #include "core/haptics/primitive.hpp"
-#include "core/session/machine_facts.hpp"
-#include "core/session/row_binder.hpp"
 
 namespace dibhr {
 
@@ -161,44 +159,45 @@ void SessionFile::begin() {
 void SessionFile::add(const TickRecord& record) {
     if (version_ != record.settings || limits_ != record.limits) use_settings(record);
     if (record.surface && pair_ != record.frames) add_pair(record.frames, record.tick);
-    RowBinder row(insert_tick_);
-    row.integer(record.tick);
-    bind_times(row, record);
-    row.integer(std::isfinite(record.update_us)
-                    ? std::llround(record.update_us * kNanosecondsPerMicrosecond)
-                    : -1);
-    row.integer(state_of(record));
-    row.reference(record.surface ? pairs_ : 0);
-    row.real(record.blend);
-    row.integer(static_cast<std::int64_t>(settings_));
-    row.integer(record.moves);
+    Statement& row = insert_tick_;
+    row.cell(record.tick);
+    add_times(record);
+    row.cell(std::isfinite(record.update_us)
+                 ? std::llround(record.update_us * kNanosecondsPerMicrosecond)
+                 : -1);
+    row.cell(state_of(record));
+    row.cell(record.surface ? std::optional(pairs_) : std::nullopt);
+    row.cell(record.blend);
+    row.cell(settings_);
+    row.cell(record.moves);
     row.integer_unless(record.i, pixel_of(record.proxy.x));
     row.integer_unless(record.j, pixel_of(record.proxy.y));
-    for (int axis = 0; axis < 3; ++axis) row.real(record.goal[axis]);
+    for (int axis = 0; axis < 3; ++axis) row.cell(record.goal[axis]);
     for (int axis = 0; axis < 3; ++axis) row.real_unless(record.proxy[axis], record.goal[axis]);
-    bind_forces(row, record);
-    insert_tick_.run();
+    add_forces(record);
+    row.run();
 }
 
 /// The time since the tick before follows, mostly, from its row.
-void SessionFile::bind_times(RowBinder& row, const TickRecord& record) {
+void SessionFile::add_times(const TickRecord& record) {
     const auto t_ns = whole_nanoseconds(record.t_s, kNanosecondsPerSecond);
     const bool goes_on = t_ns && last_t_ns_ && last_tick_ == record.tick - 1;
-    row.time(record.t_s, kNanosecondsPerSecond);
+    insert_tick_.time(record.t_s, kNanosecondsPerSecond);
     if (goes_on &&
         same_bits(static_cast<double>(*t_ns - *last_t_ns_) / kNanosecondsPerSecond, record.dt_s)) {
-        row.null();
+        insert_tick_.cell(std::nullopt);
     } else {
-        row.time(record.dt_s, kNanosecondsPerSecond);
+        insert_tick_.time(record.dt_s, kNanosecondsPerSecond);
     }
-    row.time(record.lateness_us, kNanosecondsPerMicrosecond);
+    insert_tick_.time(record.lateness_us, kNanosecondsPerMicrosecond);
     last_tick_ = record.tick;
     last_t_ns_ = t_ns;
 }
 
 /// As the view takes them; this file is compiled so that products and sums are rounded one by one,
 /// as in SQLite.
-void SessionFile::bind_forces(RowBinder& row, const TickRecord& record) const {
+void SessionFile::add_forces(const TickRecord& record) {
+    Statement& row = insert_tick_;
     const Vec3 wanted = record.spring_newton + record.own_newton;
     for (int axis = 0; axis < 3; ++axis) {
         const double follows =
@@ -210,10 +209,8 @@ void SessionFile::bind_forces(RowBinder& row, const TickRecord& record) const {
     for (int axis = 0; axis < 2; ++axis) {
         const double sent = record.sent_newton[axis];
         const auto off = off_direction(sent, wanted[axis], shortening);
-        if (same_bits(sent, follows(axis))) {
-            row.null();
-        } else if (off) {
-            row.integer(*off);
+        if (off || same_bits(sent, follows(axis))) {
+            row.cell(same_bits(sent, follows(axis)) ? std::nullopt : off);
         } else {
             row.plain_real(sent);
         }
@@ -226,7 +223,7 @@ void SessionFile::commit() {
     database_.execute("COMMIT");
     const Place now = place_of(path_);
     if (now == Place{}) throw DatabaseError("the file is gone from its place");
-    if (!(now == place_)) throw DatabaseError("another file is in its place");
+    if (now != place_) throw DatabaseError("another file is in its place");
 }
 
 void SessionFile::know(const SessionParameters& parameters) {
@@ -239,29 +236,18 @@ void SessionFile::know_media(std::uint32_t number, const std::filesystem::path& 
 }
 
 void SessionFile::set_fact(const std::string& key, const std::string& value) {
-    insert_fact_.bind(1, std::string_view(key));
-    insert_fact_.bind(2, std::string_view(value));
-    insert_fact_.run();
+    insert_fact_.run(key, value);
 }
 
 void SessionFile::add_mark(const SessionMark& mark) {
     Statement insert(database_, "INSERT INTO mark(t, tag, text) VALUES (?, ?, ?)");
-    RowBinder row(insert);
-    row.real(mark.t_s);
-    row.text(mark.tag);
-    row.text(mark.text);
-    insert.run();
+    insert.run(mark.t_s, mark.tag, mark.text);
 }
 
 void SessionFile::add_clock(std::int64_t t_ns, double utc_s, std::uint64_t dropped,
                             std::uint64_t high_water) {
     Statement insert(database_, "INSERT OR REPLACE INTO clock VALUES (?, ?, ?, ?)");
-    RowBinder row(insert);
-    row.integer(t_ns);
-    row.real(utc_s);
-    row.integer(static_cast<std::int64_t>(dropped));
-    row.integer(static_cast<std::int64_t>(high_water));
-    insert.run();
+    insert.run(t_ns, utc_s, dropped, high_water);
 }
 
 /// The parameters that the tick's force follows from: as they were told, held to its device.
@@ -295,27 +281,17 @@ void SessionFile::use_settings(const TickRecord& record) {
 
 void SessionFile::add_parameters(SessionParameters parameters) {
     Statement insert(database_, insert_parameters());
-    RowBinder row(insert);
-    row.integer(static_cast<std::int64_t>(parameters.version));
-    row.integer(parameters.first_tick);
-    row.text(name_of(parameters.touch.algorithm));
-    visit_numbers(parameters, [&row](std::string_view, double number) { row.real(number); });
-    row.integer(parameters.force_enabled ? 1 : 0);
-    row.reference(media_row(parameters.bump.file));
-    insert.run();
+    insert.cell(parameters.version);
+    insert.cell(parameters.first_tick);
+    insert.cell(name_of(parameters.touch.algorithm));
+    visit_numbers(parameters, [&insert](std::string_view, double number) { insert.cell(number); });
+    insert.run(parameters.force_enabled, media_row(parameters.bump.file));
 }
 
 void SessionFile::add_pair(const FramePair& frames, std::int64_t tick) {
     const std::int64_t source = source_row(frames.source, tick);
-    RowBinder row(insert_pair_);
-    row.integer(++pairs_);
-    row.integer(source);
-    row.integer(frames.from_frame);
-    row.integer(frames.to_frame);
-    row.real(frames.from_s);
-    row.real(frames.to_s);
-    row.real(frames.span_s);
-    insert_pair_.run();
+    insert_pair_.run(++pairs_, source, frames.from_frame, frames.to_frame, frames.from_s,
+                     frames.to_s, frames.span_s);
     pair_ = frames;
 }
 
@@ -325,30 +301,20 @@ std::int64_t SessionFile::source_row(const FrameSource& source, std::int64_t tic
     sources_.push_back(source);
     const auto id = static_cast<std::int64_t>(sources_.size());
     const MediaFiles files = known_media_[source.media];
+    const auto colour = media_row(files.colour), depth = media_row(files.depth);
     Statement insert(database_, "INSERT INTO source VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
-    RowBinder row(insert);
-    row.integer(id);
-    row.integer(tick);
-    row.integer(source.media);
-    row.reference(media_row(files.colour));
-    row.reference(media_row(files.depth));
-    row.integer(source.fill_holes ? 1 : 0);
-    row.integer(source.remove_spikes ? 1 : 0);
-    row.integer(source.smooth_steps ? 1 : 0);
-    insert.run();
+    insert.run(id, tick, source.media, colour, depth, source.fill_holes, source.remove_spikes,
+               source.smooth_steps);
     return id;
 }
 
-std::int64_t SessionFile::media_row(const std::filesystem::path& file) {
-    if (file.empty()) return 0;
+std::optional<std::int64_t> SessionFile::media_row(const std::filesystem::path& file) {
+    if (file.empty()) return std::nullopt;
     const auto found = media_rows_.find(file);
     if (found != media_rows_.end()) return found->second;
     const auto id = static_cast<std::int64_t>(media_rows_.size()) + 1;
     Statement insert(database_, "INSERT INTO media(id, file) VALUES (?, ?)");
-    RowBinder row(insert);
-    row.integer(id);
-    row.text(file.string());
-    insert.run();
+    insert.run(id, file.string());
     media_rows_.emplace(file, id);
     new_files_.push_back(file);
     return id;
@@ -358,13 +324,9 @@ std::vector<std::filesystem::path> SessionFile::take_new_files() {
     return std::exchange(new_files_, {});
 }
 
-void SessionFile::set_content(const FileContent& content) {
+void SessionFile::set_content(const SessionMedia& content) {
     Statement update(database_, "UPDATE media SET bytes = ?, sha256 = ? WHERE file = ?");
-    RowBinder row(update);
-    row.integer(static_cast<std::int64_t>(content.bytes));
-    row.text(content.sha256);
-    row.text(content.file.string());
-    update.run();
+    update.run(content.bytes, content.sha256, content.file.string());
 }
 
 void SessionFile::merge_log() {

@@ -7,17 +7,15 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/session/database.hpp"
-#include "core/session/file_sums.hpp"
 #include "core/session/log_keeper.hpp"
 #include "core/session/session_parts.hpp"
 #include "core/session/session_schema.hpp"
 
 namespace dibhr {
-
-class RowBinder;
 
 /// The tables are described in README.md and in the file itself. One thread at a time. Every call
 /// that writes throws DatabaseError.
@@ -48,7 +46,7 @@ class SessionFile {
 
     /// Files that ticks refer to since the last call: their content is to be summed up.
     [[nodiscard]] std::vector<std::filesystem::path> take_new_files();
-    void set_content(const FileContent& content);
+    void set_content(const SessionMedia& content);
 
     /// Moves what is in the write-ahead log into the file, so that one file remains after closing;
     /// to be called last.
@@ -64,13 +62,7 @@ class SessionFile {
     [[nodiscard]] std::uint64_t bytes_recorded();
 
   private:
-    /// What a path leads to; all zero for nothing.
-    struct Place {
-        std::uint64_t device{0};
-        std::uint64_t node{0};
-
-        bool operator==(const Place&) const = default;
-    };
+    using Place = std::pair<std::uint64_t, std::uint64_t>;  ///< device and node; zero: nothing
     struct MediaFiles {
         std::filesystem::path colour{}, depth{};
     };
@@ -79,10 +71,10 @@ class SessionFile {
     void use_settings(const TickRecord& record);
     void add_parameters(SessionParameters parameters);
     void add_pair(const FramePair& frames, std::int64_t tick);
-    void bind_times(RowBinder& row, const TickRecord& record);
-    void bind_forces(RowBinder& row, const TickRecord& record) const;
+    void add_times(const TickRecord& record);
+    void add_forces(const TickRecord& record);
     [[nodiscard]] std::int64_t source_row(const FrameSource& source, std::int64_t tick);
-    [[nodiscard]] std::int64_t media_row(const std::filesystem::path& file);
+    [[nodiscard]] std::optional<std::int64_t> media_row(const std::filesystem::path& file);
     [[nodiscard]] static Place place_of(const std::filesystem::path& file);
 
     std::filesystem::path path_;

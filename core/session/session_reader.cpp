@@ -39,10 +39,6 @@ std::string percent_encoded(std::string_view path) {
 
 }  // namespace
 
-void SessionReader::Closer::operator()(sqlite3* database) const noexcept {
-    sqlite3_close(database);
-}
-
 SessionReader::SessionReader(const std::filesystem::path& file) : file_(file) {
     std::error_code failed;
     if (!std::filesystem::exists(file, failed)) {
@@ -143,10 +139,6 @@ void SessionReader::refuse(const std::string& reason) const {
 void SessionReader::refuse_damaged(const std::string& words) const {
     throw InputError(file_.string() + ": is damaged (" + words +
                      "); copy it again, or save what is left with sqlite3's .recover");
-}
-
-void SessionReader::Query::Finalizer::operator()(sqlite3_stmt* statement) const noexcept {
-    sqlite3_finalize(statement);
 }
 
 SessionReader::Query::Query(const SessionReader& reader, const std::string& sql) : reader_(reader) {

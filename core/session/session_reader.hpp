@@ -4,11 +4,9 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <string>
 
-struct sqlite3;
-struct sqlite3_stmt;
+#include "core/session/database.hpp"
 
 namespace dibhr {
 
@@ -37,12 +35,9 @@ class SessionReader {
     [[noreturn]] void refuse(const std::string& reason) const;
     [[noreturn]] void refuse_damaged(const std::string& words) const;
 
-    struct Closer {
-        void operator()(sqlite3* database) const noexcept;
-    };
     std::filesystem::path file_;
     bool lacks_log_{false};
-    std::unique_ptr<sqlite3, Closer> database_{};
+    SqliteDatabase database_{};
 };
 
 /// The rows of a question, one after the other; must not outlive its reader. Columns count from 0.
@@ -62,11 +57,8 @@ class SessionReader::Query {
     [[nodiscard]] std::string name(int column) const;
 
   private:
-    struct Finalizer {
-        void operator()(sqlite3_stmt* statement) const noexcept;
-    };
     const SessionReader& reader_;
-    std::unique_ptr<sqlite3_stmt, Finalizer> statement_{};
+    SqliteStatement statement_{};
 };
 
 }  // namespace dibhr

@@ -1,6 +1,7 @@
 // One tick as it is recorded and read back: plain data that passes through a ring.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <optional>
 
@@ -65,6 +66,14 @@ struct TickRecord {
     bool lets_go{false};       ///< the hand was lifted or replaced: a contact was let go first
     bool goal_refused{false};  ///< the hand's reading was no number: `goal` is the one before
 };
+
+/// What "the same" means for recorded reals: every bit, the sign of a zero too.
+[[nodiscard]] inline bool same_bits(double a, double b) noexcept {
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+[[nodiscard]] inline bool same_bits(const Vec3& a, const Vec3& b) noexcept {
+    return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z);
+}
 
 using TickRing = SpscRing<TickRecord, 16384>;
 

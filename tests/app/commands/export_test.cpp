@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "app/commands/output_rows.hpp"
-#include "core/session/same_bits.hpp"
 #include "core/session/session.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/recorded_session.hpp"

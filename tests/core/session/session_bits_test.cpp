@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "core/session/recorder.hpp"
-#include "core/session/same_bits.hpp"
 #include "core/session/session.hpp"
 #include "tests/core/session/exploration.hpp"
 #include "tests/core/session/session_folder.hpp"

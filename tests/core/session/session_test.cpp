@@ -10,7 +10,6 @@
 
 #include "core/files/content_hash.hpp"
 #include "core/session/recorder.hpp"
-#include "core/session/same_bits.hpp"
 #include "tests/core/session/session_folder.hpp"
 #include "tests/support/catch.hpp"
 

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <cstdint>
 
+#include "app/commands/experiment_human.hpp"
 #include "core/error.hpp"
 #include "core/session/session_file.hpp"
-#include "core/session/session_goals.hpp"
 #include "tests/core/session/session_folder.hpp"
 #include "tests/support/catch.hpp"
 
