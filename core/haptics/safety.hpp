@@ -11,7 +11,7 @@ namespace dibhr {
 struct SafetyLimits {
     double max_force_newton{4.0};          ///< the smaller of the device's limit and the user's
     double max_change_newton_per_ms{0.5};  ///< Falcon fact sheet, section 11: suggested slew limit
-    double ramp_s{0.5};                    ///< from zero to full force from zero on
+    double ramp_s{0.5};                    ///< the rise from zero to full force
     double max_tick_s{0.020};  ///< a longer tick is late: no force (reply older than 20 ms)
     /// A faster goal is a jump, not a hand (10 m/s) [image mm].
     double max_goal_speed_mm_per_ms{10.0};
