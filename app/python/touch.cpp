@@ -136,7 +136,7 @@ class Renderer {
 
     void reset() {
         const Use use(busy_);
-        renderer_.restart();
+        renderer_.reset();
         last_t_s_.reset();
     }
 
@@ -180,7 +180,7 @@ class Renderer {
     };
 
     const Touch& step(const DepthSurface& surface, Vec3 goal, double t_s, double dt_s) noexcept {
-        const SafetyInput input{.dt_s = dt_s, .restart = !last_t_s_};
+        const SafetyInput input{.dt_s = dt_s, .from_zero = !last_t_s_};
         last_t_s_ = t_s;
         return renderer_.update(surface, goal, parameters_, input, limits_);
     }
