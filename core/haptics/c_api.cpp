@@ -213,7 +213,7 @@ dibhr_status dibhr_set_depth(dibhr_handle* handle, const dibhr_image* from, cons
     if (to != nullptr) std::swap(handle->to, new_to);
     handle->has_two = to != nullptr;
     handle->blend = 0.0;
-    handle->input.restart = true;
+    handle->input.from_zero = true;
     return DIBHR_OK;
 }
 
@@ -366,7 +366,7 @@ dibhr_status dibhr_update(dibhr_handle* handle, double x, double y, double z, do
                                            handle->input, handle->limits);
     if (touch != nullptr) *touch = as_c(handle->last);
     if (!is_finite({x, y, z})) return failed(handle, DIBHR_BAD_ARGUMENT, "the goal is not finite");
-    handle->input.restart = false;
+    handle->input.from_zero = false;
     return DIBHR_OK;
 }
 
@@ -379,7 +379,7 @@ dibhr_status dibhr_read(const dibhr_handle* handle, dibhr_touch* touch) {
 
 dibhr_status dibhr_restart(dibhr_handle* handle) {
     if (handle == nullptr) return DIBHR_BAD_ARGUMENT;
-    handle->renderer.restart();
+    handle->renderer.reset();
     handle->last = {};
     return DIBHR_OK;
 }
