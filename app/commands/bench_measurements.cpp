@@ -12,7 +12,7 @@
 #include <thread>
 #include <utility>
 
-#include "core/experiment/goal_paths.hpp"
+#include "core/experiment/exact_plane.hpp"
 #include "core/haptics/dibhr.hpp"
 #include "core/haptics/touch.hpp"
 #include "core/loop/haptic_loop.hpp"

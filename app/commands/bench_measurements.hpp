@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/experiment/update_timing.hpp"
+#include "core/experiment/experiment.hpp"
 #include "core/haptics/algorithm.hpp"
-#include "core/metrics/sample_statistics.hpp"
+#include "core/metrics/force_variation.hpp"
 
 namespace dibhr {
 

@@ -4,17 +4,14 @@
 #include <iostream>
 #include <optional>
 #include <span>
-#include <system_error>
 #include <utility>
 
 #include "app/commands/progress_bar.hpp"
 #include "core/error.hpp"
+#include "core/experiment/experiment.hpp"
 #include "core/experiment/plots.hpp"
-#include "core/experiment/report_json.hpp"
-#include "core/experiment/report_table.hpp"
-#include "core/experiment/sweep.hpp"
-#include "core/experiment/update_timing.hpp"
-#include "core/files/output_file.hpp"
+#include "core/experiment/report.hpp"
+#include "core/files/output_folder.hpp"
 
 namespace dibhr {
 
@@ -25,17 +22,14 @@ class Outputs {
   public:
     explicit Outputs(const ExperimentOptions& options) : with_table_(options.json != "-") {
         if (!options.json.empty()) json_.emplace(options.json);
-        if (!options.plots.empty()) try_folder(options.plots);
+        if (!options.plots.empty()) plots_.emplace(options.plots);
     }
-    /// A folder that was made here and into which nothing came goes away again.
-    ~Outputs() {
-        std::error_code not_empty;
-        if (!made_folder_.empty()) std::filesystem::remove(made_folder_, not_empty);
-    }
-    Outputs(const Outputs&) = delete;
-    Outputs& operator=(const Outputs&) = delete;
+
+    /// Null where none were asked for.
+    OutputFolder* plots() { return plots_ ? &*plots_ : nullptr; }
 
     void write(const std::string& table, const std::string& json) {
+        if (plots_) plots_->commit();
         if (with_table_) std::cout << table << std::flush;
         if (!json_) return;
         json_->write(json);
@@ -43,18 +37,8 @@ class Outputs {
     }
 
   private:
-    void try_folder(const std::filesystem::path& folder) {
-        std::error_code failed;
-        if (std::filesystem::create_directories(folder, failed)) made_folder_ = folder;
-        if (failed) {
-            throw InputError(folder.string() + ": cannot be made (" + failed.message() +
-                             "); choose another folder for --plots");
-        }
-        const OutputFile probe(folder / "paths.png");  // leaves nothing: never committed
-    }
-
     std::optional<OutputFile> json_{};
-    std::filesystem::path made_folder_{};
+    std::optional<OutputFolder> plots_{};
     bool with_table_{true};
 };
 
@@ -80,7 +64,9 @@ void run_sweep_command(const ExperimentOptions& options, Outputs& outputs) {
         points =
             run_sweep(range, algorithms_of(options), [&bar](double share) { bar.show(share); });
     }
-    if (!options.plots.empty()) write_sweep_plot(points, {options.plots, options.plot_formats});
+    if (outputs.plots() != nullptr) {
+        write_sweep_plot(points, {*outputs.plots(), options.plot_formats});
+    }
     outputs.write(sweep_table_of(points, clock_us), sweep_json_of(points, range.updates, clock_us));
 }
 
@@ -105,9 +91,9 @@ void run_paths(const ExperimentOptions& options, Outputs& outputs) {
         paths.push_back(run_path(circle_path(mu, options.depth_px), plane, options));
     }
     if (human) paths.push_back(run_path(std::move(*human), sample->depth, options));
-    if (!options.plots.empty()) {
+    if (outputs.plots() != nullptr) {
         write_plots(paths, sample ? &sample->colour : nullptr,
-                    {options.plots, options.plot_formats});
+                    {*outputs.plots(), options.plot_formats});
     }
     outputs.write(table_of(paths, clock_us), json_of(paths, clock_us));
 }

@@ -11,7 +11,6 @@
 
 #include "app/settings/assets_path.hpp"
 #include "core/error.hpp"
-#include "core/experiment/foreground.hpp"
 #include "core/experiment/hand_motion.hpp"
 #include "core/experiment/modelled_hand.hpp"
 #include "core/session/session.hpp"

@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/replay/media.hpp"
-#include "core/report/device_text.hpp"
+#include "core/report/report_words.hpp"
 #include "core/session/session.hpp"
 #include "core/video/media.hpp"
 

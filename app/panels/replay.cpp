@@ -5,7 +5,7 @@
 
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
-#include "core/report/device_text.hpp"
+#include "core/report/report_words.hpp"
 
 namespace dibhr {
 

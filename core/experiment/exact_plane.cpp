@@ -2,13 +2,20 @@
 #include "core/experiment/exact_plane.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
-
 #include <glm/geometric.hpp>
 
 #include "core/metrics/force_variation.hpp"
 
 namespace dibhr {
+
+namespace {
+
+constexpr double kHalfLine_px = 300.0;
+constexpr double kRadius_px = 200.0;
+
+}  // namespace
 
 std::vector<Vec3> exact_plane_proxies(std::span<const Vec3> goals, double elevation_px, double mu) {
     std::vector<Vec3> proxies;
@@ -48,6 +55,18 @@ ExactError error_against(std::span<const Vec3> exact_proxies, std::span<const Ve
         error.mean_rad /= static_cast<double>(count);
     }
     return error;
+}
+
+Vec3 linear_goal(const PathPlace& place, int update) noexcept {
+    const double gone = std::fmod(update * kHandStep_px, 4.0 * kHalfLine_px);
+    const double x = gone < 2.0 * kHalfLine_px ? gone : 4.0 * kHalfLine_px - gone;
+    return {place.centre_x - kHalfLine_px + x, place.centre_y, place.surface_px - place.depth_px};
+}
+
+Vec3 circle_goal(const PathPlace& place, int update) noexcept {
+    const double turned_rad = update * kHandStep_px / kRadius_px;
+    return {place.centre_x + kRadius_px * std::cos(turned_rad),
+            place.centre_y + kRadius_px * std::sin(turned_rad), place.surface_px - place.depth_px};
 }
 
 }  // namespace dibhr

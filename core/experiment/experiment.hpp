@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "core/haptics/proxy.hpp"
 #include "core/haptics/touch.hpp"
 #include "core/haptics/vec.hpp"
 #include "core/metrics/force_variation.hpp"
-#include "core/metrics/sample_statistics.hpp"
 #include "core/video/depth_in_time.hpp"
 
 namespace dibhr {
@@ -95,5 +95,35 @@ enum class Timing { quick, careful };
 /// Runs the goals of a surveyed path through the algorithms over `clip` and fills in `path.runs`.
 void run_algorithms(PathRun& path, const DepthClip& clip, std::span<const Algorithm> algorithms,
                     Timing timing, const Progress& progress = {});
+
+struct UpdateTiming {
+    SampleStatistics update_us{};  ///< each includes one reading of the clock
+    double moves_per_update{0.0};
+    bool bound_met{false};
+};
+
+/// What reading the clock itself costs [us]: the median of many.
+[[nodiscard]] double clock_cost_us();
+
+/// Runs the goals through the algorithm, from a restart, after one unmeasured pass that warms the
+/// caches.
+[[nodiscard]] UpdateTiming time_updates(ProxyAlgorithm& algorithm, const DepthSurface& surface,
+                                        const std::vector<Vec3>& goals, const Friction& friction);
+
+/// What is swept. The paper states neither; these ranges hold what a hand and a device do.
+struct SweepRange {
+    std::vector<double> mus{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0};
+    std::vector<double> depths_px{2.0, 5.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0};
+    int updates{kExperimentUpdates};  ///< of each path
+};
+
+/// Runs linear and circle for all of them; the points in order of path, mu, depth, algorithm.
+[[nodiscard]] std::vector<SweepPoint> run_sweep(const SweepRange& range,
+                                                std::span<const Algorithm> algorithms,
+                                                const Progress& progress = {});
+
+/// Where an algorithm's force is not rougher than DIBHR's: what the sweep is to show never happens.
+/// Compares the variation while sliding; empty when no point is of DIBHR.
+[[nodiscard]] std::vector<SweepPoint> not_rougher_than_dibhr(std::span<const SweepPoint> points);
 
 }  // namespace dibhr

@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/experiment/plot_settings.hpp"
+#include <glm/trigonometric.hpp>
+
 #include "core/experiment/plot_turning.hpp"
 #include "core/experiment/plots.hpp"
 #include "core/metrics/force_variation.hpp"
@@ -24,7 +25,7 @@ constexpr ValueSpan kDirections_deg{-90.0, 270.0};
 
 /// Direction of the force along the image, 0 to the right, 90 down [deg].
 double direction_deg(Vec3 force) {
-    const double deg = kDegPerRad * std::atan2(force.y, force.x);
+    const double deg = glm::degrees(std::atan2(force.y, force.x));
     return deg < kDirections_deg.low ? deg + 360.0 : deg;
 }
 
@@ -64,8 +65,8 @@ void draw_directions(Canvas& canvas, Box area, const PathRun& path, const Algori
 std::vector<Vec2> errors_deg(const PathRun& path, const AlgorithmRun& run, UpdateSpan updates) {
     std::vector<Vec2> series;
     for (std::size_t k = updates.first; k < updates.end; ++k) {
-        const double error = kDegPerRad * angle_between_rad(path.exact_proxies[k] - path.goals[k],
-                                                            run.proxies[k] - path.goals[k]);
+        const double error = glm::degrees(angle_between_rad(path.exact_proxies[k] - path.goals[k],
+                                                            run.proxies[k] - path.goals[k]));
         series.emplace_back(seconds_of(k),
                             run.contact[k] != 0 ? std::max(error, kLeastError_deg) : kNothing);
     }

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/experiment/plot_magnified.hpp"
-#include "core/experiment/plot_settings.hpp"
 #include "core/experiment/plot_turning.hpp"
 #include "core/experiment/plots.hpp"
 #include "core/plot/axes.hpp"

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/trigonometric.hpp>
+
 #include "core/experiment/plots.hpp"
 #include "core/metrics/force_variation.hpp"
 #include "core/plot/axes.hpp"
@@ -35,7 +37,7 @@ constexpr std::array kQuantities{
              0.1,
              true},
     Quantity{"error of the force, mean [deg]",
-             [](const SweepPoint& p) { return kDegPerRad * p.error.mean_rad; },
+             [](const SweepPoint& p) { return glm::degrees(p.error.mean_rad); },
              {2e-16, 100.0},
              1e-15,
              false},

@@ -8,10 +8,14 @@
 #include <utility>
 #include <vector>
 
+#include <glm/trigonometric.hpp>
+
 #include "core/metrics/force_variation.hpp"
+#include "core/plot/axes.hpp"
 #include "core/plot/style.hpp"
 
 namespace dibhr {
+
 namespace {
 
 /// Turn of each update [deg]; NaN where one of the two was not in contact.
@@ -20,8 +24,8 @@ std::vector<Vec2> turns_deg(const PathRun& path, std::span<const Vec3> proxies,
     std::vector<Vec2> series;
     for (std::size_t k = std::max<std::size_t>(updates.first, 1); k < updates.end; ++k) {
         const bool touching = contact.empty() || (contact[k - 1] != 0 && contact[k] != 0);
-        const double turn = kDegPerRad * angle_between_rad(proxies[k - 1] - path.goals[k - 1],
-                                                           proxies[k] - path.goals[k]);
+        const double turn = glm::degrees(
+            angle_between_rad(proxies[k - 1] - path.goals[k - 1], proxies[k] - path.goals[k]));
         series.emplace_back(seconds_of(k),
                             touching ? turn : std::numeric_limits<double>::quiet_NaN());
     }
@@ -88,6 +92,12 @@ void draw_turning(Canvas& canvas, Box area, const PathRun& path, const Algorithm
     axes.draw_series(canvas, turns_deg(path, run.proxies, run.contact, updates),
                      {look_of(run.algorithm).stroke.ink, 1.0, Dash::solid});
     axes.draw_frame(canvas);
+}
+
+std::string settings_of(const PathRun& path) {
+    const bool mean = path.exact_proxies.empty();
+    return "friction \u03bc " + tick_text(path.mu) + ",  " + (mean ? "mean depth " : "depth ") +
+           tick_text(path.depth_px) + " px,  1 kHz,  " + path.source;
 }
 
 }  // namespace dibhr

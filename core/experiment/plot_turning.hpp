@@ -45,4 +45,7 @@ struct TurningScale {
 void draw_turning(Canvas& canvas, Box area, const PathRun& path, const AlgorithmRun& run,
                   TurningScale scale);
 
+/// Friction, depth and where the goals come from.
+[[nodiscard]] std::string settings_of(const PathRun& path);
+
 }  // namespace dibhr

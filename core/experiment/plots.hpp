@@ -1,26 +1,26 @@
 // The evaluation in pictures: where the proxies went, how their forces turned, how far from exact.
 #pragma once
 
-#include <filesystem>
 #include <vector>
 
 #include "core/experiment/experiment.hpp"
+#include "core/files/output_folder.hpp"
 #include "core/plot/canvas.hpp"
 
 namespace dibhr {
 
 // Every path drawn has at least one goal and one run; all runs are as long as the goals.
 
-/// Where plots go: a folder, which is made if it is missing, and as what.
+/// Where plots go, and as what.
 struct PlotFiles {
-    std::filesystem::path folder{};
+    OutputFolder& folder;
     std::vector<PlotFormat> formats{PlotFormat::png};
 };
 
 /// For each path `paths-NAME.png`, `force-NAME.png` and, where an exact answer is known,
 /// `error-NAME.png`, and for the circle `explained.png`, likewise in the other formats.
-/// `torso_colour` lies under the human path; null for none. Throws InputError when the folder or a
-/// file cannot be written.
+/// `torso_colour` lies under the human path; null for none. Throws InputError when a file cannot be
+/// written.
 void write_plots(const std::vector<PathRun>& paths, const ColourImage* torso_colour,
                  const PlotFiles& files);
 

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <numeric>
 
 namespace dibhr {
 
@@ -72,11 +73,23 @@ VariationStatistics force_variation(std::span<const Vec3> goals, std::span<const
     for (std::size_t k = 1; k < goals.size(); ++k) {
         if (contact[k - 1] == 0 || contact[k] == 0) continue;
         const double turned_deg =
-            kDegPerRad * angle_between_rad(proxies[k - 1] - goals[k - 1], proxies[k] - goals[k]);
+            glm::degrees(angle_between_rad(proxies[k - 1] - goals[k - 1], proxies[k] - goals[k]));
         all.add(turned_deg);
         if (k >= settling_updates && reversal[k] == 0) sliding.add(turned_deg);
     }
     return {all.mean(), all.sd(), sliding.mean(), sliding.sd(), all.count(), sliding.count()};
+}
+
+SampleStatistics statistics_of(std::vector<double> samples) {
+    if (samples.empty()) return {};
+    std::sort(samples.begin(), samples.end());
+    const auto count = static_cast<double>(samples.size());
+    const auto at = [&](double q) {
+        const double rank = std::ceil(q * count);
+        return samples[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+    };
+    const double sum = std::accumulate(samples.begin(), samples.end(), 0.0);
+    return {samples.size(), sum / count, at(0.5), at(0.99), at(0.999), samples.back()};
 }
 
 }  // namespace dibhr

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/haptics/touch.hpp"
-#include "core/metrics/sample_statistics.hpp"
+#include "core/metrics/force_variation.hpp"
 #include "core/session/tick_record.hpp"
 
 namespace dibhr {

@@ -1,5 +1,6 @@
 // The heat map: where the surface was touched, over the picture that was touched longest.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -9,12 +10,21 @@
 
 #include "core/plot/axes.hpp"
 #include "core/plot/style.hpp"
-#include "core/report/heat_colours.hpp"
 #include "core/report/report_plots.hpp"
 
 namespace dibhr {
 
 namespace {
+
+// ColorBrewer 2.0 (Brewer and Harrower), "YlOrRd", nine classes: marked there as safe for
+// colour-blind readers; without the palest, which is lost on paper.
+constexpr std::array kStops{Ink{255, 237, 160}, Ink{254, 217, 118}, Ink{254, 178, 76},
+                            Ink{253, 141, 60},  Ink{252, 78, 42},   Ink{227, 26, 28},
+                            Ink{189, 0, 38},    Ink{128, 0, 38}};
+
+std::uint8_t between(std::uint8_t from, std::uint8_t to, double share) {
+    return static_cast<std::uint8_t>(std::lround(from + share * (to - from)));
+}
 
 constexpr double kLeft_px = 36.0;
 constexpr double kTop_px = 92.0;
@@ -113,11 +123,12 @@ std::vector<double> scale_ticks(HeatScale scale) {
 }
 
 void draw_colour_bar(Canvas& canvas, Box box, HeatScale scale) {
-    const int steps = static_cast<int>(box.height());
-    for (int k = 0; k < steps; ++k) {
-        const double share = 1.0 - (k + 0.5) / steps;
-        canvas.fill({box.left, box.top + k, box.right, box.top + k + 1}, heat_ink(share));
+    ColourImage colours{1, static_cast<int>(box.height()), {}};
+    for (int k = 0; k < colours.rows; ++k) {
+        const Ink heat = heat_ink(1.0 - (k + 0.5) / colours.rows);
+        colours.rgb.insert(colours.rgb.end(), {heat.red, heat.green, heat.blue});
     }
+    canvas.picture(colours, box, 1.0);
     const Stroke frame{kQuietInk, 1.0, Dash::solid};
     canvas.outline(box, frame);
     for (const double tick : scale_ticks(scale)) {
@@ -176,6 +187,16 @@ void number_episodes(Canvas& canvas, Box box, const HeatMapGround& ground,
 }
 
 }  // namespace
+
+Ink heat_ink(double share) {
+    const double at = std::clamp(share, 0.0, 1.0) * static_cast<double>(kStops.size() - 1);
+    const auto first = std::min(static_cast<std::size_t>(at), kStops.size() - 2);
+    const double part = at - static_cast<double>(first);
+    const Ink from = kStops[first];
+    const Ink to = kStops[first + 1];
+    return {between(from.red, to.red, part), between(from.green, to.green, part),
+            between(from.blue, to.blue, part)};
+}
 
 double heat_map_sigma_px(int columns) {
     constexpr double kColumns = 160.0;

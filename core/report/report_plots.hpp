@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/plot/canvas.hpp"
 #include "core/report/session_numbers.hpp"
 #include "core/session/session_parts.hpp"
 #include "core/video/frame_window.hpp"
@@ -21,6 +22,10 @@ struct HeatMapGround {
 /// The standard deviation of the Gaussian that spreads the touch of a pixel over its neighbours, in
 /// an image of so many columns [px]: about a finger's breadth of what is seen.
 [[nodiscard]] double heat_map_sigma_px(int columns);
+
+/// A heat map's colour for a share in [0, 1], from pale to dark. Lightness falls all along, so that
+/// the order survives colour blindness and a black-and-white print.
+[[nodiscard]] Ink heat_ink(double share);
 
 /// Contact time per pixel, spread by the Gaussian, over the picture, with scales in seconds and
 /// millimetres. The longest of the episodes are numbered as in `episodes`; those of other media are

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <ctime>
 
-#include "core/report/speed_window.hpp"
+#include "core/report/contact_episodes.hpp"
 
 namespace dibhr {
 
@@ -166,6 +166,16 @@ std::vector<Definition> definitions() {
          "mm/s."},
         {"Late", "A tick that began a whole period (1 ms) or more after its deadline."},
     };
+}
+
+std::string device_text(const std::string& device, const HandTicks& hand) {
+    if (hand.stand_in <= 0) return device;
+    if (hand.stand_in >= hand.all) return device + "; the mouse stood in for all of it";
+    constexpr double kLeast = 0.1;  // percent; not none, and not all
+    const double percent =
+        100.0 * static_cast<double>(hand.stand_in) / static_cast<double>(hand.all);
+    return device + "; the mouse stood in for " +
+           decimals(std::clamp(percent, kLeast, 100.0 - kLeast), 1) + " % of the ticks";
 }
 
 }  // namespace dibhr

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/report/session_report.hpp"
+#include "core/session/session.hpp"
 
 namespace dibhr {
 
@@ -33,5 +34,9 @@ struct Definition {
 
 /// With so many digits after the point, also for zero.
 [[nodiscard]] std::string decimals(double value, int digits);
+
+/// The device that was asked for, and for how much of the time with a surface the mouse stood in:
+/// "Novint Falcon 1234; the mouse stood in for 37.2 % of the ticks". At least 0.1 % if any.
+[[nodiscard]] std::string device_text(const std::string& device, const HandTicks& hand);
 
 }  // namespace dibhr

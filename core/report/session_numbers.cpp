@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/report/speed_window.hpp"
+#include "core/report/contact_episodes.hpp"
 
 namespace dibhr {
 
@@ -103,6 +104,22 @@ double held(double seconds) {
     return seconds > 0.0 ? std::min(seconds, kLongestTick_s) : 0.0;
 }
 
+constexpr double kMostPieces = 4000.0;  // about four a pixel of the plots
+constexpr double kShortestPiece_s = 0.001;
+
+constexpr double kMostBins = 200000.0;
+
+/// The narrowest of 1, 2 or 5 times a power of ten bins of which `most` reach to `bins`.
+std::size_t round_bins(double bins, int most) {
+    for (std::size_t power = 1;; power *= 10) {
+        for (const std::size_t factor : {1U, 2U, 5U}) {
+            if (std::ceil(bins / static_cast<double>(factor * power)) <= most) {
+                return factor * power;
+            }
+        }
+    }
+}
+
 }  // namespace
 
 SessionNumbers numbers_of(const Session& session, const std::function<void(double)>& progress) {
@@ -128,6 +145,58 @@ double path_mm(const SessionNumbers& numbers) {
     return std::accumulate(
         numbers.episodes.begin(), numbers.episodes.end(), 0.0,
         [](double sum, const Episode& episode) { return sum + episode.path_mm; });
+}
+
+TimeLine::TimeLine(double begin_s, double end_s) : begin_s_(begin_s) {
+    const double duration_s = std::isfinite(end_s - begin_s) ? std::max(end_s - begin_s, 0.0) : 0.0;
+    const double pieces = std::clamp(std::ceil(duration_s / kShortestPiece_s), 1.0, kMostPieces);
+    piece_s_ = std::max(duration_s / pieces, kShortestPiece_s);
+    pieces_.resize(static_cast<std::size_t>(pieces));
+}
+
+TimePiece& TimeLine::piece_at(double t_s) noexcept {
+    const double number = std::floor((t_s - begin_s_) / piece_s_);
+    const double last = static_cast<double>(pieces_.size() - 1);
+    // A time that is no number belongs to the first piece.
+    return pieces_[static_cast<std::size_t>(number > 0.0 ? std::min(number, last) : 0.0)];
+}
+
+void Distribution::add(double value, double seconds) {
+    if (!std::isfinite(value) || value < 0.0) return;
+    const auto bin = static_cast<std::size_t>(std::min(value / resolution_, kMostBins));
+    if (bin >= bin_s_.size()) bin_s_.resize(bin + 1, 0.0);
+    bin_s_[bin] += seconds;
+    total_s_ += seconds;
+    sum_ += value * seconds;
+    peak_ = std::max(peak_, value);
+}
+
+double Distribution::mean() const noexcept {
+    return total_s_ > 0.0 ? sum_ / total_s_ : 0.0;
+}
+
+double Distribution::quantile(double share) const {
+    double below_s = 0.0;
+    for (std::size_t bin = 0; bin < bin_s_.size(); ++bin) {
+        below_s += bin_s_[bin];
+        if (below_s >= share * total_s_) {
+            return std::min((static_cast<double>(bin) + 0.5) * resolution_, peak_);
+        }
+    }
+    return peak_;
+}
+
+Bars Distribution::bars(double upto, int most) const {
+    const double wanted_bins = std::clamp(upto / resolution_, 1.0, kMostBins);
+    const std::size_t each = round_bins(wanted_bins, std::max(most, 1));
+    const double wanted = std::ceil(wanted_bins / static_cast<double>(each));
+    Bars bars{resolution_ * static_cast<double>(each), {}, 0.0};
+    bars.seconds.resize(static_cast<std::size_t>(wanted), 0.0);
+    for (std::size_t bin = 0; bin < bin_s_.size(); ++bin) {
+        const std::size_t bar = bin / each;
+        (bar < bars.seconds.size() ? bars.seconds[bar] : bars.beyond_s) += bin_s_[bin];
+    }
+    return bars;
 }
 
 }  // namespace dibhr

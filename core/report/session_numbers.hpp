@@ -2,20 +2,109 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <vector>
 
 #include "core/haptics/safety.hpp"
 #include "core/report/contact_episodes.hpp"
-#include "core/report/distribution.hpp"
-#include "core/report/time_line.hpp"
 #include "core/report/touched_places.hpp"
 #include "core/session/session.hpp"
 
 namespace dibhr {
+
+/// Lowest and highest of the values so far, NaN before the first, and what their mean is made of.
+struct ValueRange {
+    double low{std::numeric_limits<double>::quiet_NaN()};
+    double high{std::numeric_limits<double>::quiet_NaN()};
+
+    double sum{0.0};  ///< values times the seconds each stood for
+    double seconds{0.0};
+
+    void add(double value, double held_s) noexcept {
+        if (!std::isfinite(value)) return;
+        sum += value * held_s;
+        seconds += held_s;
+        low = std::fmin(low, value);
+        high = std::fmax(high, value);
+    }
+    [[nodiscard]] bool empty() const noexcept { return std::isnan(low); }
+};
+
+/// A piece of the session.
+struct TimePiece {
+    double seconds{0.0};    ///< that ticks stood for
+    double contact_s{0.0};  ///< of them in contact
+    ValueRange sent_newton{}, spring_newton{};
+    ValueRange goal_mm_per_s{}, proxy_mm_per_s{};  ///< in contact
+    // Presentation time of what was there to touch; NaN for nothing.
+    double video_first_s{std::numeric_limits<double>::quiet_NaN()};
+    double video_last_s{std::numeric_limits<double>::quiet_NaN()};
+
+    void add_video(double video_s) noexcept {
+        if (!std::isfinite(video_s)) return;
+        if (std::isnan(video_first_s)) video_first_s = video_s;
+        video_last_s = video_s;
+    }
+};
+
+/// The session in equal pieces, as many as a plot can show.
+class TimeLine {
+  public:
+    /// For ticks from `begin_s` to `end_s`; a piece is a millisecond at least.
+    TimeLine(double begin_s, double end_s);
+
+    [[nodiscard]] TimePiece& piece_at(double t_s) noexcept;
+
+    [[nodiscard]] const std::vector<TimePiece>& pieces() const noexcept { return pieces_; }
+    [[nodiscard]] double piece_s() const noexcept { return piece_s_; }
+    /// Since the session began, of a piece's middle [s].
+    [[nodiscard]] double middle_s(std::size_t piece) const noexcept {
+        return (static_cast<double>(piece) + 0.5) * piece_s_;
+    }
+
+  private:
+    double begin_s_;
+    double piece_s_;
+    std::vector<TimePiece> pieces_;
+};
+
+/// Equal bars from 0 on.
+struct Bars {
+    double width{1.0};
+    std::vector<double> seconds{};
+    double beyond_s{0.0};  ///< time beyond the last bar
+};
+
+/// Values from 0 on, each for some seconds. Memory is bounded: values are sorted into narrow bins,
+/// and what is beyond the last of them counts as in it.
+class Distribution {
+  public:
+    /// `resolution`: width of a narrow bin, in the quantity's unit.
+    explicit Distribution(double resolution) : resolution_(resolution) {}
+
+    /// What is not finite or below 0 is left out.
+    void add(double value, double seconds);
+
+    [[nodiscard]] double total_s() const noexcept { return total_s_; }
+    [[nodiscard]] double mean() const noexcept;  ///< over time; 0 for nothing
+    [[nodiscard]] double peak() const noexcept { return peak_; }
+    /// The value below which the quantity was for this share of the time, to half the resolution.
+    [[nodiscard]] double quantile(double share) const;
+    /// At most `most` bars of a round width that reach to `upto` at least.
+    [[nodiscard]] Bars bars(double upto, int most) const;
+
+  private:
+    double resolution_;
+    std::vector<double> bin_s_{};
+    double total_s_{0.0};
+    double sum_{0.0};
+    double peak_{0.0};
+};
 
 /// A tick stands for the time until the next one, and for no more than this: a program that was
 /// stopped did not touch (as SafetyLimits::max_tick_s, after which there is no force).

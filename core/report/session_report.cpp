@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/files/output_folder.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/plot/axes.hpp"
 #include "core/report/numbers_json.hpp"
-#include "core/report/report_files.hpp"
 #include "core/report/report_page.hpp"
 #include "core/report/report_plots.hpp"
 #include "core/report/report_words.hpp"
@@ -48,7 +48,7 @@ std::vector<std::string> all_names() {
 /// A report in the making: what it says, where its files go, and what was asked for.
 struct Making {
     SessionReport& report;
-    ReportFiles& files;
+    OutputFolder& files;
     const ReportRequest& request;
 
     void add_figure(const std::string& name, const std::string& title, const std::string& caption,
@@ -56,7 +56,6 @@ struct Making {
         std::string names;
         for (const PlotFormat format : request.plot_formats) {
             const std::string file = file_name(name, format);
-            if (files.has(file)) continue;  // asked for twice
             files.add(file, plot.encoded(format));
             names += (names.empty() ? "" : ", ") + file;
         }
@@ -228,7 +227,7 @@ void write_session_report(const Session& session, const ReportRequest& request) 
         throw InputError(session.file().string() +
                          ": holds no ticks, so there is nothing to report; record it again");
     }
-    ReportFiles files(request.folder, all_names());
+    OutputFolder files(request.folder, all_names());
     session.check();
     SessionReport report{session, numbers_of(session, request.progress), {}, {}, request.program};
     const Making making{report, files, request};

@@ -4,10 +4,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/experiment/goal_paths.hpp"
-#include "core/experiment/update_timing.hpp"
+#include "core/experiment/exact_plane.hpp"
+#include "core/experiment/experiment.hpp"
 #include "core/haptics/dibhr.hpp"
-#include "core/metrics/sample_statistics.hpp"
+#include "core/metrics/force_variation.hpp"
 #include "tests/core/haptics/surfaces.hpp"
 #include "tests/support/catch.hpp"
 

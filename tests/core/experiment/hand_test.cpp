@@ -15,7 +15,6 @@
 #include "core/experiment/hand_motion.hpp"
 #include "core/experiment/hand_trace.hpp"
 #include "core/experiment/modelled_hand.hpp"
-#include "core/experiment/smooth_curve.hpp"
 #include "tests/core/haptics/surfaces.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -10,8 +10,6 @@
 
 #include "core/experiment/exact_plane.hpp"
 #include "core/experiment/experiment.hpp"
-#include "core/experiment/goal_paths.hpp"
-#include "core/experiment/sweep.hpp"
 #include "core/metrics/force_variation.hpp"
 #include "tests/support/catch.hpp"
 

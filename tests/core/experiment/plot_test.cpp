@@ -258,8 +258,10 @@ TEST_CASE("the pictures are written into a folder that is made for them", "[plot
     human.name = "human";
     human.exact_proxies.clear();
     const ColourImage torso{2, 2, std::vector<std::uint8_t>(12, 90)};
-    write_plots({circle_with_runs(), human}, &torso, {folder});
-    write_sweep_plot({}, {folder});
+    OutputFolder files(folder);
+    write_plots({circle_with_runs(), human}, &torso, {files});
+    write_sweep_plot({}, {files});
+    files.commit();
     std::set<std::string> names;
     for (const auto& entry : fs::directory_iterator(folder)) {
         names.insert(entry.path().filename().string());
@@ -275,7 +277,7 @@ TEST_CASE("a folder that cannot be made is said in one line", "[plots]") {
     const fs::path file = own / "file";
     std::ofstream(file) << "in the way";
     try {
-        write_sweep_plot({}, {file / "plots"});
+        OutputFolder files(file / "plots");
         FAIL("a folder inside a file was accepted");
     } catch (const InputError& error) {
         const std::string line = error.what();

@@ -2,10 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "core/experiment/paper_table.hpp"
-#include "core/experiment/report_json.hpp"
-#include "core/experiment/report_table.hpp"
-#include "core/experiment/sweep.hpp"
+#include "core/experiment/experiment.hpp"
+#include "core/experiment/report.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/text.hpp"
 
@@ -97,7 +95,7 @@ TEST_CASE("the JSON holds every path and algorithm under names that stay", "[rep
           "contact_updates", "paper"}) {
         CHECK(contains(json, "\"" + std::string(name) + "\": "));
     }
-    CHECK(contains(json, "a \\\"quoted\\\"\\u000aname \\\\ "));
+    CHECK(contains(json, "a \\\"quoted\\\"\\nname \\\\ "));
 }
 
 TEST_CASE("the sweep's JSON holds every point and where nothing is rougher than DIBHR",

@@ -10,7 +10,6 @@
 
 #include "core/haptics/primitive.hpp"
 #include "core/report/contact_episodes.hpp"
-#include "core/report/speed_window.hpp"
 #include "tests/core/report/made_session.hpp"
 #include "tests/support/catch.hpp"
 

@@ -6,9 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "core/report/distribution.hpp"
 #include "core/report/session_numbers.hpp"
-#include "core/report/time_line.hpp"
 #include "core/report/touched_places.hpp"
 #include "tests/core/report/made_session.hpp"
 #include "tests/support/catch.hpp"

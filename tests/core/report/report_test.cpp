@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/report/heat_colours.hpp"
 #include "core/report/report_plots.hpp"
 #include "core/report/session_report.hpp"
 #include "core/video/media.hpp"

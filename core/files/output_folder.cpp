@@ -1,11 +1,10 @@
-// A report's files in their folder: all of them, or none.
-#include "core/report/report_files.hpp"
+// A command's files in their folder: all of them, or none.
+#include "core/files/output_folder.hpp"
 
 #include <system_error>
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/video/input_file.hpp"
 
 namespace dibhr {
 
@@ -22,7 +21,7 @@ void remove_empty(const std::vector<fs::path>& folders) {
 
 }  // namespace
 
-ReportFiles::ReportFiles(const fs::path& folder, std::vector<std::string> names)
+OutputFolder::OutputFolder(const fs::path& folder, std::vector<std::string> names)
     : folder_(folder), names_(std::move(names)) {
     make_folder();
     try {
@@ -30,24 +29,24 @@ ReportFiles::ReportFiles(const fs::path& folder, std::vector<std::string> names)
             std::error_code ignored;
             const fs::file_status status = fs::status(folder_ / name, ignored);
             if (fs::exists(status) && !fs::is_regular_file(status)) {
-                throw InputError(shown(folder_ / name) +
-                                 " is in the way: it is no file that a report could replace; "
-                                 "move it or choose another folder");
+                throw InputError((folder_ / name).string() +
+                                 " is in the way: it is no file that could be replaced; move it or "
+                                 "choose another folder");
             }
         }
-        const OutputFile probe(folder_ / names_.front());  // leaves nothing: never committed
+        const OutputFile probe(folder_ / "probe");  // leaves nothing: never committed
     } catch (...) {
         remove_empty(made_);
         throw;
     }
 }
 
-ReportFiles::~ReportFiles() {
+OutputFolder::~OutputFolder() {
     files_.clear();
-    remove_empty(made_);  // which a report that was written does not let happen
+    remove_empty(made_);  // which files that were committed do not let happen
 }
 
-void ReportFiles::make_folder() {
+void OutputFolder::make_folder() {
     std::vector<fs::path> missing;
     std::error_code failed;
     fs::path part = fs::absolute(folder_, failed).lexically_normal();
@@ -62,23 +61,23 @@ void ReportFiles::make_folder() {
     if (!failed && fs::is_directory(folder_, failed)) return;
     remove_empty(made_);
     const std::string why = failed ? failed.message() : "it is no folder";
-    throw InputError(shown(folder_) + " cannot take a report (" + why +
+    throw InputError(folder_.string() + " cannot take files (" + why +
                      "): choose a folder you may write to");
 }
 
-void ReportFiles::add(const std::string& name, std::string_view bytes) {
+void OutputFolder::add(const std::string& name, std::string_view bytes) {
+    if (!added_.insert(name).second) return;
     auto file = std::make_unique<OutputFile>(folder_ / name);
     file->write(bytes);
     files_.push_back(std::move(file));
-    added_.insert(name);
 }
 
-void ReportFiles::commit() {
+void OutputFolder::commit() {
     for (const auto& file : files_) file->commit();
     files_.clear();
     made_.clear();
     for (const std::string& name : names_) {
-        std::error_code ignored;  // a picture of an earlier report that could not be removed
+        std::error_code ignored;  // a file of an earlier run that could not be removed
         if (!added_.contains(name)) fs::remove(folder_ / name, ignored);
     }
 }

@@ -1,15 +1,18 @@
 // The rows of the tables.
-#include "core/experiment/report_table.hpp"
+#include "core/experiment/report.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iomanip>
 #include <sstream>
+#include <utility>
 
-#include "core/experiment/paper_table.hpp"
-#include "core/experiment/sweep.hpp"
-#include "core/metrics/force_variation.hpp"
+#include <glm/trigonometric.hpp>
+
+#include "core/experiment/experiment.hpp"
+#include "core/files/json.hpp"
 
 namespace dibhr {
 
@@ -96,8 +99,8 @@ std::string variation_row(const PathRun& path, const AlgorithmRun& run) {
         right(mean_and_sd(v.mean_without_reversals_deg, v.sd_without_reversals_deg), 18);
     if (run.error) {
         row += right(short_number(run.error->max_px), 12) +
-               right(short_number(kDegPerRad * run.error->mean_rad), 11) +
-               right(short_number(kDegPerRad * run.error->max_rad), 11);
+               right(short_number(glm::degrees(run.error->mean_rad)), 11) +
+               right(short_number(glm::degrees(run.error->max_rad)), 11);
     } else {
         row += right("-", 12) + right("-", 11) + right("-", 11);
     }
@@ -151,7 +154,7 @@ struct SweepSummary {
         least_deg = std::min(least_deg, point.variation.mean_without_reversals_deg);
         most_deg = std::max(most_deg, point.variation.mean_without_reversals_deg);
         most_px = std::max(most_px, point.error.max_px);
-        most_error_deg = std::max(most_error_deg, kDegPerRad * point.error.max_rad);
+        most_error_deg = std::max(most_error_deg, glm::degrees(point.error.max_rad));
         bounds_met += point.bounds_met;
     }
 };
@@ -183,6 +186,100 @@ std::string sweep_row(const char* path, Algorithm algorithm, std::span<const Swe
            right(rougher_cell, 10) + right(short_number(summary.most_px), 12) +
            right(short_number(summary.most_error_deg), 12) +
            right(std::to_string(summary.bounds_met), 8) + "\n";
+}
+
+struct Entry {
+    std::string_view path;
+    Algorithm algorithm;
+    PaperResult result;
+};
+
+constexpr std::array kTable{
+    Entry{"linear", Algorithm::dibhr, {188.61, 0.0, 0.0}},
+    Entry{"linear", Algorithm::pga, {43.38, 0.0, 0.0}},
+    Entry{"linear", Algorithm::neighborhood, {159.22, 0.0, 0.0}},
+    Entry{"circle", Algorithm::dibhr, {207.31, 0.53, 0.85}},
+    Entry{"circle", Algorithm::pga, {47.40, 4.13, 6.77}},
+    Entry{"circle", Algorithm::neighborhood, {161.31, 7.45, 10.48}},
+    Entry{"human", Algorithm::dibhr, {94.21, 1.81, 4.13}},
+    Entry{"human", Algorithm::pga, {80.97, 3.01, 7.97}},
+    Entry{"human", Algorithm::neighborhood, {81.74, 4.74, 6.39}},
+};
+
+Json variation_json(const VariationStatistics& v) {
+    return {{"mean", v.mean_deg},
+            {"sd", v.sd_deg},
+            {"mean_without_reversals", v.mean_without_reversals_deg},
+            {"sd_without_reversals", v.sd_without_reversals_deg},
+            {"pairs", v.pairs},
+            {"pairs_without_reversals", v.pairs_without_reversals}};
+}
+
+Json error_json(const ExactError& error) {
+    return {{"max_px", error.max_px},
+            {"mean_px", error.mean_px},
+            {"max_rad", error.max_rad},
+            {"mean_rad", error.mean_rad}};
+}
+
+Json paper_json(const PathRun& path, const AlgorithmRun& run) {
+    const auto paper = paper_result(path.name, run.algorithm);
+    if (!paper) return nullptr;
+    return {{"update_us", paper->update_us},
+            {"mean_deg", paper->variation_mean_deg},
+            {"sd_deg", paper->variation_sd_deg}};
+}
+
+Json run_json(const PathRun& path, const AlgorithmRun& run) {
+    const SampleStatistics& time = run.time_us;
+    return {{"algorithm", name_of(run.algorithm)},
+            {"time_us",
+             {{"mean", time.mean},
+              {"median", time.median},
+              {"p99", time.p99},
+              {"p999", time.p999},
+              {"max", time.highest},
+              {"whole_run", run.whole_run_us}}},
+            {"moves_per_update", run.moves_per_update},
+            {"contact_updates", std::count(run.contact.begin(), run.contact.end(), char{1})},
+            {"bounds_met", run.bounds_met},
+            {"variation_deg", variation_json(run.variation)},
+            {"error", run.error ? error_json(*run.error) : Json()},
+            {"paper", paper_json(path, run)}};
+}
+
+Json path_json(const PathRun& path) {
+    Json runs = Json::array();
+    for (const AlgorithmRun& run : path.runs) runs.push_back(run_json(path, run));
+    return {{"path", path.name},
+            {"source", path.source},
+            {"mu", path.mu},
+            {"depth_px", path.depth_px},
+            {"columns", path.columns},
+            {"rows", path.rows},
+            {"updates", path.goals.size()},
+            {"settling_updates", path.settling_updates},
+            {"reversal_updates", std::count(path.reversal.begin(), path.reversal.end(), char{1})},
+            {"exact_variation_deg",
+             path.exact_proxies.empty() ? Json() : variation_json(path.exact_variation)},
+            {"runs", std::move(runs)}};
+}
+
+Json cell_json(const SweepPoint& point) {
+    return {{"path", point.path},
+            {"mu", point.mu},
+            {"depth_px", point.depth_px},
+            {"algorithm", name_of(point.algorithm)}};
+}
+
+Json point_json(const SweepPoint& point) {
+    Json json = cell_json(point);
+    json["median_us"] = point.median_us;
+    json["moves_per_update"] = point.moves_per_update;
+    json["bounds_met"] = point.bounds_met;
+    json["variation_deg"] = variation_json(point.variation);
+    json["error"] = error_json(point.error);
+    return json;
 }
 
 }  // namespace
@@ -219,6 +316,32 @@ std::string sweep_table_of(std::span<const SweepPoint> points, double clock_us) 
            "nothing can be\n  smoother and right. Max px, max deg: worst error of proxy and force "
            "direction against the exact answer.\n  Reading the clock, " +
            fixed(clock_us, 3) + " us, is part of the times in the JSON file.\n";
+}
+
+std::optional<PaperResult> paper_result(std::string_view path, Algorithm algorithm) noexcept {
+    for (const Entry& entry : kTable) {
+        if (entry.path == path && entry.algorithm == algorithm) return entry.result;
+    }
+    return std::nullopt;
+}
+
+std::string json_of(std::span<const PathRun> paths, double clock_us) {
+    Json list = Json::array();
+    for (const PathRun& path : paths) list.push_back(path_json(path));
+    return json_text({{"clock_us", clock_us}, {"paths", std::move(list)}});
+}
+
+std::string sweep_json_of(std::span<const SweepPoint> points, int updates, double clock_us) {
+    Json list = Json::array();
+    Json smooth = Json::array();
+    for (const SweepPoint& point : points) list.push_back(point_json(point));
+    for (const SweepPoint& point : not_rougher_than_dibhr(points)) {
+        smooth.push_back(cell_json(point));
+    }
+    return json_text({{"clock_us", clock_us},
+                      {"updates", updates},
+                      {"points", std::move(list)},
+                      {"not_rougher_than_dibhr", std::move(smooth)}});
 }
 
 }  // namespace dibhr
