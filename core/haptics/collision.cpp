@@ -2,7 +2,9 @@
 #include "core/haptics/collision.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
@@ -61,20 +63,20 @@ class CellCorners {
           second_row_{surface.elevation(i, j + 1), surface.elevation(i + 1, j + 1)} {}
 
     void step_column(const DepthSurface& surface, int i, int j, int step) noexcept {
-        const int old_side = step > 0 ? 0 : 1;
-        const int new_side = 1 - old_side;
+        const std::size_t old_side = step > 0 ? 0 : 1;
+        const std::size_t new_side = 1 - old_side;
+        const int column = step > 0 ? i + 1 : i;
         first_row_[old_side] = first_row_[new_side];
         second_row_[old_side] = second_row_[new_side];
-        first_row_[new_side] = surface.elevation(i + new_side, j);
-        second_row_[new_side] = surface.elevation(i + new_side, j + 1);
+        first_row_[new_side] = surface.elevation(column, j);
+        second_row_[new_side] = surface.elevation(column, j + 1);
     }
 
     void step_row(const DepthSurface& surface, int i, int j, int step) noexcept {
         std::swap(first_row_, second_row_);
         auto& fresh = step > 0 ? second_row_ : first_row_;
         const int row = step > 0 ? j + 1 : j;
-        fresh[0] = surface.elevation(i, row);
-        fresh[1] = surface.elevation(i + 1, row);
+        fresh = {surface.elevation(i, row), surface.elevation(i + 1, row)};
     }
 
     [[nodiscard]] double highest() const noexcept {
@@ -83,8 +85,8 @@ class CellCorners {
     }
 
   private:
-    double first_row_[2];
-    double second_row_[2];
+    std::array<double, 2> first_row_;
+    std::array<double, 2> second_row_;
 };
 
 /// Walks one segment cell by cell; `t_` is how far it has come.
