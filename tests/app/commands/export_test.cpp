@@ -48,11 +48,12 @@ TEST_CASE("an export has every tick, the contract's columns first, every real to
         const auto cells = split(lines.at(k), ',');
         REQUIRE(cells.size() == columns);
         REQUIRE(same_bits(real_of(cells[0]), tick.t_s));
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            REQUIRE(same_bits(real_of(cells[1 + axis]), tick.goal[axis]));
-            REQUIRE(same_bits(real_of(cells[4 + axis]), tick.proxy[axis]));
-            REQUIRE(same_bits(real_of(cells[7 + axis]), tick.spring_newton[axis]));
-            REQUIRE(same_bits(real_of(cells[10 + axis]), tick.sent_newton[axis]));
+        const auto real = [&](int cell) { return real_of(cells[static_cast<std::size_t>(cell)]); };
+        for (int axis = 0; axis < 3; ++axis) {
+            REQUIRE(same_bits(real(1 + axis), tick.goal[axis]));
+            REQUIRE(same_bits(real(4 + axis), tick.proxy[axis]));
+            REQUIRE(same_bits(real(7 + axis), tick.spring_newton[axis]));
+            REQUIRE(same_bits(real(10 + axis), tick.sent_newton[axis]));
         }
         REQUIRE(cells[13] == (tick.contact ? "1" : "0"));
         REQUIRE(cells[15] == std::to_string(tick.i));
