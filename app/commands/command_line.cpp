@@ -8,37 +8,10 @@
 #include <iostream>
 #include <string_view>
 
-#include "app/commands/experiment.hpp"
-#include "app/commands/experiment_request.hpp"
-#include "app/commands/report.hpp"
 #include "app/settings/command_options.hpp"
 
 namespace dibhr {
 namespace {
-
-int report(CLI::App& app, const Arguments& arguments) {
-    ReportOptions options;
-    add_session(app, options.session);
-    add_file(app, "--out", options.out, "Folder for report.html, report.json and the pictures",
-             "DIR")
-        ->required();
-    add_plot_format_option(app, options.plot_formats);
-    app.footer(
-        "The folder is made if it is missing; an earlier report in it is replaced. The pictures "
-        "in the page are PNG in any case.\n\n"
-        "Examples:\n"
-        "  dibhr report mine.dibhr --out mine-report\n"
-        "  dibhr report mine.dibhr --out mine-report --plot-format png,pdf");
-    if (!parse(app, arguments)) return 0;
-    return run_report(options);
-}
-
-int experiment(CLI::App& app, const Arguments& arguments) {
-    ExperimentRequest request;
-    add_experiment_options(app, request);
-    if (!parse(app, arguments)) return 0;
-    return run_experiment(experiment_options(request));
-}
 
 struct Command {
     std::string_view name;
@@ -53,12 +26,12 @@ constexpr std::array kCommands{
     Command{"touch", "--depth FILE --goals GOALS.csv [--out OUT.csv]",
             "The core alone, head-less, over a stream of goals", run_touch},
     Command{"experiment", "[linear|circle|human|all|sweep]",
-            "The paper's table, all algorithms side by side", experiment},
+            "The paper's table, all algorithms side by side", run_experiment},
     Command{"replay", "SESSION [--algorithm NAME]... [--csv FILE]",
             "A recorded exploration through other algorithms", run_replay},
     Command{"export", "SESSION --csv FILE", "Every tick of a session, one row", run_export},
     Command{"report", "SESSION --out DIR", "Pictures: where people touched, force over time",
-            report},
+            run_report},
     Command{"info", "FILE...", "What a media or session file holds", run_info},
     Command{"devices", "[--firmware FILE] [--check [--out FILE]]",
             "What is attached, its state and the next step", run_devices},

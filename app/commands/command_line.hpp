@@ -39,8 +39,12 @@ int run_touch(CLI::App& app, const Arguments& arguments);
 /// Whether the runs that change nothing gave the recorded bits, and a table of all runs. 1 when
 /// those bits differ.
 int run_replay(CLI::App& app, const Arguments& arguments);
+/// The paper's evaluation.
+int run_experiment(CLI::App& app, const Arguments& arguments);
 /// Every tick, by the names of the session's view `tick`.
 int run_export(CLI::App& app, const Arguments& arguments);
+/// Prints where the page of the report is.
+int run_report(CLI::App& app, const Arguments& arguments);
 /// Describes each file; says on stderr which could not be read. 1 when there are any.
 int run_info(CLI::App& app, const Arguments& arguments);
 /// 0: a Falcon can be used, or none is attached and the mouse can be. Throws DeviceError when

@@ -18,12 +18,6 @@
 namespace dibhr {
 namespace {
 
-struct DevicesRequest {
-    std::filesystem::path firmware{};  ///< --firmware; empty: the kept one
-    bool check{false};                 ///< --check: the protocol for the first unit
-    std::filesystem::path out{};       ///< --out: its record; empty: falcon-check-SERIAL-DATE.json
-};
-
 std::string name_of(const falcon::AttachedFalcon& falcon) {
     return "Novint Falcon " + (falcon.serial.empty() ? "(serial unknown)" : falcon.serial);
 }
@@ -65,20 +59,19 @@ int survey(const FirmwareAtHand& firmware) {
                       state_of(falcons.front(), firmware) + more);
 }
 
-int check(const DevicesRequest& request) {
+int check(const FirmwareAtHand& firmware, const std::filesystem::path& record) {
     const std::filesystem::path settings_file = settings_path();
     const FalconSettings settings = load_settings(settings_file).falcon;
-    const FirmwareAtHand firmware = firmware_at_hand(request.firmware);
     if (!firmware.trouble.empty()) std::cout << "kept firmware: " << firmware.trouble << '\n';
-    TerminalGuide guide;
+    const auto guide = make_terminal_guide();
     falcon::CheckOptions options;
     options.serial = settings.connection.serial;
     options.firmware = firmware.image;
     options.geometry = settings.geometry;
-    options.record = request.out;
+    options.record = record;
     options.facts = {{"program", "dibhr " DIBHR_VERSION},
                      {"thread_priority", become_realtime("dibhr check").priority.answer}};
-    const falcon::CheckResult result = run_check(options, guide);
+    const falcon::CheckResult result = run_check(options, *guide);
     std::cout << "The settings file: " << settings_file.string() << '\n';
     if (!result.fault.empty()) throw DeviceError(result.fault);
     return 0;
@@ -87,13 +80,15 @@ int check(const DevicesRequest& request) {
 }  // namespace
 
 int run_devices(CLI::App& app, const Arguments& arguments) {
-    DevicesRequest request;
-    add_firmware(app, request.firmware);
+    std::filesystem::path firmware_file;  // empty: the kept one
+    std::filesystem::path record;         // empty: falcon-check-SERIAL-DATE.json
+    bool checks = false;
+    add_firmware(app, firmware_file);
     auto* const check_given =
-        app.add_flag("--check", request.check,
+        app.add_flag("--check", checks,
                      "Leads you through everything that is to be measured on a "
                      "Falcon, with force only where it says so");
-    add_file(app, "--out", request.out, "With --check: the record of what was measured")
+    add_file(app, "--out", record, "With --check: the record of what was measured")
         ->default_str("falcon-check-SERIAL-DATE.json")
         ->needs(check_given);
     app.footer(
@@ -103,10 +98,10 @@ int run_devices(CLI::App& app, const Arguments& arguments) {
         "  dibhr devices --firmware nvent_firmware.bin\n"
         "  dibhr devices --check");
     if (!parse(app, arguments)) return 0;
-    if (request.check) return check(request);
+    if (checks) return check(firmware_at_hand(firmware_file), record);
     std::cout
         << "mouse: usable (point at the relief in the viewer, hold the left button to touch)\n";
-    const FirmwareAtHand firmware = firmware_at_hand(request.firmware);
+    const FirmwareAtHand firmware = firmware_at_hand(firmware_file);
     return attached_or_none().empty() ? 0 : survey(firmware);
 }
 

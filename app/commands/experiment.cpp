@@ -1,21 +1,47 @@
-// Runs the paths that were asked for, then reports.
-#include "app/commands/experiment.hpp"
-
+// `dibhr experiment`: the paper's evaluation, all algorithms side by side. Runs the paths that were
+// asked for, then reports.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <functional>
 #include <iostream>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
-#include "app/commands/progress_bar.hpp"
+#include "app/commands/command_line.hpp"
+#include "app/commands/experiment_human.hpp"
+#include "app/commands/output.hpp"
+#include "app/settings/command_options.hpp"
 #include "core/error.hpp"
 #include "core/experiment/experiment.hpp"
 #include "core/experiment/plots.hpp"
 #include "core/experiment/report.hpp"
+#include "core/files/output_file.hpp"
 #include "core/files/output_folder.hpp"
 
 namespace dibhr {
 
 namespace {
+
+constexpr std::array<std::string_view, 5> kPaths{"linear", "circle", "human", "all", "sweep"};
+constexpr double kPaperFriction = 0.4;
+constexpr double kPaperDepth_px = 20.0;
+
+struct ExperimentOptions {
+    std::string path{"all"};        ///< linear, circle, human, all or sweep
+    std::filesystem::path json{};   ///< empty: none; "-": standard output, and no table
+    std::filesystem::path plots{};  ///< a folder; empty: none
+    std::vector<PlotFormat> plot_formats{PlotFormat::png};
+    std::vector<Algorithm> algorithms{};  ///< empty: all
+    std::optional<double> depth_px{};     ///< of linear and circle; nothing: 20
+    std::optional<double> mu{};           ///< of all paths; nothing: 0.4
+    HumanOptions human{};
+};
 
 /// The outputs, tried before the work: what cannot be written is said at once.
 class Outputs {
@@ -73,6 +99,8 @@ void run_sweep_command(const ExperimentOptions& options, Outputs& outputs) {
 void run_paths(const ExperimentOptions& options, Outputs& outputs) {
     const double clock_us = clock_cost_us();
     const bool all = options.path == "all";
+    const double mu = options.mu.value_or(kPaperFriction);
+    const double depth_px = options.depth_px.value_or(kPaperDepth_px);
     std::vector<PathRun> paths;
     std::optional<SampleClip> sample;
     std::optional<PathRun> human;
@@ -80,15 +108,14 @@ void run_paths(const ExperimentOptions& options, Outputs& outputs) {
         const HandInput hand = read_hand(options.human);
         ProgressBar bar("reading the sample");
         sample = read_sample(options.human, [&bar](double share) { bar.show(share); });
-        human = human_goals(hand, *sample, options.human.mu);
+        human = human_goals(hand, *sample, mu);
     }
     const DepthClip plane = paper_plane();
-    const double mu = options.human.mu;
     if (all || options.path == "linear") {
-        paths.push_back(run_path(linear_path(mu, options.depth_px), plane, options));
+        paths.push_back(run_path(linear_path(mu, depth_px), plane, options));
     }
     if (all || options.path == "circle") {
-        paths.push_back(run_path(circle_path(mu, options.depth_px), plane, options));
+        paths.push_back(run_path(circle_path(mu, depth_px), plane, options));
     }
     if (human) paths.push_back(run_path(std::move(*human), sample->depth, options));
     if (outputs.plots() != nullptr) {
@@ -98,9 +125,103 @@ void run_paths(const ExperimentOptions& options, Outputs& outputs) {
     outputs.write(table_of(paths, clock_us), json_of(paths, clock_us));
 }
 
+void check_path(const std::string& path) {
+    if (std::find(kPaths.begin(), kPaths.end(), path) != kPaths.end()) return;
+    std::string choices;
+    for (const std::string_view name : kPaths) {
+        choices += (choices.empty() ? "" : ", ") + std::string(name);
+    }
+    throw CLI::ValidationError("PATH", "'" + path + "' is none of " + choices);
+}
+
+/// --NAME: a number in [lowest, highest].
+CLI::Option* add_number(CLI::App& app, const std::string& name, double lowest, double highest,
+                        const std::string& help, const std::function<void(double)>& take) {
+    const std::string option = name.substr(0, name.find(','));
+    return app.add_option_function<std::string>(
+        name, [=](const std::string& text) { take(parse_number(option, text, lowest, highest)); },
+        help);
+}
+
+void add_options(CLI::App& app, ExperimentOptions& options) {
+    app.add_option_function<std::string>(
+           "PATH",
+           [&options](const std::string& path) {
+               check_path(path);
+               options.path = path;
+           },
+           "linear, circle, human, all of them, or sweep: every friction with every depth")
+        ->type_name("")
+        ->default_str("all");
+    add_file(app, "--json", options.json, "Writes all numbers as JSON; - is standard output");
+    add_file(app, "--plots", options.plots, "Writes pictures into this folder", "DIR");
+    add_plot_format_option(app, options.plot_formats);
+    add_file(app, "--session", options.human.session,
+             "Hand of human: the goals of a recorded session");
+    add_file(app, "--trace", options.human.trace,
+             "Hand of human: a pen's or mouse's trace (CSV: t_s,x_mm,y_mm[,pressure01]"
+             "[,pen_down]); without either a modelled one");
+    add_algorithms_option(app, options.algorithms);
+    add_number(app, "--friction,--mu", 0.0, 5.0, "Coefficient of friction, 0 to 5; not for sweep",
+               [&options](double mu) { options.mu = mu; })
+        ->type_name("MU")
+        ->default_str("0.4");
+    add_number(app, "--depth", 0.1, 1000.0,
+               "Of the goals of linear and circle below the surface, 0.1 to 1000",
+               [&options](double depth_px) { options.depth_px = depth_px; })
+        ->type_name("PX")
+        ->default_str("20");
+    add_number(app, "--relief", 0.0, 4096.0,
+               "Elevation of the sample's nearest depth, for human, 0 to 4096",
+               [&options](double relief_px) { options.human.shape.relief_px = relief_px; })
+        ->type_name("PX")
+        ->default_str("255");
+    app.add_flag("--raw-depth", options.human.raw_depth, "The sample's depth without cleaning");
+    app.footer(
+        "Human is 20 s on the built-in sample; the trace's full pressure is 25 px below the "
+        "surface.\n"
+        "JSON: clock_us and paths, each with path, source, mu, depth_px, updates,\n"
+        "exact_variation_deg and runs, each with algorithm, time_us, variation_deg, error, paper,\n"
+        "moves_per_update and bounds_met; of sweep: points and not_rougher_than_dibhr.\n"
+        "Examples:\n"
+        "  dibhr experiment --plots pictures --json numbers.json\n"
+        "  dibhr experiment human --trace pen.csv\n"
+        "  dibhr experiment circle --friction 0.8 --depth 5 --algorithm dibhr --algorithm pga\n"
+        "  dibhr experiment sweep --json sweep.json --plots pictures\n"
+        "  dibhr experiment circle --plots pictures --plot-format pdf,svg");
+}
+
+/// Throws UsageError for options that do not go together; keeps each algorithm once.
+void check_options(ExperimentOptions& options) {
+    const std::string& path = options.path;
+    const bool has_session = !options.human.session.empty();
+    const bool has_trace = !options.human.trace.empty();
+    if ((has_session || has_trace) && path != "human" && path != "all") {
+        throw UsageError("--session and --trace are the hand of human, not of " + path +
+                         " (see dibhr experiment --help)");
+    }
+    if (has_session && has_trace) {
+        throw UsageError(
+            "--session and --trace are two hands; give one (see dibhr experiment --help)");
+    }
+    if (path == "sweep" && (options.mu || options.depth_px)) {
+        throw UsageError(
+            "sweep goes through its own --friction and --depth; leave them out (see dibhr "
+            "experiment --help)");
+    }
+    std::vector<Algorithm>& all = options.algorithms;
+    for (auto one = all.begin(); one != all.end(); ++one) {
+        all.erase(std::remove(one + 1, all.end(), *one), all.end());
+    }
+}
+
 }  // namespace
 
-int run_experiment(const ExperimentOptions& options) {
+int run_experiment(CLI::App& app, const Arguments& arguments) {
+    ExperimentOptions options;
+    add_options(app, options);
+    if (!parse(app, arguments)) return 0;
+    check_options(options);
     Outputs outputs(options);
     if (options.path == "sweep") {
         run_sweep_command(options, outputs);

@@ -18,8 +18,7 @@ namespace dibhr {
 struct HumanOptions {
     std::filesystem::path session{};  ///< goals of a recorded session; empty: none
     std::filesystem::path trace{};    ///< a person's pen or mouse; empty: none
-    double mu{0.4};
-    bool raw_depth{false};  ///< no cleaning
+    bool raw_depth{false};            ///< no cleaning
     SurfaceShape shape{};
 };
 

@@ -5,8 +5,7 @@
 #include <string>
 
 #include "app/commands/command_line.hpp"
-#include "app/commands/output_rows.hpp"
-#include "app/commands/progress_bar.hpp"
+#include "app/commands/output.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/session/session.hpp"
 

@@ -12,8 +12,7 @@
 #include <utility>
 
 #include "app/commands/command_line.hpp"
-#include "app/commands/output_rows.hpp"
-#include "app/commands/progress_bar.hpp"
+#include "app/commands/output.hpp"
 #include "app/settings/command_options.hpp"
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
@@ -30,9 +29,7 @@ constexpr std::int64_t kTicksPerStep = 1000;  // of the progress bar
 struct ReplayOptions {
     std::filesystem::path session{};
     std::vector<Algorithm> algorithms{};  ///< empty: as recorded
-    GivenParameters given{};              ///< numbers that beat the recorded ones
-    std::filesystem::path bump{};         ///< instead of the recorded one; empty: as recorded
-    bool raw_depth{false};                ///< no cleaning, whatever was recorded
+    TouchRequest touch{};                 ///< beats what was recorded
     bool any_media{false};                ///< also over files that have changed
     std::filesystem::path csv{};          ///< rows of the one run, "-": standard output; or empty
 };
@@ -47,11 +44,11 @@ struct Run {
 Run make_run(const Session& session, const ReplayOptions& options,
              std::optional<Algorithm> algorithm) {
     Run run;
-    GivenParameters given = options.given;
+    GivenParameters given = options.touch.given;
     given.algorithm = algorithm;
     run.change = [given](TouchParameters& parameters) { given.apply(parameters); };
     run.name = algorithm ? name_of(*algorithm) : "";
-    run.as_recorded = options.bump.empty() && !options.raw_depth;
+    run.as_recorded = options.touch.bump.empty() && !options.touch.raw_depth;
     for (const SessionParameters& recorded : session.parameters()) {
         TouchParameters changed = recorded.touch;
         run.change(changed);
@@ -77,7 +74,7 @@ std::vector<Run> make_runs(const Session& session, const ReplayOptions& options)
 
 bool has_bump(const Session& session, const ReplayOptions& options) {
     const auto& all = session.parameters();
-    return !options.bump.empty() ||
+    return !options.touch.bump.empty() ||
            std::any_of(all.begin(), all.end(), [](const SessionParameters& parameters) {
                return !parameters.bump.file.empty();
            });
@@ -170,12 +167,12 @@ int replay_all(const ReplayOptions& options) {
                          ": holds no tick to replay; record a longer one");
     }
     std::vector<Run> runs = make_runs(session, options);
-    SessionFrames video(
-        session,
-        {.any_media = options.any_media, .raw_depth = options.raw_depth, .bump = options.bump});
+    SessionFrames video(session, {.any_media = options.any_media,
+                                  .raw_depth = options.touch.raw_depth,
+                                  .bump = options.touch.bump});
     print_warning(session.warning());
     print_warning(video.warning());
-    print_warning(roughness_warning(options.given, has_bump(session, options)));
+    print_warning(roughness_warning(options.touch.given, has_bump(session, options)));
     replay(session, video, runs, options.csv);
     if (options.csv != "-") print_table(session, runs);
     int exit_code = 0;
@@ -192,9 +189,8 @@ int replay_all(const ReplayOptions& options) {
 
 int run_replay(CLI::App& app, const Arguments& arguments) {
     ReplayOptions options;
-    TouchRequest request;
     add_session(app, options.session);
-    add_touch_options(app, request);
+    add_touch_options(app, options.touch);
     app.remove_option(app.get_option("--algorithm"));  // here it may be given several times
     add_algorithms_option(app, options.algorithms);
     add_file(app, "--csv", options.csv, "Writes the rows of one run; - is standard output");
@@ -208,9 +204,6 @@ int run_replay(CLI::App& app, const Arguments& arguments) {
         "  dibhr replay mine.dibhr --algorithm dibhr --algorithm pga --friction 0.2\n"
         "  dibhr replay mine.dibhr --stiffness 1 --csv stiffer.csv");
     if (!parse(app, arguments)) return 0;
-    options.given = request.given;
-    options.bump = request.bump;
-    options.raw_depth = request.raw_depth;
     return replay_all(options);
 }
 

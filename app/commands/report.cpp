@@ -1,12 +1,15 @@
 // `dibhr report`: reads the session, finds the pictures that were touched, writes the report.
-#include "app/commands/report.hpp"
-
+#include <CLI/CLI.hpp>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
-#include "app/commands/progress_bar.hpp"
+#include "app/commands/command_line.hpp"
+#include "app/commands/output.hpp"
+#include "app/settings/command_options.hpp"
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/replay/media.hpp"
@@ -49,19 +52,32 @@ RecordedPicture picture_or_remark(const Session& session, const SessionSource& s
 
 }  // namespace
 
-int run_report(const ReportOptions& options) {
-    const Session session(options.session);
+int run_report(CLI::App& app, const Arguments& arguments) {
+    std::filesystem::path file;
+    std::filesystem::path out;  // folder
+    std::vector<PlotFormat> plot_formats{PlotFormat::png};
+    add_session(app, file);
+    add_file(app, "--out", out, "Folder for report.html, report.json and the pictures", "DIR")
+        ->required();
+    add_plot_format_option(app, plot_formats);
+    app.footer(
+        "The folder is made if it is missing; an earlier report in it is replaced. The pictures "
+        "in the page are PNG in any case.\n\n"
+        "Examples:\n"
+        "  dibhr report mine.dibhr --out mine-report\n"
+        "  dibhr report mine.dibhr --out mine-report --plot-format png,pdf");
+    if (!parse(app, arguments)) return 0;
+    const Session session(file);
     print_warning(session.warning());
     {
         ProgressBar bar("reading the session");
-        write_session_report(session,
-                             {options.out, "dibhr " DIBHR_VERSION,
-                              [&session](const SessionSource& source, double media_s) {
-                                  return picture_or_remark(session, source, media_s);
-                              },
-                              [&bar](double share) { bar.show(share); }, options.plot_formats});
+        write_session_report(session, {out, "dibhr " DIBHR_VERSION,
+                                       [&session](const SessionSource& source, double media_s) {
+                                           return picture_or_remark(session, source, media_s);
+                                       },
+                                       [&bar](double share) { bar.show(share); }, plot_formats});
     }
-    std::cout << (options.out / "report.html").string() << '\n';
+    std::cout << (out / "report.html").string() << '\n';
     return 0;
 }
 

@@ -2,14 +2,20 @@
 #include "app/commands/terminal_guide.hpp"
 
 #include <poll.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstddef>
 #include <initializer_list>
 #include <iostream>
+#include <optional>
+#include <string>
 #include <utility>
+
+#include "app/window/signals.hpp"
 
 namespace dibhr {
 
@@ -39,104 +45,120 @@ std::string wrapped(const std::string& text) {
     return result;
 }
 
+class TerminalGuide final : public falcon::CheckGuide {
+  public:
+    TerminalGuide()
+        : typed_in_(isatty(STDIN_FILENO) == 1), shown_live_(isatty(STDOUT_FILENO) == 1) {
+        // A stopped program sends neither force nor zero; who knows how long the motors hold.
+        sigset_t stopping;
+        sigemptyset(&stopping);
+        for (const int signal : {SIGTSTP, SIGTTIN, SIGTTOU}) sigaddset(&stopping, signal);
+        pthread_sigmask(SIG_BLOCK, &stopping, &signals_before_);
+        if (typed_in_) tcgetattr(STDIN_FILENO, &lines_);
+    }
+
+    ~TerminalGuide() override { pthread_sigmask(SIG_SETMASK, &signals_before_, nullptr); }
+
+    TerminalGuide(const TerminalGuide&) = delete;
+    TerminalGuide& operator=(const TerminalGuide&) = delete;
+
+    void say(const std::string& text) override { print(wrapped(text) + "\n"); }
+
+    void show(const std::string& state) override {
+        if (!shown_live_) return;
+        const char* const rest_of_line_cleared = "\x1b[K";
+        std::cout << '\r' << state << rest_of_line_cleared << std::flush;
+        live_line_open_ = true;
+    }
+
+    /// What was typed before a question does not answer it.
+    void ask(const std::string& question) override {
+        if (typed_in_) forget_input();
+        print(wrapped(question) + "\n> ");
+    }
+
+    [[nodiscard]] std::optional<std::string> next_line() override {
+        take_input();
+        const std::size_t end = input_.find('\n');
+        if (end == std::string::npos && (!ended_ || input_.empty())) return std::nullopt;
+        std::string line = input_.substr(0, end);
+        input_.erase(0, end == std::string::npos ? end : end + 1);
+        const std::size_t first = line.find_first_not_of(" \t\r");
+        if (first == std::string::npos) return "";
+        return line.substr(first, line.find_last_not_of(" \t\r") - first + 1);
+    }
+
+    [[nodiscard]] bool input_ended() override { return ended_ && input_.empty(); }
+
+    [[nodiscard]] bool interrupted() override {
+        interrupted_ = interrupted_ || signals_.arrived();
+        return interrupted_;
+    }
+
+    void force_begins() override {
+        print("FORCE\n");
+        if (!typed_in_) return;
+        forget_input();
+        termios keys = lines_;
+        keys.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+        // Ctrl+Z and Ctrl+\ are keys like any other: they must not stop or kill what holds a force.
+        keys.c_cc[VSUSP] = keys.c_cc[VQUIT] = _POSIX_VDISABLE;
+        tcsetattr(STDIN_FILENO, TCSANOW, &keys);
+    }
+
+    void force_ended() noexcept override {
+        if (!typed_in_) return;
+        tcsetattr(STDIN_FILENO, TCSANOW, &lines_);
+        forget_input();
+    }
+
+    [[nodiscard]] Wish wish() override {
+        if (interrupted()) return Wish::quit;
+        take_input();
+        if (typed_in_) {
+            // Keys have no end but that of the terminal, which may be seen before its signal comes.
+            if (ended_ || input_.find('q') != std::string::npos) return Wish::quit;
+            return input_.empty() ? Wish::none : Wish::let_go;
+        }
+        // Of a pipe, what comes next may be the answer to the next question.
+        return input_ == "q" || input_.starts_with("q\n") ? Wish::quit : Wish::none;
+    }
+
+  private:
+    void print(const std::string& text) {
+        if (std::exchange(live_line_open_, false)) std::cout << '\n';
+        std::cout << text << std::flush;
+    }
+
+    void take_input() {
+        pollfd input{STDIN_FILENO, POLLIN, 0};
+        if (ended_ || poll(&input, 1, 0) <= 0) return;
+        std::array<char, 256> bytes{};
+        const ssize_t got = read(STDIN_FILENO, bytes.data(), bytes.size());
+        if (got > 0) input_.append(bytes.data(), static_cast<std::size_t>(got));
+        if (got == 0 || (got < 0 && errno != EINTR && errno != EAGAIN)) ended_ = true;
+    }
+
+    void forget_input() noexcept {
+        input_.clear();
+        tcflush(STDIN_FILENO, TCIFLUSH);
+    }
+
+    EndingSignals signals_{};
+    sigset_t signals_before_{};
+    const bool typed_in_;    // standard input is a terminal
+    const bool shown_live_;  // so is standard output
+    termios lines_{};        // the terminal as it was found
+    std::string input_{};
+    bool ended_{false};
+    bool interrupted_{false};
+    bool live_line_open_{false};
+};
+
 }  // namespace
 
-TerminalGuide::TerminalGuide()
-    : typed_in_(isatty(STDIN_FILENO) == 1), shown_live_(isatty(STDOUT_FILENO) == 1) {
-    // A stopped program would send neither force nor zero; nobody knows how long the motors hold.
-    sigset_t stopping;
-    sigemptyset(&stopping);
-    for (const int signal : {SIGTSTP, SIGTTIN, SIGTTOU}) sigaddset(&stopping, signal);
-    pthread_sigmask(SIG_BLOCK, &stopping, &signals_before_);
-    if (typed_in_) tcgetattr(STDIN_FILENO, &lines_);
-}
-
-TerminalGuide::~TerminalGuide() {
-    pthread_sigmask(SIG_SETMASK, &signals_before_, nullptr);
-}
-
-void TerminalGuide::print(const std::string& text) {
-    if (std::exchange(live_line_open_, false)) std::cout << '\n';
-    std::cout << text << std::flush;
-}
-
-void TerminalGuide::say(const std::string& text) {
-    print(wrapped(text) + "\n");
-}
-
-void TerminalGuide::show(const std::string& state) {
-    if (!shown_live_) return;
-    const char* const rest_of_line_cleared = "\x1b[K";
-    std::cout << '\r' << state << rest_of_line_cleared << std::flush;
-    live_line_open_ = true;
-}
-
-void TerminalGuide::ask(const std::string& question) {
-    if (typed_in_) forget_input();
-    print(wrapped(question) + "\n> ");
-}
-
-void TerminalGuide::take_input() {
-    pollfd input{STDIN_FILENO, POLLIN, 0};
-    if (ended_ || poll(&input, 1, 0) <= 0) return;
-    std::array<char, 256> bytes{};
-    const ssize_t got = read(STDIN_FILENO, bytes.data(), bytes.size());
-    if (got > 0) input_.append(bytes.data(), static_cast<std::size_t>(got));
-    if (got == 0 || (got < 0 && errno != EINTR && errno != EAGAIN)) ended_ = true;
-}
-
-void TerminalGuide::forget_input() noexcept {
-    input_.clear();
-    tcflush(STDIN_FILENO, TCIFLUSH);
-}
-
-std::optional<std::string> TerminalGuide::next_line() {
-    take_input();
-    const std::size_t end = input_.find('\n');
-    if (end == std::string::npos && (!ended_ || input_.empty())) return std::nullopt;
-    std::string line = input_.substr(0, end);
-    input_.erase(0, end == std::string::npos ? end : end + 1);
-    const std::size_t first = line.find_first_not_of(" \t\r");
-    if (first == std::string::npos) return "";
-    return line.substr(first, line.find_last_not_of(" \t\r") - first + 1);
-}
-
-bool TerminalGuide::input_ended() {
-    return ended_ && input_.empty();
-}
-
-bool TerminalGuide::interrupted() {
-    interrupted_ = interrupted_ || signals_.arrived();
-    return interrupted_;
-}
-
-void TerminalGuide::force_begins() {
-    print("FORCE\n");
-    if (!typed_in_) return;
-    forget_input();
-    termios keys = lines_;
-    keys.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
-    // Ctrl+Z and Ctrl+\ are keys like any other: they must not stop or kill what holds a force.
-    keys.c_cc[VSUSP] = keys.c_cc[VQUIT] = _POSIX_VDISABLE;
-    tcsetattr(STDIN_FILENO, TCSANOW, &keys);
-}
-
-void TerminalGuide::force_ended() noexcept {
-    if (!typed_in_) return;
-    tcsetattr(STDIN_FILENO, TCSANOW, &lines_);
-    forget_input();
-}
-
-falcon::CheckGuide::Wish TerminalGuide::wish() {
-    if (interrupted()) return Wish::quit;
-    take_input();
-    if (typed_in_) {
-        // Keys have no end but that of the terminal, which may be seen before its signal comes.
-        if (ended_ || input_.find('q') != std::string::npos) return Wish::quit;
-        return input_.empty() ? Wish::none : Wish::let_go;
-    }
-    // Of a pipe, what comes next may be the answer to the next question.
-    return input_ == "q" || input_.starts_with("q\n") ? Wish::quit : Wish::none;
+std::unique_ptr<falcon::CheckGuide> make_terminal_guide() {
+    return std::make_unique<TerminalGuide>();
 }
 
 }  // namespace dibhr

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "app/commands/command_line.hpp"
-#include "app/commands/output_rows.hpp"
+#include "app/commands/output.hpp"
 #include "app/settings/command_options.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/touch.hpp"
@@ -27,9 +27,8 @@ struct TouchOptions {
     std::filesystem::path depth{};
     std::filesystem::path goals{};
     std::filesystem::path out{"-"};  ///< "-": standard output
-    std::filesystem::path bump{};    ///< empty: none
     bool video{false};               ///< frames blended in time; false: the first image
-    bool raw_depth{false};           ///< no cleaning
+    TouchRequest touch{};
     TouchParameters parameters{};
 };
 
@@ -38,9 +37,10 @@ class TouchRun {
   public:
     explicit TouchRun(const TouchOptions& options)
         : parameters_(options.parameters),
-          depth_(open_depth(options.depth), options.video,
-                 options.raw_depth ? CleaningOptions{false, false, false} : CleaningOptions{}) {
-        if (!options.bump.empty()) bump_ = read_bump_map(options.bump);
+          depth_(
+              open_depth(options.depth), options.video,
+              options.touch.raw_depth ? CleaningOptions{false, false, false} : CleaningOptions{}) {
+        if (!options.touch.bump.empty()) bump_ = read_bump_map(options.touch.bump);
         input_.from_zero = true;
     }
 
@@ -81,7 +81,7 @@ class TouchRun {
 void touch_all(const TouchOptions& options) {
     const std::vector<TimedGoal> goals = read_goals(options.goals);
     TouchRun run(options);
-    RowFile out(options.out, {options.depth, options.goals, options.bump},
+    RowFile out(options.out, {options.depth, options.goals, options.touch.bump},
                 "is also read by this command; give --out another name");
     std::vector<OutputRow> rows;
     rows.reserve(kBlockRows);
@@ -99,7 +99,6 @@ void touch_all(const TouchOptions& options) {
 
 int run_touch(CLI::App& app, const Arguments& arguments) {
     TouchOptions options;
-    TouchRequest request;
     add_file(app, "--depth", options.depth, "Depth video or image")->required();
     add_file(app, "--goals", options.goals, "Goals, t,x,y,z a row: seconds and grid-space pixels",
              "GOALS.csv")
@@ -107,16 +106,14 @@ int run_touch(CLI::App& app, const Arguments& arguments) {
     add_file(app, "--out", options.out, "One row an update; - is standard output", "OUT.csv")
         ->default_str("-");
     app.add_flag("--video", options.video, "Blends the frames in time; else the first image");
-    add_touch_options(app, request);
+    add_touch_options(app, options.touch);
     app.footer(
         "Examples:\n"
         "  dibhr touch --depth depth.png --goals goals.csv --out touched.csv\n"
         "  dibhr touch --depth depth.mp4 --video --goals goals.csv --friction 0.2 | head");
     if (!parse(app, arguments)) return 0;
-    options.bump = request.bump;
-    options.raw_depth = request.raw_depth;
-    request.given.apply(options.parameters);
-    print_warning(roughness_warning(request.given, !options.bump.empty()));
+    options.touch.given.apply(options.parameters);
+    print_warning(roughness_warning(options.touch.given, !options.touch.bump.empty()));
     touch_all(options);
     return 0;
 }

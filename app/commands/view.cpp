@@ -1,20 +1,29 @@
-// `dibhr view`: puts the settings file and the command line together and opens the window.
+// `dibhr view`: puts the settings file and the command line together, and opens everything a viewer
+// needs before there is a window, so that what fails is told in one line.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <array>
 #include <charconv>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <string>
 #include <system_error>
 #include <tuple>
 #include <utility>
 
 #include "app/commands/command_line.hpp"
+#include "app/settings/assets_path.hpp"
 #include "app/settings/command_options.hpp"
-#include "app/settings/settings.hpp"
-#include "app/viewer/view_options.hpp"
-#include "core/replay/media.hpp"
+#include "app/viewer/viewer.hpp"
+#include "core/error.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/replay/session_player.hpp"
 
 namespace dibhr {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -59,6 +68,56 @@ void require_replay_options(const ViewOptions& options, const TouchRequest& touc
     throw UsageError(options.colour.string() +
                      " is a session, which is replayed as it was recorded: leave away a depth "
                      "file, --record, --bump and --raw-depth");
+}
+
+void require_writable_folder(const fs::path& file, const char* option) {
+    const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+    if (!fs::is_directory(folder) || ::access(folder.c_str(), W_OK) != 0 ||
+        fs::is_directory(file)) {
+        throw InputError("cannot write " + file.string() +
+                         ": name a file in a folder that can be written with " + option);
+    }
+}
+
+void require_writable_outputs(const ViewOptions& options) {
+    if (!options.screenshot.empty()) require_writable_folder(options.screenshot, "--screenshot");
+    if (options.record.empty()) return;
+    require_writable_folder(options.record, "--record");
+    if (options.record == options.screenshot) {
+        throw InputError(options.record.string() +
+                         " cannot be both recording and screenshot: give them two names");
+    }
+    if (fs::exists(options.record)) {
+        throw InputError(options.record.string() +
+                         " exists already: move it away or give --record another name");
+    }
+}
+
+std::unique_ptr<Media> open_asked_media(const ViewOptions& options) {
+    fs::path colour = options.colour;
+    fs::path depth = options.depth;
+    if (colour.empty()) {
+        const SampleFiles sample = sample_files();
+        colour = sample.colour;
+        depth = sample.depth;
+    }
+    return open_media(colour, depth);
+}
+
+ViewerParts open_parts(const ViewOptions& options) {
+    ViewerParts parts;
+    if (names_session(options.colour)) {
+        parts.session = std::make_unique<OpenedSession>(options.colour, options.any_media);
+        print_warning(parts.session->session.warning());
+        print_warning(parts.session->frames.warning());
+    } else {
+        parts.media = open_asked_media(options);
+    }
+    parts.hand =
+        make_hand_device(options.device, {options.settings.falcon.connection, options.firmware});
+    if (!options.bump.empty())
+        parts.bump = std::make_shared<const BumpMap>(read_bump_map(options.bump));
+    return parts;
 }
 
 }  // namespace
@@ -114,20 +173,23 @@ int run_view(CLI::App& app, const Arguments& arguments) {
     const std::string colour = options.colour.string();
     std::error_code unknown;
     if (colour.find_first_of("./") == std::string::npos && !colour.empty() &&
-        !std::filesystem::exists(colour, unknown)) {
+        !fs::exists(colour, unknown)) {
         throw UsageError("neither a command nor a file is called '" + colour +
                          "'; see dibhr --help");
     }
     if (names_session(options.colour)) require_replay_options(options, touch);
-    options.settings = load_settings(settings_path());
-    options.parameters = options.settings.touch;
-    touch.given.apply(options.parameters);
+    options.in_file = options.settings = load_settings(settings_path());
+    Settings& settings = options.settings;
+    touch.given.apply(settings.touch);
+    if (size) std::tie(settings.width, settings.height) = *size;
+    if (touch.raw_depth) settings.cleaning = {false, false, false};
     options.given = touch.given;
-    std::tie(options.width, options.height) =
-        size.value_or(std::pair{options.settings.width, options.settings.height});
     options.bump = touch.bump;
-    options.raw_depth = touch.raw_depth;
-    return run_viewer(options);
+    require_writable_outputs(options);
+    EndingSignals signals;
+    Viewer viewer(options, open_parts(options), signals);
+    viewer.run();
+    return 0;
 }
 
 }  // namespace dibhr

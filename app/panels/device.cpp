@@ -77,7 +77,7 @@ void draw_force_switch(ViewerState& state, float width) {
 }
 
 void draw_device_panel(ViewerState& state) {
-    if (!section(state, "Device", state.settings.panels.device, state.show_device)) return;
+    if (!section(state, "Device", state.settings.panels.device, &state.show_device)) return;
     ImGui::PushID("device");
     if (state.falcon) {
         draw_falcon_state(state);

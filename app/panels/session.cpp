@@ -62,7 +62,7 @@ void draw_marks(ViewerState& state) {
 }  // namespace
 
 void draw_session_panel(ViewerState& state) {
-    if (!section(state, "Session", state.settings.panels.session, state.show_session)) return;
+    if (!section(state, "Session", state.settings.panels.session, &state.show_session)) return;
     ImGui::PushID("session");
     draw_switch(state);
     if (!state.recording_trouble.empty()) trouble_text(capitalised(state.recording_trouble));

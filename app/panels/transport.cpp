@@ -144,18 +144,6 @@ void draw_playback(const ViewerState& state, Player& player, float right_of_line
     ImGui::SameLine(begin + frame_width + gap);
 }
 
-void draw_buttons(const SessionPlayback& playback, SessionPlayer& replay) {
-    if (icon_button("back", Icon::step_back, "One tick back ( , )")) replay.step(-1);
-    ImGui::SameLine(0.0F, 0.0F);
-    play_button(playback.playing, replay);
-    ImGui::SameLine(0.0F, 0.0F);
-    if (icon_button("forward", Icon::step_forward, "One tick forward ( . )")) replay.step(1);
-    ImGui::SameLine(0.0F, 0.0F);
-    if (icon_button("loop", Icon::loop, "Start again at the end (L)", playback.looping)) {
-        replay.set_looping(!playback.looping);
-    }
-}
-
 TimeLineContents line_of(const ReplayNews& news) {
     const SessionPlayback& playback = news.playback;
     TimeLineContents line{.now_s = playback.now_s - playback.begin_s,
@@ -187,7 +175,10 @@ void draw_transport_bar(ViewerState& state, Player& player) {
 void draw_replay_bar(ViewerState& state, SessionPlayer& replay) {
     begin_bottom_bar(state, "Replay");
     const SessionPlayback& playback = state.replay->playback;
-    draw_buttons(playback, replay);
+    play_and_step_buttons(playback.playing, replay, "tick", 0.0F);
+    if (icon_button("loop", Icon::loop, "Start again at the end (L)", playback.looping)) {
+        replay.set_looping(!playback.looping);
+    }
     ImGui::SameLine();
     const TimeLineContents line = line_of(*state.replay);
     const std::string video = "video " + clock_text(state.replay->tick.video_s);

@@ -20,13 +20,10 @@ void draw_open(ViewerState& state) {
     const bool from_depth =
         text_field("##depth", "Depth file: found beside it", state.fields.depth,
                    "Empty: the file called like the colour file, with depth in place of color");
-    ImGui::BeginDisabled(state.opening || state.fields.colour[0] == '\0');
-    const bool pressed = ImGui::Button(state.opening ? "Opening" : "Open");
-    ImGui::EndDisabled();
-    ImGui::SameLine();
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextDisabled("or drop files on the window");
-    if ((from_colour || from_depth || pressed) && state.fields.colour[0] != '\0') {
+    const bool named = state.fields.colour[0] != '\0';
+    const bool pressed =
+        button_or_drop(state.opening ? "Opening" : "Open", named && !state.opening, "files");
+    if ((from_colour || from_depth || pressed) && named) {
         state.requests.open = OpenRequest{state.fields.colour.data(), state.fields.depth.data()};
     }
 }
@@ -41,12 +38,7 @@ void draw_files(const MediaDescription& media) {
 
 void draw_playback(const ViewerState& state, Player& player) {
     const PlaybackStatus& playback = state.playback;
-    if (icon_button("back", Icon::step_back, "One frame back ( , )")) player.step(-1);
-    ImGui::SameLine();
-    play_button(playback.playing, player);
-    ImGui::SameLine();
-    if (icon_button("forward", Icon::step_forward, "One frame forward ( . )")) player.step(1);
-    ImGui::SameLine();
+    play_and_step_buttons(playback.playing, player, "frame");
     bool looping = playback.looping;
     if (ImGui::Checkbox("Loop", &looping)) player.set_looping(looping);
     explain("Start again at the end (L)");

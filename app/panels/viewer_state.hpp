@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "app/settings/settings.hpp"
-#include "app/window/gui.hpp"
+#include "app/window/window.hpp"
 #include "core/loop/device.hpp"
 #include "core/loop/haptic_loop.hpp"
 #include "core/replay/outline.hpp"

@@ -135,19 +135,14 @@ void draw_number(const TouchNumber& option, TouchParameters& parameters) {
 
 }  // namespace
 
-bool section(const ViewerState& state, const char* title, bool& open) {
+bool section(const ViewerState& state, const char* title, bool& open, bool* wanted) {
+    const bool asked = wanted != nullptr && std::exchange(*wanted, false);
+    open = open || asked;
     ImGui::Spacing();
     ImGui::SetNextItemOpen(open, ImGuiCond_Always);
     ImGui::PushFont(state.fonts.heading);
     open = ImGui::CollapsingHeader(title);
     ImGui::PopFont();
-    return open;
-}
-
-bool section(const ViewerState& state, const char* title, bool& open, bool& wanted) {
-    const bool asked = std::exchange(wanted, false);
-    open = open || asked;
-    section(state, title, open);
     if (asked) ImGui::SetScrollHereY(0.0F);
     return open;
 }
@@ -206,6 +201,16 @@ bool text_field(const char* id, const char* hint, std::span<char> text, const ch
                                                enter ? ImGuiInputTextFlags_EnterReturnsTrue : 0);
     explain(help);
     return done;
+}
+
+bool button_or_drop(const char* label, bool enabled, const char* dropped) {
+    ImGui::BeginDisabled(!enabled);
+    const bool pressed = ImGui::Button(label);
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("or drop %s on the window", dropped);
+    return pressed;
 }
 
 void fact_row(const char* label, const std::string& value) {

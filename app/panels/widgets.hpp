@@ -13,11 +13,9 @@
 
 namespace dibhr {
 
-/// A collapsible section; `open` is kept by the caller.
-bool section(const ViewerState& state, const char* title, bool& open);
-
-/// The same; `wanted` opens it once and brings it into sight.
-bool section(const ViewerState& state, const char* title, bool& open, bool& wanted);
+/// A collapsible section; `open` is kept by the caller, `wanted` opens it once and brings it into
+/// sight.
+bool section(const ViewerState& state, const char* title, bool& open, bool* wanted = nullptr);
 
 /// How a number is shown, moved and put back.
 struct NumberRow {
@@ -59,6 +57,9 @@ bool choice_row(const char* label, const Table& words, Enum& chosen, const char*
 bool text_field(const char* id, const char* hint, std::span<char> text, const char* help,
                 bool enter = true, float width = -1.0F);
 
+/// A button for what was typed, and that it can be dropped instead. True when it was pressed.
+bool button_or_drop(const char* label, bool enabled, const char* dropped);
+
 /// A row for each touch parameter of that topic, with its label, unit, range and help.
 void draw_numbers(TouchTopic topic, TouchParameters& parameters);
 
@@ -92,6 +93,22 @@ void play_button(bool playing, AnyPlayer& player) {
                     playing ? "Pause (Space)" : "Play (Space)")) {
         playing ? player.pause() : player.play();
     }
+}
+
+/// Steps on both sides of it; `step` is what the player steps by, `gap` in pixels, negative: the
+/// usual.
+template <typename AnyPlayer>
+void play_and_step_buttons(bool playing, AnyPlayer& player, const std::string& step,
+                           float gap = -1.0F) {
+    if (icon_button("back", Icon::step_back, ("One " + step + " back ( , )").c_str()))
+        player.step(-1);
+    ImGui::SameLine(0.0F, gap);
+    play_button(playing, player);
+    ImGui::SameLine(0.0F, gap);
+    if (icon_button("forward", Icon::step_forward, ("One " + step + " forward ( . )").c_str())) {
+        player.step(1);
+    }
+    ImGui::SameLine(0.0F, gap);
 }
 
 template <typename AnyPlayer>

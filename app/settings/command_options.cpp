@@ -35,37 +35,25 @@ std::string placeholder_of(const TouchNumber& option) {
     return name;
 }
 
-std::string algorithm_names() {
+template <typename Values>
+std::string names_of(const Values& values) {
     std::string names;
-    for (const Algorithm algorithm : all_algorithms()) {
-        names += (names.empty() ? "" : ", ") + std::string(name_of(algorithm));
-    }
+    for (const auto value : values)
+        names += (names.empty() ? "" : ", ") + std::string(name_of(value));
     return names;
 }
 
 /// Throws CLI::ValidationError.
+template <typename Values>
+auto value_called(const std::string& name, const Values& values, const char* option) {
+    for (const auto value : values) {
+        if (name == name_of(value)) return value;
+    }
+    throw CLI::ValidationError(option, "'" + name + "' is none of " + names_of(values));
+}
+
 Algorithm known_algorithm(const std::string& name) {
-    const auto algorithm = algorithm_named(name);
-    if (!algorithm) {
-        throw CLI::ValidationError("--algorithm", "'" + name + "' is none of " + algorithm_names());
-    }
-    return *algorithm;
-}
-
-std::string format_names() {
-    std::string names;
-    for (const PlotFormat format : kPlotFormats) {
-        names += (names.empty() ? "" : ", ") + std::string(name_of(format));
-    }
-    return names;
-}
-
-/// Throws CLI::ValidationError.
-PlotFormat known_format(const std::string& name) {
-    for (const PlotFormat format : kPlotFormats) {
-        if (name == name_of(format)) return format;
-    }
-    throw CLI::ValidationError("--plot-format", "'" + name + "' is none of " + format_names());
+    return value_called(name, all_algorithms(), "--algorithm");
 }
 
 std::string range_of(double lowest, double highest) {
@@ -135,7 +123,7 @@ void add_algorithms_option(CLI::App& app, std::vector<Algorithm>& algorithms) {
            [&algorithms](const std::vector<std::string>& names) {
                for (const std::string& name : names) algorithms.push_back(known_algorithm(name));
            },
-           "How the proxy follows the goal, once or several times: " + algorithm_names())
+           "How the proxy follows the goal, once or several times: " + names_of(all_algorithms()))
         ->type_name("NAME")
         ->allow_extra_args(false);
 }
@@ -145,9 +133,11 @@ void add_plot_format_option(CLI::App& app, std::vector<PlotFormat>& formats) {
            "--plot-format",
            [&formats](const std::vector<std::string>& names) {
                formats.clear();
-               for (const std::string& name : names) formats.push_back(known_format(name));
+               for (const std::string& name : names) {
+                   formats.push_back(value_called(name, kPlotFormats, "--plot-format"));
+               }
            },
-           "How the pictures are written, one or several with commas: " + format_names() +
+           "How the pictures are written, one or several with commas: " + names_of(kPlotFormats) +
                "; SVG and PDF are for papers")
         ->type_name("FORMAT")
         ->delimiter(',')
@@ -159,7 +149,7 @@ void add_touch_options(CLI::App& app, TouchRequest& request) {
     app.add_option_function<std::string>(
            "--algorithm",
            [&request](const std::string& name) { request.given.algorithm = known_algorithm(name); },
-           "How the proxy follows the goal: " + algorithm_names())
+           "How the proxy follows the goal: " + names_of(all_algorithms()))
         ->type_name("NAME")
         ->default_str("dibhr");
     app.add_option_function<std::string>(

@@ -1,9 +1,11 @@
 // What the viewer remembers from one run to the next: a TOML file in the user's configuration
-// folder.
+// folder; and the one list of all settings, which reading, writing and comparing share.
 #pragma once
 
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "app/settings/falcon_settings.hpp"
@@ -59,5 +61,22 @@ struct Settings {
 
 /// Writes the file whole or not at all. Throws InputError.
 void save_settings(const Settings& settings, const std::filesystem::path& file);
+
+/// One value of the settings file, and where it is held.
+struct Setting {
+    std::string_view table;
+    std::string_view name;
+    std::variant<bool*, int*, double*, std::string*, Algorithm*, ButtonAction*> value;
+    double lowest{0.0};  ///< of a number
+    double highest{0.0};
+};
+
+/// All of them, in the order of the file; to read or change what `settings` holds.
+[[nodiscard]] std::vector<Setting> list_of(Settings& settings);
+
+/// `in_file`, with every value that differs between `started` and `now` taken from `now`.
+[[nodiscard]] Settings changes_kept(Settings in_file, Settings started, Settings now);
+
+[[nodiscard]] bool same_settings(Settings a, Settings b);
 
 }  // namespace dibhr

@@ -27,17 +27,6 @@ Touch touch_of(const SessionMoment& moment) {
     return moment.computed ? *moment.computed : recorded_touch(moment.tick);
 }
 
-ReplayNews news_of(const Session& session) {
-    ReplayNews news;
-    news.file = session.file();
-    news.participant = session.fact("participant");
-    news.note = session.fact("note");
-    news.started = session.fact("started");
-    news.device = session.fact("device");
-    news.marks = session.marks();
-    return news;
-}
-
 }  // namespace
 
 void ViewerReplay::begin(std::unique_ptr<OpenedSession> opened, const GivenParameters& given,
@@ -49,7 +38,12 @@ void ViewerReplay::begin(std::unique_ptr<OpenedSession> opened, const GivenParam
         bump_file_ = state.bump_file;
     }
     const Session& session = opened->session;
-    state.replay = news_of(session);
+    state.replay = ReplayNews{.file = session.file(),
+                              .participant = session.fact("participant"),
+                              .note = session.fact("note"),
+                              .started = session.fact("started"),
+                              .device = session.fact("device"),
+                              .marks = session.marks()};
     state.media = opened->frames.description();
     state.forces = {};
     state.haptic = {};

@@ -6,8 +6,6 @@
 
 #include "app/panels/falcon_state.hpp"
 #include "app/panels/panels.hpp"
-#include "app/viewer/actions.hpp"
-#include "core/error.hpp"
 #include "core/haptics/surface.hpp"
 #include "render/gl_objects.hpp"
 
@@ -21,15 +19,6 @@ constexpr double kNoticeTime_s = 4.0;
 constexpr auto kPictureTime = std::chrono::nanoseconds(1'000'000'000 / 60);
 constexpr auto kSoftwarePictureTime = std::chrono::nanoseconds(1'000'000'000 / 30);
 
-Settings starting_settings(const ViewOptions& options) {
-    Settings settings = options.settings;
-    settings.touch = options.parameters;
-    settings.width = options.width;
-    settings.height = options.height;
-    if (options.raw_depth) settings.cleaning = {false, false, false};
-    return settings;
-}
-
 std::chrono::nanoseconds shortest_picture(bool sync) {
     if (!sync) return std::chrono::nanoseconds(0);
     return read_limits().software ? kSoftwarePictureTime : kPictureTime;
@@ -41,12 +30,12 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, EndingSignals& sig
     : options_(options),
       signals_(signals),
       hand_(std::move(parts.hand)),
-      window_(options.width, options.height, options.sync, "dibhr"),
+      window_(options.settings.width, options.settings.height, options.sync, "dibhr"),
       gui_(window_),
       pace_(shortest_picture(options.sync)),
-      state_{.settings = starting_settings(options)},
+      state_{.settings = options.settings},
       falcon_(hand_, state_),
-      keeper_(options.settings, starting_settings(options), settings_path()),
+      keeper_(options.in_file, options.settings, settings_path()),
       start_(steady_clock::now()),
       forces_(std::make_unique<ForceRing>()),
       ticks_(std::make_unique<TickRing>()),

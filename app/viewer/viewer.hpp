@@ -2,21 +2,21 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/panels/viewer_state.hpp"
+#include "app/settings/command_options.hpp"
 #include "app/settings/keys.hpp"
+#include "app/settings/settings.hpp"
 #include "app/viewer/falcon.hpp"
 #include "app/viewer/files.hpp"
-#include "app/viewer/mouse.hpp"
-#include "app/viewer/opening.hpp"
+#include "app/viewer/input.hpp"
 #include "app/viewer/recording.hpp"
 #include "app/viewer/replay.hpp"
-#include "app/viewer/view_options.hpp"
-#include "app/window/gui.hpp"
 #include "app/window/signals.hpp"
 #include "app/window/window.hpp"
 #include "core/error.hpp"
@@ -27,7 +27,24 @@
 
 namespace dibhr {
 
-/// What run_viewer() opened before there was a window.
+/// What `dibhr view` was asked for.
+struct ViewOptions {
+    std::filesystem::path colour{};    ///< or a session; empty: the built-in sample
+    std::filesystem::path depth{};     ///< empty: found beside the colour file
+    std::string device{"auto"};        ///< auto | falcon | falcon:SERIAL | mouse | goals:FILE
+    std::filesystem::path firmware{};  ///< for a Falcon that has none; empty: the kept one
+    std::filesystem::path record{};
+    std::filesystem::path screenshot{};  ///< the last picture, as PNG
+    std::optional<double> seconds{};     ///< leave after so long
+    bool sync{true};                     ///< --no-sync: do not wait for the display
+    std::filesystem::path bump{};
+    bool any_media{false};    ///< replay: also over files that have changed
+    GivenParameters given{};  ///< the command line's alone: they beat a session's
+    Settings in_file{};       ///< as read; the window saves only what a person changed in it
+    Settings settings{};      ///< the same, the command line's values on top
+};
+
+/// What was opened before there was a window.
 struct ViewerParts {
     std::unique_ptr<Media> media{};
     std::unique_ptr<OpenedSession> session{};  ///< to be replayed, in place of media

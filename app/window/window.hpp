@@ -1,4 +1,5 @@
-// The program's window with its OpenGL context, and what people did in it.
+// The program's window with its OpenGL context, what people did in it, and Dear ImGui with the
+// program's calm dark look.
 #pragma once
 
 #include <chrono>
@@ -9,6 +10,7 @@
 #include <vector>
 
 struct GLFWwindow;
+struct ImFont;
 
 namespace dibhr {
 
@@ -105,6 +107,33 @@ class PicturePace {
     Clock::time_point second_begin_{};
     int pictures_{0};
     double pictures_per_s_{0.0};
+};
+
+/// Fonts at the display's scale; null: the built-in one.
+struct Fonts {
+    ImFont* text{nullptr};
+    ImFont* heading{nullptr};
+};
+
+/// Made after the window (it chains the window's callbacks), destroyed before it.
+class Gui {
+  public:
+    explicit Gui(const Window& window);
+    ~Gui();
+    Gui(const Gui&) = delete;
+    Gui& operator=(const Gui&) = delete;
+
+    void begin();  ///< a new picture; panels may be drawn until end()
+    void end();    ///< draws them into the bound framebuffer
+
+    [[nodiscard]] bool wants_pointer() const;   ///< the cursor is over a panel, or dragging one
+    [[nodiscard]] bool wants_keyboard() const;  ///< a text field is being typed into
+    [[nodiscard]] const Fonts& fonts() const { return fonts_; }
+    [[nodiscard]] float scale() const { return scale_; }
+
+  private:
+    float scale_{1.0F};
+    Fonts fonts_{};
 };
 
 }  // namespace dibhr

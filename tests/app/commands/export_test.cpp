@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/commands/output_rows.hpp"
+#include "app/commands/output.hpp"
 #include "core/session/session.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/recorded_session.hpp"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "app/commands/output_rows.hpp"
+#include "app/commands/output.hpp"
 #include "app/settings/assets_path.hpp"
 #include "core/video/libraries.hpp"
 #include "tests/app/program/command_program.hpp"

@@ -13,7 +13,6 @@
 #include "app/panels/viewer_state.hpp"
 #include "app/settings/falcon_settings.hpp"
 #include "app/settings/settings.hpp"
-#include "app/settings/settings_list.hpp"
 #include "app/viewer/falcon.hpp"
 #include "app/window/window.hpp"
 #include "core/haptics/safety.hpp"

@@ -2,9 +2,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <optional>
 
-#include "app/viewer/mouse.hpp"
-#include "app/viewer/opening.hpp"
+#include "app/viewer/files.hpp"
+#include "app/viewer/input.hpp"
 #include "core/error.hpp"
 #include "device/hand_device.hpp"
 #include "tests/app/program/desk.hpp"
@@ -48,9 +49,9 @@ TEST_CASE("the ray under the cursor meets the surface, and nothing of the surfac
     camera.orbit(GENERATE(-0.6, 0.0, 0.5), GENERATE(-0.4, 0.3));
     const glm::dvec2 screen{GENERATE(250.0, 300.0, 340.0), GENERATE(200.0, 260.0)};
     const Camera::Ray ray = camera.ray_under(screen, {600, 450});
-    const SurfacePoint point = surface_under(ray, surface);
-    REQUIRE(point.met);
-    const Vec3 p = point.in_grid;
+    const std::optional<Vec3> point = surface_under(ray, surface);
+    REQUIRE(point);
+    const Vec3 p = *point;
     CHECK_THAT(p.z, WithinAbs(surface.elevation_at(p.x, p.y), 1e-6));
     const Vec3 way = ray.far_in_grid - ray.near_in_grid;
     CHECK_THAT(glm::length(glm::cross(glm::normalize(way), p - ray.near_in_grid)),

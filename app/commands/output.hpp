@@ -1,7 +1,8 @@
-// The rows of a computed stream of touches, one line an update: a contract that scripts depend on;
-// and the file that a command writes rows to.
+// What commands write while they compute: the rows of a stream of touches, one line an update (a
+// contract that scripts depend on), and a bar on stderr for work of more than a second.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -44,6 +45,24 @@ class RowFile {
   private:
     std::optional<OutputFile> file_{};
     std::string text_{};
+};
+
+/// Draws only on a terminal, and only once a second has passed; gone when it ends.
+class ProgressBar {
+  public:
+    explicit ProgressBar(std::string title);
+    ~ProgressBar();
+    ProgressBar(const ProgressBar&) = delete;
+    ProgressBar& operator=(const ProgressBar&) = delete;
+
+    /// `share` of the work that is done, 0 to 1.
+    void show(double share);
+
+  private:
+    std::string title_;
+    std::chrono::steady_clock::time_point begin_;
+    int shown_percent_{-1};
+    bool on_terminal_{false};
 };
 
 }  // namespace dibhr

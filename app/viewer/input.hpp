@@ -1,14 +1,24 @@
-// What the mouse does over the relief: it touches, and it moves the view.
+// What keys and mouse do: the actions of the key table; touching, and moving the view.
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <optional>
 
+#include "app/panels/viewer_state.hpp"
+#include "app/settings/keys.hpp"
 #include "app/window/window.hpp"
 #include "core/haptics/surface.hpp"
+#include "core/replay/session_player.hpp"
 #include "device/mouse_hand.hpp"
 #include "render/camera.hpp"
 
 namespace dibhr {
+
+/// What an action does, to a video or to the window.
+void perform(Action action, ViewerState& state, Player& player);
+
+/// What moves a replay, and nothing else; false when the action is not about that.
+bool perform_in_replay(Action action, SessionPlayer& replay);
 
 /// What the mouse does over the relief in one picture.
 struct PointerUse {
@@ -45,12 +55,9 @@ class HandPointer {
     double height_px_{0.0};
 };
 
-/// The point of the surface that a ray meets first, entering the image's rectangle through its side
-/// or from above; `met` is false when it passes by.
-struct SurfacePoint {
-    Vec3 in_grid{0.0};
-    bool met{false};
-};
-[[nodiscard]] SurfacePoint surface_under(const Camera::Ray& ray, const DepthSurface& surface);
+/// The point of the surface, in the grid, that a ray meets first, entering the image's rectangle
+/// through its side or from above; nothing when it passes by.
+[[nodiscard]] std::optional<Vec3> surface_under(const Camera::Ray& ray,
+                                                const DepthSurface& surface);
 
 }  // namespace dibhr

@@ -1,8 +1,13 @@
-// Formats rows and writes them.
-#include "app/commands/output_rows.hpp"
+// Formats rows and writes them; draws the bar over itself.
+#include "app/commands/output.hpp"
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <cstddef>
+#include <iostream>
 #include <system_error>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
@@ -12,6 +17,9 @@ namespace dibhr {
 namespace {
 
 constexpr std::size_t kPiece_bytes = std::size_t{1} << 20;
+
+constexpr auto kPatience = std::chrono::seconds(1);
+constexpr int kWidth = 40;
 
 }  // namespace
 
@@ -58,6 +66,25 @@ void RowFile::commit() {
     if (!file_) return;
     file_->write(text_);
     file_->commit();
+}
+
+ProgressBar::ProgressBar(std::string title)
+    : title_(std::move(title)),
+      begin_(std::chrono::steady_clock::now()),
+      on_terminal_(::isatty(STDERR_FILENO) != 0) {}
+
+ProgressBar::~ProgressBar() {
+    if (shown_percent_ >= 0) std::cerr << "\r\x1b[K" << std::flush;
+}
+
+void ProgressBar::show(double share) {
+    if (!on_terminal_ || std::chrono::steady_clock::now() - begin_ < kPatience) return;
+    const int percent = static_cast<int>(100.0 * std::clamp(share, 0.0, 1.0));
+    if (percent == shown_percent_) return;
+    shown_percent_ = percent;
+    const auto full = static_cast<std::size_t>(percent * kWidth / 100);
+    std::cerr << '\r' << title_ << " [" << std::string(full, '#') << std::string(kWidth - full, '.')
+              << "] " << percent << " %" << std::flush;
 }
 
 }  // namespace dibhr

@@ -1,0 +1,227 @@
+// The actions of the key table; touching and turning with the mouse.
+#include "app/viewer/input.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "core/haptics/collision.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr double kSeekStep_s = 5.0;
+constexpr int kPicturesToFocus = 30;  // it takes two; a field out of sight never gets it
+constexpr double kSpeeds[] = {0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 3.0, 4.0};
+
+double faster_than(double speed) {
+    const auto* next = std::upper_bound(std::begin(kSpeeds), std::end(kSpeeds), speed + 1e-6);
+    return next == std::end(kSpeeds) ? *std::prev(std::end(kSpeeds)) : *next;
+}
+
+double slower_than(double speed) {
+    const auto* here = std::lower_bound(std::begin(kSpeeds), std::end(kSpeeds), speed - 1e-6);
+    return here == std::begin(kSpeeds) ? *here : *std::prev(here);
+}
+
+/// What the viewer does after the picture.
+constexpr std::pair<Action, bool Requests::*> kRequests[] = {
+    {Action::record, &Requests::toggle_recording},
+    {Action::mark, &Requests::mark},
+    {Action::reset_view, &Requests::reset_view},
+    {Action::toggle_full_screen, &Requests::full_screen},
+    {Action::take_screenshot, &Requests::screenshot},
+    {Action::quit, &Requests::quit}};
+
+void close_topmost(ViewerState& state) {
+    if (!state.message.empty()) {
+        state.message.clear();
+    } else {
+        state.help_open = false;
+    }
+}
+
+/// How what plays goes on: a video or a session.
+struct Course {
+    bool playing, looping;
+    double speed;
+    double now_s, begin_s, end_s;
+};
+
+/// What moves a video or a session; false when the action is not about that.
+template <typename AnyPlayer>
+bool move(Action action, const Course& course, AnyPlayer& player) {
+    const auto seek_by = [&](double step_s) {
+        const double end_s = std::max(course.begin_s, course.end_s);
+        player.seek(std::clamp(course.now_s + step_s, course.begin_s, end_s));
+    };
+    switch (action) {
+        case Action::play_or_pause:
+            course.playing ? player.pause() : player.play();
+            return true;
+        case Action::step_forward:
+            player.step(1);
+            return true;
+        case Action::step_back:
+            player.step(-1);
+            return true;
+        case Action::seek_forward:
+            seek_by(kSeekStep_s);
+            return true;
+        case Action::seek_back:
+            seek_by(-kSeekStep_s);
+            return true;
+        case Action::go_to_start:
+            player.seek(course.begin_s);
+            return true;
+        case Action::faster:
+            player.set_speed(faster_than(course.speed));
+            return true;
+        case Action::slower:
+            player.set_speed(slower_than(course.speed));
+            return true;
+        case Action::toggle_loop:
+            player.set_looping(!course.looping);
+            return true;
+        default:
+            return false;
+    }
+}
+
+constexpr double kOrbit_rad_per_px = 0.006;
+constexpr double kZoomPerStep = 1.12;
+
+bool inside(glm::dvec2 p, glm::ivec2 size) {
+    return p.x >= 0.0 && p.y >= 0.0 && p.x < size.x && p.y < size.y;
+}
+
+constexpr double kWheelStep_px = 4.0;
+
+/// Shortens [begin, end] of p = from + s * way to where `axis` of p is in [low, high]; false:
+/// nowhere.
+bool clip(const Vec3& from, const Vec3& way, int axis, double low, double high, double& begin,
+          double& end) {
+    if (std::abs(way[axis]) < 1e-12) return from[axis] >= low && from[axis] <= high;
+    const double a = (low - from[axis]) / way[axis];
+    const double b = (high - from[axis]) / way[axis];
+    begin = std::max(begin, std::min(a, b));
+    end = std::min(end, std::max(a, b));
+    return begin < end;
+}
+
+}  // namespace
+
+void perform(Action action, ViewerState& state, Player& player) {
+    const PlaybackStatus& now = state.playback;
+    if (move(action, {now.playing, now.looping, now.speed, now.media_s, 0.0, now.duration_s},
+             player)) {
+        return;
+    }
+    for (const auto& [asking, request] : kRequests) {
+        if (action == asking) state.requests.*request = true;
+    }
+    Settings& settings = state.settings;
+    switch (action) {
+        case Action::toggle_force:
+            state.force_enabled = !state.force_enabled;
+            break;
+        case Action::force_off:
+            state.force_enabled = false;
+            break;
+        case Action::centre_workspace:
+            ++state.centred;
+            break;
+        case Action::toggle_straight_view:
+            settings.straight_view = !settings.straight_view;
+            break;
+        case Action::toggle_panels:
+            settings.panels_visible = !settings.panels_visible;
+            break;
+        case Action::open_file:
+            settings.panels_visible = settings.panels.video = true;
+            state.fields.ask_for_keyboard = kPicturesToFocus;
+            break;
+        case Action::toggle_help:
+            state.help_open = !state.help_open;
+            break;
+        case Action::close_topmost:
+            close_topmost(state);
+            break;
+        default:
+            break;
+    }
+}
+
+bool perform_in_replay(Action action, SessionPlayer& replay) {
+    const SessionPlayback& now = replay.playback();
+    if (move(action, {now.playing, now.looping, now.speed, now.now_s, now.begin_s, now.end_s},
+             replay)) {
+        return true;
+    }
+    // No hand is touching.
+    return action == Action::toggle_force || action == Action::force_off ||
+           action == Action::centre_workspace || action == Action::mark;
+}
+
+PointerUse ReliefMouse::use(const Pointer& pointer, double wheel_steps, bool over_panel,
+                            glm::ivec2 viewport, Camera& camera) {
+    const bool over_relief = !over_panel && inside(pointer.position_px, viewport);
+    const bool any = pointer.left || pointer.right || pointer.middle;
+    if (!any) drag_ = Drag::none;
+    if (any && drag_ == Drag::none) {
+        drag_ = !over_relief                                         ? Drag::panel
+                : pointer.left                                       ? Drag::touch
+                : pointer.middle || (pointer.right && pointer.shift) ? Drag::pan
+                                                                     : Drag::orbit;
+        last_px_ = pointer.position_px;  // how the pointer came here turns nothing
+    }
+    const glm::dvec2 moved = pointer.position_px - last_px_;
+    last_px_ = pointer.position_px;
+    if (drag_ == Drag::orbit)
+        camera.orbit(moved.x * kOrbit_rad_per_px, moved.y * kOrbit_rad_per_px);
+    if (drag_ == Drag::pan) camera.pan(moved.x, -moved.y, viewport.y);
+    const bool touching = drag_ == Drag::touch && pointer.left;
+    if (!touching && over_relief && std::abs(wheel_steps) > 0.0)
+        camera.zoom(std::pow(kZoomPerStep, wheel_steps));
+    const bool free = drag_ == Drag::none && over_relief;
+    return {free || touching, touching, touching ? wheel_steps : 0.0};
+}
+
+std::optional<Vec3> surface_under(const Camera::Ray& ray, const DepthSurface& surface) {
+    const Vec3 way = ray.far_in_grid - ray.near_in_grid;
+    double begin = 0.0;
+    double end = 1.0;
+    if (!clip(ray.near_in_grid, way, 0, 0.0, surface.columns() - 1.0, begin, end) ||
+        !clip(ray.near_in_grid, way, 1, 0.0, surface.rows() - 1.0, begin, end)) {
+        return {};
+    }
+    const Vec3 first = surface.clamped_to_frame(ray.near_in_grid + begin * way);
+    const Vec3 last = surface.clamped_to_frame(ray.near_in_grid + end * way);
+    if (first.z < surface.elevation_at(first.x, first.y)) return first;
+    if (const auto hit = first_hit(surface, first, last)) return hit->position;
+    return {};
+}
+
+MouseTarget HandPointer::target(const Camera::Ray& ray, const DepthSurface& surface,
+                                const PointerUse& use) {
+    last_.pressed = use.pressed;
+    last_.wheel_px =
+        use.pressed ? std::max(0.0, last_.wheel_px + kWheelStep_px * use.wheel_steps) : 0.0;
+    if (!use.over_relief && !use.pressed) return last_;
+    Vec3 point{0.0};
+    if (const auto under = surface_under(ray, surface)) {
+        point = *under;
+        height_px_ = point.z;
+        last_.pointing = true;
+    } else {
+        const Vec3 way = ray.far_in_grid - ray.near_in_grid;
+        if (!last_.pointing || std::abs(way.z) < 1e-9) return last_;
+        point = ray.near_in_grid + (height_px_ - ray.near_in_grid.z) / way.z * way;
+    }
+    last_.cursor_in_grid = {point.x, point.y};
+    return last_;
+}
+
+}  // namespace dibhr
