@@ -87,7 +87,7 @@ TEST_CASE("report writes a page, pictures over the touched frame, and numbers", 
     const std::string page = read_text(folder / "mine/report.html");
     CHECK(contains(page, "P07 touched once for 0.7 s in all"));
     CHECK(contains(page, "over the frame that was touched longest: color.png"));
-    CHECK(contains(read_text(folder / "mine/report.json"), "\"columns\": 32, \"rows\": 24"));
+    CHECK(contains(read_text(folder / "mine/report.json"), "\"columns\": 32,\n      \"rows\": 24"));
 }
 
 TEST_CASE("report goes on over plain ground when a file is gone or has changed, and says so",
