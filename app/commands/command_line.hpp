@@ -39,7 +39,6 @@ int run_touch(CLI::App& app, const Arguments& arguments);
 /// Whether the runs that change nothing gave the recorded bits, and a table of all runs. 1 when
 /// those bits differ.
 int run_replay(CLI::App& app, const Arguments& arguments);
-/// The paper's evaluation.
 int run_experiment(CLI::App& app, const Arguments& arguments);
 /// Every tick, by the names of the session's view `tick`.
 int run_export(CLI::App& app, const Arguments& arguments);
@@ -50,7 +49,6 @@ int run_info(CLI::App& app, const Arguments& arguments);
 /// 0: a Falcon can be used, or none is attached and the mouse can be. Throws DeviceError when
 /// Falcons are attached and none can be used. With --check, leads a person through the check.
 int run_devices(CLI::App& app, const Arguments& arguments);
-/// Measures and prints.
 int run_bench(CLI::App& app, const Arguments& arguments);
 
 }  // namespace dibhr

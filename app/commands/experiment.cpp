@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <functional>
 #include <iostream>
 #include <optional>
 #include <span>
@@ -134,15 +133,6 @@ void check_path(const std::string& path) {
     throw CLI::ValidationError("PATH", "'" + path + "' is none of " + choices);
 }
 
-/// --NAME: a number in [lowest, highest].
-CLI::Option* add_number(CLI::App& app, const std::string& name, double lowest, double highest,
-                        const std::string& help, const std::function<void(double)>& take) {
-    const std::string option = name.substr(0, name.find(','));
-    return app.add_option_function<std::string>(
-        name, [=](const std::string& text) { take(parse_number(option, text, lowest, highest)); },
-        help);
-}
-
 void add_options(CLI::App& app, ExperimentOptions& options) {
     app.add_option_function<std::string>(
            "PATH",
@@ -162,18 +152,19 @@ void add_options(CLI::App& app, ExperimentOptions& options) {
              "Hand of human: a pen's or mouse's trace (CSV: t_s,x_mm,y_mm[,pressure01]"
              "[,pen_down]); without either a modelled one");
     add_algorithms_option(app, options.algorithms);
-    add_number(app, "--friction,--mu", 0.0, 5.0, "Coefficient of friction, 0 to 5; not for sweep",
-               [&options](double mu) { options.mu = mu; })
+    add_number_option(app, "--friction,--mu", 0.0, 5.0,
+                      "Coefficient of friction, 0 to 5; not for sweep",
+                      [&options](double mu) { options.mu = mu; })
         ->type_name("MU")
         ->default_str("0.4");
-    add_number(app, "--depth", 0.1, 1000.0,
-               "Of the goals of linear and circle below the surface, 0.1 to 1000",
-               [&options](double depth_px) { options.depth_px = depth_px; })
+    add_number_option(app, "--depth", 0.1, 1000.0,
+                      "Of the goals of linear and circle below the surface, 0.1 to 1000",
+                      [&options](double depth_px) { options.depth_px = depth_px; })
         ->type_name("PX")
         ->default_str("20");
-    add_number(app, "--relief", 0.0, 4096.0,
-               "Elevation of the sample's nearest depth, for human, 0 to 4096",
-               [&options](double relief_px) { options.human.shape.relief_px = relief_px; })
+    add_number_option(app, "--relief", 0.0, 4096.0,
+                      "Elevation of the sample's nearest depth, for human, 0 to 4096",
+                      [&options](double relief_px) { options.human.shape.relief_px = relief_px; })
         ->type_name("PX")
         ->default_str("255");
     app.add_flag("--raw-depth", options.human.raw_depth, "The sample's depth without cleaning");

@@ -145,12 +145,8 @@ int run_view(CLI::App& app, const Arguments& arguments) {
     add_file(app, "--record", options.record,
              "Records every tick into a new session file (.dibhr)");
     add_file(app, "--screenshot", options.screenshot, "Saves the last picture as PNG");
-    app.add_option_function<std::string>(
-           "--seconds",
-           [&options](const std::string& text) {
-               options.seconds = parse_number("--seconds", text, 0.0, kLongestRun_s);
-           },
-           "Leaves after so long")
+    add_number_option(app, "--seconds", 0.0, kLongestRun_s, "Leaves after so long",
+                      [&options](double seconds) { options.seconds = seconds; })
         ->type_name("S");
     app.add_flag_function(
         "--no-sync", [&options](std::int64_t) { options.sync = false; },

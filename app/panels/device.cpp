@@ -54,14 +54,6 @@ ForceSwitch force_switch(const ViewerState& state) {
     return {"Force is ON###force", {0.14F, 0.38F, 0.33F, 1.0F}, "Take the force off (F)"};
 }
 
-void draw_front_switch(FalconSettings& settings) {
-    flag_row("Force only while the window is in front", settings.force_in_front_only,
-             FalconSettings{}.force_in_front_only,
-             "No force while the keyboard goes to another window, or this one is an icon: the hand "
-             "is safe while nobody looks. Switch it off when one person touches and another works "
-             "in another window, in an experiment say");
-}
-
 }  // namespace
 
 void draw_force_switch(ViewerState& state, float width) {
@@ -86,7 +78,13 @@ void draw_device_panel(ViewerState& state) {
     }
     fact_row("State", state_text(state));
     draw_force_switch(state, -1.0F);
-    if (state.falcon) draw_front_switch(state.settings.falcon);
+    if (state.falcon) {
+        flag_row("Force only while the window is in front",
+                 state.settings.falcon.force_in_front_only, FalconSettings{}.force_in_front_only,
+                 "No force while the keyboard goes to another window, or this one is an icon: the "
+                 "hand is safe while nobody looks. Switch it off when one person touches and "
+                 "another works in another window, in an experiment say");
+    }
     const SafetyLimits standard;
     number_row({"Max force", "%.1f N", 0.0, state.device.limits.max_force_newton,
                 standard.max_force_newton, "No more than this is ever sent"},

@@ -168,13 +168,6 @@ void draw_progress(const falcon::Status& status) {
     ImGui::PopStyleColor();
 }
 
-void draw_firmware(ViewerState& state) {
-    if (!state.falcon->firmware_trouble.empty()) {
-        trouble_text(capitalised(state.falcon->firmware_trouble));
-    }
-    draw_firmware_field(state);
-}
-
 void draw_exchange(const ViewerState& state) {
     const falcon::Status& status = state.falcon->status;
     draw_light(state);
@@ -276,7 +269,11 @@ void draw_falcon_state(ViewerState& state) {
             ImGui::TextWrapped("%s", sentence.c_str());
         }
     }
-    if (status.stage == Stage::no_firmware) draw_firmware(state);
+    if (status.stage == Stage::no_firmware) {
+        const std::string& trouble = state.falcon->firmware_trouble;
+        if (!trouble.empty()) trouble_text(capitalised(trouble));
+        draw_firmware_field(state);
+    }
     if (status.stage == Stage::loading) draw_progress(status);
     if (status.stage == Stage::homing) draw_homing_guide(state);
     if (status.stage == Stage::homing || status.stage == Stage::ready) draw_exchange(state);

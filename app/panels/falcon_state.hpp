@@ -17,7 +17,7 @@ namespace dibhr {
 [[nodiscard]] SafetyLimits safety_limits(const ViewerState& state);
 
 /// No force until the window is in front again: people work in another one while a Falcon touches
-/// or may begin to (fact sheet, section 11).
+/// or may begin to.
 [[nodiscard]] bool waits_for_front(const ViewerState& state);
 
 /// The hand moves under a held point: no force, and nothing is wrong.

@@ -21,8 +21,7 @@ fs::path file_starting_with(const fs::path& folder, const std::string& stem) {
                      ": install the program again, or name a colour and a depth file");
 }
 
-}  // namespace
-
+/// `../share/dibhr` of the running program, else the `assets` of the source tree it was built from.
 fs::path assets_folder() {
     std::error_code failed;
     const auto binary = fs::read_symlink("/proc/self/exe", failed);
@@ -35,6 +34,8 @@ fs::path assets_folder() {
     throw InputError("the program's own files are missing (looked beside " + binary.string() +
                      "): install it again, or name a colour and a depth file");
 }
+
+}  // namespace
 
 SampleFiles sample_files() {
     const auto folder = assets_folder() / "sample";

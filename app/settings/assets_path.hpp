@@ -6,10 +6,6 @@
 
 namespace dibhr {
 
-/// The folder that holds `sample`, `bump` and the like: `../share/dibhr` of the running program,
-/// else the source tree's `assets` it was built from. Throws InputError when neither exists.
-[[nodiscard]] std::filesystem::path assets_folder();
-
 /// The built-in sample, a colour file and a depth file. Throws InputError when one is missing.
 struct SampleFiles {
     std::filesystem::path colour{};

@@ -60,17 +60,19 @@ std::string range_of(double lowest, double highest) {
     return text_of(lowest) + " to " + text_of(highest);
 }
 
-void add_number(CLI::App& app, GivenParameters& given, const TouchNumber& option) {
-    const std::string name = "--" + std::string(option.name);
-    app.add_option_function<std::string>(
-           name,
-           [&given, &option, name](const std::string& text) {
-               given.numbers.emplace_back(&option,
-                                          parse_number(name, text, option.lowest, option.highest));
-           },
-           std::string(option.help) + ", " + range_of(option.lowest, option.highest))
-        ->type_name(placeholder_of(option))
-        ->default_str(text_of(option.standard()));
+/// Throws CLI::ValidationError that names `option`.
+double parse_number(const std::string& option, const std::string& text, double lowest,
+                    double highest) {
+    double value = 0.0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc{} || stop != end || !std::isfinite(value)) {
+        throw CLI::ValidationError(option, "'" + text + "' is not a number");
+    }
+    if (value < lowest || value > highest) {
+        throw CLI::ValidationError(option, text + " is not in " + range_of(lowest, highest));
+    }
+    return value;
 }
 
 }  // namespace
@@ -103,18 +105,13 @@ std::string roughness_warning(const GivenParameters& given, bool has_bump) {
     return "--roughness changes nothing without a bump map; give one with --bump IMAGE";
 }
 
-double parse_number(const std::string& option, const std::string& text, double lowest,
-                    double highest) {
-    double value = 0.0;
-    const char* const end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, value);
-    if (error != std::errc{} || stop != end || !std::isfinite(value)) {
-        throw CLI::ValidationError(option, "'" + text + "' is not a number");
-    }
-    if (value < lowest || value > highest) {
-        throw CLI::ValidationError(option, text + " is not in " + range_of(lowest, highest));
-    }
-    return value;
+CLI::Option* add_number_option(CLI::App& app, const std::string& name, double lowest,
+                               double highest, const std::string& help,
+                               const std::function<void(double)>& take) {
+    const std::string option = name.substr(0, name.find(','));
+    return app.add_option_function<std::string>(
+        name, [=](const std::string& text) { take(parse_number(option, text, lowest, highest)); },
+        help);
 }
 
 void add_algorithms_option(CLI::App& app, std::vector<Algorithm>& algorithms) {
@@ -152,19 +149,21 @@ void add_touch_options(CLI::App& app, TouchRequest& request) {
            "How the proxy follows the goal: " + names_of(all_algorithms()))
         ->type_name("NAME")
         ->default_str("dibhr");
-    app.add_option_function<std::string>(
-           "--friction",
-           [&request](const std::string& text) {
-               // The range is that of the coefficients it stands for.
-               TouchParameters any;
-               const TouchNumber& number = number_of(any.friction.static_coefficient, any);
-               request.given.friction =
-                   parse_number("--friction", text, number.lowest, number.highest);
-           },
-           "Both coefficients of friction; one given by itself wins")
+    // The range is that of the coefficients it stands for.
+    TouchParameters any;
+    const TouchNumber& coefficient = number_of(any.friction.static_coefficient, any);
+    add_number_option(app, "--friction", coefficient.lowest, coefficient.highest,
+                      "Both coefficients of friction; one given by itself wins",
+                      [&request](double mu) { request.given.friction = mu; })
         ->type_name("MU");
     for (const TouchNumber& option : touch_numbers()) {
-        add_number(app, request.given, option);
+        add_number_option(app, "--" + std::string(option.name), option.lowest, option.highest,
+                          std::string(option.help) + ", " + range_of(option.lowest, option.highest),
+                          [&request, &option](double value) {
+                              request.given.numbers.emplace_back(&option, value);
+                          })
+            ->type_name(placeholder_of(option))
+            ->default_str(text_of(option.standard()));
     }
     app.add_option("--bump", request.bump, "Bump map laid over the surface: an 8- or 16-bit image")
         ->type_name("IMAGE");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -42,10 +43,10 @@ struct TouchRequest {
 /// That a roughness is given, but no bump map that it could scale, as a sentence; or empty.
 [[nodiscard]] std::string roughness_warning(const GivenParameters& given, bool has_bump);
 
-/// A finite decimal number in [lowest, highest], and nothing else. Throws CLI::ValidationError that
-/// names `option`.
-[[nodiscard]] double parse_number(const std::string& option, const std::string& text, double lowest,
-                                  double highest);
+/// --NAME: a finite decimal number in [lowest, highest], and nothing else, given to `take`.
+CLI::Option* add_number_option(CLI::App& app, const std::string& name, double lowest,
+                               double highest, const std::string& help,
+                               const std::function<void(double)>& take);
 
 /// --algorithm NAME, several times. `algorithms` must outlive the parsing of `app`.
 void add_algorithms_option(CLI::App& app, std::vector<Algorithm>& algorithms);

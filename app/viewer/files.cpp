@@ -42,7 +42,7 @@ bool shows_grey(const fs::path& colour, const fs::path& depth) {
 
 Opened try_open(const OpenRequest& request) {
     try {
-        if (asks_for_session(request)) {
+        if (request.depth.empty() && names_session(request.colour)) {
             return {nullptr, std::make_unique<OpenedSession>(request.colour, false), {}};
         }
         return {open_request(request), nullptr, {}};
@@ -127,10 +127,6 @@ std::unique_ptr<Media> open_request(const OpenRequest& request) {
         if (swapped) std::swap(colour, depth);
     }
     return open_media(colour, depth);
-}
-
-bool asks_for_session(const OpenRequest& request) {
-    return request.depth.empty() && names_session(request.colour);
 }
 
 std::optional<OpenRequest> dropped_request(const std::vector<fs::path>& files) {

@@ -72,9 +72,6 @@ struct Opened {
 /// grey. Throws InputError.
 [[nodiscard]] std::unique_ptr<Media> open_request(const OpenRequest& request);
 
-/// Whether a session is asked for, and nothing else.
-[[nodiscard]] bool asks_for_session(const OpenRequest& request);
-
 /// One or two dropped files as a request; nothing for none or more than two.
 [[nodiscard]] std::optional<OpenRequest> dropped_request(
     const std::vector<std::filesystem::path>& files);

@@ -58,12 +58,8 @@ std::map<std::string, std::string> session_facts(const ViewerState& state) {
 std::uint32_t ViewerRecording::opened(const MediaDescription& media) {
     opened_.push_back(media);
     const auto number = static_cast<std::uint32_t>(opened_.size());
-    if (recorder_) tell_of(media, number);
+    if (recorder_) recorder_->media(number, media.colour_path, media.depth_path);
     return number;
-}
-
-void ViewerRecording::tell_of(const MediaDescription& media, std::uint32_t number) {
-    recorder_->media(number, media.colour_path, media.depth_path);
 }
 
 void ViewerRecording::start(const std::filesystem::path& file, ViewerState& state) {
@@ -75,8 +71,9 @@ void ViewerRecording::start(const std::filesystem::path& file, ViewerState& stat
     facts.emplace(kParticipant, participant_);
     facts.emplace(kNote, note_);
     recorder_ = std::make_unique<Recorder>(file, ticks_, facts);
-    for (std::size_t k = 0; k < opened_.size(); ++k) {
-        tell_of(opened_[k], static_cast<std::uint32_t>(k + 1));
+    std::uint32_t number = 0;
+    for (const MediaDescription& media : opened_) {
+        recorder_->media(++number, media.colour_path, media.depth_path);
     }
     told_version_ = 0;
     falcon_serial_.clear();

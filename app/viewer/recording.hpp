@@ -43,7 +43,6 @@ class ViewerRecording {
     void finish();
 
   private:
-    void tell_of(const MediaDescription& media, std::uint32_t number);
     void break_off(ViewerState& state, const std::string& failure);
     [[nodiscard]] double now_s() const;
 

@@ -109,8 +109,10 @@ void Viewer::take_news() {
     for (ForceSample sample; forces_->pop(sample);) state_.forces.add(sample.sent_newton);
     state_.pictures_per_s = pace_.pictures_per_s();
     take_opened();
-    tell_once(state_.replay ? state_.replay->playback.failure : state_.playback.failure,
-              playback_failure_);
+    const std::string& failure =
+        state_.replay ? state_.replay->playback.failure : state_.playback.failure;
+    if (!failure.empty() && failure != playback_failure_) state_.message = failure;
+    playback_failure_ = failure;
     attempt([this] {
         while (const auto notice = screenshots_.take()) tell(*notice);
     });
@@ -241,12 +243,6 @@ void Viewer::write_last_picture() {
     draw_scene(relief_viewport());
     draw_panels();
     write_png(read_framebuffer(window_.framebuffer_size()), options_.screenshot);
-}
-
-void Viewer::tell_once(const std::string& failure, std::string& told) {
-    if (failure == told) return;
-    told = failure;
-    if (!failure.empty()) state_.message = failure;
 }
 
 void Viewer::tell(const std::string& notice) {

@@ -93,8 +93,6 @@ class Viewer {
             state_.message = error.what();
         }
     }
-    /// A message box when another thread's failure is not the one `told` before.
-    void tell_once(const std::string& failure, std::string& told);
     [[nodiscard]] double now_s() const;
     [[nodiscard]] bool over();
     [[nodiscard]] glm::ivec2 relief_viewport() const;
