@@ -175,47 +175,48 @@ TEST_CASE("a bad image is refused with a reason and the surface stays as it was"
     Handle hand;
     REQUIRE(dibhr_set_depth(hand.c, &good, nullptr) == DIBHR_OK);
     dibhr_image bad = good;
-    std::string reason;
+    const auto is_refused = [&](const std::string& reason) {
+        CHECK(dibhr_set_depth(hand.c, &bad, nullptr) == DIBHR_BAD_ARGUMENT);
+        CHECK(hand.error().find(reason) != std::string::npos);
+        CHECK(dibhr_set_depth(hand.c, &good, &bad) == DIBHR_BAD_ARGUMENT);
+        CHECK(dibhr_push_depth(hand.c, &bad) == DIBHR_BAD_ARGUMENT);
+        double z = 0.0;
+        REQUIRE(dibhr_elevation(hand.c, 1.5, 1.5, &z) == DIBHR_OK);
+        CHECK(z == 77.0);
+    };
     SECTION("no levels") {
         bad.levels = nullptr;
-        reason = "NULL";
+        is_refused("NULL");
     }
     SECTION("too small") {
         bad.rows = 1;
-        reason = "at least 2 x 2";
+        is_refused("at least 2 x 2");
     }
     SECTION("a negative size") {
         bad.columns = -3;
-        reason = "at least 2 x 2";
+        is_refused("at least 2 x 2");
     }
     SECTION("rows that overlap") {
         bad.row_bytes = 2;
-        reason = "rows of 2 bytes";
+        is_refused("rows of 2 bytes");
     }
     SECTION("a level above the highest") {
         bad.highest_level = 76.0;
-        reason = "not in 0 to 76";
+        is_refused("not in 0 to 76");
     }
     SECTION("a level that is no number") {
         floats[4] = std::numeric_limits<float>::quiet_NaN();
         bad = image_of(floats, 3, DIBHR_LEVELS_FLOAT);
-        reason = "not in 0 to 1";
+        is_refused("not in 0 to 1");
     }
     SECTION("a highest level of nothing") {
         bad.highest_level = -1.0;
-        reason = "highest level";
+        is_refused("highest level");
     }
     SECTION("a type that there is not") {
         bad.type = 7;
-        reason = "type";
+        is_refused("type");
     }
-    CHECK(dibhr_set_depth(hand.c, &bad, nullptr) == DIBHR_BAD_ARGUMENT);
-    CHECK(hand.error().find(reason) != std::string::npos);
-    CHECK(dibhr_set_depth(hand.c, &good, &bad) == DIBHR_BAD_ARGUMENT);
-    CHECK(dibhr_push_depth(hand.c, &bad) == DIBHR_BAD_ARGUMENT);
-    double z = 0.0;
-    REQUIRE(dibhr_elevation(hand.c, 1.5, 1.5, &z) == DIBHR_OK);
-    CHECK(z == 77.0);
 }
 
 TEST_CASE("two depth images of different sizes are refused", "[c_api]") {
