@@ -18,7 +18,6 @@
 #include <utility>
 
 #include "app/commands/command_line.hpp"
-#include "core/experiment/exact_plane.hpp"
 #include "core/experiment/experiment.hpp"
 #include "core/files/json.hpp"
 #include "core/files/output_file.hpp"

@@ -12,7 +12,6 @@
 #include "app/settings/assets_path.hpp"
 #include "core/error.hpp"
 #include "core/experiment/hand_motion.hpp"
-#include "core/experiment/modelled_hand.hpp"
 #include "core/session/session.hpp"
 #include "core/video/media.hpp"
 

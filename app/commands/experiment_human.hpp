@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/experiment/experiment.hpp"
-#include "core/experiment/hand_trace.hpp"
+#include "core/experiment/hand_motion.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/video/frame_window.hpp"
 

@@ -1,10 +1,13 @@
 // The evaluation in pictures: where the proxies went, how their forces turned, how far from exact.
 #pragma once
 
+#include <cstddef>
+#include <string>
 #include <vector>
 
 #include "core/experiment/experiment.hpp"
 #include "core/files/output_folder.hpp"
+#include "core/plot/axes.hpp"
 #include "core/plot/canvas.hpp"
 
 namespace dibhr {
@@ -44,5 +47,64 @@ void write_sweep_plot(const std::vector<SweepPoint>& points, const PlotFiles& fi
 /// A few pixels of the circle beside the turning of the force: the picture of the page that
 /// explains.
 [[nodiscard]] Canvas plot_explanation(const PathRun& circle);
+
+/// The square part of the image around one update.
+struct MagnifiedPlace {
+    Vec2 centre{0.0};
+    double side_px{14.0};   ///< of the image
+    std::size_t update{0};  ///< whose springs are drawn
+};
+
+/// Among the updates that the other plots show: where the algorithms differ as much as they do in
+/// half of the updates in contact; it holds the goal and the proxies of that update.
+[[nodiscard]] MagnifiedPlace typical_place(const PathRun& path);
+
+/// Updates from one marker to the next, so that a slow hand's markers do not cover each other.
+[[nodiscard]] std::size_t updates_a_marker(const PathRun& path, const MagnifiedPlace& place);
+
+/// How far apart the proxies were in this update, seen from above, summed over the runs [px].
+[[nodiscard]] double separation_px(const PathRun& path, std::size_t update);
+
+/// Draws the place into `area`, which must be square; `under` as in plot_paths.
+void draw_magnified(Canvas& canvas, Box area, const PathRun& path, const MagnifiedPlace& place,
+                    const ColourImage* under);
+
+/// From `first` up to, not including, `end`.
+struct UpdateSpan {
+    std::size_t first{0};
+    std::size_t end{0};
+};
+
+/// One update is a millisecond.
+[[nodiscard]] inline double seconds_of(std::size_t update) noexcept {
+    return 1e-3 * static_cast<double>(update);
+}
+
+/// Three tenths of a second of a path that repeats itself, after it settled; the whole of an
+/// exploration.
+[[nodiscard]] UpdateSpan shown_updates(const PathRun& path);
+
+[[nodiscard]] Axis time_axis(UpdateSpan updates, bool numbered);
+
+/// A round number above nearly every turn of every algorithm in the updates shown [deg].
+[[nodiscard]] double highest_turn_deg(const PathRun& path);
+
+/// "turns 4.13 deg an update (sd 6.77), sliding 3.90 (sd 2.10)": over all updates, and without
+/// those in which the hand reverses.
+[[nodiscard]] std::string turning_words(const VariationStatistics& variation);
+
+/// "3.90 (sd 2.10)": the second half of the above.
+[[nodiscard]] std::string sliding_words(const VariationStatistics& variation);
+
+struct TurningScale {
+    double highest_deg{1.0};
+    bool numbered{true};  ///< the time axis
+};
+
+void draw_turning(Canvas& canvas, Box area, const PathRun& path, const AlgorithmRun& run,
+                  TurningScale scale);
+
+/// Friction, depth and where the goals come from.
+[[nodiscard]] std::string settings_of(const PathRun& path);
 
 }  // namespace dibhr

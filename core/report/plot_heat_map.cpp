@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/plot/axes.hpp"
-#include "core/plot/style.hpp"
 #include "core/report/report_plots.hpp"
 
 namespace dibhr {

@@ -9,7 +9,6 @@
 
 #include "core/files/plain_text.hpp"
 #include "core/plot/axes.hpp"
-#include "core/plot/style.hpp"
 #include "core/report/report_plots.hpp"
 
 namespace dibhr {

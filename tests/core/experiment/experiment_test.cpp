@@ -4,7 +4,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/experiment/exact_plane.hpp"
 #include "core/experiment/experiment.hpp"
 #include "core/haptics/dibhr.hpp"
 #include "core/metrics/force_variation.hpp"

@@ -13,8 +13,6 @@
 
 #include "core/error.hpp"
 #include "core/experiment/hand_motion.hpp"
-#include "core/experiment/hand_trace.hpp"
-#include "core/experiment/modelled_hand.hpp"
 #include "tests/core/haptics/surfaces.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"

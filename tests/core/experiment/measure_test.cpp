@@ -8,7 +8,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/experiment/exact_plane.hpp"
 #include "core/experiment/experiment.hpp"
 #include "core/metrics/force_variation.hpp"
 #include "tests/support/catch.hpp"

@@ -13,12 +13,9 @@
 
 #include "core/error.hpp"
 #include "core/experiment/experiment.hpp"
-#include "core/experiment/plot_magnified.hpp"
-#include "core/experiment/plot_turning.hpp"
 #include "core/experiment/plots.hpp"
 #include "core/metrics/force_variation.hpp"
 #include "core/plot/axes.hpp"
-#include "core/plot/style.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 

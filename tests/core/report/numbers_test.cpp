@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/report/session_numbers.hpp"
-#include "core/report/touched_places.hpp"
 #include "tests/core/report/made_session.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
