@@ -8,11 +8,12 @@
 
 namespace dibhr {
 
+/// The defaults are for a Falcon (device/falcon/README.md, Safety numbers).
 struct SafetyLimits {
     double max_force_newton{4.0};          ///< the smaller of the device's limit and the user's
-    double max_change_newton_per_ms{0.5};  ///< Falcon fact sheet, section 11: suggested slew limit
+    double max_change_newton_per_ms{0.5};  ///< slew limit
     double ramp_s{0.5};                    ///< the rise from zero to full force
-    double max_tick_s{0.020};  ///< a longer tick is late: no force (reply older than 20 ms)
+    double max_tick_s{0.020};  ///< a longer tick is late: no force (the Falcon's README: 20 ms)
     /// A faster goal is a jump, not a hand (10 m/s) [image mm].
     double max_goal_speed_mm_per_ms{10.0};
 

@@ -13,7 +13,7 @@ class ButtonDebounce {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// "Debounce 5-10 ms" (fact sheet, section 8).
+    /// README.md, Buttons.
     static constexpr std::chrono::milliseconds kSteady{8};
 
     /// Takes Reply::buttons of a reply that came at `at`; gives the steady ones, bits of Button.

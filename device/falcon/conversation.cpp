@@ -9,10 +9,10 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kOldestCommand{
-    20};  // "reply older than 20 ms": zero (fact sheet, section 11)
-constexpr milliseconds kNeverSilentFor{12};  // "poll always" (section 11)
-constexpr int kZerosAfterForce = 5;          // "zero before stopping", as on exit (section 11)
+// README.md, Safety numbers.
+constexpr milliseconds kOldestCommand{20};
+constexpr milliseconds kNeverSilentFor{12};
+constexpr int kZerosAfterForce = 5;
 constexpr milliseconds kRatePeriod{500};
 constexpr milliseconds kLoopPauses{200};  // without a command from the haptic loop
 
@@ -95,13 +95,13 @@ Command Conversation::command(Time now) {
     const TimedCommand& wanted = exchange_.commands.front();
     const bool ready = memory_.homing.ready();
     Command command;
-    // "Keep it set; whether clearing loses homing is [?]" (section 9).
+    // Nobody knows whether clearing it loses homing (README.md, Homing and lamp).
     command.homing = true;
     if (ready && zeros_owed_ == 0 && wanted.session == memory_.homing.session() &&
         now - wanted.at <= kOldestCommand) {
         command.motor = wanted.motor;
     }
-    // "Red = needs homing, blue = ready, green = active" (section 9).
+    // Red: to be homed; blue: ready; green: force.
     command.led = !ready ? Led::red : any(command.motor) ? Led::green : Led::blue;
     return command;
 }

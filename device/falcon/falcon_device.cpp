@@ -18,10 +18,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kOldestReply{20};  // zero beyond it (fact sheet, section 11)
-constexpr double kMaxForce_newton = 8.0;               // "CHAI3D: 8 N" (section 11)
-constexpr double kMaxStiffness_newton_per_mm = 1.0;    // "stiffness <= 1000 N/m" (section 11)
-constexpr double kExtent_mm = 101.6;                   // "4 x 4 x 4 inch" (section 10)
+// README.md, Safety numbers.
+constexpr std::chrono::milliseconds kOldestReply{20};
+constexpr double kMaxForce_newton = 8.0;
+constexpr double kMaxStiffness_newton_per_mm = 1.0;
+constexpr double kExtent_mm = 101.6;  // 4 inches
 constexpr double kMetre_mm = 1000.0;
 constexpr double kAboveAll_px = 6.0;
 

@@ -1,5 +1,4 @@
-// A user's firmware file: its structure, its name, and where it is kept (fact sheet, sections 6
-// and 7).
+// A user's firmware file: its structure, its name, and where it is kept.
 #include "device/falcon/firmware_image.hpp"
 
 #include <algorithm>
@@ -42,7 +41,7 @@ struct Block {
     bool operator==(const Block&) const = default;
 };
 
-/// Known by the first half of its SHA-256 (fact sheet, section 7).
+/// Known by the first half of its SHA-256. README.md, Firmware images.
 struct KnownImage {
     std::string_view sha256_begins;
     std::string_view name;
@@ -53,7 +52,7 @@ constexpr std::array<KnownImage, 4> kKnownImages{
     KnownImage{"ae838730af34b582", "novint_T0.bin (Novint)"},
     KnownImage{"e0ae3598670fa1c8", "novint_T2.bin (Novint)"}};
 
-/// How the known images are laid out (section 7); none has more than five blocks.
+/// How the known images are laid out; none has more than five blocks.
 struct KnownLayout {
     std::string_view file;
     std::array<Block, 5> blocks;

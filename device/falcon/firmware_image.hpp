@@ -1,4 +1,4 @@
-// A user's firmware file, checked before a byte of it is sent (fact sheet, sections 6 and 7).
+// A user's firmware file, checked before a byte of it is sent (README.md, Firmware images).
 #pragma once
 
 #include <cstdint>

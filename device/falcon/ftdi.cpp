@@ -1,4 +1,4 @@
-// What the FT232R's IN packets hold (fact sheet, section 4).
+// What the FT232R's IN packets hold (README.md, IN packets).
 #include "device/falcon/ftdi.hpp"
 
 #include <algorithm>

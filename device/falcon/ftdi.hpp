@@ -1,5 +1,5 @@
-// The FT232R between USB and the Falcon: its requests, and what its IN packets hold (fact sheet,
-// sections 2 to 4).
+// The FT232R between USB and the Falcon: its requests, and what its IN packets hold
+// (README.md: USB identity, FTDI requests, IN packets).
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace dibhr::falcon {
 
-/// Not the 6001 of a plain FTDI adapter (section 2).
+/// Not the 6001 of a plain FTDI adapter.
 inline constexpr std::uint16_t kVendor = 0x0403;
 inline constexpr std::uint16_t kProduct = 0xcb48;
 inline constexpr int kInterface = 0;
@@ -18,7 +18,7 @@ inline constexpr std::size_t kUsbPacketBytes = 64;
 inline constexpr std::size_t kStatusBytes = 2;
 inline constexpr std::size_t kMostDataBytes = kUsbPacketBytes - kStatusBytes;
 
-/// A vendor request from the host to the chip: type 0x40, no data (section 3).
+/// A vendor request from the host to the chip: type 0x40, no data.
 struct FtdiRequest {
     std::uint8_t request{0};
     std::uint16_t value{0};
@@ -42,9 +42,9 @@ inline constexpr FtdiRequest kNoFlowControl{2, 0};
 inline constexpr FtdiRequest kBaud9600{3, 0x4138};       // / 312.5
 inline constexpr FtdiRequest kBaud142857{3, 0x0015};     // / 21: "140000" of libnifalcon
 inline constexpr FtdiRequest kBaud140351{3, 0x0015, 1};  // / 21.375: "140000" of libftdi and D2XX
-inline constexpr FtdiRequest kBaud115200{3, 0x001a};   // / 26; untested as an upload's (section 6)
-inline constexpr FtdiRequest kBaud57600{3, 0xc034};    // / 52.125 as section 6 has it; untested
-inline constexpr FtdiRequest kBaudRunTime{3, 0x0002};  // / 2 = 1 500 000
+inline constexpr FtdiRequest kBaud115200{3, 0x001a};     // / 26; untested as an upload's
+inline constexpr FtdiRequest kBaud57600{3, 0xc034};      // / 52.125; untested
+inline constexpr FtdiRequest kBaudRunTime{3, 0x0002};    // / 2 = 1 500 000
 
 inline constexpr FtdiRequest kEightBitsNoParity{4, 0x0008};
 
@@ -59,7 +59,7 @@ inline constexpr FtdiRequest kLatencyRunTime{9, 1};
 // again.
 inline constexpr FtdiRequest kLatencyWhilePaused{9, 6};
 
-/// Bits of the second status byte, the line's (section 4).
+/// Bits of the second status byte, the line's.
 inline constexpr std::uint8_t kOverrun = 0x02;      // bytes were lost
 inline constexpr std::uint8_t kParityError = 0x04;  // a byte is not what was sent
 inline constexpr std::uint8_t kFramingError = 0x08;

@@ -1,4 +1,4 @@
-// What the replies say of homing (fact sheet, section 9).
+// What the replies say of homing.
 #include "device/falcon/homing.hpp"
 
 #include <bit>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint8_t kAllAxes = 7;
 constexpr int kMotion_counts = 25;  // 0.9 degrees of thigh: more than an encoder's tremble
-constexpr std::chrono::seconds kPatience{20};  // "no motion and no homing for 20 s" (section 12)
+constexpr std::chrono::seconds kPatience{20};  // "no motion and no homing for 20 s"
 
 bool moved_between(const Counts& a, const Counts& b) noexcept {
     for (std::size_t k = 0; k < a.size(); ++k) {

@@ -1,5 +1,5 @@
-// What the replies say of homing: when poses may be trusted, and when a person needs a hint (fact
-// sheet, section 9).
+// What the replies say of homing: when poses may be trusted, and when a person needs a hint
+// (README.md, Homing and lamp).
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// The delta mechanism of the Falcon (fact sheet, section 10; Stamper's thesis, chapter 3).
+// The delta mechanism of the Falcon (README.md, Kinematics; Stamper's thesis, chapter 3).
 #include "device/falcon/kinematics.hpp"
 
 #include <glm/geometric.hpp>
@@ -11,9 +11,9 @@ namespace dibhr::falcon {
 
 namespace {
 
-constexpr double kCountsPerTurn = 1280.0;  // of the motor: 320 slots, x4 (fact sheet, section 1)
+constexpr double kCountsPerTurn = 1280.0;  // of the motor: 320 slots, x4
 
-/// The direction of a leg, seen from the front: 105, -15 and -135 degrees (fact sheet, section 10).
+/// The direction of a leg, seen from the front: 105, -15 and -135 degrees.
 struct Leg {
     double cos{0.0};
     double sin{0.0};

@@ -1,4 +1,4 @@
-// Where the grip is, from three thigh angles, and back (fact sheet, section 10).
+// Where the grip is, from three thigh angles, and back (README.md, Kinematics).
 // Frame: x right, y up, z out of the base towards the person, metres, origin on the base plane.
 #pragma once
 

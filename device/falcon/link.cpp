@@ -17,8 +17,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kSendAgainAfter{8};  // "resend after ~5-10 ms without one" (section 11)
-constexpr milliseconds kGiveUpAfter{1000};  // "give up after ~1 s" (section 11)
+constexpr milliseconds kSendAgainAfter{8};  // README.md, Reply rate
+constexpr milliseconds kGiveUpAfter{1000};  // README.md, Reply rate
 constexpr int kMostCancelWaits = 20;        // of 100 ms: the kernel answers at once
 constexpr std::size_t kUsualReplies = 64;   // in one wait, at most
 

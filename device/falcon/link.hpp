@@ -1,5 +1,5 @@
 // The run-time exchange with one Falcon: a read always pending, one command in flight, the next
-// only after a whole reply (fact sheet, sections 4, 8 and 11).
+// only after a whole reply (README.md: IN packets, Reply rate).
 #pragma once
 
 #include <poll.h>

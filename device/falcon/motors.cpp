@@ -1,4 +1,4 @@
-// From torques at the thighs to motor commands that never wrap (fact sheet, section 11).
+// From torques at the thighs to motor commands that never wrap.
 #include "device/falcon/motors.hpp"
 
 #include <glm/common.hpp>
@@ -10,7 +10,7 @@ namespace dibhr::falcon {
 
 namespace {
 
-/// Beyond it Novint's driver saturates (fact sheet, section 11; captures of Novint's packets).
+/// Beyond it Novint's driver saturates.
 constexpr double kMostCounts = 4095.0;
 
 std::int16_t rounded(double counts) noexcept {

@@ -1,4 +1,4 @@
-// From torques at the thighs to motor commands that never wrap (fact sheet, section 11).
+// From torques at the thighs to motor commands that never wrap (README.md, Motors).
 #pragma once
 
 #include "core/haptics/vec.hpp"

@@ -14,7 +14,7 @@ namespace dibhr::falcon {
 /// Chosen before the port is opened.
 struct ConnectionOptions {
     std::string serial{};        ///< empty: the first one, in the order of their serials
-    bool event_character{true};  ///< the chip flushes on '>' (section 3; untried on a real unit)
+    bool event_character{true};  ///< the chip flushes on '>' (untried on a real unit)
     bool slower_upload{false};   ///< 140 351 instead of 142 857 baud; both are reported to work
 };
 

@@ -1,4 +1,4 @@
-// The Falcon's run-time packets (fact sheet, section 8).
+// The Falcon's run-time packets.
 #include "device/falcon/packet.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// The Falcon's run-time packets: 16 bytes each way, strictly request and reply (fact sheet, section
-// 8).
+// The Falcon's run-time packets: 16 bytes each way, strictly request and reply
+// (README.md, Run-time packets).
 #pragma once
 
 #include <array>

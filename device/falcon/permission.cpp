@@ -1,4 +1,4 @@
-// What a person does when the system refuses them the Falcon (fact sheet, section 12).
+// What a person does when the system refuses them the Falcon.
 #include "device/falcon/permission.hpp"
 
 #include <algorithm>

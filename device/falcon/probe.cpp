@@ -1,4 +1,4 @@
-// Is firmware already there? (fact sheet, section 5)
+// Is firmware already there?
 #include "device/falcon/probe.hpp"
 
 #include <exception>
@@ -10,10 +10,10 @@ namespace {
 using std::chrono::milliseconds;
 using Clock = std::chrono::steady_clock;
 
-constexpr int kQuestions = 10;            // section 5
-constexpr milliseconds kAnswerLimit{30};  // section 5
-constexpr int kLastPackets = 5;           // "five zero packets" (section 11)
-constexpr milliseconds kLastLimit{10};    // for each; a Falcon that runs answers within 2 ms
+constexpr int kQuestions = 10;
+constexpr milliseconds kAnswerLimit{30};
+constexpr int kLastPackets = 5;         // README.md, Safety numbers
+constexpr milliseconds kLastLimit{10};  // for each; a Falcon that runs answers within 2 ms
 
 milliseconds left_until(Clock::time_point end) {
     return std::chrono::ceil<milliseconds>(end - Clock::now());
@@ -54,7 +54,7 @@ bool answers(FtdiPort& port, const std::stop_token& stop) {
 }
 
 void leave_without_force(FtdiPort& port) noexcept {
-    // Asked to hold its homing, as in every packet before (section 9).
+    // Asked to hold its homing, as in every packet before.
     const Command last{.motor = {}, .led = Led::off, .homing = true};
     for (int k = 0; k < kLastPackets; ++k) {
         unless_it_fails([&] {

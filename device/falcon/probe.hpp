@@ -1,5 +1,5 @@
-// Is firmware already there? One question, one answer, before the run-time exchange begins (fact
-// sheet, section 5).
+// Is firmware already there? One question, one answer, before the run-time exchange begins
+// (README.md, Probe).
 #pragma once
 
 #include <chrono>

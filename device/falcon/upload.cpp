@@ -1,4 +1,4 @@
-// Firmware into the DSP (fact sheet, section 6, whose steps are numbered here).
+// Firmware into the DSP (README.md, Upload, whose steps are numbered here).
 #include "device/falcon/upload.hpp"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ constexpr milliseconds kEchoLimit{250};      // without a single byte of echo
 constexpr milliseconds kListen{50};          // as long as a wish to stop may wait
 
 /// The first tries at the speed that is known to work; then the other one that is; the last two,
-/// when nothing else helped, at speeds nobody has tried (section 6, failure modes).
+/// when nothing else helped, at speeds nobody has tried.
 FtdiRequest baud_of_try(int number, bool slower) {
     if (number <= 6) return slower ? kBaud140351 : kBaud142857;
     if (number <= 8) return slower ? kBaud142857 : kBaud140351;

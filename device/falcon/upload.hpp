@@ -1,5 +1,5 @@
-// Firmware into the DSP, with its echo checked byte by byte and tried again (fact sheet, section
-// 6).
+// Firmware into the DSP, with its echo checked byte by byte and tried again
+// (README.md, Upload).
 #pragma once
 
 #include <cstdint>

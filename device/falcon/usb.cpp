@@ -16,7 +16,7 @@ namespace dibhr::falcon {
 
 namespace {
 
-constexpr unsigned kRequestLimit_ms = 1000;  // "1 s is ample" (fact sheet, section 3)
+constexpr unsigned kRequestLimit_ms = 1000;  // ample
 constexpr int kMostPorts = 7;                // in a row, by the USB specification
 
 struct FreeList {
@@ -212,8 +212,8 @@ void FtdiPort::write(std::span<const std::uint8_t> bytes, std::chrono::milliseco
 }
 
 Payload FtdiPort::read(std::chrono::milliseconds limit) {
-    // Exactly one packet: less could overflow, more would wait for one that is not full (section
-    // 4).
+    // Exactly one packet: less could overflow, more would wait for one that is not full (README.md,
+    // IN packets).
     packet_.resize(kUsbPacketBytes);
     int got = 0;
     const int code =

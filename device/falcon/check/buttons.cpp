@@ -1,4 +1,4 @@
-// Step 8: which bit is which button, and how long it bounces (fact sheet, section 8).
+// Step 8: which bit is which button, and how long it bounces (../README.md, Buttons).
 #include <array>
 #include <chrono>
 #include <cstddef>
@@ -17,7 +17,7 @@ using std::chrono::milliseconds;
 struct Named {
     const char* name;
     const char* where;
-    Button bit;  ///< as section 8 has it
+    Button bit;  ///< as ../README.md has it
 };
 
 constexpr std::array kButtons{Named{"plus", "plus, on the right", Button::plus},

@@ -1,5 +1,5 @@
-// `dibhr devices --check`: the protocol for the first unit (fact sheet, last paragraph), step by
-// step, with a person beside it and a record of everything.
+// `dibhr devices --check`: the protocol for the first unit (../README.md, To be measured),
+// step by step, with a person beside it and a record of everything.
 #pragma once
 
 #include <chrono>

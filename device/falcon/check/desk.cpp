@@ -11,7 +11,7 @@ namespace dibhr::falcon {
 
 namespace {
 
-constexpr std::chrono::milliseconds kPause{10};  // "poll always" (fact sheet, section 11)
+constexpr std::chrono::milliseconds kPause{10};  // the program never falls silent
 
 std::optional<double> number_of(std::string_view text) {
     double value = 0.0;

@@ -1,4 +1,4 @@
-// What the fact sheet leaves open, and what was found.
+// What README.md leaves open, and what was found.
 #include "device/falcon/check/findings.hpp"
 
 #include <algorithm>
@@ -13,21 +13,21 @@ struct Named {
 };
 
 constexpr std::array<Named, kOpenQuestions> kNamed{{
-    {"identity", "What it says it is (section 2)"},
-    {"upload-speed", "Firmware at 142 857 and 140 351 baud (section 6)"},
-    {"stray-bytes", "Stray bytes before the hello's and the A's answer (section 6)"},
-    {"loading-again", "Loading again without a power cycle (section 6)"},
-    {"last-byte", "Byte 14 of a reply (section 8)"},
-    {"reply-rate", "Replies a second (section 11)"},
-    {"event-character", "The event character > (sections 3 and 11)"},
-    {"homing-bit", "The homing bit cleared (section 9)"},
-    {"end-stops", "Counts at the end stops (section 10)"},
-    {"angle-at-zero", "Thigh angle at count 0 (section 10)"},
-    {"after-last-packet", "The force after the last packet (section 11)"},
-    {"torque-scale", "Motor counts a newton metre (section 11)"},
-    {"buttons", "Button bits (section 8)"},
-    {"usb-unplugged", "USB unplugged, power on (section 5)"},
-    {"power-lost", "Power off, USB on (sections 1 and 5)"},
+    {"identity", "What it says it is"},
+    {"upload-speed", "Firmware at 142 857 and 140 351 baud"},
+    {"stray-bytes", "Stray bytes before the hello's and the A's answer"},
+    {"loading-again", "Loading again without a power cycle"},
+    {"last-byte", "Byte 14 of a reply"},
+    {"reply-rate", "Replies a second"},
+    {"event-character", "The event character >"},
+    {"homing-bit", "The homing bit cleared"},
+    {"end-stops", "Counts at the end stops"},
+    {"angle-at-zero", "Thigh angle at count 0"},
+    {"after-last-packet", "The force after the last packet"},
+    {"torque-scale", "Motor counts a newton metre"},
+    {"buttons", "Button bits"},
+    {"usb-unplugged", "USB unplugged, power on"},
+    {"power-lost", "Power off, USB on"},
 }};
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What the fact sheet leaves open, and what the check has found of it.
+// What ../README.md leaves open, and what the check has found of it.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace dibhr::falcon {
 
-/// In the order of the fact sheet's last paragraph.
+/// In the order of the steps that answer them.
 enum class OpenQuestion : std::size_t {
     identity,
     upload_speed,

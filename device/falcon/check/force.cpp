@@ -1,5 +1,5 @@
 // Step 7: the force at the grip on a kitchen scale, and the torque scale S that follows by least
-// squares (fact sheet, section 11).
+// squares (../README.md, Motors).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,7 +17,7 @@ namespace dibhr::falcon {
 
 namespace {
 
-constexpr std::array kCounts{500, 1000, 2000, 4095};  // section 12, from weak to strong
+constexpr std::array kCounts{500, 1000, 2000, 4095};  // from weak to strong
 constexpr int kFullScale = 4095;
 constexpr double kStandardGravity = 9.80665;  // m/s2
 constexpr double kHeaviest_g = 10000.0;

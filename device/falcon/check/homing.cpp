@@ -1,5 +1,5 @@
-// Step 4: homing with a person, and what becomes of it when the homing bit is cleared (fact sheet,
-// section 9).
+// Step 4: homing with a person, and what becomes of it when the homing bit is cleared
+// (../README.md, Homing and lamp).
 #include <array>
 #include <chrono>
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Step 1: the descriptors, as lsusb -v shows them (fact sheet, section 2).
+// Step 1: the descriptors, as lsusb -v shows them (../README.md, USB identity).
 #include <libusb.h>
 
 #include <array>
@@ -19,7 +19,7 @@ namespace dibhr::falcon {
 namespace {
 
 constexpr unsigned kLimit_ms = 1000;
-constexpr std::uint16_t kExpectedRelease = 0x0600;  // of an FT232R (section 2)
+constexpr std::uint16_t kExpectedRelease = 0x0600;  // of an FT232R
 
 std::string as_hex(unsigned value, int digits) {
     std::ostringstream text;

@@ -1,5 +1,4 @@
-// Step 9: what is told when a cable is out, and what comes back with it (fact sheet, sections 1 and
-// 5).
+// Step 9: what is told when a cable is out, and what comes back with it.
 #include <libusb.h>
 
 #include <chrono>

@@ -19,12 +19,12 @@ namespace {
 constexpr double kMostMotion_m = 0.030;
 constexpr std::chrono::seconds kLongestHold{3};
 constexpr std::uint8_t kAllAxes = 7;
-constexpr int kLastPackets = 5;                  // "send >= 5 zero packets" (section 11)
+constexpr int kLastPackets = 5;                  // ../README.md, Safety numbers
 constexpr std::chrono::milliseconds kPeriod{1};  // the haptic loop's
-constexpr Vec3 kMiddle_m{0.0, 0.0, 0.115};       // "demos centre at z = 0.110-0.125 m" (section 10)
+constexpr Vec3 kMiddle_m{0.0, 0.0, 0.115};       // ../README.md, Workspace
 constexpr double kGrams_per_newton = 1000.0 / 9.80665;
 
-// The least and the most that sources say of the torque scale (section 11).
+// The least and the most that sources say of the torque scale (../README.md, Motors).
 constexpr double kLowestScale = 3600.0;
 constexpr double kHighestScale = 10000.0;
 

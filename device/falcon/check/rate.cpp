@@ -1,5 +1,5 @@
 // Step 3: how many replies a second, and how long one takes, with and without the event character
-// (fact sheet, sections 3 and 11).
+// (../README.md, Reply rate).
 #include <algorithm>
 #include <chrono>
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Step 6: does a force outlive its last packet? (fact sheet, section 11)
+// Step 6: does a force outlive its last packet? (../README.md, Safety numbers)
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -15,7 +15,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr int kCounts = 300;  // "hold a constant 300-count command" (section 12)
+constexpr int kCounts = 300;
 // A motion of fewer counts between force and no force tells nothing.
 constexpr double kLeastMotion_counts = 10.0;
 // A person sees a scale fall only after so long.

@@ -1,4 +1,4 @@
-// The steps of the check, in the order of the fact sheet's last paragraph.
+// The steps of the check, in the order of ../README.md, To be measured.
 #pragma once
 
 #include <span>

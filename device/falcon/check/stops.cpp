@@ -1,5 +1,5 @@
 // Step 5: counts at the end stops and over lengths that a ruler knows, and which thigh angle at
-// count 0 fits them (fact sheet, section 10).
+// count 0 fits them (../README.md, Kinematics).
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -20,10 +20,10 @@ namespace dibhr::falcon {
 
 namespace {
 
-constexpr Vec3 kMiddle_m{0.0, 0.0, 0.115};  // "demos centre at z = 0.110-0.125 m" (section 10)
+constexpr Vec3 kMiddle_m{0.0, 0.0, 0.115};  // ../README.md, Workspace
 constexpr double kMillimetres = 1000.0;     // in a metre
 
-// "z > 0.170 is fully out; ~0.075 fully in" (section 10), by libnifalcon's constants.
+// ../README.md, Workspace; by libnifalcon's constants.
 constexpr double kFullyOut_mm = 170.0;
 constexpr double kFullyIn_mm = 75.0;
 
@@ -36,7 +36,7 @@ constexpr double kAngleStep_deg = 0.05;
 constexpr double kMostDoubt_deg = 3.0;
 constexpr double kMostMisfit_mm = 3.0;
 
-/// Martin & Hillier 2009, second-hand (section 10). `angle` is 50 in the paper; the user who has
+/// Martin & Hillier 2009, second-hand. `angle` is 50 in the paper; the user who has
 /// handed the constants down measured 40.
 Geometry martin_hillier(double angle_deg) {
     Geometry set;

@@ -9,7 +9,7 @@ namespace dibhr::falcon {
 
 namespace {
 
-// "Zero on ... reply older than 20 ms" (fact sheet, section 11): the caller must hear of it.
+// ../README.md, Safety numbers: the caller must hear of it.
 constexpr std::chrono::milliseconds kReplyLimit{20};
 
 }  // namespace

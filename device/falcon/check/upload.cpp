@@ -1,4 +1,4 @@
-// Step 2: is firmware there, and how it gets in, with a log (fact sheet, sections 5 to 8).
+// Step 2: is firmware there, and how it gets in, with a log (../README.md, Upload).
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -18,7 +18,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint8_t kUsualLastByte = 'A';  // byte 14 of a reply: "normally 41, unknown"
+constexpr std::uint8_t kUsualLastByte = 'A';  // byte 14 of a reply
 
 double ms_since(Clock::time_point begin) {
     return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();

@@ -1,4 +1,4 @@
-// Vendor requests with an answer (fact sheet, section 3).
+// Vendor requests with an answer.
 #include "device/falcon/check/vendor_reads.hpp"
 
 #include <libusb.h>

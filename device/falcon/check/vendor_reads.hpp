@@ -1,4 +1,4 @@
-// What the FT232R tells when it is asked (fact sheet, section 3).
+// What the FT232R tells when it is asked (../README.md, FTDI requests).
 #pragma once
 
 #include <array>

@@ -5,8 +5,8 @@ namespace dibhr::test::falcon {
 
 namespace {
 
-constexpr std::uint16_t kKey = 0x08AA;      // fact sheet, section 6
-constexpr unsigned kReservedWords = 8;      // fact sheet, section 6
+constexpr std::uint16_t kKey = 0x08AA;
+constexpr unsigned kReservedWords = 8;
 constexpr unsigned kMaxAutobaud = 200'000;  // both upload rates lock, the run-time rate does not
 
 }  // namespace

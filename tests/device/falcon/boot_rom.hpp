@@ -1,5 +1,5 @@
 // The motor controller's boot ROM: locks onto the baud rate, echoes every byte of a TI C28x boot
-// stream, and starts the program when it is whole (fact sheet, section 6).
+// stream, and starts the program when it is whole (device/falcon/README.md, Upload).
 #pragma once
 
 #include <cstddef>

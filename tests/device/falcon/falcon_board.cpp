@@ -9,15 +9,15 @@ namespace dibhr::test::falcon {
 
 namespace {
 
-constexpr std::array<std::uint8_t, 3> kHello{0x0A, 0x43, 0x0D};              // section 6
-constexpr std::array<std::uint8_t, 4> kHelloAnswer{0x0A, 0x44, 0x2C, 0x0D};  // section 6
-constexpr std::uint8_t kStrayByte = 0x13;                                    // section 6
-constexpr std::size_t kPacketBytes = 16;                                     // section 8
-constexpr unsigned kHomingBit = 1;                                           // section 8
-constexpr unsigned kLampBits = 14;                                           // section 8
+constexpr std::array<std::uint8_t, 3> kHello{0x0A, 0x43, 0x0D};
+constexpr std::array<std::uint8_t, 4> kHelloAnswer{0x0A, 0x44, 0x2C, 0x0D};
+constexpr std::uint8_t kStrayByte = 0x13;
+constexpr std::size_t kPacketBytes = 16;
+constexpr unsigned kHomingBit = 1;
+constexpr unsigned kLampBits = 14;
 
-// Where an axis has its reference passed: the grip all the way out, then in (section 10: "z > 0.170
-// is fully out, ~0.075 fully in"); somewhat inside of both.
+// Where an axis has its reference passed: the grip all the way out, then in
+// (z > 0.170 is fully out, about 0.075 fully in); somewhat inside of both.
 constexpr Vec3 kPulledOut_m{0.0, 0.0, 0.160};
 constexpr Vec3 kPushedIn_m{0.0, 0.0, 0.095};
 

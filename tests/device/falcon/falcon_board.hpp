@@ -1,5 +1,5 @@
 // What is behind the serial line: supervisor, motor controller, motors, encoders, buttons, lamp
-// (fact sheet, sections 1, 6, 8 and 9).
+// (device/falcon/README.md: Upload, Run-time packets, Homing and lamp).
 #pragma once
 
 #include <array>
@@ -49,8 +49,8 @@ class FalconBoard {
     void start_firmware();
     /// All axes, as after pulling the grip out and pushing it in.
     void home();
-    /// How long the motors hold the last command; zero: for ever. Fact sheet, section 11: "only for
-    /// a very short time", never measured. The default is an assumption.
+    /// How long the motors hold the last command; zero: for ever. "Only for a
+    /// very short time" is all that sources say. The default is an assumption.
     void hold_commands(Moment time) noexcept { command_holds_ = time; }
     void press(std::uint8_t buttons) noexcept { buttons_ = buttons; }
 

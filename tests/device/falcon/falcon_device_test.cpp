@@ -43,7 +43,7 @@ struct Homed {
     }
 };
 
-/// What the fact sheet's formulas give for the unit where it stands.
+/// What the README's formulas give for the unit where it stands.
 Counts expected(Unit& unit, Vec3 force_newton) {
     const Geometry geometry;
     const auto encoders = unit.with([](FalconModel& model) { return model.board().encoders(); });
@@ -140,7 +140,7 @@ TEST_CASE("the goal is where the grip is: right is right, up is up, out is up th
     const Vec3 middle = goal_with_grip_at({0.0, 0.0, 0.115});
     const Vec3 moved = goal_with_grip_at({0.01, 0.02, 0.125});
     const double px_per_m = 1000.0 / TickingFalcon::kPitch_mm;
-    // One count is at most 34 um (fact sheet, section 10).
+    // One count is at most 34 um (device/falcon/README.md, Workspace).
     const double tolerance_px = 0.05 * px_per_m / 1000.0;
     CHECK_THAT(moved.x - middle.x, Catch::Matchers::WithinAbs(0.01 * px_per_m, tolerance_px));
     CHECK_THAT(moved.y - middle.y, Catch::Matchers::WithinAbs(-0.02 * px_per_m, tolerance_px));

@@ -8,13 +8,13 @@ namespace dibhr::test::falcon {
 
 namespace {
 
-constexpr std::uint8_t kOverrunAndFraming = 0x0A;  // line status bits 1 and 3: section 4
-constexpr std::size_t kFullPacket = 62;            // data bytes: section 4
+constexpr std::uint8_t kOverrunAndFraming = 0x0A;  // line status bits 1 and 3
+constexpr std::size_t kFullPacket = 62;            // data bytes
 // Stray bytes that look like the beginning of a packet.
 constexpr std::array<std::uint8_t, 7> kGarbage{0x00, '<', 'A', 'P', '>', '<', 0xF3};
 
 constexpr std::size_t kDeviceDescriptorBytes = 18;
-constexpr unsigned kRunTimeBaud = 1'500'000;  // section 3
+constexpr unsigned kRunTimeBaud = 1'500'000;
 
 FalconBoard::Bytes string_descriptor(const std::string& text) {
     FalconBoard::Bytes bytes{static_cast<std::uint8_t>(2 + 2 * text.size()), 3};
@@ -34,7 +34,7 @@ std::size_t copy(std::span<const std::uint8_t> from, std::span<std::uint8_t> to)
 }  // namespace
 
 std::vector<std::uint8_t> falcon_descriptors() {
-    // Fact sheet, section 2; strings 1 manufacturer, 2 product, 3 serial number.
+    // device/falcon/README.md, USB identity; strings 1 manufacturer, 2 product, 3 serial number.
     return {18,   1,    0x00, 0x02, 0,    0,    0,    8,    0x03,
             0x04, 0x48, 0xCB, 0x00, 0x06, 1,    2,    3,    1,   //
             9,    2,    32,   0,    1,    1,    0,    0xA0, 45,  //

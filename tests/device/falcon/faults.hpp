@@ -10,7 +10,7 @@ inline constexpr int kForEver = std::numeric_limits<int>::max();
 
 /// Counts say how many times a fault still strikes; kForEver never runs out.
 struct Faults {
-    // Before the firmware runs (fact sheet, section 6).
+    // Before the firmware runs.
     int leading_zero{0};      ///< hello answers that begin with a stray 00
     int leading_13{0};        ///< autobaud answers that are 13 41 instead of 41
     int ignored_hellos{0};    ///< hellos without an answer

@@ -1,4 +1,4 @@
-// A user's firmware file is checked before it is sent, and kept (fact sheet, sections 6 and 7).
+// A user's firmware file is checked before it is sent, and kept.
 #include <sys/stat.h>
 #include <unistd.h>
 

@@ -1,4 +1,5 @@
-// The structure of a firmware image is checked to its last bit (fact sheet, sections 6 and 7).
+// The structure of a firmware image is checked to its last bit (device/falcon/README.md, Firmware
+// images).
 #include "device/falcon/firmware_image.hpp"
 
 #include <cstddef>

@@ -8,14 +8,14 @@ namespace dibhr::test::falcon {
 
 namespace {
 
-constexpr std::size_t kStatusBytes = 2;      // fact sheet, section 4
-constexpr std::size_t kMostData = 62;        // fact sheet, section 4
-constexpr std::uint8_t kModemStatus = 0x01;  // idle is 01 60: fact sheet, section 4
+constexpr std::size_t kStatusBytes = 2;
+constexpr std::size_t kMostData = 62;
+constexpr std::uint8_t kModemStatus = 0x01;  // idle is 01 60
 constexpr std::uint8_t kLineStatus = 0x60;
-constexpr std::uint8_t kVendorOut = 0x40;  // fact sheet, section 3
+constexpr std::uint8_t kVendorOut = 0x40;
 constexpr std::uint8_t kVendorIn = 0xC0;
 
-enum Request : std::uint8_t {  // fact sheet, section 3
+enum Request : std::uint8_t {
     reset = 0,
     modem_control = 1,
     flow_control = 2,
@@ -30,7 +30,7 @@ enum Request : std::uint8_t {  // fact sheet, section 3
 }  // namespace
 
 unsigned baud_of(std::uint16_t value, std::uint16_t index) noexcept {
-    constexpr std::array kEighths{0U, 4U, 2U, 1U, 3U, 5U, 6U, 7U};  // fact sheet, section 3
+    constexpr std::array kEighths{0U, 4U, 2U, 1U, 3U, 5U, 6U, 7U};
     constexpr unsigned kEightTimesClock = 24'000'000;
     const unsigned code = (value >> 14U) | ((index & 1U) << 2U);
     const unsigned divisor = (value & 0x3FFFU) * 8 + kEighths.at(code);

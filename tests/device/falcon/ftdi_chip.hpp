@@ -1,5 +1,5 @@
-// The FT232R as the host sees it: vendor requests, status bytes, latency timer (fact sheet,
-// sections 3 and 4).
+// The FT232R as the host sees it: vendor requests, status bytes, latency timer
+// (device/falcon/README.md: FTDI requests, IN packets).
 #pragma once
 
 #include <cstddef>

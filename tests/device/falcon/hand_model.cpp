@@ -9,7 +9,7 @@ namespace dibhr::test::falcon {
 
 namespace {
 
-// Outward directions of the legs, degrees: 1 = top, 2 = right, 3 = left (fact sheet, section 10).
+// Outward directions of the legs, degrees: 1 = top, 2 = right, 3 = left.
 constexpr std::array kLegs_deg{105.0, -15.0, -135.0};
 constexpr double kRadian_deg = 57.29577951308232;
 
@@ -82,7 +82,7 @@ void HandModel::move(Vec3 to_m, double seconds) {
 }
 
 void HandModel::drive(const std::array<std::int16_t, 3>& motor_counts) noexcept {
-    // A positive command pulls the thigh down: fact sheet, section 11.
+    // A positive command pulls the thigh down.
     torques_ =
         Vec3(motor_counts[0], motor_counts[1], motor_counts[2]) / -options_.counts_per_newton_metre;
 }

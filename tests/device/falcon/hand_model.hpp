@@ -11,8 +11,8 @@
 
 namespace dibhr::test::falcon {
 
-/// The mechanism, written independently of device/falcon: the numbers are libnifalcon's set (fact
-/// sheet, section 10). `angles_at` solves Stamper's half-angle quadratic.
+/// The mechanism, written independently of device/falcon: the numbers are libnifalcon's set
+/// (device/falcon/README.md, Kinematics). `angles_at` solves Stamper's half-angle quadratic.
 struct Linkage {
     double thigh_m{0.0600};
     double shin_m{0.1025};
@@ -35,7 +35,7 @@ struct HandOptions {
     double mass_kg{0.2};
     double stiffness_newton_per_m{300.0};
     double damping_newton_s_per_m{15.5};      ///< critical for the mass and stiffness above
-    double counts_per_newton_metre{10000.0};  ///< S of the motors: fact sheet, section 11
+    double counts_per_newton_metre{10000.0};  ///< S of the motors
     Vec3 start_m{0.0, 0.0, 0.115};
 };
 

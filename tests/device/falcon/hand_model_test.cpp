@@ -67,7 +67,7 @@ TEST_CASE("the hand goes its way point by point and in its time", "[hand]") {
     CHECK_THAT(glm::distance(hand.grip_m(), start + Vec3(0.01, 0.02, 0.0)), WithinAbs(0.0, 1e-4));
 }
 
-TEST_CASE("the worked example of the fact sheet gives the same counts and torques", "[hand]") {
+TEST_CASE("the worked example of the README gives the same counts and torques", "[hand]") {
     const dibhr::test::falcon::Linkage linkage;
     const Vec3 grip{0.020, -0.010, 0.120};
     const auto counts = linkage.counts_at(grip);

@@ -1,4 +1,4 @@
-// The mechanism: thigh angles, poses, torques (fact sheet, section 10).
+// The mechanism: thigh angles, poses, torques (device/falcon/README.md, Kinematics).
 #include "device/falcon/kinematics.hpp"
 
 #include <glm/geometric.hpp>
@@ -96,7 +96,7 @@ Vec3 turned_by_a_leg(Vec3 p) {
 
 }  // namespace
 
-TEST_CASE("the worked pose of the fact sheet has its angles and counts", "[kinematics]") {
+TEST_CASE("the worked pose of the README has its angles and counts", "[kinematics]") {
     const auto angles = angles_at({0.020, -0.010, 0.120}, {});
     REQUIRE(angles);
     CHECK_THAT(glm::degrees(angles->x), WithinAbs(35.568, 0.0005));
@@ -108,7 +108,7 @@ TEST_CASE("the worked pose of the fact sheet has its angles and counts", "[kinem
     CHECK_THAT(counts.z, WithinAbs(-128.0, 0.5));
 }
 
-TEST_CASE("the worked force of the fact sheet has its torques", "[kinematics]") {
+TEST_CASE("the worked force of the README has its torques", "[kinematics]") {
     const auto jacobian = jacobian_at({0.020, -0.010, 0.120}, {});
     REQUIRE(jacobian);
     const auto torques = torques_of({1.0, 0.0, -0.5}, *jacobian);
@@ -163,8 +163,8 @@ TEST_CASE("one count of one motor is some 15 um outwards at the centre, at most 
     }
 }
 
-TEST_CASE("full scale of the motors is the force of the fact sheet", "[kinematics]") {
-    // Section 11: for 0.41 N m 7.6 to 8.6 N laterally and 17 N axially, weaker when pulled out.
+TEST_CASE("full scale of the motors is the force of the README", "[kinematics]") {
+    // For 0.41 N m 7.6 to 8.6 N laterally and 17 N axially, weaker when pulled out.
     const auto full_force = [](Vec3 grip, Vec3 direction) {
         const auto torques = torques_of(direction, *jacobian_at(grip, {}));
         REQUIRE(torques);

@@ -1,4 +1,4 @@
-// The run-time packets and the stream they come in (fact sheet, section 8).
+// The run-time packets and the stream they come in (device/falcon/README.md, Run-time packets).
 #include "device/falcon/packet.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 using namespace dibhr::falcon;
 using Bytes = std::vector<std::uint8_t>;
 
-/// The letters of a number, by the rule as the fact sheet words it.
+/// The letters of a number, by the rule as the README words it.
 Bytes letters_of(std::int16_t number) {
     const auto bits = static_cast<std::uint16_t>(number);
     Bytes letters;
@@ -124,12 +124,12 @@ const std::vector<ReplyExample> kReplies{
 
 }  // namespace
 
-TEST_CASE("the worked commands of the fact sheet encode to its bytes", "[packet]") {
+TEST_CASE("the worked commands of the README encode to its bytes", "[packet]") {
     const CommandExample example = GENERATE(from_range(kCommands));
     CHECK(encode(example.command) == example.packet);
 }
 
-TEST_CASE("the worked replies of the fact sheet decode to its numbers", "[packet]") {
+TEST_CASE("the worked replies of the README decode to its numbers", "[packet]") {
     const ReplyExample example = GENERATE(from_range(kReplies));
     const std::optional<Reply> reply = decode(example.packet);
     REQUIRE(reply);

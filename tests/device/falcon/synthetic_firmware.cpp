@@ -1,4 +1,4 @@
-// Writes a boot stream of random words (fact sheet, section 6).
+// Writes a boot stream of random words.
 #include "tests/device/falcon/synthetic_firmware.hpp"
 
 #include <array>

@@ -10,8 +10,7 @@ namespace dibhr::test {
 
 /// A boot stream of three blocks that hold `words` random words together, 4 .. 30000; the same
 /// words and seed give the same bytes. Laid out as nvent_firmware.bin: entry point 3F8002 at the
-/// start of the first block, a small block at 0093A2, the last one at 3F8000 (fact sheet, section
-/// 7).
+/// start of the first block, a small block at 0093A2, the last one at 3F8000.
 [[nodiscard]] std::vector<std::uint8_t> synthetic_firmware(std::size_t words = 3600,
                                                            std::uint32_t seed = 1);
 

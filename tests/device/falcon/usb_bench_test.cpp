@@ -167,7 +167,7 @@ TEST_CASE("requests of the chip are answered, and nonsense is stalled", "[bench]
     CHECK(unit.with([](FalconModel& model) { return model.chip().baud(); }) == 9600);
 }
 
-TEST_CASE("the rates of the fact sheet are what its divisors give", "[bench]") {
+TEST_CASE("the rates of the README are what its divisors give", "[bench]") {
     CHECK(baud_of(0x4138, 0) == 9600);
     CHECK(baud_of(0x0015, 0) == 142857);
     CHECK(baud_of(0x0015, 1) == 140351);

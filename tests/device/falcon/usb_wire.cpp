@@ -11,8 +11,8 @@ namespace dibhr::test::falcon {
 
 namespace {
 
-constexpr unsigned kInEndpoint = 0x81;   // fact sheet, section 2
-constexpr unsigned kOutEndpoint = 0x02;  // fact sheet, section 2
+constexpr unsigned kInEndpoint = 0x81;
+constexpr unsigned kOutEndpoint = 0x02;
 constexpr std::size_t kPacketBytes = 64;
 constexpr std::size_t kSetupBytes = 8;
 constexpr Moment kFrame = std::chrono::milliseconds(1);
