@@ -11,13 +11,11 @@ namespace dibhr {
 
 namespace {
 
-constexpr double kLongestTick_s =
-    0.1;  // a longer one (a debugger, a suspended laptop) is cut to this
-constexpr double kMostWheel_px = 200.0;  // deeper than any force limit lets it matter
-constexpr double kReached_px = 5.0;      // as near to the cursor as pressing asks for
-constexpr double kBeyondFrame_px =
-    40.0;                      // how far a pressed hand may lean against the image's border
-constexpr int kLookAhead = 8;  // places looked at between a hovering hand and the cursor
+constexpr double kLongestTick_s = 0.1;    // a longer one (a debugger) is cut to this
+constexpr double kMostWheel_px = 200.0;   // deeper than any force limit lets it matter
+constexpr double kReached_px = 5.0;       // as near to the cursor as pressing asks for
+constexpr double kBeyondFrame_px = 40.0;  // a pressed hand may lean against the border so far
+constexpr int kLookAhead = 8;             // places looked at between a hovering hand and the cursor
 
 bool sensible(const MouseTarget& target) noexcept {
     return std::isfinite(target.cursor_in_grid.x) && std::isfinite(target.cursor_in_grid.y) &&
@@ -51,13 +49,13 @@ HandReading MouseHand::read(const HandContext& context) noexcept {
     const double dt_s = context.dt_s > 0.0 ? std::min(context.dt_s, kLongestTick_s) : 0.0;
     take_target(context.surface);
     press(dt_s);
-    const Vec3 rest = rest_in_grid(context.surface);
+    const Vec3 anchor = anchor_in_grid(context.surface);
     if (!placed_) {
-        position_in_grid_ = rest;
+        position_in_grid_ = anchor;
         placed_ = true;
     }
     const Vec3 before = position_in_grid_;
-    move(rest, dt_s, context.pixel_pitch_mm);
+    move(anchor, dt_s, context.pixel_pitch_mm);
     if (!pressing_) keep_clear_of_cliffs(context.surface, before);
 
     HandReading reading;
@@ -88,7 +86,7 @@ void MouseHand::press(double dt_s) noexcept {
                     : -options_.hover_px;
 }
 
-Vec3 MouseHand::rest_in_grid(const DepthSurface& surface) const noexcept {
+Vec3 MouseHand::anchor_in_grid(const DepthSurface& surface) const noexcept {
     if (!wanted_.pointing) {
         return {0.5 * (surface.columns() - 1), 0.5 * (surface.rows() - 1),
                 surface.ceiling() + options_.hover_px};
@@ -104,10 +102,10 @@ Vec3 MouseHand::rest_in_grid(const DepthSurface& surface) const noexcept {
     return {cursor, highest + options_.hover_px};
 }
 
-// m a = h (rest - x) - b v + f, by one step of backward Euler in h and b: it damps whatever the
+// m a = h (anchor - x) - b v + f, by one step of backward Euler in h and b: it damps whatever the
 // tick's length. The rendered force is the last tick's, so the loop it closes stays stable while K
 // dt < 4 m / dt + 2 b + h dt (Jury's criterion): 2 N/mm in ticks of 20 ms leave a factor of two.
-void MouseHand::move(Vec3 rest, double dt_s, double pixel_pitch_mm) noexcept {
+void MouseHand::move(Vec3 anchor, double dt_s, double pixel_pitch_mm) noexcept {
     if (!(dt_s > 0.0) || !(pixel_pitch_mm > 0.0)) return;
     const double px_per_m = 1000.0 / pixel_pitch_mm;
     const double mass = options_.mass_kg;
@@ -116,7 +114,7 @@ void MouseHand::move(Vec3 rest, double dt_s, double pixel_pitch_mm) noexcept {
 
     // Only a pressing hand is held back: released, it comes off whatever it touched.
     const Vec3 felt_newton = pressing_ ? force_newton_ : Vec3{0.0};
-    const Vec3 push = stiffness * (rest - position_in_grid_) + felt_newton * px_per_m;
+    const Vec3 push = stiffness * (anchor - position_in_grid_) + felt_newton * px_per_m;
     velocity_px_per_s_ = (mass * velocity_px_per_s_ + dt_s * push) /
                          (mass + dt_s * damping + dt_s * dt_s * stiffness);
     const double fastest = options_.max_speed_mm_per_s / pixel_pitch_mm;

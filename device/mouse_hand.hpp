@@ -17,7 +17,7 @@ struct MouseTarget {
 };
 
 /// The hand's feel. Its spring and the rendered one share the way: pressing against a surface as
-/// stiff as the hand, the goal rests at half the depth that is pressed for.
+/// stiff as the hand, the goal stays at half the depth that is pressed for.
 struct MouseHandOptions {
     double hover_px{6.0};         ///< height above the surface while the button is up
     double press_px_per_s{60.0};  ///< how fast a held button deepens
@@ -53,8 +53,9 @@ class MouseHand final : public Device {
   private:
     void take_target(const DepthSurface& surface) noexcept;
     void press(double dt_s) noexcept;
-    [[nodiscard]] Vec3 rest_in_grid(const DepthSurface& surface) const noexcept;
-    void move(Vec3 rest, double dt_s, double pixel_pitch_mm) noexcept;
+    /// Where the hand's spring pulls it.
+    [[nodiscard]] Vec3 anchor_in_grid(const DepthSurface& surface) const noexcept;
+    void move(Vec3 anchor, double dt_s, double pixel_pitch_mm) noexcept;
     void keep_clear_of_cliffs(const DepthSurface& surface, Vec3 before) noexcept;
 
     DeviceSpecification specification_{};

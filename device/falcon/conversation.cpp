@@ -64,7 +64,7 @@ void Conversation::take(const Reply& reply, Time now) {
     ++memory_.replies;
     Reply steady = reply;
     steady.buttons = memory_.buttons.add(reply.buttons, now);
-    exchange_.replies.publish(TimedReply{steady, now, memory_.homing.session(), memory_.replies});
+    exchange_.replies.publish(TimedReply{steady, now, memory_.homing.epoch(), memory_.replies});
     board_.draft().reply = steady;
 
     const bool ready = memory_.homing.ready();
@@ -97,7 +97,7 @@ Command Conversation::command(Time now) {
     Command command;
     // Nobody knows whether clearing it loses homing (README.md, Homing and lamp).
     command.homing = true;
-    if (ready && zeros_owed_ == 0 && wanted.session == memory_.homing.session() &&
+    if (ready && zeros_owed_ == 0 && wanted.epoch == memory_.homing.epoch() &&
         now - wanted.at <= kOldestCommand) {
         command.motor = wanted.motor;
     }

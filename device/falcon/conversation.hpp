@@ -24,7 +24,7 @@ struct Memory {
 };
 
 /// On the USB thread. A force reaches the motors only while all axes are homed, for a pose of this
-/// session, and for 20 ms; everything else is sent as zero, at least every 12 ms.
+/// epoch, and for 20 ms; everything else is sent as zero, at least every 12 ms.
 class Conversation {
   public:
     /// The port's Falcon must answer. Throws UsbError.

@@ -26,15 +26,16 @@ constexpr milliseconds kAskAgainAfter{2000};   // leaves the port to a program t
 
 /// Leaves the Falcon without force when it goes out of scope, whatever has ended the talk, unless
 /// `loss` says by then that nobody is there.
-class Farewell {
+class NoForceAtTheEnd {
   public:
-    Farewell(FtdiPort& port, const std::optional<UsbError>& loss) : port_(port), loss_(loss) {}
-    ~Farewell() {
+    NoForceAtTheEnd(FtdiPort& port, const std::optional<UsbError>& loss)
+        : port_(port), loss_(loss) {}
+    ~NoForceAtTheEnd() {
         if (loss_ && loss_->code() == LIBUSB_ERROR_PIPE) port_.clear_stall();
         if (!loss_ || !loss_->gone()) leave_without_force(port_);
     }
-    Farewell(const Farewell&) = delete;
-    Farewell& operator=(const Farewell&) = delete;
+    NoForceAtTheEnd(const NoForceAtTheEnd&) = delete;
+    NoForceAtTheEnd& operator=(const NoForceAtTheEnd&) = delete;
 
   private:
     FtdiPort& port_;
@@ -81,14 +82,14 @@ void Driver::live(const std::stop_token& stop) {
         } catch (const UsbError& failure) {
             board_.enter(Stage::cannot_open, failure.what(), true);
         } catch (const std::exception& failure) {
-            lose(std::string("the Falcon's thread came to grief (") + failure.what() +
+            lose(std::string("the Falcon's thread failed (") + failure.what() +
                  ") and begins again: close other programs if this comes again");
         }
-        rest(stop);
+        wait_to_look_again(stop);
     }
 }
 
-void Driver::rest(const std::stop_token& stop) {
+void Driver::wait_to_look_again(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
     news_.wait_for(lock, stop, pause_, [this] { return new_firmware_; });
 }
@@ -161,7 +162,7 @@ void Driver::bring_up_and_talk(const UsbContext& usb, FtdiPort& port, const std:
 void Driver::talk(const UsbContext& usb, FtdiPort& port, const std::stop_token& stop) {
     std::optional<UsbError> loss;
     {
-        const Farewell farewell(port, loss);
+        const NoForceAtTheEnd at_the_end(port, loss);
         port.request(options_.event_character ? kFlushOnReplyEnd : kNoEventCharacter);
         Conversation conversation(usb, port, exchange_, board_, memory_);
         loss = conversation.run(stop);

@@ -39,7 +39,7 @@ class Driver {
     void bring_up_and_talk(const UsbContext& usb, FtdiPort& port, const std::stop_token& stop);
     void talk(const UsbContext& usb, FtdiPort& port, const std::stop_token& stop);
     void lose(const std::string& why);
-    void rest(const std::stop_token& stop);
+    void wait_to_look_again(const std::stop_token& stop);
     [[nodiscard]] FirmwareImage firmware();
 
     const ConnectionOptions options_;

@@ -10,22 +10,22 @@
 
 namespace dibhr::falcon {
 
-/// Poses of one session belong together; a new one begins with every link and every homing, because
+/// Poses of one epoch belong together; a new one begins with every link and every homing, because
 /// the counters jump then.
-using Session = std::uint32_t;
-inline constexpr Session kNoSession = 0;  ///< counts mean nothing: not homed, or no link
+using Epoch = std::uint32_t;
+inline constexpr Epoch kNoEpoch = 0;  ///< counts mean nothing: not homed, or no link
 
 struct TimedReply {
     Reply reply{};  ///< its buttons are debounced
     std::chrono::steady_clock::time_point at{};
-    Session session{kNoSession};
+    Epoch epoch{kNoEpoch};
     std::uint64_t number{0};  ///< 1 .., since the start
 };
 
 struct TimedCommand {
     Counts motor{};
     std::chrono::steady_clock::time_point at{};
-    Session session{kNoSession};  ///< of the pose it was computed for
+    Epoch epoch{kNoEpoch};  ///< of the pose it was computed for
 };
 
 /// Lets one thread end another's poll(): an eventfd.

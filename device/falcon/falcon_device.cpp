@@ -62,9 +62,9 @@ struct FalconDevice::Implementation {
 
     // The haptic thread's.
     Tuning tuned{};  // one for the whole tick
-    Session session{kNoSession};
+    Epoch epoch{kNoEpoch};
     std::uint64_t reply_number{0};
-    std::optional<Vec3> position_m{};  // the last pose of this session
+    std::optional<Vec3> position_m{};  // the last pose of this epoch
     Jacobian jacobian{};               // there
     Workspace workspace{};
     std::optional<Vec3> goal_in_grid{};
@@ -75,7 +75,7 @@ struct FalconDevice::Implementation {
 
   private:
     [[nodiscard]] bool take_tuning() noexcept;
-    void take_session(Session newest) noexcept;
+    void take_epoch(Epoch newest) noexcept;
     [[nodiscard]] bool find_pose(const Counts& encoder) noexcept;
     void place_goal(bool clutched, const HandContext& context) noexcept;
     [[nodiscard]] Counts motors_for(Vec3 force_newton) const noexcept;
@@ -84,10 +84,10 @@ struct FalconDevice::Implementation {
 HandReading FalconDevice::Implementation::read(const HandContext& context) noexcept {
     const bool feels_other = take_tuning();
     const TimedReply& newest = exchange.replies.front();
-    take_session(newest.session);
+    take_epoch(newest.epoch);
     reply_number = newest.number;
 
-    const bool posed = session != kNoSession && Clock::now() - newest.at < kOldestReply &&
+    const bool posed = epoch != kNoEpoch && Clock::now() - newest.at < kOldestReply &&
                        find_pose(newest.reply.encoder);
     HandReading reading;
     reading.limits = at_scale(specification.limits, tuned.workspace.scale);
@@ -121,10 +121,10 @@ bool FalconDevice::Implementation::take_tuning() noexcept {
     return other;
 }
 
-/// The first reading of a session starts afresh: the counters have jumped.
-void FalconDevice::Implementation::take_session(Session newest) noexcept {
-    if (newest == session) return;
-    session = newest;
+/// The first reading of a epoch starts afresh: the counters have jumped.
+void FalconDevice::Implementation::take_epoch(Epoch newest) noexcept {
+    if (newest == epoch) return;
+    epoch = newest;
     position_m.reset();
     workspace.centre();
     was_posed = false;
@@ -151,7 +151,7 @@ void FalconDevice::Implementation::place_goal(bool clutched, const HandContext& 
 void FalconDevice::Implementation::send(Vec3 force_newton) noexcept {
     TimedCommand& command = exchange.commands.back();
     command.at = Clock::now();
-    command.session = may_push ? session : kNoSession;
+    command.epoch = may_push ? epoch : kNoEpoch;
     command.motor = may_push ? motors_for(force_newton) : Counts{};
     exchange.commands.publish();
     exchange.wake.signal();
@@ -181,7 +181,7 @@ void FalconDevice::send(Vec3 force_newton) noexcept {
 }
 
 bool FalconDevice::in_hand() const noexcept {
-    return implementation_->session != kNoSession;
+    return implementation_->epoch != kNoEpoch;
 }
 
 std::uint64_t FalconDevice::reply_number() const noexcept {

@@ -43,8 +43,8 @@ void HomingWatch::add(const Reply& reply, Time at) noexcept {
         if (ready()) begin(at);
         full_replies_ = 0;
     } else if (full_replies_ < 2 && ++full_replies_ == 2) {
-        ++session_;
-        if (session_ == kNoSession) ++session_;
+        ++epoch_;
+        if (epoch_ == kNoEpoch) ++epoch_;
     }
     look_for_motion(reply, at);
 }

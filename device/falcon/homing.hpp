@@ -27,8 +27,8 @@ class HomingWatch {
 
     /// From the second reply in a row with all bits on: the counters jump as the last one comes.
     [[nodiscard]] bool ready() const noexcept { return full_replies_ >= 2; }
-    /// Another one after each homing and each link; kNoSession while not ready.
-    [[nodiscard]] Session session() const noexcept { return ready() ? session_ : kNoSession; }
+    /// Another one after each homing and each link; kNoEpoch while not ready.
+    [[nodiscard]] Epoch epoch() const noexcept { return ready() ? epoch_ : kNoEpoch; }
     /// Neither a motion nor a homed axis for 20 s.
     [[nodiscard]] bool idle(Time now) const noexcept;
 
@@ -36,7 +36,7 @@ class HomingWatch {
     void look_for_motion(const Reply& reply, Time at) noexcept;
 
     int full_replies_{0};  // in a row; stops at 2
-    Session session_{kNoSession};
+    Epoch epoch_{kNoEpoch};
     Reply last_place_{};
     bool placed_{false};
     Time quiet_since_{};

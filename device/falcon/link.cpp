@@ -40,8 +40,8 @@ int code_of(libusb_transfer_status status) {
 timespec time_left(Link::Time until, Link::Time now) {
     const auto left = std::max(until - now, Link::Clock::duration::zero());
     const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(left);
-    const std::chrono::nanoseconds rest = left - seconds;
-    return {static_cast<time_t>(seconds.count()), static_cast<long>(rest.count())};
+    const std::chrono::nanoseconds fraction = left - seconds;
+    return {static_cast<time_t>(seconds.count()), static_cast<long>(fraction.count())};
 }
 
 }  // namespace

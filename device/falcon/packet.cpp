@@ -92,13 +92,13 @@ std::optional<Reply> ReplyStream::add(std::span<const std::uint8_t>& bytes) noex
 // most, second to last), so that no whole reply is ever dropped.
 void ReplyStream::drop_to_next_start() noexcept {
     std::size_t dropped = 1;
-    const auto rest_fits = [&] {
+    const auto remainder_fits = [&] {
         for (std::size_t place = 0; dropped + place < size_; ++place) {
             if (!fits(place, bytes_[dropped + place])) return false;
         }
         return true;
     };
-    while (!rest_fits()) ++dropped;
+    while (!remainder_fits()) ++dropped;
     std::copy(bytes_.begin() + static_cast<std::ptrdiff_t>(dropped),
               bytes_.begin() + static_cast<std::ptrdiff_t>(size_), bytes_.begin());
     size_ -= dropped;

@@ -10,11 +10,10 @@ namespace dibhr::falcon {
 /// the relief.
 struct WorkspaceOptions {
     double scale{1.0};  ///< image millimetres a hand millimetre; 0.1 .. 10
-    Vec3 offset_mm{
-        0.0};  ///< of the image point under the centre; image frame: x right, y up, z to the person
+    /// Of the image point under the centre; image frame: x right, y up, z to the person.
+    Vec3 offset_mm{0.0};
     double centre_z_mm{115.0};  ///< of the usable volume, out of the base; x and y are 0
-    double radius_mm{
-        40.0};  ///< beyond it the soft boundary pushes back (CHAI3D: 40 mm for full quality)
+    double radius_mm{40.0};     ///< beyond it the soft boundary pushes back
     double boundary_newton_per_mm{0.3};
 
     bool operator==(const WorkspaceOptions&) const = default;

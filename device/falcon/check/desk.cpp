@@ -26,12 +26,12 @@ std::string rounded(double value) {
 
 }  // namespace
 
-void CheckDesk::obey_interrupt() const {
+void CheckDesk::quit_if_interrupted() const {
     if (guide.interrupted()) throw PersonQuits{};
 }
 
 std::optional<std::string> CheckDesk::answer() {
-    obey_interrupt();
+    quit_if_interrupted();
     auto typed = guide.next_line();
     if (typed == "q") throw PersonQuits{};
     if (typed == "s") throw StepSkipped{};

@@ -40,7 +40,7 @@ struct CheckDesk {
     /// wait for something else meanwhile.
     [[nodiscard]] std::optional<std::string> answer();
     /// Throws PersonQuits after Ctrl+C.
-    void obey_interrupt() const;
+    void quit_if_interrupted() const;
 
   private:
     [[nodiscard]] std::optional<std::string> line();

@@ -67,9 +67,9 @@ void agree(CheckDesk& desk, int counts, const std::string& strength) {
 /// One force, as often as the person wants; nothing without a reading.
 std::optional<Reading> weigh(CheckDesk& desk, int counts, Measured& part) {
     for (;;) {
-        const Vec3 resting = sample_counts(desk).mean;
-        const Counts motor = downward(desk, resting, counts);
-        agree(desk, counts, strength_of(desk, motor, resting));
+        const Vec3 without_force = sample_counts(desk).mean;
+        const Counts motor = downward(desk, without_force, counts);
+        agree(desk, counts, strength_of(desk, motor, without_force));
         CountsSample held;
         const PushEnd end = push_and_hold(desk, motor, held);
         desk.guide.say(end == PushEnd::held ? "no force any more" : sentence_of(end));
@@ -77,7 +77,7 @@ std::optional<Reading> weigh(CheckDesk& desk, int counts, Measured& part) {
         const bool readable = held.replies > 0 && (end == PushEnd::held || end == PushEnd::let_go);
         if (readable) {
             part.add("motor_counts", motor)
-                .add("counts_without_force", resting)
+                .add("counts_without_force", without_force)
                 .add("counts_held", held.mean)
                 .add("end", sentence_of(end));
             const auto grams = desk.number("What did the scale show? [g] (Enter alone = not seen)",

@@ -70,7 +70,7 @@ Phase run_phase(CheckDesk& desk, const char* name, bool homing, Measured& measur
     const auto begin = Clock::now();
     std::optional<double> first_change_ms;
     while (Clock::now() - begin < desk.options.times.homing_bit || phase.replies == 0) {
-        desk.obey_interrupt();
+        desk.quit_if_interrupted();
         const auto heard = desk.falcon.talk().exchange(command, kPeriod);
         if (!heard) continue;
         if (phase.replies++ == 0) phase.first = heard->reply;

@@ -50,7 +50,7 @@ CountsSample sample_counts(CheckDesk& desk) {
     const auto begin = CheckTalk::Clock::now();
     for (auto now = begin; sample.replies == 0 || now < begin + time;
          now = CheckTalk::Clock::now()) {
-        desk.obey_interrupt();
+        desk.quit_if_interrupted();
         const auto heard = desk.falcon.talk().exchange(nothing, kPeriod);
         if (!heard || heard->at < begin + time / 2) continue;
         sample.mean += as_vec(heard->reply.encoder);
@@ -143,7 +143,7 @@ void Push::release() noexcept {
     desk_.guide.force_ended();
 }
 
-PushEnd Push::obey_person() {
+PushEnd Push::perform_wish() {
     switch (desk_.guide.wish()) {
         case CheckGuide::Wish::quit:
             release();
@@ -172,7 +172,7 @@ PushEnd Push::exchange(double part) {
 }
 
 PushEnd Push::step(double part) {
-    PushEnd end = obey_person();
+    PushEnd end = perform_wish();
     if (end == PushEnd::held) end = exchange(part);
     if (end != PushEnd::held) release();
     return end;
@@ -227,7 +227,7 @@ PushEnd Push::be_silent(std::chrono::milliseconds time, Reply& reply) {
     for (auto now = Clock::now(); end == PushEnd::held && now < end_of_silence;
          now = Clock::now()) {
         desk_.falcon.talk().be_silent(std::min(end_of_silence, now + kLook));
-        end = obey_person();
+        end = perform_wish();
     }
     if (end == PushEnd::held) end = exchange(0.0);
     reply = reply_;

@@ -76,7 +76,7 @@ class Push {
   private:
     using Clock = std::chrono::steady_clock;
 
-    [[nodiscard]] PushEnd obey_person();
+    [[nodiscard]] PushEnd perform_wish();
     /// One packet with this part of the force. Anything but held has released it.
     PushEnd step(double part);
     PushEnd ramp(double from, double to);

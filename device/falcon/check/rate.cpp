@@ -56,7 +56,7 @@ Rate measure(CheckDesk& desk, const Setting& setting, Measured& measured) {
     const auto begin = CheckTalk::Clock::now();
     const auto end = begin + desk.options.times.rate;
     while (CheckTalk::Clock::now() < end) {
-        desk.obey_interrupt();
+        desk.quit_if_interrupted();
         const auto heard = talk.exchange(nothing);
         missing += heard ? 0 : 1;
         if (!heard) continue;

@@ -26,16 +26,16 @@ Vec3 as_vec(const Counts& counts) {
 }
 
 struct Silence {
-    Vec3 pushed{0.0};   ///< counts at the end of the hold
-    Vec3 after{0.0};    ///< right after the silence
-    Vec3 resting{0.0};  ///< later, without force
+    Vec3 pushed{0.0};         ///< counts at the end of the hold
+    Vec3 after{0.0};          ///< right after the silence
+    Vec3 without_force{0.0};  ///< later, without force
 
     /// The part of the force that was still there after the silence, as far as the grip's place
     /// tells; nothing when the grip gave way too little.
     [[nodiscard]] std::optional<double> part_left() const {
-        const double whole = glm::distance(pushed, resting);
+        const double whole = glm::distance(pushed, without_force);
         if (whole < kLeastMotion_counts) return std::nullopt;
-        return glm::dot(after - resting, pushed - resting) / (whole * whole);
+        return glm::dot(after - without_force, pushed - without_force) / (whole * whole);
     }
 };
 
@@ -57,9 +57,9 @@ std::string percent(double part) {
 
 /// In words: what was seen after this silence.
 std::string check_one(CheckDesk& desk, milliseconds time, Measured& part) {
-    const Vec3 resting = sample_counts(desk).mean;
-    const Counts motor = downward(desk, resting, kCounts);
-    desk.wait_for("The grip will press down with " + strength_of(desk, motor, resting) +
+    const Vec3 without_force = sample_counts(desk).mean;
+    const Counts motor = downward(desk, without_force, kCounts);
+    desk.wait_for("The grip will press down with " + strength_of(desk, motor, without_force) +
                   " for about a second, then the program is silent for " +
                   std::to_string(time.count()) +
                   " ms. Any key lets go. Look at the scale. Enter = force, s = skip, q = quit");
@@ -70,10 +70,10 @@ std::string check_one(CheckDesk& desk, milliseconds time, Measured& part) {
         .add("end", sentence_of(end));
     desk.guide.say(end == PushEnd::held ? "no force any more" : sentence_of(end));
     if (end != PushEnd::held) return "not measured";
-    silence.resting = sample_counts(desk).mean;
+    silence.without_force = sample_counts(desk).mean;
     part.add("counts_pushed", silence.pushed)
         .add("counts_after_silence", silence.after)
-        .add("counts_without_force", silence.resting);
+        .add("counts_without_force", silence.without_force);
     std::string found;
     if (const auto left = silence.part_left()) {
         part.add("part_of_the_force_left", *left);

@@ -16,14 +16,14 @@ void write_firmware(const std::filesystem::path& file);
 /// One Falcon in a program that is started with its host().
 class FalconOnUsb {
   public:
-    /// `folder`: where its socket is; `commands`: obeyed before the program begins.
+    /// `folder`: where its socket is; `commands`: performed before the program begins.
     FalconOnUsb(const std::filesystem::path& folder, std::vector<std::string> commands);
 
     /// What starts the program.
     [[nodiscard]] std::vector<std::string> host() const;
 
     /// One of the commands of the simulated unit, or `unplug`, `replug`; the test fails unless it
-    /// is obeyed.
+    /// is performed.
     void tell(const std::string& command) const;
     /// A number, or the first of three, of its state; the test fails when there is none.
     [[nodiscard]] double number(const std::string& name) const;

@@ -137,7 +137,7 @@ FalconBoard::Bytes FalconBoard::command(std::uint8_t byte, unsigned baud, Faults
     if (line_.size() < kPacketBytes) return {};
     const bool whole = line_.back() == '>';
     if (whole) {
-        obey(now);
+        perform(now);
     } else {
         log_.broken += line_.size();
     }
@@ -146,7 +146,7 @@ FalconBoard::Bytes FalconBoard::command(std::uint8_t byte, unsigned baud, Faults
     return reply();
 }
 
-void FalconBoard::obey(Moment now) {
+void FalconBoard::perform(Moment now) {
     for (std::size_t i = 0; i < motors_.size(); ++i) {
         unsigned value = 0;
         for (unsigned k = 0; k < 4; ++k) {

@@ -77,7 +77,7 @@ class FalconBoard {
     Bytes hello(std::uint8_t byte, unsigned baud, Faults& faults);
     Bytes boot(std::uint8_t byte, unsigned baud, Faults& faults);
     Bytes command(std::uint8_t byte, unsigned baud, Faults& faults, Moment now);
-    void obey(Moment now);
+    void perform(Moment now);
     [[nodiscard]] Bytes reply() const;
     void watch_references();
     void reset();

@@ -41,7 +41,7 @@ constexpr const char* kUsage = R"(Runs a program as it is, with simulated Novint
 Usage: falcon_host [OPTION VALUE]... -- PROGRAM [ARGUMENT]...
 
   --serial S         a unit of this serial number; again for another unit (default SIM00001)
-  --command COMMAND  obeyed before the program begins; again for more
+  --command COMMAND  performed before the program begins; again for more
   --script FILE      commands, one a line, from the program's beginning on; answers on stderr
   --socket PATH      takes commands while the program runs, one a line, and answers each in one
   --preload LIBRARY  the unit itself (default libfalcon_preload.so beside falcon_host)

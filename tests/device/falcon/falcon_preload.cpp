@@ -2,7 +2,7 @@
 // Environment, set by the host:
 //   FALCON_UNITS     a line a unit: NODE SERIAL
 //   FALCON_SOCKET    the host's commands come here
-//   FALCON_COMMANDS  lines to obey before the program's main(): SERIAL COMMAND
+//   FALCON_COMMANDS  lines to perform before the program's main(): SERIAL COMMAND
 #include <csignal>
 #include <cstddef>
 #include <cstdlib>
@@ -36,7 +36,7 @@ class PreloadedUnits {
         }
     }
 
-    /// SERIAL COMMAND; besides those of obey(): `pull`, and `plug NODE`.
+    /// SERIAL COMMAND; besides those of perform(): `pull`, and `plug NODE`.
     std::string answer(const std::string& line) {
         std::istringstream words(line);
         std::string serial;
@@ -58,7 +58,7 @@ class PreloadedUnits {
             serve_node(node, unit);
             return "ok";
         }
-        return obey(*unit, command);
+        return perform(*unit, command);
     }
 
   private:

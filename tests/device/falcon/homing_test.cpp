@@ -38,10 +38,10 @@ TEST_CASE("poses count from the second reply in a row with all three axes homed"
     CHECK_FALSE(replies.watch.ready());
     replies.come(kAll);
     CHECK_FALSE(replies.watch.ready());
-    CHECK(replies.watch.session() == kNoSession);
+    CHECK(replies.watch.epoch() == kNoEpoch);
     replies.come(kAll);
     CHECK(replies.watch.ready());
-    CHECK(replies.watch.session() != kNoSession);
+    CHECK(replies.watch.epoch() != kNoEpoch);
 }
 
 TEST_CASE("a single reply that seems homed makes nothing ready", "[homing]") {
@@ -54,22 +54,22 @@ TEST_CASE("a single reply that seems homed makes nothing ready", "[homing]") {
     }
 }
 
-TEST_CASE("a lost axis ends it at once, and every homing and every link is another session",
+TEST_CASE("a lost axis ends it at once, and every homing and every link is another epoch",
           "[homing]") {
     Replies replies;
     replies.come(kAll, {}, milliseconds(10));
-    const Session first = replies.watch.session();
+    const Epoch first = replies.watch.epoch();
     replies.come(5);
     CHECK_FALSE(replies.watch.ready());
     replies.come(kAll, {}, milliseconds(2));
-    const Session second = replies.watch.session();
+    const Epoch second = replies.watch.epoch();
     CHECK(second != first);
-    CHECK(second != kNoSession);
+    CHECK(second != kNoEpoch);
     replies.watch.begin(replies.now);
     CHECK_FALSE(replies.watch.ready());
     replies.come(kAll, {}, milliseconds(2));
-    CHECK(replies.watch.session() != second);
-    CHECK(replies.watch.session() != kNoSession);
+    CHECK(replies.watch.epoch() != second);
+    CHECK(replies.watch.epoch() != kNoEpoch);
 }
 
 TEST_CASE("without a motion and without a homed axis it is idle after twenty seconds", "[homing]") {

@@ -126,7 +126,7 @@ bool access_command(UsbfsUnit& unit, const std::string& word, Words& words) {
 
 }  // namespace
 
-std::string obey(UsbfsUnit& unit, const std::string& line) {
+std::string perform(UsbfsUnit& unit, const std::string& line) {
     Words words(line);
     std::string word;
     words >> word;

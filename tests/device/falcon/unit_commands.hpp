@@ -24,6 +24,6 @@ inline constexpr const char* kUnitCommands =
 )";
 
 /// Obeys one line of kUnitCommands; answers "ok", the state, or "error: " and why, in one line.
-[[nodiscard]] std::string obey(UsbfsUnit& unit, const std::string& line);
+[[nodiscard]] std::string perform(UsbfsUnit& unit, const std::string& line);
 
 }  // namespace dibhr::test::falcon
