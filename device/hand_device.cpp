@@ -1,7 +1,6 @@
 // Makes the device named on the command line.
 #include "device/hand_device.hpp"
 
-#include <algorithm>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -35,15 +34,6 @@ HandDevice falcon_hand(const FalconChoice& choice) {
     return hand;
 }
 
-std::string serials_of(const std::vector<falcon::AttachedFalcon>& attached) {
-    std::string serials;
-    for (const falcon::AttachedFalcon& one : attached) {
-        serials += (serials.empty() ? "" : ", ") +
-                   (one.serial.empty() ? "one whose serial cannot be read" : one.serial);
-    }
-    return serials;
-}
-
 /// The one that is meant. Throws DeviceError when none is attached, or it is not clear which.
 falcon::AttachedFalcon attached_falcon(const std::string& serial) {
     const std::vector<falcon::AttachedFalcon> attached = falcon::attached_falcons();
@@ -57,13 +47,9 @@ falcon::AttachedFalcon attached_falcon(const std::string& serial) {
                           serials_of(attached) +
                           "): choose one with --device falcon:SERIAL or in the settings");
     }
-    const auto meant = std::find_if(attached.begin(), attached.end(),
-                                    [&serial](const falcon::AttachedFalcon& one) {
-                                        return serial.empty() || one.serial == serial;
-                                    });
-    if (meant == attached.end()) {
-        throw DeviceError("no Novint Falcon of serial " + serial + " is attached, but " +
-                          serials_of(attached) + ": choose that one with --device falcon:SERIAL");
+    const auto meant = falcon::choose(attached, serial);
+    if (!meant) {
+        throw DeviceError(falcon::why_none(attached, serial) + " with --device falcon:SERIAL");
     }
     return *meant;
 }

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "device/falcon/check/guide.hpp"
+#include "device/falcon/check/check.hpp"
 
 namespace dibhr {
 

@@ -6,11 +6,10 @@
 #include <optional>
 #include <stop_token>
 
-#include "device/falcon/buttons.hpp"
 #include "device/falcon/exchange.hpp"
-#include "device/falcon/homing.hpp"
 #include "device/falcon/link.hpp"
-#include "device/falcon/status_board.hpp"
+#include "device/falcon/reply_watch.hpp"
+#include "device/falcon/status.hpp"
 #include "device/falcon/usb.hpp"
 
 namespace dibhr::falcon {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "core/realtime/thread_setup.hpp"
-#include "device/falcon/attached.hpp"
-#include "device/falcon/bring_up.hpp"
 #include "device/falcon/probe.hpp"
+#include "device/falcon/upload.hpp"
+#include "device/falcon/usb.hpp"
 
 namespace dibhr::falcon {
 

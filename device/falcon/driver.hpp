@@ -14,7 +14,7 @@
 #include "device/falcon/exchange.hpp"
 #include "device/falcon/firmware_image.hpp"
 #include "device/falcon/options.hpp"
-#include "device/falcon/status_board.hpp"
+#include "device/falcon/status.hpp"
 #include "device/falcon/usb.hpp"
 
 namespace dibhr::falcon {

@@ -9,7 +9,6 @@
 #include "device/falcon/driver.hpp"
 #include "device/falcon/exchange.hpp"
 #include "device/falcon/kinematics.hpp"
-#include "device/falcon/motors.hpp"
 #include "device/falcon/workspace.hpp"
 
 namespace dibhr::falcon {

@@ -30,7 +30,6 @@ constexpr std::size_t kMostBytes = std::size_t{256} * 1024;
 
 constexpr std::uint32_t kKey = 0x08AA;
 constexpr int kReservedWords = 8;
-constexpr std::size_t kHeaderWords = 1 + kReservedWords + 2;  // key, reserved, entry point
 constexpr std::uint32_t kAddressEnd = 1U << 22U;
 
 /// Words at an address.
@@ -41,48 +40,43 @@ struct Block {
     bool operator==(const Block&) const = default;
 };
 
-/// Known by the first half of its SHA-256. README.md, Firmware images.
+/// README.md, Firmware images; none has more than five blocks.
 struct KnownImage {
-    std::string_view sha256_begins;
-    std::string_view name;
-};
-constexpr std::array<KnownImage, 4> kKnownImages{
-    KnownImage{"1119e39c39fab1f3", "nvent_firmware.bin (Novint nVent)"},
-    KnownImage{"b2700d5cd5ca217e", "test_firmware.bin (NOVINT.BIN of Novint's driver disc)"},
-    KnownImage{"ae838730af34b582", "novint_T0.bin (Novint)"},
-    KnownImage{"e0ae3598670fa1c8", "novint_T2.bin (Novint)"}};
-
-/// How the known images are laid out; none has more than five blocks.
-struct KnownLayout {
+    std::string_view sha256_begins;  ///< the first half
     std::string_view file;
+    std::string_view origin;
     std::array<Block, 5> blocks;
 };
-constexpr std::array<KnownLayout, 3> kKnownLayouts{
-    KnownLayout{"nvent_firmware.bin",
-                {Block{3643, 0x3F8002}, {241, 0x3F8E3D}, {336, 0x0093A2}, {2, 0x3F8000}, {0, 0}}},
-    KnownLayout{
-        "test_firmware.bin",
-        {Block{3210, 0x3F8002}, {128, 0x3F8C8C}, {264, 0x0002A6}, {2, 0x3F8000}, {31, 0x3F8D0C}}},
-    KnownLayout{
-        "novint_T0.bin",
-        {Block{3448, 0x3F8002}, {183, 0x3F8D7A}, {266, 0x0002A6}, {2, 0x3F8000}, {31, 0x3F8E31}}}};
+constexpr std::array<KnownImage, 4> kKnownImages{{
+    {"1119e39c39fab1f3",
+     "nvent_firmware.bin",
+     "Novint nVent",
+     {{{3643, 0x3F8002}, {241, 0x3F8E3D}, {336, 0x0093A2}, {2, 0x3F8000}}}},
+    {"b2700d5cd5ca217e",
+     "test_firmware.bin",
+     "NOVINT.BIN of Novint's driver disc",
+     {{{3210, 0x3F8002}, {128, 0x3F8C8C}, {264, 0x0002A6}, {2, 0x3F8000}, {31, 0x3F8D0C}}}},
+    {"ae838730af34b582",
+     "novint_T0.bin",
+     "Novint",
+     {{{3448, 0x3F8002}, {183, 0x3F8D7A}, {266, 0x0002A6}, {2, 0x3F8000}, {31, 0x3F8E31}}}},
+    {"e0ae3598670fa1c8",
+     "novint_T2.bin",
+     "Novint",
+     {{{3448, 0x3F8002}, {183, 0x3F8D7A}, {266, 0x0002A6}, {2, 0x3F8000}, {31, 0x3F8E31}}}},
+}};
 
-/// What people take for the firmware by mistake.
-struct ForeignStart {
-    std::string_view start;
-    std::string_view what;
-};
-constexpr std::array<ForeignStart, 8> kForeignStarts{
-    ForeignStart{"\x89PNG", "it is a PNG picture"},
-    ForeignStart{"\xFF\xD8\xFF", "it is a JPEG picture"},
-    ForeignStart{"\x7F"
-                 "ELF",
-                 "it is a Linux program or library"},
-    ForeignStart{"MZ", "it is a Windows program"},
-    ForeignStart{"PK", "it is a ZIP archive that has to be unpacked first"},
-    ForeignStart{"\x1F\x8B", "it is a compressed archive that has to be unpacked first"},
-    ForeignStart{":", "it is Intel hex text instead of the bytes themselves"},
-    ForeignStart{"<", "it is a web page instead of the file that the page shows"}};
+/// What people take for the firmware by mistake: how it begins, and what it is.
+constexpr std::array<std::array<std::string_view, 2>, 8> kForeignStarts{{
+    {"\x89PNG", "it is a PNG picture"},
+    {"\xFF\xD8\xFF", "it is a JPEG picture"},
+    {"\177ELF", "it is a Linux program or library"},
+    {"MZ", "it is a Windows program"},
+    {"PK", "it is a ZIP archive that has to be unpacked first"},
+    {"\x1F\x8B", "it is a compressed archive that has to be unpacked first"},
+    {":", "it is Intel hex text instead of the bytes themselves"},
+    {"<", "it is a web page instead of the file that the page shows"},
+}};
 
 /// None: nobody has seen it.
 const KnownImage* known_image(std::string_view sha256) {
@@ -103,8 +97,8 @@ std::string_view as_text(Bytes bytes) {
 }
 
 std::string without_key(Bytes bytes) {
-    for (const ForeignStart& foreign : kForeignStarts) {
-        if (as_text(bytes).starts_with(foreign.start)) return std::string(foreign.what);
+    for (const auto& [start, what] : kForeignStarts) {
+        if (as_text(bytes).starts_with(start)) return std::string(what);
     }
     if (is_text(bytes)) return "it is text that holds no whole array of firmware bytes";
     return "it does not begin with AA 08";
@@ -150,8 +144,8 @@ class Words {
     std::size_t at_{0};
 };
 
-/// Walks the blocks to the end; the fault, empty for none.
-std::string fault_of_blocks(Words& words, std::uint32_t entry) {
+/// Walks the blocks to the end, noting each; the fault, empty for none.
+std::string fault_of_blocks(Words& words, std::uint32_t entry, std::vector<Block>& blocks) {
     bool entered = false;
     for (int number = 1;; ++number) {
         const std::string block = "block " + std::to_string(number);
@@ -164,35 +158,13 @@ std::string fault_of_blocks(Words& words, std::uint32_t entry) {
             return block + " at " + in_hex(*start) + " does not fit into 22 bits of address";
         }
         if (!words.skip(*length)) return "it ends inside " + block;
+        blocks.push_back({*length, *start});
         entered = entered || (entry >= *start && entry - *start < *length);
     }
     if (words.left() > 0) {
         return std::to_string(words.left()) + " bytes follow the zero that closes it";
     }
     if (!entered) return "its entry point " + in_hex(entry) + " lies in none of its blocks";
-    return {};
-}
-
-/// Of an image without a fault.
-std::vector<Block> blocks_of(Bytes bytes) {
-    Words words(bytes);
-    words.skip(kHeaderWords);
-    std::vector<Block> blocks;
-    while (const auto length = words.next()) {
-        if (*length == 0) break;
-        blocks.push_back({*length, words.next_address().value_or(0)});
-        words.skip(*length);
-    }
-    return blocks;
-}
-
-/// The known image that this one, whose hash nobody knows, wants to be; empty for none.
-std::string_view file_of_same_layout(Bytes bytes) {
-    const std::vector<Block> blocks = blocks_of(bytes);
-    for (const KnownLayout& known : kKnownLayouts) {
-        const auto end = std::find(known.blocks.begin(), known.blocks.end(), Block{});
-        if (std::equal(blocks.begin(), blocks.end(), known.blocks.begin(), end)) return known.file;
-    }
     return {};
 }
 
@@ -206,12 +178,14 @@ std::string_view file_of_same_layout(Bytes bytes) {
                      "): make it readable or choose another file");
 }
 
-/// Refuses an image of unknown content in the layout of a known one.
-void refuse_damaged(const fs::path& file, Bytes bytes) {
-    const std::string_view known = file_of_same_layout(bytes);
-    if (known.empty()) return;
-    refuse(file, "it is laid out like " + std::string(known) +
-                     ", but its content differs: the file is damaged");
+/// Refuses an image of unknown content with the blocks of a known one.
+void refuse_damaged(const fs::path& file, const std::vector<Block>& blocks) {
+    for (const KnownImage& known : kKnownImages) {
+        const auto end = std::find(known.blocks.begin(), known.blocks.end(), Block{});
+        if (!std::equal(blocks.begin(), blocks.end(), known.blocks.begin(), end)) continue;
+        refuse(file, "it is laid out like " + std::string(known.file) +
+                         ", but its content differs: the file is damaged");
+    }
 }
 
 std::string too_large(std::uintmax_t bytes) {
@@ -266,9 +240,8 @@ std::vector<std::uint8_t> bytes_of_c_array(std::string_view source) {
     }
 }
 
-}  // namespace
-
-std::string fault_of_firmware(std::span<const std::uint8_t> bytes) {
+/// As fault_of_firmware(); notes the blocks.
+std::string fault_of(Bytes bytes, std::vector<Block>& blocks) {
     if (bytes.empty()) return "it is empty";
     if (bytes.size() > kMostBytes) return too_large(bytes.size());
     Words words(bytes);
@@ -283,13 +256,20 @@ std::string fault_of_firmware(std::span<const std::uint8_t> bytes) {
     if (*entry >= kAddressEnd) {
         return "its entry point " + in_hex(*entry) + " does not fit into 22 bits of address";
     }
-    return fault_of_blocks(words, *entry);
+    return fault_of_blocks(words, *entry, blocks);
+}
+
+}  // namespace
+
+std::string fault_of_firmware(std::span<const std::uint8_t> bytes) {
+    std::vector<Block> blocks;
+    return fault_of(bytes, blocks);
 }
 
 std::string name_of_firmware(std::string_view sha256) {
     const KnownImage* known = known_image(sha256);
-    return std::string(known != nullptr ? known->name
-                                        : "an image this program has not seen before");
+    if (known == nullptr) return "an image this program has not seen before";
+    return std::string(known->file) + " (" + std::string(known->origin) + ")";
 }
 
 FirmwareImage read_firmware(const std::filesystem::path& file) {
@@ -299,11 +279,12 @@ FirmwareImage read_firmware(const std::filesystem::path& file) {
         auto array = bytes_of_c_array(as_text(image.bytes));
         if (!array.empty()) image.bytes = std::move(array);
     }
-    const std::string fault = fault_of_firmware(image.bytes);
+    std::vector<Block> blocks;
+    const std::string fault = fault_of(image.bytes, blocks);
     if (!fault.empty()) refuse(file, fault);
     image.sha256 = sha256_of(image.bytes);
     image.name = name_of_firmware(image.sha256);
-    if (known_image(image.sha256) == nullptr) refuse_damaged(file, image.bytes);
+    if (known_image(image.sha256) == nullptr) refuse_damaged(file, blocks);
     return image;
 }
 

@@ -25,8 +25,6 @@ struct FtdiRequest {
     std::uint16_t index{0};
 };
 
-inline constexpr std::uint8_t kVendorRequestOut = 0x40;
-
 /// Which of the two empties which queue is disputed: always send both.
 inline constexpr FtdiRequest kPurgeOne{0, 1};
 inline constexpr FtdiRequest kPurgeOther{0, 2};
@@ -58,6 +56,10 @@ inline constexpr FtdiRequest kLatencyRunTime{9, 1};
 // Nobody waits for a pose: a sixth of the empty packets, and a reply still before it is asked for
 // again.
 inline constexpr FtdiRequest kLatencyWhilePaused{9, 6};
+
+/// Requests with an answer: modem and line status, 2 bytes; the latency timer [ms], 1 byte.
+inline constexpr std::uint8_t kReadModemStatus = 5;
+inline constexpr std::uint8_t kReadLatencyTimer = 10;
 
 /// Bits of the second status byte, the line's.
 inline constexpr std::uint8_t kOverrun = 0x02;      // bytes were lost

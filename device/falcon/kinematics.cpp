@@ -1,11 +1,12 @@
-// The delta mechanism of the Falcon (README.md, Kinematics; Stamper's thesis, chapter 3).
+// The delta mechanism of the Falcon (README.md: Kinematics, Motors; Stamper's thesis, chapter 3).
 #include "device/falcon/kinematics.hpp"
 
-#include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
-
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 namespace dibhr::falcon {
 
@@ -252,6 +253,25 @@ std::optional<Vec3> torques_of(Vec3 force_newton, const Jacobian& jacobian) noex
                            Vec3{jacobian[0].y, jacobian[1].y, jacobian[2].y},
                            Vec3{jacobian[0].z, jacobian[1].z, jacobian[2].z}};
     return solved(columns, force_newton);
+}
+
+Counts motor_counts(Vec3 torques_newton_metre, const Motors& motors) noexcept {
+    constexpr double kMostCounts = 4095.0;  // beyond it Novint's driver saturates
+    const double scale = motors.counts_per_newton_metre;
+    // Whole, so that rounding does not lead beyond it.
+    const double full = std::floor(std::min(motors.full_scale_counts, kMostCounts));
+    if (!is_finite(torques_newton_metre) || !std::isfinite(scale)) return {};
+    if (!(scale > 0.0) || !(full > 0.0)) return {};
+
+    const Vec3 size = glm::abs(torques_newton_metre);
+    const double largest = std::max({size.x, size.y, size.z});
+    const bool saturated = scale * largest > full;
+    const auto command = [&](double torque) {
+        return static_cast<std::int16_t>(
+            std::lround(saturated ? -full * (torque / largest) : -scale * torque));
+    };
+    return {command(torques_newton_metre.x), command(torques_newton_metre.y),
+            command(torques_newton_metre.z)};
 }
 
 }  // namespace dibhr::falcon

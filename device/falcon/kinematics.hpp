@@ -1,4 +1,5 @@
-// Where the grip is, from three thigh angles, and back (README.md, Kinematics).
+// Where the grip is, from three thigh angles, and back; from torques to motor commands that never
+// wrap (README.md: Kinematics, Motors).
 // Frame: x right, y up, z out of the base towards the person, metres, origin on the base plane.
 #pragma once
 
@@ -50,5 +51,17 @@ using Jacobian = std::array<Vec3, 3>;
 /// Torques at the thighs [N m] that push the grip with `force_newton` (device frame):
 /// (dp/dtheta)^T F. Nothing when the mechanism is singular.
 [[nodiscard]] std::optional<Vec3> torques_of(Vec3 force_newton, const Jacobian& jacobian) noexcept;
+
+/// Nobody has measured the scale: 10000 (libnifalcon), 6616 (Martin & Hillier), ~3600 (captures).
+struct Motors {
+    double counts_per_newton_metre{10000.0};
+    double full_scale_counts{4095.0};  ///< where Novint's driver saturates; at most 4095
+
+    bool operator==(const Motors&) const = default;
+};
+
+/// -S * torque; all three shortened by one common factor when one is beyond full scale, so that the
+/// force keeps its direction. Zero when a torque is not finite.
+[[nodiscard]] Counts motor_counts(Vec3 torques_newton_metre, const Motors& motors) noexcept;
 
 }  // namespace dibhr::falcon

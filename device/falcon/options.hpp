@@ -5,7 +5,6 @@
 #include <string>
 
 #include "device/falcon/kinematics.hpp"
-#include "device/falcon/motors.hpp"
 #include "device/falcon/packet.hpp"
 #include "device/falcon/workspace.hpp"
 

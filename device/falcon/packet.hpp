@@ -36,6 +36,14 @@ struct Reply {
     std::uint8_t homed{0};    ///< bits 0..2: axes 1..3
 };
 
+/// Reply::homed when all three are.
+inline constexpr std::uint8_t kAllAxes = 7;
+
+/// No force; asks to hold the homing, as every packet does.
+[[nodiscard]] constexpr Command no_force(Led led) noexcept {
+    return {.motor = {}, .led = led, .homing = true};
+}
+
 [[nodiscard]] Packet encode(const Command& command) noexcept;
 
 /// Nothing when it is no reply: frame bytes, and the letters of the numbers.

@@ -54,11 +54,9 @@ bool answers(FtdiPort& port, const std::stop_token& stop) {
 }
 
 void leave_without_force(FtdiPort& port) noexcept {
-    // Asked to hold its homing, as in every packet before.
-    const Command last{.motor = {}, .led = Led::off, .homing = true};
     for (int k = 0; k < kLastPackets; ++k) {
         unless_it_fails([&] {
-            port.write(encode(last), kLastLimit);
+            port.write(encode(no_force(Led::off)), kLastLimit);
             (void)port.read(kLastLimit);
         });
     }

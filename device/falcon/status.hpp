@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstdint>
+#include <mutex>
 #include <string>
 
 #include "device/falcon/packet.hpp"
@@ -33,6 +35,31 @@ struct Status {
     std::uint64_t resent{0};           ///< commands sent again for want of a reply
     std::uint64_t bytes_discarded{0};  ///< that belonged to no reply
     std::uint64_t line_errors{0};      ///< packets with overrun, parity or framing bits
+};
+
+/// Where the USB thread writes the status and the window reads it.
+class StatusBoard {
+  public:
+    using Time = std::chrono::steady_clock::time_point;
+
+    /// Any thread but the haptic one.
+    [[nodiscard]] Status read() const;
+
+    // The USB thread alone:
+
+    /// The status to come.
+    [[nodiscard]] Status& draft() noexcept { return draft_; }
+    void publish();
+    /// At most 50 times a second; never waits.
+    void publish_if_due(Time now);
+    /// A new stage, published at once.
+    void enter(Stage stage, std::string sentence, bool trouble = false);
+
+  private:
+    Status draft_{};
+    Time published_at_{};
+    mutable std::mutex mutex_{};
+    Status published_{};  // guarded by mutex_
 };
 
 }  // namespace dibhr::falcon

@@ -6,9 +6,9 @@
 #include <stop_token>
 #include <thread>
 
-#include "device/falcon/bring_up.hpp"
-#include "device/falcon/homing.hpp"
 #include "device/falcon/probe.hpp"
+#include "device/falcon/reply_watch.hpp"
+#include "device/falcon/upload.hpp"
 #include "device/falcon/usb.hpp"
 
 namespace dibhr::falcon {
@@ -22,11 +22,10 @@ constexpr std::chrono::milliseconds kAnswerLimit{30};
 
 /// The first reply that tells of all axes, or the last one of half a second.
 std::optional<Reply> homing_reply(FtdiPort& port) {
-    constexpr Command kQuestion{.motor = {}, .led = Led::red, .homing = true};
     const auto end = std::chrono::steady_clock::now() + kLookFor;
     std::optional<Reply> last;
     while (std::chrono::steady_clock::now() < end && !(last && homed_axes(last->homed) == 3)) {
-        if (const auto reply = ask(port, kQuestion, kAnswerLimit)) last = reply;
+        if (const auto reply = ask(port, no_force(Led::red), kAnswerLimit)) last = reply;
         std::this_thread::sleep_for(kBetweenQuestions);
     }
     return last;

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "device/falcon/attached.hpp"
 #include "device/falcon/firmware_image.hpp"
 #include "device/falcon/options.hpp"
 #include "device/falcon/status.hpp"
+#include "device/falcon/usb.hpp"
 
 namespace dibhr::falcon {
 

@@ -6,8 +6,10 @@
 #include <functional>
 #include <span>
 #include <stop_token>
+#include <string>
 
 #include "core/error.hpp"
+#include "device/falcon/firmware_image.hpp"
 #include "device/falcon/usb.hpp"
 
 namespace dibhr::falcon {
@@ -41,5 +43,15 @@ struct UploadOptions {
 /// s; the longest way to fail, ten tries, takes some 20 s. Throws UploadError or UsbError.
 [[nodiscard]] bool upload(FtdiPort& port, std::span<const std::uint8_t> image,
                           const UploadOptions& options, const std::stop_token& stop);
+
+enum class BroughtUp { answers, no_firmware, stopped };
+
+/// Asks it; when nothing answers, loads `firmware`, if there is any. Throws UploadError or
+/// UsbError.
+[[nodiscard]] BroughtUp bring_up(FtdiPort& port, const FirmwareImage& firmware,
+                                 const UploadOptions& options, const std::stop_token& stop);
+
+/// What a person does when there is no firmware in `falcon` and no file to load.
+[[nodiscard]] std::string firmware_is_wanted(const AttachedFalcon& falcon);
 
 }  // namespace dibhr::falcon

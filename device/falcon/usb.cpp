@@ -1,23 +1,27 @@
-// libusb's context, devices and handles with owners, and its errors in plain sentences.
+// The Falcons on the USB, libusb's context and handles with owners, its errors in plain sentences.
 #include "device/falcon/usb.hpp"
 
 #include <libusb.h>
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <fstream>
 #include <optional>
+#include <system_error>
 #include <tuple>
 #include <utility>
 
-#include "device/falcon/permission.hpp"
-
 namespace dibhr::falcon {
+namespace fs = std::filesystem;
 
 namespace {
 
 constexpr unsigned kRequestLimit_ms = 1000;  // ample
-constexpr int kMostPorts = 7;                // in a row, by the USB specification
+constexpr std::uint8_t kVendorRequestOut = 0x40;
+constexpr std::uint8_t kVendorRequestIn = 0xc0;
+constexpr const char* kRule = "70-dibhr-falcon.rules";
+constexpr int kMostPorts = 7;  // in a row, by the USB specification
 
 struct FreeList {
     void operator()(libusb_device** list) const noexcept { libusb_free_device_list(list, 1); }
@@ -78,7 +82,102 @@ unsigned milliseconds_of(std::chrono::milliseconds limit) {
     return static_cast<unsigned>(std::max<std::chrono::milliseconds::rep>(limit.count(), 1));
 }
 
+/// The folders that udev reads rules from (its manual page).
+constexpr std::array<const char*, 5> kRuleFolders{"/etc/udev/rules.d", "/run/udev/rules.d",
+                                                  "/usr/local/lib/udev/rules.d",
+                                                  "/usr/lib/udev/rules.d", "/lib/udev/rules.d"};
+
+bool is_file(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_regular_file(path, ignored);
+}
+
+bool rule_is_in_place() {
+    return std::any_of(kRuleFolders.begin(), kRuleFolders.end(),
+                       [](const char* folder) { return is_file(fs::path(folder) / kRule); });
+}
+
+/// Of the installed program, or of the sources it was built from.
+fs::path rule_that_came_along() {
+    std::error_code ignored;
+    const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+    const fs::path installed = program.parent_path().parent_path() / "lib" / "udev" / "rules.d";
+    if (is_file(installed / kRule)) return installed / kRule;
+    return fs::path(DIBHR_SOURCE_ASSETS) / kRule;
+}
+
+/// The commands that install the udev rule; or, when it is in place, how to come under it.
+std::string how_to_get_permission() {
+    if (rule_is_in_place()) {
+        return "log in at this machine itself, or join the group plugdev (sudo usermod -aG plugdev "
+               "$USER, then log in again), and plug the Falcon in again";
+    }
+    return "run: sudo cp " + rule_that_came_along().string() +
+           " /etc/udev/rules.d/ && sudo udevadm control --reload; then plug the Falcon in again";
+}
+
+constexpr const char* kUnplugged =
+    " was unplugged or lost its USB power: the mouse touches meanwhile; plug it in again";
+
+/// What stands after the Falcon's name.
+struct Meaning {
+    int code;
+    const char* sentence;
+};
+constexpr std::array<Meaning, 9> kMeanings{{
+    {LIBUSB_ERROR_BUSY,
+     " is held by another program or driver: close the other program, or plug the Falcon in again"},
+    {LIBUSB_ERROR_NO_DEVICE, kUnplugged},
+    {LIBUSB_ERROR_NOT_FOUND, kUnplugged},
+    {LIBUSB_ERROR_PIPE,
+     " refused a USB transfer (stall): if this comes again, unplug it and its power adapter for "
+     "ten seconds"},
+    {LIBUSB_ERROR_TIMEOUT,
+     " took no data for a second: unplug it and its power adapter for ten seconds"},
+    {LIBUSB_ERROR_OVERFLOW,
+     " sent more than was asked for: plug it in again, into another USB socket if this comes "
+     "again"},
+    {LIBUSB_ERROR_IO,
+     " failed on the USB (input/output error): check its cable and plug it in again"},
+    {LIBUSB_ERROR_NO_MEM, " cannot be used, for no memory is left: close other programs"},
+    {LIBUSB_ERROR_NOT_SUPPORTED,
+     " is held by a driver that libusb cannot replace: on Windows give it the WinUSB driver with "
+     "Zadig, then plug it in again"},
+}};
+
 }  // namespace
+
+std::string full_name_of(const AttachedFalcon& falcon) {
+    if (!falcon.serial.empty()) return "the Falcon " + falcon.serial;
+    return "the Falcon at USB bus " + std::to_string(falcon.bus) + " address " +
+           std::to_string(falcon.address);
+}
+
+std::optional<AttachedFalcon> choose(std::span<const AttachedFalcon> attached,
+                                     const std::string& serial) {
+    const auto found = std::find_if(
+        attached.begin(), attached.end(),
+        [&](const AttachedFalcon& falcon) { return serial.empty() || falcon.serial == serial; });
+    if (found == attached.end()) return std::nullopt;
+    return *found;
+}
+
+std::string why_none(std::span<const AttachedFalcon> attached, const std::string& serial) {
+    const std::string wanted = serial.empty() ? "no Falcon" : "the Falcon " + serial;
+    const std::string verb = serial.empty() ? " is attached" : " is not attached";
+    if (attached.empty()) return wanted + verb + ": plug in its USB cable and its power adapter";
+    return wanted + verb + ", but " + serials_of(attached) +
+           ": plug it in, or choose the serial of another";
+}
+
+std::string serials_of(std::span<const AttachedFalcon> attached) {
+    std::string serials;
+    for (const AttachedFalcon& falcon : attached) {
+        serials += (serials.empty() ? "" : ", ") +
+                   (falcon.serial.empty() ? "one without a readable serial" : falcon.serial);
+    }
+    return serials;
+}
 
 bool UsbError::gone() const noexcept {
     return code_ == LIBUSB_ERROR_NO_DEVICE || code_ == LIBUSB_ERROR_NOT_FOUND;
@@ -86,44 +185,13 @@ bool UsbError::gone() const noexcept {
 
 UsbError usb_error(int code, const AttachedFalcon& falcon) {
     const std::string who = full_name_of(falcon);
-    switch (code) {
-        case LIBUSB_ERROR_ACCESS:
-            return {code, "no permission to open " + who + ": " + how_to_get_permission()};
-        case LIBUSB_ERROR_BUSY:
-            return {code, who +
-                              " is held by another program or driver: close the other program, "
-                              "or plug the Falcon in again"};
-        case LIBUSB_ERROR_NO_DEVICE:
-        case LIBUSB_ERROR_NOT_FOUND:
-            return {code, who +
-                              " was unplugged or lost its USB power: the mouse touches "
-                              "meanwhile; plug it in again"};
-        case LIBUSB_ERROR_PIPE:
-            return {code, who +
-                              " refused a USB transfer (stall): if this comes again, unplug it "
-                              "and its power adapter for ten seconds"};
-        case LIBUSB_ERROR_TIMEOUT:
-            return {code, who +
-                              " took no data for a second: unplug it and its power adapter for "
-                              "ten seconds"};
-        case LIBUSB_ERROR_OVERFLOW:
-            return {code, who +
-                              " sent more than was asked for: plug it in again, into another "
-                              "USB socket if this comes again"};
-        case LIBUSB_ERROR_IO:
-            return {code, who +
-                              " failed on the USB (input/output error): check its cable and plug "
-                              "it in again"};
-        case LIBUSB_ERROR_NOT_SUPPORTED:
-            return {code, who +
-                              " is held by a driver that libusb cannot replace: on Windows give "
-                              "it the WinUSB driver with Zadig, then plug it in again"};
-        case LIBUSB_ERROR_NO_MEM:
-            return {code, "no memory left to talk to " + who + ": close other programs"};
-        default:
-            return {code,
-                    who + " cannot be used (" + libusb_error_name(code) + "): plug it in again"};
+    if (code == LIBUSB_ERROR_ACCESS) {
+        return {code, "no permission to open " + who + ": " + how_to_get_permission()};
     }
+    for (const Meaning& known : kMeanings) {
+        if (known.code == code) return {code, who + known.sentence};
+    }
+    return {code, who + " cannot be used (" + libusb_error_name(code) + "): plug it in again"};
 }
 
 void UsbContext::Close::operator()(libusb_context* context) const noexcept {
@@ -193,6 +261,13 @@ void FtdiPort::request(const FtdiRequest& request) {
     const int code =
         libusb_control_transfer(handle(), kVendorRequestOut, request.request, request.value,
                                 request.index, nullptr, 0, kRequestLimit_ms);
+    if (code < 0) throw usb_error(code, falcon_);
+}
+
+void FtdiPort::ask(std::uint8_t request, std::span<std::uint8_t> answer) {
+    const int code =
+        libusb_control_transfer(handle(), kVendorRequestIn, request, 0, 0, answer.data(),
+                                static_cast<std::uint16_t>(answer.size()), kRequestLimit_ms);
     if (code < 0) throw usb_error(code, falcon_);
 }
 

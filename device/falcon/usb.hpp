@@ -1,22 +1,45 @@
-// libusb's context, devices and handles with owners, and its errors in plain sentences.
+// The Falcons on the USB, libusb's context and handles with owners, its errors in plain sentences.
 #pragma once
 
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/error.hpp"
-#include "device/falcon/attached.hpp"
 #include "device/falcon/ftdi.hpp"
 
 struct libusb_context;
 struct libusb_device_handle;
 
 namespace dibhr::falcon {
+
+/// As it can be named without opening it.
+struct AttachedFalcon {
+    int bus{0};
+    int address{0};
+    std::string serial{};  ///< empty: could not be read
+
+    bool operator==(const AttachedFalcon&) const = default;
+};
+
+/// "the Falcon SIM00001", or where it is plugged in when its serial is not known.
+[[nodiscard]] std::string full_name_of(const AttachedFalcon& falcon);
+
+/// The one with this serial; when it is empty, the first.
+[[nodiscard]] std::optional<AttachedFalcon> choose(std::span<const AttachedFalcon> attached,
+                                                   const std::string& serial);
+
+/// Why choose() found none, and what to do.
+[[nodiscard]] std::string why_none(std::span<const AttachedFalcon> attached,
+                                   const std::string& serial);
+
+/// "A1, B2, one without a readable serial".
+[[nodiscard]] std::string serials_of(std::span<const AttachedFalcon> attached);
 
 /// What libusb answered, and a sentence about it.
 class UsbError : public DeviceError {
@@ -61,6 +84,8 @@ class FtdiPort {
     FtdiPort& operator=(const FtdiPort&) = delete;
 
     void request(const FtdiRequest& request);
+    /// A request with an answer, whose bytes it fills.
+    void ask(std::uint8_t request, std::span<std::uint8_t> answer);
     /// Both queues of the chip.
     void purge();
     /// All of `bytes`; waits at most `limit`.

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "device/falcon/check/steps.hpp"
+#include "device/falcon/check/desk.hpp"
 
 namespace dibhr::falcon {
 
@@ -36,15 +36,13 @@ struct Press {
 
 /// Waits until a button is `pressed` or none is, and the bits are calm; they were `last` before.
 Press watch_until(CheckDesk& desk, bool pressed, std::uint8_t last) {
-    const Command nothing{.motor = {}, .led = Led::blue, .homing = true};
     const milliseconds calm = desk.options.times.button_calm;
     Press press;
     Clock::time_point first_change{};
     Clock::time_point last_change{};
     for (;;) {
-        if (desk.answer()) return press;  // Enter: this one does nothing
-        if (desk.guide.input_ended()) throw StepSkipped{};
-        const auto heard = desk.falcon.talk().exchange(nothing, kPeriod);
+        if (desk.answered()) return press;  // Enter: this one does nothing
+        const auto heard = desk.falcon.talk().exchange(no_force(Led::blue), kPeriod);
         if (!heard) continue;
         const std::uint8_t bits = heard->reply.buttons;
         if (bits != last) {
@@ -62,24 +60,22 @@ Press watch_until(CheckDesk& desk, bool pressed, std::uint8_t last) {
 
 }  // namespace
 
-void check_buttons(CheckDesk& desk, Measured& measured) {
+void check_buttons(CheckDesk& desk, Json& measured) {
     int as_told = 0;
     std::string others;
     for (const Named& button : kButtons) {
         desk.guide.ask(std::string("Press and hold the button ") + button.where +
                        ". Enter = it does nothing, s = skip, q = quit");
         const Press down = watch_until(desk, true, 0);
-        Measured part;
-        part.add("bits", int{down.bits})
-            .add("changes", down.changes)
-            .add("bounced_ms", static_cast<int>(down.bounced.count()));
+        Json part{
+            {"bits", down.bits}, {"changes", down.changes}, {"bounced_ms", down.bounced.count()}};
         if (down.bits != 0) {
             desk.guide.ask("Let it go.");
             const Press up = watch_until(desk, false, down.bits);
-            part.add("release_changes", up.changes)
-                .add("release_bounced_ms", static_cast<int>(up.bounced.count()));
+            part["release_changes"] = up.changes;
+            part["release_bounced_ms"] = up.bounced.count();
         }
-        measured.add(button.name, part);
+        measured[button.name] = part;
         if (down.bits == static_cast<std::uint8_t>(button.bit)) {
             ++as_told;
         } else {

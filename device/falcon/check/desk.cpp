@@ -1,4 +1,4 @@
-// Questions to the person, while the Falcon is kept company.
+// Questions to the person, while the Falcon gets packets without force.
 #include "device/falcon/check/desk.hpp"
 
 #include <charconv>
@@ -20,28 +20,29 @@ std::optional<double> number_of(std::string_view text) {
     return value;
 }
 
-std::string rounded(double value) {
-    return std::to_string(static_cast<long>(value));
-}
-
 }  // namespace
 
 void CheckDesk::quit_if_interrupted() const {
     if (guide.interrupted()) throw PersonQuits{};
 }
 
-std::optional<std::string> CheckDesk::answer() {
+std::optional<std::string> CheckDesk::typed() {
     quit_if_interrupted();
-    auto typed = guide.next_line();
-    if (typed == "q") throw PersonQuits{};
-    if (typed == "s") throw StepSkipped{};
-    return typed;
+    auto line = guide.next_line();
+    if (line == "q") throw PersonQuits{};
+    if (line == "s") throw StepSkipped{};
+    return line;
+}
+
+bool CheckDesk::answered() {
+    const bool any = typed().has_value();
+    if (!any && guide.input_ended()) throw StepSkipped{};
+    return any;
 }
 
 void CheckDesk::keep_talking() {
     if (falcon.answering()) {
-        const Command nothing{.motor = {}, .led = Led::blue, .homing = true};
-        (void)falcon.talk().exchange(nothing, kPause);
+        (void)falcon.talk().exchange(no_force(Led::blue), kPause);
     } else {
         std::this_thread::sleep_for(kPause);
     }
@@ -49,7 +50,7 @@ void CheckDesk::keep_talking() {
 
 std::optional<std::string> CheckDesk::line() {
     for (;;) {
-        if (auto typed = answer()) return typed;
+        if (auto line = typed()) return line;
         if (guide.input_ended()) return std::nullopt;
         keep_talking();
     }
@@ -66,19 +67,19 @@ void CheckDesk::wait_for(const std::string& question) {
 
 std::string CheckDesk::word(const std::string& question) {
     guide.ask(question);
-    auto typed = line();
-    if (!typed) throw StepSkipped{};
-    return *typed;
+    auto typed_word = line();
+    if (!typed_word) throw StepSkipped{};
+    return *typed_word;
 }
 
 std::optional<double> CheckDesk::number(const std::string& question, double lowest,
                                         double highest) {
     for (;;) {
-        const std::string typed = word(question);
-        if (typed.empty()) return std::nullopt;
-        const auto value = number_of(typed);
+        const std::string text = word(question);
+        if (text.empty()) return std::nullopt;
+        const auto value = number_of(text);
         if (value && *value >= lowest && *value <= highest) return value;
-        guide.say("a number from " + rounded(lowest) + " to " + rounded(highest) +
+        guide.say("a number from " + in_decimals(lowest) + " to " + in_decimals(highest) +
                   ", please, or Enter alone when there is none");
     }
 }

@@ -6,8 +6,7 @@
 
 #include "device/falcon/check/check.hpp"
 #include "device/falcon/check/falcon.hpp"
-#include "device/falcon/check/findings.hpp"
-#include "device/falcon/check/guide.hpp"
+#include "device/falcon/check/record.hpp"
 
 namespace dibhr::falcon {
 
@@ -36,15 +35,31 @@ struct CheckDesk {
     [[nodiscard]] std::optional<double> number(const std::string& question, double lowest,
                                                double highest);
 
-    /// A line typed since the last question, if there is one; "s" and "q" throw. For steps that
-    /// wait for something else meanwhile.
-    [[nodiscard]] std::optional<std::string> answer();
+    /// Whether a line was typed since the last question; "s" and "q" throw, and so does nobody. For
+    /// steps that wait for something else meanwhile.
+    bool answered();
     /// Throws PersonQuits after Ctrl+C.
     void quit_if_interrupted() const;
 
   private:
+    [[nodiscard]] std::optional<std::string> typed();
     [[nodiscard]] std::optional<std::string> line();
     void keep_talking();
 };
+
+// The steps, each in a file of its own. They add what they measure; they throw StepSkipped,
+// PersonQuits, and DeviceError when the Falcon fails.
+void check_identity(CheckDesk& desk, Json& measured);
+void check_upload(CheckDesk& desk, Json& measured);
+void check_rate(CheckDesk& desk, Json& measured);
+void check_homing(CheckDesk& desk, Json& measured);
+void check_stops(CheckDesk& desk, Json& measured);
+void check_silence(CheckDesk& desk, Json& measured);
+void check_force(CheckDesk& desk, Json& measured);
+void check_buttons(CheckDesk& desk, Json& measured);
+void check_plugs(CheckDesk& desk, Json& measured);
+
+/// Until all three axes are homed; leads the person through it when they are not.
+void home_with_person(CheckDesk& desk, Json& measured);
 
 }  // namespace dibhr::falcon

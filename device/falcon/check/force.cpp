@@ -4,14 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <iomanip>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "device/falcon/check/desk.hpp"
 #include "device/falcon/check/push.hpp"
-#include "device/falcon/check/steps.hpp"
 
 namespace dibhr::falcon {
 
@@ -65,7 +63,7 @@ void agree(CheckDesk& desk, int counts, const std::string& strength) {
 }
 
 /// One force, as often as the person wants; nothing without a reading.
-std::optional<Reading> weigh(CheckDesk& desk, int counts, Measured& part) {
+std::optional<Reading> weigh(CheckDesk& desk, int counts, Json& part) {
     for (;;) {
         const Vec3 without_force = sample_counts(desk).mean;
         const Counts motor = downward(desk, without_force, counts);
@@ -76,36 +74,30 @@ std::optional<Reading> weigh(CheckDesk& desk, int counts, Measured& part) {
         // A key that was pressed because the scale had been read is as good as the time.
         const bool readable = held.replies > 0 && (end == PushEnd::held || end == PushEnd::let_go);
         if (readable) {
-            part.add("motor_counts", motor)
-                .add("counts_without_force", without_force)
-                .add("counts_held", held.mean)
-                .add("end", sentence_of(end));
+            part["motor_counts"] = motor;
+            part["counts_without_force"] = as_json(without_force);
+            part["counts_held"] = as_json(held.mean);
+            part["end"] = sentence_of(end);
             const auto grams = desk.number("What did the scale show? [g] (Enter alone = not seen)",
                                            0.0, kHeaviest_g);
             const auto unit = downward_force(motor, held.mean, desk.options.geometry);
             if (!grams || !unit) return std::nullopt;
             const Reading reading{counts, *unit, *grams / 1000.0 * kStandardGravity};
-            part.add("scale_g", *grams)
-                .add("force_newton", reading.force_newton)
-                .add("force_for_one_count_per_newton_metre_newton", *unit)
-                .add("counts_per_newton_metre", *unit / reading.force_newton);
+            part["scale_g"] = *grams;
+            part["force_newton"] = reading.force_newton;
+            part["force_for_one_count_per_newton_metre_newton"] = *unit;
+            part["counts_per_newton_metre"] = *unit / reading.force_newton;
             return reading;
         }
         if (desk.word("Enter = the same force again, n = the next one, s = skip, q = quit") ==
             "n") {
-            part.add("end", sentence_of(end));
+            part["end"] = sentence_of(end);
             return std::nullopt;
         }
     }
 }
 
-std::string rounded(double value, int digits = 0) {
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(digits) << value;
-    return text.str();
-}
-
-void settle(CheckDesk& desk, const std::vector<Reading>& readings, Measured& measured) {
+void settle(CheckDesk& desk, const std::vector<Reading>& readings, Json& measured) {
     const auto scale = torque_scale(readings);
     if (!scale) return;
     desk.counts_per_newton_metre = scale;
@@ -114,26 +106,23 @@ void settle(CheckDesk& desk, const std::vector<Reading>& readings, Measured& mea
         worst_newton =
             std::max(worst_newton, std::abs(one.force_newton - one.unit_newton / *scale));
     }
-    measured.add("counts_per_newton_metre_after_" + std::to_string(readings.back().counts), *scale);
+    measured["counts_per_newton_metre_after_" + std::to_string(readings.back().counts)] = *scale;
     desk.findings.settle(OpenQuestion::torque_scale,
-                         rounded(*scale) + " from " + std::to_string(readings.size()) +
+                         in_decimals(*scale) + " from " + std::to_string(readings.size()) +
                              " readings up to " + std::to_string(readings.back().counts) +
-                             " counts, which it misses by at most " + rounded(worst_newton, 2) +
+                             " counts, which it misses by at most " + in_decimals(worst_newton, 2) +
                              " N");
-    desk.findings.set("counts-per-newton-metre", rounded(*scale));
+    desk.findings.set("counts-per-newton-metre", in_decimals(*scale));
 }
 
 }  // namespace
 
-void check_force(CheckDesk& desk, Measured& measured) {
+void check_force(CheckDesk& desk, Json& measured) {
     home_with_person(desk, measured);
     std::vector<Reading> readings;
     for (const int counts : kCounts) {
-        {
-            MeasuredPart part(measured, std::to_string(counts) + "_counts");
-            const auto reading = weigh(desk, counts, *part);
-            if (reading) readings.push_back(*reading);
-        }
+        Json& part = measured[std::to_string(counts) + "_counts"] = Json::object();
+        if (const auto reading = weigh(desk, counts, part)) readings.push_back(*reading);
         settle(desk, readings, measured);
     }
 }

@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "device/falcon/check/steps.hpp"
-#include "device/falcon/homing.hpp"
+#include "device/falcon/check/desk.hpp"
+#include "device/falcon/reply_watch.hpp"
 
 namespace dibhr::falcon {
 
@@ -18,7 +18,6 @@ namespace {
 using Clock = CheckTalk::Clock;
 
 constexpr std::array kAxes{"top", "right", "left"};
-constexpr std::uint8_t kAllAxes = 7;
 constexpr std::chrono::milliseconds kPeriod{2};
 constexpr int kStill_counts = 25;  // as much as a hanging grip may tremble
 
@@ -40,20 +39,18 @@ class ReferenceLog {
             const bool now = (reply.homed >> k & 1U) != 0;
             const bool before = (last_->homed >> k & 1U) != 0;
             if (!now || before) continue;
-            Measured line;
-            line.add("axis", kAxes.at(k))
-                .add("at_s", at_s)
-                .add("counts_before", last_->encoder)
-                .add("counts_after", reply.encoder);
-            lines_.add(line);
+            lines_.push_back({{"axis", kAxes.at(k)},
+                              {"at_s", at_s},
+                              {"counts_before", last_->encoder},
+                              {"counts_after", reply.encoder}});
         }
         last_ = reply;
     }
-    [[nodiscard]] const MeasuredList& lines() const noexcept { return lines_; }
+    [[nodiscard]] const Json& lines() const noexcept { return lines_; }
 
   private:
     std::optional<Reply> last_{};
-    MeasuredList lines_{};
+    Json lines_ = Json::array();
 };
 
 /// While the homing bit is set or not.
@@ -64,7 +61,7 @@ struct Phase {
     int replies{0};
 };
 
-Phase run_phase(CheckDesk& desk, const char* name, bool homing, Measured& measured) {
+Phase run_phase(CheckDesk& desk, const char* name, bool homing, Json& measured) {
     Phase phase;
     const Command command{.motor = {}, .led = Led::blue, .homing = homing};
     const auto begin = Clock::now();
@@ -80,16 +77,15 @@ Phase run_phase(CheckDesk& desk, const char* name, bool homing, Measured& measur
         phase.always &= heard->reply.homed;
         phase.last = heard->reply;
     }
-    Measured part;
-    part.add("homing_bit", homing)
-        .add("replies", phase.replies)
-        .add("homed_first", int{phase.first.homed})
-        .add("homed_always", int{phase.always})
-        .add("homed_last", int{phase.last.homed})
-        .add("counts_first", phase.first.encoder)
-        .add("counts_last", phase.last.encoder);
-    if (first_change_ms) part.add("first_not_homed_ms", *first_change_ms);
-    measured.add(name, part);
+    Json part{{"homing_bit", homing},
+              {"replies", phase.replies},
+              {"homed_first", phase.first.homed},
+              {"homed_always", phase.always},
+              {"homed_last", phase.last.homed},
+              {"counts_first", phase.first.encoder},
+              {"counts_last", phase.last.encoder}};
+    if (first_change_ms) part["first_not_homed_ms"] = *first_change_ms;
+    measured[name] = part;
     return phase;
 }
 
@@ -111,10 +107,9 @@ std::string in_words(const Phase& kept, const Phase& cleared, const Phase& again
 
 }  // namespace
 
-void home_with_person(CheckDesk& desk, Measured& measured) {
+void home_with_person(CheckDesk& desk, Json& measured) {
     constexpr int kLook = 20;  // the first replies may be older than the wish for homing
     constexpr std::chrono::milliseconds kShowEvery{100};
-    const Command command{.motor = {}, .led = Led::red, .homing = true};
     const auto begin = Clock::now();
     HomingWatch watch;
     ReferenceLog references;
@@ -123,7 +118,7 @@ void home_with_person(CheckDesk& desk, Measured& measured) {
     bool asked = false;
     bool hinted = false;
     for (int replies = 0; !watch.ready();) {
-        const auto heard = desk.falcon.talk().exchange(command, kPeriod);
+        const auto heard = desk.falcon.talk().exchange(no_force(Led::red), kPeriod);
         if (heard) {
             watch.add(heard->reply, heard->at);
             references.add(heard->reply, std::chrono::duration<double>(heard->at - begin).count());
@@ -136,7 +131,7 @@ void home_with_person(CheckDesk& desk, Measured& measured) {
                 "three axes say homed. s = skip, q = quit");
             asked = true;
         }
-        if (!desk.answer() && desk.guide.input_ended()) throw StepSkipped{};
+        desk.answered();
         const auto now = Clock::now();
         if (heard && now - shown >= kShowEvery) {
             desk.guide.show(live_state(heard->reply));
@@ -147,10 +142,10 @@ void home_with_person(CheckDesk& desk, Measured& measured) {
             hinted = true;
         }
     }
-    if (asked) measured.add("references", references.lines());
+    if (asked) measured["references"] = references.lines();
 }
 
-void check_homing(CheckDesk& desk, Measured& measured) {
+void check_homing(CheckDesk& desk, Json& measured) {
     home_with_person(desk, measured);
     desk.guide.say("Homed. Let the grip hang, and do not touch it.");
     const Phase kept = run_phase(desk, "kept", true, measured);

@@ -11,8 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "device/falcon/check/steps.hpp"
-#include "device/falcon/check/vendor_reads.hpp"
+#include "device/falcon/check/desk.hpp"
 
 namespace dibhr::falcon {
 
@@ -35,73 +34,61 @@ std::string text_at(libusb_device_handle* handle, std::uint8_t index) {
 }
 
 /// The bytes of a descriptor as the device sends them; empty when it refuses.
-std::vector<std::uint8_t> raw_descriptor(libusb_device_handle* handle, std::uint8_t type) {
+std::string raw_descriptor(libusb_device_handle* handle, std::uint8_t type) {
     std::vector<std::uint8_t> bytes(1024);
     const int length =
         libusb_get_descriptor(handle, type, 0, bytes.data(), static_cast<int>(bytes.size()));
     bytes.resize(length > 0 ? static_cast<std::size_t>(length) : 0);
-    return bytes;
+    return hexadecimal(bytes);
 }
 
-Measured device_part(libusb_device_handle* handle, const libusb_device_descriptor& found) {
-    Measured part;
-    part.add("bcdUSB", as_hex(found.bcdUSB, 4))
-        .add("bDeviceClass", int{found.bDeviceClass})
-        .add("bDeviceSubClass", int{found.bDeviceSubClass})
-        .add("bDeviceProtocol", int{found.bDeviceProtocol})
-        .add("bMaxPacketSize0", int{found.bMaxPacketSize0})
-        .add("idVendor", as_hex(found.idVendor, 4))
-        .add("idProduct", as_hex(found.idProduct, 4))
-        .add("bcdDevice", as_hex(found.bcdDevice, 4))
-        .add("iManufacturer", text_at(handle, found.iManufacturer))
-        .add("iProduct", text_at(handle, found.iProduct))
-        .add("iSerial", text_at(handle, found.iSerialNumber))
-        .add("bNumConfigurations", int{found.bNumConfigurations})
-        .add("raw", hexadecimal(raw_descriptor(handle, LIBUSB_DT_DEVICE)));
-    return part;
+Json device_part(libusb_device_handle* handle, const libusb_device_descriptor& found) {
+    return {{"bcdUSB", as_hex(found.bcdUSB, 4)},
+            {"bDeviceClass", found.bDeviceClass},
+            {"bDeviceSubClass", found.bDeviceSubClass},
+            {"bDeviceProtocol", found.bDeviceProtocol},
+            {"bMaxPacketSize0", found.bMaxPacketSize0},
+            {"idVendor", as_hex(found.idVendor, 4)},
+            {"idProduct", as_hex(found.idProduct, 4)},
+            {"bcdDevice", as_hex(found.bcdDevice, 4)},
+            {"iManufacturer", text_at(handle, found.iManufacturer)},
+            {"iProduct", text_at(handle, found.iProduct)},
+            {"iSerial", text_at(handle, found.iSerialNumber)},
+            {"bNumConfigurations", found.bNumConfigurations},
+            {"raw", raw_descriptor(handle, LIBUSB_DT_DEVICE)}};
 }
 
-Measured endpoint_part(const libusb_endpoint_descriptor& found) {
-    Measured part;
-    part.add("bEndpointAddress", as_hex(found.bEndpointAddress, 2))
-        .add("bmAttributes", int{found.bmAttributes})
-        .add("wMaxPacketSize", int{found.wMaxPacketSize})
-        .add("bInterval", int{found.bInterval});
-    return part;
-}
-
-Measured interface_part(libusb_device_handle* handle, const libusb_interface_descriptor& found) {
-    MeasuredList endpoints;
+Json interface_part(libusb_device_handle* handle, const libusb_interface_descriptor& found) {
+    Json endpoints = Json::array();
     for (const auto& endpoint : std::span(found.endpoint, found.bNumEndpoints)) {
-        endpoints.add(endpoint_part(endpoint));
+        endpoints.push_back({{"bEndpointAddress", as_hex(endpoint.bEndpointAddress, 2)},
+                             {"bmAttributes", endpoint.bmAttributes},
+                             {"wMaxPacketSize", endpoint.wMaxPacketSize},
+                             {"bInterval", endpoint.bInterval}});
     }
-    Measured part;
-    part.add("bInterfaceNumber", int{found.bInterfaceNumber})
-        .add("bAlternateSetting", int{found.bAlternateSetting})
-        .add("bInterfaceClass", int{found.bInterfaceClass})
-        .add("bInterfaceSubClass", int{found.bInterfaceSubClass})
-        .add("bInterfaceProtocol", int{found.bInterfaceProtocol})
-        .add("iInterface", text_at(handle, found.iInterface))
-        .add("endpoints", endpoints);
-    return part;
+    return {{"bInterfaceNumber", found.bInterfaceNumber},
+            {"bAlternateSetting", found.bAlternateSetting},
+            {"bInterfaceClass", found.bInterfaceClass},
+            {"bInterfaceSubClass", found.bInterfaceSubClass},
+            {"bInterfaceProtocol", found.bInterfaceProtocol},
+            {"iInterface", text_at(handle, found.iInterface)},
+            {"endpoints", endpoints}};
 }
 
-Measured configuration_part(libusb_device_handle* handle, libusb_config_descriptor& found) {
-    MeasuredList interfaces;
+Json configuration_part(libusb_device_handle* handle, const libusb_config_descriptor& found) {
+    Json interfaces = Json::array();
     for (const auto& one : std::span(found.interface, found.bNumInterfaces)) {
         for (const auto& setting :
              std::span(one.altsetting, static_cast<std::size_t>(one.num_altsetting))) {
-            interfaces.add(interface_part(handle, setting));
+            interfaces.push_back(interface_part(handle, setting));
         }
     }
-    Measured part;
-    part.add("bConfigurationValue", int{found.bConfigurationValue})
-        .add("bmAttributes", as_hex(found.bmAttributes, 2))
-        .add("MaxPower_mA", int{found.MaxPower} * 2)
-        .add("iConfiguration", text_at(handle, found.iConfiguration))
-        .add("interfaces", interfaces)
-        .add("raw", hexadecimal(raw_descriptor(handle, LIBUSB_DT_CONFIG)));
-    return part;
+    return {{"bConfigurationValue", found.bConfigurationValue},
+            {"bmAttributes", as_hex(found.bmAttributes, 2)},
+            {"MaxPower_mA", found.MaxPower * 2},
+            {"iConfiguration", text_at(handle, found.iConfiguration)},
+            {"interfaces", interfaces},
+            {"raw", raw_descriptor(handle, LIBUSB_DT_CONFIG)}};
 }
 
 const char* name_of_speed(int speed) {
@@ -117,16 +104,16 @@ const char* name_of_speed(int speed) {
     }
 }
 
-void add_status(libusb_device_handle* handle, Measured& measured) {
+void add_status(libusb_device_handle* handle, Json& measured) {
     std::array<unsigned char, 2> status{};
     const int got = libusb_control_transfer(handle, LIBUSB_ENDPOINT_IN, LIBUSB_REQUEST_GET_STATUS,
                                             0, 0, status.data(), status.size(), kLimit_ms);
-    if (got == 2) measured.add("device_status", hexadecimal(status));
+    if (got == 2) measured["device_status"] = hexadecimal(status);
 }
 
 }  // namespace
 
-void check_identity(CheckDesk& desk, Measured& measured) {
+void check_identity(CheckDesk& desk, Json& measured) {
     FtdiPort& port = desk.falcon.port();
     libusb_device_handle* const handle = port.handle();
     libusb_device* const device = libusb_get_device(handle);
@@ -134,20 +121,24 @@ void check_identity(CheckDesk& desk, Measured& measured) {
     if (const int code = libusb_get_device_descriptor(device, &found); code != 0) {
         throw usb_error(code, port.falcon());
     }
-    measured.add("bus", port.falcon().bus)
-        .add("address", port.falcon().address)
-        .add("speed", name_of_speed(libusb_get_device_speed(device)))
-        .add("device", device_part(handle, found));
+    measured["bus"] = port.falcon().bus;
+    measured["address"] = port.falcon().address;
+    measured["speed"] = name_of_speed(libusb_get_device_speed(device));
+    measured["device"] = device_part(handle, found);
     libusb_config_descriptor* active = nullptr;
     if (libusb_get_active_config_descriptor(device, &active) == 0) {
         const std::unique_ptr<libusb_config_descriptor, void (*)(libusb_config_descriptor*)> owner(
             active, libusb_free_config_descriptor);
-        measured.add("configuration", configuration_part(handle, *active));
+        measured["configuration"] = configuration_part(handle, *active);
     }
     add_status(handle, measured);
     // Before anything is set: as the chip was powered up, or as the last program left it.
-    measured.add("latency_timer_ms_found", read_latency_timer(port));
-    measured.add("modem_and_line_status", hexadecimal(read_modem_status(port)));
+    std::array<std::uint8_t, 1> latency_ms{};
+    port.ask(kReadLatencyTimer, latency_ms);
+    measured["latency_timer_ms_found"] = latency_ms[0];
+    std::array<std::uint8_t, 2> status{};
+    port.ask(kReadModemStatus, status);
+    measured["modem_and_line_status"] = hexadecimal(status);
 
     const std::string release = as_hex(found.bcdDevice, 4);
     const std::string serial = text_at(handle, found.iSerialNumber);

@@ -7,8 +7,8 @@
 #include <string>
 #include <thread>
 
-#include "device/falcon/check/steps.hpp"
-#include "device/falcon/homing.hpp"
+#include "device/falcon/check/desk.hpp"
+#include "device/falcon/reply_watch.hpp"
 #include "device/falcon/upload.hpp"
 
 namespace dibhr::falcon {
@@ -22,25 +22,19 @@ constexpr milliseconds kPeriod{10};
 constexpr milliseconds kLookEvery{100};
 constexpr int kQuestions = 20;  // the first replies may be older than the wish for homing
 
-double ms_between(Clock::time_point from, Clock::time_point to) {
-    return std::chrono::duration<double, std::milli>(to - from).count();
-}
-
 /// Exchanges packets until the USB says something is wrong.
-UsbError loss_while_talking(CheckDesk& desk, Measured& part) {
-    const Command nothing{.motor = {}, .led = Led::blue, .homing = true};
+UsbError loss_while_talking(CheckDesk& desk, Json& part) {
     auto last_reply = Clock::now();
     for (;;) {
-        (void)desk.answer();
-        if (desk.guide.input_ended()) throw StepSkipped{};
+        desk.answered();
         try {
-            if (const auto heard = desk.falcon.talk().exchange(nothing, kPeriod)) {
-                last_reply = heard->at;
-            }
+            const auto heard = desk.falcon.talk().exchange(no_force(Led::blue), kPeriod);
+            if (heard) last_reply = heard->at;
         } catch (const UsbError& loss) {
-            part.add("error", libusb_error_name(loss.code()))
-                .add("told", loss.what())
-                .add("ms_after_the_last_reply", ms_between(last_reply, Clock::now()));
+            part["error"] = libusb_error_name(loss.code());
+            part["told"] = loss.what();
+            part["ms_after_the_last_reply"] =
+                std::chrono::duration<double, std::milli>(Clock::now() - last_reply).count();
             return loss;
         }
     }
@@ -48,23 +42,23 @@ UsbError loss_while_talking(CheckDesk& desk, Measured& part) {
 
 /// The last reply of some; nothing when none came.
 std::optional<Reply> last_reply_of_some(CheckDesk& desk) {
-    const Command nothing{.motor = {}, .led = Led::red, .homing = true};
     std::optional<Reply> last;
     for (int k = 0; k < kQuestions; ++k) {
-        const auto heard = desk.falcon.talk().exchange(nothing, kPeriod);
+        const auto heard = desk.falcon.talk().exchange(no_force(Led::red), kPeriod);
         if (heard) last = heard->reply;
     }
     return last;
 }
 
 /// What is still there; in words.
-std::string what_survived(CheckDesk& desk, Measured& part) {
+std::string what_survived(CheckDesk& desk, Json& part) {
     const bool answers = desk.falcon.answering();
-    part.add("firmware_kept", answers);
+    part["firmware_kept"] = answers;
     if (!answers) return "the firmware is lost";
     const auto reply = last_reply_of_some(desk);
     if (!reply) return "the firmware answers, but not steadily";
-    part.add("homed", int{reply->homed}).add("counts", reply->encoder);
+    part["homed"] = reply->homed;
+    part["counts"] = reply->encoder;
     return std::string("the firmware stays, ") +
            (homed_axes(reply->homed) == 3 ? "homing stays" : "homing is lost");
 }
@@ -86,13 +80,12 @@ void open_again(CheckDesk& desk) {
 
 void wait_until_attached(CheckDesk& desk) {
     while (!desk.falcon.look_again()) {
-        (void)desk.answer();
-        if (desk.guide.input_ended()) throw StepSkipped{};
+        desk.answered();
         std::this_thread::sleep_for(kLookEvery);
     }
 }
 
-void unplug_usb(CheckDesk& desk, Measured& part) {
+void unplug_usb(CheckDesk& desk, Json& part) {
     desk.guide.ask("Unplug the USB cable, and leave the power adapter in. s = skip, q = quit");
     const UsbError loss = loss_while_talking(desk, part);
     desk.guide.say(loss.what());
@@ -107,23 +100,23 @@ void unplug_usb(CheckDesk& desk, Measured& part) {
     desk.guide.say(survived);
 }
 
-void load_again(CheckDesk& desk, Measured& part) {
+void load_again(CheckDesk& desk, Json& part) {
     if (desk.falcon.answering() || desk.options.firmware.empty()) return;
     desk.guide.say("loading the firmware again");
     const bool done =
         upload(desk.falcon.port(), desk.options.firmware.bytes, UploadOptions{}, std::stop_token());
     desk.falcon.set_answering(done);
-    part.add("loaded_again", done);
+    part["loaded_again"] = done;
 }
 
-void unplug_power(CheckDesk& desk, Measured& part) {
+void unplug_power(CheckDesk& desk, Json& part) {
     desk.guide.ask(
         "Unplug the power adapter from the Falcon, and leave the USB cable in. s = skip, q = quit");
     const UsbError loss = loss_while_talking(desk, part);
     desk.guide.say(loss.what());
     desk.falcon.set_answering(false);
     const bool attached = desk.falcon.look_again();
-    part.add("usb_still_attached", attached);
+    part["usb_still_attached"] = attached;
     desk.wait_for("Plug the power adapter in again. Enter = it is in, s = skip, q = quit");
     wait_until_attached(desk);
     open_again(desk);
@@ -137,19 +130,17 @@ void unplug_power(CheckDesk& desk, Measured& part) {
 
 }  // namespace
 
-void check_plugs(CheckDesk& desk, Measured& measured) {
-    {
-        MeasuredPart part(measured, "usb_unplugged");
-        unplug_usb(desk, *part);
-        load_again(desk, *part);
-    }
+void check_plugs(CheckDesk& desk, Json& measured) {
+    Json& without_usb = measured["usb_unplugged"] = Json::object();
+    unplug_usb(desk, without_usb);
+    load_again(desk, without_usb);
     if (!desk.falcon.answering()) {
         desk.guide.say("Without firmware in it, the rest cannot be seen.");
         throw StepSkipped{};
     }
-    MeasuredPart part(measured, "power_lost");
-    unplug_power(desk, *part);
-    load_again(desk, *part);
+    Json& without_power = measured["power_lost"] = Json::object();
+    unplug_power(desk, without_power);
+    load_again(desk, without_power);
 }
 
 }  // namespace dibhr::falcon

@@ -7,10 +7,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <iomanip>
-#include <sstream>
 
-#include "device/falcon/motors.hpp"
+#include "device/falcon/kinematics.hpp"
 
 namespace dibhr::falcon {
 
@@ -18,23 +16,13 @@ namespace {
 
 constexpr double kMostMotion_m = 0.030;
 constexpr std::chrono::seconds kLongestHold{3};
-constexpr std::uint8_t kAllAxes = 7;
 constexpr int kLastPackets = 5;                  // ../README.md, Safety numbers
 constexpr std::chrono::milliseconds kPeriod{1};  // the haptic loop's
-constexpr Vec3 kMiddle_m{0.0, 0.0, 0.115};       // ../README.md, Workspace
 constexpr double kGrams_per_newton = 1000.0 / 9.80665;
 
 // The least and the most that sources say of the torque scale (../README.md, Motors).
 constexpr double kLowestScale = 3600.0;
 constexpr double kHighestScale = 10000.0;
-
-Vec3 as_vec(const Counts& counts) {
-    return {counts[0], counts[1], counts[2]};
-}
-
-std::optional<Vec3> place_of(Vec3 encoder_counts, const Geometry& geometry) {
-    return position_with(angles_of_counts(encoder_counts, geometry), kMiddle_m, geometry);
-}
 
 std::optional<Jacobian> jacobian_of(Vec3 encoder_counts, const Geometry& geometry) {
     const auto place = place_of(encoder_counts, geometry);
@@ -43,15 +31,19 @@ std::optional<Jacobian> jacobian_of(Vec3 encoder_counts, const Geometry& geometr
 
 }  // namespace
 
+std::optional<Vec3> place_of(Vec3 encoder_counts, const Geometry& geometry) {
+    constexpr Vec3 kMiddle_m{0.0, 0.0, 0.115};  // ../README.md, Workspace
+    return position_with(angles_of_counts(encoder_counts, geometry), kMiddle_m, geometry);
+}
+
 CountsSample sample_counts(CheckDesk& desk) {
-    const Command nothing{.motor = {}, .led = Led::blue, .homing = true};
     CountsSample sample;
     const auto time = desk.options.times.sample;
     const auto begin = CheckTalk::Clock::now();
     for (auto now = begin; sample.replies == 0 || now < begin + time;
          now = CheckTalk::Clock::now()) {
         desk.quit_if_interrupted();
-        const auto heard = desk.falcon.talk().exchange(nothing, kPeriod);
+        const auto heard = desk.falcon.talk().exchange(no_force(Led::blue), kPeriod);
         if (!heard || heard->at < begin + time / 2) continue;
         sample.mean += as_vec(heard->reply.encoder);
         ++sample.replies;
@@ -80,43 +72,33 @@ std::optional<double> downward_force(const Counts& motor, Vec3 encoder_counts,
                                      const Geometry& geometry) {
     const auto jacobian = jacobian_of(encoder_counts, geometry);
     if (!jacobian) return std::nullopt;
-    double upward = 0.0;
+    double downward = 0.0;  // of J^T torque, where a torque is minus its motor's counts
     for (std::size_t leg = 0; leg < motor.size(); ++leg) {
-        upward += (*jacobian)[leg].y * -static_cast<double>(motor[leg]);
+        downward += (*jacobian)[leg].y * static_cast<double>(motor[leg]);
     }
-    return -upward;
+    return downward;
 }
 
 std::string strength_of(const CheckDesk& desk, const Counts& motor, Vec3 encoder_counts) {
     const double unit = downward_force(motor, encoder_counts, desk.options.geometry).value_or(0.0);
     const double least = unit / kHighestScale;
     const double most = unit / kLowestScale;
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(1) << least << " to " << most << " N ("
-         << std::setprecision(0) << least * kGrams_per_newton << " to " << most * kGrams_per_newton
-         << " g";
+    std::string text = in_decimals(least, 1) + " to " + in_decimals(most, 1) + " N (" +
+                       in_decimals(least * kGrams_per_newton) + " to " +
+                       in_decimals(most * kGrams_per_newton) + " g";
     if (desk.counts_per_newton_metre) {
-        text << ", by your readings " << unit / *desk.counts_per_newton_metre * kGrams_per_newton
-             << " g";
+        const double measured = unit / *desk.counts_per_newton_metre;
+        text += ", by your readings " + in_decimals(measured * kGrams_per_newton) + " g";
     }
-    text << ")";
-    return text.str();
+    return text + ")";
 }
 
 const char* sentence_of(PushEnd end) noexcept {
-    switch (end) {
-        case PushEnd::held:
-            return "held";
-        case PushEnd::let_go:
-            return "released, because a key was pressed";
-        case PushEnd::moved_away:
-            return "released, because the grip moved more than 30 mm";
-        case PushEnd::not_homed:
-            return "released, because an axis was not homed any more";
-        case PushEnd::no_reply:
-            return "released, because a reply was late";
-    }
-    return "";
+    constexpr std::array kSentences{"held", "released, because a key was pressed",
+                                    "released, because the grip moved more than 30 mm",
+                                    "released, because an axis was not homed any more",
+                                    "released, because a reply was late"};
+    return kSentences.at(static_cast<std::size_t>(end));
 }
 
 Push::Push(CheckDesk& desk, const Counts& motor) : desk_(desk), motor_(motor) {
@@ -131,10 +113,9 @@ Push::~Push() {
 void Push::release() noexcept {
     if (!acting_) return;
     acting_ = false;
-    const Command nothing{.motor = {}, .led = Led::blue, .homing = true};
     for (int k = 0; k < kLastPackets; ++k) {
         try {
-            (void)desk_.falcon.talk().exchange(nothing);
+            (void)desk_.falcon.talk().exchange(no_force(Led::blue));
         } catch (const DeviceError& lost) {
             // The exception that leads here, or the next exchange, tells it.
             continue;

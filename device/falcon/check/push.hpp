@@ -3,6 +3,7 @@
 
 #include <array>
 #include <chrono>
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -12,6 +13,13 @@
 #include "device/falcon/packet.hpp"
 
 namespace dibhr::falcon {
+
+/// Of these counts [m]; nothing when the mechanism has none.
+[[nodiscard]] std::optional<Vec3> place_of(Vec3 encoder_counts, const Geometry& geometry);
+
+[[nodiscard]] inline Vec3 as_vec(const Counts& counts) noexcept {
+    return {counts[0], counts[1], counts[2]};
+}
 
 /// Average of the counts.
 struct CountsSample {
@@ -38,7 +46,7 @@ struct CountsSample {
                                       Vec3 encoder_counts);
 
 /// How a push went.
-enum class PushEnd {
+enum class PushEnd : std::size_t {
     held,        ///< as long as it was wanted
     let_go,      ///< the person pressed a key
     moved_away,  ///< the grip left its place by more than 30 mm

@@ -1,15 +1,14 @@
 // Step 3: how many replies a second, and how long one takes, with and without the event character
 // (../README.md, Reply rate).
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstddef>
-#include <iomanip>
-#include <sstream>
+#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "device/falcon/check/steps.hpp"
-#include "device/falcon/check/vendor_reads.hpp"
+#include "device/falcon/check/desk.hpp"
 
 namespace dibhr::falcon {
 
@@ -43,21 +42,21 @@ double quantile(std::vector<double>& values, double part) {
     return values[static_cast<std::size_t>(at)];
 }
 
-Rate measure(CheckDesk& desk, const Setting& setting, Measured& measured) {
+Rate measure(CheckDesk& desk, const Setting& setting, Json& measured) {
     FtdiPort& port = desk.falcon.port();
     port.request(setting.latency);
-    const int latency_ms = read_latency_timer(port);
+    std::array<std::uint8_t, 1> latency_ms{};
+    port.ask(kReadLatencyTimer, latency_ms);
     desk.falcon.use_event_character(setting.event_character);
     CheckTalk& talk = desk.falcon.talk();
 
-    const Command nothing{.motor = {}, .led = Led::red, .homing = true};
     std::vector<double> round_trips_ms;
     int missing = 0;
     const auto begin = CheckTalk::Clock::now();
     const auto end = begin + desk.options.times.rate;
     while (CheckTalk::Clock::now() < end) {
         desk.quit_if_interrupted();
-        const auto heard = talk.exchange(nothing);
+        const auto heard = talk.exchange(no_force(Led::red));
         missing += heard ? 0 : 1;
         if (!heard) continue;
         round_trips_ms.push_back(
@@ -67,33 +66,30 @@ Rate measure(CheckDesk& desk, const Setting& setting, Measured& measured) {
     const LinkCounts counts = talk.counts();
     const Rate rate{static_cast<double>(round_trips_ms.size()) / took.count(),
                     quantile(round_trips_ms, 0.5), quantile(round_trips_ms, 0.99)};
-    Measured part;
-    part.add("seconds", took.count())
-        .add("latency_timer_ms_read_back", latency_ms)
-        .add("event_character", setting.event_character)
-        .add("replies", static_cast<std::uint64_t>(round_trips_ms.size()))
-        .add("replies_per_s", rate.replies_per_s)
-        .add("round_trip_ms_p50", rate.median_ms)
-        .add("round_trip_ms_p99", rate.p99_ms)
-        .add("round_trip_ms_max", quantile(round_trips_ms, 1.0))
-        .add("no_reply_within_20_ms", missing)
-        .add("commands_resent", counts.resent)
-        .add("line_errors", counts.line_errors)
-        .add("bytes_discarded", counts.bytes_discarded);
-    measured.add(setting.name, part);
+    measured[setting.name] = {{"seconds", took.count()},
+                              {"latency_timer_ms_read_back", latency_ms[0]},
+                              {"event_character", setting.event_character},
+                              {"replies", round_trips_ms.size()},
+                              {"replies_per_s", rate.replies_per_s},
+                              {"round_trip_ms_p50", rate.median_ms},
+                              {"round_trip_ms_p99", rate.p99_ms},
+                              {"round_trip_ms_max", quantile(round_trips_ms, 1.0)},
+                              {"no_reply_within_20_ms", missing},
+                              {"commands_resent", counts.resent},
+                              {"line_errors", counts.line_errors},
+                              {"bytes_discarded", counts.bytes_discarded}};
     return rate;
 }
 
 std::string in_words(const Rate& rate) {
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(0) << rate.replies_per_s << " a second (half within "
-         << std::setprecision(2) << rate.median_ms << " ms, 99 % within " << rate.p99_ms << " ms)";
-    return text.str();
+    return in_decimals(rate.replies_per_s) + " a second (half within " +
+           in_decimals(rate.median_ms, 2) + " ms, 99 % within " + in_decimals(rate.p99_ms, 2) +
+           " ms)";
 }
 
 }  // namespace
 
-void check_rate(CheckDesk& desk, Measured& measured) {
+void check_rate(CheckDesk& desk, Json& measured) {
     const Rate plain = measure(desk, kPlain, measured);
     desk.guide.say("without the event character: " + in_words(plain));
     const Rate event = measure(desk, kEvent, measured);

@@ -1,16 +1,42 @@
-// The record of a check.
+// The record of a check, and what was found.
 #include "device/falcon/check/record.hpp"
 
-#include <array>
 #include <chrono>
-#include <cstddef>
 #include <ctime>
+#include <iomanip>
+#include <sstream>
+#include <string_view>
 
 #include "core/files/output_file.hpp"
 
 namespace dibhr::falcon {
 
 namespace {
+
+struct Named {
+    const char* name;      ///< in the record
+    const char* question;  ///< for people
+};
+
+constexpr std::array<Named, kOpenQuestions> kNamed{{
+    {"identity", "What it says it is"},
+    {"upload-speed", "Firmware at 142 857 and 140 351 baud"},
+    {"stray-bytes", "Stray bytes before the hello's and the A's answer"},
+    {"loading-again", "Loading again without a power cycle"},
+    {"last-byte", "Byte 14 of a reply"},
+    {"reply-rate", "Replies a second"},
+    {"event-character", "The event character >"},
+    {"homing-bit", "The homing bit cleared"},
+    {"end-stops", "Counts at the end stops"},
+    {"angle-at-zero", "Thigh angle at count 0"},
+    {"after-last-packet", "The force after the last packet"},
+    {"torque-scale", "Motor counts a newton metre"},
+    {"buttons", "Button bits"},
+    {"usb-unplugged", "USB unplugged, power on"},
+    {"power-lost", "Power off, USB on"},
+}};
+
+constexpr std::array kNamesOfEnds{"done", "skipped", "quit", "failed", "not begun"};
 
 /// Now, in UTC, as strftime() has it.
 std::string utc(const char* format) {
@@ -33,23 +59,55 @@ std::string fit_for_a_file_name(const std::string& serial) {
     return name.empty() ? "unknown" : name;
 }
 
-const char* name_of(StepEnd end) {
-    switch (end) {
-        case StepEnd::done:
-            return "done";
-        case StepEnd::skipped:
-            return "skipped";
-        case StepEnd::quit:
-            return "quit";
-        case StepEnd::failed:
-            return "failed";
-        case StepEnd::not_begun:
-            return "not begun";
-    }
-    return "";
+}  // namespace
+
+Json as_json(Vec3 values) {
+    return Json::array({values.x, values.y, values.z});
 }
 
-}  // namespace
+std::string hexadecimal(std::span<const std::uint8_t> bytes) {
+    constexpr std::string_view kDigits = "0123456789ABCDEF";
+    std::string text;
+    for (const std::uint8_t byte : bytes) {
+        if (!text.empty()) text += ' ';
+        text += kDigits[byte >> 4U];
+        text += kDigits[byte & 15U];
+    }
+    return text;
+}
+
+std::string in_decimals(double value, int decimals) {
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(decimals) << value;
+    return text.str();
+}
+
+void Findings::settle(OpenQuestion question, std::string found) {
+    found_.at(static_cast<std::size_t>(question)) = std::move(found);
+}
+
+std::string Findings::summary() const {
+    std::string text = "What was found\n";
+    for (std::size_t k = 0; k < kOpenQuestions; ++k) {
+        text += std::string("  ") + kNamed.at(k).question + "\n    " +
+                (found_.at(k).empty() ? "still open" : found_.at(k)) + "\n";
+    }
+    if (settings_.empty()) return text + "No setting follows from it.\n";
+    text += "For the settings file\n  [falcon]\n";
+    for (const auto& [name, value] : settings_.items()) {
+        text += "  " + name + " = " + value.get<std::string>() + "\n";
+    }
+    return text;
+}
+
+void Findings::add_to(Json& record) const {
+    Json findings;
+    for (std::size_t k = 0; k < kOpenQuestions; ++k) {
+        findings[kNamed.at(k).name] = found_.at(k).empty() ? Json() : Json(found_.at(k));
+    }
+    record["findings"] = findings;
+    record["settings"] = settings_;
+}
 
 CheckRecord::CheckRecord(std::filesystem::path file, const AttachedFalcon& falcon,
                          const std::vector<std::pair<std::string, std::string>>& facts)
@@ -58,28 +116,30 @@ CheckRecord::CheckRecord(std::filesystem::path file, const AttachedFalcon& falco
         file_ = "falcon-check-" + fit_for_a_file_name(falcon.serial) + "-" +
                 utc("%Y-%m-%d-%H%M%S") + ".json";
     }
-    head_.add("format", "dibhr falcon check")
-        .add("format_version", 1)
-        .add("begun_utc", utc("%Y-%m-%dT%H:%M:%SZ"))
-        .add("serial", falcon.serial);
-    for (const auto& [name, value] : facts) head_.add(name, value);
+    head_ = {{"format", "dibhr falcon check"},
+             {"format_version", 1},
+             {"begun_utc", utc("%Y-%m-%dT%H:%M:%SZ")},
+             {"serial", falcon.serial}};
+    for (const auto& [name, value] : facts) head_[name] = value;
 }
 
 void CheckRecord::add(const char* step, StepEnd end, const std::string& remark, double seconds,
-                      const Measured& measured) {
-    Measured part;
-    part.add("step", step).add("end", name_of(end)).add("seconds", seconds);
-    if (!remark.empty()) part.add("remark", remark);
-    part.add("measured", measured);
-    steps_.add(part);
+                      const Json& measured) {
+    Json part{{"step", step},
+              {"end", kNamesOfEnds.at(static_cast<std::size_t>(end))},
+              {"seconds", seconds}};
+    if (!remark.empty()) part["remark"] = remark;
+    part["measured"] = measured;
+    steps_.push_back(part);
 }
 
 void CheckRecord::write(const Findings& findings) const {
-    Measured record = head_;
-    record.add("steps", steps_);
+    Json record = head_;
+    record["steps"] = steps_;
     findings.add_to(record);
     OutputFile out(file_);
-    out.write(record.text() + "\n");
+    // A device may say bytes that are no text.
+    out.write(record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     out.commit();
 }
 

@@ -1,19 +1,72 @@
-// The record of a check: one JSON file, written again after every step.
+// The record of a check: one JSON file, written again after every step, and what was found of the
+// questions that ../README.md leaves open.
 #pragma once
 
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "device/falcon/attached.hpp"
-#include "device/falcon/check/findings.hpp"
-#include "device/falcon/check/measured.hpp"
+#include "core/haptics/vec.hpp"
+#include "device/falcon/usb.hpp"
 
 namespace dibhr::falcon {
 
+/// What was measured, in that order; a number that is not finite becomes null.
+using Json = nlohmann::ordered_json;
+
+[[nodiscard]] Json as_json(Vec3 values);
+/// "0A 44 2C 0D".
+[[nodiscard]] std::string hexadecimal(std::span<const std::uint8_t> bytes);
+/// For people: with so many decimals.
+[[nodiscard]] std::string in_decimals(double value, int decimals = 0);
+
+/// In the order of the steps that answer them.
+enum class OpenQuestion : std::size_t {
+    identity,
+    upload_speed,
+    stray_bytes,
+    loading_again,
+    last_byte,
+    reply_rate,
+    event_character,
+    homing_bit,
+    end_stops,
+    angle_at_zero,
+    after_last_packet,
+    torque_scale,
+    buttons,
+    usb_unplugged,
+    power_lost
+};
+
+inline constexpr std::size_t kOpenQuestions = 15;
+
+class Findings {
+  public:
+    /// Once more: the last answer counts.
+    void settle(OpenQuestion question, std::string found);
+    /// A line for the [falcon] table of the settings file: `value` as TOML has it.
+    void set(const std::string& name, const std::string& value) { settings_[name] = value; }
+
+    /// Every question with what was found or that it is still open, and the settings; for people.
+    [[nodiscard]] std::string summary() const;
+    /// Adds "findings" and "settings" to the record.
+    void add_to(Json& record) const;
+
+  private:
+    std::array<std::string, kOpenQuestions> found_{};  // empty: still open
+    Json settings_ = Json::object();
+};
+
 /// How a step ended.
-enum class StepEnd { done, skipped, quit, failed, not_begun };
+enum class StepEnd : std::size_t { done, skipped, quit, failed, not_begun };
 
 class CheckRecord {
   public:
@@ -23,7 +76,7 @@ class CheckRecord {
 
     /// `remark`: why it failed or was not begun.
     void add(const char* step, StepEnd end, const std::string& remark, double seconds,
-             const Measured& measured);
+             const Json& measured);
     /// The whole file, or none of it. Throws InputError.
     void write(const Findings& findings) const;
 
@@ -31,8 +84,8 @@ class CheckRecord {
 
   private:
     std::filesystem::path file_;
-    Measured head_{};
-    MeasuredList steps_{};
+    Json head_{};
+    Json steps_ = Json::array();
 };
 
 }  // namespace dibhr::falcon

@@ -6,8 +6,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "device/falcon/check/desk.hpp"
 #include "device/falcon/check/push.hpp"
-#include "device/falcon/check/steps.hpp"
 
 namespace dibhr::falcon {
 
@@ -20,10 +20,6 @@ constexpr int kCounts = 300;
 constexpr double kLeastMotion_counts = 10.0;
 // A person sees a scale fall only after so long.
 constexpr milliseconds kVisible{100};
-
-Vec3 as_vec(const Counts& counts) {
-    return {counts[0], counts[1], counts[2]};
-}
 
 struct Silence {
     Vec3 pushed{0.0};         ///< counts at the end of the hold
@@ -56,7 +52,7 @@ std::string percent(double part) {
 }
 
 /// In words: what was seen after this silence.
-std::string check_one(CheckDesk& desk, milliseconds time, Measured& part) {
+std::string check_one(CheckDesk& desk, milliseconds time, Json& part) {
     const Vec3 without_force = sample_counts(desk).mean;
     const Counts motor = downward(desk, without_force, kCounts);
     desk.wait_for("The grip will press down with " + strength_of(desk, motor, without_force) +
@@ -65,18 +61,18 @@ std::string check_one(CheckDesk& desk, milliseconds time, Measured& part) {
                   " ms. Any key lets go. Look at the scale. Enter = force, s = skip, q = quit");
     Silence silence;
     const PushEnd end = push_and_fall_silent(desk, motor, time, silence);
-    part.add("silence_ms", static_cast<int>(time.count()))
-        .add("motor_counts", motor)
-        .add("end", sentence_of(end));
+    part["silence_ms"] = time.count();
+    part["motor_counts"] = motor;
+    part["end"] = sentence_of(end);
     desk.guide.say(end == PushEnd::held ? "no force any more" : sentence_of(end));
     if (end != PushEnd::held) return "not measured";
     silence.without_force = sample_counts(desk).mean;
-    part.add("counts_pushed", silence.pushed)
-        .add("counts_after_silence", silence.after)
-        .add("counts_without_force", silence.without_force);
+    part["counts_pushed"] = as_json(silence.pushed);
+    part["counts_after_silence"] = as_json(silence.after);
+    part["counts_without_force"] = as_json(silence.without_force);
     std::string found;
     if (const auto left = silence.part_left()) {
-        part.add("part_of_the_force_left", *left);
+        part["part_of_the_force_left"] = *left;
         found = percent(*left) + " of it is left by the encoders";
     } else {
         found = "the grip did not give way";
@@ -85,19 +81,19 @@ std::string check_one(CheckDesk& desk, milliseconds time, Measured& part) {
     const std::string seen = desk.word(
         "Did the scale keep its weight to the end of the silence? y = yes, n = it fell before, "
         "Enter alone = not seen");
-    part.add("scale_kept_its_weight", seen);
+    part["scale_kept_its_weight"] = seen;
     return seen.empty() ? found : found + ", the scale kept its weight: " + seen;
 }
 
 }  // namespace
 
-void check_silence(CheckDesk& desk, Measured& measured) {
+void check_silence(CheckDesk& desk, Json& measured) {
     home_with_person(desk, measured);
     std::string found;
     for (const milliseconds time : desk.options.times.silences) {
         const std::string name = std::to_string(time.count()) + " ms";
-        MeasuredPart part(measured, "after " + name);
-        found += (found.empty() ? "" : "; ") + name + ": " + check_one(desk, time, *part);
+        Json& part = measured["after " + name] = Json::object();
+        found += (found.empty() ? "" : "; ") + name + ": " + check_one(desk, time, part);
         desk.findings.settle(OpenQuestion::after_last_packet, found);
     }
 }

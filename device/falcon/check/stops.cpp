@@ -6,22 +6,19 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <iomanip>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "device/falcon/check/desk.hpp"
 #include "device/falcon/check/push.hpp"
-#include "device/falcon/check/steps.hpp"
 
 namespace dibhr::falcon {
 
 namespace {
 
-constexpr Vec3 kMiddle_m{0.0, 0.0, 0.115};  // ../README.md, Workspace
-constexpr double kMillimetres = 1000.0;     // in a metre
+constexpr double kMillimetres = 1000.0;  // in a metre
 
 // ../README.md, Workspace; by libnifalcon's constants.
 constexpr double kFullyOut_mm = 170.0;
@@ -63,7 +60,7 @@ Geometry with_angle(Geometry geometry, double angle_deg) {
 }
 
 std::optional<Vec3> place_mm(Vec3 counts, const Geometry& geometry) {
-    const auto place = position_with(angles_of_counts(counts, geometry), kMiddle_m, geometry);
+    const auto place = place_of(counts, geometry);
     return place ? std::optional(*place * kMillimetres) : std::nullopt;
 }
 
@@ -126,64 +123,49 @@ std::optional<double> angle_for_height(Vec3 counts, double z_mm, const Geometry&
     return best;
 }
 
-void add(Measured& part, const char* name, const std::optional<double>& value) {
-    if (value) {
-        part.add(name, *value);
-    } else {
-        part.add_null(name);
-    }
+Json or_null(const std::optional<double>& value) {
+    return value ? Json(*value) : Json();
 }
 
 std::string one_decimal(double value) {
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(1) << value;
-    return text.str();
+    return in_decimals(value, 1);
 }
 
 /// What the counts mean by one set of constants.
-Measured meaning_of(Vec3 out, Vec3 in, const std::vector<Length>& lengths,
-                    const Geometry& geometry) {
+Json meaning_of(Vec3 out, Vec3 in, const std::vector<Length>& lengths, const Geometry& geometry) {
     const auto place_out = place_mm(out, geometry);
     const auto place_in = place_mm(in, geometry);
-    Measured part;
-    part.add("angle_at_zero_deg", geometry.angle_at_zero_deg);
-    if (place_out) part.add("out_mm", *place_out);
-    if (place_in) part.add("in_mm", *place_in);
-    add(part, "angle_if_out_is_at_170_mm_deg", angle_for_height(out, kFullyOut_mm, geometry));
-    add(part, "angle_if_in_is_at_75_mm_deg", angle_for_height(in, kFullyIn_mm, geometry));
-    for (const Length& length : lengths) add(part, length.name, length_mm(length, geometry));
+    Json part{{"angle_at_zero_deg", geometry.angle_at_zero_deg}};
+    if (place_out) part["out_mm"] = as_json(*place_out);
+    if (place_in) part["in_mm"] = as_json(*place_in);
+    part["angle_if_out_is_at_170_mm_deg"] = or_null(angle_for_height(out, kFullyOut_mm, geometry));
+    part["angle_if_in_is_at_75_mm_deg"] = or_null(angle_for_height(in, kFullyIn_mm, geometry));
+    for (const Length& length : lengths) part[length.name] = or_null(length_mm(length, geometry));
     if (lengths.empty()) return part;
     const Fit fitted = fit(lengths, geometry);
-    part.add("fitted_angle_deg", fitted.angle_deg)
-        .add("fit_misfit_mm", fitted.misfit_mm)
-        .add("fit_doubt_deg_per_mm", fitted.doubt_deg);
+    part["fitted_angle_deg"] = fitted.angle_deg;
+    part["fit_misfit_mm"] = fitted.misfit_mm;
+    part["fit_doubt_deg_per_mm"] = fitted.doubt_deg;
     return part;
 }
 
-Measured as_json(const CountsSample& sample) {
-    Measured part;
-    part.add("mean_counts", sample.mean).add("replies", sample.replies);
-    return part;
-}
-
-Vec3 counts_where(CheckDesk& desk, const char* name, const std::string& question,
-                  Measured& measured) {
+Vec3 counts_where(CheckDesk& desk, const char* name, const std::string& question, Json& measured) {
     desk.wait_for(question + " Enter = it is there, s = skip, q = quit");
     const CountsSample sample = sample_counts(desk);
-    measured.add(name, as_json(sample));
+    measured[name] = {{"mean_counts", as_json(sample.mean)}, {"replies", sample.replies}};
     return sample.mean;
 }
 
 /// Asks for the ruler's number; leaves the length out when there is none.
 void ask_length(CheckDesk& desk, Length length, const std::string& question,
-                std::vector<Length>& lengths, Measured& measured) {
+                std::vector<Length>& lengths, Json& measured) {
     constexpr double kLongest_mm = 200.0;
     const auto ruler =
         desk.number(question + " [mm] (Enter alone = not measured)", 1.0, kLongest_mm);
     if (!ruler) return;
     length.ruler_mm = *ruler;
     lengths.push_back(length);
-    measured.add(std::string(length.name) + "_by_ruler", *ruler);
+    measured[std::string(length.name) + "_by_ruler"] = *ruler;
 }
 
 void settle(CheckDesk& desk, Vec3 out, Vec3 in, const std::vector<Length>& lengths) {
@@ -212,7 +194,7 @@ void settle(CheckDesk& desk, Vec3 out, Vec3 in, const std::vector<Length>& lengt
 
 }  // namespace
 
-void check_stops(CheckDesk& desk, Measured& measured) {
+void check_stops(CheckDesk& desk, Json& measured) {
     home_with_person(desk, measured);
     std::vector<Length> lengths;
     const Vec3 out = counts_where(
@@ -231,10 +213,10 @@ void check_stops(CheckDesk& desk, Measured& measured) {
         measured);
     ask_length(desk, {"left_to_right_mm", left, right}, "How far has it moved along the ruler?",
                lengths, measured);
-    measured.add("by_the_settings", meaning_of(out, in, lengths, desk.options.geometry))
-        .add("by_libnifalcon", meaning_of(out, in, lengths, Geometry{}))
-        .add("by_martin_hillier_50", meaning_of(out, in, lengths, martin_hillier(50.0)))
-        .add("by_martin_hillier_40", meaning_of(out, in, lengths, martin_hillier(40.0)));
+    measured["by_the_settings"] = meaning_of(out, in, lengths, desk.options.geometry);
+    measured["by_libnifalcon"] = meaning_of(out, in, lengths, Geometry{});
+    measured["by_martin_hillier_50"] = meaning_of(out, in, lengths, martin_hillier(50.0));
+    measured["by_martin_hillier_40"] = meaning_of(out, in, lengths, martin_hillier(40.0));
     settle(desk, out, in, lengths);
 }
 

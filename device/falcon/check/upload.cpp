@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "device/falcon/bring_up.hpp"
-#include "device/falcon/check/steps.hpp"
+#include "device/falcon/check/desk.hpp"
 #include "device/falcon/upload.hpp"
 
 namespace dibhr::falcon {
@@ -37,14 +36,13 @@ std::vector<std::uint8_t> raw_reply(FtdiPort& port) {
     return bytes;
 }
 
-void probe(CheckDesk& desk, const char* name, Measured& measured) {
+void probe(CheckDesk& desk, const char* name, Json& measured) {
     const auto begin = Clock::now();
     const bool answers = desk.falcon.answers();
-    Measured part;
-    part.add("answers", answers).add("took_ms", ms_since(begin));
+    Json part{{"answers", answers}, {"took_ms", ms_since(begin)}};
     if (answers) {
         const auto bytes = raw_reply(desk.falcon.port());
-        part.add("reply", hexadecimal(bytes));
+        part["reply"] = hexadecimal(bytes);
         if (bytes.size() == kPacketBytes) {
             const std::array<std::uint8_t, 1> last{bytes[kPacketBytes - 2]};
             desk.findings.settle(OpenQuestion::last_byte, last[0] == kUsualLastByte
@@ -52,7 +50,7 @@ void probe(CheckDesk& desk, const char* name, Measured& measured) {
                                                               : hexadecimal(last) + ", not 41");
         }
     }
-    measured.add(name, part);
+    measured[name] = part;
 }
 
 /// How many bytes came before the known answer.
@@ -68,22 +66,21 @@ struct Upload {
     std::string stray{};  ///< what stood before an answer, in words
 };
 
-Measured as_json(const UploadStep& step, double at_ms) {
-    Measured line;
-    line.add("at_ms", at_ms)
-        .add("try", step.number)
-        .add("step", step.name)
-        .add("done", step.done)
-        .add("baud_value", int{step.baud.value})
-        .add("baud_index", int{step.baud.index});
-    if (!step.heard.empty()) line.add("heard", hexadecimal(step.heard));
+Json as_json(const UploadStep& step, double at_ms) {
+    Json line{{"at_ms", at_ms},
+              {"try", step.number},
+              {"step", step.name},
+              {"done", step.done},
+              {"baud_value", step.baud.value},
+              {"baud_index", step.baud.index}};
+    if (!step.heard.empty()) line["heard"] = hexadecimal(step.heard);
     return line;
 }
 
 /// Uploads, each with its log in the record, whatever becomes of it.
 class LoggedUploads {
   public:
-    LoggedUploads(CheckDesk& desk, Measured& measured) : desk_(desk), measured_(measured) {}
+    LoggedUploads(CheckDesk& desk, Json& measured) : desk_(desk), measured_(measured) {}
 
     /// Until it is in, or the person has enough.
     Upload run(bool slower) {
@@ -105,7 +102,7 @@ class LoggedUploads {
   private:
     Upload once(bool slower, bool after_power_cycle) {
         Upload result;
-        MeasuredList steps;
+        Json steps = Json::array();
         std::stop_source stop;
         const auto begin = Clock::now();
         UploadOptions options;
@@ -117,25 +114,24 @@ class LoggedUploads {
             if (desk_.guide.interrupted()) stop.request_stop();
         };
         options.watch = [&](const UploadStep& step) {
-            steps.add(as_json(step, ms_since(begin)));
+            steps.push_back(as_json(step, ms_since(begin)));
             note_stray_bytes(step, result.stray);
         };
-        MeasuredPart part(measured_, "upload_" + std::to_string(++number_));
-        (*part).add("baud", slower ? 140351 : 142857).add("after_power_cycle", after_power_cycle);
+        Json& part = measured_["upload_" + std::to_string(++number_)];
+        part = {{"baud", slower ? 140351 : 142857}, {"after_power_cycle", after_power_cycle}};
         desk_.falcon.set_answering(false);
         try {
             result.done = upload(desk_.falcon.port(), desk_.options.firmware.bytes, options,
                                  stop.get_token());
         } catch (const UploadError& failure) {
-            (*part).add("failure", failure.what());
+            part["failure"] = failure.what();
             desk_.guide.say(failure.what());
         }
         desk_.falcon.set_answering(result.done);
-        (*part)
-            .add("done", result.done)
-            .add("took_ms", ms_since(begin))
-            .add("tries", result.tries)
-            .add("steps", steps);
+        part["done"] = result.done;
+        part["took_ms"] = ms_since(begin);
+        part["tries"] = result.tries;
+        part["steps"] = steps;
         if (stop.stop_requested()) throw PersonQuits{};
         return result;
     }
@@ -148,7 +144,7 @@ class LoggedUploads {
     }
 
     CheckDesk& desk_;
-    Measured& measured_;
+    Json& measured_;
     int number_{0};
 };
 
@@ -157,7 +153,7 @@ std::string in_words(const Upload& upload) {
     return upload.tries == 1 ? "at the first try" : "at try " + std::to_string(upload.tries);
 }
 
-void load_at_both_speeds(CheckDesk& desk, Measured& measured) {
+void load_at_both_speeds(CheckDesk& desk, Json& measured) {
     const bool ran_before = desk.falcon.answering();
     LoggedUploads uploads(desk, measured);
     const Upload fast = uploads.run(false);
@@ -184,11 +180,11 @@ void load_at_both_speeds(CheckDesk& desk, Measured& measured) {
 
 }  // namespace
 
-void check_upload(CheckDesk& desk, Measured& measured) {
+void check_upload(CheckDesk& desk, Json& measured) {
     probe(desk, "probe", measured);
     const FirmwareImage& image = desk.options.firmware;
     if (image.empty()) {
-        measured.add_null("firmware");
+        measured["firmware"] = nullptr;
         if (!desk.falcon.answering()) {
             throw DeviceError(firmware_is_wanted(desk.falcon.attached()) +
                               "; then: dibhr devices --check --firmware FILE");
@@ -196,7 +192,8 @@ void check_upload(CheckDesk& desk, Measured& measured) {
         desk.guide.say("It answers. No firmware file is at hand, so none is loaded.");
         return;
     }
-    measured.add("firmware", image.name).add("firmware_sha256", image.sha256);
+    measured["firmware"] = image.name;
+    measured["firmware_sha256"] = image.sha256;
     desk.begin(std::string(desk.falcon.answering() ? "It answers" : "It does not answer") +
                ". Enter = load " + image.name + " twice, s = load nothing, q = quit");
     load_at_both_speeds(desk, measured);

@@ -1,5 +1,5 @@
 // The grip's buttons without their bounce.
-#include "device/falcon/buttons.hpp"
+#include "device/falcon/reply_watch.hpp"
 
 #include <array>
 #include <chrono>

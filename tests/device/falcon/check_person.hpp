@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "device/falcon/check/check.hpp"
-#include "device/falcon/check/guide.hpp"
 #include "tests/device/falcon/falcon_in_loop.hpp"
 
 namespace dibhr::test::falcon {

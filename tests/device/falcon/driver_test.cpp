@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "device/falcon/attached.hpp"
+#include "device/falcon/usb.hpp"
 #include "tests/device/falcon/falcon_in_loop.hpp"
 #include "tests/support/catch.hpp"
 

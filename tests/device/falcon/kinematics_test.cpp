@@ -13,7 +13,6 @@
 #include <random>
 #include <vector>
 
-#include "device/falcon/motors.hpp"
 #include "tests/support/catch.hpp"
 
 namespace {

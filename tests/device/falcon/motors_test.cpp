@@ -1,5 +1,5 @@
 // Motor commands: they never wrap, and keep the direction of the force.
-#include "device/falcon/motors.hpp"
+#include "device/falcon/kinematics.hpp"
 
 #include <glm/common.hpp>
 
@@ -11,7 +11,6 @@
 #include <optional>
 #include <random>
 
-#include "device/falcon/kinematics.hpp"
 #include "tests/support/catch.hpp"
 
 namespace {

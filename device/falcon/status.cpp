@@ -1,5 +1,5 @@
 // Where the USB thread writes the status and the window reads it.
-#include "device/falcon/status_board.hpp"
+#include "device/falcon/status.hpp"
 
 #include <utility>
 

@@ -1,15 +1,15 @@
-// What the replies say of homing.
-#include "device/falcon/homing.hpp"
+// What the replies tell over time: homing, and the buttons.
+#include "device/falcon/reply_watch.hpp"
 
 #include <bit>
 #include <cstddef>
 #include <cstdlib>
+#include <utility>
 
 namespace dibhr::falcon {
 
 namespace {
 
-constexpr std::uint8_t kAllAxes = 7;
 constexpr int kMotion_counts = 25;  // 0.9 degrees of thigh: more than an encoder's tremble
 constexpr std::chrono::seconds kPatience{20};  // "no motion and no homing for 20 s"
 
@@ -27,9 +27,8 @@ int homed_axes(std::uint8_t homed) noexcept {
 }
 
 std::string how_to_home(int axes) {
-    const std::string what = "pull the grip all the way out, then push it straight in";
-    return axes == 0 ? "homing: " + what
-                     : "homing, " + std::to_string(axes) + " of 3 axes done: " + what;
+    return (axes == 0 ? "homing" : "homing, " + std::to_string(axes) + " of 3 axes done") +
+           ": pull the grip all the way out, then push it straight in";
 }
 
 void HomingWatch::begin(Time now) noexcept {
@@ -59,6 +58,30 @@ void HomingWatch::look_for_motion(const Reply& reply, Time at) noexcept {
     if (placed_) quiet_since_ = at;
     last_place_ = reply;
     placed_ = true;
+}
+
+std::uint8_t ButtonDebounce::add(std::uint8_t buttons, Time at) noexcept {
+    held_ = std::exchange(begins_, false) ? buttons : static_cast<std::uint8_t>(held_ & buttons);
+    for (std::size_t k = 0; k < kButtons; ++k) {
+        const auto bit = static_cast<std::uint8_t>(1U << k);
+        if (((buttons ^ steady_) & bit) == 0) {
+            changing_ = static_cast<std::uint8_t>(changing_ & ~bit);
+        } else if ((changing_ & bit) == 0 || at < since_[k]) {
+            changing_ = static_cast<std::uint8_t>(changing_ | bit);
+            since_[k] = at;
+        } else if (at - since_[k] >= kSteady) {
+            changing_ = static_cast<std::uint8_t>(changing_ & ~bit);
+            steady_ = static_cast<std::uint8_t>(steady_ ^ bit);
+            if ((steady_ & ~held_ & bit) != 0) ++presses_[k];
+        }
+    }
+    return steady_;
+}
+
+void ButtonDebounce::release() noexcept {
+    steady_ = 0;
+    changing_ = 0;
+    begins_ = true;
 }
 
 }  // namespace dibhr::falcon
