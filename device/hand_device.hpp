@@ -7,7 +7,7 @@
 
 #include "core/loop/device.hpp"
 #include "device/falcon/falcon_device.hpp"
-#include "device/falcon/options.hpp"
+#include "device/falcon/status.hpp"
 #include "device/mouse_hand.hpp"
 
 namespace dibhr {

@@ -13,7 +13,7 @@
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/words.hpp"
 #include "core/loop/device.hpp"
-#include "device/falcon/options.hpp"
+#include "device/falcon/status.hpp"
 
 namespace dibhr {
 

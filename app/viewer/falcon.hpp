@@ -10,7 +10,7 @@
 
 #include "app/panels/viewer_state.hpp"
 #include "app/settings/keys.hpp"
-#include "device/falcon/options.hpp"
+#include "device/falcon/status.hpp"
 #include "device/hand_device.hpp"
 
 namespace dibhr {

@@ -10,8 +10,7 @@
 #include <vector>
 
 #include "core/realtime/thread_setup.hpp"
-#include "device/falcon/probe.hpp"
-#include "device/falcon/upload.hpp"
+#include "device/falcon/bring_up.hpp"
 #include "device/falcon/usb.hpp"
 
 namespace dibhr::falcon {
@@ -23,24 +22,6 @@ using std::chrono::milliseconds;
 constexpr milliseconds kLookAgainAfter{500};
 constexpr milliseconds kLoadAgainAfter{2000};  // time to read what went wrong
 constexpr milliseconds kAskAgainAfter{2000};   // leaves the port to a program that loads firmware
-
-/// Leaves the Falcon without force when it goes out of scope, whatever has ended the talk, unless
-/// `loss` says by then that nobody is there.
-class NoForceAtTheEnd {
-  public:
-    NoForceAtTheEnd(FtdiPort& port, const std::optional<UsbError>& loss)
-        : port_(port), loss_(loss) {}
-    ~NoForceAtTheEnd() {
-        if (loss_ && loss_->code() == LIBUSB_ERROR_PIPE) port_.clear_stall();
-        if (!loss_ || !loss_->gone()) leave_without_force(port_);
-    }
-    NoForceAtTheEnd(const NoForceAtTheEnd&) = delete;
-    NoForceAtTheEnd& operator=(const NoForceAtTheEnd&) = delete;
-
-  private:
-    FtdiPort& port_;
-    const std::optional<UsbError>& loss_;
-};
 
 }  // namespace
 
@@ -97,17 +78,12 @@ void Driver::wait_to_look_again(const std::stop_token& stop) {
 void Driver::look(const UsbContext& usb, const std::stop_token& stop) {
     const std::vector<AttachedFalcon> attached = attached_falcons(usb);
     const auto falcon = choose(attached, options_.serial);
-    if (!falcon) {
-        none_there(attached);
+    board_.draft().serial = falcon ? falcon->serial : "";
+    if (falcon) {
+        use(usb, *falcon, stop);
         return;
     }
-    board_.draft().serial = falcon->serial;
-    use(usb, *falcon, stop);
-}
-
-void Driver::none_there(std::span<const AttachedFalcon> attached) {
     const bool lost = !trouble_.empty();
-    board_.draft().serial.clear();
     board_.enter(Stage::looking, lost ? trouble_ : why_none(attached, options_.serial),
                  lost || !attached.empty());
 }
@@ -161,12 +137,16 @@ void Driver::bring_up_and_talk(const UsbContext& usb, FtdiPort& port, const std:
 
 void Driver::talk(const UsbContext& usb, FtdiPort& port, const std::stop_token& stop) {
     std::optional<UsbError> loss;
-    {
-        const NoForceAtTheEnd at_the_end(port, loss);
+    try {
         port.request(options_.event_character ? kFlushOnReplyEnd : kNoEventCharacter);
         Conversation conversation(usb, port, exchange_, board_, memory_);
         loss = conversation.run(stop);
+    } catch (...) {
+        leave_without_force(port);
+        throw;
     }
+    if (loss && loss->code() == LIBUSB_ERROR_PIPE) port.clear_stall();
+    if (!loss || !loss->gone()) leave_without_force(port);
     if (loss) lose(loss->what());
 }
 

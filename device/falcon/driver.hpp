@@ -5,7 +5,6 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
-#include <span>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -13,7 +12,6 @@
 #include "device/falcon/conversation.hpp"
 #include "device/falcon/exchange.hpp"
 #include "device/falcon/firmware_image.hpp"
-#include "device/falcon/options.hpp"
 #include "device/falcon/status.hpp"
 #include "device/falcon/usb.hpp"
 
@@ -34,7 +32,6 @@ class Driver {
   private:
     void live(const std::stop_token& stop);
     void look(const UsbContext& usb, const std::stop_token& stop);
-    void none_there(std::span<const AttachedFalcon> attached);
     void use(const UsbContext& usb, const AttachedFalcon& falcon, const std::stop_token& stop);
     void bring_up_and_talk(const UsbContext& usb, FtdiPort& port, const std::stop_token& stop);
     void talk(const UsbContext& usb, FtdiPort& port, const std::stop_token& stop);

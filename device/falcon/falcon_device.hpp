@@ -7,7 +7,6 @@
 #include "core/loop/device.hpp"
 #include "core/realtime/triple_buffer.hpp"
 #include "device/falcon/firmware_image.hpp"
-#include "device/falcon/options.hpp"
 #include "device/falcon/status.hpp"
 
 namespace dibhr::falcon {

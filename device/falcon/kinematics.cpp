@@ -193,11 +193,6 @@ Vec3 angles_of_counts(const Counts& counts, const Geometry& geometry) noexcept {
     return angles_of_counts(Vec3{counts[0], counts[1], counts[2]}, geometry);
 }
 
-Vec3 counts_of_angles(Vec3 angles_rad, const Geometry& geometry) noexcept {
-    return (glm::degrees(angles_rad) - geometry.angle_at_zero_deg) *
-           (kCountsPerTurn * geometry.gear / 360.0);
-}
-
 std::optional<Vec3> angles_at(Vec3 position_m, const Geometry& geometry) noexcept {
     if (!has_limbs(geometry)) return std::nullopt;
     Vec3 angles{0.0};

@@ -33,7 +33,6 @@ using Jacobian = std::array<Vec3, 3>;
 /// Thigh angles [rad] of encoder counts; the counts need not be whole.
 [[nodiscard]] Vec3 angles_of_counts(Vec3 counts, const Geometry& geometry) noexcept;
 [[nodiscard]] Vec3 angles_of_counts(const Counts& counts, const Geometry& geometry) noexcept;
-[[nodiscard]] Vec3 counts_of_angles(Vec3 angles_rad, const Geometry& geometry) noexcept;
 
 /// Inverse kinematics [rad]; nothing when the grip cannot be there.
 [[nodiscard]] std::optional<Vec3> angles_at(Vec3 position_m, const Geometry& geometry) noexcept;

@@ -74,16 +74,13 @@ struct Link::Transfers {
     Transfers& operator=(const Transfers&) = delete;
 
     /// 0, or libusb's error.
-    int submit_in() {
-        const int code = libusb_submit_transfer(in.get());
-        in_busy = code == 0;
+    static int submit(libusb_transfer* transfer, bool& busy) {
+        const int code = libusb_submit_transfer(transfer);
+        busy = code == 0;
         return code;
     }
-    int submit_out() {
-        const int code = libusb_submit_transfer(out.get());
-        out_busy = code == 0;
-        return code;
-    }
+    int submit_in() { return submit(in.get(), in_busy); }
+    int submit_out() { return submit(out.get(), out_busy); }
 
     // An exception must not pass through libusb, so both take memory from nowhere.
     static void LIBUSB_CALL in_done(libusb_transfer* transfer) {

@@ -10,8 +10,10 @@ namespace dibhr::falcon {
 
 namespace {
 
-constexpr int kMotion_counts = 25;  // 0.9 degrees of thigh: more than an encoder's tremble
+constexpr int kMotion_counts = 25;             // 0.9 degrees of thigh
 constexpr std::chrono::seconds kPatience{20};  // "no motion and no homing for 20 s"
+
+}  // namespace
 
 bool moved_between(const Counts& a, const Counts& b) noexcept {
     for (std::size_t k = 0; k < a.size(); ++k) {
@@ -19,8 +21,6 @@ bool moved_between(const Counts& a, const Counts& b) noexcept {
     }
     return false;
 }
-
-}  // namespace
 
 int homed_axes(std::uint8_t homed) noexcept {
     return std::popcount(static_cast<unsigned>(homed & kAllAxes));

@@ -19,6 +19,9 @@ namespace dibhr::falcon {
 /// What a person does now, when that many axes are homed.
 [[nodiscard]] std::string how_to_home(int axes);
 
+/// By more than an encoder's or a hanging grip's tremble.
+[[nodiscard]] bool moved_between(const Counts& a, const Counts& b) noexcept;
+
 class HomingWatch {
   public:
     using Time = std::chrono::steady_clock::time_point;

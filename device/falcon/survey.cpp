@@ -6,9 +6,8 @@
 #include <stop_token>
 #include <thread>
 
-#include "device/falcon/probe.hpp"
+#include "device/falcon/bring_up.hpp"
 #include "device/falcon/reply_watch.hpp"
-#include "device/falcon/upload.hpp"
 #include "device/falcon/usb.hpp"
 
 namespace dibhr::falcon {

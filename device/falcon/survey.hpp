@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "device/falcon/firmware_image.hpp"
-#include "device/falcon/options.hpp"
 #include "device/falcon/status.hpp"
 #include "device/falcon/usb.hpp"
 

@@ -13,6 +13,7 @@
 #include <utility>
 
 namespace dibhr::falcon {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -70,11 +71,9 @@ std::string serial_from_system(libusb_device* device) {
 std::string serial_from_device(libusb_device* device, std::uint8_t string_index) {
     libusb_device_handle* opened = nullptr;
     if (libusb_open(device, &opened) != 0) return {};
-    std::array<unsigned char, 256> text{};
-    const int length = libusb_get_string_descriptor_ascii(opened, string_index, text.data(),
-                                                          static_cast<int>(text.size()));
+    std::string serial = text_at(opened, string_index);
     libusb_close(opened);
-    return length > 0 ? std::string(text.begin(), text.begin() + length) : std::string();
+    return serial;
 }
 
 /// How libusb's timeouts are given; its zero would mean for ever.
@@ -228,6 +227,13 @@ std::vector<AttachedFalcon> attached_falcons(const UsbContext& usb) {
     return falcons;
 }
 
+std::string text_at(libusb_device_handle* handle, std::uint8_t index) {
+    std::array<unsigned char, 256> text{};
+    const int length = libusb_get_string_descriptor_ascii(handle, index, text.data(),
+                                                          static_cast<int>(text.size()));
+    return length > 0 ? std::string(text.begin(), text.begin() + length) : std::string();
+}
+
 void FtdiPort::Close::operator()(libusb_device_handle* handle) const noexcept {
     libusb_close(handle);
 }
@@ -287,8 +293,7 @@ void FtdiPort::write(std::span<const std::uint8_t> bytes, std::chrono::milliseco
 }
 
 Payload FtdiPort::read(std::chrono::milliseconds limit) {
-    // Exactly one packet: less could overflow, more would wait for one that is not full (README.md,
-    // IN packets).
+    // Exactly one packet: less could overflow, more would wait for one that is not full.
     packet_.resize(kUsbPacketBytes);
     int got = 0;
     const int code =
@@ -301,6 +306,24 @@ Payload FtdiPort::read(std::chrono::milliseconds limit) {
 void FtdiPort::clear_stall() noexcept {
     libusb_clear_halt(handle(), kInEndpoint);
     libusb_clear_halt(handle(), kOutEndpoint);
+}
+
+Payload payload_of(std::span<std::uint8_t> transfer) noexcept {
+    Payload payload;
+    std::size_t kept = 0;
+    for (std::size_t at = 0; at + kStatusBytes <= transfer.size(); at += kUsbPacketBytes) {
+        const auto packet = transfer.subspan(at, std::min(kUsbPacketBytes, transfer.size() - at));
+        const auto errors =
+            static_cast<std::uint8_t>(packet[1] & (kOverrun | kParityError | kFramingError));
+        payload.line_errors |= errors;
+        payload.faulty_packets += errors != 0 ? 1U : 0U;
+        const auto data = packet.subspan(kStatusBytes);
+        // Forwards within one array: the target never lies behind the source.
+        std::copy(data.begin(), data.end(), transfer.subspan(kept).begin());
+        kept += data.size();
+    }
+    payload.bytes = transfer.first(kept);
+    return payload;
 }
 
 }  // namespace dibhr::falcon

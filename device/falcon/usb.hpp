@@ -1,4 +1,5 @@
-// The Falcons on the USB, libusb's context and handles with owners, its errors in plain sentences.
+// The Falcons on the USB and the FT232R in each: its requests and packets (README.md: USB identity,
+// FTDI requests, IN packets), libusb's handles with owners, its errors in plain sentences.
 #pragma once
 
 #include <chrono>
@@ -11,12 +12,80 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "device/falcon/ftdi.hpp"
 
 struct libusb_context;
 struct libusb_device_handle;
 
 namespace dibhr::falcon {
+
+/// Not the 6001 of a plain FTDI adapter.
+inline constexpr std::uint16_t kVendor = 0x0403;
+inline constexpr std::uint16_t kProduct = 0xcb48;
+inline constexpr int kInterface = 0;
+inline constexpr std::uint8_t kOutEndpoint = 0x02;
+inline constexpr std::uint8_t kInEndpoint = 0x81;
+inline constexpr std::size_t kUsbPacketBytes = 64;
+inline constexpr std::size_t kStatusBytes = 2;
+inline constexpr std::size_t kMostDataBytes = kUsbPacketBytes - kStatusBytes;
+
+/// A vendor request from the host to the chip: type 0x40, no data.
+struct FtdiRequest {
+    std::uint8_t request{0};
+    std::uint16_t value{0};
+    std::uint16_t index{0};
+};
+
+/// Which of the two empties which queue is disputed: always send both.
+inline constexpr FtdiRequest kPurgeOne{0, 1};
+inline constexpr FtdiRequest kPurgeOther{0, 2};
+
+/// High byte: which line; low byte: its value.
+inline constexpr FtdiRequest kDtrHigh{1, 0x0101};
+inline constexpr FtdiRequest kDtrLow{1, 0x0100};
+inline constexpr FtdiRequest kRtsLow{1, 0x0200};
+
+inline constexpr FtdiRequest kNoFlowControl{2, 0};
+
+/// Divisors of 3 MHz: bits 0-13 the whole part, bits 14-15 and index bit 0 code the eighths.
+inline constexpr FtdiRequest kBaud9600{3, 0x4138};       // / 312.5
+inline constexpr FtdiRequest kBaud142857{3, 0x0015};     // / 21: "140000" of libnifalcon
+inline constexpr FtdiRequest kBaud140351{3, 0x0015, 1};  // / 21.375: "140000" of libftdi and D2XX
+inline constexpr FtdiRequest kBaud115200{3, 0x001a};     // / 26; untested as an upload's
+inline constexpr FtdiRequest kBaud57600{3, 0xc034};      // / 52.125; untested
+inline constexpr FtdiRequest kBaudRunTime{3, 0x0002};    // / 2 = 1 500 000
+
+inline constexpr FtdiRequest kEightBitsNoParity{4, 0x0008};
+
+/// The chip sends what it has as soon as the Falcon's '>' comes by (untried on a real one).
+inline constexpr FtdiRequest kFlushOnReplyEnd{6, '>' | 0x100};
+inline constexpr FtdiRequest kNoEventCharacter{6, 0};
+
+/// How long the chip keeps a packet that is not full [ms].
+inline constexpr FtdiRequest kLatencyUploading{9, 16};
+inline constexpr FtdiRequest kLatencyRunTime{9, 1};
+// Nobody waits for a pose: a sixth of the empty packets, and a reply still before it is asked for
+// again.
+inline constexpr FtdiRequest kLatencyWhilePaused{9, 6};
+
+/// Requests with an answer: modem and line status, 2 bytes; the latency timer [ms], 1 byte.
+inline constexpr std::uint8_t kReadModemStatus = 5;
+inline constexpr std::uint8_t kReadLatencyTimer = 10;
+
+/// Bits of the second status byte, the line's.
+inline constexpr std::uint8_t kOverrun = 0x02;      // bytes were lost
+inline constexpr std::uint8_t kParityError = 0x04;  // a byte is not what was sent
+inline constexpr std::uint8_t kFramingError = 0x08;
+
+/// What an IN transfer brought.
+struct Payload {
+    std::span<const std::uint8_t> bytes{};
+    std::uint8_t line_errors{0};      ///< the error bits of all its packets
+    std::uint32_t faulty_packets{0};  ///< how many had one
+};
+
+/// Takes the two status bytes off every 64-byte packet of a transfer, in place. A packet without
+/// data is normal: the latency timer ran out.
+[[nodiscard]] Payload payload_of(std::span<std::uint8_t> transfer) noexcept;
 
 /// As it can be named without opening it.
 struct AttachedFalcon {
@@ -73,6 +142,9 @@ class UsbContext {
 /// Every 0403:cb48, in the order of serials; opens none whose serial the system knows. Throws
 /// UsbError.
 [[nodiscard]] std::vector<AttachedFalcon> attached_falcons(const UsbContext& usb);
+
+/// The device's string of this number; empty when it cannot be read.
+[[nodiscard]] std::string text_at(libusb_device_handle* handle, std::uint8_t index);
 
 /// A Falcon's serial port, opened and claimed; whatever kernel driver held it has let go and gets
 /// it back. Used by one thread. Every call throws UsbError when the USB fails.

@@ -11,7 +11,7 @@ namespace dibhr::falcon {
 
 namespace {
 
-using Clock = CheckTalk::Clock;
+using Clock = CheckedFalcon::Clock;
 using std::chrono::milliseconds;
 
 struct Named {
@@ -42,7 +42,7 @@ Press watch_until(CheckDesk& desk, bool pressed, std::uint8_t last) {
     Clock::time_point last_change{};
     for (;;) {
         if (desk.answered()) return press;  // Enter: this one does nothing
-        const auto heard = desk.falcon.talk().exchange(no_force(Led::blue), kPeriod);
+        const auto heard = desk.falcon.exchange(no_force(Led::blue), kPeriod);
         if (!heard) continue;
         const std::uint8_t bits = heard->reply.buttons;
         if (bits != last) {

@@ -123,7 +123,7 @@ class Check {
         guide_.say("\n" + number + ": " + step.title + "\n" + step.meaning);
         const char* const question = "Enter = go on, s = skip, q = quit";
         if (step.needs == Needs::replies_and_person) {
-            desk_.wait_for(question);
+            desk_.word(question);
         } else {
             desk_.begin(question);
         }

@@ -42,7 +42,7 @@ bool CheckDesk::answered() {
 
 void CheckDesk::keep_talking() {
     if (falcon.answering()) {
-        (void)falcon.talk().exchange(no_force(Led::blue), kPause);
+        (void)falcon.exchange(no_force(Led::blue), kPause);
     } else {
         std::this_thread::sleep_for(kPause);
     }
@@ -59,10 +59,6 @@ std::optional<std::string> CheckDesk::line() {
 void CheckDesk::begin(const std::string& question) {
     guide.ask(question);
     (void)line();
-}
-
-void CheckDesk::wait_for(const std::string& question) {
-    (void)word(question);
 }
 
 std::string CheckDesk::word(const std::string& question) {

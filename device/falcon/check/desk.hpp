@@ -27,10 +27,8 @@ struct CheckDesk {
 
     /// Any answer goes on; so does nobody.
     void begin(const std::string& question);
-    /// Goes on when the person has done what was asked.
-    void wait_for(const std::string& question);
-    /// The typed word; empty: Enter alone.
-    [[nodiscard]] std::string word(const std::string& question);
+    /// The typed word, when the person has done what was asked; empty: Enter alone.
+    std::string word(const std::string& question);
     /// The typed number, asked for again until it is one in the range; nothing: Enter alone.
     [[nodiscard]] std::optional<double> number(const std::string& question, double lowest,
                                                double highest);
@@ -47,8 +45,8 @@ struct CheckDesk {
     void keep_talking();
 };
 
-// The steps, each in a file of its own. They add what they measure; they throw StepSkipped,
-// PersonQuits, and DeviceError when the Falcon fails.
+// The steps, each in the file of its name (check_silence with check_force). They add what they
+// measure; they throw StepSkipped, PersonQuits, and DeviceError when the Falcon fails.
 void check_identity(CheckDesk& desk, Json& measured);
 void check_upload(CheckDesk& desk, Json& measured);
 void check_rate(CheckDesk& desk, Json& measured);

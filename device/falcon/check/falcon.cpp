@@ -4,51 +4,9 @@
 #include <algorithm>
 #include <stop_token>
 
-#include "device/falcon/probe.hpp"
-#include "device/falcon/upload.hpp"
+#include "device/falcon/bring_up.hpp"
 
 namespace dibhr::falcon {
-
-CheckTalk::CheckTalk(const UsbContext& usb, FtdiPort& port) : port_(port) {
-    link_.emplace(usb, port, wake_);
-}
-
-CheckTalk::~CheckTalk() {
-    const bool gone = link_->loss() && link_->loss()->gone();
-    link_.reset();
-    if (!gone) leave_without_force(port_);
-}
-
-void CheckTalk::wait(Clock::time_point until) {
-    link_->wait(until);
-    if (link_->loss()) throw UsbError(*link_->loss());
-}
-
-std::optional<CheckTalk::Heard> CheckTalk::exchange(const Command& command,
-                                                    Clock::duration period) {
-    constexpr std::chrono::milliseconds kReplyLimit{20};  // ../README.md, Safety numbers
-    const auto begin = Clock::now();
-    std::optional<Clock::time_point> sent;
-    std::optional<Heard> heard;
-    for (auto now = begin; !heard || now < begin + period; now = Clock::now()) {
-        if (!heard && now > begin + kReplyLimit) return std::nullopt;
-        if (!sent && link_->takes_command(now)) {
-            link_->send(encode(command), now);
-            sent = now;
-        }
-        const auto patience = heard ? begin + period : begin + kReplyLimit;
-        wait(sent ? patience : std::min(patience, link_->patience_ends()));
-        if (sent && !heard && !link_->replies().empty()) {
-            const auto came = Clock::now();
-            heard = Heard{link_->replies().back(), came, came - *sent};
-        }
-    }
-    return heard;
-}
-
-void CheckTalk::be_silent(Clock::time_point until) {
-    while (Clock::now() < until) wait(until);
-}
 
 CheckedFalcon::CheckedFalcon(const std::string& serial) {
     const std::vector<AttachedFalcon> attached = attached_falcons(usb_);
@@ -57,8 +15,12 @@ CheckedFalcon::CheckedFalcon(const std::string& serial) {
     which_ = *found;
 }
 
+CheckedFalcon::~CheckedFalcon() {
+    end_talk();
+}
+
 FtdiPort& CheckedFalcon::port() {
-    talk_.reset();
+    end_talk();
     if (!port_) port_.emplace(usb_, which_);
     return *port_;
 }
@@ -68,18 +30,61 @@ bool CheckedFalcon::answers() {
     return answering_;
 }
 
-CheckTalk& CheckedFalcon::talk() {
+Link& CheckedFalcon::talk() {
     if (!talk_) {
         FtdiPort& opened = port();
         opened.request(event_character_ ? kFlushOnReplyEnd : kNoEventCharacter);
-        talk_.emplace(usb_, opened);
+        talk_.emplace(usb_, opened, wake_);
     }
     return *talk_;
 }
 
+void CheckedFalcon::end_talk() noexcept {
+    if (!talk_) return;
+    const bool gone = talk_->loss() && talk_->loss()->gone();
+    talk_.reset();
+    if (!gone) leave_without_force(*port_);
+}
+
+void CheckedFalcon::wait(Clock::time_point until) {
+    talk().wait(until);
+    if (talk_->loss()) throw UsbError(*talk_->loss());
+}
+
+std::optional<CheckedFalcon::Heard> CheckedFalcon::exchange(const Command& command,
+                                                            Clock::duration period) {
+    constexpr std::chrono::milliseconds kReplyLimit{20};  // ../README.md, Safety numbers
+    Link& link = talk();
+    const auto begin = Clock::now();
+    std::optional<Clock::time_point> sent;
+    std::optional<Heard> heard;
+    for (auto now = begin; !heard || now < begin + period; now = Clock::now()) {
+        if (!heard && now > begin + kReplyLimit) return std::nullopt;
+        if (!sent && link.takes_command(now)) {
+            link.send(encode(command), now);
+            sent = now;
+        }
+        const auto patience = heard ? begin + period : begin + kReplyLimit;
+        wait(sent ? patience : std::min(patience, link.patience_ends()));
+        if (sent && !heard && !link.replies().empty()) {
+            const auto came = Clock::now();
+            heard = Heard{link.replies().back(), came, came - *sent};
+        }
+    }
+    return heard;
+}
+
+void CheckedFalcon::be_silent(Clock::time_point until) {
+    while (Clock::now() < until) wait(until);
+}
+
+LinkCounts CheckedFalcon::counts() {
+    return talk().counts();
+}
+
 void CheckedFalcon::let_go() noexcept {
     if (!talk_ && port_ && answering_) leave_without_force(*port_);
-    talk_.reset();
+    end_talk();
     port_.reset();
 }
 

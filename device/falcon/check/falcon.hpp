@@ -1,4 +1,5 @@
-// The one Falcon that is checked: found by its serial, opened and closed as the steps need it.
+// The one Falcon that is checked: found by its serial, opened and closed as the steps need it, and
+// one command, one reply, for as long as they talk to it.
 #pragma once
 
 #include <chrono>
@@ -13,8 +14,7 @@
 
 namespace dibhr::falcon {
 
-/// One command, one reply, for as long as a Falcon is checked.
-class CheckTalk {
+class CheckedFalcon {
   public:
     using Clock = Link::Clock;
 
@@ -24,47 +24,34 @@ class CheckTalk {
         Clock::duration round_trip{};  ///< from the command to its reply
     };
 
-    /// The port's Falcon must answer, and is used otherwise only after the talk. Throws UsbError.
-    CheckTalk(const UsbContext& usb, FtdiPort& port);
-    ~CheckTalk();  ///< five packets without force
-    CheckTalk(const CheckTalk&) = delete;
-    CheckTalk& operator=(const CheckTalk&) = delete;
-
-    /// Sends `command` and gives its reply, not before `period` has passed. Nothing when none came
-    /// within 20 ms. Throws UsbError when the link is lost.
-    std::optional<Heard> exchange(const Command& command, Clock::duration period = {});
-    /// Sends nothing until `until`. Throws UsbError when the link is lost.
-    void be_silent(Clock::time_point until);
-
-    [[nodiscard]] LinkCounts counts() const noexcept { return link_->counts(); }
-
-  private:
-    void wait(Clock::time_point until);
-
-    FtdiPort& port_;
-    Wake wake_{};
-    std::optional<Link> link_{};
-};
-
-class CheckedFalcon {
-  public:
     /// The one with this serial; when it is empty, the first. Throws DeviceError when there is
     /// none.
     explicit CheckedFalcon(const std::string& serial);
+    ~CheckedFalcon();  ///< five packets without force, when it was talked to
+    CheckedFalcon(const CheckedFalcon&) = delete;
+    CheckedFalcon& operator=(const CheckedFalcon&) = delete;
 
     [[nodiscard]] const AttachedFalcon& attached() const noexcept { return which_; }
 
-    /// Opened if it is not; ends the talk. Throws UsbError.
+    /// Opened if it is not; no talk, as the port is used otherwise. Throws UsbError.
     FtdiPort& port();
     /// Sets run-time speed and asks for a reply; ends the talk. Throws UsbError.
     bool answers();
     /// What answers() would say: an upload has found out.
     void set_answering(bool answering) noexcept { answering_ = answering; }
     [[nodiscard]] bool answering() const noexcept { return answering_; }
-    /// Begun if it is not. Only when answering(). Throws UsbError.
-    CheckTalk& talk();
     /// Whether the chip flushes on '>' from the next talk on.
     void use_event_character(bool use) noexcept { event_character_ = use; }
+
+    // The talk begins by itself. Only when answering(); these throw UsbError when the link is lost.
+
+    /// Sends `command` and gives its reply, not before `period` has passed. Nothing when none came
+    /// within 20 ms.
+    std::optional<Heard> exchange(const Command& command, Clock::duration period = {});
+    /// Sends nothing until `until`.
+    void be_silent(Clock::time_point until);
+    /// Of this talk.
+    [[nodiscard]] LinkCounts counts();
 
     /// Five packets without force to a Falcon that answers; then closes the port.
     void let_go() noexcept;
@@ -72,12 +59,17 @@ class CheckedFalcon {
     [[nodiscard]] bool look_again();
 
   private:
+    Link& talk();
+    void end_talk() noexcept;
+    void wait(Clock::time_point until);
+
     UsbContext usb_{};
+    Wake wake_{};
     AttachedFalcon which_{};
     bool answering_{false};
     bool event_character_{false};
     std::optional<FtdiPort> port_{};
-    std::optional<CheckTalk> talk_{};
+    std::optional<Link> talk_{};
 };
 
 }  // namespace dibhr::falcon

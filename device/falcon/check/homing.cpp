@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <optional>
 #include <string>
 
@@ -15,11 +14,10 @@ namespace dibhr::falcon {
 
 namespace {
 
-using Clock = CheckTalk::Clock;
+using Clock = CheckedFalcon::Clock;
 
 constexpr std::array kAxes{"top", "right", "left"};
 constexpr std::chrono::milliseconds kPeriod{2};
-constexpr int kStill_counts = 25;  // as much as a hanging grip may tremble
 
 std::string live_state(const Reply& reply) {
     std::string text;
@@ -68,7 +66,7 @@ Phase run_phase(CheckDesk& desk, const char* name, bool homing, Json& measured) 
     std::optional<double> first_change_ms;
     while (Clock::now() - begin < desk.options.times.homing_bit || phase.replies == 0) {
         desk.quit_if_interrupted();
-        const auto heard = desk.falcon.talk().exchange(command, kPeriod);
+        const auto heard = desk.falcon.exchange(command, kPeriod);
         if (!heard) continue;
         if (phase.replies++ == 0) phase.first = heard->reply;
         if (heard->reply.homed != kAllAxes && !first_change_ms) {
@@ -89,15 +87,8 @@ Phase run_phase(CheckDesk& desk, const char* name, bool homing, Json& measured) 
     return phase;
 }
 
-bool jumped(const Counts& before, const Counts& after) {
-    for (std::size_t k = 0; k < before.size(); ++k) {
-        if (std::abs(before.at(k) - after.at(k)) > kStill_counts) return true;
-    }
-    return false;
-}
-
 std::string in_words(const Phase& kept, const Phase& cleared, const Phase& again) {
-    const std::string counts = jumped(kept.last.encoder, again.last.encoder)
+    const std::string counts = moved_between(kept.last.encoder, again.last.encoder)
                                    ? "; the counts jumped"
                                    : "; the counts stayed";
     if (again.last.homed != kAllAxes) return "homing is lost when the bit is cleared" + counts;
@@ -118,7 +109,7 @@ void home_with_person(CheckDesk& desk, Json& measured) {
     bool asked = false;
     bool hinted = false;
     for (int replies = 0; !watch.ready();) {
-        const auto heard = desk.falcon.talk().exchange(no_force(Led::red), kPeriod);
+        const auto heard = desk.falcon.exchange(no_force(Led::red), kPeriod);
         if (heard) {
             watch.add(heard->reply, heard->at);
             references.add(heard->reply, std::chrono::duration<double>(heard->at - begin).count());

@@ -26,13 +26,6 @@ std::string as_hex(unsigned value, int digits) {
     return text.str();
 }
 
-std::string text_at(libusb_device_handle* handle, std::uint8_t index) {
-    std::array<unsigned char, 256> text{};
-    const int length = libusb_get_string_descriptor_ascii(handle, index, text.data(),
-                                                          static_cast<int>(text.size()));
-    return length > 0 ? std::string(text.begin(), text.begin() + length) : std::string();
-}
-
 /// The bytes of a descriptor as the device sends them; empty when it refuses.
 std::string raw_descriptor(libusb_device_handle* handle, std::uint8_t type) {
     std::vector<std::uint8_t> bytes(1024);

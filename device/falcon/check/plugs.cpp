@@ -7,15 +7,15 @@
 #include <string>
 #include <thread>
 
+#include "device/falcon/bring_up.hpp"
 #include "device/falcon/check/desk.hpp"
 #include "device/falcon/reply_watch.hpp"
-#include "device/falcon/upload.hpp"
 
 namespace dibhr::falcon {
 
 namespace {
 
-using Clock = CheckTalk::Clock;
+using Clock = CheckedFalcon::Clock;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kPeriod{10};
@@ -28,7 +28,7 @@ UsbError loss_while_talking(CheckDesk& desk, Json& part) {
     for (;;) {
         desk.answered();
         try {
-            const auto heard = desk.falcon.talk().exchange(no_force(Led::blue), kPeriod);
+            const auto heard = desk.falcon.exchange(no_force(Led::blue), kPeriod);
             if (heard) last_reply = heard->at;
         } catch (const UsbError& loss) {
             part["error"] = libusb_error_name(loss.code());
@@ -44,7 +44,7 @@ UsbError loss_while_talking(CheckDesk& desk, Json& part) {
 std::optional<Reply> last_reply_of_some(CheckDesk& desk) {
     std::optional<Reply> last;
     for (int k = 0; k < kQuestions; ++k) {
-        const auto heard = desk.falcon.talk().exchange(no_force(Led::red), kPeriod);
+        const auto heard = desk.falcon.exchange(no_force(Led::red), kPeriod);
         if (heard) last = heard->reply;
     }
     return last;
@@ -117,7 +117,7 @@ void unplug_power(CheckDesk& desk, Json& part) {
     desk.falcon.set_answering(false);
     const bool attached = desk.falcon.look_again();
     part["usb_still_attached"] = attached;
-    desk.wait_for("Plug the power adapter in again. Enter = it is in, s = skip, q = quit");
+    desk.word("Plug the power adapter in again. Enter = it is in, s = skip, q = quit");
     wait_until_attached(desk);
     open_again(desk);
     const std::string survived = what_survived(desk, part);

@@ -39,11 +39,11 @@ std::optional<Vec3> place_of(Vec3 encoder_counts, const Geometry& geometry) {
 CountsSample sample_counts(CheckDesk& desk) {
     CountsSample sample;
     const auto time = desk.options.times.sample;
-    const auto begin = CheckTalk::Clock::now();
+    const auto begin = CheckedFalcon::Clock::now();
     for (auto now = begin; sample.replies == 0 || now < begin + time;
-         now = CheckTalk::Clock::now()) {
+         now = CheckedFalcon::Clock::now()) {
         desk.quit_if_interrupted();
-        const auto heard = desk.falcon.talk().exchange(no_force(Led::blue), kPeriod);
+        const auto heard = desk.falcon.exchange(no_force(Led::blue), kPeriod);
         if (!heard || heard->at < begin + time / 2) continue;
         sample.mean += as_vec(heard->reply.encoder);
         ++sample.replies;
@@ -115,7 +115,7 @@ void Push::release() noexcept {
     acting_ = false;
     for (int k = 0; k < kLastPackets; ++k) {
         try {
-            (void)desk_.falcon.talk().exchange(no_force(Led::blue));
+            (void)desk_.falcon.exchange(no_force(Led::blue));
         } catch (const DeviceError& lost) {
             // The exception that leads here, or the next exchange, tells it.
             continue;
@@ -142,7 +142,7 @@ PushEnd Push::exchange(double part) {
     for (auto& count : command.motor) {
         count = static_cast<std::int16_t>(std::lround(part * count));
     }
-    const auto heard = desk_.falcon.talk().exchange(command, kPeriod);
+    const auto heard = desk_.falcon.exchange(command, kPeriod);
     if (!heard) return PushEnd::no_reply;
     reply_ = heard->reply;
     if ((reply_.homed & kAllAxes) != kAllAxes) return PushEnd::not_homed;
@@ -207,7 +207,7 @@ PushEnd Push::be_silent(std::chrono::milliseconds time, Reply& reply) {
     PushEnd end = PushEnd::held;
     for (auto now = Clock::now(); end == PushEnd::held && now < end_of_silence;
          now = Clock::now()) {
-        desk_.falcon.talk().be_silent(std::min(end_of_silence, now + kLook));
+        desk_.falcon.be_silent(std::min(end_of_silence, now + kLook));
         end = perform_wish();
     }
     if (end == PushEnd::held) end = exchange(0.0);

@@ -48,22 +48,21 @@ Rate measure(CheckDesk& desk, const Setting& setting, Json& measured) {
     std::array<std::uint8_t, 1> latency_ms{};
     port.ask(kReadLatencyTimer, latency_ms);
     desk.falcon.use_event_character(setting.event_character);
-    CheckTalk& talk = desk.falcon.talk();
 
     std::vector<double> round_trips_ms;
     int missing = 0;
-    const auto begin = CheckTalk::Clock::now();
+    const auto begin = CheckedFalcon::Clock::now();
     const auto end = begin + desk.options.times.rate;
-    while (CheckTalk::Clock::now() < end) {
+    while (CheckedFalcon::Clock::now() < end) {
         desk.quit_if_interrupted();
-        const auto heard = talk.exchange(no_force(Led::red));
+        const auto heard = desk.falcon.exchange(no_force(Led::red));
         missing += heard ? 0 : 1;
         if (!heard) continue;
         round_trips_ms.push_back(
             std::chrono::duration<double, std::milli>(heard->round_trip).count());
     }
-    const std::chrono::duration<double> took = CheckTalk::Clock::now() - begin;
-    const LinkCounts counts = talk.counts();
+    const std::chrono::duration<double> took = CheckedFalcon::Clock::now() - begin;
+    const LinkCounts counts = desk.falcon.counts();
     const Rate rate{static_cast<double>(round_trips_ms.size()) / took.count(),
                     quantile(round_trips_ms, 0.5), quantile(round_trips_ms, 0.99)};
     measured[setting.name] = {{"seconds", took.count()},

@@ -150,7 +150,7 @@ Json meaning_of(Vec3 out, Vec3 in, const std::vector<Length>& lengths, const Geo
 }
 
 Vec3 counts_where(CheckDesk& desk, const char* name, const std::string& question, Json& measured) {
-    desk.wait_for(question + " Enter = it is there, s = skip, q = quit");
+    desk.word(question + " Enter = it is there, s = skip, q = quit");
     const CountsSample sample = sample_counts(desk);
     measured[name] = {{"mean_counts", as_json(sample.mean)}, {"replies", sample.replies}};
     return sample.mean;

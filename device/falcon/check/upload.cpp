@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "device/falcon/bring_up.hpp"
 #include "device/falcon/check/desk.hpp"
-#include "device/falcon/upload.hpp"
 
 namespace dibhr::falcon {
 
@@ -87,7 +87,7 @@ class LoggedUploads {
         Upload upload = once(slower, false);
         try {
             while (!upload.done) {
-                desk_.wait_for(
+                desk_.word(
                     "Unplug the power adapter, wait ten seconds, plug it in again. Enter = try "
                     "again, s = leave this speed out, q = quit");
                 upload = once(slower, true);

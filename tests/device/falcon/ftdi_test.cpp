@@ -1,5 +1,5 @@
 // What the FT232R's packets hold.
-#include "device/falcon/ftdi.hpp"
+#include "device/falcon/usb.hpp"
 
 #include <algorithm>
 #include <cstdint>

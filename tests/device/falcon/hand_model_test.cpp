@@ -7,12 +7,14 @@
 #include <random>
 
 #include "device/falcon/kinematics.hpp"
+#include "tests/device/falcon/counts_of_angles.hpp"
 #include "tests/support/catch.hpp"
 
 namespace {
 
 using Catch::Matchers::WithinAbs;
 using dibhr::Vec3;
+using dibhr::test::falcon::counts_of_angles;
 using dibhr::test::falcon::HandModel;
 using dibhr::test::falcon::HandOptions;
 
@@ -92,7 +94,7 @@ TEST_CASE("its linkage gives the driver's counts and torques over the whole work
         const auto jacobian = dibhr::falcon::jacobian_at(grip, geometry);
         const auto counts = linkage.counts_at(grip);
         REQUIRE((angles && jacobian && counts));
-        const Vec3 driver_counts = dibhr::falcon::counts_of_angles(*angles, geometry);
+        const Vec3 driver_counts = counts_of_angles(*angles, geometry);
         CHECK_THAT(glm::distance(*counts, driver_counts), WithinAbs(0.0, 1e-6));
         const Vec3 force{within(random), within(random), within(random)};
         const auto torques = dibhr::falcon::torques_of(force, *jacobian);

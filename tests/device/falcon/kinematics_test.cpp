@@ -13,6 +13,7 @@
 #include <random>
 #include <vector>
 
+#include "tests/device/falcon/counts_of_angles.hpp"
 #include "tests/support/catch.hpp"
 
 namespace {
@@ -20,6 +21,7 @@ namespace {
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
 using dibhr::Vec3;
+using dibhr::test::falcon::counts_of_angles;
 using namespace dibhr::falcon;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();

@@ -10,7 +10,7 @@
 #include <string>
 #include <thread>
 
-#include "device/falcon/probe.hpp"
+#include "device/falcon/bring_up.hpp"
 #include "tests/device/falcon/falcon_in_loop.hpp"
 #include "tests/support/catch.hpp"
 

@@ -1,5 +1,5 @@
 // From a bare unit to one that answers, through the real libusb, and every way it can fail.
-#include "device/falcon/upload.hpp"
+#include "device/falcon/bring_up.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -9,7 +9,6 @@
 #include <thread>
 #include <vector>
 
-#include "device/falcon/probe.hpp"
 #include "tests/device/falcon/synthetic_firmware.hpp"
 #include "tests/device/falcon/usb_bench.hpp"
 #include "tests/support/catch.hpp"

@@ -1,15 +1,15 @@
-// Firmware into the DSP (README.md, Upload, whose steps are numbered here).
-#include "device/falcon/upload.hpp"
+// From an open port to a Falcon that answers (README.md: Probe, and the numbered steps of Upload).
+#include "device/falcon/bring_up.hpp"
 
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <exception>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "device/falcon/firmware_image.hpp"
-#include "device/falcon/probe.hpp"
 
 namespace dibhr::falcon {
 
@@ -18,6 +18,11 @@ namespace {
 using std::chrono::milliseconds;
 using Clock = std::chrono::steady_clock;
 using Bytes = std::span<const std::uint8_t>;
+
+constexpr int kQuestions = 10;
+constexpr milliseconds kAnswerLimit{30};
+constexpr int kLastPackets = 5;         // README.md, Safety numbers
+constexpr milliseconds kLastLimit{10};  // for each; a Falcon that runs answers within 2 ms
 
 constexpr std::array<std::uint8_t, 3> kHello{0x0a, 0x43, 0x0d};
 constexpr std::array<std::uint8_t, 4> kHelloAnswer{0x0a, 0x44, 0x2c, 0x0d};
@@ -30,6 +35,20 @@ constexpr milliseconds kHelloLimit{100};     // "give each try 50-100 ms"
 constexpr milliseconds kAutobaudLimit{200};  // one byte at 7 us a bit, and the latency timer
 constexpr milliseconds kEchoLimit{250};      // without a single byte of echo
 constexpr milliseconds kListen{50};          // as long as a wish to stop may wait
+
+milliseconds left_until(Clock::time_point end) {
+    return std::chrono::ceil<milliseconds>(end - Clock::now());
+}
+
+template <typename Action>
+void unless_it_fails(const Action& act) noexcept {
+    try {
+        act();
+    } catch (const std::exception& failure) {
+        // Nobody is left to tell: the caller knows already, or is leaving.
+        return;
+    }
+}
 
 /// The first tries at the speed that is known to work; then the other one that is; the last two,
 /// when nothing else helped, at speeds nobody has tried.
@@ -91,7 +110,7 @@ class Try {
             const auto found =
                 std::search(heard_.begin(), heard_.end(), wanted.begin(), wanted.end());
             if (found != heard_.end()) return true;
-            const auto left = std::chrono::ceil<milliseconds>(end - Clock::now());
+            const auto left = left_until(end);
             if (left <= milliseconds(0)) return false;
             const Bytes came = port_.read(std::min(left, kListen)).bytes;
             heard_.insert(heard_.end(), came.begin(), came.end());
@@ -181,6 +200,38 @@ std::string sentence_of(End end, const std::string& echo_fault) {
 }
 
 }  // namespace
+
+std::optional<Reply> ask(FtdiPort& port, const Command& command, milliseconds limit) {
+    port.write(encode(command));
+    ReplyStream stream;
+    const auto end = Clock::now() + limit;
+    for (auto left = limit; left > milliseconds(0); left = left_until(end)) {
+        auto bytes = port.read(left).bytes;
+        if (const auto reply = stream.add(bytes)) return reply;
+    }
+    return std::nullopt;
+}
+
+bool answers(FtdiPort& port, const std::stop_token& stop) {
+    port.purge();
+    port.request(kLatencyRunTime);
+    port.request(kBaudRunTime);
+    port.purge();
+    for (int k = 0; k < kQuestions && !stop.stop_requested(); ++k) {
+        if (ask(port, Command{}, kAnswerLimit)) return true;
+    }
+    return false;
+}
+
+void leave_without_force(FtdiPort& port) noexcept {
+    for (int k = 0; k < kLastPackets; ++k) {
+        unless_it_fails([&] {
+            port.write(encode(no_force(Led::off)), kLastLimit);
+            (void)port.read(kLastLimit);
+        });
+    }
+    unless_it_fails([&] { port.request(kNoEventCharacter); });
+}
 
 bool upload(FtdiPort& port, Bytes image, const UploadOptions& options,
             const std::stop_token& stop) {
