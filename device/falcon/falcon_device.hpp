@@ -2,26 +2,31 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <optional>
+#include <utility>
 
 #include "core/loop/device.hpp"
 #include "core/realtime/triple_buffer.hpp"
+#include "device/falcon/driver.hpp"
+#include "device/falcon/exchange.hpp"
 #include "device/falcon/firmware_image.hpp"
+#include "device/falcon/kinematics.hpp"
 #include "device/falcon/status.hpp"
+#include "device/falcon/workspace.hpp"
 
 namespace dibhr::falcon {
 
 /// Looks for the Falcon from construction on, and again whenever it is lost: opens it, asks whether
 /// firmware is there, loads it, waits for homing, and then exchanges one command and one reply a
-/// tick. Everything but read() and send() happens on the USB thread.
+/// tick. Everything but read() and send() happens on the USB thread. Its end is five packets
+/// without force and a closed port.
 class FalconDevice final : public Device {
   public:
     explicit FalconDevice(ConnectionOptions options, FirmwareImage firmware = {});
-    ~FalconDevice() override;  ///< five packets without force, then the port is closed
-    FalconDevice(const FalconDevice&) = delete;
-    FalconDevice& operator=(const FalconDevice&) = delete;
 
-    [[nodiscard]] const DeviceSpecification& specification() const noexcept override;
+    [[nodiscard]] const DeviceSpecification& specification() const noexcept override {
+        return specification_;
+    }
 
     /// The newest pose. `ready` is false, and no force will be sent, unless all three axes are
     /// homed, the last reply is younger than 20 ms, and the clutch is open. Before the first pose
@@ -37,19 +42,39 @@ class FalconDevice final : public Device {
     // The haptic thread's, of the last read():
 
     /// Homed and linked: this hand touches, though it may be clutched, or its last reply too old.
-    [[nodiscard]] bool in_hand() const noexcept;
+    [[nodiscard]] bool in_hand() const noexcept { return epoch_ != kNoEpoch; }
     /// Which reply it used, 1 .. since the start; 0 while there is none.
-    [[nodiscard]] std::uint64_t reply_number() const noexcept;
+    [[nodiscard]] std::uint64_t reply_number() const noexcept { return reply_number_; }
 
     /// The window thread's end.
-    [[nodiscard]] TripleBuffer<Tuning>& tuning() noexcept;
-    [[nodiscard]] Status status() const;
+    [[nodiscard]] TripleBuffer<Tuning>& tuning() noexcept { return tuning_; }
+    [[nodiscard]] Status status() const { return driver_.status(); }
     /// Used at the next need of one.
-    void use_firmware(FirmwareImage image);
+    void use_firmware(FirmwareImage image) { driver_.use_firmware(std::move(image)); }
 
   private:
-    struct Implementation;
-    std::unique_ptr<Implementation> implementation_;
+    [[nodiscard]] bool take_tuning() noexcept;
+    void take_epoch(Epoch newest) noexcept;
+    [[nodiscard]] bool find_pose(const Counts& encoder) noexcept;
+    void place_goal(bool clutched, const HandContext& context) noexcept;
+    [[nodiscard]] Counts motors_for(Vec3 force_newton) const noexcept;
+
+    DeviceSpecification specification_;
+    TripleBuffer<Tuning> tuning_{};
+    Exchange exchange_{};
+
+    // The haptic thread's.
+    Tuning tuned_{};  // one for the whole tick
+    Epoch epoch_{kNoEpoch};
+    std::uint64_t reply_number_{0};
+    std::optional<Vec3> position_m_{};  // the last pose of this epoch
+    Jacobian jacobian_{};               // there
+    Workspace workspace_{};
+    std::optional<Vec3> goal_in_grid_{};
+    bool may_push_{false};  // the last reading was ready
+    bool was_posed_{false};
+
+    Driver driver_;  // last: its thread uses the exchange
 };
 
 }  // namespace dibhr::falcon
