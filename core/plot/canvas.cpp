@@ -35,7 +35,13 @@ struct Freed {
         kFree(object);
     }
 };
-using Surface = std::unique_ptr<cairo_surface_t, Freed<cairo_surface_destroy>>;
+/// Finished first: cairo loses count of a recording that an SVG was made of; this frees what it
+/// holds.
+void end_surface(cairo_surface_t* surface) noexcept {
+    cairo_surface_finish(surface);
+    cairo_surface_destroy(surface);
+}
+using Surface = std::unique_ptr<cairo_surface_t, Freed<end_surface>>;
 using Pen = std::unique_ptr<cairo_t, Freed<cairo_destroy>>;
 using Layout = std::unique_ptr<PangoLayout, Freed<g_object_unref>>;
 

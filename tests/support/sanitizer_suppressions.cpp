@@ -1,5 +1,5 @@
-// What the thread sanitizer is to pass over in the test programs, with the reasons: libraries of
-// the distribution, built without the sanitizer, which sees their memory but not all that orders
+// What the sanitizers are to pass over in the test programs, with the reasons: libraries of the
+// distribution, built without the thread sanitizer, which sees their memory but not all that orders
 // it.
 
 // libavcodec and its family order their decoding threads with atomics. libgdal comes with OpenCV's
@@ -7,7 +7,10 @@
 // drivers. libudev's devices are written by libusb's event thread, under a lock, before the thread
 // that lists them reads them. A testbed of libumockdev has a thread of its own, joined with GLib's
 // atomics.
+// Pango matches fonts on a thread of its own and keeps what Fontconfig found until the program
+// ends.
 extern "C" const char* __tsan_default_suppressions();  // NOLINT: the sanitizer's name
+extern "C" const char* __lsan_default_suppressions();  // NOLINT: the sanitizer's name
 
 extern "C" const char* __tsan_default_suppressions() {  // NOLINT
     return "race:libavcodec.so\n"
@@ -18,5 +21,12 @@ extern "C" const char* __tsan_default_suppressions() {  // NOLINT
            "deadlock:libgdal.so\n"
            "race:libudev.so.1\n"
            "race:libumockdev.so.0\n"
-           "race:libglib-2.0.so.0\n";
+           "race:libglib-2.0.so.0\n"
+           "race:libpangoft2-1.0.so.0\n"
+           "race:libfontconfig.so.1\n";
+}
+
+extern "C" const char* __lsan_default_suppressions() {  // NOLINT
+    return "leak:libfontconfig.so.1\n"
+           "leak:cairo_recording_surface_create\n";
 }
