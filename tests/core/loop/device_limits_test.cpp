@@ -103,7 +103,7 @@ TEST_CASE("what people ask for below a device's limits is left as it is, bit by 
 
 TEST_CASE("a value of a specification that is no limit lets no force of its kind through",
           "[loop][limits]") {
-    const double odd = GENERATE(kNoNumber, kInfinite, -kInfinite, -1.0, 0.0);
+    const double odd = GENERATE(as<double>(), kNoNumber, kInfinite, -kInfinite, -1.0, 0.0);
     const int which = GENERATE(0, 1, 2, 3);
     CAPTURE(odd, which);
     Dice dice(11);
@@ -124,7 +124,7 @@ TEST_CASE("a value of a specification that is no limit lets no force of its kind
 
 TEST_CASE("settings that are no numbers send no force that the device cannot stand",
           "[loop][limits]") {
-    const double odd = GENERATE(kNoNumber, kInfinite, -kInfinite, -1e9);
+    const double odd = GENERATE(as<double>(), kNoNumber, kInfinite, -kInfinite, -1e9);
     const int which = GENERATE(0, 1, 2, 3, 4);
     CAPTURE(odd, which);
     Dice dice(13);
