@@ -92,7 +92,6 @@ void ViewerReplay::show(const SessionMoment& moment, ViewerState& state) {
                          .buttons = tick.buttons,
                          .ready = tick.device_ready,
                          .stand_in = tick.stand_in};
-    state.haptic.blend = tick.blend;
     state.bump = moment.bump;
     if (moment.parameters != nullptr) {
         recorded_ = moment.parameters->touch;

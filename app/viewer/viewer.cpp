@@ -106,7 +106,7 @@ void Viewer::take_news() {
     state_.touched = state_.touched || state_.haptic.touch.proxy.contact;
     if (!state_.grants && loop_) state_.grants = loop_->grants();
     recording_.take_news(state_);
-    for (ForceSample sample; forces_->pop(sample);) state_.forces.add(sample.sent_newton);
+    for (double sent_newton{}; forces_->pop(sent_newton);) state_.forces.add(sent_newton);
     state_.pictures_per_s = pace_.pictures_per_s();
     take_opened();
     const std::string& failure =
@@ -148,8 +148,7 @@ void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {
     // While the Falcon touches the mouse only points, so that it does not take over pressing.
     if (hand_.falcon != nullptr && !state_.haptic.hand.stand_in) use.pressed = false;
     if (state_.replay || hand_.mouse == nullptr || !shown_.makes_surface()) return;
-    const DepthSurface surface(*shown_.from->depth, *shown_.to->depth, shown_.blend,
-                               state_.settings.touch.shape, state_.bump.get());
+    const DepthSurface surface = shown_.surface(state_.settings.touch.shape, state_.bump.get());
     const Camera::Ray ray = camera_.ray_under(pointer.position_px, viewport);
     hand_.mouse->target().publish(pointer_.target(ray, surface, use));
 }

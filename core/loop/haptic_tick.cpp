@@ -39,10 +39,9 @@ void HapticTick::run(const TickTiming& timing, std::uint64_t late_ticks) noexcep
     if (state_.ticks == 0) start_ = second_begin_ = timing.begin;
     const FrameWindow& frames = to_.frames.front();
     const HapticSettings& settings = to_.settings.front();
-    state_.playback_s = frames.clock.playback_s(timing.begin);
     state_.late_ticks = late_ticks;
     notice_changes(settings, frames);
-    const DepthBlend pair = frames.at(state_.playback_s);
+    const DepthBlend pair = frames.at(frames.clock.playback_s(timing.begin));
     state_.touchable = pair.makes_surface();
     TickRecord row = state_.touchable ? touch_surface(pair, settings, timing) : touch_nothing();
     row.settings = settings.version;
@@ -102,8 +101,7 @@ TickRecord HapticTick::touch_surface(const DepthBlend& pair, const HapticSetting
     to_.device.send(state_.touch.sent_force_newton);
     from_zero_ = false;
     state_.hand = hand;
-    state_.blend = pair.blend;
-    to_.forces.push({seconds(timing.begin - start_), glm::length(state_.touch.sent_force_newton)});
+    to_.forces.push(glm::length(state_.touch.sent_force_newton));
     return {.update_us = update_us,
             .frames = frames_of(pair),
             .blend = pair.blend,

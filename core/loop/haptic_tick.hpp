@@ -41,20 +41,14 @@ struct HapticState {
     Touch touch{};
     bool touchable{false};  ///< there is a surface; without, no update and no force
     HandReading hand{.ready = false};
-    double playback_s{0.0};
-    double blend{0.0};
     std::uint64_t ticks{0};
     std::uint64_t late_ticks{0};
     std::uint64_t bounds_met{0};  ///< walks stopped by their bound: a fault
     LoopSecond second{};
 };
 
-/// One point of the strip chart.
-struct ForceSample {
-    double t_s{0.0};          ///< since the loop began
-    double sent_newton{0.0};  ///< length of the force sent
-};
-using ForceRing = SpscRing<ForceSample, 4096>;
+/// Of each tick the length of the force sent [N]: the strip chart.
+using ForceRing = SpscRing<double, 4096>;
 
 /// Where a loop gets its surface and leaves what it did. All must outlive it.
 struct HapticConnections {
