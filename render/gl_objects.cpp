@@ -1,11 +1,15 @@
-// OpenGL names that free themselves, and shader programs.
+// OpenGL names that free themselves, shader programs and the textures of the relief.
 #include "render/gl_objects.hpp"
 
+#include <algorithm>
+#include <bit>
+#include <cstddef>
 #include <glm/gtc/type_ptr.hpp>
 #include <string>
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/haptics/surface.hpp"
 
 namespace dibhr {
 
@@ -36,6 +40,36 @@ std::string link_log(GLuint program, GLuint vertex, GLuint fragment) {
         if (c == '\n') c = ' ';
     }
     return log;
+}
+
+void attach(GLenum point, const GlRenderbuffer& buffer, GLenum format, glm::ivec2 size,
+            int samples) {
+    glBindRenderbuffer(GL_RENDERBUFFER, buffer.get());
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, size.x, size.y);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, point, GL_RENDERBUFFER, buffer.get());
+}
+
+constexpr std::size_t kFingerprintSamples = 4096;
+
+void filter(GLenum minify, GLenum magnify) {
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(minify));
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, static_cast<GLint>(magnify));
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+/// Tells one map from another by its size and evenly spaced heights (FNV-1a); the address of a map
+/// may be used again for another one.
+std::uint64_t fingerprint(const BumpMap& bump) {
+    std::uint64_t hash = 14695981039346656037ULL;
+    const auto mix = [&hash](std::uint64_t value) { hash = (hash ^ value) * 1099511628211ULL; };
+    mix(static_cast<std::uint64_t>(bump.columns));
+    mix(static_cast<std::uint64_t>(bump.rows));
+    const std::size_t stride = std::max<std::size_t>(bump.heights.size() / kFingerprintSamples, 1);
+    for (std::size_t k = 0; k < bump.heights.size(); k += stride) {
+        mix(std::bit_cast<std::uint32_t>(bump.heights[k]));
+    }
+    return hash;
 }
 
 }  // namespace
@@ -102,17 +136,6 @@ GlLimits read_limits() {
     return limits;
 }
 
-namespace {
-
-void attach(GLenum point, const GlRenderbuffer& buffer, GLenum format, glm::ivec2 size,
-            int samples) {
-    glBindRenderbuffer(GL_RENDERBUFFER, buffer.get());
-    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, size.x, size.y);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, point, GL_RENDERBUFFER, buffer.get());
-}
-
-}  // namespace
-
 Offscreen::Offscreen(glm::ivec2 size, int samples) : size_(size), samples_(samples) {
     glGetIntegerv(GL_FRAMEBUFFER_BINDING, &framebuffer_before_);
     glGetIntegerv(GL_VIEWPORT, viewport_before_.data());
@@ -140,6 +163,111 @@ void Offscreen::resolve() {
     glBlitFramebuffer(0, 0, size_.x, size_.y, 0, 0, size_.x, size_.y, GL_COLOR_BUFFER_BIT,
                       GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, merged_.get());
+}
+
+void GridTexture::upload(int columns, int rows, const float* values) {
+    glBindTexture(GL_TEXTURE_2D, texture_.get());
+    if (columns == columns_ && rows == rows_) {
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, columns, rows, GL_RED, GL_FLOAT, values);
+        return;
+    }
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_R32F, columns, rows, 0, GL_RED, GL_FLOAT, values);
+    filter(GL_LINEAR, GL_LINEAR);
+    columns_ = columns;
+    rows_ = rows;
+}
+
+DepthTextures::Names DepthTextures::show(const std::shared_ptr<const DepthImage>& from,
+                                         const std::shared_ptr<const DepthImage>& to,
+                                         const ReliefGrid& grid) {
+    const auto holds = [&grid](const Slot& slot, const std::shared_ptr<const DepthImage>& image) {
+        return slot.image == image && slot.grid == grid;
+    };
+    const std::size_t from_slot =
+        holds(slots_[0], from) || (!holds(slots_[1], from) && !holds(slots_[0], to)) ? 0 : 1;
+    Names names;
+    names.from = upload(slots_[from_slot], from, grid);
+    names.to = to == from ? names.from : upload(slots_[1 - from_slot], to, grid);
+    return names;
+}
+
+GLuint DepthTextures::upload(Slot& slot, const std::shared_ptr<const DepthImage>& image,
+                             const ReliefGrid& grid) {
+    if (slot.image == image && slot.grid == grid) return slot.texture.name();
+    const float* values = image->levels.data();
+    if (grid.step > 1) {
+        staged_.clear();
+        for (int j = 0; j < grid.rows(); ++j) {
+            const float* row = values + image->index(0, grid.image_j(j));
+            for (int i = 0; i < grid.columns(); ++i) staged_.push_back(row[grid.image_i(i)]);
+        }
+        values = staged_.data();
+    }
+    slot.texture.upload(grid.columns(), grid.rows(), values);
+    slot.image = image;
+    slot.grid = grid;
+    return slot.texture.name();
+}
+
+GLuint BumpTexture::show(const BumpMap& bump, const DepthImage& depth, const ReliefGrid& grid) {
+    const std::uint64_t print = fingerprint(bump);
+    if (print == fingerprint_ && grid == grid_) return texture_.name();
+    const DepthSurface bump_alone(depth, depth, 0.0, SurfaceShape{0.0, 1.0}, &bump);
+    std::vector<float> heights;
+    for (int j = 0; j < grid.rows(); ++j) {
+        for (int i = 0; i < grid.columns(); ++i) {
+            const double height = bump_alone.elevation(grid.image_i(i), grid.image_j(j));
+            heights.push_back(static_cast<float>(height));
+        }
+    }
+    texture_.upload(grid.columns(), grid.rows(), heights.data());
+    fingerprint_ = print;
+    grid_ = grid;
+    return texture_.name();
+}
+
+GLuint ColourTexture::show(const std::shared_ptr<const ColourImage>& image, int most_side,
+                           bool mipmaps) {
+    if (image != image_) {
+        upload(*image, most_side, mipmaps);
+        image_ = image;
+    }
+    return texture_.get();
+}
+
+void ColourTexture::upload(const ColourImage& image, int most_side, bool mipmaps) {
+    const int step = (std::max(image.columns, image.rows) + most_side - 1) / most_side;
+    const int columns = std::max(image.columns / step, 1);
+    const int rows = std::max(image.rows / step, 1);
+    const auto middle = [step](int k, int count) {
+        return std::min(k * step + step / 2, count - 1);
+    };
+    const std::uint8_t* values = image.rgb.data();
+    if (step > 1) {
+        staged_.clear();
+        for (int j = 0; j < rows; ++j) {
+            for (int i = 0; i < columns; ++i) {
+                const auto pixel = static_cast<std::size_t>(middle(j, image.rows)) *
+                                       static_cast<std::size_t>(image.columns) +
+                                   static_cast<std::size_t>(middle(i, image.columns));
+                const std::uint8_t* rgb = values + 3 * pixel;
+                staged_.insert(staged_.end(), {rgb[0], rgb[1], rgb[2]});
+            }
+        }
+        values = staged_.data();
+    }
+    glBindTexture(GL_TEXTURE_2D, texture_.get());
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    if (columns == columns_ && rows == rows_) {
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, columns, rows, GL_RGB, GL_UNSIGNED_BYTE, values);
+    } else {
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, columns, rows, 0, GL_RGB, GL_UNSIGNED_BYTE, values);
+        filter(mipmaps ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR, GL_LINEAR);
+        columns_ = columns;
+        rows_ = rows;
+    }
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    if (mipmaps) glGenerateMipmap(GL_TEXTURE_2D);
 }
 
 }  // namespace dibhr

@@ -1,15 +1,46 @@
-// Draws the markers over the relief: clear where they are in sight, faint where the relief hides
-// them.
+// The markers: which strokes show what the hand does, and how they are drawn over the relief, clear
+// where they are in sight, faint where the relief hides them.
 #pragma once
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <optional>
 #include <vector>
 
+#include "render/camera.hpp"
 #include "render/gl_objects.hpp"
-#include "render/markers.hpp"
+#include "render/scene_view.hpp"
 
 namespace dibhr {
+
+/// A rounded line between two balls in world space (one ball when both ends are the same).
+struct Stroke {
+    glm::vec4 ball_a{0.0F};  ///< centre [world], radius [screen px]
+    glm::vec4 ball_b{0.0F};
+    glm::vec4 tint{1.0F};  ///< red, green, blue, opacity
+    float hollow{0.0F};    ///< inner radius of a ring as a part of its radius; 0: solid
+};
+
+/// Proxy: a blue ball. Goal: an orange ring. Spring: a thin grey line. Normal: a thin green line.
+/// Force: a yellow arrow from the proxy. Recorded proxy: a pale ball. Nothing when the markers are
+/// not visible. `scale` 1 suits a picture 800 pixels high.
+[[nodiscard]] std::vector<Stroke> touch_strokes(const TouchMarkers& touch, const Camera& camera,
+                                                double scale);
+
+/// The friction cone in world space: apex at the goal, opening atan(mu), as high as the goal is
+/// deep, so that its rim is where the proxy may rest without slipping.
+struct FrictionCone {
+    glm::vec3 apex{0.0F};
+    glm::vec3 axis{0.0F};  ///< from the apex to the middle of the rim
+    glm::vec3 rim_u{0.0F};
+    glm::vec3 rim_v{0.0F};
+};
+
+/// Nothing out of contact, without friction, or when there is no depth to show.
+[[nodiscard]] std::optional<FrictionCone> friction_cone(const TouchMarkers& touch,
+                                                        const Camera& camera);
 
 class MarkerPass {
   public:

@@ -1,9 +1,14 @@
-// Which vertices of the depth image are drawn, and in what order.
+// Which vertices of the depth image are drawn, and where the relief is torn.
 #include "render/relief_grid.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 
 namespace dibhr {
+
 namespace {
 
 // 10 x 17 cells are 340 triangles on 198 vertices. Mesa's software pipeline shades vertices in runs
@@ -29,6 +34,194 @@ void add_tile(GridMesh& mesh, int left, int top, int right, int bottom) {
         }
     }
 }
+
+// Parts of the step between two faces. A vertex so near the higher (lower) end is on the near (far)
+// face. A fragment so near its layer belongs to it; the blur of an outline has the near face's
+// colours, so it goes to the near layer, and what is left between is a gap.
+constexpr float kOnFace = 0.3F;
+constexpr float kGoesOn = 0.2F;  // so near the slope of a face a vertex is on it
+constexpr float kShownNear = 0.48F;
+constexpr float kShownFar = 0.2F;
+// A relief that is steep almost everywhere has no outlines worth the work.
+constexpr std::size_t kMostLayerVertices = 120'000;
+
+struct Corner {
+    int i{0};
+    int j{0};
+};
+
+using Triangle = std::array<Corner, 3>;
+
+float distance(float a, float b) {
+    return a > b ? a - b : b - a;
+}
+
+class Tearing {
+  public:
+    Tearing(const ReliefGrid& grid, const std::vector<float>& elevations, double slope_limit,
+            Rims& rims)
+        : grid_(grid),
+          columns_(grid.columns()),
+          rows_(grid.rows()),
+          square_limit_(static_cast<float>(slope_limit * slope_limit)),
+          step_px_(static_cast<float>(slope_limit * grid.step)),
+          elevations_(elevations),
+          rims_(rims) {}
+
+    void run() {
+        rims_.layers.clear();
+        rims_.loose.assign(elevations_.size(), 0.0F);
+        each_triangle([this](const Triangle& triangle, bool steep) {
+            if (steep) loosen(triangle);
+        });
+        each_triangle([this](const Triangle& triangle, bool steep) {
+            if (steep || loose(triangle)) tear(triangle);
+        });
+    }
+
+  private:
+    /// The vertices around a triangle's cell, one further on each side, and the two faces there.
+    struct Around {
+        Corner first{};
+        Corner last{};
+        float low{0.0F};
+        float high{0.0F};
+    };
+
+    [[nodiscard]] std::size_t index(int i, int j) const {
+        return static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
+               static_cast<std::size_t>(i);
+    }
+    [[nodiscard]] float at(int i, int j) const { return elevations_[index(i, j)]; }
+
+    template <class Visit>
+    void each_triangle(const Visit& visit) const {
+        for (int j = 0; j + 1 < rows_; ++j) {
+            const float down = 1.0F / static_cast<float>(grid_.image_j(j + 1) - grid_.image_j(j));
+            for (int i = 0; i + 1 < columns_; ++i) {
+                const float across =
+                    1.0F / static_cast<float>(grid_.image_i(i + 1) - grid_.image_i(i));
+                const auto steep = [&](float right, float below) {
+                    const float x = right * across;
+                    const float y = below * down;
+                    return x * x + y * y > square_limit_;
+                };
+                const float here = at(i, j);
+                const float right = at(i + 1, j);
+                const float below = at(i, j + 1);
+                const float beyond = at(i + 1, j + 1);
+                visit({{{i, j}, {i, j + 1}, {i + 1, j}}}, steep(right - here, below - here));
+                visit({{{i + 1, j}, {i, j + 1}, {i + 1, j + 1}}},
+                      steep(beyond - below, beyond - right));
+            }
+        }
+    }
+
+    [[nodiscard]] bool loose(Corner c) const { return rims_.loose[index(c.i, c.j)] > 0.0F; }
+    [[nodiscard]] bool loose(const Triangle& triangle) const {
+        return std::any_of(triangle.begin(), triangle.end(),
+                           [this](Corner corner) { return loose(corner); });
+    }
+
+    [[nodiscard]] Around around(const Triangle& triangle) const {
+        // The second corner of either triangle of a cell is the cell's lower left one.
+        const int i = triangle[1].i;
+        const int j = triangle[1].j - 1;
+        Around found{{std::max(i - 1, 0), std::max(j - 1, 0)},
+                     {std::min(i + 2, columns_ - 1), std::min(j + 2, rows_ - 1)},
+                     std::numeric_limits<float>::max(),
+                     std::numeric_limits<float>::lowest()};
+        const auto include = [&](Corner c) {
+            if (loose(c)) return;
+            found.low = std::min(found.low, at(c.i, c.j));
+            found.high = std::max(found.high, at(c.i, c.j));
+        };
+        for (const Corner& corner : triangle) include(corner);
+        if (found.high - found.low > step_px_) return found;
+        for (int y = found.first.j; y <= found.last.j; ++y) {
+            for (int x = found.first.i; x <= found.last.i; ++x) include({x, y});
+        }
+        return found;
+    }
+
+    /// Marks the corners that go on neither with the slope of the face above nor of the one below.
+    void loosen(const Triangle& triangle) {
+        for (const Corner& corner : triangle) {
+            const float z = at(corner.i, corner.j);
+            Corner up = corner;
+            Corner down = corner;
+            for (int y = std::max(corner.j - 1, 0); y <= std::min(corner.j + 1, rows_ - 1); ++y) {
+                for (int x = std::max(corner.i - 1, 0); x <= std::min(corner.i + 1, columns_ - 1);
+                     ++x) {
+                    if (at(x, y) > at(up.i, up.j)) up = {x, y};
+                    if (at(x, y) < at(down.i, down.j)) down = {x, y};
+                }
+            }
+            const float near = kGoesOn * (at(up.i, up.j) - at(down.i, down.j));
+            if (distance(z, gone_on(corner, up)) > near &&
+                distance(z, gone_on(corner, down)) > near) {
+                rims_.loose[index(corner.i, corner.j)] = 1.0F;
+            }
+        }
+    }
+
+    /// The elevation at `end` when the slope before `next`, its neighbour, goes on.
+    [[nodiscard]] float gone_on(Corner end, Corner next) const {
+        const float z = at(next.i, next.j);
+        const int i = 2 * next.i - end.i;
+        const int j = 2 * next.j - end.j;
+        if (i < 0 || j < 0 || i >= columns_ || j >= rows_) return z;
+        return 2.0F * z - at(i, j);
+    }
+
+    void tear(const Triangle& triangle) {
+        if (rims_.layers.size() >= kMostLayerVertices) return;
+        const Around faces = around(triangle);
+        const float range = faces.high - faces.low;
+        if (!(range > 0.0F)) return;  // no face around
+        add_layer(triangle, faces, faces.high, kShownNear * range);
+        add_layer(triangle, faces, faces.low, kShownFar * range);
+    }
+
+    void add_layer(const Triangle& triangle, const Around& faces, float face, float tolerance) {
+        const float near = kOnFace * (faces.high - faces.low);
+        for (const Corner& corner : triangle) {
+            rims_.layers.push_back(
+                {vertex(corner), vertex(nearest_on(face, near, corner, faces)), tolerance});
+        }
+    }
+
+    static GridVertex vertex(Corner c) {
+        return {static_cast<std::uint16_t>(c.i), static_cast<std::uint16_t>(c.j)};
+    }
+
+    /// The vertex around that is on the face and closest to the corner, often the corner itself.
+    [[nodiscard]] Corner nearest_on(float face, float near, Corner corner,
+                                    const Around& faces) const {
+        Corner best = corner;
+        int least = std::numeric_limits<int>::max();
+        for (int y = faces.first.j; y <= faces.last.j; ++y) {
+            for (int x = faces.first.i; x <= faces.last.i; ++x) {
+                const int dx = x - corner.i;
+                const int dy = y - corner.j;
+                const int square = dx * dx + dy * dy;
+                if (square < least && !loose(Corner{x, y}) && distance(at(x, y), face) <= near) {
+                    best = {x, y};
+                    least = square;
+                }
+            }
+        }
+        return best;
+    }
+
+    const ReliefGrid& grid_;
+    int columns_;
+    int rows_;
+    float square_limit_;
+    float step_px_;  // the least steep change of elevation between neighbours
+    const std::vector<float>& elevations_;
+    Rims& rims_;
+};
 
 }  // namespace
 
@@ -82,6 +275,29 @@ std::vector<GridVertex> border_strip(const ReliefGrid& grid) {
     for (int i = right; i > 0; --i) add(i, bottom);
     for (int j = bottom; j >= 0; --j) add(0, j);
     return strip;
+}
+
+void drawn_elevations(const DepthImage& from, const DepthImage& to, double blend,
+                      double px_per_level, const ReliefGrid& grid, std::vector<float>& elevations) {
+    const auto columns = static_cast<std::size_t>(grid.columns());
+    const auto to_part = static_cast<float>(px_per_level * blend);
+    const auto from_part = static_cast<float>(px_per_level * (1.0 - blend));
+    elevations.resize(columns * static_cast<std::size_t>(grid.rows()));
+    float* next = elevations.data();
+    for (int j = 0; j < grid.rows(); ++j) {
+        const std::size_t row = from.index(0, grid.image_j(j));
+        const float* a = from.levels.data() + row;
+        const float* b = to.levels.data() + row;
+        for (int i = 0; i < grid.columns(); ++i) {
+            const int at = grid.image_i(i);
+            *next++ = a[at] * from_part + b[at] * to_part;
+        }
+    }
+}
+
+void tear_rims(const ReliefGrid& grid, const std::vector<float>& elevations, double slope_limit,
+               Rims& rims) {
+    Tearing(grid, elevations, slope_limit, rims).run();
 }
 
 }  // namespace dibhr

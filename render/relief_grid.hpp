@@ -1,9 +1,14 @@
-// Which vertices of the depth image are drawn, and in what order; numbers only, no OpenGL.
+// Which vertices of the depth image are drawn, in what order, and where the relief is torn at
+// silhouettes: each steep triangle becomes a near and a far layer, which the fragment shader cuts
+// along the outline in the whole depth image. Numbers only, no OpenGL.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include "core/haptics/depth_image.hpp"
+#include "core/haptics/parameters.hpp"
 
 namespace dibhr {
 
@@ -44,5 +49,28 @@ struct GridMesh {
 /// The border of the grid, once around, each vertex twice and the first again at the end: a strip
 /// for the walls that close the relief at its sides.
 [[nodiscard]] std::vector<GridVertex> border_strip(const ReliefGrid& grid);
+
+/// One corner of a layer: it lies at `corner`, as high and as bright as the drawn vertex `source`
+/// of the same face. Of the layer only what is within `tolerance_px` of the depth image is shown.
+struct RimVertex {
+    GridVertex corner{};
+    GridVertex source{};
+    float tolerance_px{0.0F};
+};
+
+/// The elevation [px] of every drawn vertex without the bump map, row-major. `from` and `to` have
+/// the grid's size.
+void drawn_elevations(const DepthImage& from, const DepthImage& to, double blend,
+                      double px_per_level, const ReliefGrid& grid, std::vector<float>& elevations);
+
+/// What is torn: all triangles steeper than the limit, and those that hang on a loose vertex.
+struct Rims {
+    std::vector<RimVertex> layers{};  ///< three vertices a triangle; 120'000 at most
+    std::vector<float> loose{};  ///< 1: the drawn vertex is in the blur between two faces; else 0
+};
+
+/// Tears the drawn grid where it is steeper than `slope_limit` [px/px].
+void tear_rims(const ReliefGrid& grid, const std::vector<float>& elevations, double slope_limit,
+               Rims& rims);
 
 }  // namespace dibhr

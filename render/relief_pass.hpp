@@ -9,9 +9,7 @@
 
 #include "render/gl_objects.hpp"
 #include "render/relief_grid.hpp"
-#include "render/relief_rims.hpp"
 #include "render/scene_view.hpp"
-#include "render/textures.hpp"
 
 namespace dibhr {
 

@@ -25,7 +25,7 @@
 #include "core/haptics/algorithm.hpp"
 #include "core/haptics/dibhr.hpp"
 #include "core/haptics/touch.hpp"
-#include "core/loop/haptic_loop.hpp"
+#include "core/loop/haptic_tick.hpp"
 #include "core/metrics/force_variation.hpp"
 #include "core/realtime/tick_timer.hpp"
 #include "core/video/media.hpp"

@@ -10,7 +10,7 @@
 #include "app/commands/terminal_guide.hpp"
 #include "app/settings/settings.hpp"
 #include "core/error.hpp"
-#include "core/realtime/thread_setup.hpp"
+#include "core/realtime/tick_timer.hpp"
 #include "device/falcon/check/check.hpp"
 #include "device/falcon/survey.hpp"
 #include "device/hand_device.hpp"

@@ -21,7 +21,6 @@
 #include "core/experiment/plots.hpp"
 #include "core/experiment/report.hpp"
 #include "core/files/output_file.hpp"
-#include "core/files/output_folder.hpp"
 
 namespace dibhr {
 

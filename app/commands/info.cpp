@@ -11,7 +11,7 @@
 #include "app/commands/command_line.hpp"
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/replay/media.hpp"
+#include "core/replay/frames.hpp"
 #include "core/report/report_words.hpp"
 #include "core/session/session.hpp"
 #include "core/video/media.hpp"

@@ -16,8 +16,8 @@
 #include "app/settings/command_options.hpp"
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/replay/comparison.hpp"
 #include "core/replay/frames.hpp"
+#include "core/replay/session_replay.hpp"
 #include "core/video/libraries.hpp"
 
 namespace dibhr {

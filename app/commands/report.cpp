@@ -12,7 +12,7 @@
 #include "app/settings/command_options.hpp"
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/replay/media.hpp"
+#include "core/replay/frames.hpp"
 #include "core/report/session_report.hpp"
 #include "core/session/session.hpp"
 #include "core/video/media.hpp"

@@ -14,7 +14,7 @@
 #include "app/settings/command_options.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/touch.hpp"
-#include "core/video/depth_in_time.hpp"
+#include "core/video/frame_reader.hpp"
 #include "device/goal_stream.hpp"
 
 namespace dibhr {

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/video/input_file.hpp"
+#include "core/video/media.hpp"
 
 namespace dibhr {
 

@@ -7,7 +7,6 @@
 
 #include "app/panels/viewer_state.hpp"
 #include "app/settings/command_options.hpp"
-#include "core/replay/outline.hpp"
 #include "core/replay/session_player.hpp"
 #include "core/video/frame_window.hpp"
 

@@ -20,7 +20,7 @@
 #include "app/window/signals.hpp"
 #include "app/window/window.hpp"
 #include "core/error.hpp"
-#include "core/loop/haptic_loop.hpp"
+#include "core/loop/haptic_tick.hpp"
 #include "device/hand_device.hpp"
 #include "render/camera.hpp"
 #include "render/scene_view.hpp"

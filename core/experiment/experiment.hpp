@@ -14,7 +14,7 @@
 #include "core/haptics/touch.hpp"
 #include "core/haptics/vec.hpp"
 #include "core/metrics/force_variation.hpp"
-#include "core/video/depth_in_time.hpp"
+#include "core/video/frame_reader.hpp"
 
 namespace dibhr {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/experiment/experiment.hpp"
-#include "core/files/output_folder.hpp"
+#include "core/files/output_file.hpp"
 #include "core/plot/axes.hpp"
 #include "core/plot/canvas.hpp"
 

@@ -1,4 +1,4 @@
-// One haptic tick.
+// One haptic tick, and the thread that runs them.
 #include "core/loop/haptic_tick.hpp"
 
 #include <algorithm>
@@ -162,6 +162,30 @@ void HapticTick::count(const TickTiming& timing, double update_us) noexcept {
     sums_ = {};
     second_ticks_ = second_updates_ = 0;
     second_begin_ = timing.begin;
+}
+
+HapticLoop::HapticLoop(const HapticConnections& connections) : tick_(connections) {
+    thread_ = std::thread([this] { run(); });
+}
+
+void HapticLoop::stop() noexcept {
+    stopping_.store(true, std::memory_order_relaxed);
+    if (thread_.joinable()) thread_.join();
+}
+
+std::optional<RealtimeGrants> HapticLoop::grants() const {
+    if (!granted_.load(std::memory_order_acquire)) return {};
+    return grants_;
+}
+
+void HapticLoop::run() {
+    grants_ = become_realtime("dibhr haptic");
+    granted_.store(true, std::memory_order_release);
+    while (!stopping_.load(std::memory_order_relaxed)) {
+        const TickTiming timing = timer_.wait();
+        tick_.run(timing, timer_.schedule().late_ticks());
+    }
+    tick_.send_zero_force();
 }
 
 }  // namespace dibhr

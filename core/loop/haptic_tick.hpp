@@ -1,9 +1,13 @@
-// One haptic tick: reads the hand, moves the proxy over the newest surface, sends the force.
+// The haptic loop: each tick reads the hand, moves the proxy over the newest surface and sends the
+// force; a thread runs them at 1 kHz.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <thread>
 
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/safety.hpp"
@@ -102,6 +106,34 @@ class HapticTick {
     LoopSecond sums_{};  // of the running second
     std::uint64_t second_ticks_{0};
     std::uint64_t second_updates_{0};
+};
+
+/// Runs ticks on their own real-time thread from construction until stop().
+class HapticLoop {
+  public:
+    explicit HapticLoop(const HapticConnections& connections);
+    ~HapticLoop() { stop(); }
+    HapticLoop(const HapticLoop&) = delete;
+    HapticLoop& operator=(const HapticLoop&) = delete;
+
+    /// Ends the thread after it has sent zero force. May be called twice.
+    void stop() noexcept;
+
+    /// What the system answered; nothing until the thread has asked.
+    [[nodiscard]] std::optional<RealtimeGrants> grants() const;
+
+    /// The thread's timer and its lateness; to be read after stop().
+    [[nodiscard]] const TickTimer& timer() const noexcept { return timer_; }
+
+  private:
+    void run();
+
+    HapticTick tick_;
+    TickTimer timer_{};        // the thread's until it has ended
+    RealtimeGrants grants_{};  // the thread's until `granted_`
+    std::atomic<bool> granted_{false};
+    std::atomic<bool> stopping_{false};
+    std::thread thread_{};
 };
 
 }  // namespace dibhr

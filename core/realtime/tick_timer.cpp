@@ -1,11 +1,24 @@
-// The 1 kHz loop's timing: absolute deadlines, how late each tick was, never waiting to catch up.
+// The 1 kHz loop's timing: absolute deadlines, how late each tick was, never waiting to catch up;
+// and what makes its thread punctual.
 #include "core/realtime/tick_timer.hpp"
 
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cerrno>
 #include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <cstring>
 #include <ctime>
+#include <fstream>
 
 namespace dibhr {
 
@@ -26,6 +39,79 @@ void sleep_until(std::chrono::steady_clock::time_point deadline) noexcept {
     until.tv_nsec = static_cast<long>(nanoseconds(since_epoch - whole_seconds).count());
     while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
     }
+}
+
+// Above ordinary real-time services (50 is the kernel's interrupt threads), below the watchdogs
+// at 99.
+constexpr int kPriority = 80;
+constexpr std::size_t kLongestThreadName = 15;       // the kernel's limit
+constexpr std::size_t kStackTouched_bytes = 131072;  // 128 KiB
+
+void name_thread(const char* thread_name) {
+    const std::string name = std::string(thread_name).substr(0, kLongestThreadName);
+    pthread_setname_np(pthread_self(), name.c_str());
+}
+
+// Threads made by this one must not inherit the priority: SCHED_RESET_ON_FORK.
+bool set_fifo(int priority) {
+    sched_param parameters{};
+    parameters.sched_priority = priority;
+    return sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &parameters) == 0;
+}
+
+Grant ask_for_priority() {
+    const int wanted = std::min(kPriority, sched_get_priority_max(SCHED_FIFO));
+    if (set_fifo(wanted)) return {true, "SCHED_FIFO " + std::to_string(wanted)};
+    const int error = errno;
+    rlimit allowed{};
+    getrlimit(RLIMIT_RTPRIO, &allowed);
+    const int lower = static_cast<int>(std::min(allowed.rlim_cur, static_cast<rlim_t>(wanted)));
+    if (lower > 0 && set_fifo(lower)) return {true, "SCHED_FIFO " + std::to_string(lower)};
+    if (error == EPERM) return {false, "refused: needs rtprio in /etc/security/limits.conf"};
+    return {false, std::string("refused: ") + std::strerror(error)};
+}
+
+bool may_lock_anything() {
+    constexpr int kCapIpcLock = 14;
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);) {
+        if (!line.starts_with("CapEff:")) continue;
+        const unsigned long long effective = std::strtoull(line.c_str() + 7, nullptr, 16);
+        return ((effective >> kCapIpcLock) & 1U) != 0;
+    }
+    return false;
+}
+
+// With a small limit MCL_FUTURE would make later allocations of every thread fail, which is worse
+// than a page fault now and then: so the limit must hold all the memory there is.
+bool limit_is_ample(rlim_t limit_bytes) {
+    if (limit_bytes == RLIM_INFINITY) return true;
+    const auto pages = static_cast<rlim_t>(sysconf(_SC_PHYS_PAGES));
+    return limit_bytes >= pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+}
+
+Grant ask_for_memory_lock() {
+    rlimit allowed{};
+    getrlimit(RLIMIT_MEMLOCK, &allowed);
+    if (!limit_is_ample(allowed.rlim_cur) && !may_lock_anything()) {
+        return {false, "refused: only " + std::to_string(allowed.rlim_cur / 1024) +
+                           " KiB may be locked; needs memlock unlimited in "
+                           "/etc/security/limits.conf"};
+    }
+    int what = MCL_CURRENT | MCL_FUTURE;
+#ifdef MCL_ONFAULT
+    // Lock what is used, when it is first used: not the gigabytes that drivers and decoders only
+    // reserve.
+    what |= MCL_ONFAULT;
+#endif
+    if (mlockall(what) == 0) return {true, "locked"};
+    return {false, std::string("refused: ") + std::strerror(errno)};
+}
+
+// So that the first deep call of a tick meets no page fault.
+[[gnu::noinline]] void touch_stack() {
+    std::array<volatile std::byte, kStackTouched_bytes> pages;
+    for (std::size_t k = 0; k < pages.size(); k += 1024) pages[k] = std::byte{0};
 }
 
 }  // namespace
@@ -81,6 +167,16 @@ TickTiming TickTimer::wait() noexcept {
     started_ = true;
     sleep_until(schedule_.next_deadline());
     return schedule_.begin_tick(std::chrono::steady_clock::now());
+}
+
+RealtimeGrants become_realtime(const char* thread_name) {
+    name_thread(thread_name);
+    prctl(PR_SET_TIMERSLACK, 1UL);  // 1 ns instead of 50 us, should the priority be refused
+    RealtimeGrants grants;
+    grants.priority = ask_for_priority();
+    grants.memory_lock = ask_for_memory_lock();
+    touch_stack();
+    return grants;
 }
 
 }  // namespace dibhr

@@ -1,10 +1,12 @@
-// The 1 kHz loop's timing: absolute deadlines, how late each tick was, never waiting to catch up.
+// The 1 kHz loop's timing: absolute deadlines, how late each tick was, never waiting to catch up;
+// and what makes its thread punctual.
 #pragma once
 
 #include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 namespace dibhr {
 
@@ -84,5 +86,21 @@ class TickTimer {
     TickSchedule schedule_;
     bool started_{false};
 };
+
+/// Granted, or why not, in words for the Loop panel.
+struct Grant {
+    bool granted{false};
+    std::string answer{};  ///< "SCHED_FIFO 80", "refused: needs rtprio in /etc/security/..."
+};
+
+struct RealtimeGrants {
+    Grant priority{};
+    Grant memory_lock{};
+};
+
+/// Names the calling thread (15 characters are kept), makes its sleeps exact, asks for SCHED_FIFO,
+/// and locks the process's memory when the limit allows it without starving other threads. Threads
+/// made by the caller do not inherit the priority. A refusal is no error.
+[[nodiscard]] RealtimeGrants become_realtime(const char* thread_name);
 
 }  // namespace dibhr

@@ -1,6 +1,9 @@
-// What a session touched: its frames, decoded and cleaned as they were, and its bump maps.
+// What a session touched: its files found again and checked, its frames, decoded and cleaned as
+// they were, and its bump maps.
 #pragma once
 
+#include <array>
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -8,15 +11,71 @@
 #include <future>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 
-#include "core/replay/cleaning_workers.hpp"
-#include "core/replay/media.hpp"
+#include "core/haptics/depth_image.hpp"
 #include "core/replay/session_replay.hpp"
+#include "core/session/session.hpp"
+#include "core/video/depth_cleaning.hpp"
 #include "core/video/media.hpp"
 
 namespace dibhr {
+
+/// Whether a file is a session: by its name, or by how it begins.
+[[nodiscard]] bool names_session(const std::filesystem::path& file);
+
+/// Where to look for a recorded file: in its place, then beside the session.
+class SessionMediaFinder {
+  public:
+    /// `any_content`: a file that has changed since is taken too.
+    SessionMediaFinder(std::filesystem::path session, bool any_content);
+
+    /// The file with the recorded content; `what` ("depth video") names it in messages. Reads it to
+    /// its end. Throws InputError when there is none: which, and where to put it.
+    [[nodiscard]] std::filesystem::path find(const SessionMedia& media, const std::string& what);
+
+    /// What was taken although it is not known to be the same, one sentence a file.
+    [[nodiscard]] const std::string& warning() const noexcept { return warning_; }
+
+  private:
+    void warn(const std::string& sentence);
+
+    std::filesystem::path session_;
+    bool any_content_;
+    std::string warning_{};
+};
+
+/// However many images wait, so many threads are at work; in the order in which they were given.
+class CleaningWorkers {
+  public:
+    static constexpr std::size_t kWorkers = 2;
+
+    CleaningWorkers();
+    ~CleaningWorkers();  ///< what is not begun is given up
+    CleaningWorkers(const CleaningWorkers&) = delete;
+    CleaningWorkers& operator=(const CleaningWorkers&) = delete;
+
+    [[nodiscard]] std::shared_future<std::shared_ptr<const DepthImage>> clean(
+        DepthImage depth, const CleaningOptions& options);
+
+  private:
+    struct Job {
+        DepthImage depth{};
+        CleaningOptions options{};
+        std::promise<std::shared_ptr<const DepthImage>> done{};
+    };
+
+    void run();
+
+    std::mutex mutex_{};
+    std::condition_variable asked_{};
+    std::deque<Job> waiting_{};  // under the mutex
+    bool leaving_{false};        // under the mutex
+    std::array<std::thread, kWorkers> threads_{};
+};
 
 struct SessionFramesOptions {
     bool any_media{false};         ///< files that have changed are taken too

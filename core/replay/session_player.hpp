@@ -1,11 +1,15 @@
 // Plays a session: its ticks are read, their frames decoded and other parameters computed ahead on
-// a thread of its own; the window takes what is due.
+// a thread of its own; the window takes what is due, and a band that shows when it was in contact.
 #pragma once
 
+#include <array>
+#include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -78,6 +82,31 @@ class SessionPlayer {
   private:
     struct Implementation;
     std::unique_ptr<Implementation> implementation_;
+};
+
+/// Pieces of the time from the first tick to the last: which of them hold a contact.
+struct ContactBand {
+    static constexpr std::size_t kPieces = 1200;
+
+    std::array<bool, kPieces> contact{};
+    HandTicks hand{};
+};
+
+/// Reads the session once, on a thread of its own, from construction on.
+class SessionOutline {
+  public:
+    SessionOutline(const std::filesystem::path& file, double begin_s, double end_s);
+    ~SessionOutline();  ///< breaks off
+    SessionOutline(const SessionOutline&) = delete;
+    SessionOutline& operator=(const SessionOutline&) = delete;
+
+    /// Null until it is done, or when the session cannot be read on: whoever plays it says why.
+    [[nodiscard]] const ContactBand* band();
+
+  private:
+    std::atomic<bool> leaving_{false};
+    std::future<std::unique_ptr<ContactBand>> result_;
+    std::unique_ptr<ContactBand> band_{};
 };
 
 }  // namespace dibhr

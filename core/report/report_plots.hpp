@@ -6,7 +6,7 @@
 
 #include "core/plot/canvas.hpp"
 #include "core/report/session_numbers.hpp"
-#include "core/session/session_parts.hpp"
+#include "core/session/tick_record.hpp"
 #include "core/video/frame_window.hpp"
 
 namespace dibhr {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/files/output_folder.hpp"
+#include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/plot/axes.hpp"
 #include "core/report/numbers_json.hpp"

@@ -6,7 +6,6 @@
 #include <memory>
 #include <string>
 
-#include "core/session/session_parts.hpp"
 #include "core/session/tick_record.hpp"
 
 namespace dibhr {

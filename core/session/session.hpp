@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "core/session/session_parts.hpp"
 #include "core/session/session_reader.hpp"
 #include "core/session/tick_record.hpp"
 

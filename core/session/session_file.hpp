@@ -11,9 +11,8 @@
 #include <vector>
 
 #include "core/session/database.hpp"
-#include "core/session/log_keeper.hpp"
-#include "core/session/session_parts.hpp"
 #include "core/session/session_schema.hpp"
+#include "core/session/tick_record.hpp"
 
 namespace dibhr {
 

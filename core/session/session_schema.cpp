@@ -6,7 +6,7 @@
 
 #include "core/haptics/primitive.hpp"
 #include "core/haptics/safety.hpp"
-#include "core/session/session_parts.hpp"
+#include "core/session/tick_record.hpp"
 
 namespace dibhr {
 

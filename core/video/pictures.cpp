@@ -14,7 +14,6 @@
 
 #include "core/error.hpp"
 #include "core/files/output_file.hpp"
-#include "core/video/input_file.hpp"
 #include "core/video/libraries.hpp"
 #include "core/video/media.hpp"
 

@@ -22,7 +22,6 @@ extern "C" {
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/input_file.hpp"
 #include "core/video/libraries.hpp"
 #include "core/video/media.hpp"
 

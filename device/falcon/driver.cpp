@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/realtime/thread_setup.hpp"
+#include "core/realtime/tick_timer.hpp"
 #include "device/falcon/bring_up.hpp"
 #include "device/falcon/usb.hpp"
 

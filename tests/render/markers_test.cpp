@@ -1,5 +1,5 @@
 // The markers tell the truth about the touch.
-#include "render/markers.hpp"
+#include "render/marker_pass.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Where the drawn grid is torn at silhouettes.
-#include "render/relief_rims.hpp"
+#include "render/relief_grid.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include <new>
 #include <thread>
 
-#include "core/loop/haptic_loop.hpp"
+#include "core/loop/haptic_tick.hpp"
 #include "tests/core/loop/loop_bench.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/support/catch.hpp"

@@ -1,5 +1,5 @@
 // What a 1 kHz thread asks of the system: granted and in force, or refused with a reason.
-#include "core/realtime/thread_setup.hpp"
+#include "core/realtime/tick_timer.hpp"
 
 #include <pthread.h>
 #include <sched.h>

@@ -1,5 +1,5 @@
 // Cleaning on a few threads, however much is waiting.
-#include "core/replay/cleaning_workers.hpp"
+#include "core/replay/frames.hpp"
 
 #include <cstddef>
 #include <filesystem>

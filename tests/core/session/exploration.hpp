@@ -11,7 +11,7 @@
 #include "core/haptics/surface.hpp"
 #include "core/haptics/touch.hpp"
 #include "core/replay/session_replay.hpp"
-#include "core/session/session_parts.hpp"
+#include "core/session/tick_record.hpp"
 
 namespace dibhr::test {
 

@@ -1,11 +1,11 @@
 // What a recording says of the machine it was made on.
+#include "core/session/tick_record.hpp"
+
 #include <sys/utsname.h>
 
 #include <fstream>
 #include <string>
 #include <string_view>
-
-#include "core/session/session_parts.hpp"
 
 namespace dibhr {
 
