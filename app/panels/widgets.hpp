@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/panels/viewer_state.hpp"
-#include "core/haptics/parameter_table.hpp"
+#include "core/haptics/parameters.hpp"
 
 namespace dibhr {
 

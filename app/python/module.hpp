@@ -4,7 +4,7 @@
 #include <pybind11/pybind11.h>
 
 #include "core/error.hpp"
-#include "core/haptics/parameter_table.hpp"
+#include "core/haptics/parameters.hpp"
 
 namespace dibhr {
 

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <system_error>
 
-#include "core/haptics/algorithm.hpp"
+#include "core/haptics/parameters.hpp"
 
 namespace dibhr {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/haptics/parameter_table.hpp"
+#include "core/haptics/parameters.hpp"
 #include "core/plot/canvas.hpp"
 
 namespace dibhr {

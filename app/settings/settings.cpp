@@ -23,7 +23,7 @@
 #include "core/error.hpp"
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/haptics/parameter_table.hpp"
+#include "core/haptics/parameters.hpp"
 
 namespace dibhr {
 

@@ -6,7 +6,7 @@
 #include "app/panels/widgets.hpp"
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/haptics/parameter_table.hpp"
+#include "core/haptics/parameters.hpp"
 #include "core/video/libraries.hpp"
 
 namespace dibhr {

@@ -11,15 +11,15 @@
 #include <vector>
 
 #include "core/haptics/dibhr.h"
-#include "core/haptics/parameter_table.hpp"
+#include "core/haptics/parameters.hpp"
 #include "core/haptics/touch.hpp"
 
 struct dibhr_handle {
     dibhr::DepthImage from{};
     dibhr::DepthImage to{};
     bool has_two{false};
-    std::array<dibhr::DepthImage, 2>
-        being_read{};  // takes the place of `from` or `to` once it is whole
+    // Takes the place of `from` or `to` once it is whole.
+    std::array<dibhr::DepthImage, 2> being_read{};
     double blend{0.0};
     std::optional<dibhr::BumpMap> bump{};
     dibhr::TouchParameters parameters{};

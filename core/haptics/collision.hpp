@@ -3,7 +3,6 @@
 
 #include <optional>
 
-#include "core/haptics/primitive.hpp"
 #include "core/haptics/surface.hpp"
 #include "core/haptics/vec.hpp"
 

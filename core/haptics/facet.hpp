@@ -6,7 +6,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "core/haptics/primitive.hpp"
 #include "core/haptics/surface.hpp"
 #include "core/haptics/vec.hpp"
 

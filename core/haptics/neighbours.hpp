@@ -6,7 +6,6 @@
 #include <cmath>
 #include <optional>
 
-#include "core/haptics/primitive.hpp"
 #include "core/haptics/surface.hpp"
 #include "core/haptics/vec.hpp"
 

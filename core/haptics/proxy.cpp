@@ -1,8 +1,13 @@
-// Start, surface following and resuming.
+// Start, surface following and resuming; free flight, leaving and resting of a walk.
 #include "core/haptics/proxy.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "core/haptics/collision.hpp"
+#include "core/haptics/facet.hpp"
+#include "core/haptics/neighbours.hpp"
+#include "core/haptics/proxy_walk.hpp"
 
 namespace dibhr {
 
@@ -15,6 +20,9 @@ int most_moves(Vec3 proxy, Vec3 goal) noexcept {
         std::abs(goal.x - proxy.x) + std::abs(goal.y - proxy.y) + std::abs(goal.z - proxy.z);
     return 256 + static_cast<int>(64.0 * std::min(way, 1e6));
 }
+
+/// Nearer to a grid line than this is on it [px]: even up a cliff of 255 px it is no step.
+constexpr double kOnGrid_px = 1e-12;
 
 }  // namespace
 
@@ -59,6 +67,50 @@ void ProxyAlgorithm::follow_surface(const DepthSurface& surface) noexcept {
         proxy_.active = surface.triangle_at(p.x, p.y);
         proxy_.slipping = false;
     }
+}
+
+ProxyWalk::Next ProxyWalk::visit_free() noexcept {
+    const auto hit = first_hit(surface_, proxy_.position, goal_);
+    if (!hit) {
+        proxy_.position = goal_;
+        return Next::rest;
+    }
+    proxy_.position = hit->position;
+    proxy_.contact = true;
+    proxy_.slipping = false;
+    proxy_.active = hit->triangle;
+    return Next::visit;
+}
+
+ProxyWalk::Next ProxyWalk::leave() noexcept {
+    proxy_.contact = false;
+    proxy_.slipping = false;
+    proxy_.active = Primitive{};
+    return visit_free();
+}
+
+ProxyWalk::Next ProxyWalk::rest_or_leave() noexcept {
+    Primitive below = proxy_.active;
+    if (below.kind == PrimitiveKind::edge) {
+        below = triangle_towards(surface_, below, goal_.x, goal_.y);
+    } else if (below.kind == PrimitiveKind::vertex) {
+        below = triangle_around(surface_, below, goal_.x, goal_.y);
+    }
+    return is_above(below) ? leave() : Next::rest;
+}
+
+void ProxyWalk::stand_on_lowest() noexcept {
+    const Primitive active = proxy_.active;
+    if (active.kind != PrimitiveKind::triangle && active.kind != PrimitiveKind::edge) return;
+    Vec3& p = proxy_.position;
+    proxy_.active = lowest_under(active, p.x, p.y, kOnGrid_px);
+    if (proxy_.active.kind == PrimitiveKind::vertex) {
+        p = surface_.vertex_at(proxy_.active.i, proxy_.active.j);
+    }
+}
+
+bool ProxyWalk::is_above(const Primitive& triangle) const noexcept {
+    return goal_.z > Facet(surface_, triangle).elevation_at(goal_.x, goal_.y);
 }
 
 }  // namespace dibhr

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "core/haptics/parameters.hpp"
-#include "core/haptics/primitive.hpp"
 #include "core/haptics/surface.hpp"
 #include "core/haptics/vec.hpp"
 

@@ -1,10 +1,10 @@
-// Goal -> proxy -> spring force -> safe force.
+// Goal -> proxy -> spring force -> safe force, and the low-pass of the goal's velocity.
 #include "core/haptics/touch.hpp"
 
 #include <cmath>
 #include <cstddef>
-
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "core/haptics/dibhr.hpp"
 #include "core/haptics/god_object.hpp"
@@ -12,6 +12,18 @@
 #include "core/haptics/pga.hpp"
 
 namespace dibhr {
+
+namespace {
+
+/// How much of the newest difference gets through: backward Euler, stable for every tick. Without
+/// exp(), so that the bits are the same on every machine.
+double share_of_newest(double dt_s, double cutoff_hz) noexcept {
+    if (!(dt_s > 0.0)) return 0.0;
+    if (!(cutoff_hz > 0.0)) return 1.0;
+    return dt_s / (dt_s + 1.0 / (2.0 * std::numbers::pi * cutoff_hz));
+}
+
+}  // namespace
 
 Vec3 coupling_force(const Proxy& proxy, Vec3 goal, Vec3 goal_velocity,
                     const Coupling& coupling) noexcept {
@@ -94,6 +106,18 @@ const Touch& TouchRenderer::update(const DepthSurface& surface, Vec3 goal,
         safety_.limit(last_.spring_force_newton + input.device_force_newton, input, limits);
     last_.cut = safety_.last_cut();
     return last_;
+}
+
+Vec3 GoalVelocity::after(Vec3 step, double dt_s, double cutoff_hz) noexcept {
+    const Vec3 difference = dt_s > 0.0 ? step / dt_s : Vec3(0.0);
+    Vec3 filtered(0.0);
+    if (continues_) {
+        const Vec3 change = difference - filtered_px_per_s_;
+        filtered = filtered_px_per_s_ + share_of_newest(dt_s, cutoff_hz) * change;
+    }
+    continues_ = is_finite(filtered);
+    filtered_px_per_s_ = continues_ ? filtered : Vec3(0.0);
+    return cutoff_hz > 0.0 ? filtered_px_per_s_ : difference;
 }
 
 }  // namespace dibhr

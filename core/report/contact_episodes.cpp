@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "core/haptics/primitive.hpp"
+#include "core/haptics/surface.hpp"
 
 namespace dibhr {
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/haptics/primitive.hpp"
+#include "core/haptics/surface.hpp"
 
 namespace dibhr {
 

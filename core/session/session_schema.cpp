@@ -4,8 +4,8 @@
 #include <array>
 #include <string_view>
 
-#include "core/haptics/primitive.hpp"
 #include "core/haptics/safety.hpp"
+#include "core/haptics/surface.hpp"
 #include "core/session/tick_record.hpp"
 
 namespace dibhr {

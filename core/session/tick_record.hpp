@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/haptics/parameter_table.hpp"
+#include "core/haptics/parameters.hpp"
 #include "core/haptics/safety.hpp"
 #include "core/realtime/spsc_ring.hpp"
 

@@ -211,7 +211,7 @@ TEST_CASE("the checks of the arrows find what they are there to find", "[rooms]"
     CHECK(breaks_arrow({"core/error.hpp", "core/haptics/vec.hpp", true}));
     CHECK(breaks_arrow({"app/main.cpp", "tests/support/catch.hpp", true}));
     CHECK(breaks_arrow({"core/video/player.cpp", "../../render/camera.hpp", true}));
-    CHECK(breaks_arrow({"core/experiment/sweep.cpp", "core/report/report_page.hpp", true}));
+    CHECK(breaks_arrow({"core/experiment/sweep.cpp", "core/report/session_report.hpp", true}));
     CHECK(breaks_arrow({"core/report/report_page.cpp", "core/experiment/experiment.hpp", true}));
     CHECK(breaks_arrow({"app/panels/touch.cpp", "app/viewer/viewer.hpp", true}));
     CHECK(breaks_arrow({"app/python/session.cpp", "app/settings/settings.hpp", true}));

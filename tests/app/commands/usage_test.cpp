@@ -7,7 +7,7 @@
 
 #include "app/commands/command_line.hpp"
 #include "app/settings/command_options.hpp"
-#include "core/haptics/parameter_table.hpp"
+#include "core/haptics/parameters.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/support/catch.hpp"
 

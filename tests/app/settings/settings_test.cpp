@@ -10,7 +10,7 @@
 #include "app/viewer/files.hpp"
 #include "app/viewer/input.hpp"
 #include "core/error.hpp"
-#include "core/haptics/parameter_table.hpp"
+#include "core/haptics/parameters.hpp"
 #include "core/video/player.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/support/catch.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/haptics/dibhr.h"
-#include "core/haptics/parameter_table.hpp"
+#include "core/haptics/parameters.hpp"
 #include "core/haptics/touch.hpp"
 #include "tests/core/haptics/surfaces.hpp"
 #include "tests/support/allocations.hpp"

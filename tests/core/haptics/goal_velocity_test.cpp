@@ -1,5 +1,5 @@
 // The velocity that is damped: plain or filtered, and never another hand's.
-#include "core/haptics/goal_velocity.hpp"
+#include "core/haptics/touch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/haptics/touch.hpp"
 #include "tests/core/haptics/surfaces.hpp"
 #include "tests/support/catch.hpp"
 

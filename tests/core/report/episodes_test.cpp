@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "core/haptics/primitive.hpp"
+#include "core/haptics/surface.hpp"
 #include "core/report/contact_episodes.hpp"
 #include "tests/core/report/made_session.hpp"
 #include "tests/support/catch.hpp"

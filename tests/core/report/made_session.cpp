@@ -10,7 +10,7 @@
 #include <memory>
 #include <thread>
 
-#include "core/haptics/primitive.hpp"
+#include "core/haptics/surface.hpp"
 #include "tests/support/catch.hpp"
 
 namespace dibhr::test {

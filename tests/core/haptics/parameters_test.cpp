@@ -1,5 +1,5 @@
 // The table of touch parameters.
-#include "core/haptics/parameter_table.hpp"
+#include "core/haptics/parameters.hpp"
 
 #include <cstddef>
 #include <set>
