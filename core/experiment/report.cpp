@@ -13,6 +13,7 @@
 
 #include "core/experiment/experiment.hpp"
 #include "core/files/json.hpp"
+#include "core/files/plain_text.hpp"
 
 namespace dibhr {
 
@@ -20,12 +21,6 @@ namespace {
 
 constexpr int kNameWidth = 16;
 constexpr int kPaperWidth = 15;
-
-std::string fixed(double value, int digits) {
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(digits) << value;
-    return text.str();
-}
 
 /// Short for the large, telling for the small: 0, 3.1e-14, 0.0123, 12.3.
 std::string short_number(double value) {
@@ -44,7 +39,7 @@ std::string short_number(double value) {
 std::string mean_and_sd(double mean, double sd) {
     constexpr double kShown = 1e-9;
     const auto digits = [](double value) {
-        return value < kShown ? std::string("0") : fixed(value, 3);
+        return value < kShown ? std::string("0") : number_text(value, 3);
     };
     return digits(mean) + " (" + digits(sd) + ")";
 }
@@ -76,12 +71,12 @@ std::string heading_of(const PathRun& path) {
 
 std::string time_row(const PathRun& path, const AlgorithmRun& run) {
     const auto paper = paper_result(path.name, run.algorithm);
-    std::string row = name_cell(run) + right(paper ? fixed(paper->update_us, 2) : "-", 9);
+    std::string row = name_cell(run) + right(paper ? number_text(paper->update_us, 2) : "-", 9);
     for (const double us : {run.time_us.mean, run.time_us.median, run.time_us.p99, run.time_us.p999,
                             run.time_us.highest, run.whole_run_us}) {
-        row += right(fixed(us, 3), 9);
+        row += right(number_text(us, 3), 9);
     }
-    return row + right(fixed(run.moves_per_update, 2), 9) +
+    return row + right(number_text(run.moves_per_update, 2), 9) +
            right(std::to_string(run.bounds_met), 8) + "\n";
 }
 
@@ -179,7 +174,7 @@ std::string sweep_row(const char* path, Algorithm algorithm, std::span<const Swe
     const std::string rougher_cell =
         algorithm == Algorithm::dibhr ? "-" : std::to_string(rougher) + "/" + std::to_string(cells);
     const auto degrees = [](double value) {
-        return value < 1e-9 ? std::string("0") : fixed(value, 3);
+        return value < 1e-9 ? std::string("0") : number_text(value, 3);
     };
     return "  " + left(path, 8) + left(name_of(algorithm), kNameWidth) +
            right(degrees(summary.least_deg), 10) + right(degrees(summary.most_deg), 10) +
@@ -288,7 +283,7 @@ std::string table_of(std::span<const PathRun> paths, double clock_us) {
     std::string text;
     for (const PathRun& path : paths) text += heading_of(path);
     text += time_table(paths);
-    text += "  Reading the clock, " + fixed(clock_us, 3) +
+    text += "  Reading the clock, " + number_text(clock_us, 3) +
             " us, is part of each time but of \"whole\": runs timed as a whole, for each update,\n"
             "  which hold making the surface of the moment instead. Moves: primitives visited; "
             "bound: walks\n  stopped by their bound. Paper: a Pentium D, 3.4 GHz.\n";
@@ -315,7 +310,7 @@ std::string sweep_table_of(std::span<const SweepPoint> points, double clock_us) 
            "  Rougher: in how many of the cells the force turns more than dibhr's, which is exact: "
            "nothing can be\n  smoother and right. Max px, max deg: worst error of proxy and force "
            "direction against the exact answer.\n  Reading the clock, " +
-           fixed(clock_us, 3) + " us, is part of the times in the JSON file.\n";
+           number_text(clock_us, 3) + " us, is part of the times in the JSON file.\n";
 }
 
 std::optional<PaperResult> paper_result(std::string_view path, Algorithm algorithm) noexcept {

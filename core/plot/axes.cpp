@@ -7,6 +7,8 @@
 #include <glm/common.hpp>
 #include <utility>
 
+#include "core/files/plain_text.hpp"
+
 namespace dibhr {
 
 namespace {
@@ -108,10 +110,7 @@ std::string tick_text(double value) {
 }
 
 std::string fixed_text(double value, int digits) {
-    if (value == 0.0) return "0";
-    char text[64];
-    std::snprintf(text, sizeof text, "%.*f", digits, value);
-    return text;
+    return value == 0.0 ? "0" : number_text(value, digits);
 }
 
 std::string decade_text(double value) {

@@ -1,5 +1,5 @@
-// The members of the report's JSON.
-#include "core/report/numbers_json.hpp"
+// The report's numbers for scripts: JSON with names that stay, units in them.
+#include "core/report/session_report.hpp"
 
 #include <cstddef>
 #include <string_view>

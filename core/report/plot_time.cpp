@@ -17,8 +17,8 @@ namespace {
 
 constexpr Box kPanel{110.0, 112.0, 1160.0, 442.0};
 constexpr Box kVideoPanel{110.0, 502.0, 1160.0, 582.0};
-constexpr Box kContacts{110.0, 452.0, 1160.0,
-                        466.0};         // the strip that shows when there was contact
+// The strip that shows when there was contact.
+constexpr Box kContacts{110.0, 452.0, 1160.0, 466.0};
 constexpr double kMarkNames_px = 44.0;  // above the panels, where there are marks
 constexpr double kPale = 0.45;
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();

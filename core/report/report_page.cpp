@@ -1,5 +1,5 @@
-// The report as one HTML page.
-#include "core/report/report_page.hpp"
+// The report as one HTML page that needs nothing beside it.
+#include "core/report/session_report.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -149,23 +149,23 @@ std::vector<std::size_t> shown_episodes(const std::vector<Episode>& episodes) {
 }
 
 std::string shares_text(const PrimitiveShares& shares) {
-    const auto percent = [](double share) { return decimals(100.0 * share, 0); };
+    const auto percent = [](double share) { return number_text(100.0 * share, 0); };
     return percent(shares.triangle) + " / " + percent(shares.edge) + " / " + percent(shares.vertex);
 }
 
 Cells episode_row(const SessionReport& report, std::size_t k) {
     const Episode& e = report.numbers.episodes[k];
     return {std::to_string(k + 1),
-            decimals(e.begin_s - report.session.begin_s(), 3),
-            decimals(e.video_begin_s, 3),
-            decimals(e.length_s(), 3),
-            decimals(e.sent.mean_newton, 3),
-            decimals(e.sent.peak_newton, 3),
-            decimals(e.spring.mean_newton, 3),
-            decimals(e.spring.peak_newton, 3),
-            decimals(e.path_mm, 1),
-            decimals(e.mean_speed_mm_per_s(), 1),
-            decimals(e.centre_px.x, 0) + ",&nbsp;" + decimals(e.centre_px.y, 0),
+            number_text(e.begin_s - report.session.begin_s(), 3),
+            number_text(e.video_begin_s, 3),
+            number_text(e.length_s(), 3),
+            number_text(e.sent.mean_newton, 3),
+            number_text(e.sent.peak_newton, 3),
+            number_text(e.spring.mean_newton, 3),
+            number_text(e.spring.peak_newton, 3),
+            number_text(e.path_mm, 1),
+            number_text(e.mean_speed_mm_per_s(), 1),
+            number_text(e.centre_px.x, 0) + ",&nbsp;" + number_text(e.centre_px.y, 0),
             shares_text(e.shares)};
 }
 
@@ -194,7 +194,7 @@ Cells parameters_row(const SessionReport& report, const SessionParameters& param
     const auto from = report.numbers.settings_from_s.find(parameters.version);
     Cells row{from == report.numbers.settings_from_s.end()
                   ? "not used"
-                  : decimals(from->second - report.session.begin_s(), 3),
+                  : number_text(from->second - report.session.begin_s(), 3),
               html_text(name_of(parameters.touch.algorithm))};
     for (const TouchNumber& number : touch_numbers()) {
         const double value = number.of(parameters.touch);
@@ -250,7 +250,7 @@ std::string marks_section(const SessionReport& report) {
     std::vector<Cells> rows;
     for (const SessionMark& mark : report.session.marks()) {
         if (rows.size() == kMostRows) break;
-        rows.push_back({decimals(mark.t_s - report.session.begin_s(), 3),
+        rows.push_back({number_text(mark.t_s - report.session.begin_s(), 3),
                         "<span class=\"text\">" + html_text(mark.tag) + "</span>",
                         "<span class=\"text\">" + html_text(mark.text) + "</span>"});
     }

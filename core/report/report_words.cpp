@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <ctime>
 
-#include "core/report/contact_episodes.hpp"
+#include "core/files/plain_text.hpp"
 
 namespace dibhr {
 
@@ -33,23 +32,17 @@ std::string times(std::size_t count) {
 
 /// "0.31 m" or "4.2 mm".
 std::string way_text(double mm) {
-    return mm >= 1000.0 ? decimals(mm / 1000.0, 2) + " m" : decimals(mm, 1) + " mm";
+    return mm >= 1000.0 ? number_text(mm / 1000.0, 2) + " m" : number_text(mm, 1) + " mm";
 }
 
 std::string milliseconds(double seconds) {
-    return decimals(1000.0 * seconds, 0) + " ms";
+    return number_text(1000.0 * seconds, 0) + " ms";
 }
 
 }  // namespace
 
-std::string decimals(double value, int digits) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%.*f", digits, value);
-    return text;
-}
-
 std::string percent_text(double share) {
-    return decimals(100.0 * share, share < 0.0995 ? 1 : 0) + " %";
+    return number_text(100.0 * share, share < 0.0995 ? 1 : 0) + " %";
 }
 
 std::string counted(std::int64_t count, const std::string& thing) {
@@ -70,21 +63,21 @@ std::string summary_of(const SessionReport& report) {
     const SessionNumbers& numbers = report.numbers;
     const std::string participant = report.session.fact("participant");
     const std::string who = participant.empty() ? "the hand" : participant;
-    const std::string begin = "In " + decimals(numbers.duration_s, 1) + " s, " + who;
+    const std::string begin = "In " + number_text(numbers.duration_s, 1) + " s, " + who;
     if (numbers.episodes.empty()) return begin + " never touched the surface.";
     std::string text = begin + " touched " + times(numbers.episodes.size()) + " for " +
-                       decimals(numbers.contact_s, 1) + " s in all (" +
+                       number_text(numbers.contact_s, 1) + " s in all (" +
                        percent_text(numbers.contact_share()) + " of the ticks). ";
     if (numbers.episodes.size() > 1) {
-        text += "Half of the contacts lasted " + decimals(median_length_s(numbers.episodes), 2) +
-                " s or longer, the longest " + decimals(longest_s(numbers.episodes), 2) + " s. ";
+        text += "Half of the contacts lasted " + number_text(median_length_s(numbers.episodes), 2) +
+                " s or longer, the longest " + number_text(longest_s(numbers.episodes), 2) + " s. ";
     }
     text += "While touching, the force sent to the hand was " +
-            decimals(numbers.sent_newton.mean(), 2) + " N on average and " +
-            decimals(numbers.sent_newton.peak(), 2) +
+            number_text(numbers.sent_newton.mean(), 2) + " N on average and " +
+            number_text(numbers.sent_newton.peak(), 2) +
             " N at its peak, and the point on the surface went " + way_text(path_mm(numbers));
     if (numbers.contact_s > 0.0) {
-        text += ", " + decimals(path_mm(numbers) / numbers.contact_s, 1) + " mm/s on average";
+        text += ", " + number_text(path_mm(numbers) / numbers.contact_s, 1) + " mm/s on average";
     }
     return text + ".";
 }
@@ -106,7 +99,7 @@ std::vector<std::string> remarks_of(const SessionReport& report) {
     say(ticks.stand_in, " were the mouse's, for a device that was not ready.");
     say(ticks.goal_refused, " had a place of the hand that was no number; the one before stood.");
     say(ticks.late, " began late, a millisecond or more after the deadline; the worst " +
-                        decimals(ticks.worst_lateness_us / 1000.0, 1) + " ms.");
+                        number_text(ticks.worst_lateness_us / 1000.0, 1) + " ms.");
     for (std::size_t cut = 1; cut < ticks.cut.size(); ++cut) {
         say(ticks.cut[cut], std::string(" had the force taken away: ") +
                                 name_of(static_cast<SafetyCut>(cut)) + ".");
@@ -175,7 +168,7 @@ std::string device_text(const std::string& device, const HandTicks& hand) {
     const double percent =
         100.0 * static_cast<double>(hand.stand_in) / static_cast<double>(hand.all);
     return device + "; the mouse stood in for " +
-           decimals(std::clamp(percent, kLeast, 100.0 - kLeast), 1) + " % of the ticks";
+           number_text(std::clamp(percent, kLeast, 100.0 - kLeast), 1) + " % of the ticks";
 }
 
 }  // namespace dibhr

@@ -32,9 +32,6 @@ struct Definition {
 /// "12.4 %" of a share of 0.124.
 [[nodiscard]] std::string percent_text(double share);
 
-/// With so many digits after the point, also for zero.
-[[nodiscard]] std::string decimals(double value, int digits);
-
 /// The device that was asked for, and for how much of the time with a surface the mouse stood in:
 /// "Novint Falcon 1234; the mouse stood in for 37.2 % of the ticks". At least 0.1 % if any.
 [[nodiscard]] std::string device_text(const std::string& device, const HandTicks& hand);

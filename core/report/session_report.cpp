@@ -11,8 +11,6 @@
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/plot/axes.hpp"
-#include "core/report/numbers_json.hpp"
-#include "core/report/report_page.hpp"
 #include "core/report/report_plots.hpp"
 #include "core/report/report_words.hpp"
 #include "core/video/media.hpp"
@@ -107,11 +105,11 @@ constexpr std::size_t kLongestFile = 36;
 constexpr std::size_t kLongestName = 16;
 
 std::string map_caption(const HeatMapFacts& map) {
-    std::string caption = "Contact time per pixel over " + decimals(map.contact_s, 1) + " s";
+    std::string caption = "Contact time per pixel over " + number_text(map.contact_s, 1) + " s";
     if (map.remark.empty()) {
         caption += ", over the frame that was touched longest: " +
                    utf8_text(map.source.colour.file.filename().string()) + " at " +
-                   decimals(map.frame_s, 3) + " s";
+                   number_text(map.frame_s, 3) + " s";
     } else {
         caption += ", over plain ground, for the picture is not there";
     }
@@ -153,9 +151,9 @@ void draw_map(const Making& making, const TouchedPlaces& places, std::uint32_t m
         one_line_text(report.session.file().filename().string(), kLongestFile) + ", " +
         (map.remark.empty()
              ? one_line_text(map.source.colour.file.filename().string(), kLongestFile) + " at " +
-                   decimals(map.frame_s, 2) + " s"
+                   number_text(map.frame_s, 2) + " s"
              : "plain ground") +
-        ", " + decimals(map.contact_s, 1) + " s in contact";
+        ", " + number_text(map.contact_s, 1) + " s in contact";
     making.add_figure(name, "Heat map of where the surface was touched", map_caption(map),
                       plot_heat_map(places, ground, report.numbers.episodes, media, under));
     report.maps.push_back(std::move(map));
@@ -180,8 +178,9 @@ PlotWords plot_words(const SessionReport& report) {
     const std::string who = one_line_text(session.fact("participant"), kLongestName);
     if (!who.empty()) subtitle += ", " + who;
     const auto contacts = static_cast<std::int64_t>(report.numbers.episodes.size());
-    subtitle += ", " + counted(contacts, "contact") + ", " + decimals(report.numbers.contact_s, 1) +
-                " of " + decimals(report.numbers.duration_s, 1) + " s in contact";
+    subtitle += ", " + counted(contacts, "contact") + ", " +
+                number_text(report.numbers.contact_s, 1) + " of " +
+                number_text(report.numbers.duration_s, 1) + " s in contact";
     return {subtitle, session.begin_s(), session.marks()};
 }
 

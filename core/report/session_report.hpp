@@ -67,4 +67,17 @@ struct ReportRequest {
 /// all of them or none. Throws InputError: what, which file, what to do next.
 void write_session_report(const Session& session, const ReportRequest& request);
 
+/// `{"report_version", "program", "session": {...}, "participant", "note", "summary",
+///   "duration_s", "contact_s", "contact_share", "episode_count", "path_mm", "mean_speed_mm_per_s",
+///   "force_sent_newton": VALUES, "force_spring_newton": VALUES, "speed_goal_mm_per_s": VALUES,
+///   "speed_proxy_mm_per_s": VALUES, "ticks": {...}, "episodes": [...], "heat_maps": [...],
+///   "parameters": [...], "sources": [...], "marks": [...], "facts": {...}, "definitions": {...}}`
+/// VALUES is `{"mean", "peak", "median", "p95", "histogram": {"bar_width", "seconds": [...],
+/// "beyond_s"}}` over the time in contact, null without any. Times are since the first tick.
+[[nodiscard]] std::string json_of(const SessionReport& report);
+
+/// HTML5, pictures and style inside, no script; light and dark, on a screen and on paper. Whatever
+/// text the session holds is shown as text.
+[[nodiscard]] std::string page_of(const SessionReport& report);
+
 }  // namespace dibhr
