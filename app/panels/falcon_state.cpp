@@ -22,29 +22,17 @@ bool touches(const ViewerState& state) {
            !state.haptic.hand.stand_in;
 }
 
-/// What a Falcon can stand at the scale that is chosen.
-DeviceLimits falcon_limits(const ViewerState& state) {
-    return at_scale(state.device.limits, state.settings.falcon.workspace.scale);
-}
-
 }  // namespace
 
 bool needs_its_person(falcon::Stage stage) {
     return stage != Stage::looking && stage != Stage::ready;
 }
 
-TouchParameters touch_parameters(const ViewerState& state) {
-    TouchParameters parameters = state.settings.touch;
-    if (may_touch(state)) {
-        parameters.coupling = held_coupling(parameters.coupling, falcon_limits(state));
-    }
-    return parameters;
-}
-
-SafetyLimits safety_limits(const ViewerState& state) {
-    // The mouse's hand is as fast at any scale, so that it keeps its limit while it stands in.
-    return held_limits({.max_force_newton = state.settings.max_force_newton},
-                       touches(state) ? falcon_limits(state) : state.device.limits);
+Coupling felt_coupling(const ViewerState& state) {
+    const Coupling& wished = state.settings.touch.coupling;
+    if (!may_touch(state)) return wished;
+    return held_coupling(wished,
+                         at_scale(state.device.limits, state.settings.falcon.workspace.scale));
 }
 
 bool waits_for_front(const ViewerState& state) {

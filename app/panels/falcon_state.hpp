@@ -7,14 +7,9 @@
 
 namespace dibhr {
 
-/// The touch parameters for the next tick. The loop holds them to what the hand it reads can stand;
-/// where that is the Falcon, or may be before the next picture, they are held here already: what
-/// the panel says is felt, and does not change when a lost Falcon is back.
-[[nodiscard]] TouchParameters touch_parameters(const ViewerState& state);
-
-/// The limits for the next tick, as the loop will hold them: a jump of the goal is one of the hand
-/// while the Falcon touches, a hand millimetre being `scale` image millimetres.
-[[nodiscard]] SafetyLimits safety_limits(const ViewerState& state);
+/// To say what is felt of the coupling that is wished, where the Falcon touches or may begin to
+/// before the next picture. (The loop holds it to what the hand it reads can stand.)
+[[nodiscard]] Coupling felt_coupling(const ViewerState& state);
 
 /// No force until the window is in front again: people work in another one while a Falcon touches
 /// or may begin to.

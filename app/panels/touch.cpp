@@ -23,7 +23,7 @@ void draw_origin(ViewerState& state) {
 
 /// Says so when the Falcon cannot be as stiff, or damp as much, as it was asked for.
 void draw_held_coupling(const ViewerState& state) {
-    const Coupling held = touch_parameters(state).coupling;
+    const Coupling held = felt_coupling(state);
     if (!(held == state.settings.touch.coupling)) {
         quiet_text(
             formatted("Felt as %.2f N/mm and %.1f N s/m: at this scale of the workspace the Falcon "

@@ -191,8 +191,9 @@ void Viewer::carry_out_requests() {
 
 void Viewer::hand_over_settings() {
     if (state_.replay) return;
-    const TouchParameters parameters = touch_parameters(state_);
-    const SafetyLimits limits = safety_limits(state_);
+    // As they are wished: the loop holds them to what the hand it reads can stand.
+    const TouchParameters& parameters = state_.settings.touch;
+    const SafetyLimits limits{.max_force_newton = state_.settings.max_force_newton};
     const bool force_enabled = state_.force_enabled && !waits_for_front(state_);
     const bool same = handed_.version > 0 && handed_.parameters == parameters &&
                       handed_.limits == limits && !falcon_.tuning_changed(state_) &&

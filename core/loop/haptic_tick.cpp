@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <glm/geometric.hpp>
 
 namespace dibhr {
@@ -32,8 +31,7 @@ FramePair frames_of(const DepthBlend& pair) {
 
 }  // namespace
 
-HapticTick::HapticTick(const HapticConnections& connections)
-    : to_(connections), limits_(usable(connections.device.specification().limits)) {}
+HapticTick::HapticTick(const HapticConnections& connections) : to_(connections) {}
 
 void HapticTick::run(const TickTiming& timing, std::uint64_t late_ticks) noexcept {
     if (state_.ticks == 0) start_ = second_begin_ = timing.begin;
@@ -86,8 +84,8 @@ TickRecord HapticTick::touch_surface(const DepthBlend& pair, const HapticSetting
         to_.device.read({timing.dt_s, surface, settings.parameters.coupling.pixel_pitch_mm});
     limits_ = usable(hand.limits.value_or(to_.device.specification().limits));
     TouchParameters parameters = settings.parameters;
-    parameters.coupling = held_coupling(parameters.coupling, limits_);
-    const SafetyLimits limits = held_limits(settings.limits, limits_);
+    parameters.coupling = held_coupling(parameters.coupling, *limits_);
+    const SafetyLimits limits = held_limits(settings.limits, *limits_);
     const SafetyInput input{.dt_s = timing.dt_s,
                             .force_enabled = settings.force_enabled,
                             .device_ready = hand.ready && !taken_off(hand, settings),

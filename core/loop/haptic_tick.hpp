@@ -81,7 +81,7 @@ class HapticTick {
     /// What lets the force begin from zero: other settings, a jump in the video, and a recording,
     /// which begins as the program does so that it can be replayed.
     void notice_changes(const HapticSettings& settings, const FrameWindow& frames) noexcept;
-    // What the tick depended on, for record().
+    /// Moves the proxy and sends the force; gives what they depended on, for record().
     [[nodiscard]] TickRecord touch_surface(const DepthBlend& pair, const HapticSettings& settings,
                                            const TickTiming& timing) noexcept;
     [[nodiscard]] TickRecord touch_nothing() noexcept;
@@ -96,7 +96,7 @@ class HapticTick {
     HapticState state_{};
     std::uint64_t version_{~0ull};
     std::uint64_t discontinuity_{~0ull};
-    DeviceLimits limits_;  // what the hand of the last reading can stand
+    std::optional<DeviceLimits> limits_{};  // what the hand of the last reading can stand
     bool from_zero_{true};
     bool force_off_pressed_{false};
     bool taken_off_{false};

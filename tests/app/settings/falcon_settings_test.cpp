@@ -150,9 +150,7 @@ TEST_CASE("stiffness is held for the Falcon, and left to the mouse while none an
     ViewerState state;
     state.settings.touch.coupling.stiffness_newton_per_mm = 2.0;
     state.settings.falcon.workspace.scale = 4.0;
-    const auto stiffness = [&state] {
-        return touch_parameters(state).coupling.stiffness_newton_per_mm;
-    };
+    const auto stiffness = [&state] { return felt_coupling(state).stiffness_newton_per_mm; };
     CHECK_THAT(stiffness(), WithinAbs(2.0, 0.0));
     state.falcon.emplace();
     CHECK_THAT(stiffness(), WithinAbs(0.25, 1e-12));  // before it is known what is there
@@ -160,25 +158,6 @@ TEST_CASE("stiffness is held for the Falcon, and left to the mouse while none an
     CHECK_THAT(stiffness(), WithinAbs(2.0, 0.0));
     state.falcon->status.stage = GENERATE(falcon::Stage::homing, falcon::Stage::ready);
     CHECK_THAT(stiffness(), WithinAbs(0.25, 1e-12));
-}
-
-TEST_CASE("a jump is one of the Falcon's hand at any scale; the mouse's limit is not scaled",
-          "[falcon][settings]") {
-    const double scale = GENERATE(0.1, 1.0, 4.0, 10.0);
-    const double usual = SafetyLimits{}.max_goal_speed_mm_per_ms;
-    ViewerState state;
-    state.settings.falcon.workspace.scale = scale;
-    state.settings.max_force_newton = 2.5;
-    const auto fastest = [&state] { return safety_limits(state).max_goal_speed_mm_per_ms; };
-    CHECK_THAT(fastest(), WithinAbs(usual, 0.0));
-    state.falcon.emplace().status.stage = falcon::Stage::ready;
-    CHECK_THAT(fastest(), WithinAbs(usual * scale, 1e-12));
-    CHECK_THAT(safety_limits(state).max_force_newton, WithinAbs(2.5, 0.0));
-    state.haptic.hand.stand_in = true;
-    CHECK_THAT(fastest(), WithinAbs(usual, 0.0));
-    state.haptic.hand.stand_in = false;
-    state.replay.emplace();
-    CHECK_THAT(fastest(), WithinAbs(usual, 0.0));
 }
 
 TEST_CASE("a window is in front until it loses a keyboard that it had, or is an icon",
