@@ -4,6 +4,7 @@
 #include <cstdarg>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <optional>
@@ -50,11 +51,11 @@ dibhr_status null_given(const dibhr_handle* handle, const char* what) noexcept {
     return failed(handle, DIBHR_BAD_ARGUMENT, "%s is NULL", what);
 }
 
-double highest_of(const dibhr_image& image) noexcept {
-    if (image.highest_level != 0.0) return image.highest_level;
-    if (image.type == DIBHR_LEVELS_8_BIT) return 255.0;
-    if (image.type == DIBHR_LEVELS_16_BIT) return 65535.0;
-    return 1.0;
+float highest_of(const dibhr_image& image) noexcept {
+    if (image.highest_level != 0.0) return static_cast<float>(image.highest_level);
+    if (image.type == DIBHR_LEVELS_8_BIT) return 255.0F;
+    if (image.type == DIBHR_LEVELS_16_BIT) return 65535.0F;
+    return 1.0F;
 }
 
 std::size_t bytes_of_level(int type) noexcept {
@@ -64,15 +65,16 @@ std::size_t bytes_of_level(int type) noexcept {
 template <typename Level>
 bool copy_levels(const dibhr_image& image, std::size_t row_bytes, std::vector<float>& levels) {
     const auto columns = static_cast<std::size_t>(image.columns);
-    const auto highest = static_cast<float>(highest_of(image));
+    const float highest = highest_of(image);
     levels.resize(columns * static_cast<std::size_t>(image.rows));
     auto out = levels.begin();
     for (int j = 0; j < image.rows; ++j) {
-        const auto* row =
-            reinterpret_cast<const Level*>(static_cast<const unsigned char*>(image.levels) +
-                                           static_cast<std::size_t>(j) * row_bytes);
-        for (std::size_t i = 0; i < columns; ++i, ++out) {
-            *out = static_cast<float>(row[i]);
+        const unsigned char* next = static_cast<const unsigned char*>(image.levels) +
+                                    static_cast<std::size_t>(j) * row_bytes;
+        for (std::size_t i = 0; i < columns; ++i, ++out, next += sizeof(Level)) {
+            Level level;
+            std::memcpy(&level, next, sizeof level);  // may lie at any address
+            *out = static_cast<float>(level);
             if (!(*out >= 0.0F && *out <= highest)) return false;
         }
     }
@@ -90,10 +92,11 @@ dibhr_status read_image(const dibhr_handle* handle, const dibhr_image* image, in
     if (image->type < DIBHR_LEVELS_8_BIT || image->type > DIBHR_LEVELS_FLOAT) {
         return failed(handle, DIBHR_BAD_ARGUMENT, "unknown type of levels: %d", image->type);
     }
-    const double highest = highest_of(*image);
-    if (!(highest > 0.0) || !std::isfinite(static_cast<float>(highest))) {
-        return failed(handle, DIBHR_BAD_ARGUMENT, "a highest level of %g: above 0 and finite",
-                      highest);
+    const float highest = highest_of(*image);
+    if (!(highest > 0.0F) || !std::isfinite(highest)) {
+        return failed(handle, DIBHR_BAD_ARGUMENT,
+                      "a highest level of %g: above 0 and finite, as a float",
+                      image->highest_level);
     }
     const std::size_t packed =
         static_cast<std::size_t>(image->columns) * bytes_of_level(image->type);
@@ -107,7 +110,7 @@ dibhr_status read_image(const dibhr_handle* handle, const dibhr_image* image, in
         : image->type == DIBHR_LEVELS_16_BIT ? copy_levels<std::uint16_t>(*image, row_bytes, levels)
                                              : copy_levels<float>(*image, row_bytes, levels);
     if (all_in_range) return DIBHR_OK;
-    return failed(handle, DIBHR_BAD_ARGUMENT, "a level is not in 0 to %g", highest);
+    return failed(handle, DIBHR_BAD_ARGUMENT, "a level is not in 0 to %g", double{highest});
 } catch (const std::exception&) {  // bad_alloc, or a size that no vector can have
     return failed(handle, DIBHR_NO_MEMORY, "no memory for %d x %d levels", image->columns,
                   image->rows);
@@ -163,7 +166,7 @@ dibhr_touch as_c(const Touch& touch) noexcept {
     c.i = touch.proxy.active.i;
     c.j = touch.proxy.active.j;
     c.moves = touch.proxy.moves;
-    c.was_cut = name_of(touch.cut);
+    c.cut = name_of(touch.cut);
     return c;
 }
 
@@ -251,7 +254,7 @@ dibhr_status dibhr_set_bump(dibhr_handle* handle, const dibhr_image* bump) {
     if (status != DIBHR_OK) return status;
     read.columns = bump->columns;
     read.rows = bump->rows;
-    const auto highest = static_cast<float>(highest_of(*bump));
+    const float highest = highest_of(*bump);
     for (float& height : read.heights) height /= highest;
     handle->bump = std::move(read);
     return DIBHR_OK;
@@ -377,7 +380,7 @@ dibhr_status dibhr_read(const dibhr_handle* handle, dibhr_touch* touch) {
     return DIBHR_OK;
 }
 
-dibhr_status dibhr_restart(dibhr_handle* handle) {
+dibhr_status dibhr_reset(dibhr_handle* handle) {
     if (handle == nullptr) return DIBHR_BAD_ARGUMENT;
     handle->renderer.reset();
     handle->last = {};

@@ -6,8 +6,7 @@
  *
  * A handle belongs to one thread at a time; different handles share nothing. `dibhr_update` and all
  * that only reads allocate nothing, lock nothing and wait for nothing. `dibhr_set_depth`,
- * `dibhr_push_depth` and `dibhr_set_bump` copy an image, and allocate when it is larger than those
- * before.
+ * `dibhr_push_depth` and `dibhr_set_bump` copy an image, and may allocate and free.
  *
  * A function that can fail gives a status, and changes nothing then; `dibhr_last_error` says what
  * was wrong. No exception leaves it, and a handle of NULL is a bad argument like others. */
@@ -148,7 +147,7 @@ typedef struct dibhr_touch {
     dibhr_primitive primitive;
     int i, j;            /* its cell, first end or vertex: a column and a row; -1, -1 in the air */
     int moves;           /* primitives visited in this update */
-    const char* was_cut; /* why the sent force is zero, in a few words; "" if it need not be */
+    const char* cut; /* why the sent force is zero, in a few words; "" if it need not be */
 } dibhr_touch;
 
 /* One update, dt_s seconds after the last: the proxy follows the goal. `touch` may be NULL. The
@@ -161,7 +160,7 @@ dibhr_status dibhr_update(dibhr_handle* handle, double x, double y, double z, do
 dibhr_status dibhr_read(const dibhr_handle* handle, dibhr_touch* touch);
 
 /* The next update is a first one. Surface, parameters and limits stay. */
-dibhr_status dibhr_restart(dibhr_handle* handle);
+dibhr_status dibhr_reset(dibhr_handle* handle);
 
 /* "none", "triangle", "edge" or "vertex" */
 const char* dibhr_primitive_name(dibhr_primitive primitive);

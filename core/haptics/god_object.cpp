@@ -120,8 +120,8 @@ class ConstraintPlanes {
     }
 
   private:
-    static constexpr std::size_t kRoom =
-        8;  // six TRIANGLEs meet at a VERTEX, two walls in a corner
+    // Six TRIANGLEs meet at a VERTEX, two walls in a corner.
+    static constexpr std::size_t kRoom = 8;
 
     /// No plane forbids the point: these are the ones that bind, in rising order.
     bool binds(const std::optional<Vec3>& from_goal,

@@ -29,7 +29,7 @@ class ProxyAlgorithm {
     const Proxy& update(const DepthSurface& surface, Vec3 goal, const Friction& friction) noexcept;
 
     /// Forgets everything: the next update is a first one.
-    void restart() noexcept { started_ = false; }
+    void reset() noexcept { started_ = false; }
 
     /// Goes on from where another algorithm left its proxy on this surface.
     void resume(const DepthSurface& surface, const Proxy& proxy) noexcept;

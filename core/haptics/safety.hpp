@@ -8,12 +8,12 @@
 
 namespace dibhr {
 
-/// The defaults are for a Falcon (device/falcon/README.md, Safety numbers).
+/// The defaults suit a Falcon, the weakest device that dibhr drives.
 struct SafetyLimits {
     double max_force_newton{4.0};          ///< the smaller of the device's limit and the user's
     double max_change_newton_per_ms{0.5};  ///< slew limit
     double ramp_s{0.5};                    ///< the rise from zero to full force
-    double max_tick_s{0.020};  ///< a longer tick is late: no force (the Falcon's README: 20 ms)
+    double max_tick_s{0.020};              ///< a longer tick is late: no force
     /// A faster goal is a jump, not a hand (10 m/s) [image mm].
     double max_goal_speed_mm_per_ms{10.0};
 
@@ -72,9 +72,8 @@ struct SafetyInput {
 /// The goal moved farther than a hand can in that time, or there was no time to move in.
 [[nodiscard]] bool goal_jumped(const SafetyInput& input, const SafetyLimits& limits) noexcept;
 
-/// Limits per millisecond count at most 3 ms of a late tick.
 /// Finite? -> length <= limit -> ramp -> change per millisecond <= limit -> zero when it must not
-/// act.
+/// act. Limits per millisecond count at most 3 ms of a late tick.
 class SafetyStage {
   public:
     /// The force to send [N]. |result| <= limits.max_force_newton, and always finite.

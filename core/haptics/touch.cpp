@@ -54,7 +54,7 @@ TouchRenderer::TouchRenderer() {
 }
 
 void TouchRenderer::reset() noexcept {
-    for (const auto& algorithm : algorithms_) algorithm->restart();
+    for (const auto& algorithm : algorithms_) algorithm->reset();
     running_ = Algorithm::dibhr;
     goal_velocity_ = {};
     safety_ = {};
@@ -63,7 +63,7 @@ void TouchRenderer::reset() noexcept {
 }
 
 void TouchRenderer::let_go() noexcept {
-    algorithms_[static_cast<std::size_t>(running_)]->restart();
+    algorithms_[static_cast<std::size_t>(running_)]->reset();
 }
 
 void TouchRenderer::pause() noexcept {

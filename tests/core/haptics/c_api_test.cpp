@@ -85,7 +85,7 @@ TEST_CASE("in C the same goals give the same bits as in C++, with every algorith
                     name_of(touch.proxy.active.kind));
             REQUIRE((c.i == touch.proxy.active.i && c.j == touch.proxy.active.j));
             REQUIRE(c.moves == touch.proxy.moves);
-            REQUIRE(std::string(c.was_cut) == name_of(touch.cut));
+            REQUIRE(std::string(c.cut) == name_of(touch.cut));
         }
     }
 }
@@ -248,8 +248,8 @@ TEST_CASE("a goal that is no number gives no force, and a NULL handle is a statu
     REQUIRE(dibhr_enable_force(hand.c, 0) == DIBHR_OK);
     REQUIRE(dibhr_update(hand.c, 1.0, 1.0, 90.0, 0.001, &touch) == DIBHR_OK);
     CHECK(vec(touch.sent_force) == Vec3(0.0));
-    CHECK(std::string(touch.was_cut) == "force off");
-    REQUIRE(dibhr_restart(hand.c) == DIBHR_OK);
+    CHECK(std::string(touch.cut) == "force off");
+    REQUIRE(dibhr_reset(hand.c) == DIBHR_OK);
     REQUIRE(dibhr_update(hand.c, 1.0, 1.0, 110.0, 0.001, &touch) == DIBHR_OK);
     CHECK(touch.contact == 0);
 
@@ -262,7 +262,7 @@ TEST_CASE("a goal that is no number gives no force, and a NULL handle is a statu
           dibhr_get(nullptr, "relief", &number), dibhr_set_algorithm(nullptr, "pga"),
           dibhr_get_safety(nullptr, &safety), dibhr_set_safety(nullptr, &safety),
           dibhr_enable_force(nullptr, 1), dibhr_update(nullptr, 0.0, 0.0, 0.0, 0.001, &touch),
-          dibhr_read(nullptr, &touch), dibhr_restart(nullptr)}) {
+          dibhr_read(nullptr, &touch), dibhr_reset(nullptr)}) {
         CHECK(status == DIBHR_BAD_ARGUMENT);
     }
     CHECK(std::string(dibhr_last_error(nullptr)) == "the handle is NULL");
@@ -299,8 +299,8 @@ TEST_CASE("an update from C allocates nothing, a next frame of the same size nei
     dibhr_touch touch{};
     int failures = 0;
     const int allocations = dibhr::test::allocations_in([&] {
-        for (int k = 0; k < 1000; ++k) {
-            const double x = k % 97 == 0 ? kNan : 10.0 + 0.01 * k;
+        for (std::size_t k = 0; k < 1000; ++k) {
+            const double x = k % 97 == 0 ? kNan : 10.0 + 0.01 * static_cast<double>(k);
             failures += dibhr_update(hand.c, x, 9.0, 80.0, 0.001, &touch) == DIBHR_OK ? 0 : 1;
             if (k % 10 == 0) dibhr_push_depth(hand.c, &frame);
             if (k % 100 == 0) dibhr_set_algorithm(hand.c, dibhr_algorithm_at(k / 100 % 4));
