@@ -78,7 +78,6 @@ class SessionMoments {
         if (moment.parameters != nullptr) moment.bump = opened_.frames.bump(*moment.parameters);
         if (computes_) {
             moment.computed = replay_->touch(0);
-            moment.update_us = replay_->update_us(0);
         }
         return moment;
     }
@@ -152,14 +151,14 @@ struct SessionPlayer::Implementation {
     void go_to(Order wanted) {
         playback.now_s = wanted.from_s;
         if (jumping) {
-            next_jump = std::move(wanted);
+            next_jump = wanted;
             return;
         }
         jumping = true;
         steps = 0;
         {
             const std::lock_guard lock(mutex);
-            waiting_order = std::move(wanted);
+            waiting_order = wanted;
             superseded = true;
             ahead.clear();
             complete = false;

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <future>
@@ -38,7 +37,6 @@ struct SessionMoment {
     const SessionParameters* parameters{nullptr};   ///< the session's; null: not known
     std::shared_ptr<const BumpMap> bump{};
     std::optional<Touch> computed{};  ///< through other parameters than the recorded ones
-    double update_us{0.0};            ///< of what was computed
     bool preview{false};              ///< the same tick comes again, computed
 };
 

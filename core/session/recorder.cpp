@@ -80,7 +80,10 @@ class FileSums {
 
     void ask(const std::filesystem::path& file) try {
         sums_.push_back(
-            std::async(std::launch::async, [this, file] { return content_of(file, leaving_); }));
+            std::async(std::launch::async, [this, file]() -> std::optional<SessionMedia> {
+                const std::lock_guard one_after_the_other(disk_);
+                return content_of(file, leaving_);
+            }));
     } catch (const std::system_error&) {  // no thread for it: left out, too
     }
     /// What has become known since the last call.
@@ -103,6 +106,7 @@ class FileSums {
     }
 
     std::atomic<bool> leaving_{false};
+    std::mutex disk_{};
     std::vector<Sum> sums_{};
 };
 

@@ -3,15 +3,17 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <sys/utsname.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
-#include <cstddef>
 #include <cstring>
 #include <ctime>
+#include <fstream>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -75,6 +77,35 @@ std::string insert_parameters() {
     return insertion("OR IGNORE INTO parameters", columns);
 }
 
+/// What follows `separator` in the first line that begins with `name`, without quotation marks.
+std::string value_in(const char* file, std::string_view name, char separator) {
+    std::ifstream stream(file);
+    for (std::string line; std::getline(stream, line);) {
+        const std::size_t at = line.find(separator);
+        if (!line.starts_with(name) || at == std::string::npos) continue;
+        const std::size_t begin = line.find_first_not_of(" \t\"", at + 1);
+        const std::size_t end = line.find_last_not_of(" \t\"");
+        return begin == std::string::npos ? "" : line.substr(begin, end - begin + 1);
+    }
+    return {};
+}
+
+/// Of the machine it is recorded on: what cannot be found out is left out.
+SessionFacts machine_facts() {
+    SessionFacts facts;
+    const auto add = [&facts](const char* key, const std::string& value) {
+        if (!value.empty()) facts[key] = value;
+    };
+    add("machine-cpu", value_in("/proc/cpuinfo", "model name", ':'));
+    add("machine-system", value_in("/etc/os-release", "PRETTY_NAME", '='));
+    utsname kernel{};
+    if (uname(&kernel) == 0) {
+        add("machine-kernel",
+            std::string(kernel.sysname) + " " + kernel.release + " " + kernel.machine);
+    }
+    return facts;
+}
+
 /// "2026-05-31T12:00:00Z"
 std::string utc_text(std::time_t moment) {
     std::tm utc{};
@@ -92,7 +123,7 @@ std::int64_t state_of(const TickRecord& record) {
     return bit(record.contact, at::kContact) | primitive << at::kPrimitive |
            std::int64_t{record.buttons} << at::kButtons | bit(!record.surface, at::kNoSurface) |
            bit(!record.device_ready, at::kNotReady) | bit(record.stand_in, at::kStandIn) |
-           bit(record.from_zero, at::kRestart) | bit(record.lets_go, at::kLetsGo) |
+           bit(record.from_zero, at::kFromZero) | bit(record.lets_go, at::kLetsGo) |
            bit(record.goal_refused, at::kRefused) | std::int64_t{record.cut} << at::kCut;
 }
 
@@ -168,7 +199,7 @@ void SessionFile::add(const TickRecord& record) {
     row.cell(state_of(record));
     row.cell(record.surface ? std::optional(pairs_) : std::nullopt);
     row.cell(record.blend);
-    row.cell(settings_);
+    row.cell(parameters_row_);
     row.cell(record.moves);
     row.integer_unless(record.i, pixel_of(record.proxy.x));
     row.integer_unless(record.j, pixel_of(record.proxy.y));
@@ -252,7 +283,7 @@ void SessionFile::add_clock(std::int64_t t_ns, double utc_s, std::uint64_t dropp
 
 /// The parameters that the tick's force follows from: as they were told, held to its device.
 void SessionFile::use_settings(const TickRecord& record) {
-    version_ = settings_ = record.settings;
+    version_ = parameters_row_ = record.settings;
     limits_ = record.limits;
     newton_per_px_.reset();
     const auto known = known_parameters_.find(record.settings);
@@ -273,9 +304,9 @@ void SessionFile::use_settings(const TickRecord& record) {
     if (same == written.end()) {
         held.version += std::uint64_t{written.size()} << kHeldAgainShift;
         add_parameters(held);
-        settings_ = written.emplace_back(held).version;
+        parameters_row_ = written.emplace_back(held).version;
     } else {
-        settings_ = same->version;
+        parameters_row_ = same->version;
     }
 }
 

@@ -95,7 +95,7 @@ class SessionFile {
     std::map<std::uint64_t, std::vector<SessionParameters>> held_parameters_{};
     std::optional<std::uint64_t> version_{};   ///< of the last tick
     std::optional<DeviceLimits> limits_{};     ///< and what it was held to
-    std::uint64_t settings_{0};                ///< its row of table parameters
+    std::uint64_t parameters_row_{0};          ///< its key in table parameters
     std::optional<double> newton_per_px_{};    ///< its spring's, where known
     std::int64_t last_tick_{0};                ///< its number
     std::optional<std::int64_t> last_t_ns_{};  ///< its time, if it is stored as that

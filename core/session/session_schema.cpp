@@ -166,7 +166,7 @@ std::array<Column, 41> columns() {
          "1: the device was attached and homed"},
         {"stand_in", "INTEGER", bits(at::kStandIn, 1), "",
          "1: the mouse moved the hand, for a device that was not ready"},
-        {"restart", "INTEGER", bits(at::kRestart, 1), "", "1: the force began from zero again"},
+        {"restart", "INTEGER", bits(at::kFromZero, 1), "", "1: the force began from zero again"},
         {"lets_go", "INTEGER", bits(at::kLetsGo, 1), "",
          "1: the hand was lifted or replaced, and a contact was let go first"},
         {"refused", "INTEGER", bits(at::kRefused, 1), "",

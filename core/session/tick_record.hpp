@@ -86,10 +86,6 @@ using TickRing = SpscRing<TickRecord, 16384>;
 /// Name/value pairs that describe a session.
 using SessionFacts = std::map<std::string, std::string>;
 
-/// Of the machine: "machine-cpu", "machine-kernel" and "machine-system"; what cannot be found out
-/// is left out.
-[[nodiscard]] SessionFacts machine_facts();
-
 /// A file that was touched, and its content. Path empty: none.
 struct SessionMedia {
     std::filesystem::path file{};  ///< absolute
