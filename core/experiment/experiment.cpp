@@ -7,9 +7,11 @@
 #include <cstddef>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
+#include "core/haptics/touch.hpp"
 #include "core/metrics/force_variation.hpp"
 
 namespace dibhr {
@@ -22,13 +24,16 @@ constexpr int kColumns = 720;
 constexpr int kRows = 486;
 constexpr double kLevel = 100.0;
 constexpr double kRadius_px = 200.0;
-constexpr double kTwoPi = 6.283185307179586;
-constexpr double kUpdate_s = 1e-3;
 constexpr int kWholeRuns = 5;
 constexpr const char* kPlaneSource = "the paper's goals, 4961 px/s on a flat image";
 
 double us_between(Clock::time_point begin, Clock::time_point end) {
     return std::chrono::duration<double, std::micro>(end - begin).count();
+}
+
+/// Of the clip at update k [s].
+double time_of(const PathRun& path, std::size_t k) noexcept {
+    return path.times_s.empty() ? seconds_of(k) : path.times_s[k];
 }
 
 /// One path ready to be run, and what is the same for every algorithm.
@@ -39,7 +44,7 @@ class Course {
 
     /// A pass without a clock in it: an update's share [us].
     double whole_us(ProxyAlgorithm& algorithm) const {
-        algorithm.restart();
+        algorithm.reset();
         const auto begin = Clock::now();
         for (std::size_t k = 0; k < path_.goals.size(); ++k) {
             algorithm.update(surface(k), path_.goals[k], friction_);
@@ -57,7 +62,7 @@ class Course {
         run.update_us.resize(count);
         run.moves.resize(count);
         run.contact.resize(count);
-        algorithm.restart();
+        algorithm.reset();
         for (std::size_t k = 0; k < count; ++k) {
             const DepthSurface now = surface(k);
             const auto begin = Clock::now();
@@ -73,8 +78,7 @@ class Course {
 
   private:
     [[nodiscard]] DepthSurface surface(std::size_t k) const noexcept {
-        return clip_.at(path_.times_s.empty() ? kUpdate_s * static_cast<double>(k)
-                                              : path_.times_s[k]);
+        return clip_.at(time_of(path_, k));
     }
 
     const PathRun& path_;
@@ -157,7 +161,8 @@ PathRun linear_path(double mu, double depth_px, int updates) {
 PathRun circle_path(double mu, double depth_px, int updates) {
     PathRun path = plane_path("circle", &circle_goal, mu, depth_px, updates);
     // The first revolution: until then the proxy spirals into its orbit.
-    path.settling_updates = static_cast<int>(std::ceil(kTwoPi * kRadius_px / kHandStep_px)) + 1;
+    path.settling_updates =
+        static_cast<int>(std::ceil(2.0 * std::numbers::pi * kRadius_px / kHandStep_px)) + 1;
     finish_exact(path);
     return path;
 }
@@ -169,10 +174,8 @@ void survey_path(PathRun& path, const DepthClip& clip) {
     double sum_px = 0.0;
     std::size_t below = 0;
     for (std::size_t k = 0; k < path.goals.size(); ++k) {
-        const double t_s =
-            path.times_s.empty() ? kUpdate_s * static_cast<double>(k) : path.times_s[k];
         const Vec3& goal = path.goals[k];
-        depths_px[k] = clip.at(t_s).elevation_at(goal.x, goal.y) - goal.z;
+        depths_px[k] = clip.at(time_of(path, k)).elevation_at(goal.x, goal.y) - goal.z;
         if (depths_px[k] <= 0.0) continue;
         sum_px += depths_px[k];
         ++below;
@@ -225,13 +228,13 @@ double clock_cost_us() {
 
 UpdateTiming time_updates(ProxyAlgorithm& algorithm, const DepthSurface& surface,
                           const std::vector<Vec3>& goals, const Friction& friction) {
-    algorithm.restart();
+    algorithm.reset();
     for (const Vec3& goal : goals) algorithm.update(surface, goal, friction);
 
     UpdateTiming timing;
     std::vector<double> times_us(goals.size());
     double moves = 0.0;
-    algorithm.restart();
+    algorithm.reset();
     for (std::size_t k = 0; k < goals.size(); ++k) {
         const auto begin = Clock::now();
         const Proxy& proxy = algorithm.update(surface, goals[k], friction);

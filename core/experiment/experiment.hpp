@@ -2,6 +2,7 @@
 // came out.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -11,7 +12,6 @@
 
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/proxy.hpp"
-#include "core/haptics/touch.hpp"
 #include "core/haptics/vec.hpp"
 #include "core/metrics/force_variation.hpp"
 #include "core/video/frame_reader.hpp"
@@ -20,6 +20,11 @@ namespace dibhr {
 
 /// The paper's 20 s at 1 kHz.
 inline constexpr int kExperimentUpdates = 20000;
+inline constexpr double kUpdate_s = 1e-3;
+
+[[nodiscard]] inline double seconds_of(std::size_t update) noexcept {
+    return kUpdate_s * static_cast<double>(update);
+}
 
 /// Distance from the exact answer over all updates in contact.
 struct ExactError {
@@ -106,7 +111,7 @@ struct UpdateTiming {
 /// What reading the clock itself costs [us]: the median of many.
 [[nodiscard]] double clock_cost_us();
 
-/// Runs the goals through the algorithm, from a restart, after one unmeasured pass that warms the
+/// Runs the goals through the algorithm, from a reset, after one unmeasured pass that warms the
 /// caches.
 [[nodiscard]] UpdateTiming time_updates(ProxyAlgorithm& algorithm, const DepthSurface& surface,
                                         const std::vector<Vec3>& goals, const Friction& friction);

@@ -16,7 +16,6 @@ namespace dibhr {
 
 namespace {
 
-constexpr double kUpdate_s = 1e-3;
 constexpr double kRoundOff = 1e-9;
 
 constexpr int kMoments = 10;
@@ -75,11 +74,9 @@ Rectangle largest_rectangle(const std::vector<char>& mask, int columns, int rows
     return best;
 }
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kTremor_px = 0.25;
 constexpr double kLightest_px = 6.0;
 constexpr double kDeepest_px = 20.0;
-constexpr double kLifted_px = 3.0;
 constexpr int kTries = 200;
 
 /// 0 to 1 in minimum-jerk time, u in [0, 1].
@@ -99,8 +96,8 @@ class Dice {
     std::mt19937_64 bits_;
 };
 
-/// An arc of an ellipse. Its angle advances evenly, which by itself obeys the power law.
-struct Stroke {
+/// An arc of an ellipse. Its angle advances evenly, which by itself gives the power law.
+struct HandStroke {
     Vec2 centre{0.0};
     Vec2 along{0.0};  ///< half axes
     Vec2 across{0.0};
@@ -114,7 +111,7 @@ struct Stroke {
     }
 };
 
-bool stays_inside(const Stroke& stroke, const ImageArea& area) {
+bool stays_inside(const HandStroke& stroke, const ImageArea& area) {
     constexpr int kSteps = 64;
     for (int k = 0; k <= kSteps; ++k) {
         const Vec2 off = stroke.at(static_cast<double>(k) / kSteps) - area.centre;
@@ -123,24 +120,25 @@ bool stays_inside(const Stroke& stroke, const ImageArea& area) {
     return true;
 }
 
-Stroke stroke_from(Vec2 place, const ImageArea& area, double share_of_area, Dice& dice) {
+HandStroke stroke_from(Vec2 place, const ImageArea& area, double share_of_area, Dice& dice) {
     const double reach = share_of_area * std::min(area.half_size.x, area.half_size.y);
     const double half = reach * dice.between(0.4, 1.2);
     const double other = half * dice.between(0.25, 0.9);
-    const double turned = dice.between(0.0, kPi);
-    Stroke stroke;
+    const double turned = dice.between(0.0, std::numbers::pi);
+    HandStroke stroke;
     stroke.along = half * Vec2{std::cos(turned), std::sin(turned)};
     stroke.across = other * Vec2{-std::sin(turned), std::cos(turned)};
-    stroke.from_rad = dice.between(0.0, 2.0 * kPi);
-    stroke.sweep_rad = dice.between(0.8, 3.2) * kPi * (dice.between(-1.0, 1.0) < 0.0 ? -1.0 : 1.0);
-    stroke.duration_s = dice.between(0.35, 0.6) * std::abs(stroke.sweep_rad) / kPi;
+    stroke.from_rad = dice.between(0.0, 2.0 * std::numbers::pi);
+    stroke.sweep_rad =
+        dice.between(0.8, 3.2) * std::numbers::pi * (dice.between(-1.0, 1.0) < 0.0 ? -1.0 : 1.0);
+    stroke.duration_s = dice.between(0.35, 0.6) * std::abs(stroke.sweep_rad) / std::numbers::pi;
     stroke.centre = place - (stroke.at(0.0) - stroke.centre);
     return stroke;
 }
 
 /// A stroke that stays inside the area; after many tries shorter and shorter ones.
-Stroke next_stroke(Vec2 place, const ImageArea& area, Dice& dice) {
-    Stroke stroke = stroke_from(place, area, 1.0, dice);
+HandStroke next_stroke(Vec2 place, const ImageArea& area, Dice& dice) {
+    HandStroke stroke = stroke_from(place, area, 1.0, dice);
     for (int k = 0; k < kTries && !stays_inside(stroke, area); ++k) {
         stroke = stroke_from(place, area, 1.0 - static_cast<double>(k) / kTries, dice);
     }
@@ -152,12 +150,13 @@ class Tremor {
   public:
     explicit Tremor(Dice& dice) {
         for (Wave& wave : waves_) {
-            wave = {dice.between(8.0, 12.0), dice.between(0.0, 2.0 * kPi)};
+            wave = {dice.between(8.0, 12.0), dice.between(0.0, 2.0 * std::numbers::pi)};
         }
     }
     [[nodiscard]] double at(double t_s) const {
         double sum = 0.0;
-        for (const Wave& wave : waves_) sum += std::sin(2.0 * kPi * wave.hertz * t_s + wave.phase);
+        for (const Wave& wave : waves_)
+            sum += std::sin(2.0 * std::numbers::pi * wave.hertz * t_s + wave.phase);
         return kTremor_px * sum / static_cast<double>(waves_.size());
     }
 
@@ -181,12 +180,12 @@ class HandModel {
         double pressed_px = -kLifted_px;
         while (motion_.places.size() < updates_) {
             const double next_px = dice_.between(kLightest_px, kDeepest_px);
-            const Stroke stroke = next_stroke(place, area_, dice_);
+            const HandStroke stroke = next_stroke(place, area_, dice_);
             lay(stroke, stroke.duration_s, pressed_px, next_px);
             place = stroke.at(1.0);
             const bool lifts = dice_.between(0.0, 1.0) < 0.3;
             pressed_px = lifts ? -kLifted_px : next_px;
-            Stroke pause;
+            HandStroke pause;
             pause.centre = place;
             lay(pause, dice_.between(0.1, 0.4), next_px, pressed_px);
         }
@@ -195,7 +194,7 @@ class HandModel {
     }
 
   private:
-    void lay(const Stroke& stroke, double duration_s, double from_px, double to_px) {
+    void lay(const HandStroke& stroke, double duration_s, double from_px, double to_px) {
         const int count = std::max(static_cast<int>(duration_s / kUpdate_s), 1);
         for (int k = 1; k <= count && motion_.places.size() < updates_; ++k) {
             const double share = minimum_jerk(static_cast<double>(k) / count);

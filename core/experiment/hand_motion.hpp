@@ -24,6 +24,9 @@ struct ImageArea {
 /// The whole image when nothing stands out.
 [[nodiscard]] ImageArea foreground_area(const DepthClip& clip);
 
+/// A lifted hand or pen above the surface.
+inline constexpr double kLifted_px = 3.0;
+
 /// One entry a millisecond in both vectors.
 struct HandMotion {
     std::vector<Vec2> places{};             ///< length units of its own, any origin
@@ -61,8 +64,8 @@ struct TraceSample {
 /// - time: t, t_s, time, time_s [s], or t_ms, time_ms [ms]; may repeat, must not fall
 /// - place: x_mm and y_mm, or x and y, or x01 and y01
 /// - optional: pressure or pressure01 (0 to 1, held in it), pen_down (0 or 1)
-/// Throws InputError naming file and line for a missing column, a value that is no finite number,
-/// times that fall, or fewer than two different times.
+/// Throws InputError naming file and line for a column that is missing or there twice, a value that
+/// is no finite number, times that fall, or fewer than two different times.
 [[nodiscard]] std::vector<TraceSample> read_trace(const std::filesystem::path& file);
 
 /// The trace at one update a millisecond: rows at one time become their mean, a pause becomes a

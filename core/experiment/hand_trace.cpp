@@ -19,9 +19,7 @@ namespace dibhr {
 
 namespace {
 
-constexpr double kUpdate_s = 1e-3;
 constexpr double kFullPressure_px = 25.0;
-constexpr double kLifted_px = 3.0;
 constexpr double kLongestPause_s = 0.5;
 
 double penetration_of(const TraceSample& sample) {

@@ -103,6 +103,16 @@ void draw_springs(Canvas& canvas, const Axes& axes, const PathRun& path, std::si
     canvas.marker(goal, Marker::circle, 11.0, kGoalInk, kPaper);
 }
 
+/// How far apart the proxies were in this update, seen from above, summed over the runs [px].
+double separation_px(const PathRun& path, std::size_t update) {
+    double apart = 0.0;
+    for (const AlgorithmRun& run : path.runs) {
+        apart += glm::distance(from_above(run.proxies[update]),
+                               from_above(path.runs.front().proxies[update]));
+    }
+    return apart;
+}
+
 bool all_in_contact(const PathRun& path, std::size_t update) {
     return std::all_of(path.runs.begin(), path.runs.end(),
                        [&](const AlgorithmRun& run) { return run.contact[update] != 0; });
@@ -218,15 +228,6 @@ MagnifiedPlace typical_place(const PathRun& path) {
     }
     frame(path, place);
     return place;
-}
-
-double separation_px(const PathRun& path, std::size_t update) {
-    double apart = 0.0;
-    for (const AlgorithmRun& run : path.runs) {
-        apart += glm::distance(from_above(run.proxies[update]),
-                               from_above(path.runs.front().proxies[update]));
-    }
-    return apart;
 }
 
 std::size_t updates_a_marker(const PathRun& path, const MagnifiedPlace& place) {

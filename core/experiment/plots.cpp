@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <glm/trigonometric.hpp>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "core/experiment/report.hpp"
+#include "core/haptics/words.hpp"
 #include "core/metrics/force_variation.hpp"
 #include "core/plot/axes.hpp"
 
@@ -57,14 +58,6 @@ constexpr std::array kQuantities{
              false},
 };
 
-/// The paper's Table 1, the circle's force variation, mean [deg].
-struct Printed {
-    Algorithm algorithm;
-    double mean_deg;
-};
-constexpr std::array kPrinted{Printed{Algorithm::dibhr, 0.53}, Printed{Algorithm::pga, 4.13},
-                              Printed{Algorithm::neighborhood, 7.45}};
-
 /// As many as there is room for, evenly from all.
 std::vector<double> shown_depths(const std::vector<SweepPoint>& points) {
     std::set<double> all;
@@ -96,11 +89,14 @@ std::vector<Vec2> series_of(const std::vector<SweepPoint>& points, double depth_
     return series;
 }
 
+/// The paper's Table 1.
 void draw_printed(Canvas& canvas, const Axes& axes, ValueSpan mu) {
-    for (const Printed& printed : kPrinted) {
-        const Ink ink = look_of(printed.algorithm).stroke.ink;
-        canvas.line(axes.at(mu.low, printed.mean_deg), axes.at(mu.high, printed.mean_deg),
-                    {ink, 1.0, Dash::dotted});
+    for (const Word<Algorithm>& word : algorithm_words()) {
+        const auto paper = paper_result("circle", word.value);
+        if (!paper) continue;
+        const double mean_deg = paper->variation_mean_deg;
+        canvas.line(axes.at(mu.low, mean_deg), axes.at(mu.high, mean_deg),
+                    {look_of(word.value).stroke.ink, 1.0, Dash::dotted});
     }
 }
 

@@ -62,12 +62,17 @@ struct MagnifiedPlace {
 /// Updates from one marker to the next, so that a slow hand's markers do not cover each other.
 [[nodiscard]] std::size_t updates_a_marker(const PathRun& path, const MagnifiedPlace& place);
 
-/// How far apart the proxies were in this update, seen from above, summed over the runs [px].
-[[nodiscard]] double separation_px(const PathRun& path, std::size_t update);
-
 /// Draws the place into `area`, which must be square; `under` as in plot_paths.
 void draw_magnified(Canvas& canvas, Box area, const PathRun& path, const MagnifiedPlace& place,
                     const ColourImage* under);
+
+[[nodiscard]] inline SeriesLook look_of_exact() {
+    return {"exact answer", {kExactInk, 7.0, Dash::solid}, Marker::none};
+}
+
+[[nodiscard]] inline SeriesLook look_of_goal() {
+    return {"goal (the hand)", {kGoalInk, 1.5, Dash::dotted}, Marker::none};
+}
 
 /// From `first` up to, not including, `end`.
 struct UpdateSpan {
@@ -75,25 +80,14 @@ struct UpdateSpan {
     std::size_t end{0};
 };
 
-/// One update is a millisecond.
-[[nodiscard]] inline double seconds_of(std::size_t update) noexcept {
-    return 1e-3 * static_cast<double>(update);
-}
-
 /// Three tenths of a second of a path that repeats itself, after it settled; the whole of an
 /// exploration.
 [[nodiscard]] UpdateSpan shown_updates(const PathRun& path);
 
-[[nodiscard]] Axis time_axis(UpdateSpan updates, bool numbered);
-
 /// A round number above nearly every turn of every algorithm in the updates shown [deg].
 [[nodiscard]] double highest_turn_deg(const PathRun& path);
 
-/// "turns 4.13 deg an update (sd 6.77), sliding 3.90 (sd 2.10)": over all updates, and without
-/// those in which the hand reverses.
-[[nodiscard]] std::string turning_words(const VariationStatistics& variation);
-
-/// "3.90 (sd 2.10)": the second half of the above.
+/// "3.90 (sd 2.10)": without the updates in which the hand reverses.
 [[nodiscard]] std::string sliding_words(const VariationStatistics& variation);
 
 struct TurningScale {

@@ -1,4 +1,4 @@
-// The rows of the tables.
+// Tables and JSON of the evaluation, and what the paper printed.
 #include "core/experiment/report.hpp"
 
 #include <algorithm>
@@ -35,13 +35,15 @@ std::string short_number(double value) {
     return text.str();
 }
 
-/// "0.528 (0.003)"; round-off is shown as 0.
-std::string mean_and_sd(double mean, double sd) {
+/// Round-off is shown as 0.
+std::string degrees_text(double deg) {
     constexpr double kShown = 1e-9;
-    const auto digits = [](double value) {
-        return value < kShown ? std::string("0") : number_text(value, 3);
-    };
-    return digits(mean) + " (" + digits(sd) + ")";
+    return deg < kShown ? std::string("0") : number_text(deg, 3);
+}
+
+/// "0.528 (0.003)".
+std::string mean_and_sd(double mean_deg, double sd_deg) {
+    return degrees_text(mean_deg) + " (" + degrees_text(sd_deg) + ")";
 }
 
 std::string right(const std::string& text, int width) {
@@ -173,11 +175,8 @@ std::string sweep_row(const char* path, Algorithm algorithm, std::span<const Swe
     const std::size_t rougher = cells - count_of(path, algorithm, smooth);
     const std::string rougher_cell =
         algorithm == Algorithm::dibhr ? "-" : std::to_string(rougher) + "/" + std::to_string(cells);
-    const auto degrees = [](double value) {
-        return value < 1e-9 ? std::string("0") : number_text(value, 3);
-    };
     return "  " + left(path, 8) + left(name_of(algorithm), kNameWidth) +
-           right(degrees(summary.least_deg), 10) + right(degrees(summary.most_deg), 10) +
+           right(degrees_text(summary.least_deg), 10) + right(degrees_text(summary.most_deg), 10) +
            right(rougher_cell, 10) + right(short_number(summary.most_px), 12) +
            right(short_number(summary.most_error_deg), 12) +
            right(std::to_string(summary.bounds_met), 8) + "\n";

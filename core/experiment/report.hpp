@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "core/experiment/experiment.hpp"
-#include "core/haptics/touch.hpp"
+#include "core/haptics/parameters.hpp"
 
 namespace dibhr {
 

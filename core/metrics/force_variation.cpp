@@ -11,27 +11,6 @@ namespace dibhr {
 
 namespace {
 
-/// Mean and standard deviation, gathered one by one (Welford).
-class Spread {
-  public:
-    void add(double value) noexcept {
-        ++count_;
-        const double off = value - mean_;
-        mean_ += off / static_cast<double>(count_);
-        squares_ += off * (value - mean_);
-    }
-    [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
-    [[nodiscard]] double mean() const noexcept { return mean_; }
-    [[nodiscard]] double sd() const noexcept {
-        return count_ == 0 ? 0.0 : std::sqrt(squares_ / static_cast<double>(count_));
-    }
-
-  private:
-    std::uint64_t count_{0};
-    double mean_{0.0};
-    double squares_{0.0};
-};
-
 Vec2 along_image(Vec3 v) noexcept {
     return {v.x, v.y};
 }

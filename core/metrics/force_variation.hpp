@@ -1,6 +1,7 @@
 // How smoothly the force turns, and how far it is from another one.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
@@ -43,6 +44,27 @@ struct VariationStatistics {
                                                   std::span<const char> contact,
                                                   std::span<const char> reversal,
                                                   std::size_t settling_updates);
+
+/// Mean and standard deviation, gathered one by one (Welford).
+class Spread {
+  public:
+    void add(double value) noexcept {
+        ++count_;
+        const double off = value - mean_;
+        mean_ += off / static_cast<double>(count_);
+        squares_ += off * (value - mean_);
+    }
+    [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
+    [[nodiscard]] double mean() const noexcept { return mean_; }
+    [[nodiscard]] double sd() const noexcept {
+        return count_ == 0 ? 0.0 : std::sqrt(squares_ / static_cast<double>(count_));
+    }
+
+  private:
+    std::uint64_t count_{0};
+    double mean_{0.0};
+    double squares_{0.0};
+};
 
 struct SampleStatistics {
     std::size_t count{0};

@@ -32,7 +32,7 @@ double share(double value, const Axis& axis) {
     return std::log(positive / low) / std::log(high / low);
 }
 
-std::string number_of(double tick, const Axis& axis) {
+std::string number_at(double tick, const Axis& axis) {
     return axis.logarithmic ? decade_text(tick) : tick_text(tick);
 }
 
@@ -154,7 +154,7 @@ void Axes::draw_frame(Canvas& canvas) const {
     for (const double tick : x_.ticks) {
         const double x = sharp_at(tick, y_.span.low).x;
         canvas.line({x, area_.bottom}, {x, area_.bottom + kTick_px}, frame);
-        if (x_.numbered) canvas.text({x, area_.bottom + 18.0}, number_of(tick, x_), numbers);
+        if (x_.numbered) canvas.text({x, area_.bottom + 18.0}, number_at(tick, x_), numbers);
     }
     TextStyle right = numbers;
     right.align = Align::right;
@@ -163,7 +163,7 @@ void Axes::draw_frame(Canvas& canvas) const {
         const double y = sharp_at(x_.span.low, tick).y;
         canvas.line({area_.left - kTick_px, y}, {area_.left, y}, frame);
         if (!y_.numbered) continue;
-        const std::string text = number_of(tick, y_);
+        const std::string text = number_at(tick, y_);
         canvas.text({area_.left - kTick_px - 4.0, y + kNumberCap_px / 2.0}, text, right);
         widest_px = std::max(widest_px, text_width(text, right));
     }
@@ -204,14 +204,6 @@ SeriesLook look_of(Algorithm algorithm) {
             return {"God-object", {kPurple, 2.5, Dash::dotted}, Marker::square};
     }
     return {};
-}
-
-SeriesLook look_of_exact() {
-    return {"exact answer", {kExactInk, 7.0, Dash::solid}, Marker::none};
-}
-
-SeriesLook look_of_goal() {
-    return {"goal (the hand)", {kGoalInk, 1.5, Dash::dotted}, Marker::none};
 }
 
 void draw_legend(Canvas& canvas, Vec2 corner, const std::vector<SeriesLook>& entries) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/haptics/touch.hpp"
+#include "core/haptics/parameters.hpp"
 #include "core/haptics/vec.hpp"
 #include "core/plot/canvas.hpp"
 
@@ -92,8 +92,6 @@ struct SeriesLook {
 };
 
 [[nodiscard]] SeriesLook look_of(Algorithm algorithm);
-[[nodiscard]] SeriesLook look_of_exact();
-[[nodiscard]] SeriesLook look_of_goal();
 
 /// One entry under the other, from `corner` on: a piece of line with its marker, and the name.
 void draw_legend(Canvas& canvas, Vec2 corner, const std::vector<SeriesLook>& entries);

@@ -284,13 +284,13 @@ void Canvas::outline(Box box, const Stroke& stroke) {
 }
 
 void Canvas::disc(Vec2 centre, double radius_px, Ink ink) {
-    cairo_arc(drawing_->pen.get(), centre.x, centre.y, radius_px, 0.0, 2.0 * G_PI);
+    cairo_arc(drawing_->pen.get(), centre.x, centre.y, radius_px, 0.0, 2.0 * std::numbers::pi);
     set_ink(drawing_->pen.get(), ink);
     cairo_fill(drawing_->pen.get());
 }
 
 void Canvas::ring(Vec2 centre, double radius_px, const Stroke& stroke) {
-    cairo_arc(drawing_->pen.get(), centre.x, centre.y, radius_px, 0.0, 2.0 * G_PI);
+    cairo_arc(drawing_->pen.get(), centre.x, centre.y, radius_px, 0.0, 2.0 * std::numbers::pi);
     stroke_path(drawing_->pen.get(), stroke);
 }
 
@@ -345,7 +345,7 @@ void Canvas::text(Vec2 where, std::string_view text, const TextStyle& style) {
     const double part = style.align == Align::left ? 0.0 : style.align == Align::centre ? 0.5 : 1.0;
     cairo_save(pen);
     cairo_translate(pen, where.x, where.y);
-    if (style.upwards) cairo_rotate(pen, -G_PI / 2.0);
+    if (style.upwards) cairo_rotate(pen, -std::numbers::pi / 2.0);
     cairo_move_to(pen, -part * width_px, 0.0);
     set_ink(pen, style.ink);
     pango_cairo_show_layout_line(pen, pango_layout_get_line_readonly(layout.get(), 0));
@@ -371,9 +371,9 @@ ColourImage Canvas::finished() const {
     const unsigned char* pixels = cairo_image_surface_get_data(large.get());
     const std::ptrdiff_t stride = cairo_image_surface_get_stride(large.get());
     for (int row = 0; row < rows; ++row) {
-        const auto* upper = reinterpret_cast<const std::uint32_t*>(pixels + kScale * row * stride);
-        const auto* lower =
-            reinterpret_cast<const std::uint32_t*>(pixels + (kScale * row + 1) * stride);
+        const unsigned char* both = pixels + std::ptrdiff_t{kScale} * row * stride;
+        const auto* upper = reinterpret_cast<const std::uint32_t*>(both);
+        const auto* lower = reinterpret_cast<const std::uint32_t*>(both + stride);
         for (int column = 0; column < columns; ++column, upper += kScale, lower += kScale) {
             for (const unsigned shift : {16U, 8U, 0U}) {
                 unsigned sum = 2;  // half of what it is divided by

@@ -126,28 +126,22 @@ bool same_bits(const Touch& touch, const TickRecord& recorded) noexcept {
 }
 
 void Samples::add(double value) {
-    if (count_++ % stride_ == 0) kept_.push_back(value);
+    if (spread_.count() % stride_ == 0) kept_.push_back(value);
     if (kept_.size() == kMostKept) {
         for (std::size_t k = 0; 2 * k < kept_.size(); ++k) kept_[k] = kept_[2 * k];
         kept_.resize(kMostKept / 2);
         stride_ *= 2;
     }
-    const double off = value - mean_;
-    mean_ += off / static_cast<double>(count_);
-    squares_ += off * (value - mean_);
+    spread_.add(value);
     highest_ = std::max(highest_, value);
 }
 
 SampleStatistics Samples::statistics() const {
     SampleStatistics statistics = statistics_of(kept_);
-    statistics.count = count_;
-    statistics.mean = mean_;
+    statistics.count = spread_.count();
+    statistics.mean = spread_.mean();
     statistics.highest = highest_;
     return statistics;
-}
-
-double Samples::sd() const {
-    return count_ == 0 ? 0.0 : std::sqrt(squares_ / static_cast<double>(count_));
 }
 
 void RunComparison::add(const TickRecord& recorded, const Touch& touch, double update_us) {
@@ -192,17 +186,16 @@ std::string RunComparison::table_row(const std::string& name) const {
 
 std::string comparison_heading() {
     std::ostringstream text;
-    const auto line = [&text](std::initializer_list<const char*> heads, int width) {
+    const auto line = [&text](std::initializer_list<const char*> heads) {
         text << "  " << std::left << std::setw(kNameWidth) << "";
-        for (const char* head : heads) text << ' ' << std::right << std::setw(width - 1) << head;
+        for (const char* head : heads)
+            text << ' ' << std::right << std::setw(kCellWidth - 1) << head;
         text << '\n';
     };
     line({"update", "update", "update", "force", "force", "proxy off", "proxy off", "force off",
-          "force off", "in"},
-         kCellWidth);
+          "force off", "in"});
     line({"mean us", "median us", "p99 us", "turn deg", "sd deg", "mean px", "max px", "mean deg",
-          "max deg", "contact %"},
-         kCellWidth);
+          "max deg", "contact %"});
     return text.str();
 }
 

@@ -96,14 +96,12 @@ class Samples {
     void add(double value);
     /// Count, mean and highest are of all.
     [[nodiscard]] SampleStatistics statistics() const;
-    [[nodiscard]] double sd() const;
+    [[nodiscard]] double sd() const noexcept { return spread_.sd(); }
 
   private:
     std::vector<double> kept_{};
     std::size_t stride_{1};
-    std::size_t count_{0};
-    double mean_{0.0};
-    double squares_{0.0};
+    Spread spread_{};
     double highest_{0.0};
 };
 

@@ -1,10 +1,8 @@
 // Contact episodes: from the first tick in contact to the last, one tick after the other.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <glm/geometric.hpp>
 #include <optional>
 #include <vector>
 

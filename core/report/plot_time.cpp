@@ -143,7 +143,7 @@ void draw_marks(Canvas& canvas, const Axes& axes, double bottom_px, const PlotWo
         const double x = axes.at(mark.t_s - words.begin_s, 0.0).x;
         if (!(x >= area.left - 0.5 && x <= area.right + 0.5)) continue;
         canvas.line({x, area.top}, {x, bottom_px}, {kTextInk, 1.0, Dash::dashed});
-        const std::string name = one_line_text(mark.tag, kLongestName);
+        const std::string name = one_line(mark.tag, kLongestName);
         const double width = text_width(name, style);
         const double left = std::min(x - 2.0, area.right + 24.0 - width);
         for (int row = 0; row < kRows; ++row) {

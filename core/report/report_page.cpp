@@ -120,7 +120,7 @@ using Cells = std::vector<std::string>;
 
 std::string row_of(const Cells& cells, const std::string& begin, const std::string& end) {
     std::string row = "<tr>";
-    for (const std::string& text : cells) row += begin + text + end;
+    for (const std::string& text : cells) row.append(begin).append(text).append(end);
     return row + "</tr>\n";
 }
 

@@ -179,8 +179,8 @@ struct SessionNumbers {
     Distribution goal_mm_per_s{0.1}, proxy_mm_per_s{0.1};
     TimeLine time_line{0.0, 0.0};
     std::map<std::uint32_t, TouchedPlaces> places{};  ///< by media
-    std::map<std::uint64_t, double>
-        settings_from_s{};  ///< first use of a version of the parameters
+    /// First use of a version of the parameters.
+    std::map<std::uint64_t, double> settings_from_s{};
 
     /// Of all ticks, those in contact: `SELECT avg(contact) FROM tick`.
     [[nodiscard]] double contact_share() const noexcept {

@@ -51,15 +51,16 @@ struct Making {
 
     void add_figure(const std::string& name, const std::string& title, const std::string& caption,
                     const Canvas& plot) const {
+        const ColourImage picture = plot.finished();
+        auto png = png_of(picture);
         std::string names;
         for (const PlotFormat format : request.plot_formats) {
             const std::string file = file_name(name, format);
-            files.add(file, plot.encoded(format));
+            files.add(file, format == PlotFormat::png ? png : plot.encoded(format));
             names += (names.empty() ? "" : ", ") + file;
         }
-        const ColourImage picture = plot.finished();
         report.figures.push_back(
-            {name, names, title, caption, picture.columns, picture.rows, png_of(picture)});
+            {name, names, title, caption, picture.columns, picture.rows, std::move(png)});
     }
 };
 
@@ -148,11 +149,10 @@ void draw_map(const Making& making, const TouchedPlaces& places, std::uint32_t m
     map.rows = ground.rows;
     map.sigma_px = heat_map_sigma_px(ground.columns);
     const std::string under =
-        one_line_text(report.session.file().filename().string(), kLongestFile) + ", " +
-        (map.remark.empty()
-             ? one_line_text(map.source.colour.file.filename().string(), kLongestFile) + " at " +
-                   number_text(map.frame_s, 2) + " s"
-             : "plain ground") +
+        one_line(report.session.file().filename().string(), kLongestFile) + ", " +
+        (map.remark.empty() ? one_line(map.source.colour.file.filename().string(), kLongestFile) +
+                                  " at " + number_text(map.frame_s, 2) + " s"
+                            : "plain ground") +
         ", " + number_text(map.contact_s, 1) + " s in contact";
     making.add_figure(name, "Heat map of where the surface was touched", map_caption(map),
                       plot_heat_map(places, ground, report.numbers.episodes, media, under));
@@ -174,8 +174,8 @@ void draw_maps(const Making& making) {
 
 PlotWords plot_words(const SessionReport& report) {
     const Session& session = report.session;
-    std::string subtitle = one_line_text(session.file().filename().string(), kLongestFile);
-    const std::string who = one_line_text(session.fact("participant"), kLongestName);
+    std::string subtitle = one_line(session.file().filename().string(), kLongestFile);
+    const std::string who = one_line(session.fact("participant"), kLongestName);
     if (!who.empty()) subtitle += ", " + who;
     const auto contacts = static_cast<std::int64_t>(report.numbers.episodes.size());
     subtitle += ", " + counted(contacts, "contact") + ", " +

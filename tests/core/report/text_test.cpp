@@ -26,8 +26,8 @@ TEST_CASE("bytes that are no letters are replaced one by one", "[report]") {
 }
 
 TEST_CASE("plots show what they can write, on one line and not too long", "[report]") {
-    CHECK(one_line_text("J\xC3\xBCrgen\n2", 20) == "J\xC3\xBCrgen 2");
-    CHECK(one_line_text("a long name of a file", 10) == "a long n..");
+    CHECK(one_line("J\xC3\xBCrgen\n2", 20) == "J\xC3\xBCrgen 2");
+    CHECK(one_line("a long name of a file", 10) == "a long n..");
 }
 
 TEST_CASE("base64 gives the standard's own examples", "[report]") {  // RFC 4648, section 10
