@@ -5,6 +5,7 @@
 #include <epoxy/gl.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
@@ -40,6 +41,11 @@ using GlBuffer = GlName<glGenBuffers, glDeleteBuffers>;
 using GlVertexArray = GlName<glGenVertexArrays, glDeleteVertexArrays>;
 using GlFramebuffer = GlName<glGenFramebuffers, glDeleteFramebuffers>;
 using GlRenderbuffer = GlName<glGenRenderbuffers, glDeleteRenderbuffers>;
+
+/// Where an attribute begins in its vertex, as OpenGL takes it.
+[[nodiscard]] inline const void* attribute_offset(std::size_t bytes) noexcept {
+    return reinterpret_cast<const void*>(bytes);  // NOLINT(performance-no-int-to-ptr): its way
+}
 
 /// A linked program. Throws DeviceError with the driver's words when it refuses the source.
 class ShaderProgram {

@@ -74,7 +74,7 @@ constexpr double kScaleHeight_px = 800.0;
 void stroke_attribute(GLuint location, GLint count, std::size_t offset) {
     glEnableVertexAttribArray(location);
     glVertexAttribPointer(location, count, GL_FLOAT, GL_FALSE, sizeof(Stroke),
-                          reinterpret_cast<const void*>(static_cast<std::uintptr_t>(offset)));
+                          attribute_offset(offset));
     glVertexAttribDivisor(location, 1);
 }
 

@@ -109,14 +109,13 @@ void ReliefPass::tear(const SceneContent& content) {
     glBindBuffer(GL_ARRAY_BUFFER, rim_vertices_.get());
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(torn_.layers.size() * sizeof(RimVertex)),
                  torn_.layers.data(), GL_STREAM_DRAW);
-    const auto offset = [](std::size_t bytes) { return reinterpret_cast<const void*>(bytes); };
     for (GLuint attribute = 0; attribute < 3; ++attribute) glEnableVertexAttribArray(attribute);
     glVertexAttribIPointer(0, 2, GL_UNSIGNED_SHORT, sizeof(RimVertex),
-                           offset(offsetof(RimVertex, corner)));
+                           attribute_offset(offsetof(RimVertex, corner)));
     glVertexAttribIPointer(1, 2, GL_UNSIGNED_SHORT, sizeof(RimVertex),
-                           offset(offsetof(RimVertex, source)));
+                           attribute_offset(offsetof(RimVertex, source)));
     glVertexAttribPointer(2, 1, GL_FLOAT, GL_FALSE, sizeof(RimVertex),
-                          offset(offsetof(RimVertex, tolerance_px)));
+                          attribute_offset(offsetof(RimVertex, tolerance_px)));
 }
 
 void ReliefPass::bind_textures(const SceneContent& content, const Variant& variant) {

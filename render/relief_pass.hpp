@@ -28,7 +28,7 @@ class ReliefPass {
         bool rough{false};
         bool textured{false};
         bool silhouettes{false};
-        auto operator<=>(const Variant&) const = default;
+        auto operator<=>(const Variant&) const = default;  // NOLINT(modernize-use-nullptr)
     };
 
     void build(const ReliefGrid& grid);

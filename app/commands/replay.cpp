@@ -83,6 +83,7 @@ bool has_bump(const Session& session, const ReplayOptions& options) {
 void replay(const Session& session, SessionFrames& video, std::vector<Run>& runs,
             const std::filesystem::path& csv) {
     std::vector<ParameterChange> changes;
+    changes.reserve(runs.size());
     for (const Run& run : runs) changes.push_back(run.change);
     SessionReplay replay(session, video, std::move(changes));
     RowFile rows(csv, {session.file()}, "is the session that is read; give --csv another name");
@@ -133,8 +134,8 @@ std::string library_changes(const Session& session) {
     for (const auto& [library, version] : library_versions()) {
         const std::string recorded = session.fact(library);
         if (recorded.empty() || recorded == version) continue;
-        text += (text.empty() ? "; it was recorded with " : "; with ") + library + " " + recorded +
-                ", this is " + version;
+        text.append(text.empty() ? "; it was recorded with " : "; with ").append(library);
+        text.append(" ").append(recorded).append(", this is ").append(version);
     }
     return text;
 }

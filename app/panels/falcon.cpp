@@ -142,12 +142,12 @@ struct Light {
 };
 
 Light light_of(const ViewerState& state) {
-    const ImVec4 kRed{0.90F, 0.30F, 0.27F, 1.0F};
-    const ImVec4 kBlue{0.36F, 0.56F, 0.95F, 1.0F};
-    const ImVec4 kGreen{0.36F, 0.78F, 0.45F, 1.0F};
-    if (state.falcon->status.stage == Stage::homing) return {kRed, "red: to be homed"};
+    const ImVec4 red{0.90F, 0.30F, 0.27F, 1.0F};
+    const ImVec4 blue{0.36F, 0.56F, 0.95F, 1.0F};
+    const ImVec4 green{0.36F, 0.78F, 0.45F, 1.0F};
+    if (state.falcon->status.stage == Stage::homing) return {red, "red: to be homed"};
     const bool force = glm::length(state.haptic.touch.sent_force_newton) > 0.0;
-    return force ? Light{kGreen, "green: force"} : Light{kBlue, "blue: ready"};
+    return force ? Light{green, "green: force"} : Light{blue, "blue: ready"};
 }
 
 void draw_light(const ViewerState& state) {
@@ -224,6 +224,18 @@ void draw_buttons(ButtonActions& buttons) {
     }
 }
 
+/// Where a person names the firmware file.
+void draw_firmware_field(ViewerState& state) {
+    const bool entered = text_field(
+        "##firmware", "Firmware file (.bin)", state.fields.firmware,
+        "Path of the firmware; Enter takes it. It is checked first, and kept for the next time");
+    const bool named = state.fields.firmware[0] != '\0';
+    const bool pressed = button_or_drop("Load", named, "the file");
+    if ((entered || pressed) && named) {
+        state.requests.firmware = std::filesystem::path(state.fields.firmware.data());
+    }
+}
+
 void draw_connection(ViewerState& state) {
     falcon::ConnectionOptions& connection = state.settings.falcon.connection;
     const falcon::ConnectionOptions standard;
@@ -244,17 +256,6 @@ void draw_connection(ViewerState& state) {
 }
 
 }  // namespace
-
-void draw_firmware_field(ViewerState& state) {
-    const bool entered = text_field(
-        "##firmware", "Firmware file (.bin)", state.fields.firmware,
-        "Path of the firmware; Enter takes it. It is checked first, and kept for the next time");
-    const bool named = state.fields.firmware[0] != '\0';
-    const bool pressed = button_or_drop("Load", named, "the file");
-    if ((entered || pressed) && named) {
-        state.requests.firmware = std::filesystem::path(state.fields.firmware.data());
-    }
-}
 
 void draw_falcon_state(ViewerState& state) {
     const falcon::Status& status = state.falcon->status;

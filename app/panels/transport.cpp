@@ -140,7 +140,7 @@ void draw_playback(const ViewerState& state, Player& player, float right_of_line
         player.seek(*wanted_s);
     }
     const float begin = ImGui::GetCursorPosX();
-    ImGui::TextDisabled("frame %lld", static_cast<long long>(playback.frame + 1));
+    ImGui::TextDisabled("frame %lld", static_cast<long long>(playback.frame) + 1);
     ImGui::SameLine(begin + frame_width + gap);
 }
 

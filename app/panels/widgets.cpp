@@ -17,7 +17,7 @@ namespace dibhr {
 namespace {
 
 constexpr float kLabelShare = 0.40F;  // of a row's width
-const ImVec4 kTrouble{0.95F, 0.72F, 0.38F, 1.0F};
+constexpr ImU32 kTrouble = IM_COL32(242, 184, 97, 255);
 
 /// The label, and the cursor moved to where the row's value begins.
 void row_label(const char* label, const char* help) {

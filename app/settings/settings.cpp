@@ -71,7 +71,7 @@ std::string take(const toml::node& node, const Setting& setting, double& value) 
 
 std::string take(const toml::node& node, const Setting& setting, int& value) {
     double read = value;
-    const std::string lacking = take(node, setting, read);
+    std::string lacking = take(node, setting, read);
     value = static_cast<int>(std::lround(read));
     return lacking;
 }
@@ -199,9 +199,6 @@ toml::table parsed(const fs::path& file) {
     }
 }
 
-/// The mouse's virtual hand and the Falcon alike.
-constexpr double kDeviceMaxForce_newton = 8.0;
-
 void add_falcon(std::vector<Setting>& list, FalconSettings& s) {
     list.insert(list.end(), {{"falcon", "serial", &s.connection.serial},
                              {"falcon", "event-character", &s.connection.event_character},
@@ -283,7 +280,8 @@ std::vector<Setting> list_of(Settings& s) {
     for (const TouchNumber& number : touch_numbers()) {
         list.push_back({"touch", number.name, &number.in(s.touch), number.lowest, number.highest});
     }
-    list.push_back({"device", "max-force", &s.max_force_newton, 0.0, kDeviceMaxForce_newton});
+    list.push_back(
+        {"device", "max-force", &s.max_force_newton, 0.0, DeviceLimits{}.max_force_newton});
     add_falcon(list, s.falcon);
     list.insert(list.end(), {{"cleaning", "fill-holes", &s.cleaning.fill_holes},
                              {"cleaning", "remove-spikes", &s.cleaning.remove_spikes},

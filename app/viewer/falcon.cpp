@@ -61,7 +61,7 @@ void ViewerFalcon::hand_over(const ViewerState& state) {
 
 std::string ViewerFalcon::use_firmware(const std::filesystem::path& file, ViewerState& state) {
     falcon::FirmwareImage image = falcon::keep_firmware(file);
-    const std::string kept = "Kept for the Falcon: " + image.name;
+    std::string kept = "Kept for the Falcon: " + image.name;
     if (device_ == nullptr) return kept;
     state.falcon->firmware = image.name;
     state.falcon->firmware_trouble.clear();

@@ -128,7 +128,13 @@ TEST_CASE("numbers as text read back to the same bits", "[files]") {
     append_number(text, value);
     CHECK(std::stod(text.substr(2)) == value);
     CHECK(Json::parse(json_text(value)).get<double>() == value);
+    CHECK(std::stod(json_text(value)) == value);
     CHECK(number_text(2.345, 1) == "2.3");
+}
+
+TEST_CASE("JSON has null for what is not finite, and texts in quotation marks", "[files]") {
+    CHECK(json_text(1.0 / 0.0) == "null\n");
+    CHECK(json_text("a \"b\"\n\\") == "\"a \\\"b\\\"\\n\\\\\"\n");
 }
 
 TEST_CASE("JSON keeps the order of its members, whatever their values are", "[files]") {

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <string>
 #include <vector>
@@ -96,11 +97,14 @@ TEST_CASE("8 bits, 16 bits and floats of the same depth are the same surface, pa
     const std::vector<std::uint16_t> words{0, 51 * 257, 65535, 102 * 257, 0, 51 * 257};
     const std::vector<float> floats{0.0F, 0.2F, 1.0F, 0.4F, 0.0F, 0.2F};
     const std::vector<std::uint8_t> padded{0, 51, 255, 99, 99, 102, 0, 51, 99, 99};
+    std::vector<std::uint8_t> odd(1 + words.size() * 2);  // words at an odd address
+    std::memcpy(odd.data() + 1, words.data(), odd.size() - 1);
     const std::array images{image_of(bytes, 3, DIBHR_LEVELS_8_BIT),
+                            dibhr_image{odd.data() + 1, DIBHR_LEVELS_16_BIT, 3, 2, 0, 0.0},
                             image_of(words, 3, DIBHR_LEVELS_16_BIT),
                             image_of(floats, 3, DIBHR_LEVELS_FLOAT),
                             dibhr_image{padded.data(), DIBHR_LEVELS_8_BIT, 3, 2, 5, 0.0}};
-    const dibhr_image& image = images[GENERATE(0U, 1U, 2U, 3U)];
+    const dibhr_image& image = images[GENERATE(0U, 1U, 2U, 3U, 4U)];
     Handle hand;
     REQUIRE(dibhr_set_depth(hand.c, &image, nullptr) == DIBHR_OK);
     double z = 0.0;
@@ -209,8 +213,8 @@ TEST_CASE("a bad image is refused with a reason and the surface stays as it was"
         bad = image_of(floats, 3, DIBHR_LEVELS_FLOAT);
         is_refused("not in 0 to 1");
     }
-    SECTION("a highest level of nothing") {
-        bad.highest_level = -1.0;
+    SECTION("a highest level of nothing, or less than a float can say") {
+        bad.highest_level = GENERATE(-1.0, 1e-300, 1e300);
         is_refused("highest level");
     }
     SECTION("a type that there is not") {

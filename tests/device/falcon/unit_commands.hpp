@@ -23,7 +23,7 @@ inline constexpr const char* kUnitCommands =
   state                 "stage running homed 7 ...": pairs of names and values; mm and N
 )";
 
-/// Obeys one line of kUnitCommands; answers "ok", the state, or "error: " and why, in one line.
+/// Does one line of kUnitCommands; answers "ok", the state, or "error: " and why, in one line.
 [[nodiscard]] std::string perform(UsbfsUnit& unit, const std::string& line);
 
 }  // namespace dibhr::test::falcon

@@ -1,20 +1,19 @@
 // What people and files say is shown as text, whatever it is.
 #include <string>
 
-#include "core/files/json.hpp"
 #include "core/files/plain_text.hpp"
 #include "tests/support/catch.hpp"
 
 using namespace dibhr;
 
-TEST_CASE("no text means anything to a browser", "[report]") {
+TEST_CASE("no text means anything to a browser", "[files]") {
     CHECK(html_text("<script>alert(\"x\" & 'y')</script>") ==
           "&lt;script&gt;alert(&quot;x&quot; &amp; &#39;y&#39;)&lt;/script&gt;");
     CHECK(html_text("J\xC3\xBCrgen \xE2\x82\xAC \xF0\x9F\x96\x90") ==
           "J\xC3\xBCrgen \xE2\x82\xAC \xF0\x9F\x96\x90");
 }
 
-TEST_CASE("bytes that are no letters are replaced one by one", "[report]") {
+TEST_CASE("bytes that are no letters are replaced one by one", "[files]") {
     const std::string mark = "\xEF\xBF\xBD";
     CHECK(utf8_text("a\xFF"
                     "b") == "a" + mark + "b");
@@ -25,12 +24,12 @@ TEST_CASE("bytes that are no letters are replaced one by one", "[report]") {
     CHECK(utf8_text(std::string("a\0b\x1B[1m\n", 8)) == "a" + mark + "b" + mark + "[1m\n");
 }
 
-TEST_CASE("plots show what they can write, on one line and not too long", "[report]") {
+TEST_CASE("a text is shown on one line, cut short where it is too long", "[files]") {
     CHECK(one_line("J\xC3\xBCrgen\n2", 20) == "J\xC3\xBCrgen 2");
     CHECK(one_line("a long name of a file", 10) == "a long n..");
 }
 
-TEST_CASE("base64 gives the standard's own examples", "[report]") {  // RFC 4648, section 10
+TEST_CASE("base64 gives the standard's own examples", "[files]") {  // RFC 4648, section 10
     CHECK(base64_text("") == "");
     CHECK(base64_text("f") == "Zg==");
     CHECK(base64_text("fo") == "Zm8=");
@@ -39,11 +38,4 @@ TEST_CASE("base64 gives the standard's own examples", "[report]") {  // RFC 4648
     CHECK(base64_text("fooba") == "Zm9vYmE=");
     CHECK(base64_text("foobar") == "Zm9vYmFy");
     CHECK(base64_text("\xFF\xFE") == "//4=");
-}
-
-TEST_CASE("JSON numbers read back to the same bits", "[report]") {
-    const double value = GENERATE(0.1, 1.0 / 3.0, 1e-300, -0.0, 12345678.9);
-    CHECK(std::stod(json_text(value)) == value);
-    CHECK(json_text(1.0 / 0.0) == "null\n");
-    CHECK(json_text("a \"b\"\n\\") == "\"a \\\"b\\\"\\n\\\\\"\n");
 }
