@@ -8,29 +8,6 @@
 
 namespace dibhr {
 
-void draw_loop_panel(ViewerState& state) {
-    if (!section(state, "Loop", state.settings.panels.loop)) return;
-    ImGui::PushID("loop");
-    const HapticState& haptic = state.haptic;
-    const LoopSecond& second = haptic.second;
-    draw_force_chart(state);
-    fact_row("Rate", formatted("%.1f per second", second.rate_hz));
-    fact_row("Worst tick", formatted("%.3f ms late (last second)", second.worst_lateness_ms));
-    fact_row("Late ticks",
-             std::to_string(haptic.late_ticks) + " of " + std::to_string(haptic.ticks));
-    fact_row("Update",
-             formatted("%.2f us, worst %.1f us", second.update_us, second.worst_update_us));
-    fact_row("Moves", formatted("%.2f per update", second.moves));
-    if (haptic.bounds_met > 0) {
-        fact_row("Fault", std::to_string(haptic.bounds_met) + " walks broken off");
-    }
-    fact_row("Decoding", formatted("%.1f ms a frame", state.playback.decode_ms));
-    fact_row("Pictures", formatted("%.0f per second", state.pictures_per_s));
-    fact_row("Priority", state.grants ? state.grants->priority.answer : "asking");
-    fact_row("Memory lock", state.grants ? state.grants->memory_lock.answer : "asking");
-    ImGui::PopID();
-}
-
 namespace {
 
 struct Area {
@@ -70,6 +47,29 @@ void draw_values(ImDrawList& list, const ForceHistory& forces, const Area& frame
 }
 
 }  // namespace
+
+void draw_loop_panel(ViewerState& state) {
+    if (!section(state, "Loop", state.settings.panels.loop)) return;
+    ImGui::PushID("loop");
+    const HapticState& haptic = state.haptic;
+    const LoopSecond& second = haptic.second;
+    draw_force_chart(state);
+    fact_row("Rate", formatted("%.1f per second", second.rate_hz));
+    fact_row("Worst tick", formatted("%.3f ms late (last second)", second.worst_lateness_ms));
+    fact_row("Late ticks",
+             std::to_string(haptic.late_ticks) + " of " + std::to_string(haptic.ticks));
+    fact_row("Update",
+             formatted("%.2f us, worst %.1f us", second.update_us, second.worst_update_us));
+    fact_row("Moves", formatted("%.2f per update", second.moves));
+    if (haptic.bounds_met > 0) {
+        fact_row("Fault", std::to_string(haptic.bounds_met) + " walks broken off");
+    }
+    fact_row("Decoding", formatted("%.1f ms a frame", state.playback.decode_ms));
+    fact_row("Pictures", formatted("%.0f per second", state.pictures_per_s));
+    fact_row("Priority", state.grants ? state.grants->priority.answer : "asking");
+    fact_row("Memory lock", state.grants ? state.grants->memory_lock.answer : "asking");
+    ImGui::PopID();
+}
 
 void draw_force_chart(const ViewerState& state) {
     const float line = ImGui::GetTextLineHeight();

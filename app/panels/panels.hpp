@@ -20,9 +20,6 @@ void draw_session_panel(ViewerState& state);
 void draw_falcon_state(ViewerState& state);
 void draw_falcon_settings(ViewerState& state);
 
-/// Where a person names the firmware file.
-void draw_firmware_field(ViewerState& state);
-
 /// In a replay: whose it is, what was felt at the moment shown, its marks.
 void draw_replay_panel(ViewerState& state, SessionPlayer& replay);
 

@@ -61,7 +61,7 @@ class SettingsKeeper {
     double changed_s_{0.0};
 };
 
-/// What came of it: media, a session, or a plain sentence.
+/// What came of opening files: media, a session, or a plain sentence.
 struct Opened {
     std::unique_ptr<Media> media{};
     std::unique_ptr<OpenedSession> session{};
@@ -76,6 +76,7 @@ struct Opened {
 [[nodiscard]] std::optional<OpenRequest> dropped_request(
     const std::vector<std::filesystem::path>& files);
 
+/// Opens files on a thread of its own, one request at a time.
 class Opening {
   public:
     /// Begins, unless one is under way: then false.

@@ -76,7 +76,7 @@ bool is_number(const std::string& word) {
 }
 
 /// False when the words make no sense.
-bool obey(const std::vector<std::string>& words) {
+bool make(const std::vector<std::string>& words) {
     if (words.size() == 1 && !words[0].starts_with("-")) {
         make_video(words[0]);
     } else if (words.size() == 2 && words[0] == "--bump") {
@@ -94,7 +94,7 @@ bool obey(const std::vector<std::string>& words) {
 int main(int count, char** arguments) {
     std::signal(SIGPIPE, SIG_IGN);  // an ffmpeg that ends early is then an error we can explain
     try {
-        if (obey({arguments + 1, arguments + count})) return 0;
+        if (make({arguments + 1, arguments + count})) return 0;
         std::cerr << kUsage;
         return 2;
     } catch (const std::exception& error) {

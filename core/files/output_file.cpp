@@ -108,7 +108,7 @@ OutputFolder::OutputFolder(const fs::path& folder, std::vector<std::string> name
                                  "choose another folder");
             }
         }
-        const OutputFile probe(folder_ / "probe");  // leaves nothing: never committed
+        const OutputFile probe(folder_ / ".dibhr-probe");  // leaves nothing: never committed
     } catch (...) {
         remove_empty(made_);
         throw;

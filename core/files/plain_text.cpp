@@ -64,7 +64,7 @@ std::string utf8_text(std::string_view text) {
     return result;
 }
 
-std::string one_line_text(std::string_view text, std::size_t most) {
+std::string one_line(std::string_view text, std::size_t most) {
     const std::string clean = utf8_text(text);
     std::string result;
     std::size_t shortened = 0;  // bytes of the result's first letters, with room for two dots
@@ -77,13 +77,6 @@ std::string one_line_text(std::string_view text, std::size_t most) {
         k += bytes;
     }
     return result;
-}
-
-std::string one_line(std::string_view text) {
-    std::string line = utf8_text(text);
-    std::replace_if(
-        line.begin(), line.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
-    return line;
 }
 
 std::string in_quotes(std::string_view text, std::size_t longest) {
@@ -128,10 +121,9 @@ std::string number_text(double value, int digits) {
 
 void append_number(std::string& text, double value) {
     std::array<char, 32> digits{};
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
-                                   std::chars_format::general, 17)
-                         .ptr;
-    text.append(digits.data(), end);
+    char* const last = digits.data() + digits.size();
+    const auto written = std::to_chars(digits.data(), last, value, std::chars_format::general, 17);
+    text.append(digits.data(), written.ptr);
 }
 
 void print_error_line(std::string_view message) {

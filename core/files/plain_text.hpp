@@ -12,14 +12,11 @@ namespace dibhr {
 /// UTF-8.
 [[nodiscard]] std::string utf8_text(std::string_view text);
 
-/// As utf8_text, on one line.
-[[nodiscard]] std::string one_line(std::string_view text);
+/// As utf8_text, on one line, and cut short where it is longer than `most` letters.
+[[nodiscard]] std::string one_line(std::string_view text, std::size_t most = std::string::npos);
 
 /// In quotation marks on one line, cut short after `longest` bytes.
 [[nodiscard]] std::string in_quotes(std::string_view text, std::size_t longest = 40);
-
-/// As one_line, and cut short where it is longer than `most` letters.
-[[nodiscard]] std::string one_line_text(std::string_view text, std::size_t most);
 
 /// As utf8_text, and means nothing to a browser: for the text of an element or an attribute in
 /// double quotes.

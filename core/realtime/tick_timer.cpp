@@ -1,5 +1,4 @@
-// The 1 kHz loop's timing: absolute deadlines, how late each tick was, never waiting to catch up;
-// and what makes its thread punctual.
+// Deadlines by clock_nanosleep, and what the scheduler grants.
 #include "core/realtime/tick_timer.hpp"
 
 #include <pthread.h>

@@ -19,6 +19,7 @@ constexpr std::size_t kLeastKept = 8;                       ///< the window and 
 constexpr std::size_t kMostBytes = std::size_t{256} << 20;  ///< large frames: fewer of them
 constexpr int kReadBack = 12;                               ///< frames decoded at once to go back
 constexpr double kUnknownInterval_s = 1.0 / 25.0;
+constexpr double kShortestLap_s = 1e-4;  ///< a shorter one is taken for a file without time stamps
 
 double milliseconds_since(std::chrono::steady_clock::time_point begin) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
@@ -32,9 +33,6 @@ double interval_s(const MediaDescription& description) {
 std::size_t bytes_of(const Frame& frame) {
     return 2 * frame.depth->levels.size() * sizeof(float) + frame.colour->rgb.size();
 }
-
-/// Shorter laps than this are taken for a file without time stamps.
-constexpr double kShortestLap_s = 1e-4;
 
 }  // namespace
 

@@ -111,8 +111,8 @@ class VideoPackets {
     /// To the key frame at or before the time; false where the file cannot jump.
     bool jump(double time_s) {
         const auto at = std::llround(time_s / av_q2d(stream_->time_base));
-        return av_seek_frame(context_.get(), stream_->index, start() + at, AVSEEK_FLAG_BACKWARD) >=
-               0;
+        const std::int64_t to = start() + at;
+        return av_seek_frame(context_.get(), stream_->index, to, AVSEEK_FLAG_BACKWARD) >= 0;
     }
 
     /// When the last whole packet from here on ends; negative when there is none, nothing when

@@ -1,7 +1,6 @@
 // A video file as pictures in order of presentation time, with an exact seek.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <filesystem>

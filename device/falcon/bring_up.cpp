@@ -28,10 +28,11 @@ constexpr std::array<std::uint8_t, 3> kHello{0x0a, 0x43, 0x0d};
 constexpr std::array<std::uint8_t, 4> kHelloAnswer{0x0a, 0x44, 0x2c, 0x0d};
 constexpr std::array<std::uint8_t, 1> kAutobaud{'A'};
 
-constexpr int kTries = 10;                   // "users report success on try 2-10"
-constexpr int kMostSilent = 2;               // "upload ok but no reply: repeat once more"
+// README.md, Upload: where the numbers come from.
+constexpr int kTries = 10;                   // try 2 to 10 has worked for people
+constexpr int kMostSilent = 2;               // loaded and no reply: once more
 constexpr int kHellos = 64;                  // libnifalcon up to 100, others 64
-constexpr milliseconds kHelloLimit{100};     // "give each try 50-100 ms"
+constexpr milliseconds kHelloLimit{100};     // for each try
 constexpr milliseconds kAutobaudLimit{200};  // one byte at 7 us a bit, and the latency timer
 constexpr milliseconds kEchoLimit{250};      // without a single byte of echo
 constexpr milliseconds kListen{50};          // as long as a wish to stop may wait

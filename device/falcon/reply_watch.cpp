@@ -10,8 +10,8 @@ namespace dibhr::falcon {
 
 namespace {
 
-constexpr int kMotion_counts = 25;             // 0.9 degrees of thigh
-constexpr std::chrono::seconds kPatience{20};  // "no motion and no homing for 20 s"
+constexpr int kMotion_counts = 25;  // 0.9 degrees of thigh: more than an encoder's tremble
+constexpr std::chrono::seconds kPatience{20};  // README.md, Homing and lamp
 
 }  // namespace
 

@@ -75,7 +75,7 @@ std::optional<double> CheckDesk::number(const std::string& question, double lowe
         if (text.empty()) return std::nullopt;
         const auto value = number_of(text);
         if (value && *value >= lowest && *value <= highest) return value;
-        guide.say("a number from " + in_decimals(lowest) + " to " + in_decimals(highest) +
+        guide.say("a number from " + number_text(lowest, 0) + " to " + number_text(highest, 0) +
                   ", please, or Enter alone when there is none");
     }
 }

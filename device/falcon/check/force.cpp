@@ -178,11 +178,11 @@ void settle(CheckDesk& desk, const std::vector<Reading>& readings, Json& measure
     }
     measured["counts_per_newton_metre_after_" + std::to_string(readings.back().counts)] = *scale;
     desk.findings.settle(OpenQuestion::torque_scale,
-                         in_decimals(*scale) + " from " + std::to_string(readings.size()) +
+                         number_text(*scale, 0) + " from " + std::to_string(readings.size()) +
                              " readings up to " + std::to_string(readings.back().counts) +
-                             " counts, which it misses by at most " + in_decimals(worst_newton, 2) +
+                             " counts, which it misses by at most " + number_text(worst_newton, 2) +
                              " N");
-    desk.findings.set("counts-per-newton-metre", in_decimals(*scale));
+    desk.findings.set("counts-per-newton-metre", number_text(*scale, 0));
 }
 
 }  // namespace

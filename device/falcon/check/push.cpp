@@ -83,12 +83,12 @@ std::string strength_of(const CheckDesk& desk, const Counts& motor, Vec3 encoder
     const double unit = downward_force(motor, encoder_counts, desk.options.geometry).value_or(0.0);
     const double least = unit / kHighestScale;
     const double most = unit / kLowestScale;
-    std::string text = in_decimals(least, 1) + " to " + in_decimals(most, 1) + " N (" +
-                       in_decimals(least * kGrams_per_newton) + " to " +
-                       in_decimals(most * kGrams_per_newton) + " g";
+    std::string text = number_text(least, 1) + " to " + number_text(most, 1) + " N (" +
+                       number_text(least * kGrams_per_newton, 0) + " to " +
+                       number_text(most * kGrams_per_newton, 0) + " g";
     if (desk.counts_per_newton_metre) {
         const double measured = unit / *desk.counts_per_newton_metre;
-        text += ", by your readings " + in_decimals(measured * kGrams_per_newton) + " g";
+        text += ", by your readings " + number_text(measured * kGrams_per_newton, 0) + " g";
     }
     return text + ")";
 }
@@ -98,7 +98,8 @@ const char* sentence_of(PushEnd end) noexcept {
                                     "released, because the grip moved more than 30 mm",
                                     "released, because an axis was not homed any more",
                                     "released, because a reply was late"};
-    return kSentences.at(static_cast<std::size_t>(end));
+    static_assert(kSentences.size() == static_cast<std::size_t>(PushEnd::no_reply) + 1);
+    return kSentences[static_cast<std::size_t>(end)];
 }
 
 Push::Push(CheckDesk& desk, const Counts& motor) : desk_(desk), motor_(motor) {

@@ -81,8 +81,8 @@ Rate measure(CheckDesk& desk, const Setting& setting, Json& measured) {
 }
 
 std::string in_words(const Rate& rate) {
-    return in_decimals(rate.replies_per_s) + " a second (half within " +
-           in_decimals(rate.median_ms, 2) + " ms, 99 % within " + in_decimals(rate.p99_ms, 2) +
+    return number_text(rate.replies_per_s, 0) + " a second (half within " +
+           number_text(rate.median_ms, 2) + " ms, 99 % within " + number_text(rate.p99_ms, 2) +
            " ms)";
 }
 

@@ -3,8 +3,6 @@
 
 #include <chrono>
 #include <ctime>
-#include <iomanip>
-#include <sstream>
 #include <string_view>
 
 #include "core/files/output_file.hpp"
@@ -37,6 +35,7 @@ constexpr std::array<Named, kOpenQuestions> kNamed{{
 }};
 
 constexpr std::array kNamesOfEnds{"done", "skipped", "quit", "failed", "not begun"};
+static_assert(kNamesOfEnds.size() == static_cast<std::size_t>(StepEnd::not_begun) + 1);
 
 /// Now, in UTC, as strftime() has it.
 std::string utc(const char* format) {
@@ -74,12 +73,6 @@ std::string hexadecimal(std::span<const std::uint8_t> bytes) {
         text += kDigits[byte & 15U];
     }
     return text;
-}
-
-std::string in_decimals(double value, int decimals) {
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(decimals) << value;
-    return text.str();
 }
 
 void Findings::settle(OpenQuestion question, std::string found) {
@@ -138,8 +131,7 @@ void CheckRecord::write(const Findings& findings) const {
     record["steps"] = steps_;
     findings.add_to(record);
     OutputFile out(file_);
-    // A device may say bytes that are no text.
-    out.write(record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    out.write(json_text(record));
     out.commit();
 }
 

@@ -2,8 +2,6 @@
 // questions that ../README.md leaves open.
 #pragma once
 
-#include <nlohmann/json.hpp>
-
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -13,19 +11,16 @@
 #include <utility>
 #include <vector>
 
+#include "core/files/json.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/haptics/vec.hpp"
 #include "device/falcon/usb.hpp"
 
 namespace dibhr::falcon {
 
-/// What was measured, in that order; a number that is not finite becomes null.
-using Json = nlohmann::ordered_json;
-
 [[nodiscard]] Json as_json(Vec3 values);
 /// "0A 44 2C 0D".
 [[nodiscard]] std::string hexadecimal(std::span<const std::uint8_t> bytes);
-/// For people: with so many decimals.
-[[nodiscard]] std::string in_decimals(double value, int decimals = 0);
 
 /// In the order of the steps that answer them.
 enum class OpenQuestion : std::size_t {
@@ -46,7 +41,8 @@ enum class OpenQuestion : std::size_t {
     power_lost
 };
 
-inline constexpr std::size_t kOpenQuestions = 15;
+inline constexpr std::size_t kOpenQuestions =
+    static_cast<std::size_t>(OpenQuestion::power_lost) + 1;
 
 class Findings {
   public:

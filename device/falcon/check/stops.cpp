@@ -127,10 +127,6 @@ Json or_null(const std::optional<double>& value) {
     return value ? Json(*value) : Json();
 }
 
-std::string one_decimal(double value) {
-    return in_decimals(value, 1);
-}
-
 /// What the counts mean by one set of constants.
 Json meaning_of(Vec3 out, Vec3 in, const std::vector<Length>& lengths, const Geometry& geometry) {
     const auto place_out = place_mm(out, geometry);
@@ -172,24 +168,24 @@ void settle(CheckDesk& desk, Vec3 out, Vec3 in, const std::vector<Length>& lengt
     const auto heights = [&](const Geometry& geometry) {
         const auto place_out = place_mm(out, geometry);
         const auto place_in = place_mm(in, geometry);
-        return (place_out ? one_decimal(place_out->z) : "?") + " and " +
-               (place_in ? one_decimal(place_in->z) : "?") + " mm";
+        return (place_out ? number_text(place_out->z, 1) : "?") + " and " +
+               (place_in ? number_text(place_in->z, 1) : "?") + " mm";
     };
     const Geometry& ours = desk.options.geometry;
     desk.findings.settle(OpenQuestion::end_stops,
-                         "out " + one_decimal((out.x + out.y + out.z) / 3.0) + ", in " +
-                             one_decimal((in.x + in.y + in.z) / 3.0) + " counts on average: z " +
+                         "out " + number_text((out.x + out.y + out.z) / 3.0, 1) + ", in " +
+                             number_text((in.x + in.y + in.z) / 3.0, 1) + " counts on average: z " +
                              heights(Geometry{}) + " by libnifalcon, " +
                              heights(martin_hillier(40.0)) + " by Martin & Hillier at 40 degrees");
     if (lengths.empty()) return;
     const Fit fitted = fit(lengths, ours);
-    const std::string found = one_decimal(fitted.angle_deg) + " degrees by the ruler, +-" +
-                              one_decimal(fitted.doubt_deg) +
+    const std::string found = number_text(fitted.angle_deg, 1) + " degrees by the ruler, +-" +
+                              number_text(fitted.doubt_deg, 1) +
                               " for 1 mm, which misses the lengths by " +
-                              one_decimal(fitted.misfit_mm) + " mm";
+                              number_text(fitted.misfit_mm, 1) + " mm";
     desk.findings.settle(OpenQuestion::angle_at_zero,
                          found + (fitted.settles() ? "" : ": too vague to be used"));
-    if (fitted.settles()) desk.findings.set("angle-at-zero", one_decimal(fitted.angle_deg));
+    if (fitted.settles()) desk.findings.set("angle-at-zero", number_text(fitted.angle_deg, 1));
 }
 
 }  // namespace
