@@ -211,6 +211,7 @@ struct Canvas::Drawing {
         std::string bytes;
         const Surface target(cairo_pdf_surface_create_for_stream(
             append, &bytes, kPoint_per_px * columns, kPoint_per_px * rows));
+        cairo_pdf_surface_restrict_to_version(target.get(), CAIRO_PDF_VERSION_1_4);  // any reader's
         // Any fixed moment: the same drawing gives the same file.
         cairo_pdf_surface_set_metadata(target.get(), CAIRO_PDF_METADATA_CREATE_DATE,
                                        "2000-01-01T00:00:00Z");
