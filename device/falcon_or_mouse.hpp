@@ -1,8 +1,6 @@
 // A Falcon that the mouse stands in for while it is not ready.
 #pragma once
 
-#include <memory>
-
 #include "core/loop/device.hpp"
 #include "device/falcon/falcon_device.hpp"
 #include "device/mouse_hand.hpp"

@@ -7,7 +7,6 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <glm/trigonometric.hpp>
 #include <glm/vec4.hpp>
 #include <numbers>
 

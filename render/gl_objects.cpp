@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <glm/gtc/type_ptr.hpp>
 #include <string>
-#include <utility>
 
 #include "core/error.hpp"
 #include "core/haptics/surface.hpp"

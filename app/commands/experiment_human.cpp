@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <deque>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "app/settings/assets_path.hpp"
 #include "core/error.hpp"

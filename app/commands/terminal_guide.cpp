@@ -9,7 +9,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstddef>
-#include <initializer_list>
 #include <iostream>
 #include <optional>
 #include <string>

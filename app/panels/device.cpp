@@ -1,6 +1,5 @@
 // The Device panel: what touches, its state, and the switch of the force.
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <string>
 

@@ -1,6 +1,5 @@
 // The Loop panel: how well the 1 kHz loop keeps its time, and the strip chart of the force sent.
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "app/panels/panels.hpp"

@@ -1,5 +1,4 @@
 // The Touch panel: what is computed at each tick, from the table of options.
-#include <string>
 
 #include "app/panels/falcon_state.hpp"
 #include "app/panels/panels.hpp"

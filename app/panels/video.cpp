@@ -1,6 +1,5 @@
 // The Video panel: which files, playback, and the cleaning of depth.
 #include <algorithm>
-#include <filesystem>
 
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"

@@ -1,7 +1,6 @@
 // The tables of the Falcon's numbers and of what its buttons can do.
 #include "app/settings/falcon_settings.hpp"
 
-#include <algorithm>
 #include <array>
 
 namespace dibhr {

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <filesystem>
 #include <glm/vec2.hpp>
-#include <memory>
 #include <string>
 #include <vector>
 

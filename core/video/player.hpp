@@ -1,7 +1,6 @@
 // Plays a colour + depth pair on its own thread: decodes ahead, cleans, pairs by time, publishes.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>

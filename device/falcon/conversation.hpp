@@ -1,7 +1,6 @@
 // One Falcon that answers, from the first command to the last: homing, poses out, forces in.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <stop_token>

@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstring>
 #include <new>
-#include <string>
 
 namespace dibhr::falcon {
 

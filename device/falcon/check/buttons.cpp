@@ -1,7 +1,6 @@
 // Step 8: which bit is which button, and how long it bounces (../README.md, Buttons).
 #include <array>
 #include <chrono>
-#include <cstddef>
 #include <cstdint>
 #include <string>
 

@@ -2,10 +2,8 @@
 // one command, one reply, for as long as they talk to it.
 #pragma once
 
-#include <chrono>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "device/falcon/exchange.hpp"
 #include "device/falcon/link.hpp"

@@ -1,7 +1,6 @@
 // The only place of the check where motors get anything but zero.
 #pragma once
 
-#include <array>
 #include <chrono>
 #include <cstddef>
 #include <optional>

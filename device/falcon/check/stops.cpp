@@ -2,10 +2,7 @@
 // count 0 fits them (../README.md, Kinematics).
 #include <glm/geometric.hpp>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <optional>
 #include <string>
