@@ -10,6 +10,7 @@ namespace {
 
 void draw_open(ViewerState& state) {
     if (state.fields.ask_for_keyboard > 0) {
+        ImGui::SetWindowFocus();  // newer ImGui looks for the next field in that window only
         ImGui::SetKeyboardFocusHere();
         --state.fields.ask_for_keyboard;
     }
