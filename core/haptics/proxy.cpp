@@ -40,14 +40,6 @@ const Proxy& ProxyAlgorithm::update(const DepthSurface& surface, Vec3 goal,
     return proxy_;
 }
 
-void ProxyAlgorithm::resume(const DepthSurface& surface, const Proxy& proxy) noexcept {
-    proxy_ = proxy;
-    proxy_.bound_met = false;
-    columns_ = surface.columns();
-    rows_ = surface.rows();
-    started_ = true;
-}
-
 void ProxyAlgorithm::start_above(const DepthSurface& surface, Vec3 goal) noexcept {
     proxy_ = Proxy{};
     proxy_.position = {goal.x, goal.y, std::max(goal.z, surface.elevation_at(goal.x, goal.y))};

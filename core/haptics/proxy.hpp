@@ -31,8 +31,8 @@ class ProxyAlgorithm {
     /// Forgets everything: the next update is a first one.
     void reset() noexcept { started_ = false; }
 
-    /// Goes on from where another algorithm left its proxy on this surface.
-    void resume(const DepthSurface& surface, const Proxy& proxy) noexcept;
+    /// Goes on from where another algorithm left its proxy, on the surface it left it on.
+    void resume(const ProxyAlgorithm& other) noexcept { *this = other; }
 
   protected:
     /// From where the proxy is to where it rests. `goal` lies inside the image rectangle; after

@@ -71,10 +71,11 @@ void TouchRenderer::pause() noexcept {
     safety_.drop_to_zero();
 }
 
-bool TouchRenderer::run_with(Algorithm algorithm, const DepthSurface& surface) noexcept {
+bool TouchRenderer::run_with(Algorithm algorithm) noexcept {
     if (algorithm == running_) return false;
+    const ProxyAlgorithm& left = *algorithms_[static_cast<std::size_t>(running_)];
     running_ = algorithm;
-    if (started_) algorithms_[static_cast<std::size_t>(algorithm)]->resume(surface, last_.proxy);
+    algorithms_[static_cast<std::size_t>(running_)]->resume(left);
     return true;
 }
 
@@ -90,7 +91,7 @@ const Touch& TouchRenderer::update(const DepthSurface& surface, Vec3 goal,
     }
     const Vec3 goal_step = started_ ? goal - last_.goal : Vec3(0.0);
     input.goal_step_mm = glm::length(goal_step) * parameters.coupling.pixel_pitch_mm;
-    const bool changed = run_with(parameters.algorithm, surface);
+    const bool changed = run_with(parameters.algorithm);
     input.from_zero = input.from_zero || changed || !started_;
     started_ = true;
 

@@ -68,7 +68,7 @@ class TouchRenderer {
 
   private:
     /// Makes the algorithm the running one; true when it was not.
-    bool run_with(Algorithm algorithm, const DepthSurface& surface) noexcept;
+    bool run_with(Algorithm algorithm) noexcept;
 
     std::vector<std::unique_ptr<ProxyAlgorithm>> algorithms_{};  ///< by their enumeration
     Algorithm running_{Algorithm::dibhr};

@@ -124,3 +124,27 @@ TEST_CASE("another algorithm goes on from where the proxy is, and the force ramp
         CHECK(glm::length(after.sent_force_newton) < glm::length(before.sent_force_newton));
     }
 }
+
+TEST_CASE("another algorithm over a smaller image, or after letting go, starts above the goal",
+          "[algorithms]") {
+    const Algorithm from = GENERATE(from_range(all_algorithms()));
+    const Algorithm to = GENERATE(from_range(all_algorithms()));
+    const bool smaller = GENERATE(true, false);
+    CAPTURE(name_of(from), name_of(to), smaller);
+    const DepthImage large = test::flat(300, 200, 100.0);
+    const DepthImage small = test::flat(smaller ? 40 : 300, smaller ? 30 : 200, 100.0);
+    const DepthSurface first(large, large, 0.0, {255.0, 0.0});
+    const DepthSurface second(small, small, 0.0, {255.0, 0.0});
+    TouchRenderer renderer;
+    TouchParameters parameters;
+    parameters.algorithm = from;
+    const SafetyInput input{.dt_s = 0.001};
+    for (const double z : {150.0, 90.0}) {
+        renderer.update(first, {270.0, 180.0, z}, parameters, input, {});
+    }
+    if (!smaller) renderer.let_go();
+    parameters.algorithm = to;
+    const Proxy& proxy = renderer.update(second, {20.0, 15.0, 80.0}, parameters, input, {}).proxy;
+    CHECK(proxy.contact);
+    CHECK(proxy.position == Vec3(20.0, 15.0, 100.0));
+}
