@@ -54,6 +54,7 @@ enum class SafetyCut : std::uint8_t {
     late_tick,
     goal_jump
 };
+inline constexpr auto kLastSafetyCut = SafetyCut::goal_jump;
 
 /// "", "not finite", "force off", ...: for the panel.
 [[nodiscard]] const char* name_of(SafetyCut cut) noexcept;

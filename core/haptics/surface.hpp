@@ -12,6 +12,7 @@ namespace dibhr {
 // The triangles, edges and vertices the depth image spans, named by integers.
 
 enum class PrimitiveKind { none, triangle, edge, vertex };
+inline constexpr auto kLastPrimitiveKind = PrimitiveKind::vertex;
 
 /// The diagonal of cell (i, j) joins (i+1, j) and (i, j+1), and so splits it into two triangles.
 enum class TriangleSide {

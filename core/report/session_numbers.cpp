@@ -33,7 +33,6 @@ class Counter {
         episodes_.add(tick, held_s, pitch_mm);
         const std::optional<Speeds> speeds = speed_.add(tick, pitch_mm);
         TimePiece& piece = numbers_.time_line.piece_at(tick.t_s);
-        piece.seconds += held_s;
         piece.sent_newton.add(glm::length(tick.sent_newton), held_s);
         piece.spring_newton.add(glm::length(tick.spring_newton), held_s);
         if (tick.surface) piece.add_video(tick.video_s);
@@ -71,7 +70,6 @@ class Counter {
         numbers_.contact_s += held_s;
         numbers_.sent_newton.add(glm::length(tick.sent_newton), held_s);
         numbers_.spring_newton.add(glm::length(tick.spring_newton), held_s);
-        piece.contact_s += held_s;
         numbers_.places[tick.frames.source.media].add(
             Vec2(tick.proxy), tick.blend < 0.5 ? tick.frames.from_s : tick.frames.to_s, held_s);
         if (!speeds) return;

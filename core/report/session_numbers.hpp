@@ -38,8 +38,6 @@ struct ValueRange {
 
 /// A piece of the session.
 struct TimePiece {
-    double seconds{0.0};    ///< that ticks stood for
-    double contact_s{0.0};  ///< of them in contact
     ValueRange sent_newton{}, spring_newton{};
     ValueRange goal_mm_per_s{}, proxy_mm_per_s{};  ///< in contact
     // Presentation time of what was there to touch; NaN for nothing.
@@ -153,7 +151,7 @@ inline constexpr double kLongestTick_s = 0.020;
 /// A tick that begins so much after its deadline is late: a whole period, as in the loop itself.
 inline constexpr double kLate_us = 1000.0;
 
-inline constexpr std::size_t kSafetyCuts = static_cast<std::size_t>(SafetyCut::goal_jump) + 1;
+inline constexpr std::size_t kSafetyCuts = static_cast<std::size_t>(kLastSafetyCut) + 1;
 
 struct TickCounts {
     std::int64_t all{0};

@@ -24,8 +24,8 @@ std::set<std::string> columns_of_parameters(const SessionReader& reader) {
 }
 
 PrimitiveKind primitive_named(const std::string& name) {
-    for (const auto kind : {PrimitiveKind::triangle, PrimitiveKind::edge, PrimitiveKind::vertex}) {
-        if (name == name_of(kind)) return kind;
+    for (int kind = 0; kind <= static_cast<int>(kLastPrimitiveKind); ++kind) {
+        if (name == name_of(static_cast<PrimitiveKind>(kind))) return PrimitiveKind{kind};
     }
     return PrimitiveKind::none;
 }

@@ -117,7 +117,7 @@ std::string utc_text(std::time_t moment) {
 
 std::int64_t state_of(const TickRecord& record) {
     namespace at = tick_state;
-    constexpr auto kLast = static_cast<std::uint8_t>(PrimitiveKind::vertex);
+    constexpr auto kLast = static_cast<std::uint8_t>(kLastPrimitiveKind);
     const auto bit = [](bool set, int shift) { return std::int64_t{set ? 1 : 0} << shift; };
     const std::int64_t primitive = record.primitive > kLast ? 0 : record.primitive;
     return bit(record.contact, at::kContact) | primitive << at::kPrimitive |

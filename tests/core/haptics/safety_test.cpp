@@ -1,7 +1,9 @@
 // The safety stage and the coupling: what may reach a hand.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <set>
 #include <string>
 
 #include <glm/geometric.hpp>
@@ -130,6 +132,14 @@ TEST_CASE("each reason to stop sends zero at once, says why, and ramps up again"
     CHECK(stage.last_cut() == reason.cut);
     CHECK(std::string(name_of(reason.cut)) != "");
     CHECK(glm::length(stage.limit(force, {}, limits)) <= 2.0 * 0.001 / limits.ramp_s + 1e-12);
+}
+
+TEST_CASE("every reason to stop has a name of its own, up to the last", "[safety]") {
+    std::set<std::string> names;
+    constexpr auto kLast = static_cast<std::size_t>(kLastSafetyCut);
+    for (std::size_t k = 0; k <= kLast; ++k) names.insert(name_of(static_cast<SafetyCut>(k)));
+    CHECK(names.size() == kLast + 1);
+    CHECK(std::string(name_of(static_cast<SafetyCut>(kLast + 1))) == name_of(SafetyCut::none));
 }
 
 TEST_CASE("the spring force is stiffness times the way from goal to proxy, in millimetres",

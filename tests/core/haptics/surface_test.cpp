@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <set>
+#include <string>
 
 #include "core/haptics/neighbours.hpp"
 #include "tests/core/haptics/surfaces.hpp"
@@ -83,6 +86,14 @@ TEST_CASE("a point outside the image rectangle is moved onto its border", "[surf
     const DepthSurface surface(image, image, 0.0, {});
     CHECK(surface.clamped_to_frame({-3.0, 9.0, 7.0}) == Vec3(0.0, 3.0, 7.0));
     CHECK(surface.clamped_to_frame({4.5, 1.5, -1.0}) == Vec3(4.0, 1.5, -1.0));
+}
+
+TEST_CASE("every kind of primitive has a name of its own, up to the last", "[primitives]") {
+    std::set<std::string> names;
+    constexpr auto kLast = static_cast<std::size_t>(kLastPrimitiveKind);
+    for (std::size_t k = 0; k <= kLast; ++k) names.insert(name_of(static_cast<PrimitiveKind>(k)));
+    CHECK(names.size() == kLast + 1);
+    CHECK(std::string(name_of(static_cast<PrimitiveKind>(kLast + 1))) == "none");
 }
 
 TEST_CASE("an edge's triangles have that edge, and an inner edge has two", "[primitives]") {
