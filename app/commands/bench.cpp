@@ -38,18 +38,15 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kUpdates = 20000;  // the paper's 20 s
 constexpr double kLevel = 100.0;
 
 struct Size {
     int columns, rows;
 };
-constexpr Size kPaper{720, 486};
+constexpr Size kPaper{kPaperColumns, kPaperRows};
 constexpr Size kLarge{7680, 4320};
 constexpr Size kVideo{640, 480};
 constexpr double kLoopSeconds = 5.0;
-constexpr double kMu = 0.4;
-constexpr double kDepth_px = 20.0;
 
 /// A colour + depth pair made in memory, for timing without files: a hill that wanders.
 class GeneratedMedia final : public Media {
@@ -186,14 +183,16 @@ LoopRun::Lateness lateness_of(const TickSchedule& schedule) {
 void measure_updates(Size size, std::vector<UpdateRun>& runs) {
     const FlatSurface flat(size);
     const DepthSurface surface = flat.blended();
-    const PathPlace place{0.5 * size.columns, 0.5 * size.rows, kLevel, kDepth_px};
+    const PathPlace place{0.5 * size.columns, 0.5 * size.rows, kLevel, kExperimentDepth_px};
     for (const auto& [path, goal_at] :
          {std::pair{"linear", &linear_goal}, std::pair{"circle", &circle_goal}}) {
-        std::vector<Vec3> goals(kUpdates);
-        for (int k = 0; k < kUpdates; ++k) goals[static_cast<std::size_t>(k)] = goal_at(place, k);
+        std::vector<Vec3> goals(kExperimentUpdates);
+        for (int k = 0; k < kExperimentUpdates; ++k)
+            goals[static_cast<std::size_t>(k)] = goal_at(place, k);
         for (const Algorithm algorithm : all_algorithms()) {
             const auto proxy = make_algorithm(algorithm);
-            const UpdateTiming timing = time_updates(*proxy, surface, goals, {kMu, kMu});
+            const UpdateTiming timing =
+                time_updates(*proxy, surface, goals, {kExperimentFriction, kExperimentFriction});
             Json json = json_of(size, timing.update_us,
                                 {{"algorithm", name_of(algorithm)}, {"path", path}});
             json["moves"] = timing.moves_per_update;
@@ -209,14 +208,14 @@ void measure_teleports(Size size, std::vector<UpdateRun>& runs) {
     const FlatSurface flat(size);
     const DepthSurface surface = flat.blended();
     for (const auto& [where, z] :
-         {std::pair{"contact", kLevel - kDepth_px}, std::pair{"air", kLevel + 1.0}}) {
+         {std::pair{"contact", kLevel - kExperimentDepth_px}, std::pair{"air", kLevel + 1.0}}) {
         const Vec3 corners[] = {{5.3, 4.2, z}, {size.columns - 7.1, size.rows - 6.4, z}};
         Dibhr dibhr;
         std::vector<double> times_us;
-        dibhr.update(surface, corners[1], {kMu, kMu});
+        dibhr.update(surface, corners[1], {kExperimentFriction, kExperimentFriction});
         for (int k = 0; k < kTeleports; ++k) {
             const auto begin = Clock::now();
-            dibhr.update(surface, corners[k % 2], {kMu, kMu});
+            dibhr.update(surface, corners[k % 2], {kExperimentFriction, kExperimentFriction});
             times_us.push_back(us_between(begin, Clock::now()));
         }
         const SampleStatistics us = statistics_of(std::move(times_us));
@@ -258,8 +257,8 @@ LoopRun measure_loops() {
     player.play_media(std::make_unique<GeneratedMedia>(kVideo));
 
     std::vector<TimedGoal> goals;
-    goals.reserve(static_cast<std::size_t>(kUpdates));
-    for (int k = 0; k < kUpdates; ++k) {
+    goals.reserve(kExperimentUpdates);
+    for (int k = 0; k < kExperimentUpdates; ++k) {
         goals.push_back(
             {k * 1e-3, circle_goal({0.5 * kVideo.columns, 0.5 * kVideo.rows, 90.0, 10.0}, k)});
     }
@@ -300,7 +299,7 @@ std::string table_of(const BenchResults& results) {
     for (const char* head : {"median", "mean", "p99", "p99.9", "max"}) {
         text << std::setw(11) << head;
     }
-    text << "\n\nUpdate, mu " << kMu << ", depth " << kDepth_px
+    text << "\n\nUpdate, mu " << kExperimentFriction << ", depth " << kExperimentDepth_px
          << " px, two blended images (reading the clock, " << results.clock_us
          << " us, is part of each)\n";
     for (const UpdateRun& run : results.updates) text << row(run.name, run.us, "us");
@@ -337,8 +336,8 @@ Json json_of(const BenchResults& results) {
     for (const UpdateRun& run : results.teleports) teleports.push_back(run.json);
     const HandoverRun& handover = results.handover;
     const LoopRun& loop = results.loop;
-    return {{"mu", kMu},
-            {"depth_px", kDepth_px},
+    return {{"mu", kExperimentFriction},
+            {"depth_px", kExperimentDepth_px},
             {"clock_us", results.clock_us},
             {"updates", std::move(updates)},
             {"teleports", std::move(teleports)},

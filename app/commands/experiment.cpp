@@ -21,14 +21,13 @@
 #include "core/experiment/plots.hpp"
 #include "core/experiment/report.hpp"
 #include "core/files/output_file.hpp"
+#include "core/files/plain_text.hpp"
 
 namespace dibhr {
 
 namespace {
 
 constexpr std::array<std::string_view, 5> kPaths{"linear", "circle", "human", "all", "sweep"};
-constexpr double kPaperFriction = 0.4;
-constexpr double kPaperDepth_px = 20.0;
 
 struct ExperimentOptions {
     std::string path{"all"};        ///< linear, circle, human, all or sweep
@@ -97,8 +96,8 @@ void run_sweep_command(const ExperimentOptions& options, Outputs& outputs) {
 void run_paths(const ExperimentOptions& options, Outputs& outputs) {
     const double clock_us = clock_cost_us();
     const bool all = options.path == "all";
-    const double mu = options.mu.value_or(kPaperFriction);
-    const double depth_px = options.depth_px.value_or(kPaperDepth_px);
+    const double mu = options.mu.value_or(kExperimentFriction);
+    const double depth_px = options.depth_px.value_or(kExperimentDepth_px);
     std::vector<PathRun> paths;
     std::optional<SampleClip> sample;
     std::optional<PathRun> human;
@@ -151,21 +150,21 @@ void add_options(CLI::App& app, ExperimentOptions& options) {
              "Hand of human: a pen's or mouse's trace (CSV: t_s,x_mm,y_mm[,pressure01]"
              "[,pen_down]); without either a modelled one");
     add_algorithms_option(app, options.algorithms);
-    add_number_option(app, "--friction,--mu", 0.0, 5.0,
+    TouchParameters any;
+    const TouchNumber& friction = number_of(any.friction.static_coefficient, any);
+    add_number_option(app, "--friction,--mu", friction.lowest, friction.highest,
                       "Coefficient of friction, 0 to 5; not for sweep",
                       [&options](double mu) { options.mu = mu; })
         ->type_name("MU")
-        ->default_str("0.4");
+        ->default_str(number_text(kExperimentFriction));
     add_number_option(app, "--depth", 0.1, 1000.0,
                       "Of the goals of linear and circle below the surface, 0.1 to 1000",
                       [&options](double depth_px) { options.depth_px = depth_px; })
         ->type_name("PX")
-        ->default_str("20");
-    add_number_option(app, "--relief", 0.0, 4096.0,
-                      "Elevation of the sample's nearest depth, for human, 0 to 4096",
-                      [&options](double relief_px) { options.human.shape.relief_px = relief_px; })
-        ->type_name("PX")
-        ->default_str("255");
+        ->default_str(number_text(kExperimentDepth_px));
+    add_touch_option(app, number_of(any.shape.relief_px, any),
+                     "Elevation of the sample's nearest depth, for human",
+                     [&options](double relief_px) { options.human.shape.relief_px = relief_px; });
     app.add_flag("--raw-depth", options.human.raw_depth, "The sample's depth without cleaning");
     app.footer(
         "Human is 20 s on the built-in sample; the trace's full pressure is 25 px below the "

@@ -122,9 +122,7 @@ void print_table(const Session& session, const std::vector<Run>& runs) {
 }
 
 std::string text_of(Vec3 v) {
-    std::ostringstream text;
-    text << std::setprecision(17) << '(' << v.x << ", " << v.y << ", " << v.z << ')';
-    return text.str();
+    return '(' + number_text(v.x) + ", " + number_text(v.y) + ", " + number_text(v.z) + ')';
 }
 
 /// "; it was recorded with libavcodec 59.37.100, this is 61.3.100": what may have decoded other
@@ -192,7 +190,6 @@ int run_replay(CLI::App& app, const Arguments& arguments) {
     ReplayOptions options;
     add_session(app, options.session);
     add_touch_options(app, options.touch);
-    app.remove_option(app.get_option("--algorithm"));  // here it may be given several times
     add_algorithms_option(app, options.algorithms);
     add_file(app, "--csv", options.csv, "Writes the rows of one run; - is standard output");
     app.add_flag("--any-media", options.any_media,

@@ -106,6 +106,7 @@ int run_touch(CLI::App& app, const Arguments& arguments) {
     add_file(app, "--out", options.out, "One row an update; - is standard output", "OUT.csv")
         ->default_str("-");
     app.add_flag("--video", options.video, "Blends the frames in time; else the first image");
+    add_algorithm_option(app, options.touch.given);
     add_touch_options(app, options.touch);
     app.footer(
         "Examples:\n"

@@ -157,6 +157,7 @@ int run_view(CLI::App& app, const Arguments& arguments) {
         ->type_name("WxH");
     app.add_flag("--any-media", options.any_media,
                  "Replays a session also over files that have changed since");
+    add_algorithm_option(app, touch.given);
     add_touch_options(app, touch);
     app.footer(
         "Examples:\n"

@@ -113,10 +113,9 @@ void play_and_step_buttons(bool playing, AnyPlayer& player, const std::string& s
 
 template <typename AnyPlayer>
 void speed_row(double speed, AnyPlayer& player) {
-    constexpr double kSlowest = 0.1;
-    constexpr double kFastest = 4.0;
-    if (number_row({"Speed", "x %.2f", kSlowest, kFastest, 1.0, "[ slower, ] faster"}, speed)) {
-        player.set_speed(std::clamp(speed, kSlowest, kFastest));
+    if (number_row({"Speed", "x %.2f", kSlowestSpeed, kFastestSpeed, 1.0, "[ slower, ] faster"},
+                   speed)) {
+        player.set_speed(speed);
     }
 }
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -16,6 +15,7 @@
 #include <vector>
 
 #include "app/python/module.hpp"
+#include "core/files/plain_text.hpp"
 
 namespace py = pybind11;
 
@@ -42,21 +42,20 @@ void write_cell(char* to, char kind, const SessionReader::Query& row, int column
         store(to, row.integer(column) != 0);
     } else {
         std::array<char32_t, 8> name{};
-        const std::string text = row.text(column);
-        std::copy_n(text.begin(), std::min(text.size(), name.size()), name.begin());
+        const std::string text = row.text(column).substr(0, name.size());
+        std::transform(text.begin(), text.end(), name.begin(),
+                       [](char c) { return static_cast<unsigned char>(c); });
         store(to, name);
     }
 }
 
 /// " FROM tick WHERE ...": the ticks of a span of time.
 std::string ticks_between(double begin_s, double end_s) {
-    const auto digits = [](double t_s) {
+    const auto bound = [](double t_s) {
         constexpr double kMost = std::numeric_limits<double>::max();  // SQL knows no infinity
-        std::array<char, 32> text{};
-        const double bound_s = std::clamp(t_s, -kMost, kMost);
-        return std::string(text.data(), std::to_chars(text.begin(), text.end(), bound_s).ptr);
+        return number_text(std::clamp(t_s, -kMost, kMost));
     };
-    return " FROM tick WHERE t BETWEEN " + digits(begin_s) + " AND " + digits(end_s);
+    return " FROM tick WHERE t BETWEEN " + bound(begin_s) + " AND " + bound(end_s);
 }
 
 std::int64_t count_ticks(const Session& session, double begin_s, double end_s) {
@@ -90,9 +89,19 @@ std::int64_t read_ticks(const Session& session, double begin_s, double end_s,
     return done;
 }
 
+/// As Python holds a file's name: whatever bytes a session has, it opens.
+py::object text_of(const std::string& text) {
+    return py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefault(text.c_str()));
+}
+
 py::object path_of(const SessionMedia& media) {
-    if (media.file.empty()) return py::none();
-    return py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefault(media.file.c_str()));
+    return media.file.empty() ? py::none() : text_of(media.file.string());
+}
+
+py::dict facts_of(const Session& session) {
+    py::dict all;
+    for (const auto& [name, fact] : session.facts()) all[text_of(name)] = text_of(fact);
+    return all;
 }
 
 py::list parameters_of(const Session& session) {
@@ -128,8 +137,8 @@ py::list sources_of(const Session& session) {
 py::list marks_of(const Session& session) {
     py::list all;
     for (const SessionMark& mark : session.marks()) {
-        all.append(py::dict(py::arg("t") = mark.t_s, py::arg("tag") = mark.tag,
-                            py::arg("text") = mark.text));
+        all.append(py::dict(py::arg("t") = mark.t_s, py::arg("tag") = text_of(mark.tag),
+                            py::arg("text") = text_of(mark.text)));
     }
     return all;
 }
@@ -143,7 +152,7 @@ void bind_session(py::module_& module) {
         .def("check", &Session::check, while_others_run)
         .def("count_ticks", &count_ticks, while_others_run)
         .def("read_ticks", &read_ticks)
-        .def("facts", &Session::facts)
+        .def("facts", &facts_of)
         .def("parameters", &parameters_of)
         .def("sources", &sources_of)
         .def("marks", &marks_of)
@@ -152,7 +161,7 @@ void bind_session(py::module_& module) {
                  return py::make_tuple(session.rows(), session.missing(), session.begin_s(),
                                        session.end_s());
              })
-        .def("warning", &Session::warning);
+        .def("warning", [](const Session& session) { return text_of(session.warning()); });
 }
 
 }  // namespace dibhr

@@ -5,19 +5,12 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <sstream>
 #include <system_error>
 
-#include "core/haptics/parameters.hpp"
+#include "core/files/plain_text.hpp"
 
 namespace dibhr {
 namespace {
-
-std::string text_of(double value) {
-    std::ostringstream text;
-    text << value;
-    return text.str();
-}
 
 /// "N s/m" -> "N_S_PER_M", a ratio -> "MU": what stands behind the option in the help.
 std::string placeholder_of(const TouchNumber& option) {
@@ -57,7 +50,7 @@ Algorithm known_algorithm(const std::string& name) {
 }
 
 std::string range_of(double lowest, double highest) {
-    return text_of(lowest) + " to " + text_of(highest);
+    return short_text(lowest) + " to " + short_text(highest);
 }
 
 /// Throws CLI::ValidationError that names `option`.
@@ -90,9 +83,9 @@ void GivenParameters::apply(TouchParameters& parameters) const {
     const double* const dynamic =
         value_of(number_of(parameters.friction.dynamic_coefficient, parameters));
     if (dynamic != nullptr && *dynamic > parameters.friction.static_coefficient) {
-        throw UsageError("--dynamic-friction " + text_of(*dynamic) +
+        throw UsageError("--dynamic-friction " + short_text(*dynamic) +
                          " is above the static friction " +
-                         text_of(parameters.friction.static_coefficient) +
+                         short_text(parameters.friction.static_coefficient) +
                          ": give --static-friction of at least as much, or --friction for both");
     }
     keep_in_range(parameters);
@@ -112,6 +105,14 @@ CLI::Option* add_number_option(CLI::App& app, const std::string& name, double lo
     return app.add_option_function<std::string>(
         name, [=](const std::string& text) { take(parse_number(option, text, lowest, highest)); },
         help);
+}
+
+CLI::Option* add_touch_option(CLI::App& app, const TouchNumber& number, const std::string& help,
+                              const std::function<void(double)>& take) {
+    return add_number_option(app, "--" + std::string(number.name), number.lowest, number.highest,
+                             help + ", " + range_of(number.lowest, number.highest), take)
+        ->type_name(placeholder_of(number))
+        ->default_str(short_text(number.standard()));
 }
 
 void add_algorithms_option(CLI::App& app, std::vector<Algorithm>& algorithms) {
@@ -142,13 +143,16 @@ void add_plot_format_option(CLI::App& app, std::vector<PlotFormat>& formats) {
         ->default_str("png");
 }
 
-void add_touch_options(CLI::App& app, TouchRequest& request) {
+void add_algorithm_option(CLI::App& app, GivenParameters& given) {
     app.add_option_function<std::string>(
            "--algorithm",
-           [&request](const std::string& name) { request.given.algorithm = known_algorithm(name); },
+           [&given](const std::string& name) { given.algorithm = known_algorithm(name); },
            "How the proxy follows the goal: " + names_of(all_algorithms()))
         ->type_name("NAME")
         ->default_str("dibhr");
+}
+
+void add_touch_options(CLI::App& app, TouchRequest& request) {
     // The range is that of the coefficients it stands for.
     TouchParameters any;
     const TouchNumber& coefficient = number_of(any.friction.static_coefficient, any);
@@ -157,13 +161,9 @@ void add_touch_options(CLI::App& app, TouchRequest& request) {
                       [&request](double mu) { request.given.friction = mu; })
         ->type_name("MU");
     for (const TouchNumber& option : touch_numbers()) {
-        add_number_option(app, "--" + std::string(option.name), option.lowest, option.highest,
-                          std::string(option.help) + ", " + range_of(option.lowest, option.highest),
-                          [&request, &option](double value) {
-                              request.given.numbers.emplace_back(&option, value);
-                          })
-            ->type_name(placeholder_of(option))
-            ->default_str(text_of(option.standard()));
+        add_touch_option(app, option, std::string(option.help), [&request, &option](double value) {
+            request.given.numbers.emplace_back(&option, value);
+        });
     }
     app.add_option("--bump", request.bump, "Bump map laid over the surface: an 8- or 16-bit image")
         ->type_name("IMAGE");

@@ -48,6 +48,14 @@ CLI::Option* add_number_option(CLI::App& app, const std::string& name, double lo
                                double highest, const std::string& help,
                                const std::function<void(double)>& take);
 
+/// The option of an entry of touch_numbers(): its name, range and default; the range is added to
+/// `help`.
+CLI::Option* add_touch_option(CLI::App& app, const TouchNumber& number, const std::string& help,
+                              const std::function<void(double)>& take);
+
+/// --algorithm NAME. `given` must outlive the parsing of `app`.
+void add_algorithm_option(CLI::App& app, GivenParameters& given);
+
 /// --algorithm NAME, several times. `algorithms` must outlive the parsing of `app`.
 void add_algorithms_option(CLI::App& app, std::vector<Algorithm>& algorithms);
 
@@ -55,8 +63,8 @@ void add_algorithms_option(CLI::App& app, std::vector<Algorithm>& algorithms);
 /// none is given.
 void add_plot_format_option(CLI::App& app, std::vector<PlotFormat>& formats);
 
-/// --algorithm, --friction, --bump, --raw-depth and every entry of touch_numbers(). `request` must
-/// outlive the parsing of `app`.
+/// --friction, --bump, --raw-depth and every entry of touch_numbers(). `request` must outlive the
+/// parsing of `app`.
 void add_touch_options(CLI::App& app, TouchRequest& request);
 
 }  // namespace dibhr

@@ -61,9 +61,8 @@ std::string take(const toml::node& node, const Setting&, std::string& value) {
 std::string take(const toml::node& node, const Setting& setting, double& value) {
     const auto read = node.is_number() ? node.value<double>() : std::nullopt;
     if (!read || !(*read >= setting.lowest && *read <= setting.highest)) {
-        std::ostringstream lacking;
-        lacking << "is not a number from " << setting.lowest << " to " << setting.highest;
-        return lacking.str();
+        return "is not a number from " + short_text(setting.lowest) + " to " +
+               short_text(setting.highest);
     }
     value = *read;
     return {};

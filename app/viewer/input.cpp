@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kSeekStep_s = 5.0;
 constexpr int kPicturesToFocus = 30;  // it takes two; a field out of sight never gets it
-constexpr double kSpeeds[] = {0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 3.0, 4.0};
+constexpr double kSpeeds[] = {kSlowestSpeed, 0.25, 0.5, 0.75, 1.0,
+                              1.25,          1.5,  2.0, 3.0,  kFastestSpeed};
 
 double faster_than(double speed) {
     const auto* next = std::upper_bound(std::begin(kSpeeds), std::end(kSpeeds), speed + 1e-6);

@@ -63,8 +63,8 @@ std::uint32_t ViewerRecording::opened(const MediaDescription& media) {
 }
 
 void ViewerRecording::start(const std::filesystem::path& file, ViewerState& state) {
-    for (TickRecord left; ticks_.pop(left);) {
-    }  // what a stopped recording left behind
+    TickRecord left_behind;  // of a recording that was stopped
+    while (ticks_.pop(left_behind)) continue;
     participant_ = state.fields.participant.data();
     note_ = state.fields.note.data();
     std::map<std::string, std::string> facts = session_facts(state);

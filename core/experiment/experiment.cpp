@@ -20,8 +20,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kColumns = 720;
-constexpr int kRows = 486;
 constexpr double kLevel = 100.0;
 constexpr double kRadius_px = 200.0;
 constexpr int kWholeRuns = 5;
@@ -104,9 +102,9 @@ PathRun plane_path(const char* name, Vec3 (*goal_at)(const PathPlace&, int) noex
     path.source = kPlaneSource;
     path.mu = mu;
     path.depth_px = depth_px;
-    path.columns = kColumns;
-    path.rows = kRows;
-    const PathPlace place{0.5 * kColumns, 0.5 * kRows, kLevel, depth_px};
+    path.columns = kPaperColumns;
+    path.rows = kPaperRows;
+    const PathPlace place{0.5 * kPaperColumns, 0.5 * kPaperRows, kLevel, depth_px};
     for (int k = 0; k < updates; ++k) path.goals.push_back(goal_at(place, k));
     path.reversal =
         reversal_updates(path.goals, std::vector<double>(path.goals.size(), depth_px), mu);
@@ -147,8 +145,9 @@ constexpr double kHalfLine_px = 300.0;
 }  // namespace
 
 DepthClip paper_plane() {
-    DepthImage image{kColumns, kRows, 255.0, {}};
-    image.levels.assign(std::size_t{kColumns} * std::size_t{kRows}, static_cast<float>(kLevel));
+    DepthImage image{kPaperColumns, kPaperRows, 255.0, {}};
+    image.levels.assign(std::size_t{kPaperColumns} * std::size_t{kPaperRows},
+                        static_cast<float>(kLevel));
     return {{{.depth = std::make_shared<const DepthImage>(std::move(image))}}, SurfaceShape{}};
 }
 

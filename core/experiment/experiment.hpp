@@ -18,6 +18,14 @@
 
 namespace dibhr {
 
+/// The size of the paper's images.
+inline constexpr int kPaperColumns = 720;
+inline constexpr int kPaperRows = 486;
+
+/// What the paper does not print: of the goals below the surface, and of the contact.
+inline constexpr double kExperimentDepth_px = 20.0;
+inline constexpr double kExperimentFriction = 0.4;
+
 /// The paper's 20 s at 1 kHz.
 inline constexpr int kExperimentUpdates = 20000;
 inline constexpr double kUpdate_s = 1e-3;
@@ -56,9 +64,9 @@ struct PathRun {
     std::string source{};           ///< what the goals are, for the report
     std::vector<Vec3> goals{};      ///< grid space, one a millisecond
     std::vector<double> times_s{};  ///< of the clip at each update; empty: a millisecond apart
-    double mu{0.4};
-    double depth_px{20.0};  ///< of the goals below the surface; their mean while in it for human
-    int columns{0};         ///< of the depth image
+    double mu{kExperimentFriction};
+    double depth_px{kExperimentDepth_px};  ///< of the goals; for human their mean in contact
+    int columns{0};                        ///< of the depth image
     int rows{0};
     int settling_updates{0};       ///< the first ones, left out of the variation while it slides
     std::vector<char> reversal{};  ///< 1: the goal's motion reverses in this update
@@ -152,7 +160,7 @@ struct PathPlace {
     double centre_x{0.0};
     double centre_y{0.0};
     double surface_px{0.0};
-    double depth_px{20.0};
+    double depth_px{kExperimentDepth_px};
 };
 
 /// Along a row, 300 px to either side of the centre, back and forth; update = 0, 1, 2, ...

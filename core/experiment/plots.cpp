@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/experiment/report.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/haptics/words.hpp"
 #include "core/metrics/force_variation.hpp"
 #include "core/plot/axes.hpp"
@@ -87,6 +88,18 @@ std::vector<Vec2> series_of(const std::vector<SweepPoint>& points, double depth_
     }
     std::sort(series.begin(), series.end(), [](Vec2 a, Vec2 b) { return a.x < b.x; });
     return series;
+}
+
+/// "DIBHR 0.53, PGA (proxy graph) 4.13, Neighborhood 7.45": Table 1, around the circle [deg].
+std::string printed_means() {
+    std::string means;
+    for (const Word<Algorithm>& word : algorithm_words()) {
+        const auto paper = paper_result("circle", word.value);
+        if (!paper) continue;
+        means.append(means.empty() ? "" : ", ").append(word.label);
+        means.append(" ").append(number_text(paper->variation_mean_deg, 2));
+    }
+    return means;
 }
 
 /// The paper's Table 1.
@@ -167,8 +180,8 @@ Canvas plot_explanation(const PathRun& circle) {
 Canvas plot_sweep(const std::vector<SweepPoint>& points) {
     Canvas canvas(1600, 960, kPaper);
     draw_title(canvas, "How friction and depth change the force's turning: circle",
-               "thin dotted lines: what the paper prints for DIBHR (0.53), PGA (4.13) and "
-               "Neighborhood (7.45) without saying \u03bc or depth");
+               "thin dotted lines: what the paper prints, " + printed_means() +
+                   " without saying \u03bc or depth");
     const std::vector<double> depths = shown_depths(points);
     const std::vector<Algorithm> algorithms = from_the_back(points);
     const ValueSpan mu = span_of_mu(points);

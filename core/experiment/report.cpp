@@ -24,15 +24,7 @@ constexpr int kPaperWidth = 15;
 
 /// Short for the large, telling for the small: 0, 3.1e-14, 0.0123, 12.3.
 std::string short_number(double value) {
-    std::ostringstream text;
-    const double size = std::abs(value);
-    if (size == 0.0) return "0";
-    if (size < 1e-3) {
-        text << std::scientific << std::setprecision(1) << value;
-    } else {
-        text << std::setprecision(3) << value;
-    }
-    return text.str();
+    return short_text(value, std::abs(value) < 1e-3 ? 2 : 3);
 }
 
 /// Round-off is shown as 0.

@@ -10,9 +10,7 @@ extern "C" {
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
-#include <iomanip>
 #include <iostream>
-#include <sstream>
 #include <utility>
 
 namespace dibhr {
@@ -20,6 +18,12 @@ namespace dibhr {
 namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
+
+std::string written(double value, std::chars_format format, int digits) {
+    std::array<char, 512> text{};  // the largest double has 309 digits before the point
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value, format, digits);
+    return {text.data(), end.ptr};
+}
 
 unsigned byte_at(std::string_view text, std::size_t k) {
     return static_cast<unsigned char>(text[k]);
@@ -114,9 +118,11 @@ std::string number_text(double value) {
 }
 
 std::string number_text(double value, int digits) {
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(digits) << value;
-    return text.str();
+    return written(value, std::chars_format::fixed, digits);
+}
+
+std::string short_text(double value, int digits) {
+    return written(value, std::chars_format::general, digits);
 }
 
 void append_number(std::string& text, double value) {

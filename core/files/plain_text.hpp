@@ -28,8 +28,11 @@ namespace dibhr {
 /// The shortest text that reads back to the same number.
 [[nodiscard]] std::string number_text(double value);
 
-/// With so many digits after the point.
+/// With so many digits after the point, at most 200.
 [[nodiscard]] std::string number_text(double value, int digits);
+
+/// With so many digits that count, at most 200, and no zeros at the end: 0.123, 12.3, 1.23e-05.
+[[nodiscard]] std::string short_text(double value, int digits = 6);
 
 /// Appends with 17 significant digits, as CSV files have it: reads back to the same bits.
 void append_number(std::string& text, double value);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array<Word<Algorithm>, 4> kWords{{
     {Algorithm::dibhr, "dibhr", "DIBHR"},
-    {Algorithm::pga, "pga", "Proxy graph (PGA)"},
+    {Algorithm::pga, "pga", "PGA (proxy graph)"},
     {Algorithm::neighborhood, "neighborhood", "Neighborhood"},
     {Algorithm::god_object, "god-object", "God-object"},
 }};

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <glm/common.hpp>
 #include <utility>
 
@@ -100,10 +99,8 @@ std::vector<double> decade_ticks(ValueSpan span, int most) {
 }
 
 std::string tick_text(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", std::abs(value) < 1e-300 ? 0.0 : value);
-    std::string shown = text;
-    // printf writes 1e-05: one digit less says the same.
+    std::string shown = short_text(std::abs(value) < 1e-300 ? 0.0 : value, 4);
+    // It writes 1e-05: one digit less says the same.
     if (const auto e = shown.find("e-0"); e != std::string::npos) shown.erase(e + 2, 1);
     if (const auto e = shown.find("e+0"); e != std::string::npos) shown.erase(e + 1, 2);
     return shown;
@@ -193,15 +190,16 @@ void Axes::draw_series(Canvas& canvas, std::span<const Vec2> values, const Strok
 }
 
 SeriesLook look_of(Algorithm algorithm) {
+    const char* const name = entry_of(algorithm_words(), algorithm).label;
     switch (algorithm) {
         case Algorithm::dibhr:
-            return {"DIBHR", {kBlue, 2.5, Dash::solid}, Marker::circle};
+            return {name, {kBlue, 2.5, Dash::solid}, Marker::circle};
         case Algorithm::pga:
-            return {"PGA (proxy graph)", {kVermillion, 2.0, Dash::dashed}, Marker::triangle};
+            return {name, {kVermillion, 2.0, Dash::dashed}, Marker::triangle};
         case Algorithm::neighborhood:
-            return {"Neighborhood", {kGreen, 2.0, Dash::dash_dot}, Marker::diamond};
+            return {name, {kGreen, 2.0, Dash::dash_dot}, Marker::diamond};
         case Algorithm::god_object:
-            return {"God-object", {kPurple, 2.5, Dash::dotted}, Marker::square};
+            return {name, {kPurple, 2.5, Dash::dotted}, Marker::square};
     }
     return {};
 }

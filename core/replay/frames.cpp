@@ -12,6 +12,7 @@
 
 #include "core/error.hpp"
 #include "core/files/content_hash.hpp"
+#include "core/files/plain_text.hpp"
 
 namespace dibhr {
 
@@ -177,7 +178,7 @@ Frame SessionFrames::frame(const FrameSource& source, double media_s) {
     }
     if (kept == nullptr) {
         throw InputError(videos_[source.media].depth.string() + ": has no frame at " +
-                         std::to_string(media_s) +
+                         number_text(media_s) +
                          " s, which was touched; put the video back that was recorded over");
     }
     Frame frame = kept->frame;

@@ -29,8 +29,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kTicksAhead = 400.0;  // at speed 1; what is decoded meanwhile does not show
 constexpr std::size_t kBatch = 25;
-constexpr double kLowestSpeed = 0.1;
-constexpr double kHighestSpeed = 4.0;
 constexpr double kRunIn_s = 1.0;
 
 /// The moments of a session, one after the other. One thread at a time, the opened session's.
@@ -362,7 +360,7 @@ void SessionPlayer::set_looping(bool looping) {
 void SessionPlayer::set_speed(double speed) {
     Implementation& here = *implementation_;
     here.anchor(here.playback.now_s);
-    here.playback.speed = std::clamp(speed, kLowestSpeed, kHighestSpeed);
+    here.playback.speed = std::clamp(speed, kSlowestSpeed, kFastestSpeed);
     const std::lock_guard lock(here.mutex);
     here.ticks_ahead = kTicksAhead * std::max(1.0, here.playback.speed);
 }

@@ -64,7 +64,7 @@ class SessionPlayer {
     void seek(double t_s);  ///< keeps playing or paused; of many in a row the last one counts
     void step(int ticks);   ///< pauses, then moves by that many ticks forth, or by one back
     void set_looping(bool looping);
-    void set_speed(double speed);  ///< 0.1 .. 4
+    void set_speed(double speed);  ///< kSlowestSpeed .. kFastestSpeed
     /// What these parameters give is computed from now on; nothing: as recorded.
     void compute(const std::optional<TouchParameters>& other);
 

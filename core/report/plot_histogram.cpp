@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/files/plain_text.hpp"
 #include "core/plot/axes.hpp"
 #include "core/report/report_plots.hpp"
 
@@ -23,13 +23,6 @@ struct Bar {
     double from{0.0}, to{0.0};
     double height{0.0};
 };
-
-/// Three digits that count.
-std::string short_text(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
-}
 
 double highest_of(const std::vector<Bar>& bars) {
     double highest = 0.0;
@@ -83,7 +76,7 @@ Canvas plot_distribution(const std::string& title, const std::string& quantity,
     draw_bars(canvas, axes, drawn);
     axes.draw_frame(canvas);
     const auto named = [&](const char* name, double value) {
-        return std::pair(value, name + (" " + short_text(value) + " " + unit));
+        return std::pair(value, name + (" " + short_text(value, 3) + " " + unit));
     };
     draw_values(
         canvas, axes,
@@ -163,7 +156,7 @@ Canvas plot_contact_histogram(const SessionNumbers& numbers, const PlotWords& wo
     draw_bars(canvas, axes, bars);
     axes.draw_frame(canvas);
     const double median = lengths[lengths.size() / 2];
-    draw_values(canvas, axes, {{median, "median " + short_text(median) + " s"}});
+    draw_values(canvas, axes, {{median, "median " + short_text(median, 3) + " s"}});
     return canvas;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/haptics/parameters.hpp"
 #include "core/plot/canvas.hpp"
 #include "core/report/session_numbers.hpp"
 #include "core/session/tick_record.hpp"
@@ -16,7 +17,7 @@ struct HeatMapGround {
     ColourImage picture{};  ///< of any size; empty: plain ground
     int columns{0};         ///< of the depth image
     int rows{0};
-    double pitch_mm{0.1};
+    double pitch_mm{kPaperPitch_mm};
 };
 
 /// The standard deviation of the Gaussian that spreads the touch of a pixel over its neighbours, in

@@ -35,6 +35,10 @@ struct Frame {
     CleaningOptions cleaning{};  ///< how its depth was cleaned
 };
 
+/// How slowly and how fast a video or a session plays.
+inline constexpr double kSlowestSpeed = 0.1;
+inline constexpr double kFastestSpeed = 4.0;
+
 /// Maps the monotonic clock to the playback timeline.
 struct PlaybackClock {
     std::chrono::steady_clock::time_point anchor{};

@@ -9,12 +9,11 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/files/plain_text.hpp"
 
 namespace dibhr {
 namespace {
 
-constexpr double kSlowest = 0.1;
-constexpr double kFastest = 4.0;
 constexpr double kJump_s = 0.001;  ///< a jump begins later: no playback time means two frames
 
 }  // namespace
@@ -99,7 +98,7 @@ void Playback::set_looping(bool looping) {
 }
 
 void Playback::set_speed(double speed, Time now) {
-    speed_ = speed > kSlowest ? std::min(speed, kFastest) : kSlowest;
+    speed_ = speed > kSlowestSpeed ? std::min(speed, kFastestSpeed) : kSlowestSpeed;
     anchor(moment(now), now);
 }
 
@@ -117,8 +116,8 @@ void Playback::clean_again(const CleaningOptions& options) {
         for (const Frame& frame : frames_) {
             auto again = reader_->at(frame.media_s);
             if (!again) {
-                throw InputError("the video cannot be read again at " +
-                                 std::to_string(frame.media_s) + " s: open it again");
+                throw InputError("the video cannot be read again at " + number_text(frame.media_s) +
+                                 " s: open it again");
             }
             again->time_s = frame.time_s;
             cleaned.push_back(std::move(*again));

@@ -46,7 +46,7 @@ class Player {
     void seek(double media_s);  ///< to the frame shown at that time; keeps playing or paused
     void step(int frames);      ///< pauses, then moves by whole frames, back or forth
     void set_looping(bool looping);
-    void set_speed(double speed);  ///< 0.1 .. 4
+    void set_speed(double speed);  ///< kSlowestSpeed .. kFastestSpeed
     void set_cleaning(const CleaningOptions& options);
 
     [[nodiscard]] PlaybackStatus status() const;

@@ -63,7 +63,8 @@ const std::vector<Room> kRooms{
      {"app/viewer/", "app/panels/", "app/settings/", "app/window/", "render/", "device/", "core/"}},
     {"app/commands/",
      {"app/commands/", "app/viewer/", "app/settings/", "app/window/", "device/", "core/"}},
-    {"app/python/", {"app/python/", "core/haptics/", "core/session/", "core/error.hpp"}},
+    {"app/python/",
+     {"app/python/", "core/files/", "core/haptics/", "core/session/", "core/error.hpp"}},
     {"app/", {"app/", "core/"}},
 };
 

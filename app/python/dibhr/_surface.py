@@ -9,13 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _dibhr
-from ._values import InputError, in_range
+from ._values import InputError, as_array, in_range
 
 
 def _picture(given: Any, what: str, smallest: int) -> NDArray[Any]:
-    if isinstance(given, np.ma.MaskedArray) and given.mask.any():
-        raise InputError(f"{what}: some of its values are masked; fill them")
-    picture = np.asarray(given)
+    picture = as_array(given, what)
     if picture.dtype.newbyteorder("=") not in (np.uint8, np.uint16, np.float32, np.float64):
         raise InputError(
             f"{what}: uint8, uint16, float32 or float64 is needed, not {picture.dtype}"

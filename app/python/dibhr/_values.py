@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -36,14 +37,21 @@ def in_range(what: str, value: float, lowest: float, highest: float) -> float:
     return number
 
 
+def as_array(given: Any, what: str) -> NDArray[Any]:
+    """As numpy reads it; rows of different lengths are no numbers."""
+    if isinstance(given, np.ma.MaskedArray) and given.mask.any():
+        raise InputError(f"{what}: some of its values are masked; fill them")
+    try:
+        return np.asarray(given)
+    except ValueError:
+        return np.empty(0, object)
+
+
 def finite_numbers(
     given: ArrayLike, what: str, shape: tuple[int | None, ...]
 ) -> NDArray[np.float64]:
     """Finite numbers of that shape, in which None is any length."""
-    try:
-        array = np.asarray(given)
-    except ValueError:  # rows of different lengths
-        array = np.empty(0, object)
+    array = as_array(given, what)
     if array.dtype.kind not in "fiu":
         raise InputError(f"{what}: real numbers are needed")
     fits = [want in (None, have) for want, have in zip(shape, array.shape)]

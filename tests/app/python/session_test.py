@@ -96,6 +96,16 @@ class Sessions(FolderTest):
         self.file.rename(name)
         self.assertEqual(len(dibhr.Session(str(name)).ticks()), TICKS)
 
+    def test_may_hold_texts_that_are_no_utf_8(self):
+        with sqlite3.connect(self.file) as database:
+            database.execute("UPDATE session SET value = CAST(x'ff41' AS TEXT) WHERE key = 'device'")
+            database.execute("UPDATE mark SET text = CAST(x'42fe' AS TEXT)")
+        database.close()
+        session = dibhr.Session(self.file)
+        self.assertEqual(os.fsencode(session.facts["device"]), b"\xffA")
+        self.assertEqual(os.fsencode(session.marks[0]["text"]), b"B\xfe")
+        self.assertEqual(len(session.ticks()), TICKS)
+
     def test_that_cannot_be_read_are_errors_in_the_programs_words(self):
         (self.folder / "text.dibhr").write_text("no session\n" * 1000)
         (self.folder / "cut.dibhr").write_bytes(self.file.read_bytes()[:5000])
