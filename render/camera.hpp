@@ -12,10 +12,8 @@ namespace dibhr {
 /// `world = (x - (columns-1)/2, (rows-1)/2 - y, z)`.
 class Camera {
   public:
-    enum class Projection {
-        perspective,
-        straight
-    };  ///< straight: orthographic, along the recording axis
+    /// straight: orthographic, along the recording axis.
+    enum class Projection { perspective, straight };
 
     /// Puts the whole relief of this size into view, from the default three-quarter angle. It is in
     /// view whatever the window's proportions.
@@ -34,7 +32,6 @@ class Camera {
     void zoom(double factor);
 
     void set_projection(Projection projection) { projection_ = projection; }
-    [[nodiscard]] Projection projection() const { return projection_; }
 
     [[nodiscard]] glm::dmat4 view_from_world() const;
     [[nodiscard]] glm::dmat4 clip_from_view(double aspect) const;  ///< aspect = width / height

@@ -50,8 +50,8 @@ Vec3 perpendicular(Vec3 unit) {
     return glm::normalize(glm::cross(unit, other));
 }
 
-void add_force_arrow(std::vector<Stroke>& strokes, const TouchMarkers& touch, const Camera& camera,
-                     double scale) {
+void add_force_arrow(std::vector<MarkerStroke>& strokes, const TouchMarkers& touch,
+                     const Camera& camera, double scale) {
     const double newton = glm::length(touch.force_newton);
     if (!(newton > kLeastForce_newton) || !(touch.newton_per_px > 0.0)) return;
     const Vec3 direction = touch.force_newton / newton;
@@ -72,15 +72,16 @@ constexpr double kScaleHeight_px = 800.0;
 
 void stroke_attribute(GLuint location, GLint count, std::size_t offset) {
     glEnableVertexAttribArray(location);
-    glVertexAttribPointer(location, count, GL_FLOAT, GL_FALSE, sizeof(Stroke),
+    glVertexAttribPointer(location, count, GL_FLOAT, GL_FALSE, sizeof(MarkerStroke),
                           attribute_offset(offset));
     glVertexAttribDivisor(location, 1);
 }
 
 }  // namespace
 
-std::vector<Stroke> touch_strokes(const TouchMarkers& touch, const Camera& camera, double scale) {
-    std::vector<Stroke> strokes;
+std::vector<MarkerStroke> touch_strokes(const TouchMarkers& touch, const Camera& camera,
+                                        double scale) {
+    std::vector<MarkerStroke> strokes;
     if (!touch.visible || !is_finite(touch.goal) || !is_finite(touch.proxy)) return strokes;
     const glm::vec4 goal = ball(camera, touch.goal, kGoalRadius * scale);
     const glm::vec4 proxy = ball(camera, touch.proxy, kProxyRadius * scale);
@@ -121,16 +122,16 @@ MarkerPass::MarkerPass()
       cone_program_(shaders::kConeVert, shaders::kConeFrag) {
     glBindVertexArray(stroke_array_.get());
     glBindBuffer(GL_ARRAY_BUFFER, stroke_buffer_.get());
-    stroke_attribute(0, 4, offsetof(Stroke, ball_a));
-    stroke_attribute(1, 4, offsetof(Stroke, ball_b));
-    stroke_attribute(2, 4, offsetof(Stroke, tint));
-    stroke_attribute(3, 1, offsetof(Stroke, hollow));
+    stroke_attribute(0, 4, offsetof(MarkerStroke, ball_a));
+    stroke_attribute(1, 4, offsetof(MarkerStroke, ball_b));
+    stroke_attribute(2, 4, offsetof(MarkerStroke, tint));
+    stroke_attribute(3, 1, offsetof(MarkerStroke, hollow));
     glBindVertexArray(0);
 }
 
 void MarkerPass::draw(const TouchMarkers& touch, const Camera& camera, glm::ivec2 size) {
     const double scale = std::clamp(size.y / kScaleHeight_px, 0.6, 4.0);
-    std::vector<Stroke> strokes = touch_strokes(touch, camera, scale);
+    std::vector<MarkerStroke> strokes = touch_strokes(touch, camera, scale);
     if (strokes.empty()) return;
     const glm::mat4 view(camera.view_from_world());
     const glm::mat4 clip(camera.clip_from_view(static_cast<double>(size.x) / size.y));
@@ -162,17 +163,18 @@ void MarkerPass::draw_cone(const FrictionCone& cone, const glm::mat4& clip_from_
     draw_where(GL_LEQUAL, 1.0F);
 }
 
-void MarkerPass::draw_strokes(std::vector<Stroke> strokes, const glm::mat4& view_from_world,
+void MarkerPass::draw_strokes(std::vector<MarkerStroke> strokes, const glm::mat4& view_from_world,
                               const glm::mat4& clip_from_view, glm::ivec2 size) {
     // Soft edges blend with what lies behind them: far strokes first.
-    const auto nearness = [&](const Stroke& s) {
+    const auto nearness = [&](const MarkerStroke& s) {
         const glm::vec3 middle = 0.5F * (glm::vec3(s.ball_a) + glm::vec3(s.ball_b));
         return (view_from_world * glm::vec4(middle, 1.0F)).z;
     };
-    std::stable_sort(strokes.begin(), strokes.end(),
-                     [&](const Stroke& a, const Stroke& b) { return nearness(a) < nearness(b); });
+    std::stable_sort(
+        strokes.begin(), strokes.end(),
+        [&](const MarkerStroke& a, const MarkerStroke& b) { return nearness(a) < nearness(b); });
     glBindBuffer(GL_ARRAY_BUFFER, stroke_buffer_.get());
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(strokes.size() * sizeof(Stroke)),
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(strokes.size() * sizeof(MarkerStroke)),
                  strokes.data(), GL_STREAM_DRAW);
     stroke_program_.use();
     stroke_program_.set("view_from_world", view_from_world);

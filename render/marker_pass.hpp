@@ -16,7 +16,7 @@
 namespace dibhr {
 
 /// A rounded line between two balls in world space (one ball when both ends are the same).
-struct Stroke {
+struct MarkerStroke {
     glm::vec4 ball_a{0.0F};  ///< centre [world], radius [screen px]
     glm::vec4 ball_b{0.0F};
     glm::vec4 tint{1.0F};  ///< red, green, blue, opacity
@@ -26,8 +26,8 @@ struct Stroke {
 /// Proxy: a blue ball. Goal: an orange ring. Spring: a thin grey line. Normal: a thin green line.
 /// Force: a yellow arrow from the proxy. Recorded proxy: a pale ball. Nothing when the markers are
 /// not visible. `scale` 1 suits a picture 800 pixels high.
-[[nodiscard]] std::vector<Stroke> touch_strokes(const TouchMarkers& touch, const Camera& camera,
-                                                double scale);
+[[nodiscard]] std::vector<MarkerStroke> touch_strokes(const TouchMarkers& touch,
+                                                      const Camera& camera, double scale);
 
 /// The friction cone in world space: apex at the goal, opening atan(mu), as high as the goal is
 /// deep, so that its rim is where the proxy may rest without slipping.
@@ -51,7 +51,7 @@ class MarkerPass {
 
   private:
     void draw_cone(const FrictionCone& cone, const glm::mat4& clip_from_world) const;
-    void draw_strokes(std::vector<Stroke> strokes, const glm::mat4& view_from_world,
+    void draw_strokes(std::vector<MarkerStroke> strokes, const glm::mat4& view_from_world,
                       const glm::mat4& clip_from_view, glm::ivec2 size);
 
     ShaderProgram stroke_program_;

@@ -11,8 +11,7 @@ struct FingerPlan {
     std::array<float, 3> bone;
     float base_radius;
     float tip_radius;
-    float
-        lean_rad;  // away from the middle finger when spread, positive to the little finger's side
+    float lean_rad;  // away from the middle finger when spread, positive to the little one's side
 };
 
 constexpr std::array<FingerPlan, 4> kPlans{{

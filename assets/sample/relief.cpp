@@ -54,8 +54,7 @@ void march_tile(const Scene& scene, Relief& relief, int column, int row) {
 Hit cast(const Scene& scene, Vec2 place, float from_level, Parts parts) noexcept {
     constexpr int kMaxSteps = 160;
     constexpr float kClose = 0.01F;
-    constexpr float kCareful =
-        1.25F;  // the small relief makes distances inexact: never trust one fully
+    constexpr float kCareful = 1.25F;  // the small relief makes distances inexact: trust none fully
     const float wall = Scene::wall_level(place);
     float level = from_level, before = 0.0F, went = 0.0F;
     for (int step = 0; step < kMaxSteps && level > wall; ++step) {

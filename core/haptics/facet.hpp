@@ -60,8 +60,6 @@ class Facet {
     [[nodiscard]] int sign() const noexcept { return sign_; }
     [[nodiscard]] int corner_x() const noexcept { return i_; }
     [[nodiscard]] int corner_y() const noexcept { return j_; }
-    /// x + y of the diagonal.
-    [[nodiscard]] int diagonal_sum() const noexcept { return i_ + j_ + sign_; }
 
     [[nodiscard]] double slope_x() const noexcept { return sign_ * (beside_ - corner_); }
     [[nodiscard]] double slope_y() const noexcept { return sign_ * (below_ - corner_); }

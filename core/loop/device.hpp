@@ -16,7 +16,7 @@ namespace dibhr {
 struct DeviceSpecification {
     std::string name{};  ///< "mouse", "goals:FILE", "Novint Falcon (serial)"
     DeviceLimits limits{};
-    Vec3 workspace_mm{101.6};  ///< extents of the volume it reaches
+    Vec3 workspace_mm{101.6};  ///< extents of the volume it reaches; a Falcon's are 4 inches
 };
 
 /// No motors: it stands the most that people can ask for (touch_numbers() of core/haptics). Under

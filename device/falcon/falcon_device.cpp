@@ -14,7 +14,6 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kOldestReply{20};
 constexpr double kMaxForce_newton = 8.0;
 constexpr double kMaxStiffness_newton_per_mm = 1.0;
-constexpr double kExtent_mm = 101.6;  // 4 inches
 constexpr double kMetre_mm = 1000.0;
 constexpr double kAboveAll_px = 6.0;
 
@@ -24,7 +23,6 @@ DeviceSpecification specification_of(const ConnectionOptions& options) {
         options.serial.empty() ? "Novint Falcon" : "Novint Falcon (" + options.serial + ")";
     specification.limits.max_force_newton = kMaxForce_newton;
     specification.limits.max_stiffness_newton_per_mm = kMaxStiffness_newton_per_mm;
-    specification.workspace_mm = Vec3{kExtent_mm};
     return specification;
 }
 

@@ -48,10 +48,10 @@ TEST_CASE("out of contact only proxy and goal are shown, a ball and a ring") {
     TouchMarkers touch = pressed();
     touch.contact = false;
     touch.force_newton = {};
-    const std::vector<Stroke> strokes = touch_strokes(touch, camera_640x480(), 1.0);
+    const std::vector<MarkerStroke> strokes = touch_strokes(touch, camera_640x480(), 1.0);
     REQUIRE(strokes.size() == 2);
     const auto rings = std::count_if(strokes.begin(), strokes.end(),
-                                     [](const Stroke& s) { return s.hollow > 0.0F; });
+                                     [](const MarkerStroke& s) { return s.hollow > 0.0F; });
     CHECK(rings == 1);
     CHECK_FALSE(friction_cone(touch, camera_640x480()).has_value());
 }
@@ -62,10 +62,10 @@ TEST_CASE(
     const Camera camera = camera_640x480();
     const std::size_t without = touch_strokes(touch, camera, 1.0).size();
     touch.recorded_proxy = touch.proxy + Vec3{12.0, 0.0, 3.0};
-    const std::vector<Stroke> strokes = touch_strokes(touch, camera, 1.0);
+    const std::vector<MarkerStroke> strokes = touch_strokes(touch, camera, 1.0);
     CHECK(strokes.size() == without + 1);
     const glm::vec3 recorded(camera.world_from_grid(*touch.recorded_proxy));
-    const auto there = std::find_if(strokes.begin(), strokes.end(), [&](const Stroke& s) {
+    const auto there = std::find_if(strokes.begin(), strokes.end(), [&](const MarkerStroke& s) {
         return glm::length(glm::vec3(s.ball_a) - recorded) < 1e-3F;
     });
     REQUIRE(there != strokes.end());
@@ -76,10 +76,10 @@ TEST_CASE(
     "the force arrow starts at the proxy, points along the force and is as long as it is strong") {
     const TouchMarkers touch = pressed();
     const Camera camera = camera_640x480();
-    const std::vector<Stroke> with = touch_strokes(touch, camera, 1.0);
+    const std::vector<MarkerStroke> with = touch_strokes(touch, camera, 1.0);
     const Vec3 tip = touch.proxy + touch.force_newton / touch.newton_per_px;
     const glm::vec3 tip_in_world(camera.world_from_grid(tip));
-    const auto reaches_tip = [&](const Stroke& s) {
+    const auto reaches_tip = [&](const MarkerStroke& s) {
         return glm::length(glm::vec3(s.ball_b) - tip_in_world) < 1e-3F;
     };
     CHECK(std::count_if(with.begin(), with.end(), reaches_tip) == 1);
