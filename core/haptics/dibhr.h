@@ -75,7 +75,8 @@ dibhr_status dibhr_push_depth(dibhr_handle* handle, const dibhr_image* next);
 dibhr_status dibhr_set_blend(dibhr_handle* handle, double blend);
 
 /* Relief laid over the whole image, at any resolution: level / highest_level times the parameter
- * "roughness". NULL: none. */
+ * "roughness". NULL: none. (`dibhr touch --bump` and the Python module stretch a picture's lowest to
+ * highest level over 0 to 1 before.) */
 dibhr_status dibhr_set_bump(dibhr_handle* handle, const dibhr_image* bump);
 
 /* Of the surface under (x, y) [px]; outside the image that of its border. */
@@ -93,8 +94,7 @@ typedef struct dibhr_parameter {
     double initial; /* what a new handle has */
 } dibhr_parameter;
 
-/* How many there are: relief, roughness, static-friction, dynamic-friction, stiffness, damping,
- * damping-cutoff, pixel-pitch. */
+/* How many there are: relief, friction, stiffness and so on; `dibhr_parameter_at` tells each. */
 size_t dibhr_parameter_count(void);
 
 /* The one of this index, 0 to count - 1; DIBHR_BAD_ARGUMENT past the end. */

@@ -85,8 +85,7 @@ struct TouchNumber {
     [[nodiscard]] double standard() const { return of({}); }
 };
 
-/// relief, roughness, static-friction, dynamic-friction, stiffness, damping, damping-cutoff,
-/// pixel-pitch: the order of a session file's columns, where a new one goes to the end.
+/// In the order of a session file's columns, where a new one goes to the end.
 [[nodiscard]] std::span<const TouchNumber> touch_numbers() noexcept;
 
 /// The one of this name ("static-friction"), or null.

@@ -11,6 +11,8 @@ namespace dibhr {
 
 using Vec2 = glm::dvec2;
 using Vec3 = glm::dvec3;
+static_assert(sizeof(Vec3) == 3 * sizeof(double),
+              "dibhr needs GLM without GLM_FORCE_DEFAULT_ALIGNED_GENTYPES");
 
 [[nodiscard]] inline bool is_finite(Vec3 v) noexcept {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);

@@ -1,7 +1,9 @@
 # find_package(dibhr): dibhr::haptics_static, dibhr::haptics_shared, and dibhr::haptics, which is the shared one
 # if the component `shared` is asked for or BUILD_SHARED_LIBS is on, else the static one.
 include(CMakeFindDependencyMacro)
-find_dependency(glm)
+if(NOT TARGET glm::glm)
+  find_dependency(glm)
+endif()
 include(${CMAKE_CURRENT_LIST_DIR}/dibhrTargets.cmake)
 
 set(dibhr_static_FOUND TRUE)
