@@ -181,7 +181,7 @@ Canvas plot_sweep(const std::vector<SweepPoint>& points) {
     Canvas canvas(1600, 960, kPaper);
     draw_title(canvas, "How friction and depth change the force's turning: circle",
                "thin dotted lines: what the paper prints, " + printed_means() +
-                   " without saying \u03bc or depth");
+                   ", without saying \u03bc or depth");
     const std::vector<double> depths = shown_depths(points);
     const std::vector<Algorithm> algorithms = from_the_back(points);
     const ValueSpan mu = span_of_mu(points);

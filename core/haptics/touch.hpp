@@ -34,7 +34,7 @@ class GoalVelocity {
     /// difference, which is 0 when no time has passed. What would not be finite is forgotten.
     [[nodiscard]] Vec3 after(Vec3 step, double dt_s, double cutoff_hz) noexcept;
 
-    /// The next step is no motion of the hand: the filter begins from rest, after that step.
+    /// The next step is no motion of the hand: the filter begins from zero, after that step.
     void forget() noexcept { continues_ = false; }
 
   private:
