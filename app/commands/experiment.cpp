@@ -143,7 +143,7 @@ void add_options(CLI::App& app, ExperimentOptions& options) {
         ->default_str("all");
     add_file(app, "--json", options.json, "Writes all numbers as JSON; - is standard output");
     add_file(app, "--plots", options.plots, "Writes pictures into this folder", "DIR");
-    add_plot_format_option(app, options.plot_formats);
+    add_plot_format_option(app, options.plot_formats)->needs("--plots");
     add_file(app, "--session", options.human.session,
              "Hand of human: the goals of a recorded session");
     add_file(app, "--trace", options.human.trace,

@@ -126,17 +126,18 @@ void add_algorithms_option(CLI::App& app, std::vector<Algorithm>& algorithms) {
         ->allow_extra_args(false);
 }
 
-void add_plot_format_option(CLI::App& app, std::vector<PlotFormat>& formats) {
-    app.add_option_function<std::vector<std::string>>(
-           "--plot-format",
-           [&formats](const std::vector<std::string>& names) {
-               formats.clear();
-               for (const std::string& name : names) {
-                   formats.push_back(value_called(name, kPlotFormats, "--plot-format"));
-               }
-           },
-           "How the pictures are written, one or several with commas: " + names_of(kPlotFormats) +
-               "; SVG and PDF are for papers")
+CLI::Option* add_plot_format_option(CLI::App& app, std::vector<PlotFormat>& formats) {
+    return app
+        .add_option_function<std::vector<std::string>>(
+            "--plot-format",
+            [&formats](const std::vector<std::string>& names) {
+                formats.clear();
+                for (const std::string& name : names) {
+                    formats.push_back(value_called(name, kPlotFormats, "--plot-format"));
+                }
+            },
+            "How the pictures are written, one or several with commas: " + names_of(kPlotFormats) +
+                "; SVG and PDF are for papers")
         ->type_name("FORMAT")
         ->delimiter(',')
         ->allow_extra_args(false)

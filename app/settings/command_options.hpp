@@ -61,7 +61,7 @@ void add_algorithms_option(CLI::App& app, std::vector<Algorithm>& algorithms);
 
 /// --plot-format png,svg,pdf. `formats` must outlive the parsing of `app`; it stays as it is when
 /// none is given.
-void add_plot_format_option(CLI::App& app, std::vector<PlotFormat>& formats);
+CLI::Option* add_plot_format_option(CLI::App& app, std::vector<PlotFormat>& formats);
 
 /// --friction, --bump, --raw-depth and every entry of touch_numbers(). `request` must outlive the
 /// parsing of `app`.

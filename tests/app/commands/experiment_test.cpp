@@ -115,6 +115,7 @@ TEST_CASE("experiment writes its pictures in the formats that are asked for", "[
 TEST_CASE("an unknown path, algorithm or format is refused with the choices", "[experiment]") {
     CHECK(contains(usage_error({"--plot-format", "gif"}), "png, svg, pdf"));
     CHECK(contains(usage_error({"--plot-format", "png,gif"}), "'gif' is none of"));
+    CHECK(contains(usage_error({"--plot-format", "svg"}), "--plots"));
     CHECK(contains(usage_error({"square"}), "linear, circle, human, all, sweep"));
     CHECK(contains(usage_error({"--algorithm", "magic"}), "dibhr, pga, neighborhood, god-object"));
     const TemporaryFolder folder;
