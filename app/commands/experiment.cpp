@@ -153,12 +153,12 @@ void add_options(CLI::App& app, ExperimentOptions& options) {
     TouchParameters any;
     const TouchNumber& friction = number_of(any.friction.static_coefficient, any);
     add_number_option(app, "--friction,--mu", friction.lowest, friction.highest,
-                      "Coefficient of friction, 0 to 5; not for sweep",
+                      "Coefficient of friction, not for sweep",
                       [&options](double mu) { options.mu = mu; })
         ->type_name("MU")
         ->default_str(number_text(kExperimentFriction));
     add_number_option(app, "--depth", 0.1, 1000.0,
-                      "Of the goals of linear and circle below the surface, 0.1 to 1000",
+                      "Of the goals of linear and circle below the surface",
                       [&options](double depth_px) { options.depth_px = depth_px; })
         ->type_name("PX")
         ->default_str(number_text(kExperimentDepth_px));

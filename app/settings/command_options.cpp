@@ -50,7 +50,7 @@ Algorithm known_algorithm(const std::string& name) {
 }
 
 std::string range_of(double lowest, double highest) {
-    return short_text(lowest) + " to " + short_text(highest);
+    return short_text(lowest, 7) + " to " + short_text(highest, 7);  // 1000000, not 1e+06
 }
 
 /// Throws CLI::ValidationError that names `option`.
@@ -104,13 +104,13 @@ CLI::Option* add_number_option(CLI::App& app, const std::string& name, double lo
     const std::string option = name.substr(0, name.find(','));
     return app.add_option_function<std::string>(
         name, [=](const std::string& text) { take(parse_number(option, text, lowest, highest)); },
-        help);
+        help + ", " + range_of(lowest, highest));
 }
 
 CLI::Option* add_touch_option(CLI::App& app, const TouchNumber& number, const std::string& help,
                               const std::function<void(double)>& take) {
     return add_number_option(app, "--" + std::string(number.name), number.lowest, number.highest,
-                             help + ", " + range_of(number.lowest, number.highest), take)
+                             help, take)
         ->type_name(placeholder_of(number))
         ->default_str(short_text(number.standard()));
 }

@@ -43,13 +43,13 @@ struct TouchRequest {
 /// That a roughness is given, but no bump map that it could scale, as a sentence; or empty.
 [[nodiscard]] std::string roughness_warning(const GivenParameters& given, bool has_bump);
 
-/// --NAME: a finite decimal number in [lowest, highest], and nothing else, given to `take`.
+/// --NAME: a finite decimal number in [lowest, highest], which is added to `help`, and nothing
+/// else, given to `take`.
 CLI::Option* add_number_option(CLI::App& app, const std::string& name, double lowest,
                                double highest, const std::string& help,
                                const std::function<void(double)>& take);
 
-/// The option of an entry of touch_numbers(): its name, range and default; the range is added to
-/// `help`.
+/// The option of an entry of touch_numbers(): its name, range and default.
 CLI::Option* add_touch_option(CLI::App& app, const TouchNumber& number, const std::string& help,
                               const std::function<void(double)>& take);
 

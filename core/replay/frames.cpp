@@ -178,7 +178,7 @@ Frame SessionFrames::frame(const FrameSource& source, double media_s) {
     }
     if (kept == nullptr) {
         throw InputError(videos_[source.media].depth.string() + ": has no frame at " +
-                         number_text(media_s) +
+                         short_text(media_s) +
                          " s, which was touched; put the video back that was recorded over");
     }
     Frame frame = kept->frame;

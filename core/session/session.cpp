@@ -24,8 +24,9 @@ std::set<std::string> columns_of_parameters(const SessionReader& reader) {
 }
 
 PrimitiveKind primitive_named(const std::string& name) {
-    for (int kind = 0; kind <= static_cast<int>(kLastPrimitiveKind); ++kind) {
-        if (name == name_of(static_cast<PrimitiveKind>(kind))) return PrimitiveKind{kind};
+    for (int k = 0; k <= static_cast<int>(kLastPrimitiveKind); ++k) {
+        const auto kind = static_cast<PrimitiveKind>(k);
+        if (name == name_of(kind)) return kind;
     }
     return PrimitiveKind::none;
 }

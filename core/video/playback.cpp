@@ -116,7 +116,7 @@ void Playback::clean_again(const CleaningOptions& options) {
         for (const Frame& frame : frames_) {
             auto again = reader_->at(frame.media_s);
             if (!again) {
-                throw InputError("the video cannot be read again at " + number_text(frame.media_s) +
+                throw InputError("the video cannot be read again at " + short_text(frame.media_s) +
                                  " s: open it again");
             }
             again->time_s = frame.time_s;

@@ -254,7 +254,7 @@ bool VideoFile::grab() {
 cv::Mat VideoFile::retrieve() {
     cv::Mat picture;
     if (!capture_.retrieve(picture) || picture.empty())
-        throw InputError(shown(facts_.file) + " breaks off at " + number_text(time_s_) +
+        throw InputError(shown(facts_.file) + " breaks off at " + short_text(time_s_) +
                          " s: record or convert it again");
     return picture;
 }
