@@ -1,6 +1,8 @@
 // The touchable surface at one moment: two depth images, a blend and a bump map.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "core/haptics/depth_image.hpp"
@@ -99,17 +101,59 @@ class DepthSurface {
     [[nodiscard]] double elevation_at(double x, double y) const noexcept;
 
     /// The TRIANGLE under (x, y), clamped to the image rectangle; either one where two meet.
-    [[nodiscard]] Primitive triangle_at(double x, double y) const noexcept;
+    [[nodiscard]] Primitive triangle_at(double x, double y) const noexcept {
+        const int i = cell_at(x, columns_ - 2);
+        const int j = cell_at(y, rows_ - 2);
+        return triangle(
+            x - i + (y - j) <= 1.0 ? TriangleSide::near_origin : TriangleSide::far_corner, i, j);
+    }
 
     /// No vertex is higher than this [px], as long as no level exceeds the highest.
-    [[nodiscard]] double ceiling() const noexcept;
+    [[nodiscard]] double ceiling() const noexcept {
+        const double roughness = bump_ == nullptr ? 0.0 : std::max(roughness_px_, 0.0);
+        return std::max(relief_px_, 0.0) + roughness;
+    }
 
     /// (x, y) moved into the image rectangle [0, columns-1] x [0, rows-1]; z stays.
-    [[nodiscard]] Vec3 clamped_to_frame(Vec3 p) const noexcept;
+    [[nodiscard]] Vec3 clamped_to_frame(Vec3 p) const noexcept {
+        return {std::clamp(p.x, 0.0, columns_ - 1.0), std::clamp(p.y, 0.0, rows_ - 1.0), p.z};
+    }
 
   private:
+    /// The cell under a coordinate, held in 0 to `last`. Held first: any number can be given.
+    [[nodiscard]] static int cell_at(double along, int last) noexcept {
+        return static_cast<int>(std::clamp(along, 0.0, static_cast<double>(last)));
+    }
+
     /// Bilinear height of the bump map, stretched over the image, at vertex (i, j), in [0, 1].
-    [[nodiscard]] double bump_height(int i, int j) const noexcept;
+    [[nodiscard]] double bump_height(int i, int j) const noexcept {
+        const Between x(i, columns_, bump_->columns);
+        const Between y(j, rows_, bump_->rows);
+        const auto height = [this](int column, int row) {
+            return static_cast<double>(bump_->heights[static_cast<std::size_t>(row) *
+                                                          static_cast<std::size_t>(bump_->columns) +
+                                                      static_cast<std::size_t>(column)]);
+        };
+        return (1.0 - y.share) * ((1.0 - x.share) * height(x.first, y.first) +
+                                  x.share * height(x.second, y.first)) +
+               y.share * ((1.0 - x.share) * height(x.first, y.second) +
+                          x.share * height(x.second, y.second));
+    }
+
+    /// The two columns (or rows) of the bump map around vertex k of `count`, held at its border,
+    /// and how far k is from the first to the second. Pixel centres of both images in the same
+    /// normalised coordinates.
+    struct Between {
+        Between(int k, int count, int bumps) noexcept {
+            const double at = (k + 0.5) / count * bumps - 0.5;  // >= -0.5
+            const int below = at < 0.0 ? -1 : static_cast<int>(at);
+            first = std::max(below, 0);
+            second = std::min(below + 1, bumps - 1);
+            share = at - below;
+        }
+        int first, second;
+        double share;
+    };
 
     const float* from_{nullptr};
     const float* to_{nullptr};
