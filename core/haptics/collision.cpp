@@ -22,9 +22,8 @@ class LineCrossings {
           per_delta_(delta == 0.0 ? 0.0 : 1.0 / delta),
           cells_(cells),
           step_(delta < 0.0 ? -1 : 1) {
-        const double floor = std::floor(start);
-        cell_ = static_cast<int>(floor);
-        if (delta < 0.0 && floor == start) --cell_;  // on a line: the cell it is about to enter
+        cell_ = static_cast<int>(start);
+        if (delta < 0.0 && cell_ == start) --cell_;  // on a line: the cell it is about to enter
         cell_ = std::clamp(cell_, 0, cells - 1);
         find_next();
     }
@@ -79,6 +78,13 @@ class CellCorners {
         fresh = {surface.elevation(i, row), surface.elevation(i + 1, row)};
     }
 
+    /// One of the two TRIANGLEs of the cell, which is (i, j).
+    [[nodiscard]] Facet facet(TriangleSide side, int i, int j) const noexcept {
+        return side == TriangleSide::near_origin
+                   ? Facet(1, i, j, first_row_[0], first_row_[1], second_row_[0])
+                   : Facet(-1, i + 1, j + 1, second_row_[1], second_row_[0], first_row_[1]);
+    }
+
     [[nodiscard]] double highest() const noexcept {
         return std::max(std::max(first_row_[0], first_row_[1]),
                         std::max(second_row_[0], second_row_[1]));
@@ -93,31 +99,39 @@ class CellCorners {
 class SegmentWalk {
   public:
     SegmentWalk(const DepthSurface& surface, Vec3 from, Vec3 to) noexcept
-        : surface_(surface), from_(from), delta_(to - from) {}
+        : surface_(surface), from_(from), to_(to), delta_(to - from) {}
 
-    std::optional<Hit> first_hit() noexcept {
+    Flight over(int most_cells) noexcept {
         const auto begin = enters_ceiling();
-        if (!begin) return std::nullopt;
+        if (!begin) return {to_};
         t_ = *begin;
         const Vec3 start = at(t_);
         LineCrossings columns(start.x, delta_.x, surface_.columns() - 1);
         LineCrossings rows(start.y, delta_.y, surface_.rows() - 1);
         CellCorners corners(surface_, columns.cell(), rows.cell());
         const double begin_t = t_;  // crossings count from `start`
-        std::optional<Hit> hit;
+        Flight flight{to_};
         const auto ends_in_cell = [&](double next) {
+            if (flight.cells == most_cells) {
+                flight.end = at(t_);
+                flight.cut_short = true;
+                return true;
+            }
+            ++flight.cells;
             const double t_end = std::min(begin_t + next, 1.0);
             const double lowest = from_.z + (delta_.z < 0.0 ? t_end : t_) * delta_.z;
-            if (corners.highest() >= lowest) hit = in_cell(columns.cell(), rows.cell(), t_end);
+            if (corners.highest() >= lowest &&
+                in_cell(corners, columns.cell(), rows.cell(), t_end, flight))
+                return true;
             t_ = t_end;
-            return hit || t_end >= 1.0;
+            return t_end >= 1.0;
         };
         for (;;) {
             if (columns.next() <= rows.next()) {
-                if (ends_in_cell(columns.next()) || !columns.advance()) return hit;
+                if (ends_in_cell(columns.next()) || !columns.advance()) return flight;
                 corners.step_column(surface_, columns.cell(), rows.cell(), columns.step());
             } else {
-                if (ends_in_cell(rows.next()) || !rows.advance()) return hit;
+                if (ends_in_cell(rows.next()) || !rows.advance()) return flight;
                 corners.step_row(surface_, columns.cell(), rows.cell(), rows.step());
             }
         }
@@ -134,49 +148,58 @@ class SegmentWalk {
         return above / -delta_.z;
     }
 
-    [[nodiscard]] std::optional<Hit> in_cell(int i, int j, double t_end) noexcept {
+    /// True: the flight has met a TRIANGLE of the cell.
+    [[nodiscard]] bool in_cell(const CellCorners& corners, int i, int j, double t_end,
+                               Flight& flight) noexcept {
         // x + y grows or falls along the segment: at most one crossing of the cell's diagonal.
         const double across_begin = at(t_).x - i + (at(t_).y - j) - 1.0;
         const double across_end = at(t_end).x - i + (at(t_end).y - j) - 1.0;
         const auto side_of = [](double across) {
             return across <= 0.0 ? TriangleSide::near_origin : TriangleSide::far_corner;
         };
-        if (across_begin * across_end < 0.0) {
-            const double t_diagonal =
-                t_ + (t_end - t_) * (across_begin / (across_begin - across_end));
-            if (auto hit = in_triangle(triangle(side_of(across_begin), i, j), t_diagonal))
-                return hit;
-            return in_triangle(triangle(side_of(across_end), i, j), t_end);
+        if (across_begin * across_end >= 0.0) {
+            return in_triangle(corners.facet(side_of(across_begin + across_end), i, j), t_end,
+                               flight);
         }
-        return in_triangle(triangle(side_of(across_begin + across_end), i, j), t_end);
+        const double t_diagonal = t_ + (t_end - t_) * (across_begin / (across_begin - across_end));
+        return in_triangle(corners.facet(side_of(across_begin), i, j), t_diagonal, flight) ||
+               in_triangle(corners.facet(side_of(across_end), i, j), t_end, flight);
     }
 
-    [[nodiscard]] std::optional<Hit> in_triangle(const Primitive& which, double t_end) noexcept {
-        const Facet facet(surface_, which);
+    [[nodiscard]] bool in_triangle(const Facet& facet, double t_end, Flight& flight) noexcept {
         const Vec3 end = at(t_end);
         const double height = end.z - facet.elevation_at(end.x, end.y);
         if (height >= -kTouchDepth_px) {
             t_ = t_end;
-            return std::nullopt;
+            return false;
         }
         const Vec3 start = at(t_);
         const double height_before = std::max(0.0, start.z - facet.elevation_at(start.x, start.y));
         Vec3 position = start + (end - start) * (height_before / (height_before - height));
         position = surface_.clamped_to_frame(position);
         position.z = facet.elevation_at(position.x, position.y);
-        return Hit{position, which};
+        flight.end = position;
+        flight.ground = facet.triangle();
+        return true;
     }
 
     const DepthSurface& surface_;
     Vec3 from_;
+    Vec3 to_;
     Vec3 delta_;
     double t_{0.0};
 };
 
 }  // namespace
 
+Flight fly(const DepthSurface& surface, Vec3 from, Vec3 to, int most_cells) noexcept {
+    return SegmentWalk(surface, from, to).over(most_cells);
+}
+
 std::optional<Hit> first_hit(const DepthSurface& surface, Vec3 from, Vec3 to) noexcept {
-    return SegmentWalk(surface, from, to).first_hit();
+    const Flight flight = fly(surface, from, to, std::numeric_limits<int>::max());
+    if (!flight.ground) return std::nullopt;
+    return Hit{flight.end, *flight.ground};
 }
 
 }  // namespace dibhr

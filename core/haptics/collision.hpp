@@ -13,14 +13,26 @@ namespace dibhr {
 /// it.
 inline constexpr double kTouchDepth_px = 1e-10;
 
+/// How a flight along a segment ended.
+struct Flight {
+    Vec3 end{0.0};                      ///< where
+    std::optional<Primitive> ground{};  ///< the TRIANGLE it met there
+    int cells{0};                       ///< it went over
+    bool cut_short{false};              ///< they were too many; it can be taken up from here
+};
+
+/// From `from` to `to` or the first point at which the segment dives below the surface, over at
+/// most `most_cells`. Both ends are in grid space with (x, y) inside the image rectangle; a start
+/// on the surface counts as outside. Cost: one visit a cell crossed, only where the segment is
+/// below the surface's ceiling.
+[[nodiscard]] Flight fly(const DepthSurface& surface, Vec3 from, Vec3 to, int most_cells) noexcept;
+
 struct Hit {
     Vec3 position{0.0};
     Primitive triangle{};
 };
 
-/// The first point at which the segment dives below the surface, or nothing. Both ends are in grid
-/// space with (x, y) inside the image rectangle; a start on the surface counts as outside. Cost:
-/// one visit a cell crossed, only where the segment is below the surface's ceiling.
+/// The first point at which the segment dives below the surface, or nothing; however long it is.
 [[nodiscard]] std::optional<Hit> first_hit(const DepthSurface& surface, Vec3 from,
                                            Vec3 to) noexcept;
 

@@ -1,11 +1,13 @@
 // The walk over TRIANGLEs, EDGEs and VERTEXes, with the friction cone before every straight piece.
 #include "core/haptics/dibhr.hpp"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
-#include <optional>
+#include <cstddef>
+#include <utility>
 
 #include "core/haptics/facet.hpp"
+#include "core/haptics/glide.hpp"
 #include "core/haptics/neighbours.hpp"
 #include "core/haptics/proxy_walk.hpp"
 
@@ -13,16 +15,56 @@ namespace dibhr {
 
 namespace {
 
-/// An EDGE crossed at the foot itself is crossed: the TRIANGLE behind it may lead on.
-constexpr double kPastFoot = 1.0 + 1e-11;
+/// A VERTEX and what surrounds it: six EDGEs, the *ways*, in the order of `kSpokes`, and between
+/// each and the next a TRIANGLE of the same number. Fewer on the image's border.
+class VertexFan {
+  public:
+    VertexFan(const DepthSurface& surface, const Primitive& vertex) noexcept
+        : i_(vertex.i), j_(vertex.j), z_(surface.elevation(vertex.i, vertex.j)) {
+        const bool is_inner =
+            surface.has_vertex(i_ - 1, j_ - 1) && surface.has_vertex(i_ + 1, j_ + 1);
+        for (std::size_t k = 0; k < kSpokes.size(); ++k) {
+            const int i = i_ + kSpokes[k].i;
+            const int j = j_ + kSpokes[k].j;
+            if (!is_inner && !surface.has_vertex(i, j)) continue;
+            present_ |= 1U << k;
+            around_[k] = surface.elevation(i, j);
+        }
+    }
 
-/// The point of an EDGE at `along` in [0, 1]: on the grid line itself, so that round-off never
-/// leaves a point beside the EDGE it is on.
-Vec3 point_on(const EdgeEnds& ends, const EdgeElevations& z, double along) noexcept {
-    return {ends.begin_i + along * (ends.end_i - ends.begin_i),
-            ends.begin_j + along * (ends.end_j - ends.begin_j),
-            z.begin + along * (z.end - z.begin)};
-}
+    [[nodiscard]] bool has(std::size_t way) const noexcept { return ((present_ >> way) & 1U) != 0; }
+    [[nodiscard]] bool has_facet(std::size_t k) const noexcept {
+        return has(k) && has((k + 1) % 6);
+    }
+    /// From the VERTEX to the far end of a way.
+    [[nodiscard]] Vec3 along(std::size_t way) const noexcept {
+        return {kSpokes[way].i, kSpokes[way].j, around_[way] - z_};
+    }
+
+    [[nodiscard]] Facet facet(std::size_t k) const noexcept {
+        const auto& z = around_;
+        switch (k) {
+            case 0:
+                return {1, i_, j_, z_, z[0], z[1]};
+            case 1:
+                return {-1, i_, j_ + 1, z[1], z[2], z_};
+            case 2:
+                return {1, i_ - 1, j_, z[3], z_, z[2]};
+            case 3:
+                return {-1, i_, j_, z_, z[3], z[4]};
+            case 4:
+                return {1, i_, j_ - 1, z[4], z[5], z_};
+            default:
+                return {-1, i_ + 1, j_, z[0], z_, z[5]};
+        }
+    }
+
+  private:
+    int i_, j_;
+    unsigned present_{0};
+    double z_;
+    std::array<double, 6> around_{};
+};
 
 /// Every move is along one straight piece, on the surface or in free space, and ends nearer to the
 /// goal than it began.
@@ -70,123 +112,95 @@ class SurfaceWalk : private ProxyWalk {
 
     /// Over the active TRIANGLE and on across EDGEs, for as long as the next TRIANGLE leads nearer
     /// to the goal.
-    Next glide(Facet facet, Facet::Projection goal_on) noexcept {
-        for (;;) {
-            if (goal_on.rise > 0.0) return leave();
-            const Piece piece = piece_to(goal_on.foot, goal_on.distance2);
-            if (is_held(piece.cone, piece.length2)) {
-                proxy_.active = facet.triangle();
+    Next glide(const Facet& start, const Facet::Projection& goal_on) noexcept {
+        const double moving = square(friction_.dynamic_coefficient);
+        const double sticking = square(friction_.static_coefficient);
+        Glide glide({surface_, goal_, moving, most_moves_}, proxy_.position, proxy_.moves,
+                    proxy_.slipping ? moving : sticking, start, goal_on);
+        const Glide::End end = glide.run();
+        proxy_.moves = glide.moves();
+        if (glide.moved()) move_to(glide.position());
+        switch (end) {
+            case Glide::End::above:
+                return leave();
+            case Glide::End::held:
+                proxy_.active = glide.facet().triangle();
                 return Next::rest;
+            case Glide::End::cone:
+                proxy_.active = glide.facet().triangle();
+                return stop_at_cone(
+                    {glide.goal_on().foot, glide.length2(), cone_at(glide.goal_on().distance2)});
+            case Glide::End::crease: {
+                const Primitive edge = glide.border();
+                // The goal is not above the TRIANGLE it came over.
+                const bool is_first = (glide.facet().sign() > 0);
+                if (is_first == is_towards_first(edge, goal_.x, goal_.y) &&
+                    glide.goal_on().rise > 0.0) {
+                    return leave();
+                }
+                return slide_along(edge, glide.facet().elevations_along(edge.direction));
             }
-            const PlaneExit exit = cross_plane(facet, piece);
-            if (exit.reason == PlaneExit::Reason::rest) {
-                proxy_.active = facet.triangle();
-                return stop_at_cone(piece);
-            }
-            move_to_crossing(facet, exit, piece.foot);
-            if (exit.reason == PlaneExit::Reason::border) return Next::visit;
-            if (proxy_.active.kind == PrimitiveKind::vertex) return Next::visit;
-            goal_on = facet.project(goal_);
-            const Barycentric at_foot = facet.barycentric(goal_on.foot.x, goal_on.foot.y);
-            if (at_foot.across(exit.through) <= kThere_px) return slide_along_edge();  // a crease
+            case Glide::End::stop:
+            case Glide::End::none:
+            case Glide::End::plane:
+                break;
         }
+        proxy_.active = glide.border();
+        return Next::visit;
     }
 
-    /// How the way over one plane ended.
-    struct PlaneExit {
-        enum class Reason { none, other_plane, border, rest };
-        Reason reason{Reason::none};
-        EdgeDirection through{EdgeDirection::diagonal};
-        double t{0.0};  ///< of the piece, where it crosses
+    /// A TRIANGLE beside the active EDGE, as the goal sees it.
+    struct Side {
+        const Facet& facet;
+        Facet::Projection goal_on;
+        double gradient2;  ///< of the distance to the goal, into it; 0: it leads no nearer
     };
 
-    /// Follows the piece over TRIANGLEs of one plane, on which it stays straight. `facet` becomes
-    /// the first TRIANGLE that is not of the plane, or the last one before the border or the cone.
-    PlaneExit cross_plane(Facet& facet, const Piece& piece) noexcept {
-        using Reason = PlaneExit::Reason;
-        Facet here = facet;  // a local value stays in registers
-        int moves = proxy_.moves;
-        PlaneExit exit;
-        const auto cross = [&](auto direction, double t) {
-            exit.through = direction;
-            exit.t = t;
-            if (t > kPastFoot) return Reason::rest;
-            if (square(1.0 - t) * piece.length2 < piece.cone.moving2) return Reason::rest;
-            const Facet::Across across = here.step_across(surface_, direction);
-            if (across == Facet::Across::border || moves >= most_moves_) return Reason::border;
-            moves += 2;  // the EDGE, and the TRIANGLE behind it
-            return across == Facet::Across::same_plane ? Reason::none : Reason::other_plane;
-        };
-        const FirstExit first = first_exit(facet, proxy_.position, piece.foot);
-        exit.reason = cross(first.through, first.t);
-        if (exit.reason == Reason::none) {
-            StraightWay way(proxy_.position, piece.foot, here);
-            while (exit.reason == Reason::none) {
-                exit.reason = way.over_next_edge(here.sign(), cross);
-            }
-        }
-        proxy_.moves = moves;
-        facet = here;
-        return exit;
-    }
-
-    /// To where the piece leaves the plane: on an EDGE, or the VERTEX it hits exactly; makes that
-    /// active.
-    void move_to_crossing(const Facet& beside, const PlaneExit& exit, Vec3 foot) noexcept {
-        const Primitive border = edge_of(beside.triangle(), exit.through);
-        const EdgeEnds ends = ends_of(border);
-        const Vec3& p = proxy_.position;
-        const double x = p.x + exit.t * (foot.x - p.x);
-        const double y = p.y + exit.t * (foot.y - p.y);
-        const double along = exit.through == EdgeDirection::along_row      ? x - ends.begin_i
-                             : exit.through == EdgeDirection::along_column ? y - ends.begin_j
-                                                                           : ends.begin_i - x;
-        move_to(point_on(ends, beside.elevations_along(exit.through), std::clamp(along, 0.0, 1.0)));
-        proxy_.active = along <= 0.0   ? vertex(ends.begin_i, ends.begin_j)
-                        : along >= 1.0 ? vertex(ends.end_i, ends.end_j)
-                                       : border;
+    [[nodiscard]] Side side_of(const Facet& facet, EdgeDirection edge) const noexcept {
+        const Facet::Projection goal_on = facet.project(goal_);
+        const double inside = facet.barycentric(goal_on.foot.x, goal_on.foot.y).across(edge);
+        // The foot's distance from the EDGE, in the plane: `inside` times the TRIANGLE's height
+        // over it, which is |normal| / |EDGE|. The EDGE is the same for both.
+        const double gradient2 =
+            square(inside) * (1.0 + square(facet.slope_x()) + square(facet.slope_y()));
+        return {facet, goal_on, inside <= kThere_px ? 0.0 : gradient2};
     }
 
     /// The TRIANGLE beside it into which the distance to the goal falls fastest, or along it.
     Next visit_edge() noexcept {
         const EdgeDirection direction = proxy_.active.direction;
-        const TrianglePair sides = triangles_of(surface_, proxy_.active);
-        std::optional<Facet> steepest;
-        Facet::Projection goal_on_steepest;
-        double steepest2 = 0.0;
-        for (const auto& side : {sides.first, sides.second}) {
-            if (!side) continue;
-            const Facet facet(surface_, *side);
-            const Facet::Projection goal_on = facet.project(goal_);
-            const double inside =
-                facet.barycentric(goal_on.foot.x, goal_on.foot.y).across(direction);
-            if (inside <= kThere_px) continue;
-            // The foot's distance from the EDGE, in the plane: `inside` times the TRIANGLE's height
-            // over it, which is |normal| / |EDGE|. The EDGE is the same for both.
-            const double gradient2 =
-                square(inside) * (1.0 + square(facet.slope_x()) + square(facet.slope_y()));
-            if (gradient2 <= steepest2) continue;
-            steepest = facet;
-            goal_on_steepest = goal_on;
-            steepest2 = gradient2;
-        }
-        if (!steepest) return slide_along_edge();
-        ++proxy_.moves;
-        return glide(*steepest, goal_on_steepest);
+        const TrianglePair pair = triangles_of(surface_, proxy_.active);
+        const Facet first(surface_, pair.first ? *pair.first : *pair.second);
+        const Side one = side_of(first, direction);
+        if (!pair.first || !pair.second) return visit_sides(one, one);
+        const Facet second(surface_, *pair.second);
+        return visit_sides(one, side_of(second, direction));
     }
 
-    Next slide_along_edge() noexcept {
-        if (is_above(triangle_towards(surface_, proxy_.active, goal_.x, goal_.y))) return leave();
+    /// Of the active EDGE; on the image's border there is one, twice.
+    Next visit_sides(const Side& first, const Side& second) noexcept {
+        const Side& steepest = second.gradient2 > first.gradient2 ? second : first;
+        if (steepest.gradient2 > 0.0) {
+            ++proxy_.moves;
+            return glide(steepest.facet, steepest.goal_on);
+        }
+        const Side& under = is_towards_first(proxy_.active, goal_.x, goal_.y) ? first : second;
+        if (under.goal_on.rise > 0.0) return leave();
+        return slide_along(proxy_.active, first.facet.elevations_along(proxy_.active.direction));
+    }
 
-        const EdgeEnds ends = ends_of(proxy_.active);
-        const Vec3 begin = surface_.vertex_at(ends.begin_i, ends.begin_j);
-        const Vec3 end = surface_.vertex_at(ends.end_i, ends.end_j);
+    /// Along an EDGE, which becomes active, with these elevations of its ends.
+    Next slide_along(const Primitive& edge, const EdgeElevations& z) noexcept {
+        const EdgeEnds ends = ends_of(edge);
+        const Vec3 begin(ends.begin_i, ends.begin_j, z.begin);
+        const Vec3 end(ends.end_i, ends.end_j, z.end);
         const Vec3 along = end - begin;
         const double foot_along = glm::dot(goal_ - begin, along) / glm::dot(along, along);
         const Vec3 foot = begin + foot_along * along;
         const Piece piece = piece_to(foot, squared_distance(goal_, foot));
         const bool past_begin = foot_along <= 0.0;
         const bool past_an_end = past_begin || foot_along >= 1.0;
+        proxy_.active = edge;
         // Without friction a foot at the very end is the VERTEX's to judge.
         if (is_held(piece.cone, piece.length2) && (piece.cone.holding2 > 0.0 || !past_an_end)) {
             return Next::rest;
@@ -201,30 +215,50 @@ class SurfaceWalk : private ProxyWalk {
         return stop_at_cone(piece);
     }
 
-    /// The EDGE along which the distance to the goal falls fastest becomes active, if there is one.
+    /// The EDGE along which the distance to the goal falls fastest becomes active and is visited,
+    /// if there is one.
     Next visit_vertex() noexcept {
+        const VertexFan fan(surface_, proxy_.active);
         const Vec3 to_goal = goal_ - proxy_.position;
-        std::optional<Primitive> steepest;
+        std::size_t steepest = kSpokes.size();
         double steepest_gain = kThere_px;
-        for (const VertexSpoke& spoke : spokes_of(proxy_.active)) {
-            if (!surface_.has_vertex(spoke.far_i, spoke.far_j)) continue;
-            const Vec3 along = surface_.vertex_at(spoke.far_i, spoke.far_j) - proxy_.position;
-            const double gain = glm::dot(to_goal, along) / std::sqrt(glm::dot(along, along));
+        for (std::size_t k = 0; k < kSpokes.size(); ++k) {
+            if (!fan.has(k)) continue;
+            const Vec3 along = fan.along(k);
+            const double nearer = glm::dot(to_goal, along);
+            if (nearer <= 0.0) continue;
+            const double gain = nearer / std::sqrt(glm::dot(along, along));
             if (gain <= steepest_gain) continue;
             steepest_gain = gain;
-            steepest = spoke.edge;
+            steepest = k;
         }
-        if (!steepest) return rest_or_leave();
-        proxy_.active = *steepest;
-        return Next::visit;
+        if (steepest == kSpokes.size()) return rest_or_leave();
+        proxy_.active = edge_at(proxy_.active, steepest);
+        if (proxy_.moves >= most_moves_) return Next::visit;  // which ends the walk
+        ++proxy_.moves;
+        return visit_fan_edge(fan, steepest);
+    }
+
+    /// The TRIANGLEs beside it are known.
+    Next visit_fan_edge(const VertexFan& fan, std::size_t way) noexcept {
+        // As `triangles_of` orders them: the even one is towards +x and +y.
+        const std::size_t before = (way + 5) % 6;
+        const std::size_t first = way % 2 == 0 ? way : before;
+        const std::size_t second = way % 2 == 0 ? before : way;
+        const EdgeDirection direction = proxy_.active.direction;
+        const Facet facet = fan.facet(fan.has_facet(first) ? first : second);
+        const Side one = side_of(facet, direction);
+        if (!fan.has_facet(first) || !fan.has_facet(second)) return visit_sides(one, one);
+        const Facet other = fan.facet(second);
+        return visit_sides(one, side_of(other, direction));
     }
 };
 
 }  // namespace
 
-void Dibhr::walk(const DepthSurface& surface, Vec3 goal, const Friction& friction, int most_moves,
+void Dibhr::walk(const DepthSurface& surface, Vec3 goal, const Friction& friction,
                  Proxy& proxy) const noexcept {
-    SurfaceWalk(surface, goal, friction, most_moves, proxy).run();
+    SurfaceWalk(surface, goal, friction, kMostMoves, proxy).run();
 }
 
 }  // namespace dibhr

@@ -13,7 +13,12 @@ namespace dibhr {
 /// or on or in the friction cone of the piece it was on. Cost: a fraction of a microsecond for a
 /// hand's step; proportional to the cells crossed.
 class Dibhr final : public ProxyAlgorithm {
-    void walk(const DepthSurface& surface, Vec3 goal, const Friction& friction, int most_moves,
+  public:
+    /// Primitives visited in an update that flies nowhere: at most 100 us.
+    static constexpr int kMostMoves = 1000;
+
+  private:
+    void walk(const DepthSurface& surface, Vec3 goal, const Friction& friction,
               Proxy& proxy) const noexcept override;
 };
 

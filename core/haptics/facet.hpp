@@ -52,6 +52,10 @@ class Facet {
         below_ = surface.elevation(i_, j_ + sign_);
     }
 
+    /// `sign`, the corner (i, j) and its elevation, and those of the two corners next to it.
+    Facet(int sign, int i, int j, double corner, double beside, double below) noexcept
+        : i_(i), j_(j), sign_(sign), corner_(corner), beside_(beside), below_(below) {}
+
     [[nodiscard]] Primitive triangle() const noexcept {
         return sign_ > 0 ? dibhr::triangle(TriangleSide::near_origin, i_, j_)
                          : dibhr::triangle(TriangleSide::far_corner, i_ - 1, j_ - 1);
@@ -98,42 +102,58 @@ class Facet {
         return {row, column, 1.0 - column - row};
     }
 
+    /// For who knows the sign: what follows is compiled for it.
+    template <int kSign>
+    void assume_sign() noexcept {
+        sign_ = kSign;
+    }
+
+    /// Elevation of the corner that the TRIANGLE across the EDGE has and this one has not; 0 past
+    /// the image's border.
+    template <EdgeDirection kThrough>
+    [[nodiscard]] double elevation_across(const DepthSurface& surface) const noexcept {
+        if constexpr (kThrough == EdgeDirection::along_row) {
+            const bool is_border = !inside(j_ - sign_, surface.rows());
+            return is_border ? 0.0 : surface.elevation(i_ + sign_, j_ - sign_);
+        } else if constexpr (kThrough == EdgeDirection::along_column) {
+            const bool is_border = !inside(i_ - sign_, surface.columns());
+            return is_border ? 0.0 : surface.elevation(i_ - sign_, j_ + sign_);
+        } else {
+            return surface.elevation(i_ + sign_, j_ + sign_);
+        }
+    }
+
     /// What lies across an EDGE.
     enum class Across { border, same_plane, other_plane };
 
-    /// Becomes the TRIANGLE across the EDGE, unless that is the image's border. Two of the
-    /// neighbour's elevations are known already: one is read.
-    Across step_across(const DepthSurface& surface, EdgeDirection through) noexcept {
-        int i = i_ + sign_;
-        int j = j_ + sign_;
+    /// Becomes the TRIANGLE across the EDGE, with the elevation across it, unless that is the
+    /// image's border.
+    template <EdgeDirection kThrough>
+    Across step_across(const DepthSurface& surface, double elevation_across) noexcept {
         // In the same plane the neighbour, which lies the other way round, has the opposite
         // differences.
         const double opposite_x = corner_ - beside_;
         const double opposite_y = corner_ - below_;
         bool same = false;
-        switch (through) {
-            case EdgeDirection::along_row:
-                if (!inside(j_ - sign_, surface.rows())) return Across::border;
-                j = j_;
-                below_ = surface.elevation(i, j_ - sign_);
-                std::swap(corner_, beside_);
-                same = below_ - corner_ == opposite_y;
-                break;
-            case EdgeDirection::along_column:
-                if (!inside(i_ - sign_, surface.columns())) return Across::border;
-                i = i_;
-                beside_ = surface.elevation(i_ - sign_, j);
-                std::swap(corner_, below_);
-                same = beside_ - corner_ == opposite_x;
-                break;
-            case EdgeDirection::diagonal:
-                corner_ = surface.elevation(i, j);
-                std::swap(beside_, below_);
-                same = beside_ - corner_ == opposite_x && below_ - corner_ == opposite_y;
-                break;
+        if constexpr (kThrough == EdgeDirection::along_row) {
+            if (!inside(j_ - sign_, surface.rows())) return Across::border;
+            i_ += sign_;
+            below_ = elevation_across;
+            std::swap(corner_, beside_);
+            same = below_ - corner_ == opposite_y;
+        } else if constexpr (kThrough == EdgeDirection::along_column) {
+            if (!inside(i_ - sign_, surface.columns())) return Across::border;
+            j_ += sign_;
+            beside_ = elevation_across;
+            std::swap(corner_, below_);
+            same = beside_ - corner_ == opposite_x;
+        } else {
+            i_ += sign_;
+            j_ += sign_;
+            corner_ = elevation_across;
+            std::swap(beside_, below_);
+            same = beside_ - corner_ == opposite_x && below_ - corner_ == opposite_y;
         }
-        i_ = i;
-        j_ = j;
         sign_ = -sign_;
         return same ? Across::same_plane : Across::other_plane;
     }
@@ -150,19 +170,18 @@ class Facet {
     double below_{0.0};   ///< of the corner next to it along the column
 };
 
-/// The EDGE by which a straight way leaves the TRIANGLE it begins in, with its parameter t (0 at
-/// the begin, 1 at the end).
-struct FirstExit {
+/// The EDGE by which a straight way leaves a TRIANGLE, with the way's parameter t there (0 at its
+/// begin, 1 at its end).
+struct Exit {
     EdgeDirection through{EdgeDirection::diagonal};
     double t{std::numeric_limits<double>::infinity()};
 };
 
-/// By the shares of the corners: cheaper than a StraightWay where every TRIANGLE is of another
-/// plane, so that no way is longer than this.
-[[nodiscard]] inline FirstExit first_exit(const Facet& facet, Vec3 begin, Vec3 end) noexcept {
+/// From anywhere in the TRIANGLE: the first of three EDGEs, by the shares of the corners.
+[[nodiscard]] inline Exit exit_of(const Facet& facet, Vec3 begin, Vec3 end) noexcept {
     const Barycentric at_begin = facet.barycentric(begin.x, begin.y);
     const Barycentric at_end = facet.barycentric(end.x, end.y);
-    FirstExit exit;
+    Exit exit;
     const auto cross = [&exit](EdgeDirection direction, double share, double share_at_end) {
         const double fall = share - share_at_end;
         if (fall > 0.0 && share < exit.t * fall) exit = {direction, share / fall};
@@ -171,6 +190,47 @@ struct FirstExit {
     cross(EdgeDirection::along_column, at_begin.column, at_end.column);
     cross(EdgeDirection::along_row, at_begin.row, at_end.row);
     return exit;
+}
+
+/// The same from the EDGE by which the way came in: the first of the other two.
+template <EdgeDirection kBehind>
+[[nodiscard, gnu::always_inline]] inline Exit exit_of(const Barycentric& at_begin,
+                                                      const Barycentric& at_end) noexcept {
+    constexpr bool kFromDiagonal = kBehind == EdgeDirection::diagonal;
+    constexpr bool kFromRow = kBehind == EdgeDirection::along_row;
+    constexpr auto kOne = kFromDiagonal ? EdgeDirection::along_column : EdgeDirection::diagonal;
+    constexpr auto kOther = kFromRow ? EdgeDirection::along_column : EdgeDirection::along_row;
+    const double share = at_begin.across(kOne);
+    const double fall = share - at_end.across(kOne);
+    const double other_share = at_begin.across(kOther);
+    const double other_fall = other_share - at_end.across(kOther);
+    const double t = fall > 0.0 ? share / fall : std::numeric_limits<double>::infinity();
+    if (other_fall > 0.0 && other_share < t * other_fall) return {kOther, other_share / other_fall};
+    return {kOne, t};
+}
+
+/// The same in the second TRIANGLE of a plane, with the bits of a StraightWay from there on: where
+/// planes are small this is all there is of one.
+template <EdgeDirection kBehind>
+[[nodiscard, gnu::always_inline]] inline Exit exit_on_plane(const Facet& facet, Vec3 begin,
+                                                            Vec3 end) noexcept {
+    constexpr double kNever = std::numeric_limits<double>::infinity();
+    const double dx = end.x - begin.x;
+    const double dy = end.y - begin.y;
+    const double to_row = facet.corner_y() - begin.y;
+    const double to_column = facet.corner_x() - begin.x;
+    const int sign = facet.sign();
+    double row = kNever;
+    double column = kNever;
+    double diagonal = kNever;
+    if (kBehind != EdgeDirection::along_row && dy * -sign > 0.0) row = to_row / dy;
+    if (kBehind != EdgeDirection::along_column && dx * -sign > 0.0) column = to_column / dx;
+    if (kBehind != EdgeDirection::diagonal && (dx + dy) * sign > 0.0) {
+        diagonal = (to_row + to_column + sign) / (dx + dy);
+    }
+    if (diagonal <= row && diagonal <= column) return {EdgeDirection::diagonal, diagonal};
+    if (column < row) return {EdgeDirection::along_column, column};
+    return {EdgeDirection::along_row, row};
 }
 
 /// Seen from above: three families of parallel lines, each crossed at even steps of the way's

@@ -150,12 +150,25 @@ class ConstraintWalk : private ProxyWalk {
             if (planes_.empty() && (gets_nowhere() || !touch_on_way_to_goal())) return Next::rest;
             return go_as_near_as_allowed();
         });
+        if (proxy_.bound_met && is_in_air()) let_go();
         if (proxy_.contact) {
             proxy_.active = surface_.triangle_at(proxy_.position.x, proxy_.position.y);
         }
     }
 
   private:
+    /// Over a ridge, with the last move spent before it is down again.
+    [[nodiscard]] bool is_in_air() const noexcept {
+        const Vec3& p = proxy_.position;
+        return p.z > surface_.elevation_at(p.x, p.y) + kSettled_px;
+    }
+
+    void let_go() noexcept {
+        proxy_.contact = false;
+        proxy_.slipping = false;
+        proxy_.active = Primitive{};
+    }
+
     /// In a valley so flat that round-off carries the proxy to and fro between its two sides.
     bool gets_nowhere() noexcept {
         const bool is_near = squared_distance(proxy_.position, last_found_) <= square(kNowhere_px);
@@ -167,17 +180,15 @@ class ConstraintWalk : private ProxyWalk {
     /// Straight to the goal, onto the first plane in the way. False: there is none, the proxy is at
     /// the goal.
     bool touch_on_way_to_goal() noexcept {
-        const auto hit = first_hit(surface_, proxy_.position, goal_);
-        if (!hit) {
-            proxy_.position = goal_;
-            proxy_.contact = false;
-            proxy_.slipping = false;
-            proxy_.active = Primitive{};
+        const Flight flight = fly_to(goal_);
+        if (!flight.ground) {
+            proxy_.position = flight.end;
+            let_go();
             return false;
         }
-        go(hit->position);
+        go(flight.end);
         found_here_ = true;
-        return planes_.add(plane_of(hit->triangle));
+        return planes_.add(plane_of(*flight.ground));
     }
 
     Next go_as_near_as_allowed() noexcept {
@@ -186,11 +197,10 @@ class ConstraintWalk : private ProxyWalk {
         const ConeView view = cone_view(*nearest);
         if (is_held(view)) return rest_if_held_here();
         const WayInFrame way = way_in_frame(enters_cone(view) ? place_on_cone(view) : *nearest);
-        if (const auto hit = first_hit(surface_, proxy_.position, way.end)) {
-            return be_held_by(plane_of(hit->triangle), hit->position);
-        }
-        if (way.wall) return be_held_by(*way.wall, way.end);
-        if (!go(way.end)) return rest_if_held_here();
+        const Flight flight = fly_to(way.end);
+        if (flight.ground) return be_held_by(plane_of(*flight.ground), flight.end);
+        if (way.wall && !flight.cut_short) return be_held_by(*way.wall, way.end);
+        if (!go(flight.end)) return rest_if_held_here();
         planes_.clear();  // what it touches there is found by the next visit
         return Next::visit;
     }
@@ -263,8 +273,8 @@ class ConstraintWalk : private ProxyWalk {
 }  // namespace
 
 void GodObject::walk(const DepthSurface& surface, Vec3 goal, const Friction& friction,
-                     int most_moves, Proxy& proxy) const noexcept {
-    ConstraintWalk(surface, goal, friction, most_moves, proxy).run();
+                     Proxy& proxy) const noexcept {
+    ConstraintWalk(surface, goal, friction, kMostMoves, proxy).run();
 }
 
 }  // namespace dibhr

@@ -19,7 +19,12 @@ namespace dibhr {
 /// Guaranteed: the distance to the goal never grows; the proxy is never below the surface; on a
 /// plane it goes as DIBHR does. Its active primitive is the TRIANGLE under it.
 class GodObject final : public ProxyAlgorithm {
-    void walk(const DepthSurface& surface, Vec3 goal, const Friction& friction, int most_moves,
+  public:
+    /// Primitives visited in an update that flies nowhere: at most 100 us.
+    static constexpr int kMostMoves = 600;
+
+  private:
+    void walk(const DepthSurface& surface, Vec3 goal, const Friction& friction,
               Proxy& proxy) const noexcept override;
 };
 

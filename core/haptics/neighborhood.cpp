@@ -11,12 +11,57 @@ namespace dibhr {
 
 namespace {
 
-/// The point of a TRIANGLE nearest to the goal, and the primitive of that TRIANGLE it lies on.
-struct NearestPoint {
-    Vec3 position{0.0};
-    Primitive on{};
-    double to_goal2{0.0};
+/// From (i, j) of a primitive to a TRIANGLE that touches it.
+struct Neighbour {
+    TriangleSide side;
+    int i, j;
 };
+
+/// The TRIANGLEs that touch a primitive, in the order they are looked at; some are missing on the
+/// border.
+struct Neighbours {
+    const Neighbour* first;
+    int count;
+};
+
+constexpr auto kNear = TriangleSide::near_origin;
+constexpr auto kFar = TriangleSide::far_corner;
+constexpr Neighbour kOfTriangle[2][1]{{{kNear, 0, 0}}, {{kFar, 0, 0}}};
+constexpr Neighbour kOfEdge[3][2]{
+    {{kNear, 0, 0}, {kFar, 0, -1}}, {{kNear, 0, 0}, {kFar, -1, 0}}, {{kNear, 0, 0}, {kFar, 0, 0}}};
+constexpr Neighbour kOfVertex[6]{{kNear, 0, 0},  {kFar, -1, -1}, {kNear, -1, 0},
+                                 {kNear, 0, -1}, {kFar, -1, 0},  {kFar, 0, -1}};
+
+[[nodiscard]] Neighbours neighbours_of(const Primitive& active) noexcept {
+    switch (active.kind) {
+        case PrimitiveKind::triangle:
+            return {kOfTriangle[static_cast<int>(active.side)], 1};
+        case PrimitiveKind::edge:
+            return {kOfEdge[static_cast<int>(active.direction)], 2};
+        default:
+            return {kOfVertex, 6};
+    }
+}
+
+/// Where on a TRIANGLE a point is: on its face, or on an EDGE, or at an end of that.
+enum class Part { face, edge, begin, end };
+
+[[nodiscard]] Primitive primitive_at(Part part, const Primitive& triangle,
+                                     EdgeDirection direction) noexcept {
+    const Primitive edge = edge_of(triangle, direction);
+    const EdgeEnds ends = ends_of(edge);
+    switch (part) {
+        case Part::edge:
+            return edge;
+        case Part::begin:
+            return vertex(ends.begin_i, ends.begin_j);
+        case Part::end:
+            return vertex(ends.end_i, ends.end_j);
+        case Part::face:
+            break;
+    }
+    return triangle;
+}
 
 class NeighborhoodWalk : private ProxyWalk {
   public:
@@ -26,107 +71,179 @@ class NeighborhoodWalk : private ProxyWalk {
         visit_until_rest([this] {
             if (proxy_.active.kind == PrimitiveKind::none) return visit_free();
             stand_on_lowest();
-            nearest_ = {proxy_.position, proxy_.active, squared_distance(proxy_.position, goal_)};
-            found_ = held_ = false;
-            each_neighbour([this](const Primitive& triangle) {
-                take_if_nearer(nearest_in(triangle), triangle);
-            });
-            if (!found_ && held_) look_at_edges();
+            const bool arrived = judged_ && proxy_.position == nearest_.position();
+            const unsigned judged = arrived ? judged_before() : 0;
+            judged_ = found_ = held_ = false;
+            nearest_.to_goal2 = squared_distance(proxy_.position, goal_);
+            search(judged);
             return found_ ? go_to_nearest() : rest_or_leave();
         });
     }
 
   private:
-    /// Held back from the nearest points of all TRIANGLEs: their EDGEs are neighbours as well.
-    void look_at_edges() noexcept {
-        each_neighbour([this](const Primitive& triangle) {
-            for (const EdgeDirection direction : kDirections) {
-                take_if_nearer(nearest_on(edge_of(triangle, direction)), triangle);
-            }
-        });
-    }
+    /// Plain numbers, not places and primitives that are copied: what was just written in parts is
+    /// slow to be read as a whole.
+    struct Nearest {
+        double x{0.0}, y{0.0}, z{0.0};
+        double to_goal2{0.0};
+        Part part{Part::face};
+        EdgeDirection direction{EdgeDirection::along_row};  ///< of the EDGE it is on
+        TriangleSide side{TriangleSide::near_origin};       ///< of the TRIANGLE it is in
+        int i{0}, j{0};
 
+        [[nodiscard]] Vec3 position() const noexcept { return {x, y, z}; }
+    };
+
+    /// Calls `look_at` for the TRIANGLEs that touch the active primitive, but for those that have a
+    /// bit in `judged`.
     template <typename Look>
-    void each_neighbour(Look&& look_at) const noexcept {
-        const Primitive active = proxy_.active;
-        if (active.kind == PrimitiveKind::triangle) {
-            look_at(active);
-        } else if (active.kind == PrimitiveKind::edge) {
-            const TrianglePair sides = triangles_of(surface_, active);
-            if (sides.first) look_at(*sides.first);
-            if (sides.second) look_at(*sides.second);
-        } else {
-            each_around(active.i, active.j, look_at);
+    void each_neighbour(unsigned judged, Look&& look_at) const noexcept {
+        const Neighbours neighbours = neighbours_of(proxy_.active);
+        for (int k = 0; k < neighbours.count; ++k) {
+            if (((judged >> k) & 1U) != 0) continue;
+            const int i = proxy_.active.i + neighbours.first[k].i;
+            const int j = proxy_.active.j + neighbours.first[k].j;
+            if (!surface_.has_vertex(i, j) || !surface_.has_vertex(i + 1, j + 1)) continue;
+            look_at(triangle(neighbours.first[k].side, i, j));
         }
     }
 
-    /// The six TRIANGLEs around a VERTEX, fewer on the border.
-    template <typename Look>
-    void each_around(int i, int j, Look&& look_at) const noexcept {
-        const bool left = i > 0;
-        const bool right = i < surface_.columns() - 1;
-        const bool above = j > 0;
-        const bool below = j < surface_.rows() - 1;
-        if (right && below) look_at(triangle(TriangleSide::near_origin, i, j));
-        if (left && above) look_at(triangle(TriangleSide::far_corner, i - 1, j - 1));
-        for (const TriangleSide side : {TriangleSide::near_origin, TriangleSide::far_corner}) {
-            if (left && below) look_at(triangle(side, i - 1, j));
-            if (right && above) look_at(triangle(side, i, j - 1));
+    /// A bit for each neighbour that touches the primitive the proxy came from, too. It came to the
+    /// nearest point of them all: none has a nearer one.
+    [[nodiscard]] unsigned judged_before() const noexcept {
+        const Neighbours neighbours = neighbours_of(proxy_.active);
+        unsigned judged = 0;
+        for (int k = 0; k < neighbours.count; ++k) {
+            const Neighbour& to = neighbours.first[k];
+            const int i = from_.i - proxy_.active.i - to.i;
+            const int j = from_.j - proxy_.active.j - to.j;
+            if (is_touched(to.side, from_, i, j)) judged |= 1U << k;
+        }
+        return judged;
+    }
+
+    /// A TRIANGLE by a primitive that is (i, j) away from it.
+    [[nodiscard]] static bool is_touched(TriangleSide side, const Primitive& what, int i,
+                                         int j) noexcept {
+        const int far = side == kFar ? 1 : 0;
+        switch (what.kind) {
+            case PrimitiveKind::triangle:
+                return what.side == side && i == 0 && j == 0;
+            case PrimitiveKind::edge:
+                return i == (what.direction == EdgeDirection::along_column ? far : 0) &&
+                       j == (what.direction == EdgeDirection::along_row ? far : 0);
+            case PrimitiveKind::vertex:
+                return (i == 1 && j == 0) || (i == 0 && j == 1) || (i == far && j == far);
+            case PrimitiveKind::none:
+                break;
+        }
+        return false;
+    }
+
+    /// For a nearer point. Held back from the nearest points of all TRIANGLEs it looks once more:
+    /// their EDGEs are neighbours as well.
+    void search(unsigned judged) noexcept {
+        for (bool along_edges = false;; along_edges = true, judged = 0) {
+            each_neighbour(judged, [this, along_edges](const Primitive& which) {
+                look_into(which, along_edges);
+            });
+            if (found_ || !held_ || along_edges) return;
         }
     }
 
-    void take_if_nearer(const NearestPoint& point, const Primitive& through) noexcept {
-        if (point.to_goal2 >= nearest_.to_goal2) return;
-        const ConeView view = cone_view(point.position);
-        if (is_held(view)) {
-            held_ = true;
-            return;
-        }
-        nearest_ = point;
-        view_ = view;
-        through_ = through;
-        found_ = true;
-    }
-
-    [[nodiscard]] NearestPoint nearest_in(const Primitive& which) const noexcept {
+    void look_into(const Primitive& which, bool along_edges) noexcept {
         const Facet facet(surface_, which);
         const Vec3 foot = facet.project(goal_).foot;
         const Barycentric share = facet.barycentric(foot.x, foot.y);
-        if (share.row >= 0.0 && share.column >= 0.0 && share.diagonal >= 0.0) {
-            return {foot, which, squared_distance(foot, goal_)};
+        const bool inside = share.row >= 0.0 && share.column >= 0.0 && share.diagonal >= 0.0;
+        if (inside && !along_edges) {
+            take_if_nearer(foot, squared_distance(foot, goal_), Part::face,
+                           EdgeDirection::along_row, which);
+            return;
         }
-        NearestPoint nearest;
-        nearest.to_goal2 = kFarther;
-        for (const EdgeDirection direction : kDirections) {
-            if (share.across(direction) >= 0.0) continue;  // the goal's foot is not beyond this one
-            const NearestPoint point = nearest_on(edge_of(which, direction));
-            if (point.to_goal2 < nearest.to_goal2) nearest = point;
-        }
-        return nearest;
+        Vec3 position{0.0};
+        double to_goal2 = kFarther;
+        Part part = Part::face;
+        EdgeDirection on = EdgeDirection::along_row;
+        const auto look_along = [&](EdgeDirection direction) {
+            // The goal's foot is not beyond this one.
+            if (share.across(direction) >= 0.0 && !along_edges) return;
+            const Point point = nearest_on(facet, which, direction);
+            if (along_edges) {
+                take_if_nearer(point.position, point.to_goal2, point.part, direction, which);
+            } else if (point.to_goal2 < to_goal2) {
+                position = point.position;
+                to_goal2 = point.to_goal2;
+                part = point.part;
+                on = direction;
+            }
+        };
+        look_along(EdgeDirection::along_row);
+        look_along(EdgeDirection::along_column);
+        look_along(EdgeDirection::diagonal);
+        take_if_nearer(position, to_goal2, part, on, which);
     }
 
-    [[nodiscard]] NearestPoint nearest_on(const Primitive& edge) const noexcept {
-        const EdgeEnds ends = ends_of(edge);
-        const Vec3 begin = surface_.vertex_at(ends.begin_i, ends.begin_j);
-        const Vec3 end = surface_.vertex_at(ends.end_i, ends.end_j);
+    /// Of an EDGE, nearest to the goal.
+    struct Point {
+        Vec3 position;
+        double to_goal2;
+        Part part;
+    };
+
+    [[nodiscard]] Point nearest_on(const Facet& facet, const Primitive& which,
+                                   EdgeDirection direction) const noexcept {
+        const EdgeEnds ends = ends_of(edge_of(which, direction));
+        const EdgeElevations z = facet.elevations_along(direction);
+        const Vec3 begin{ends.begin_i, ends.begin_j, z.begin};
+        const Vec3 end{ends.end_i, ends.end_j, z.end};
         const Vec3 along = end - begin;
         const double t = glm::dot(goal_ - begin, along) / glm::dot(along, along);
-        if (t <= 0.0) {
-            return {begin, vertex(ends.begin_i, ends.begin_j), squared_distance(begin, goal_)};
-        }
-        if (t >= 1.0) return {end, vertex(ends.end_i, ends.end_j), squared_distance(end, goal_)};
-        const Vec3 foot = begin + t * along;
-        return {foot, edge, squared_distance(foot, goal_)};
+        const Part part = t <= 0.0 ? Part::begin : t >= 1.0 ? Part::end : Part::edge;
+        const Vec3 position = t <= 0.0 ? begin : t >= 1.0 ? end : begin + t * along;
+        return {position, squared_distance(position, goal_), part};
     }
 
-    /// The EDGE of the TRIANGLE `through_` along which the way to the nearest point runs, or that
-    /// TRIANGLE.
-    [[nodiscard]] Primitive way_to_nearest() const noexcept {
-        for (const EdgeDirection direction : kDirections) {
-            const Primitive edge = edge_of(through_, direction);
-            if (lies_on(proxy_.active, edge) && lies_on(nearest_.on, edge)) return edge;
+    void take_if_nearer(Vec3 position, double to_goal2, Part part, EdgeDirection direction,
+                        const Primitive& through) noexcept {
+        if (to_goal2 >= nearest_.to_goal2) return;
+        if (is_held(cone_view(position))) {
+            held_ = true;
+            return;
         }
-        return through_;
+        found_ = true;
+        nearest_.x = position.x;
+        nearest_.y = position.y;
+        nearest_.z = position.z;
+        nearest_.to_goal2 = to_goal2;
+        nearest_.part = part;
+        nearest_.direction = direction;
+        nearest_.side = through.side;
+        nearest_.i = through.i;
+        nearest_.j = through.j;
+    }
+
+    Next go_to_nearest() noexcept {
+        const Primitive through = triangle(nearest_.side, nearest_.i, nearest_.j);
+        const Primitive on = primitive_at(nearest_.part, through, nearest_.direction);
+        const Vec3 position = nearest_.position();
+        if (!slide_to(position, cone_view(position))) {
+            proxy_.active = way_to(on, through);
+            return rest_or_leave();
+        }
+        judged_ = !held_;
+        from_ = proxy_.active;
+        proxy_.active = on;
+        return Next::visit;
+    }
+
+    /// The EDGE of the TRIANGLE along which the way to a primitive of it runs, or that TRIANGLE.
+    [[nodiscard]] Primitive way_to(const Primitive& on, const Primitive& through) const noexcept {
+        for (const EdgeDirection direction : kDirections) {
+            const Primitive edge = edge_of(through, direction);
+            if (lies_on(proxy_.active, edge) && lies_on(on, edge)) return edge;
+        }
+        return through;
     }
 
     [[nodiscard]] static bool lies_on(const Primitive& what, const Primitive& edge) noexcept {
@@ -136,29 +253,22 @@ class NeighborhoodWalk : private ProxyWalk {
                (what.i == ends.end_i && what.j == ends.end_j);
     }
 
-    Next go_to_nearest() noexcept {
-        const Primitive way = way_to_nearest();
-        const bool all_the_way = slide_to(nearest_.position, view_);
-        proxy_.active = all_the_way ? nearest_.on : way;
-        return all_the_way ? Next::visit : rest_or_leave();
-    }
-
     static constexpr double kFarther = 1e300;
     static constexpr std::array kDirections{EdgeDirection::along_row, EdgeDirection::along_column,
                                             EdgeDirection::diagonal};
 
-    NearestPoint nearest_{};  ///< of those looked at, that the proxy is free to go to
-    ConeView view_{};         ///< of the way there
-    Primitive through_{};     ///< the TRIANGLE it is in
-    bool found_{false};       ///< there is one nearer than the proxy
-    bool held_{false};        ///< there is one nearer that friction holds the proxy back from
+    Nearest nearest_{};   ///< of the points looked at, that the proxy is free to go to
+    bool found_{false};   ///< there is one nearer than the proxy
+    bool held_{false};    ///< there is one nearer that friction holds the proxy back from
+    bool judged_{false};  ///< the last visit judged what touches `from_`, and none was held
+    Primitive from_{};    ///< of the last visit
 };
 
 }  // namespace
 
 void Neighborhood::walk(const DepthSurface& surface, Vec3 goal, const Friction& friction,
-                        int most_moves, Proxy& proxy) const noexcept {
-    NeighborhoodWalk(surface, goal, friction, most_moves, proxy).run();
+                        Proxy& proxy) const noexcept {
+    NeighborhoodWalk(surface, goal, friction, kMostMoves, proxy).run();
 }
 
 }  // namespace dibhr

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 
 #include "core/haptics/surface.hpp"
@@ -45,6 +46,29 @@ struct EdgeEnds {
     return edge(direction, triangle.i, triangle.j);
 }
 
+/// The EDGE between two neighbouring VERTEXes.
+[[nodiscard]] constexpr Primitive edge_between(int i, int j, int to_i, int to_j) noexcept {
+    return edge(j == to_j   ? EdgeDirection::along_row
+                : i == to_i ? EdgeDirection::along_column
+                            : EdgeDirection::diagonal,
+                std::min(i, to_i), std::min(j, to_j));
+}
+
+/// The corner of a TRIANGLE opposite its EDGE of this direction.
+[[nodiscard]] constexpr Primitive corner_across(const Primitive& triangle,
+                                                EdgeDirection direction) noexcept {
+    const int far = triangle.side == TriangleSide::far_corner ? 1 : 0;
+    switch (direction) {
+        case EdgeDirection::along_row:
+            return vertex(triangle.i + far, triangle.j + 1 - far);
+        case EdgeDirection::along_column:
+            return vertex(triangle.i + 1 - far, triangle.j + far);
+        case EdgeDirection::diagonal:
+            break;
+    }
+    return vertex(triangle.i + far, triangle.j + far);
+}
+
 /// The TRIANGLEs on both sides of an EDGE: `first` towards +x, +y (near the diagonal's origin side
 /// for a diagonal), `second` opposite. One is missing on the image's border.
 struct TrianglePair {
@@ -74,45 +98,75 @@ struct TrianglePair {
     return pair;
 }
 
+/// Whether a point lies on the side of an EDGE's `first` TRIANGLE, seen from above.
+[[nodiscard]] inline bool is_towards_first(const Primitive& edge, double x, double y) noexcept {
+    switch (edge.direction) {
+        case EdgeDirection::along_row:
+            return y >= edge.j;
+        case EdgeDirection::along_column:
+            return x >= edge.i;
+        case EdgeDirection::diagonal:
+            break;
+    }
+    return x - edge.i + (y - edge.j) <= 1.0;
+}
+
 /// The TRIANGLE beside an EDGE on whose side a point of the image rectangle lies, seen from above.
 [[nodiscard]] inline Primitive triangle_towards(const DepthSurface& surface, const Primitive& edge,
                                                 double x, double y) noexcept {
     const TrianglePair pair = triangles_of(surface, edge);
     if (!pair.first) return *pair.second;
     if (!pair.second) return *pair.first;
-    const bool towards_first = edge.direction == EdgeDirection::along_row ? y >= edge.j
-                               : edge.direction == EdgeDirection::along_column
-                                   ? x >= edge.i
-                                   : x - edge.i + (y - edge.j) <= 1.0;
-    return towards_first ? *pair.first : *pair.second;
+    return is_towards_first(edge, x, y) ? *pair.first : *pair.second;
 }
 
 /// The TRIANGLE around VERTEX (i, j) that lies in the direction of a point of the image rectangle.
 [[nodiscard]] inline Primitive triangle_around(const DepthSurface& surface, const Primitive& vertex,
                                                double x, double y) noexcept {
-    const double dx = x - vertex.i;
-    const double dy = y - vertex.j;
-    const double reach = std::max(std::abs(dx), std::abs(dy));
-    const double step = reach > 0.0 ? 0.25 / reach : 0.0;
-    return surface.triangle_at(vertex.i + step * dx, vertex.j + step * dy);
+    // On the border the point is never outwards of the VERTEX.
+    const bool right = x >= vertex.i && vertex.i < surface.columns() - 1;
+    const bool below = y >= vertex.j && vertex.j < surface.rows() - 1;
+    const int i = right ? vertex.i : vertex.i - 1;
+    const int j = below ? vertex.j : vertex.j - 1;
+    const bool near_origin = right == below ? right : x - vertex.i + (y - vertex.j) <= 0.0;
+    return triangle(near_origin ? TriangleSide::near_origin : TriangleSide::far_corner, i, j);
 }
 
 /// The VERTEX or EDGE of `active`, a TRIANGLE or an EDGE, that the point (x, y) in it lies on to
 /// within `near_px`; else `active` itself.
 [[nodiscard]] inline Primitive lowest_under(const Primitive& active, double x, double y,
                                             double near_px) noexcept {
+    // Not std::round: that is a call into the library, and no coordinate is below -0.5.
+    const auto nearest_line = [](double along) { return static_cast<int>(along + 0.5); };
     const auto is_on_line = [&](double along) {
-        return std::abs(along - std::round(along)) <= near_px;
+        return std::abs(along - nearest_line(along)) <= near_px;
     };
     const bool on_row = is_on_line(y);
     const bool on_column = is_on_line(x);
     if (on_row && on_column) {
-        return vertex(static_cast<int>(std::round(x)), static_cast<int>(std::round(y)));
+        return vertex(nearest_line(x), nearest_line(y));
     }
     if (active.kind == PrimitiveKind::edge) return active;
     if (on_row) return edge_of(active, EdgeDirection::along_row);
     if (on_column) return edge_of(active, EdgeDirection::along_column);
     return is_on_line(x + y) ? edge_of(active, EdgeDirection::diagonal) : active;
+}
+
+/// From a VERTEX to its neighbours at the far ends of its six EDGEs, once around it: each is a
+/// neighbour of the one before.
+struct Spoke {
+    int i, j;
+};
+inline constexpr std::array<Spoke, 6> kSpokes{{{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}}};
+
+/// The EDGE of VERTEX along spoke k.
+[[nodiscard]] constexpr Primitive edge_at(const Primitive& vertex, std::size_t k) noexcept {
+    const EdgeDirection direction = k % 3 == 0   ? EdgeDirection::along_row
+                                    : k % 3 == 1 ? EdgeDirection::along_column
+                                                 : EdgeDirection::diagonal;
+    const int back_i = k == 2 || k == 3 ? 1 : 0;
+    const int back_j = k >= 4 ? 1 : 0;
+    return edge(direction, vertex.i - back_i, vertex.j - back_j);
 }
 
 /// One of the six EDGEs of a VERTEX, and the VERTEX at its far end (which may lie outside the

@@ -10,20 +10,30 @@ namespace dibhr {
 
 namespace {
 
-/// To the six neighbours of a VERTEX, around it: each is a neighbour of the one before. The order
-/// of `spokes_of`.
+/// From one VERTEX to another.
 struct Step {
     int i, j;
 };
-constexpr Step kAround[6]{{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}};
 
-/// A VERTEX of the walk.
-struct Place {
-    int i{-1};
-    int j{-1};
-    Vec3 position{0.0};
-    double to_goal2{0.0};
+/// Steps to VERTEXes, in the order they are looked at.
+struct Steps {
+    const Step* first;
+    int count;
 };
+
+/// To the six neighbours of a VERTEX, around it: each is a neighbour of the one before. The first
+/// two again at the end, so that any three in a row are in one piece.
+constexpr Step kAround[8]{{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}, {1, 0}, {0, 1}};
+
+/// From (i, j) of a TRIANGLE to its corners, by its side.
+constexpr Step kCorners[2][3]{{{1, 0}, {0, 1}, {0, 0}}, {{1, 0}, {0, 1}, {1, 1}}};
+
+/// From (i, j) of an EDGE to the corners of the TRIANGLEs beside it, by its direction; and where
+/// there is none towards +x, +y.
+constexpr Step kBeside[3][4]{{{1, 0}, {0, 1}, {0, 0}, {1, -1}},
+                             {{1, 0}, {0, 1}, {0, 0}, {-1, 1}},
+                             {{1, 0}, {0, 1}, {0, 0}, {1, 1}}};
+constexpr Step kBesideLast[2][3]{{{1, -1}, {0, 0}, {1, 0}}, {{0, 0}, {-1, 1}, {0, 1}}};
 
 class GraphWalk : private ProxyWalk {
   public:
@@ -34,9 +44,9 @@ class GraphWalk : private ProxyWalk {
             stand_on_lowest();
             switch (proxy_.active.kind) {
                 case PrimitiveKind::triangle:
-                    return visit_triangle();
+                    return visit_corners(corners_of_triangle());
                 case PrimitiveKind::edge:
-                    return visit_edge();
+                    return visit_corners(corners_beside_edge());
                 case PrimitiveKind::vertex:
                     return visit_vertices();
                 case PrimitiveKind::none:
@@ -47,121 +57,130 @@ class GraphWalk : private ProxyWalk {
     }
 
   private:
-    [[nodiscard]] Place place(int i, int j) const noexcept {
-        const Vec3 position = surface_.vertex_at(i, j);
-        return {i, j, position, squared_distance(position, goal_)};
+    /// The VERTEX nearest to the goal of some.
+    struct Nearest {
+        int taken{-1};  ///< the index of the step to it; -1: none is nearer than here
+        double z{0.0};
+        double to_goal2{0.0};
+    };
+
+    /// From VERTEX (i, j), but for the steps that have a bit in `held`. Plain numbers, not places
+    /// that are copied: what was just written in parts is slow to be read as a whole.
+    [[nodiscard]] Nearest nearest_of(int i, int j, Steps steps, unsigned held,
+                                     double here_to_goal2) const noexcept {
+        const Vec3 goal = goal_;
+        int taken = -1;
+        double nearest_z = 0.0;
+        double nearest2 = here_to_goal2;
+        for (int k = 0; k < steps.count; ++k) {
+            const int to_i = i + steps.first[k].i;
+            const int to_j = j + steps.first[k].j;
+            if (((held >> k) & 1U) != 0 || !surface_.has_vertex(to_i, to_j)) continue;
+            const double z = surface_.elevation(to_i, to_j);
+            const double to_goal2 = squared_distance({to_i, to_j, z}, goal);
+            if (to_goal2 >= nearest2) continue;
+            taken = k;
+            nearest_z = z;
+            nearest2 = to_goal2;
+        }
+        return {taken, nearest_z, nearest2};
     }
 
-    /// `nearest` becomes the corner of the TRIANGLE that is nearest to the goal, if one is nearer
-    /// and friction does not hold the proxy back from it.
-    void look_at_corners(const Primitive& triangle, Place& nearest) const noexcept {
-        const int far = triangle.side == TriangleSide::far_corner ? 1 : 0;
-        const Place corners[3]{place(triangle.i + 1, triangle.j), place(triangle.i, triangle.j + 1),
-                               place(triangle.i + far, triangle.j + far)};
-        for (const Place& corner : corners) {
-            if (corner.to_goal2 >= nearest.to_goal2) continue;
-            if (!is_held(cone_view(corner.position))) nearest = corner;
+    [[nodiscard]] Steps corners_of_triangle() const noexcept {
+        return {kCorners[proxy_.active.side == TriangleSide::far_corner ? 1 : 0], 3};
+    }
+
+    [[nodiscard]] Steps corners_beside_edge() const noexcept {
+        const EdgeDirection direction = proxy_.active.direction;
+        if (direction == EdgeDirection::along_row && proxy_.active.j == surface_.rows() - 1)
+            return {kBesideLast[0], 3};
+        if (direction == EdgeDirection::along_column && proxy_.active.i == surface_.columns() - 1)
+            return {kBesideLast[1], 3};
+        return {kBeside[static_cast<int>(direction)], 4};
+    }
+
+    Next visit_corners(Steps steps) noexcept {
+        const int i = proxy_.active.i;
+        const int j = proxy_.active.j;
+        const double here_to_goal2 = squared_distance(proxy_.position, goal_);
+        for (unsigned held = 0;;) {
+            const Nearest nearest = nearest_of(i, j, steps, held, here_to_goal2);
+            if (nearest.taken < 0) return rest_or_leave();
+            const Step step = steps.first[nearest.taken];
+            const int to_i = i + step.i;
+            const int to_j = j + step.j;
+            const ConeView view = cone_view({to_i, to_j, nearest.z});
+            if (is_held(view)) {
+                held |= 1U << nearest.taken;
+            } else if (slide_to({to_i, to_j, nearest.z}, view)) {
+                proxy_.active = vertex(to_i, to_j);
+                return Next::visit;
+            } else {
+                stand_towards(vertex(to_i, to_j));
+                return rest_or_leave();
+            }
         }
     }
 
-    [[nodiscard]] Place here() const noexcept {
-        return {-1, -1, proxy_.position, squared_distance(proxy_.position, goal_)};
-    }
-
-    Next visit_triangle() noexcept {
-        Place nearest = here();
-        look_at_corners(proxy_.active, nearest);
-        return go_to(nearest, proxy_.active);
-    }
-
-    Next visit_edge() noexcept {
-        const Primitive active = proxy_.active;
-        const TrianglePair sides = triangles_of(surface_, active);
-        Place nearest = here();
-        if (sides.first) look_at_corners(*sides.first, nearest);
-        const Place nearest_of_first = nearest;
-        if (sides.second) look_at_corners(*sides.second, nearest);
-        const EdgeEnds ends = ends_of(active);
-        const bool is_end = (nearest.i == ends.begin_i && nearest.j == ends.begin_j) ||
-                            (nearest.i == ends.end_i && nearest.j == ends.end_j);
-        if (nearest.i < 0 || is_end) return go_to(nearest, active);
-        const bool in_first = nearest.to_goal2 >= nearest_of_first.to_goal2;
-        return go_to(nearest, in_first ? *sides.first : *sides.second);
-    }
-
-    /// From a place on an EDGE or in a TRIANGLE, `on`, to a VERTEX of it.
-    Next go_to(const Place& corner, const Primitive& on) noexcept {
-        if (corner.i < 0) return rest_or_leave();
-        if (slide_to(corner.position, cone_view(corner.position))) {
-            proxy_.active = vertex(corner.i, corner.j);
-            return Next::visit;
+    /// A proxy that left an EDGE for the corner across a TRIANGLE is in that TRIANGLE.
+    void stand_towards(const Primitive& corner) noexcept {
+        const Primitive from = proxy_.active;
+        if (from.kind != PrimitiveKind::edge) return;
+        const TrianglePair sides = triangles_of(surface_, from);
+        for (const auto& side : {sides.first, sides.second}) {
+            if (side && corner_across(*side, from.direction) == corner) proxy_.active = *side;
         }
-        proxy_.active = on;
-        return rest_or_leave();
     }
 
     /// From VERTEX to VERTEX. Of the neighbours of the next one two were neighbours of the last one
     /// too and not nearer: only the three ahead are looked at, unless friction held it back from
     /// one of the two.
     Next visit_vertices() noexcept {
-        Place at = place(proxy_.active.i, proxy_.active.j);
-        Fan fan{0, 6};
-        for (;; ++proxy_.moves) {
-            unsigned held = 0;  // a bit for each way that friction holds the proxy back from
-            Ahead ahead = nearest_in(fan, at, held);
-            while (ahead.way >= 0 && is_held(cone_view(ahead.place.position))) {
-                held |= 1U << ahead.way;
-                ahead = nearest_in(fan, at, held);
+        int i = proxy_.active.i;
+        int j = proxy_.active.j;
+        Vec3 at = proxy_.position;
+        double here_to_goal2 = squared_distance(surface_.vertex_at(i, j), goal_);
+        int first = 0;
+        int count = 6;
+        unsigned held = 0;
+        for (;;) {
+            const Nearest nearest = nearest_of(i, j, {kAround + first, count}, held, here_to_goal2);
+            if (nearest.taken < 0) break;
+            const int way = first + nearest.taken;
+            const int to_i = i + kAround[way].i;
+            const int to_j = j + kAround[way].j;
+            const ConeView view = cone_view(at, {to_i, to_j, nearest.z});
+            if (is_held(view)) {
+                held |= 1U << nearest.taken;
+                continue;
             }
-            if (ahead.way < 0) break;
-            if (!slide_to(ahead.place.position, cone_view(ahead.place.position))) {
-                const auto way = static_cast<std::size_t>(ahead.way);
-                proxy_.active = spokes_of(vertex(at.i, at.j))[way].edge;
+            if (!slide_to({to_i, to_j, nearest.z}, view)) {
+                proxy_.active = edge_between(i, j, to_i, to_j);
                 return rest_or_leave();
             }
-            at = ahead.place;
+            at = {to_i, to_j, nearest.z};
+            i = to_i;
+            j = to_j;
             if (proxy_.moves >= most_moves_) {
-                proxy_.active = vertex(at.i, at.j);
+                proxy_.active = vertex(i, j);
                 return Next::visit;  // which ends the walk
             }
-            fan = held == 0 ? Fan{ahead.way == 0 ? 5 : ahead.way - 1, 3} : Fan{0, 6};
+            ++proxy_.moves;
+            here_to_goal2 = nearest.to_goal2;
+            first = held == 0 ? (way + 5) % 6 : 0;
+            count = held == 0 ? 3 : 6;
+            held = 0;
         }
-        proxy_.active = vertex(at.i, at.j);
+        proxy_.active = vertex(i, j);
         return rest_or_leave();
-    }
-
-    /// Some of the six ways around a VERTEX, one after the other.
-    struct Fan {
-        int first;
-        int count;
-    };
-
-    /// The neighbour to go to next.
-    struct Ahead {
-        Place place{};
-        int way{-1};  ///< index in kAround; -1: there is none
-    };
-
-    /// The nearest to the goal, if one is nearer than `at`, but for the ways held back from.
-    [[nodiscard]] Ahead nearest_in(Fan fan, const Place& at, unsigned held) const noexcept {
-        Ahead ahead{at, -1};
-        for (int k = fan.first; k < fan.first + fan.count; ++k) {
-            const int way = k < 6 ? k : k - 6;
-            const int i = at.i + kAround[way].i;
-            const int j = at.j + kAround[way].j;
-            if (((held >> way) & 1U) != 0 || !surface_.has_vertex(i, j)) continue;
-            const Place candidate = place(i, j);
-            if (candidate.to_goal2 < ahead.place.to_goal2) ahead = {candidate, way};
-        }
-        return ahead;
     }
 };
 
 }  // namespace
 
-void Pga::walk(const DepthSurface& surface, Vec3 goal, const Friction& friction, int most_moves,
+void Pga::walk(const DepthSurface& surface, Vec3 goal, const Friction& friction,
                Proxy& proxy) const noexcept {
-    GraphWalk(surface, goal, friction, most_moves, proxy).run();
+    GraphWalk(surface, goal, friction, kMostMoves, proxy).run();
 }
 
 }  // namespace dibhr

@@ -19,9 +19,15 @@ namespace dibhr {
 /// - It leaves as DIBHR does: where it would rest, if the goal is above the plane there.
 /// Guaranteed: the distance to the goal never grows; the proxy is always on the surface or in free
 /// space; without friction a proxy on a VERTEX of a plane rests within half a cell's diagonal of
-/// the goal's foot. Cost: three elevations a VERTEX on its way.
+/// the goal's foot. Cost: three or four elevations for the corners where it was stopped, six at the
+/// first VERTEX, three at every next one, again where friction holds it back from a neighbour.
 class Pga final : public ProxyAlgorithm {
-    void walk(const DepthSurface& surface, Vec3 goal, const Friction& friction, int most_moves,
+  public:
+    /// Primitives visited in an update that flies nowhere: at most 100 us.
+    static constexpr int kMostMoves = 500;
+
+  private:
+    void walk(const DepthSurface& surface, Vec3 goal, const Friction& friction,
               Proxy& proxy) const noexcept override;
 };
 

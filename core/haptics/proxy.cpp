@@ -13,13 +13,9 @@ namespace dibhr {
 
 namespace {
 
-/// Far more primitives than any path of a hand's step visits; grows with the cells it may cross.
-int most_moves(Vec3 proxy, Vec3 goal) noexcept {
-    // The foot of a goal far below a slope lies as far to the side.
-    const double way =
-        std::abs(goal.x - proxy.x) + std::abs(goal.y - proxy.y) + std::abs(goal.z - proxy.z);
-    return 256 + static_cast<int>(64.0 * std::min(way, 1e6));
-}
+/// So many cells flown over take as long as all moves of an update, each from memory that nobody
+/// has read yet.
+constexpr int kMostCells = 500;
 
 /// Nearer to a grid line than this is on it [px]: even up a cliff of 255 px it is no step.
 constexpr double kOnGrid_px = 1e-12;
@@ -28,7 +24,7 @@ constexpr double kOnGrid_px = 1e-12;
 
 const Proxy& ProxyAlgorithm::update(const DepthSurface& surface, Vec3 goal,
                                     const Friction& friction) noexcept {
-    const Vec3 goal_in_frame = surface.clamped_to_frame(goal);
+    const Vec3 goal_in_frame = surface.clamped_to_frame(surface.clamped_to_reach(goal));
     if (started_ && surface.columns() == columns_ && surface.rows() == rows_) {
         follow_surface(surface);
     } else {
@@ -36,7 +32,7 @@ const Proxy& ProxyAlgorithm::update(const DepthSurface& surface, Vec3 goal,
     }
     proxy_.moves = 0;
     proxy_.bound_met = false;
-    walk(surface, goal_in_frame, friction, most_moves(proxy_.position, goal_in_frame), proxy_);
+    walk(surface, goal_in_frame, friction, proxy_);
     return proxy_;
 }
 
@@ -62,16 +58,21 @@ void ProxyAlgorithm::follow_surface(const DepthSurface& surface) noexcept {
 }
 
 ProxyWalk::Next ProxyWalk::visit_free() noexcept {
-    const auto hit = first_hit(surface_, proxy_.position, goal_);
-    if (!hit) {
-        proxy_.position = goal_;
-        return Next::rest;
-    }
-    proxy_.position = hit->position;
+    const Flight flight = fly_to(goal_);
+    proxy_.position = flight.end;
+    if (!flight.ground) return Next::rest;
     proxy_.contact = true;
     proxy_.slipping = false;
-    proxy_.active = hit->triangle;
+    proxy_.active = *flight.ground;
     return Next::visit;
+}
+
+Flight ProxyWalk::fly_to(Vec3 end) noexcept {
+    const int moves_left = std::max(most_moves_ - proxy_.moves, 0);
+    const Flight flight = fly(surface_, proxy_.position, end, moves_left * kMostCells / all_moves_);
+    most_moves_ -= flight.cells * all_moves_ / kMostCells;
+    if (flight.cut_short) proxy_.bound_met = true;
+    return flight;
 }
 
 ProxyWalk::Next ProxyWalk::leave() noexcept {

@@ -13,8 +13,9 @@ struct Proxy {
     Primitive active{};  ///< kind none in free space
     int moves{0};        ///< primitives visited in this update
     bool contact{false};
-    bool slipping{false};   ///< the dynamic coefficient holds
-    bool bound_met{false};  ///< the walk was stopped by its bound: a fault, counted and reported
+    bool slipping{false};  ///< the dynamic coefficient holds
+    /// The walk came to its last move before its end: it goes on from here in the next update.
+    bool bound_met{false};
 };
 
 /// Where the proxy starts, how it follows a surface that moves, and where it goes on from when
@@ -25,7 +26,8 @@ class ProxyAlgorithm {
     virtual ~ProxyAlgorithm() = default;
 
     /// Moves the proxy towards `goal` over `surface`, which may have moved since the last update.
-    /// The goal must be finite. The first update starts the proxy above the goal, in free space.
+    /// The goal must be finite; one beyond all reach counts as at its limit. The first update
+    /// starts the proxy above the goal, in free space.
     const Proxy& update(const DepthSurface& surface, Vec3 goal, const Friction& friction) noexcept;
 
     /// Forgets everything: the next update is a first one.
@@ -35,10 +37,10 @@ class ProxyAlgorithm {
     void resume(const ProxyAlgorithm& other) noexcept { *this = other; }
 
   protected:
-    /// From where the proxy is to where it rests. `goal` lies inside the image rectangle; after
-    /// `most_moves` primitives `bound_met` is set.
+    /// From where the proxy is to where it rests, or to where the algorithm's most moves take it:
+    /// then `bound_met` is set. `goal` lies inside the image rectangle.
     virtual void walk(const DepthSurface& surface, Vec3 goal, const Friction& friction,
-                      int most_moves, Proxy& proxy) const noexcept = 0;
+                      Proxy& proxy) const noexcept = 0;
 
   private:
     void start_above(const DepthSurface& surface, Vec3 goal) noexcept;

@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/haptics/collision.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/proxy.hpp"
 #include "core/haptics/surface.hpp"
@@ -21,7 +22,7 @@ class ProxyWalk {
         : surface_(surface),
           goal_(goal),
           friction_(friction),
-          most_moves_(most_moves),
+          all_moves_(most_moves),
           proxy_(proxy) {}
 
   protected:
@@ -57,6 +58,9 @@ class ProxyWalk {
     /// Free flight to the goal, or to where it meets the surface: then there is a TRIANGLE to
     /// visit.
     Next visit_free() noexcept;
+
+    /// From where the proxy is, which stays there. Takes its share of the moves.
+    Flight fly_to(Vec3 end) noexcept;
 
     /// Off the surface, and free flight.
     Next leave() noexcept;
@@ -114,8 +118,13 @@ class ProxyWalk {
     };
 
     [[nodiscard]] ConeView cone_view(Vec3 end) const noexcept {
-        const Vec3 to_goal = goal_ - proxy_.position;
-        const Vec3 piece = end - proxy_.position;
+        return cone_view(proxy_.position, end);
+    }
+
+    /// The same, of a proxy at `begin`.
+    [[nodiscard]] ConeView cone_view(Vec3 begin, Vec3 end) const noexcept {
+        const Vec3 to_goal = goal_ - begin;
+        const Vec3 piece = end - begin;
         const Vec3 off = glm::cross(to_goal, piece);
         return {piece, glm::dot(piece, piece), glm::dot(to_goal, piece),
                 cone_at(glm::dot(off, off))};
@@ -147,7 +156,8 @@ class ProxyWalk {
     const DepthSurface& surface_;
     const Vec3 goal_;
     const Friction friction_;
-    const int most_moves_;
+    const int all_moves_;
+    int most_moves_{all_moves_};  ///< of them: less those that flights have taken
     Proxy& proxy_;
     bool moved_{false};
 };

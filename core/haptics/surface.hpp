@@ -119,6 +119,17 @@ class DepthSurface {
         return {std::clamp(p.x, 0.0, columns_ - 1.0), std::clamp(p.y, 0.0, rows_ - 1.0), p.z};
     }
 
+    /// Moved into the box around the scene in which everything is computed: kReach_px beyond the
+    /// image on all sides, the ground and the ceiling.
+    [[nodiscard]] Vec3 clamped_to_reach(Vec3 p) const noexcept {
+        return {std::clamp(p.x, -kReach_px, columns_ - 1.0 + kReach_px),
+                std::clamp(p.y, -kReach_px, rows_ - 1.0 + kReach_px),
+                std::clamp(p.z, -kReach_px, ceiling() + kReach_px)};
+    }
+
+    /// Farther than any hand goes, near enough that round-off stays below a billionth of a pixel.
+    static constexpr double kReach_px = 1e5;
+
   private:
     /// The cell under a coordinate, held in 0 to `last`. Held first: any number can be given.
     [[nodiscard]] static int cell_at(double along, int last) noexcept {
@@ -126,7 +137,7 @@ class DepthSurface {
     }
 
     /// Bilinear height of the bump map, stretched over the image, at vertex (i, j), in [0, 1].
-    [[nodiscard]] double bump_height(int i, int j) const noexcept {
+    [[nodiscard, gnu::noinline]] double bump_height(int i, int j) const noexcept {
         const Between x(i, columns_, bump_->columns);
         const Between y(j, rows_, bump_->rows);
         const auto height = [this](int column, int row) {

@@ -79,16 +79,17 @@ bool TouchRenderer::run_with(Algorithm algorithm) noexcept {
     return true;
 }
 
-const Touch& TouchRenderer::update(const DepthSurface& surface, Vec3 goal,
+const Touch& TouchRenderer::update(const DepthSurface& surface, Vec3 hand,
                                    const TouchParameters& parameters, SafetyInput input,
                                    const SafetyLimits& limits) noexcept {
-    if (!is_finite(goal)) {
+    if (!is_finite(hand)) {
         goal_velocity_.forget();  // the next step takes longer than its tick
         last_.spring_force_newton = Vec3(0.0);
         last_.sent_force_newton = safety_.limit(Vec3(NAN), input, limits);
         last_.cut = safety_.last_cut();
         return last_;
     }
+    const Vec3 goal = surface.clamped_to_reach(hand);
     const Vec3 goal_step = started_ ? goal - last_.goal : Vec3(0.0);
     input.goal_step_mm = glm::length(goal_step) * parameters.coupling.pixel_pitch_mm;
     const bool changed = run_with(parameters.algorithm);

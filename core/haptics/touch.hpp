@@ -51,7 +51,8 @@ class TouchRenderer {
   public:
     TouchRenderer();
 
-    /// One update. A non-finite goal is refused: the last state stands and the force is zero.
+    /// One update. A non-finite goal is refused: the last state stands and the force is zero. One
+    /// beyond all reach counts as at its limit.
     /// `input.goal_step_mm` is worked out here; another algorithm than before makes the force ramp.
     /// No allocation.
     const Touch& update(const DepthSurface& surface, Vec3 goal, const TouchParameters& parameters,
