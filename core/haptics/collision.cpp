@@ -32,18 +32,17 @@ class LineCrossings {
     [[nodiscard]] int step() const noexcept { return step_; }
     /// Segment parameter of the next line.
     [[nodiscard]] double next() const noexcept { return next_; }
-    /// False: out of the image.
-    [[nodiscard]] bool advance() noexcept {
+    void advance() noexcept {
         cell_ += step_;
         find_next();
-        return cell_ >= 0 && cell_ < cells_;
     }
 
   private:
     void find_next() noexcept {
         const int line = step_ > 0 ? cell_ + 1 : cell_;
-        next_ = per_delta_ == 0.0 ? std::numeric_limits<double>::infinity()
-                                  : (line - start_) * per_delta_;
+        // The segment ends inside the image, whatever round-off says of the border.
+        const bool never = per_delta_ == 0.0 || line <= 0 || line >= cells_;
+        next_ = never ? std::numeric_limits<double>::infinity() : (line - start_) * per_delta_;
     }
 
     double start_;
@@ -128,10 +127,12 @@ class SegmentWalk {
         };
         for (;;) {
             if (columns.next() <= rows.next()) {
-                if (ends_in_cell(columns.next()) || !columns.advance()) return flight;
+                if (ends_in_cell(columns.next())) return flight;
+                columns.advance();
                 corners.step_column(surface_, columns.cell(), rows.cell(), columns.step());
             } else {
-                if (ends_in_cell(rows.next()) || !rows.advance()) return flight;
+                if (ends_in_cell(rows.next())) return flight;
+                rows.advance();
                 corners.step_row(surface_, columns.cell(), rows.cell(), rows.step());
             }
         }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 #include "core/haptics/facet.hpp"
@@ -39,6 +40,11 @@ class VertexFan {
     /// From the VERTEX to the far end of a way.
     [[nodiscard]] Vec3 along(std::size_t way) const noexcept {
         return {kSpokes[way].i, kSpokes[way].j, around_[way] - z_};
+    }
+
+    /// At the ends of the EDGE along a way.
+    [[nodiscard]] EdgeElevations elevations_along(std::size_t way) const noexcept {
+        return way < 3 ? EdgeElevations{z_, around_[way]} : EdgeElevations{around_[way], z_};
     }
 
     [[nodiscard]] Facet facet(std::size_t k) const noexcept {
@@ -125,7 +131,9 @@ class SurfaceWalk : private ProxyWalk {
                 return leave();
             case Glide::End::held:
                 proxy_.active = glide.facet().triangle();
-                return Next::rest;
+                // On an EDGE it crossed: the TRIANGLE before it leads here, and a piece along the
+                // EDGE is held where the TRIANGLE is, whose plane it lies in.
+                return glide.crossed() ? Next::rest : rest_or_go_on();
             case Glide::End::cone:
                 proxy_.active = glide.facet().triangle();
                 return stop_at_cone(
@@ -203,7 +211,7 @@ class SurfaceWalk : private ProxyWalk {
         proxy_.active = edge;
         // Without friction a foot at the very end is the VERTEX's to judge.
         if (is_held(piece.cone, piece.length2) && (piece.cone.holding2 > 0.0 || !past_an_end)) {
-            return Next::rest;
+            return rest_on_edge();
         }
         const Vec3 corner = past_begin ? begin : end;
         if (past_an_end && squared_distance(foot, corner) >= piece.cone.moving2) {
@@ -239,6 +247,92 @@ class SurfaceWalk : private ProxyWalk {
         return visit_fan_edge(fan, steepest);
     }
 
+    /// Friction holds the proxy on the active piece. On an EDGE or a VERTEX that is not all that
+    /// surrounds it: it goes on by the piece along which the distance falls fastest of those on
+    /// which friction does not hold it, and rests where there is none.
+    Next rest_or_go_on() noexcept {
+        if (proxy_.position == judged_) return Next::rest;
+        judged_ = proxy_.position;
+        const Primitive under = lowest_under_proxy();
+        if (under.kind == PrimitiveKind::vertex) return go_on_from_vertex(under);
+        if (under.kind == PrimitiveKind::edge) return go_on_from_edge(under);
+        return Next::rest;
+    }
+
+    /// The same where neither TRIANGLE beside the active EDGE leads nearer.
+    Next rest_on_edge() noexcept {
+        const bool on_vertex = lowest_under_proxy().kind == PrimitiveKind::vertex;
+        return on_vertex ? rest_or_go_on() : Next::rest;
+    }
+
+    /// How far a piece leads, squared; 0 where friction holds the proxy. The goal above a TRIANGLE
+    /// is held by nothing.
+    [[nodiscard]] double free_length2(const Facet& facet,
+                                      const Facet::Projection& goal_on) const noexcept {
+        const Piece piece = piece_to(goal_on.foot, goal_on.distance2);
+        const bool is_free = goal_on.rise > 0.0 || !is_held(piece.cone, piece.length2);
+        return is_free ? piece.length2 : 0.0;
+    }
+
+    Next go_on_from_edge(const Primitive& edge) noexcept {
+        const TrianglePair pair = triangles_of(surface_, edge);
+        double farthest2 = 0.0;
+        for (const auto& triangle : {pair.first, pair.second}) {
+            if (!triangle) continue;
+            const Facet facet(surface_, *triangle);
+            const Side side = side_of(facet, edge.direction);
+            const double length2 = side.gradient2 > 0.0 ? free_length2(facet, side.goal_on) : 0.0;
+            if (length2 <= farthest2) continue;
+            farthest2 = length2;
+            proxy_.active = *triangle;
+        }
+        return farthest2 > 0.0 ? Next::visit : Next::rest;
+    }
+
+    [[nodiscard]] bool is_held_along(Vec3 along) const noexcept {
+        const Vec3 to_goal = goal_ - proxy_.position;
+        const double length2 = square(glm::dot(to_goal, along)) / glm::dot(along, along);
+        return is_held(cone_at(glm::dot(to_goal, to_goal) - length2), length2);
+    }
+
+    Next go_on_from_vertex(const Primitive& vertex) noexcept {
+        const VertexFan fan(surface_, vertex);
+        double farthest2 = 0.0;
+        for (std::size_t k = 0; k < kSpokes.size(); ++k) {
+            if (!fan.has_facet(k)) continue;
+            const Facet facet = fan.facet(k);
+            const Facet::Projection goal_on = facet.project(goal_);
+            const Barycentric at_foot = facet.barycentric(goal_on.foot.x, goal_on.foot.y);
+            if (at_foot.across(direction_of_spoke(k)) <= kThere_px) continue;
+            if (at_foot.across(direction_of_spoke((k + 1) % kSpokes.size())) <= kThere_px) continue;
+            const double length2 = free_length2(facet, goal_on);
+            if (length2 <= farthest2) continue;
+            farthest2 = length2;
+            proxy_.active = facet.triangle();
+        }
+        if (farthest2 > 0.0) return Next::visit;
+        return go_on_by_spoke(vertex, fan);
+    }
+
+    /// No TRIANGLE around the VERTEX leads on: an EDGE may.
+    Next go_on_by_spoke(const Primitive& vertex, const VertexFan& fan) noexcept {
+        const Vec3 to_goal = goal_ - proxy_.position;
+        std::size_t farthest = kSpokes.size();
+        double farthest_gain = 0.0;
+        for (std::size_t k = 0; k < kSpokes.size(); ++k) {
+            if (!fan.has(k)) continue;
+            const Vec3 along = fan.along(k);
+            const double nearer = glm::dot(to_goal, along);
+            if (nearer <= 0.0 || is_held_along(along)) continue;
+            const double gain = nearer / std::sqrt(glm::dot(along, along));
+            if (gain <= farthest_gain) continue;
+            farthest_gain = gain;
+            farthest = k;
+        }
+        if (farthest == kSpokes.size()) return Next::rest;
+        return slide_along(edge_at(vertex, farthest), fan.elevations_along(farthest));
+    }
+
     /// The TRIANGLEs beside it are known.
     Next visit_fan_edge(const VertexFan& fan, std::size_t way) noexcept {
         // As `triangles_of` orders them: the even one is towards +x and +y.
@@ -252,6 +346,8 @@ class SurfaceWalk : private ProxyWalk {
         const Facet other = fan.facet(second);
         return visit_sides(one, side_of(other, direction));
     }
+
+    Vec3 judged_{std::numeric_limits<double>::infinity()};  ///< where all around it was judged
 };
 
 }  // namespace

@@ -66,6 +66,8 @@ class Glide {
     [[nodiscard]] Vec3 position() const noexcept { return position_; }
     [[nodiscard]] int moves() const noexcept { return moves_; }
     [[nodiscard]] bool moved() const noexcept { return moved_; }
+    /// On an EDGE that it crossed; else in the TRIANGLE it began in.
+    [[nodiscard]] bool crossed() const noexcept { return crossed_; }
     /// The TRIANGLE it ended in, or beside whose EDGE.
     [[nodiscard]] const Facet& facet() const noexcept { return facet_; }
     [[nodiscard]] const Facet::Projection& goal_on() const noexcept { return goal_on_; }
@@ -164,6 +166,7 @@ class Glide {
     template <EdgeDirection kThrough>
     [[gnu::always_inline]] void arrive() noexcept {
         on_plane_ = false;
+        crossed_ = true;
         read_ahead<kThrough>();
         move_to_crossing<kThrough>();
         if (end_ != End::none) return;
@@ -261,6 +264,7 @@ class Glide {
     int moves_;
     double holding_;
     bool moved_{false};
+    bool crossed_{false};
     Facet facet_;
     Facet::Projection goal_on_;
     double length2_{0.0};

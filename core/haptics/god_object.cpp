@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <initializer_list>
 #include <optional>
@@ -150,17 +151,18 @@ class ConstraintWalk : private ProxyWalk {
             if (planes_.empty() && (gets_nowhere() || !touch_on_way_to_goal())) return Next::rest;
             return go_as_near_as_allowed();
         });
-        if (proxy_.bound_met && is_in_air()) let_go();
-        if (proxy_.contact) {
-            proxy_.active = surface_.triangle_at(proxy_.position.x, proxy_.position.y);
-        }
+        if (proxy_.contact) settle();
     }
 
   private:
-    /// Over a ridge, with the last move spent before it is down again.
-    [[nodiscard]] bool is_in_air() const noexcept {
-        const Vec3& p = proxy_.position;
-        return p.z > surface_.elevation_at(p.x, p.y) + kSettled_px;
+    /// On the surface; or in the air, where the last move was spent over a ridge.
+    void settle() noexcept {
+        Vec3& p = proxy_.position;
+        const double ground = surface_.elevation_at(p.x, p.y);
+        if (proxy_.bound_met && p.z > ground + kSettled_px) return let_go();
+        // Planes that are nearly parallel leave a goal far below them more round-off than this.
+        if (std::abs(p.z - ground) > kRoundOff_px) p.z = ground;
+        proxy_.active = surface_.triangle_at(p.x, p.y);
     }
 
     void let_go() noexcept {
@@ -259,6 +261,7 @@ class ConstraintWalk : private ProxyWalk {
 
     /// Several times what a collision lets the proxy sink in.
     static constexpr double kSettled_px = 1e-9;
+    static constexpr double kRoundOff_px = 1e-8;
 
     /// As often as this the active planes may be found anew with the proxy no farther than that.
     static constexpr int kMostIdlePasses = 8;

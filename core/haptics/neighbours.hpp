@@ -159,14 +159,17 @@ struct Spoke {
 };
 inline constexpr std::array<Spoke, 6> kSpokes{{{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}}};
 
-/// The EDGE of VERTEX along spoke k.
+[[nodiscard]] constexpr EdgeDirection direction_of_spoke(std::size_t k) noexcept {
+    return k % 3 == 0   ? EdgeDirection::along_row
+           : k % 3 == 1 ? EdgeDirection::along_column
+                        : EdgeDirection::diagonal;
+}
+
+/// The EDGE of a VERTEX along spoke k.
 [[nodiscard]] constexpr Primitive edge_at(const Primitive& vertex, std::size_t k) noexcept {
-    const EdgeDirection direction = k % 3 == 0   ? EdgeDirection::along_row
-                                    : k % 3 == 1 ? EdgeDirection::along_column
-                                                 : EdgeDirection::diagonal;
     const int back_i = k == 2 || k == 3 ? 1 : 0;
     const int back_j = k >= 4 ? 1 : 0;
-    return edge(direction, vertex.i - back_i, vertex.j - back_j);
+    return edge(direction_of_spoke(k), vertex.i - back_i, vertex.j - back_j);
 }
 
 /// One of the six EDGEs of a VERTEX, and the VERTEX at its far end (which may lie outside the

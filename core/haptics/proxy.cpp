@@ -33,6 +33,7 @@ const Proxy& ProxyAlgorithm::update(const DepthSurface& surface, Vec3 goal,
     proxy_.moves = 0;
     proxy_.bound_met = false;
     walk(surface, goal_in_frame, friction, proxy_);
+    proxy_.position = surface.clamped_to_frame(proxy_.position);  // of round-off at the border
     return proxy_;
 }
 
@@ -92,13 +93,17 @@ ProxyWalk::Next ProxyWalk::rest_or_leave() noexcept {
     return is_above(below) ? leave() : Next::rest;
 }
 
+Primitive ProxyWalk::lowest_under_proxy() const noexcept {
+    const Vec3& p = proxy_.position;
+    return lowest_under(proxy_.active, p.x, p.y, kOnGrid_px);
+}
+
 void ProxyWalk::stand_on_lowest() noexcept {
-    const Primitive active = proxy_.active;
-    if (active.kind != PrimitiveKind::triangle && active.kind != PrimitiveKind::edge) return;
-    Vec3& p = proxy_.position;
-    proxy_.active = lowest_under(active, p.x, p.y, kOnGrid_px);
+    const PrimitiveKind kind = proxy_.active.kind;
+    if (kind != PrimitiveKind::triangle && kind != PrimitiveKind::edge) return;
+    proxy_.active = lowest_under_proxy();
     if (proxy_.active.kind == PrimitiveKind::vertex) {
-        p = surface_.vertex_at(proxy_.active.i, proxy_.active.j);
+        proxy_.position = surface_.vertex_at(proxy_.active.i, proxy_.active.j);
     }
 }
 

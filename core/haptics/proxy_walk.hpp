@@ -1,6 +1,7 @@
 // What the walks of all algorithms share: flights, moves, and friction before a straight piece.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -69,8 +70,10 @@ class ProxyWalk {
     /// the active primitive.
     Next rest_or_leave() noexcept;
 
-    /// A proxy stopped at a VERTEX or EDGE of the active primitive makes that active: only then
-    /// does it see all that surrounds it.
+    /// The VERTEX or EDGE of the active TRIANGLE or EDGE that the proxy is on, or that itself.
+    [[nodiscard]] Primitive lowest_under_proxy() const noexcept;
+
+    /// Makes it active: only then does the proxy see all that surrounds it.
     void stand_on_lowest() noexcept;
 
     [[nodiscard]] bool is_above(const Primitive& triangle) const noexcept;
@@ -141,8 +144,9 @@ class ProxyWalk {
     }
 
     [[nodiscard]] Vec3 place_on_cone(const ConeView& view) const noexcept {
-        const double gone = (view.along - std::sqrt(view.cone.moving2)) / view.length2;
-        return proxy_.position + gone * view.piece;
+        // A piece of next to nothing may seem to lead away from F.
+        const double gone = std::max(view.along - std::sqrt(view.cone.moving2), 0.0);
+        return proxy_.position + gone / view.length2 * view.piece;
     }
 
     /// Goes along a piece that does not hold the proxy, up to the cone; false if that is before its

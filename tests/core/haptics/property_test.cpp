@@ -1,6 +1,8 @@
 // What must always hold, on random and on hostile surfaces.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
 #include <vector>
@@ -90,6 +92,47 @@ double nearest_around(const DepthSurface& surface, Vec3 proxy, Vec3 goal) {
         }
     }
     return nearest;
+}
+
+/// Whether friction holds a proxy back from going to the foot F of the goal on a straight piece.
+bool is_held(Vec3 proxy, Vec3 foot, Vec3 goal, double mu) {
+    return glm::length(proxy - foot) <= mu * glm::length(goal - foot) + 1e-7;
+}
+
+/// Whether a TRIANGLE that the proxy touches leads it nearer to the goal, and friction lets it.
+bool leads_on(const std::array<Vec3, 3>& corners, Vec3 proxy, Vec3 goal, double mu) {
+    const auto& [a, b, c] = corners;
+    if (glm::length(nearest_on(a, b, c, proxy) - proxy) > 1e-9) return false;
+    for (int k = 0; k < 3; ++k) {
+        const Vec3 begin = corners[static_cast<std::size_t>(k)];
+        const Vec3 along = corners[static_cast<std::size_t>((k + 1) % 3)] - begin;
+        const double at = glm::dot(proxy - begin, along) / glm::dot(along, along);
+        if (glm::length(begin + at * along - proxy) > 1e-9) continue;  // not on this EDGE
+        const double foot_at = glm::dot(goal - begin, along) / glm::dot(along, along);
+        const bool is_way = foot_at > at ? at < 1.0 - 1e-6 : at > 1e-6;
+        if (is_way && !is_held(proxy, begin + foot_at * along, goal, mu)) return true;
+    }
+    const Vec3 normal = glm::normalize(glm::cross(b - a, c - a));
+    const Vec3 foot = goal - normal * glm::dot(goal - a, normal);
+    const Vec3 ahead = proxy + 1e-4 * glm::normalize(foot - proxy);
+    const bool is_way = glm::length(nearest_on(a, b, c, ahead) - ahead) <= 1e-9;
+    return is_way && !is_held(proxy, foot, goal, mu);
+}
+
+/// Whether any TRIANGLE or EDGE around the proxy leads it nearer to the goal, and friction lets it.
+bool something_leads_on(const DepthSurface& surface, Vec3 proxy, Vec3 goal, double mu) {
+    const int i0 = static_cast<int>(std::floor(proxy.x));
+    const int j0 = static_cast<int>(std::floor(proxy.y));
+    for (int j = std::max(0, j0 - 1); j <= std::min(surface.rows() - 2, j0 + 1); ++j) {
+        for (int i = std::max(0, i0 - 1); i <= std::min(surface.columns() - 2, i0 + 1); ++i) {
+            const std::array<Vec3, 4> z{surface.vertex_at(i, j), surface.vertex_at(i + 1, j),
+                                        surface.vertex_at(i, j + 1),
+                                        surface.vertex_at(i + 1, j + 1)};
+            if (leads_on({z[0], z[1], z[2]}, proxy, goal, mu)) return true;
+            if (leads_on({z[3], z[2], z[1]}, proxy, goal, mu)) return true;
+        }
+    }
+    return false;
 }
 
 /// Whether the proxy is in the cone around the goal's foot on the active piece.
@@ -219,6 +262,26 @@ TEST_CASE("with friction the proxy rests at a local minimum or in the cone of it
             const bool rests = in_cone(surface, p, clamped, mu) ||
                                nearest_around(surface, p.position, clamped) >= distance - 1e-6;
             REQUIRE(rests);
+        }
+    }
+}
+
+TEST_CASE("where the proxy rests, friction holds it on all that surrounds it", "[property]") {
+    const double mu = GENERATE(0.1, 0.4, 1.5);
+    const double deeper_px = GENERATE(0.0, 60.0);
+    for (const auto& [name, image] : test::hostile_surfaces(kColumns, kRows)) {
+        CAPTURE(name, mu, deeper_px);
+        const DepthSurface surface(image, image, 0.0, {255.0, 0.0});
+        NastyHand hand(41);
+        Dibhr dibhr;
+        for (int k = 0; k < 10000; ++k) {
+            const Vec3 goal = hand.next() - Vec3(0.0, 0.0, deeper_px);
+            const Proxy& p = dibhr.update(surface, goal, {mu, mu});
+            if (!p.contact || p.bound_met) continue;
+            CAPTURE(k, goal.x, goal.y, goal.z, p.position.x, p.position.y, p.position.z,
+                    name_of(p.active.kind));
+            REQUIRE_FALSE(
+                something_leads_on(surface, p.position, surface.clamped_to_frame(goal), mu));
         }
     }
 }

@@ -1,0 +1,138 @@
+// Whatever the goal, the surface and the algorithm: an update ends within its moves, on or above
+// the surface, with finite numbers, and the next one goes on from there.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "core/haptics/dibhr.hpp"
+#include "core/haptics/god_object.hpp"
+#include "core/haptics/neighborhood.hpp"
+#include "core/haptics/pga.hpp"
+#include "core/haptics/touch.hpp"
+#include "tests/core/haptics/surfaces.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace dibhr;
+
+namespace {
+
+int most_moves_of(Algorithm algorithm) {
+    switch (algorithm) {
+        case Algorithm::dibhr:
+            return Dibhr::kMostMoves;
+        case Algorithm::pga:
+            return Pga::kMostMoves;
+        case Algorithm::neighborhood:
+            return Neighborhood::kMostMoves;
+        case Algorithm::god_object:
+            break;
+    }
+    return GodObject::kMostMoves;
+}
+
+Algorithm each_algorithm() {
+    return GENERATE(Algorithm::dibhr, Algorithm::pga, Algorithm::neighborhood,
+                    Algorithm::god_object);
+}
+
+/// Updates of the wild run, of each algorithm; DIBHR_LONG_UPDATES asks for more.
+long wild_updates() {
+    const char* asked = std::getenv("DIBHR_LONG_UPDATES");
+    return (asked == nullptr ? 1'000'000 : std::atol(asked)) / 4;
+}
+
+/// 10^exponent, the exponent anywhere in between, of either sign.
+double any_size(test::Dice& dice, double least_exponent, double greatest_exponent) {
+    const double size = std::pow(10.0, dice.uniform(least_exponent, greatest_exponent));
+    return dice.uniform(0.0, 1.0) < 0.5 ? -size : size;
+}
+
+/// Near the image, at a VERTEX but for next to nothing, or anywhere a number can be.
+double wild_coordinate(test::Dice& dice, double size_px, double now) {
+    const double what = dice.uniform(0.0, 1.0);
+    if (what < 0.5) return now + dice.uniform(-6.0, 6.0);
+    if (what < 0.7) return dice.uniform(-0.1 * size_px, 1.1 * size_px);
+    if (what < 0.8) return std::floor(dice.uniform(0.0, size_px)) + any_size(dice, -320.0, -5.0);
+    if (what < 0.9) return any_size(dice, -320.0, 3.0);
+    return any_size(dice, 0.0, 308.0);
+}
+
+struct Scene {
+    DepthImage from;
+    DepthImage to;
+    BumpMap bump{};
+};
+
+Scene wild_scene(test::Dice& dice, int columns, int rows) {
+    const double highest = dice.uniform(0.0, 1.0) < 0.5 ? 255.0 : 65535.0;
+    const double kind = dice.uniform(0.0, 1.0);
+    const double step = std::round(any_size(dice, 0.0, 2.0));
+    const auto level = [&](int i, int j) {
+        if (kind < 0.2) return std::floor(dice.uniform(0.0, highest + 1.0));
+        if (kind < 0.4) return std::floor(0.4 * highest) + std::floor(dice.uniform(-1.0, 2.0));
+        if (kind < 0.6) return (i / 9 + j / 7) % 2 == 0 ? 0.1 * highest : 0.9 * highest;
+        if (kind < 0.8) return std::abs(std::fmod(std::floor(0.3 * i + 0.1 * j) * step, highest));
+        return std::floor(0.5 * highest) + (j % 2);
+    };
+    Scene scene;
+    scene.from = test::image_of(columns, rows, highest, level);
+    scene.to =
+        dice.uniform(0.0, 1.0) < 0.5 ? scene.from : test::image_of(columns, rows, highest, level);
+    scene.bump = {16, 9, std::vector<float>(16 * 9)};
+    for (float& height : scene.bump.heights) height = static_cast<float>(dice.uniform(0.0, 1.0));
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("goals of any size on any ground: finite, on or above the surface, within the moves",
+          "[bounded]") {
+    const Algorithm algorithm = each_algorithm();
+    constexpr int kScenes = 40;
+    test::Dice dice(101 + static_cast<std::uint64_t>(algorithm));
+    const long updates = wild_updates() / kScenes;
+    for (int n = 0; n < kScenes; ++n) {
+        const int columns = n % 10 == 9 ? 1280 : 2 + static_cast<int>(dice.uniform(0.0, 90.0));
+        const int rows = n % 10 == 9 ? 720 : 2 + static_cast<int>(dice.uniform(0.0, 70.0));
+        const Scene scene = wild_scene(dice, columns, rows);
+        const SurfaceShape shape{dice.uniform(0.0, 1.0) < 0.5 ? 255.0 : 4096.0,
+                                 dice.uniform(0.0, 1.0) < 0.5 ? 0.0 : dice.uniform(0.0, 9.0)};
+        const auto proxy = make_algorithm(algorithm);
+        Friction friction{};
+        Vec3 goal(0.5 * columns, 0.5 * rows, 50.0);
+        double blend = 0.0;
+        for (long k = 0; k < updates; ++k) {
+            if (k % 100 == 0) {
+                const double mu = dice.uniform(0.0, 1.0) < 0.5
+                                      ? dice.uniform(0.0, 2.0)
+                                      : std::abs(any_size(dice, -160.0, 0.0));
+                friction = {mu, dice.uniform(0.0, 1.0) < 0.7 ? mu : 0.5 * mu};
+                if (n % 3 == 0) blend = dice.uniform(0.0, 1.0);
+            }
+            const Vec3 last = goal;
+            goal = {wild_coordinate(dice, columns, last.x), wild_coordinate(dice, rows, last.y),
+                    wild_coordinate(dice, shape.relief_px, last.z)};
+            const DepthSurface surface(scene.from, scene.to, blend, shape, &scene.bump);
+            const Proxy& p = proxy->update(surface, goal, friction);
+            goal = surface.clamped_to_frame(surface.clamped_to_reach(goal));
+            const Vec3 at = p.position;
+            const double height = at.z - surface.elevation_at(at.x, at.y);
+            const bool in_frame =
+                at.x >= 0.0 && at.y >= 0.0 && at.x <= columns - 1 && at.y <= rows - 1;
+            if (!is_finite(at) || !in_frame || height < -1e-8 || (p.contact && height > 1e-7) ||
+                p.moves > most_moves_of(algorithm) + 3) {
+                CAPTURE(name_of(algorithm), n, k, columns, rows, shape.relief_px,
+                        shape.roughness_px, friction.static_coefficient,
+                        friction.dynamic_coefficient, goal.x, goal.y, goal.z, at.x, at.y, at.z,
+                        height, p.contact, p.moves, p.bound_met);
+                FAIL("an update broke its bounds");
+            }
+        }
+        SUCCEED();
+    }
+}
