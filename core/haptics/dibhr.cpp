@@ -7,70 +7,16 @@
 #include <limits>
 #include <utility>
 
+#include "core/haptics/crease.hpp"
 #include "core/haptics/facet.hpp"
 #include "core/haptics/glide.hpp"
 #include "core/haptics/neighbours.hpp"
 #include "core/haptics/proxy_walk.hpp"
+#include "core/haptics/vertex_fan.hpp"
 
 namespace dibhr {
 
 namespace {
-
-/// A VERTEX and what surrounds it: six EDGEs, the *ways*, in the order of `kSpokes`, and between
-/// each and the next a TRIANGLE of the same number. Fewer on the image's border.
-class VertexFan {
-  public:
-    VertexFan(const DepthSurface& surface, const Primitive& vertex) noexcept
-        : i_(vertex.i), j_(vertex.j), z_(surface.elevation(vertex.i, vertex.j)) {
-        const bool is_inner =
-            surface.has_vertex(i_ - 1, j_ - 1) && surface.has_vertex(i_ + 1, j_ + 1);
-        for (std::size_t k = 0; k < kSpokes.size(); ++k) {
-            const int i = i_ + kSpokes[k].i;
-            const int j = j_ + kSpokes[k].j;
-            if (!is_inner && !surface.has_vertex(i, j)) continue;
-            present_ |= 1U << k;
-            around_[k] = surface.elevation(i, j);
-        }
-    }
-
-    [[nodiscard]] bool has(std::size_t way) const noexcept { return ((present_ >> way) & 1U) != 0; }
-    [[nodiscard]] bool has_facet(std::size_t k) const noexcept {
-        return has(k) && has((k + 1) % 6);
-    }
-    /// From the VERTEX to the far end of a way.
-    [[nodiscard]] Vec3 along(std::size_t way) const noexcept {
-        return {kSpokes[way].i, kSpokes[way].j, around_[way] - z_};
-    }
-
-    /// At the ends of the EDGE along a way.
-    [[nodiscard]] EdgeElevations elevations_along(std::size_t way) const noexcept {
-        return way < 3 ? EdgeElevations{z_, around_[way]} : EdgeElevations{around_[way], z_};
-    }
-
-    [[nodiscard]] Facet facet(std::size_t k) const noexcept {
-        const auto& z = around_;
-        switch (k) {
-            case 0:
-                return {1, i_, j_, z_, z[0], z[1]};
-            case 1:
-                return {-1, i_, j_ + 1, z[1], z[2], z_};
-            case 2:
-                return {1, i_ - 1, j_, z[3], z_, z[2]};
-            case 3:
-                return {-1, i_, j_, z_, z[3], z[4]};
-            case 4:
-                return {1, i_, j_ - 1, z[4], z[5], z_};
-            default:
-                return {-1, i_ + 1, j_, z[0], z_, z[5]};
-        }
-    }
-
-  private:
-    int i_, j_;
-    unsigned present_{0};
-    double z_;
-    std::array<double, 6> around_{};
-};
 
 /// Every move is along one straight piece, on the surface or in free space, and ends nearer to the
 /// goal than it began.
@@ -215,12 +161,27 @@ class SurfaceWalk : private ProxyWalk {
         }
         const Vec3 corner = past_begin ? begin : end;
         if (past_an_end && squared_distance(foot, corner) >= piece.cone.moving2) {
-            move_to(corner);
-            proxy_.active =
+            const std::size_t spoke = spoke_along(edge.direction, past_begin);
+            const Primitive end_vertex =
                 past_begin ? vertex(ends.begin_i, ends.begin_j) : vertex(ends.end_i, ends.end_j);
+            go_to_vertex(end_vertex, spoke, piece, corner, along);
             return Next::visit;
         }
         return stop_at_cone(piece);
+    }
+
+    /// To the end of an EDGE, and on over those that follow it in a straight crease.
+    void go_to_vertex(const Primitive& end, std::size_t spoke, const Piece& piece, Vec3 corner,
+                      Vec3 along) noexcept {
+        const double to_cone =
+            std::sqrt(squared_distance(piece.foot, corner)) - std::sqrt(piece.cone.moving2);
+        const double edges = to_cone / std::sqrt(glm::dot(along, along)) - 1.0;
+        const int moves_left = most_moves_ - proxy_.moves;
+        const int most = std::min(static_cast<int>(std::max(edges, 0.0)), moves_left / 2 - 1);
+        const int more = CreaseAhead(surface_, end, spoke, goal_).count(most);
+        proxy_.moves += 2 * more;  // a VERTEX and an EDGE each
+        proxy_.active = vertex(end.i + more * kSpokes[spoke].i, end.j + more * kSpokes[spoke].j);
+        move_to(more == 0 ? corner : surface_.vertex_at(proxy_.active.i, proxy_.active.j));
     }
 
     /// The EDGE along which the distance to the goal falls fastest becomes active and is visited,

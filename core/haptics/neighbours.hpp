@@ -165,6 +165,11 @@ inline constexpr std::array<Spoke, 6> kSpokes{{{1, 0}, {0, 1}, {-1, 1}, {-1, 0},
                         : EdgeDirection::diagonal;
 }
 
+/// The spoke that leads along an EDGE to its end, or to its begin.
+[[nodiscard]] constexpr std::size_t spoke_along(EdgeDirection direction, bool to_begin) noexcept {
+    return static_cast<std::size_t>(direction) + (to_begin ? 3 : 0);
+}
+
 /// The EDGE of a VERTEX along spoke k.
 [[nodiscard]] constexpr Primitive edge_at(const Primitive& vertex, std::size_t k) noexcept {
     const int back_i = k == 2 || k == 3 ? 1 : 0;
