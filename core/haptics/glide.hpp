@@ -52,9 +52,6 @@ class Glide {
     [[gnu::always_inline]] End run() noexcept {
         if (goal_on_.rise > 0.0) return End::above;
         exit_ = exit_of(facet_, position_, goal_on_.foot);
-        read_across<EdgeDirection::along_row>();
-        read_across<EdgeDirection::along_column>();
-        read_across<EdgeDirection::diagonal>();
         for (;;) {
             while (end_ == End::none) go_on();
             if (end_ != End::plane) return end_;
@@ -129,7 +126,7 @@ class Glide {
     [[gnu::always_inline]] void cross() noexcept {
         behind_ = kThrough;
         const Facet::Across across =
-            facet_.step_across<kThrough>(course_.surface, across_[index_of(kThrough)]);
+            facet_.step_across<kThrough>(course_.surface, elevation_across<kThrough>());
         if (across == Facet::Across::border || moves_ >= course_.most_moves) {
             move_to_crossing<kThrough>();
             return end(End::stop);
@@ -145,9 +142,12 @@ class Glide {
     }
 
     /// The elevations across the two EDGEs ahead: read before it is known which one is crossed, so
-    /// that after a wrong guess of the processor only the next choice is waited for.
+    /// that after a wrong guess of the processor only the next choice is waited for. A bump map's
+    /// cost too much for that.
     template <EdgeDirection kBehind>
     [[gnu::always_inline]] void read_ahead() noexcept {
+        has_read_ = !course_.surface.has_bump();
+        if (!has_read_) return;
         if (kBehind != EdgeDirection::along_row) read_across<EdgeDirection::along_row>();
         if (kBehind != EdgeDirection::along_column) read_across<EdgeDirection::along_column>();
         if (kBehind != EdgeDirection::diagonal) read_across<EdgeDirection::diagonal>();
@@ -156,6 +156,12 @@ class Glide {
     template <EdgeDirection kThrough>
     [[gnu::always_inline]] void read_across() noexcept {
         across_[index_of(kThrough)] = facet_.elevation_across<kThrough>(course_.surface);
+    }
+
+    template <EdgeDirection kThrough>
+    [[gnu::always_inline]] double elevation_across() const noexcept {
+        return has_read_ ? across_[index_of(kThrough)]
+                         : facet_.elevation_across<kThrough>(course_.surface);
     }
 
     [[nodiscard]] static constexpr std::size_t index_of(EdgeDirection direction) noexcept {
@@ -274,6 +280,7 @@ class Glide {
     bool on_plane_{false};
     Facet second_{};                  ///< of the plane
     std::array<double, 3> across_{};  ///< elevation across each EDGE but the one behind
+    bool has_read_{false};            ///< them
     End end_{End::none};
 };
 

@@ -89,6 +89,8 @@ class DepthSurface {
         return bump_ == nullptr ? z : z + roughness_px_ * bump_height(i, j);
     }
 
+    [[nodiscard]] bool has_bump() const noexcept { return bump_ != nullptr; }
+
     [[nodiscard]] bool has_vertex(int i, int j) const noexcept {
         return static_cast<unsigned>(i) < static_cast<unsigned>(columns_) &&
                static_cast<unsigned>(j) < static_cast<unsigned>(rows_);
