@@ -77,6 +77,9 @@ Flight ProxyWalk::fly_to(Vec3 end) noexcept {
 }
 
 ProxyWalk::Next ProxyWalk::leave() noexcept {
+    // A flight that came down at once, and would again: on cliffs round-off can hide the way out.
+    if (squared_distance(proxy_.position, left_) <= square(kTouchDepth_px)) return Next::rest;
+    left_ = proxy_.position;
     proxy_.contact = false;
     proxy_.slipping = false;
     proxy_.active = Primitive{};
@@ -101,9 +104,11 @@ Primitive ProxyWalk::lowest_under_proxy() const noexcept {
 void ProxyWalk::stand_on_lowest() noexcept {
     const PrimitiveKind kind = proxy_.active.kind;
     if (kind != PrimitiveKind::triangle && kind != PrimitiveKind::edge) return;
-    proxy_.active = lowest_under_proxy();
-    if (proxy_.active.kind == PrimitiveKind::vertex) {
-        proxy_.position = surface_.vertex_at(proxy_.active.i, proxy_.active.j);
+    const Primitive lowest = lowest_under_proxy();
+    if (lowest.kind == kind) return;
+    proxy_.active = lowest;
+    if (lowest.kind == PrimitiveKind::vertex) {
+        proxy_.position = surface_.vertex_at(lowest.i, lowest.j);
     }
 }
 

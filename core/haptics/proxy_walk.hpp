@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 
@@ -164,6 +165,7 @@ class ProxyWalk {
     int most_moves_{all_moves_};  ///< of them: less those that flights have taken
     Proxy& proxy_;
     bool moved_{false};
+    Vec3 left_{std::numeric_limits<double>::infinity()};  ///< where it left the surface last
 };
 
 }  // namespace dibhr
