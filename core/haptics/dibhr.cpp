@@ -226,10 +226,9 @@ class SurfaceWalk : private ProxyWalk {
         return on_vertex ? rest_or_go_on() : Next::rest;
     }
 
-    /// How far a piece leads, squared; 0 where friction holds the proxy. The goal above a TRIANGLE
-    /// is held by nothing.
-    [[nodiscard]] double free_length2(const Facet& facet,
-                                      const Facet::Projection& goal_on) const noexcept {
+    /// How far a TRIANGLE's piece leads, squared; 0 where friction holds the proxy. Nothing holds
+    /// it from a goal above.
+    [[nodiscard]] double free_length2(const Facet::Projection& goal_on) const noexcept {
         const Piece piece = piece_to(goal_on.foot, goal_on.distance2);
         const bool is_free = goal_on.rise > 0.0 || !is_held(piece.cone, piece.length2);
         return is_free ? piece.length2 : 0.0;
@@ -242,7 +241,7 @@ class SurfaceWalk : private ProxyWalk {
             if (!triangle) continue;
             const Facet facet(surface_, *triangle);
             const Side side = side_of(facet, edge.direction);
-            const double length2 = side.gradient2 > 0.0 ? free_length2(facet, side.goal_on) : 0.0;
+            const double length2 = side.gradient2 > 0.0 ? free_length2(side.goal_on) : 0.0;
             if (length2 <= farthest2) continue;
             farthest2 = length2;
             proxy_.active = *triangle;
@@ -266,7 +265,7 @@ class SurfaceWalk : private ProxyWalk {
             const Barycentric at_foot = facet.barycentric(goal_on.foot.x, goal_on.foot.y);
             if (at_foot.across(direction_of_spoke(k)) <= kThere_px) continue;
             if (at_foot.across(direction_of_spoke((k + 1) % kSpokes.size())) <= kThere_px) continue;
-            const double length2 = free_length2(facet, goal_on);
+            const double length2 = free_length2(goal_on);
             if (length2 <= farthest2) continue;
             farthest2 = length2;
             proxy_.active = facet.triangle();
