@@ -15,7 +15,7 @@ namespace dibhr {
 class Dibhr final : public ProxyAlgorithm {
   public:
     /// Primitives visited in an update that flies nowhere: at most 100 us.
-    static constexpr int kMostMoves = 1000;
+    static constexpr int kMostMoves = 800;
 
   private:
     void walk(const DepthSurface& surface, Vec3 goal, const Friction& friction,

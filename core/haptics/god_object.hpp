@@ -21,7 +21,7 @@ namespace dibhr {
 class GodObject final : public ProxyAlgorithm {
   public:
     /// Primitives visited in an update that flies nowhere: at most 100 us.
-    static constexpr int kMostMoves = 600;
+    static constexpr int kMostMoves = 500;
 
   private:
     void walk(const DepthSurface& surface, Vec3 goal, const Friction& friction,

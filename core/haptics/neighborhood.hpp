@@ -28,7 +28,7 @@ namespace dibhr {
 class Neighborhood final : public ProxyAlgorithm {
   public:
     /// Primitives visited in an update that flies nowhere: at most 100 us.
-    static constexpr int kMostMoves = 250;
+    static constexpr int kMostMoves = 200;
 
   private:
     void walk(const DepthSurface& surface, Vec3 goal, const Friction& friction,

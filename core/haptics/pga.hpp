@@ -24,7 +24,7 @@ namespace dibhr {
 class Pga final : public ProxyAlgorithm {
   public:
     /// Primitives visited in an update that flies nowhere: at most 100 us.
-    static constexpr int kMostMoves = 500;
+    static constexpr int kMostMoves = 400;
 
   private:
     void walk(const DepthSurface& surface, Vec3 goal, const Friction& friction,

@@ -15,7 +15,7 @@ namespace {
 
 /// So many cells flown over take as long as all moves of an update, each from memory that nobody
 /// has read yet.
-constexpr int kMostCells = 500;
+constexpr int kMostCells = 400;
 
 /// Nearer to a grid line than this is on it [px]: even up a cliff of 255 px it is no step.
 constexpr double kOnGrid_px = 1e-12;
