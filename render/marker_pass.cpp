@@ -25,7 +25,10 @@ constexpr glm::vec4 kForceTint{0.98F, 0.90F, 0.25F, 1.0F};
 constexpr double kProxyRadius = 7.0;
 constexpr double kGoalRadius = 11.0;
 constexpr float kGoalHollow = 0.66F;
+constexpr double kCatchingUpRadius = 15.0;  // clear of the goal's ring when the proxy is there
+constexpr float kCatchingUpHollow = 0.84F;
 constexpr double kSpringRadius = 1.4;
+constexpr double kDash = 16.0;
 constexpr double kNormalRadius = 1.6;
 constexpr double kShaftRadius = 2.6;
 constexpr double kHeadRadius = 7.5;
@@ -85,10 +88,15 @@ std::vector<MarkerStroke> touch_strokes(const TouchMarkers& touch, const Camera&
     if (!touch.visible || !is_finite(touch.goal) || !is_finite(touch.proxy)) return strokes;
     const glm::vec4 goal = ball(camera, touch.goal, kGoalRadius * scale);
     const glm::vec4 proxy = ball(camera, touch.proxy, kProxyRadius * scale);
+    if (touch.contact || touch.catching_up) {
+        const double dash = touch.catching_up ? kDash * scale : 0.0;
+        strokes.push_back({.ball_a = ball(camera, touch.goal, kSpringRadius * scale),
+                           .ball_b = ball(camera, touch.proxy, kSpringRadius * scale),
+                           .tint = kSpringTint,
+                           .dash = static_cast<float>(dash)});
+    }
     if (touch.contact) {
         const Vec3 normal_end = touch.proxy + touch.normal * kNormalLength_px;
-        strokes.push_back({ball(camera, touch.goal, kSpringRadius * scale),
-                           ball(camera, touch.proxy, kSpringRadius * scale), kSpringTint});
         strokes.push_back({ball(camera, touch.proxy, kNormalRadius * scale),
                            ball(camera, normal_end, kNormalRadius * scale), kNormalTint});
     }
@@ -98,12 +106,18 @@ std::vector<MarkerStroke> touch_strokes(const TouchMarkers& touch, const Camera&
         strokes.push_back({recorded, recorded, kRecordedTint});
     }
     strokes.push_back({goal, goal, kGoalTint, kGoalHollow});
+    if (touch.catching_up) {
+        const glm::vec4 around = ball(camera, touch.proxy, kCatchingUpRadius * scale);
+        strokes.push_back({around, around, kProxyTint, kCatchingUpHollow});
+    }
     strokes.push_back({proxy, proxy, kProxyTint});
     return strokes;
 }
 
 std::optional<FrictionCone> friction_cone(const TouchMarkers& touch, const Camera& camera) {
-    if (!touch.visible || !touch.contact || !(touch.friction > 0.0)) return std::nullopt;
+    if (!touch.visible || !touch.contact || touch.catching_up || !(touch.friction > 0.0)) {
+        return std::nullopt;
+    }
     const double length = glm::length(touch.normal);
     if (!(length > 0.0)) return std::nullopt;
     const Vec3 normal = touch.normal / length;
@@ -126,6 +140,7 @@ MarkerPass::MarkerPass()
     stroke_attribute(1, 4, offsetof(MarkerStroke, ball_b));
     stroke_attribute(2, 4, offsetof(MarkerStroke, tint));
     stroke_attribute(3, 1, offsetof(MarkerStroke, hollow));
+    stroke_attribute(4, 1, offsetof(MarkerStroke, dash));
     glBindVertexArray(0);
 }
 

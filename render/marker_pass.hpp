@@ -21,11 +21,13 @@ struct MarkerStroke {
     glm::vec4 ball_b{0.0F};
     glm::vec4 tint{1.0F};  ///< red, green, blue, opacity
     float hollow{0.0F};    ///< inner radius of a ring as a part of its radius; 0: solid
+    float dash{0.0F};      ///< from dash to dash [screen px]; 0: one line
 };
 
 /// Proxy: a blue ball. Goal: an orange ring. Spring: a thin grey line. Normal: a thin green line.
-/// Force: a yellow arrow from the proxy. Recorded proxy: a pale ball. Nothing when the markers are
-/// not visible. `scale` 1 suits a picture 800 pixels high.
+/// Force: a yellow arrow from the proxy. Recorded proxy: a pale ball. While the proxy catches up
+/// it has a thin ring around it, and the line is dashed and there in the air too. Nothing when the
+/// markers are not visible. `scale` 1 suits a picture 800 pixels high.
 [[nodiscard]] std::vector<MarkerStroke> touch_strokes(const TouchMarkers& touch,
                                                       const Camera& camera, double scale);
 
@@ -38,7 +40,8 @@ struct FrictionCone {
     glm::vec3 rim_v{0.0F};
 };
 
-/// Nothing out of contact, without friction, or when there is no depth to show.
+/// Nothing out of contact, without friction, when there is no depth to show, or while the proxy
+/// catches up: where it will rest is not on the plane it is on.
 [[nodiscard]] std::optional<FrictionCone> friction_cone(const TouchMarkers& touch,
                                                         const Camera& camera);
 

@@ -25,6 +25,7 @@ struct ReliefLook {
 struct TouchMarkers {
     bool visible{false};
     bool contact{false};
+    bool catching_up{false};  ///< the proxy is still on its way to where it rests
     Vec3 goal{0.0}, proxy{0.0};
     Vec3 normal{0.0, 0.0, 1.0};            ///< of the surface under the proxy
     double friction{0.4};                  ///< the cone's coefficient in force

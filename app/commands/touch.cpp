@@ -49,6 +49,9 @@ class TouchRun {
         for (const TimedGoal& goal : goals) rows.push_back(update(goal));
     }
 
+    /// Updates so far that ended before the proxy had caught up with its goal.
+    [[nodiscard]] std::size_t bounds_met() const noexcept { return bounds_met_; }
+
   private:
     OutputRow update(const TimedGoal& goal) {
         if (depth_.advance_to(goal.t_s)) input_.from_zero = true;
@@ -63,6 +66,7 @@ class TouchRun {
             renderer_.update(surface, goal.goal_in_grid, parameters_, input_, limits_);
         const auto end = std::chrono::steady_clock::now();
 
+        if (touch.proxy.bound_met) ++bounds_met_;
         last_t_s_ = goal.t_s;
         input_.from_zero = false;
         return {goal.t_s, touch,
@@ -76,6 +80,7 @@ class TouchRun {
     SafetyInput input_{};
     SafetyLimits limits_{};
     std::optional<double> last_t_s_{};
+    std::size_t bounds_met_{0};
 };
 
 void touch_all(const TouchOptions& options) {
@@ -93,6 +98,10 @@ void touch_all(const TouchOptions& options) {
         out.rows_done();
     }
     out.commit();
+    if (run.bounds_met() > 0) {
+        print_error_line(std::to_string(run.bounds_met()) + " of " + std::to_string(goals.size()) +
+                         " updates ended before the proxy had caught up with its goal");
+    }
 }
 
 }  // namespace

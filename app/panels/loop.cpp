@@ -61,7 +61,8 @@ void draw_loop_panel(ViewerState& state) {
              formatted("%.2f us, worst %.1f us", second.update_us, second.worst_update_us));
     fact_row("Moves", formatted("%.2f per update", second.moves));
     if (haptic.bounds_met > 0) {
-        fact_row("Fault", std::to_string(haptic.bounds_met) + " walks broken off");
+        fact_row("Catching up", std::to_string(haptic.bounds_met) + " of " +
+                                    std::to_string(haptic.ticks) + " ticks");
     }
     fact_row("Decoding", formatted("%.1f ms a frame", state.playback.decode_ms));
     fact_row("Pictures", formatted("%.0f per second", state.pictures_per_s));

@@ -105,6 +105,7 @@ constexpr Explained kMarks[] = {
     {"Blue ball", "The proxy: stays on the surface"},
     {"Pale ball", "In a replay: the proxy as recorded"},
     {"Line between", "The spring that pulls the hand"},
+    {"Blue ring, dashed line", "The proxy is catching up with a jump"},
     {"Yellow arrow", "The force on the hand"},
     {"Green rod", "The surface's normal"},
     {"Pale cone", "The friction cone: a proxy inside it sticks"},
@@ -152,10 +153,15 @@ void draw_keys(const ViewerState& state) {
 
 void draw_overlay(const ViewerState& state, double now_s) {
     const float margin = 12.0F * state.scale;
-    const float second = margin + 1.3F * ImGui::GetFrameHeight();
+    const float line = 1.3F * ImGui::GetFrameHeight();
+    const float second = margin + line;
     label(touch_text(state), {margin, state.replay ? second : margin}, 1.0F);
     if (state.replay) label(replay_text(*state.replay), {margin, margin}, 1.0F);
     if (state.recording) draw_recording(*state.recording, {margin, second});
+    if (state.catching_up) {
+        const bool taken = state.replay || state.recording;
+        label("Catching up", {margin, taken ? second + line : second}, 1.0F);
+    }
     if (const std::string banner = falcon_banner(state); !banner.empty()) {
         draw_banner(state, capitalised(banner));
     }

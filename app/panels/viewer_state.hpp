@@ -114,6 +114,7 @@ struct ViewerState {
     MediaDescription media{};
     PlaybackStatus playback{};
     HapticState haptic{};
+    bool catching_up{false};  ///< the proxy is, or was a moment ago: long enough to be read
     std::optional<FalconNews> falcon{};  ///< nothing: no Falcon is looked for
     std::optional<RealtimeGrants> grants{};
     std::optional<RecordingNews> recording{};

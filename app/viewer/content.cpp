@@ -26,6 +26,7 @@ TouchMarkers markers_of(const ViewerState& state, const DepthSurface& surface) {
     TouchMarkers markers;
     markers.visible = state.haptic.touchable;
     markers.contact = touch.proxy.contact;
+    markers.catching_up = state.catching_up;
     markers.goal = touch.goal;
     markers.proxy = touch.proxy.position;
     markers.normal = normal_at(surface, touch.proxy.position);

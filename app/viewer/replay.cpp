@@ -17,6 +17,7 @@ Touch recorded_touch(const TickRecord& tick) {
     touch.proxy.active.j = tick.j;
     touch.proxy.moves = tick.moves;
     touch.proxy.contact = tick.contact;
+    touch.proxy.bound_met = tick.catching_up;
     touch.spring_force_newton = tick.spring_newton;
     touch.sent_force_newton = tick.sent_newton;
     touch.cut = static_cast<SafetyCut>(tick.cut);
@@ -74,7 +75,9 @@ void ViewerReplay::end(ViewerState& state) {
 
 void ViewerReplay::advance(ViewerState& state) {
     player_->advance([&state](const SessionMoment& moment) {
-        state.forces.add(glm::length(touch_of(moment).sent_force_newton));
+        const Touch touch = touch_of(moment);
+        state.forces.add(glm::length(touch.sent_force_newton));
+        if (moment.tick.surface && touch.proxy.bound_met) ++state.haptic.bounds_met;
     });
     state.replay->playback = player_->playback();
     state.replay->contacts = outline_->band();

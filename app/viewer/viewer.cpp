@@ -16,6 +16,7 @@ namespace {
 using std::chrono::steady_clock;
 
 constexpr double kNoticeTime_s = 4.0;
+constexpr double kCatchingUpTime_s = 0.3;  // also of a single tick: else it would flicker
 constexpr auto kPictureTime = std::chrono::nanoseconds(1'000'000'000 / 60);
 constexpr auto kSoftwarePictureTime = std::chrono::nanoseconds(1'000'000'000 / 30);
 
@@ -101,6 +102,7 @@ void Viewer::take_news() {
     state_.playback = player_.status();
     if (loop_) state_.haptic = haptic_state_.front();
     if (replay_.player() != nullptr) replay_.advance(state_);
+    notice_catching_up();
     if (const auto notice = falcon_.take_news(state_)) tell(*notice);
     for (const Action action : falcon_.take_presses(state_)) perform(action);
     state_.touched = state_.touched || state_.haptic.touch.proxy.contact;
@@ -116,6 +118,16 @@ void Viewer::take_news() {
     attempt([this] {
         while (const auto notice = screenshots_.take()) tell(*notice);
     });
+}
+
+/// Also what happened in the ticks between two pictures.
+void Viewer::notice_catching_up() {
+    const HapticState& haptic = state_.haptic;
+    if (haptic.catching_up() || haptic.bounds_met > bounds_met_) {
+        catching_up_until_s_ = now_s() + kCatchingUpTime_s;
+    }
+    bounds_met_ = haptic.bounds_met;
+    state_.catching_up = now_s() < catching_up_until_s_;
 }
 
 void Viewer::take_keys(const WindowInput& input) {

@@ -64,6 +64,7 @@ class Viewer {
   private:
     void show_one_picture();
     void take_news();
+    void notice_catching_up();
     void take_opened();
     void take_keys(const WindowInput& input);
     void perform(Action action);
@@ -119,6 +120,8 @@ class Viewer {
     DepthBlend shown_{};  // of the picture being made
     float hint_alpha_{1.0F};
     std::string playback_failure_{};  // as told
+    std::uint64_t bounds_met_{0};     // as of the last picture
+    double catching_up_until_s_{0.0};
     std::chrono::steady_clock::time_point start_{};
     Player player_{};
     TripleBuffer<HapticSettings> haptic_settings_{};

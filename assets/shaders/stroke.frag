@@ -10,12 +10,18 @@ uniform float opacity;
 out vec4 pixel;
 
 const float kOutline_px = 1.25;
+const float kHalfDash = 0.2;  // of the way from dash to dash; its round ends come on top
 const vec3 kOutline = vec3(0.04, 0.04, 0.05);
 const vec3 kKey = vec3(-0.46, 0.55, 0.70);
 
 void main() {
     vec2 axis = b_px.xy - a_px.xy;
     float h = clamp(dot(gl_FragCoord.xy - a_px.xy, axis) / max(dot(axis, axis), 1e-6), 0.0, 1.0);
+    if (b_px.w > 0.0) {
+        float dash = b_px.w / max(length(axis), 1e-3);  // in parts of the stroke, as h
+        float middle = (floor(h / dash) + 0.5) * dash;
+        h = clamp(h, middle - kHalfDash * dash, min(middle + kHalfDash * dash, 1.0));
+    }
     vec2 from_axis = gl_FragCoord.xy - mix(a_px.xy, b_px.xy, h);
     float radius = mix(a_px.z, b_px.z, h);
     float distance_px = length(from_axis) - radius;

@@ -6,13 +6,14 @@ layout(location = 0) in vec4 ball_a;  // world, radius
 layout(location = 1) in vec4 ball_b;
 layout(location = 2) in vec4 tint;
 layout(location = 3) in float hollow;  // inner radius of a ring, as a part of its radius; 0: solid
+layout(location = 4) in float dash;    // from dash to dash on the screen [px]; 0: one line
 
 uniform mat4 view_from_world;
 uniform mat4 clip_from_view;
 uniform vec2 viewport;
 
 flat out vec4 a_px;  // centre, radius, hollow
-flat out vec4 b_px;
+flat out vec4 b_px;  // centre, radius, dash
 flat out vec4 colour;
 
 const float kBorder = 2.0;  // pixels around the stroke for its outline and soft edge
@@ -31,7 +32,7 @@ void main() {
     vec3 a = project(ball_a);
     vec3 b = project(ball_b);
     a_px = vec4(a.xy, ball_a.w, hollow);
-    b_px = vec4(b.xy, ball_b.w, 0.0);
+    b_px = vec4(b.xy, ball_b.w, dash);
     colour = tint;
 
     vec2 along = b.xy - a.xy;

@@ -277,7 +277,8 @@ std::string table_of(std::span<const PathRun> paths, double clock_us) {
     text += "  Reading the clock, " + number_text(clock_us, 3) +
             " us, is part of each time but of \"whole\": runs timed as a whole, for each update,\n"
             "  which hold making the surface of the moment instead. Moves: primitives visited; "
-            "bound: walks\n  stopped by their bound. Paper: a Pentium D, 3.4 GHz.\n";
+            "bound: updates\n  that ended before the proxy had caught up. Paper: a Pentium D, "
+            "3.4 GHz.\n";
     text += variation_table(paths);
     text +=
         "  Sliding: without the updates in which the goal's motion turns by more than 90 degrees "
@@ -300,7 +301,8 @@ std::string sweep_table_of(std::span<const SweepPoint> points, double clock_us) 
     return text +
            "  Rougher: in how many of the cells the force turns more than dibhr's, which is exact: "
            "nothing can be\n  smoother and right. Max px, max deg: worst error of proxy and force "
-           "direction against the exact answer.\n  Reading the clock, " +
+           "direction against the exact answer.\n  Bound: updates that ended before the proxy "
+           "had caught up.\n  Reading the clock, " +
            number_text(clock_us, 3) + " us, is part of the times in the JSON file.\n";
 }
 

@@ -137,6 +137,7 @@ void HapticTick::record(TickRecord& row, const TickTiming& timing) noexcept {
     row.contact = row.surface && touch.proxy.contact;
     row.primitive = static_cast<std::uint8_t>(touch.proxy.active.kind);
     row.cut = static_cast<std::uint8_t>(touch.cut);
+    row.catching_up = state_.catching_up();
     to_.ticks.push(row);
 }
 
@@ -150,7 +151,7 @@ void HapticTick::count(const TickTiming& timing, double update_us) noexcept {
         sums_.update_us += update_us;
         sums_.worst_update_us = std::max(sums_.worst_update_us, update_us);
         sums_.moves += state_.touch.proxy.moves;
-        if (state_.touch.proxy.bound_met) ++state_.bounds_met;
+        if (state_.catching_up()) ++state_.bounds_met;
     }
     const double age_s = seconds(timing.begin - second_begin_);
     if (age_s < 1.0) return;

@@ -47,8 +47,12 @@ struct HapticState {
     HandReading hand{.ready = false};
     std::uint64_t ticks{0};
     std::uint64_t late_ticks{0};
-    std::uint64_t bounds_met{0};  ///< walks stopped by their bound: a fault
+    /// Ticks that ended before the proxy had caught up with its goal: it goes on in the next one.
+    std::uint64_t bounds_met{0};
     LoopSecond second{};
+
+    /// The last tick was one of them.
+    [[nodiscard]] bool catching_up() const noexcept { return touchable && touch.proxy.bound_met; }
 };
 
 /// Of each tick the length of the force sent [N]: the strip chart.

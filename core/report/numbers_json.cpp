@@ -49,6 +49,7 @@ Json ticks_json(const TickCounts& ticks) {
             {"device_not_ready", ticks.device_not_ready},
             {"stand_in", ticks.stand_in},
             {"goal_refused", ticks.goal_refused},
+            {"catching_up", ticks.catching_up},
             {"late", ticks.late},
             {"worst_lateness_us", ticks.worst_lateness_us},
             {"cut", cut}};

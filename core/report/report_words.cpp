@@ -98,6 +98,7 @@ std::vector<std::string> remarks_of(const SessionReport& report) {
     say(ticks.device_not_ready, " had no device that was ready.");
     say(ticks.stand_in, " were the mouse's, for a device that was not ready.");
     say(ticks.goal_refused, " had a place of the hand that was no number; the one before stood.");
+    say(ticks.catching_up, " ended before the proxy had caught up with its goal.");
     say(ticks.late, " began late, a millisecond or more after the deadline; the worst " +
                         number_text(ticks.worst_lateness_us / 1000.0, 1) + " ms.");
     for (std::size_t cut = 1; cut < ticks.cut.size(); ++cut) {

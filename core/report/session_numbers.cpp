@@ -59,6 +59,7 @@ class Counter {
         ticks.stand_in += tick.stand_in ? 1 : 0;
         ticks.late += tick.lateness_us >= kLate_us ? 1 : 0;
         ticks.goal_refused += tick.goal_refused ? 1 : 0;
+        ticks.catching_up += tick.catching_up ? 1 : 0;
         if (std::isfinite(tick.lateness_us)) {
             ticks.worst_lateness_us = std::max(ticks.worst_lateness_us, tick.lateness_us);
         }

@@ -162,6 +162,7 @@ struct TickCounts {
     std::int64_t stand_in{0};  ///< the mouse's, for a device that was not ready
     std::int64_t late{0};
     std::int64_t goal_refused{0};
+    std::int64_t catching_up{0};  ///< ended before the proxy had caught up with its goal
     std::array<std::int64_t, kSafetyCuts> cut{};  ///< by SafetyCut
     double worst_lateness_us{0.0};
 };

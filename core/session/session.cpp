@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/haptics/surface.hpp"
+#include "core/session/session_schema.hpp"
 
 namespace dibhr {
 
@@ -74,9 +75,11 @@ constexpr const char* kTickQuestion =
     "t.frame, t.to_frame, q.from_s, q.to_s, q.span_s, t.blend, t.utc_s, t.video_s, "
     "t.gx, t.gy, t.gz, t.px, t.py, t.pz, t.fx, t.fy, t.fz, t.cx, t.cy, t.cz, t.ox, t.oy, t.oz, "
     "t.moves, t.i, t.j, t.contact, t.primitive, t.buttons, t.cut, "
-    "t.surface, t.ready, t.stand_in, t.restart, t.lets_go, t.refused "
+    "t.surface, t.ready, t.stand_in, t.restart, t.lets_go, t.refused, "
+    "(SELECT d.state >> 20 & 1 FROM tick_data d WHERE d.tick = t.tick) "
     "FROM tick t LEFT JOIN pair q ON q.id = t.pair LEFT JOIN source s ON s.id = q.source WHERE "
     "t.tick >= ";
+static_assert(tick_state::kCatchingUp == 20);
 constexpr const char* kInOrder = " ORDER BY t.tick";
 
 }  // namespace
@@ -236,7 +239,7 @@ bool Session::Ticks::next(TickRecord& tick) {
                      tick.spring_newton, tick.sent_newton, tick.own_newton, tick.moves, tick.i,
                      tick.j, tick.contact, primitive, tick.buttons, tick.cut, tick.surface,
                      tick.device_ready, tick.stand_in, tick.from_zero, tick.lets_go,
-                     tick.goal_refused);
+                     tick.goal_refused, tick.catching_up);
     tick.update_us = static_cast<double>(update_ns) / 1e3;
     tick.primitive = static_cast<std::uint8_t>(primitive_named(primitive));
     return true;

@@ -56,6 +56,22 @@ TEST_CASE("out of contact only proxy and goal are shown, a ball and a ring") {
     CHECK_FALSE(friction_cone(touch, camera_640x480()).has_value());
 }
 
+TEST_CASE("while the proxy catches up a ring is around it, and the line to the goal is dashed") {
+    TouchMarkers touch = pressed();
+    touch.contact = GENERATE(true, false);  // the line in the air too
+    const Camera camera = camera_640x480();
+    const auto dashed = [](const MarkerStroke& s) { return s.dash > 0.0F; };
+    const auto ring = [](const MarkerStroke& s) { return s.hollow > 0.0F; };
+    const std::vector<MarkerStroke> usual = touch_strokes(touch, camera, 1.0);
+    CHECK(std::count_if(usual.begin(), usual.end(), dashed) == 0);
+    CHECK(std::count_if(usual.begin(), usual.end(), ring) == 1);
+    touch.catching_up = true;
+    const std::vector<MarkerStroke> strokes = touch_strokes(touch, camera, 1.0);
+    CHECK(std::count_if(strokes.begin(), strokes.end(), dashed) == 1);
+    CHECK(std::count_if(strokes.begin(), strokes.end(), ring) == 2);
+    CHECK_FALSE(friction_cone(touch, camera).has_value());
+}
+
 TEST_CASE(
     "a recorded proxy is one more ball, where it was, in another tint than the computed one") {
     TouchMarkers touch = pressed();

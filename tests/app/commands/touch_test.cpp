@@ -357,3 +357,27 @@ TEST_CASE("a roughness without a bump map is told to change nothing, on stderr a
     bumpy.insert(bumpy.end(), {"--bump", "bumps.png"});
     CHECK(run_dibhr(folder, bumpy).errors.empty());
 }
+
+TEST_CASE("a jump too long for one update is caught up with in the next ones, and stderr says so",
+          "[touch]") {
+    const TemporaryFolder folder;
+    run_shell(folder,
+              "ffmpeg -v error -f lavfi -i \"nullsrc=s=1200x20,format=gray,"
+              "geq=lum='100+mod(X*X+7*Y,3)'\" -frames:v 1 depth.png");
+    std::vector<Vec3> goals(10, Vec3{1190, 10, 80});
+    goals[0] = {5, 10, 120};
+    goals[1] = {5, 10, 80};
+    write_text(folder / "goals.csv", goals_csv(goals));
+    const ProgramResult result = run_dibhr(
+        folder, {"touch", "--friction", "0", "--depth", "depth.png", "--goals", "goals.csv"});
+    REQUIRE(result.exit_code == 0);
+    CAPTURE(result.errors);
+    CHECK(std::stoi(split(result.errors, ' ').at(1)) >= 2);
+    CHECK(result.errors.ends_with(
+        " of 10 updates ended before the proxy had caught up with its goal\n"));
+    CHECK(split(result.errors, '\n').size() == 2);
+    const std::vector<Row> rows = rows_of(result.output);
+    CHECK(rows[2].number("px") < 900.0);
+    CHECK(rows[3].number("px") > rows[2].number("px") + 100.0);
+    CHECK(rows.back().number("px") > 1150.0);  // it rests in a pit near the goal
+}

@@ -220,3 +220,49 @@ TEST_CASE("a loop that ends in contact has sent zero force last", "[loop]") {
     CHECK(strongest_newton >= 0.1);
     CHECK_THAT(glm::length(bench.hand.sent), WithinAbs(0.0, 0.0));
 }
+
+TEST_CASE(
+    "while the proxy catches up it is on the surface, and the force changes no faster than ever",
+    "[loop]") {
+    const double jump_mm_per_ms = GENERATE(10.0, 1e9);  // beyond it, the force is taken off
+    const Algorithm algorithm = GENERATE(from_range(all_algorithms()));
+    CAPTURE(jump_mm_per_ms, name_of(algorithm));
+    Bench bench;
+    bench.hand.limits_now = DeviceLimits{.max_goal_speed_mm_per_ms = jump_mm_per_ms};
+    bench.handed.parameters.algorithm = algorithm;
+    bench.hand_over();
+    FrameWindow window = flat_window(900, 600, 0);
+    auto rough = std::make_shared<DepthImage>(*window.frames[0].depth);
+    for (int j = 0; j < 600; ++j) {
+        for (int i = 0; i < 900; ++i) {
+            rough->at(i, j) += 0.05F * static_cast<float>((i * i + 7 * j) % 11);
+        }
+    }
+    window.frames[0].depth = rough;
+    bench.frames.publish(window);
+    HapticTick tick(bench.connections());
+    press(bench, tick);
+    const DepthSurface ground(*rough, *rough, 0.0, bench.handed.parameters.shape);
+    const double most_newton = bench.handed.limits.max_change_newton_per_ms + 1e-9;
+    std::uint64_t catching_up = 0;
+    for (int k = 0; k < 600; ++k) {
+        const Vec3 before_newton = bench.hand.sent;
+        if (k % 50 == 0) bench.hand.goal = {k % 100 == 0 ? 890.0 : 20.0, 590.0 - k, 90.0};
+        run_ticks(tick, 1);
+        const HapticState& state = bench.state.front();
+        const Vec3 at = state.touch.proxy.position;
+        CAPTURE(k, at.x, at.y, at.z);
+        const double height_px = at.z - ground.elevation_at(at.x, at.y);
+        REQUIRE(height_px >= -1e-9);
+        if (state.touch.proxy.contact) REQUIRE(height_px <= 1e-8);
+        if (state.touch.cut == SafetyCut::goal_jump) {
+            REQUIRE_THAT(glm::length(bench.hand.sent), WithinAbs(0.0, 0.0));
+        } else {
+            REQUIRE(glm::length(bench.hand.sent - before_newton) <= most_newton);
+        }
+        catching_up += state.catching_up() ? 1 : 0;
+    }
+    CHECK(catching_up > 12);
+    CHECK(bench.state.front().bounds_met == catching_up);
+    CHECK_FALSE(bench.state.front().catching_up());  // it has arrived
+}

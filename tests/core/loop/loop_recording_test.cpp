@@ -21,8 +21,8 @@ using Catch::Matchers::WithinAbs;
 
 namespace {
 
-/// Two frames that a second lies between: a slope that rises.
-FrameWindow rising_window(int columns, int rows) {
+/// Two frames that a second lies between: rough ground that rises.
+FrameWindow rising_window(int columns, int rows, float step = 1.0F) {
     FrameWindow window;
     for (std::size_t k = 0; k < 2; ++k) {
         auto image = std::make_shared<DepthImage>();
@@ -30,8 +30,8 @@ FrameWindow rising_window(int columns, int rows) {
         image->rows = rows;
         for (int j = 0; j < rows; ++j) {
             for (int i = 0; i < columns; ++i) {
-                image->levels.push_back(90.0F + static_cast<float>((i * i + 7 * j) % 11) +
-                                        5.0F * static_cast<float>(k));
+                const auto steps = static_cast<float>((i * i + 7 * j) % 11);
+                image->levels.push_back(90.0F + step * steps + 5.0F * static_cast<float>(k));
             }
         }
         Frame& frame = window.frames.at(k);
@@ -69,6 +69,14 @@ void explore(Bench& bench, HapticTick& tick, int count) {
         bench.hand.goal = {20.0 + 15.0 * std::sin(0.02 * k), 15.0 + 9.0 * std::sin(0.013 * k),
                            88.0 + 14.0 * std::sin(0.03 * k)};
         run_ticks(tick, 1);
+    }
+}
+
+/// The hand jumps from corner to corner, under the surface, faster than the proxy can follow.
+void jump_about(Bench& bench, HapticTick& tick, int columns, int rows) {
+    for (int k = 0; k < 12; ++k) {
+        bench.hand.goal = {k % 2 == 0 ? 3.0 : columns - 4.0, k % 4 < 2 ? 5.0 : rows - 6.0, 80.0};
+        run_ticks(tick, 4);
     }
 }
 
@@ -183,4 +191,41 @@ TEST_CASE("what the loop records replays to the same bits, whenever the recordin
         in_contact += replay.recorded().contact ? 1 : 0;
     }
     CHECK(in_contact > 1000);
+}
+
+TEST_CASE("ticks that end before the proxy has caught up are counted, and replay to the same bits",
+          "[loop]") {
+    const Algorithm algorithm = GENERATE(from_range(all_algorithms()));
+    CAPTURE(name_of(algorithm));
+    const TemporaryFolder folder;
+    const auto file = folder / "jumps.dibhr";
+    Bench bench;
+    bench.handed.parameters.algorithm = algorithm;
+    bench.hand_over();
+    const FrameWindow window = rising_window(640, 480, 0.05F);
+    bench.frames.publish(window);
+    HapticTick tick(bench.connections());
+    {
+        Recorder recorder(file, *bench.ticks, {});
+        recorder.parameters({.version = bench.handed.version,
+                             .touch = bench.handed.parameters,
+                             .limits = bench.handed.limits,
+                             .force_enabled = bench.handed.force_enabled,
+                             .bump = {}});
+        jump_about(bench, tick, 640, 480);
+    }
+    const HapticState& last = bench.state.front();
+    const Session session(file);
+    WindowFrames frames(window);
+    SessionReplay replay(session, frames, {{}});
+    std::uint64_t catching_up = 0;
+    while (replay.next()) {
+        CAPTURE(replay.recorded().tick);
+        REQUIRE(same_bits(replay.touch(0), replay.recorded()));
+        REQUIRE(replay.touch(0).proxy.bound_met == replay.recorded().catching_up);
+        catching_up += replay.recorded().catching_up ? 1 : 0;
+    }
+    CHECK(catching_up > 12);  // or this would prove little
+    CHECK(catching_up < 48);
+    CHECK(last.bounds_met == catching_up);
 }

@@ -72,6 +72,7 @@ TickRecord any_tick(std::int64_t number, AnyReal& real) {
     tick.from_zero = bit(3);
     tick.lets_go = bit(4);
     tick.goal_refused = bit(5);
+    tick.catching_up = bit(6);
     return tick;
 }
 
@@ -85,7 +86,8 @@ bool same(const TickRecord& a, const TickRecord& b) {
            a.j == b.j && a.contact == b.contact && a.primitive == b.primitive &&
            a.buttons == b.buttons && a.cut == b.cut && a.surface == b.surface &&
            a.device_ready == b.device_ready && a.stand_in == b.stand_in &&
-           a.from_zero == b.from_zero && a.lets_go == b.lets_go && a.goal_refused == b.goal_refused;
+           a.from_zero == b.from_zero && a.lets_go == b.lets_go &&
+           a.goal_refused == b.goal_refused && a.catching_up == b.catching_up;
 }
 
 }  // namespace
