@@ -22,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kLevel = 100.0;
 constexpr double kRadius_px = 200.0;
-constexpr int kWholeRuns = 5;
+constexpr int kWholeRuns = 9;
 constexpr const char* kPlaneSource = "the paper's goals, 4961 px/s on a flat image";
 
 double us_between(Clock::time_point begin, Clock::time_point end) {
@@ -37,8 +37,7 @@ double time_of(const PathRun& path, std::size_t k) noexcept {
 /// One path ready to be run, and what is the same for every algorithm.
 class Course {
   public:
-    Course(const PathRun& path, const DepthClip& clip)
-        : path_(path), friction_{path.mu, path.mu} {
+    Course(const PathRun& path, const DepthClip& clip) : path_(path), friction_{path.mu, path.mu} {
         // Beforehand: finding the moment's frames is the tick's work and not the algorithm's.
         surfaces_.reserve(path.goals.size());
         for (std::size_t k = 0; k < path.goals.size(); ++k) {

@@ -49,7 +49,7 @@ struct AlgorithmRun {
     std::vector<double> update_us{};  ///< each includes one reading of the clock
     std::vector<int> moves{};         ///< primitives visited
     std::vector<char> contact{};      ///< 1: the proxy touched the surface
-    std::uint64_t bounds_met{0};      ///< walks stopped by their bound: faults
+    std::uint64_t bounds_met{0};      ///< updates that left the rest of the way to the next
 
     SampleStatistics time_us{};  ///< of update_us
     double whole_run_us{0.0};    ///< an update's share of a run timed as a whole, no clock in it

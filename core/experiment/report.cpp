@@ -275,9 +275,9 @@ std::string table_of(std::span<const PathRun> paths, double clock_us) {
     for (const PathRun& path : paths) text += heading_of(path);
     text += time_table(paths);
     text += "  Reading the clock, " + number_text(clock_us, 3) +
-            " us, is part of each time but of \"whole\": runs timed as a whole, for each update,\n"
-            "  which hold making the surface of the moment instead. Moves: primitives visited; "
-            "bound: walks\n  stopped by their bound. Paper: a Pentium D, 3.4 GHz.\n";
+            " us, is part of each time but of \"whole\": runs timed as a whole, for each update.\n"
+            "  Moves: primitives visited; bound: updates cut short by their most moves, which the "
+            "next one goes\n  on from. Paper: a Pentium D, 3.4 GHz.\n";
     text += variation_table(paths);
     text +=
         "  Sliding: without the updates in which the goal's motion turns by more than 90 degrees "
