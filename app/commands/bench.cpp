@@ -16,15 +16,14 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
+#include "app/commands/bench_updates.hpp"
 #include "app/commands/command_line.hpp"
 #include "core/experiment/experiment.hpp"
 #include "core/files/json.hpp"
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/haptics/dibhr.hpp"
-#include "core/haptics/parameters.hpp"
-#include "core/haptics/touch.hpp"
 #include "core/loop/haptic_tick.hpp"
 #include "core/metrics/force_variation.hpp"
 #include "core/realtime/tick_timer.hpp"
@@ -38,13 +37,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kLevel = 100.0;
-
 struct Size {
     int columns, rows;
 };
 constexpr Size kPaper{kPaperColumns, kPaperRows};
-constexpr Size kLarge{7680, 4320};
 constexpr Size kVideo{640, 480};
 constexpr double kLoopSeconds = 5.0;
 
@@ -101,13 +97,6 @@ class GeneratedMedia final : public Media {
     std::int64_t next_{0};
 };
 
-/// Updates on one flat image, two depth images blended.
-struct UpdateRun {
-    std::string name{};  ///< in the table
-    Json json{};
-    SampleStatistics us{};
-};
-
 /// From the player's thread to the tick.
 struct HandoverRun {
     SampleStatistics cleaning_ms{};
@@ -129,9 +118,7 @@ struct LoopRun {
 };
 
 struct BenchResults {
-    double clock_us{0.0};  ///< part of every update's time
-    std::vector<UpdateRun> updates{};
-    std::vector<UpdateRun> teleports{};  ///< the goal jumps between opposite corners
+    UpdateCosts updates{};
     HandoverRun handover{};
     LoopRun loop{};
 };
@@ -149,79 +136,11 @@ Json json_of(const SampleStatistics& s, const std::string& unit) {
             {"p999_" + unit, s.p999},     {"max_" + unit, s.highest}, {"samples", s.count}};
 }
 
-Json json_of(Size size, const SampleStatistics& us, Json json) {
-    json["columns"] = size.columns;
-    json["rows"] = size.rows;
-    json.update(json_of(us, "us"));
-    return json;
-}
-
-/// Two depth images blended.
-class FlatSurface {
-  public:
-    explicit FlatSurface(Size size) : from_{size.columns, size.rows, 255.0, {}} {
-        from_.levels.assign(
-            static_cast<std::size_t>(size.columns) * static_cast<std::size_t>(size.rows),
-            static_cast<float>(kLevel));
-        to_ = from_;
-    }
-    [[nodiscard]] DepthSurface blended() const { return {from_, to_, 0.5, SurfaceShape{}}; }
-
-  private:
-    DepthImage from_;
-    DepthImage to_{};
-};
-
 LoopRun::Lateness lateness_of(const TickSchedule& schedule) {
     const LatenessHistogram& lateness = schedule.lateness();
     const auto us = [](std::chrono::nanoseconds t) { return static_cast<double>(t.count()) / 1e3; };
     return {lateness.count(), schedule.late_ticks(), us(lateness.quantile(0.99)),
             us(lateness.worst())};
-}
-
-/// The paper's runs.
-void measure_updates(Size size, std::vector<UpdateRun>& runs) {
-    const FlatSurface flat(size);
-    const DepthSurface surface = flat.blended();
-    const PathPlace place{0.5 * size.columns, 0.5 * size.rows, kLevel, kExperimentDepth_px};
-    for (const auto& [path, goal_at] :
-         {std::pair{"linear", &linear_goal}, std::pair{"circle", &circle_goal}}) {
-        std::vector<Vec3> goals(kExperimentUpdates);
-        for (int k = 0; k < kExperimentUpdates; ++k)
-            goals[static_cast<std::size_t>(k)] = goal_at(place, k);
-        for (const Algorithm algorithm : all_algorithms()) {
-            const auto proxy = make_algorithm(algorithm);
-            const UpdateTiming timing =
-                time_updates(*proxy, surface, goals, {kExperimentFriction, kExperimentFriction});
-            Json json = json_of(size, timing.update_us,
-                                {{"algorithm", name_of(algorithm)}, {"path", path}});
-            json["moves"] = timing.moves_per_update;
-            runs.push_back({name_of(algorithm) + (" " + std::string(path)) + " " + text_of(size),
-                            std::move(json), timing.update_us});
-        }
-    }
-}
-
-/// The goal jumps from one corner to the opposite one: along the surface, or just above it.
-void measure_teleports(Size size, std::vector<UpdateRun>& runs) {
-    constexpr int kTeleports = 50;
-    const FlatSurface flat(size);
-    const DepthSurface surface = flat.blended();
-    for (const auto& [where, z] :
-         {std::pair{"contact", kLevel - kExperimentDepth_px}, std::pair{"air", kLevel + 1.0}}) {
-        const Vec3 corners[] = {{5.3, 4.2, z}, {size.columns - 7.1, size.rows - 6.4, z}};
-        Dibhr dibhr;
-        std::vector<double> times_us;
-        dibhr.update(surface, corners[1], {kExperimentFriction, kExperimentFriction});
-        for (int k = 0; k < kTeleports; ++k) {
-            const auto begin = Clock::now();
-            dibhr.update(surface, corners[k % 2], {kExperimentFriction, kExperimentFriction});
-            times_us.push_back(us_between(begin, Clock::now()));
-        }
-        const SampleStatistics us = statistics_of(std::move(times_us));
-        runs.push_back({"in " + std::string(where) + " " + text_of(size),
-                        json_of(size, us, {{"where", where}}), us});
-    }
 }
 
 HandoverRun measure_handover(Size size) {
@@ -295,18 +214,13 @@ std::string row(const std::string& name, const SampleStatistics& s, const std::s
 
 std::string table_of(const BenchResults& results) {
     std::ostringstream text;
-    text << "  " << std::left << std::setw(38) << "" << std::right;
-    for (const char* head : {"median", "mean", "p99", "p99.9", "max"}) {
-        text << std::setw(11) << head;
-    }
-    text << "\n\nUpdate, mu " << kExperimentFriction << ", depth " << kExperimentDepth_px
-         << " px, two blended images (reading the clock, " << results.clock_us
-         << " us, is part of each)\n";
-    for (const UpdateRun& run : results.updates) text << row(run.name, run.us, "us");
-    text << "\nA goal that jumps from corner to corner\n";
-    for (const UpdateRun& run : results.teleports) text << row(run.name, run.us, "us");
+    text << table_of(results.updates);
     const HandoverRun& handover = results.handover;
-    text << "\nA new depth frame of " << text_of(kPaper) << '\n'
+    text << '\n'
+         << std::left << std::setw(40) << "A new depth frame of " + text_of(kPaper) << std::right;
+    for (const char* head : {"median", "mean", "p99", "p99.9", "max"})
+        text << std::setw(11) << head;
+    text << '\n'
          << row("cleaning", handover.cleaning_ms, "ms")
          << row("from cleaned to touchable", handover.cleaned_to_touchable_us, "us")
          << row("its swap in the tick", handover.swap_us, "us");
@@ -330,35 +244,27 @@ Json json_of(const LoopRun::Lateness& lateness) {
 }
 
 Json json_of(const BenchResults& results) {
-    Json updates = Json::array();
-    for (const UpdateRun& run : results.updates) updates.push_back(run.json);
-    Json teleports = Json::array();
-    for (const UpdateRun& run : results.teleports) teleports.push_back(run.json);
     const HandoverRun& handover = results.handover;
     const LoopRun& loop = results.loop;
-    return {{"mu", kExperimentFriction},
-            {"depth_px", kExperimentDepth_px},
-            {"clock_us", results.clock_us},
-            {"updates", std::move(updates)},
-            {"teleports", std::move(teleports)},
-            {"handover",
-             {{"columns", kPaper.columns},
-              {"rows", kPaper.rows},
-              {"cleaning", json_of(handover.cleaning_ms, "ms")},
-              {"cleaned_to_touchable", json_of(handover.cleaned_to_touchable_us, "us")},
-              {"swap", json_of(handover.swap_us, "us")}}},
-            {"loops",
-             {{"seconds", kLoopSeconds},
-              {"empty", json_of(loop.empty)},
-              {"haptic", json_of(loop.haptic)}}}};
+    Json json{{"mu", kExperimentFriction},
+              {"depth_px", kExperimentDepth_px},
+              {"clock_us", results.updates.clock_us}};
+    add_to_json(results.updates, json);
+    json["handover"] = {{"columns", kPaper.columns},
+                        {"rows", kPaper.rows},
+                        {"cleaning", json_of(handover.cleaning_ms, "ms")},
+                        {"cleaned_to_touchable", json_of(handover.cleaned_to_touchable_us, "us")},
+                        {"swap", json_of(handover.swap_us, "us")}};
+    json["loops"] = {{"seconds", kLoopSeconds},
+                     {"empty", json_of(loop.empty)},
+                     {"haptic", json_of(loop.haptic)}};
+    return json;
 }
 
 BenchResults measure() {
     BenchResults results;
-    results.clock_us = clock_cost_us();
     std::cerr << "Timing updates..." << std::flush;
-    for (const Size size : {kPaper, kLarge}) measure_updates(size, results.updates);
-    measure_teleports(kLarge, results.teleports);
+    results.updates = measure_updates();
     std::cerr << " frame hand-over..." << std::flush;
     results.handover = measure_handover(kPaper);
     std::cerr << " loops..." << std::flush;

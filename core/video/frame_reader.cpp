@@ -203,8 +203,9 @@ bool DepthInTime::start_again(double playback_s) {
     return add(reader_.at(first_media_s_));
 }
 
-DepthClip::DepthClip(std::vector<Frame> frames, const SurfaceShape& shape)
-    : frames_(std::move(frames)), shape_(shape) {
+DepthClip::DepthClip(std::vector<Frame> frames, const SurfaceShape& shape,
+                     std::shared_ptr<const BumpMap> bump)
+    : frames_(std::move(frames)), shape_(shape), bump_(std::move(bump)) {
     if (frames_.empty()) throw InputError("the depth video holds no picture; choose another one");
     const Frame& first = frames_.front();
     if (first.depth->columns < 2 || first.depth->rows < 2) {
@@ -229,7 +230,7 @@ DepthClip::DepthClip(std::vector<Frame> frames, const SurfaceShape& shape)
 DepthSurface DepthClip::at(double t_s) const noexcept {
     const double begin_s = frames_.front().time_s;
     const double lap_s = frames_.size() > 1 ? std::fmod(std::max(t_s, 0.0), duration_s()) : 0.0;
-    return depth_at(frames_, begin_s + lap_s).surface(shape_);
+    return depth_at(frames_, begin_s + lap_s).surface(shape_, bump_.get());
 }
 
 double DepthClip::time_of(std::int64_t frame, double blend) const noexcept {

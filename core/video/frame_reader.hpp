@@ -106,7 +106,8 @@ class DepthClip {
   public:
     /// Throws InputError for no frame, one below 2 x 2, or frames that differ in size or are not
     /// in order of time.
-    DepthClip(std::vector<Frame> frames, const SurfaceShape& shape);
+    DepthClip(std::vector<Frame> frames, const SurfaceShape& shape,
+              std::shared_ptr<const BumpMap> bump = nullptr);
 
     /// The surface `t_s` >= 0 after the first frame.
     [[nodiscard]] DepthSurface at(double t_s) const noexcept;
@@ -125,6 +126,7 @@ class DepthClip {
   private:
     std::vector<Frame> frames_;  ///< after a video's last one its first, at the end of the lap
     SurfaceShape shape_;
+    std::shared_ptr<const BumpMap> bump_;  ///< null: none
 };
 
 /// Decodes all frames of a depth video. Throws InputError.

@@ -1,0 +1,52 @@
+// What algorithms are timed on: surfaces from bit-flat to a moving person, goals that a hand draws
+// over them, and jumps that no hand makes.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/experiment/experiment.hpp"
+#include "core/haptics/vec.hpp"
+#include "core/video/frame_reader.hpp"
+
+namespace dibhr {
+
+/// A goal that goes from one place to another between two updates, and back.
+struct Jump {
+    std::string name{};
+    Vec3 from{0.0};  ///< grid space
+    Vec3 to{0.0};
+};
+
+/// One surface, still or moving, with what is done on it. A still one is two images alike, so that
+/// an elevation costs what it costs while a video plays.
+struct Ground {
+    std::string name{};
+    DepthClip clip;
+    /// Linear and circle, ready for run_algorithms: 4961 px/s, each goal 20 px below the surface of
+    /// its moment.
+    std::vector<PathRun> paths{};
+    std::vector<Jump> jumps{};
+};
+
+/// A ground and how it is made: one at a time, because a large one takes a quarter of a gigabyte.
+struct GroundMaker {
+    const char* name;
+    Ground (*make)();
+};
+
+/// - bit-flat: every level the same, 720x486 (the paper's) and 7680x4320; jumps across the latter
+/// - near-flat: with one level of 16-bit noise: hardly two TRIANGLEs lie in one plane
+/// - bumpy: 16-bit waves of a few pixels
+/// - bump map: a flat image under 2 px of white noise
+/// - crease: rows by turns one 16-bit level higher, 7680x4320; the goal over a row that is a crease
+[[nodiscard]] std::span<const GroundMaker> made_grounds() noexcept;
+
+/// A video; its image must hold the paper's paths.
+[[nodiscard]] Ground video_ground(const std::string& name, DepthClip clip);
+
+/// Back and forth over the paper's image in no direction of the grid, `step_px` an update.
+[[nodiscard]] PathRun slanted_path(const DepthClip& plane, double step_px);
+
+}  // namespace dibhr
