@@ -14,8 +14,8 @@ namespace dibhr {
 /// hand's step; proportional to the cells crossed.
 class Dibhr final : public ProxyAlgorithm {
   public:
-    /// Primitives visited in an update that flies nowhere: at most 100 us.
-    static constexpr int kMostMoves = 800;
+    /// Primitives visited in an update that flies nowhere over plain depth: at most 100 us.
+    static constexpr int kMostMoves = 1000;
 
   private:
     void walk(const DepthSurface& surface, Vec3 goal, const Friction& friction,

@@ -27,8 +27,8 @@ namespace dibhr {
 /// and up to two EDGEs, and held back from all of them once more with its three EDGEs.
 class Neighborhood final : public ProxyAlgorithm {
   public:
-    /// Primitives visited in an update that flies nowhere: at most 100 us.
-    static constexpr int kMostMoves = 200;
+    /// Primitives visited in an update that flies nowhere over plain depth: at most 100 us.
+    static constexpr int kMostMoves = 500;
 
   private:
     void walk(const DepthSurface& surface, Vec3 goal, const Friction& friction,
