@@ -277,7 +277,8 @@ class ConstraintWalk : private ProxyWalk {
 
 void GodObject::walk(const DepthSurface& surface, Vec3 goal, const Friction& friction,
                      Proxy& proxy) const noexcept {
-    ConstraintWalk(surface, goal, friction, kMostMoves, proxy).run();
+    const int most_moves = surface.has_bump() ? kMostMoves / 2 : kMostMoves;
+    ConstraintWalk(surface, goal, friction, most_moves, proxy).run();
 }
 
 }  // namespace dibhr

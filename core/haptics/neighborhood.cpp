@@ -268,7 +268,8 @@ class NeighborhoodWalk : private ProxyWalk {
 
 void Neighborhood::walk(const DepthSurface& surface, Vec3 goal, const Friction& friction,
                         Proxy& proxy) const noexcept {
-    NeighborhoodWalk(surface, goal, friction, kMostMoves, proxy).run();
+    const int most_moves = surface.has_bump() ? kMostMoves / 2 : kMostMoves;
+    NeighborhoodWalk(surface, goal, friction, most_moves, proxy).run();
 }
 
 }  // namespace dibhr

@@ -24,7 +24,7 @@ class ProxyWalk {
         : surface_(surface),
           goal_(goal),
           friction_(friction),
-          all_moves_(surface.has_bump() ? most_moves / kBumpCost : most_moves),
+          all_moves_(most_moves),
           proxy_(proxy) {}
 
   protected:
@@ -161,9 +161,6 @@ class ProxyWalk {
     const DepthSurface& surface_;
     const Vec3 goal_;
     const Friction friction_;
-    /// Moves take up to that many times longer where elevations hold a bump map's.
-    static constexpr int kBumpCost = 2;
-
     const int all_moves_;
     int most_moves_{all_moves_};  ///< of them: less those that flights have taken
     Proxy& proxy_;
