@@ -48,19 +48,19 @@ class CreaseAhead {
     }
 
     /// The elevation from the VERTEX n EDGEs ahead along a spoke, or of it.
-    [[nodiscard]] double elevation(int n, Spoke aside) const noexcept {
-        const Spoke ahead = kSpokes[spoke_];
+    [[nodiscard]] double elevation(int n, Step aside) const noexcept {
+        const Step ahead = kSpokes[spoke_];
         return surface_.elevation(at_.i + n * ahead.i + aside.i, at_.j + n * ahead.j + aside.j);
     }
 
-    [[nodiscard]] bool has(int n, Spoke aside) const noexcept {
-        const Spoke ahead = kSpokes[spoke_];
+    [[nodiscard]] bool has(int n, Step aside) const noexcept {
+        const Step ahead = kSpokes[spoke_];
         return surface_.has_vertex(at_.i + n * ahead.i + aside.i, at_.j + n * ahead.j + aside.j);
     }
 
     /// The next EDGE rises as the last: on rough ground one reading tells that there is no run.
     [[nodiscard]] bool goes_on_here() const noexcept {
-        constexpr Spoke kHere{0, 0};
+        constexpr Step kHere{0, 0};
         if (!has(1, kHere) || !has(-1, kHere)) return false;
         const double z = elevation(0, kHere);
         return std::abs(elevation(1, kHere) - z - (z - elevation(-1, kHere))) <= kOnLine_px;
@@ -100,12 +100,12 @@ class CreaseAhead {
     /// For how many EDGEs the line and the rows on both sides of it go on as they begin.
     [[nodiscard]] int same_ground(const VertexFan& fan, int most) const noexcept {
         const double rise = fan.along(spoke_).z;
-        const Spoke one_side = kSpokes[around(1)];
-        const Spoke other_side = kSpokes[around(5)];
+        const Step one_side = kSpokes[around(1)];
+        const Step other_side = kSpokes[around(5)];
         const double here = fan.elevation();
         const double one = here + fan.along(around(1)).z;
         const double other = here + fan.along(around(5)).z;
-        const auto differs = [&](int n, Spoke aside, double first) {
+        const auto differs = [&](int n, Step aside, double first) {
             return !has(n, aside) ||
                    !(std::abs(elevation(n, aside) - (first + n * rise)) <= kOnLine_px);
         };

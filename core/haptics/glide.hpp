@@ -9,6 +9,7 @@
 
 #include "core/haptics/facet.hpp"
 #include "core/haptics/neighbours.hpp"
+#include "core/haptics/proxy_walk.hpp"
 #include "core/haptics/surface.hpp"
 #include "core/haptics/vec.hpp"
 
@@ -78,19 +79,10 @@ class Glide {
         const bool at_begin = position_.x == ends.begin_i && position_.y == ends.begin_j;
         return at_begin ? vertex(ends.begin_i, ends.begin_j) : vertex(ends.end_i, ends.end_j);
     }
-    [[nodiscard]] EdgeDirection behind() const noexcept { return behind_; }
-
     /// An EDGE crossed at the foot itself is crossed: the TRIANGLE behind it may lead on.
     static constexpr double kPastFoot = 1.0 + 1e-11;
-    /// A proxy that stopped on the cone is inside it at the next update whatever the last bit says.
-    static constexpr double kConeRounding = 1.0 + 1e-12;
-    /// Nearer than this is there [px]: round-off of an 8K image's coordinates is never walked
-    /// after.
-    static constexpr double kThere_px = 1e-11;
 
   private:
-    [[nodiscard]] static double square(double x) noexcept { return x * x; }
-
     /// One TRIANGLE on, if friction lets the proxy. Both signs take turns and have code of their
     /// own.
     [[gnu::always_inline]] void go_on() noexcept {

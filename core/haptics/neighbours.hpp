@@ -152,12 +152,14 @@ struct TrianglePair {
     return is_on_line(x + y) ? edge_of(active, EdgeDirection::diagonal) : active;
 }
 
-/// From a VERTEX to its neighbours at the far ends of its six EDGEs, once around it: each is a
-/// neighbour of the one before.
-struct Spoke {
+/// From one VERTEX to another.
+struct Step {
     int i, j;
 };
-inline constexpr std::array<Spoke, 6> kSpokes{{{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}}};
+
+/// From a VERTEX to its neighbours at the far ends of its six EDGEs, its *spokes*, once around it:
+/// each is a neighbour of the one before.
+inline constexpr std::array<Step, 6> kSpokes{{{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}}};
 
 [[nodiscard]] constexpr EdgeDirection direction_of_spoke(std::size_t k) noexcept {
     return k % 3 == 0   ? EdgeDirection::along_row
@@ -175,26 +177,6 @@ inline constexpr std::array<Spoke, 6> kSpokes{{{1, 0}, {0, 1}, {-1, 1}, {-1, 0},
     const int back_i = k == 2 || k == 3 ? 1 : 0;
     const int back_j = k >= 4 ? 1 : 0;
     return edge(direction_of_spoke(k), vertex.i - back_i, vertex.j - back_j);
-}
-
-/// One of the six EDGEs of a VERTEX, and the VERTEX at its far end (which may lie outside the
-/// image).
-struct VertexSpoke {
-    Primitive edge;
-    int far_i, far_j;
-};
-
-[[nodiscard]] constexpr std::array<VertexSpoke, 6> spokes_of(const Primitive& vertex) noexcept {
-    const int i = vertex.i;
-    const int j = vertex.j;
-    return {{
-        {edge(EdgeDirection::along_row, i, j), i + 1, j},
-        {edge(EdgeDirection::along_column, i, j), i, j + 1},
-        {edge(EdgeDirection::diagonal, i - 1, j), i - 1, j + 1},
-        {edge(EdgeDirection::along_row, i - 1, j), i - 1, j},
-        {edge(EdgeDirection::along_column, i, j - 1), i, j - 1},
-        {edge(EdgeDirection::diagonal, i, j - 1), i + 1, j - 1},
-    }};
 }
 
 }  // namespace dibhr

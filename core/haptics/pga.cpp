@@ -10,20 +10,15 @@ namespace dibhr {
 
 namespace {
 
-/// From one VERTEX to another.
-struct Step {
-    int i, j;
-};
-
 /// Steps to VERTEXes, in the order they are looked at.
 struct Steps {
     const Step* first;
     int count;
 };
 
-/// To the six neighbours of a VERTEX, around it: each is a neighbour of the one before. The first
-/// two again at the end, so that any three in a row are in one piece.
-constexpr Step kAround[8]{{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}, {1, 0}, {0, 1}};
+/// Around a VERTEX, the first two again at the end, so that any three in a row are in one piece.
+constexpr Step kAround[8]{kSpokes[0], kSpokes[1], kSpokes[2], kSpokes[3],
+                          kSpokes[4], kSpokes[5], kSpokes[0], kSpokes[1]};
 
 /// From (i, j) of a TRIANGLE to its corners, by its side.
 constexpr Step kCorners[2][3]{{{1, 0}, {0, 1}, {0, 0}}, {{1, 0}, {0, 1}, {1, 1}}};

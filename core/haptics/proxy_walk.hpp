@@ -15,6 +15,16 @@
 
 namespace dibhr {
 
+/// A proxy that stopped on the cone is inside it at the next update whatever the last bit says.
+inline constexpr double kConeRounding = 1.0 + 1e-12;
+
+/// Nearer than this is there [px]: round-off of an 8K image's coordinates is never walked after.
+inline constexpr double kThere_px = 1e-11;
+
+[[nodiscard]] constexpr double square(double x) noexcept {
+    return x * x;
+}
+
 /// The proxy of one update on its way to `goal`, which lies inside the image rectangle. A class
 /// derived from it gives the visits.
 class ProxyWalk {
@@ -30,14 +40,6 @@ class ProxyWalk {
   protected:
     enum class Next { visit, rest };
 
-    /// A proxy that stopped on the cone is inside it at the next update whatever the last bit says.
-    static constexpr double kConeRounding = 1.0 + 1e-12;
-
-    /// Nearer than this is there [px]: round-off of an 8K image's coordinates is never walked
-    /// after.
-    static constexpr double kThere_px = 1e-11;
-
-    [[nodiscard]] static double square(double x) noexcept { return x * x; }
     [[nodiscard]] static double squared_distance(Vec3 a, Vec3 b) noexcept {
         return glm::dot(a - b, a - b);
     }
