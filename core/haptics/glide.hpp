@@ -222,7 +222,7 @@ class Glide {
         const int back = facet_.sign() > 0 ? 0 : 1;  // from the corner to the EDGE's begin
         const int begin_x = facet_.corner_x() - back;
         const int begin_y = facet_.corner_y() - back;
-        double along;  // in [0, 1]
+        double along = 0.0;  // in [0, 1]
         if constexpr (kThrough == EdgeDirection::along_row) {
             const double x = from.x + exit_.t * (foot.x - from.x);
             along = on_edge(x - begin_x);

@@ -180,9 +180,13 @@ class ConstraintWalk : private ProxyWalk {
     }
 
     /// Straight to the goal, onto the first plane in the way. False: there is none, the proxy is at
-    /// the goal.
+    /// the goal or at the end of its last move.
     bool touch_on_way_to_goal() noexcept {
         const Flight flight = fly_to(goal_);
+        if (flight.cut_short) {  // on the ground or in the air: `settle` tells
+            proxy_.position = flight.end;
+            return false;
+        }
         if (!flight.ground) {
             proxy_.position = flight.end;
             let_go();

@@ -137,7 +137,10 @@ struct TrianglePair {
 [[nodiscard]] inline Primitive lowest_under(const Primitive& active, double x, double y,
                                             double near_px) noexcept {
     // Not std::round: that is a call into the library, and no coordinate is below -0.5.
-    const auto nearest_line = [](double along) { return static_cast<int>(along + 0.5); };
+    const auto nearest_line = [](double along) {
+        const double past_half = along + 0.5;
+        return static_cast<int>(past_half);
+    };
     const auto is_on_line = [&](double along) {
         return std::abs(along - nearest_line(along)) <= near_px;
     };

@@ -71,7 +71,7 @@ ProxyWalk::Next ProxyWalk::visit_free() noexcept {
 Flight ProxyWalk::fly_to(Vec3 end) noexcept {
     const int moves_left = std::max(most_moves_ - proxy_.moves, 0);
     const Flight flight = fly(surface_, proxy_.position, end, moves_left * kMostCells / all_moves_);
-    most_moves_ -= flight.cells * all_moves_ / kMostCells;
+    most_moves_ -= (flight.cells * all_moves_ + kMostCells - 1) / kMostCells;
     if (flight.cut_short) proxy_.bound_met = true;
     return flight;
 }

@@ -3,10 +3,31 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstddef>
 
 #include "core/haptics/facet.hpp"
 
 namespace dibhr {
+
+namespace {
+
+/// The two columns (or rows) of a bump map around vertex k of `count`, held at its border, and how
+/// far k is from the first to the second. Pixel centres of both images in the same normalised
+/// coordinates.
+struct Between {
+    Between(int k, int count, int bumps) noexcept {
+        const double at = (k + 0.5) / count * bumps - 0.5;  // >= -0.5
+        const int below = at < 0.0 ? -1 : static_cast<int>(at);
+        first = std::max(below, 0);
+        second = std::min(below + 1, bumps - 1);
+        share = at - below;
+    }
+    int first{0};
+    int second{0};
+    double share{0.0};
+};
+
+}  // namespace
 
 DepthSurface::DepthSurface(const DepthImage& from, const DepthImage& to, double blend,
                            SurfaceShape shape, const BumpMap* bump) noexcept
@@ -26,6 +47,20 @@ DepthSurface::DepthSurface(const DepthImage& from, const DepthImage& to, double 
 double DepthSurface::elevation_at(double x, double y) const noexcept {
     const Vec3 p = clamped_to_frame({x, y, 0.0});
     return Facet(*this, triangle_at(p.x, p.y)).elevation_at(p.x, p.y);
+}
+
+double DepthSurface::bump_height(int i, int j) const noexcept {
+    const Between x(i, columns_, bump_->columns);
+    const Between y(j, rows_, bump_->rows);
+    const auto height = [this](int column, int row) {
+        return static_cast<double>(bump_->heights[static_cast<std::size_t>(row) *
+                                                      static_cast<std::size_t>(bump_->columns) +
+                                                  static_cast<std::size_t>(column)]);
+    };
+    return (1.0 - y.share) *
+               ((1.0 - x.share) * height(x.first, y.first) + x.share * height(x.second, y.first)) +
+           y.share *
+               ((1.0 - x.share) * height(x.first, y.second) + x.share * height(x.second, y.second));
 }
 
 }  // namespace dibhr

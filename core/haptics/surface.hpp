@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 #include "core/haptics/depth_image.hpp"
@@ -139,34 +138,7 @@ class DepthSurface {
     }
 
     /// Bilinear height of the bump map, stretched over the image, at vertex (i, j), in [0, 1].
-    [[nodiscard, gnu::noinline]] double bump_height(int i, int j) const noexcept {
-        const Between x(i, columns_, bump_->columns);
-        const Between y(j, rows_, bump_->rows);
-        const auto height = [this](int column, int row) {
-            return static_cast<double>(bump_->heights[static_cast<std::size_t>(row) *
-                                                          static_cast<std::size_t>(bump_->columns) +
-                                                      static_cast<std::size_t>(column)]);
-        };
-        return (1.0 - y.share) * ((1.0 - x.share) * height(x.first, y.first) +
-                                  x.share * height(x.second, y.first)) +
-               y.share * ((1.0 - x.share) * height(x.first, y.second) +
-                          x.share * height(x.second, y.second));
-    }
-
-    /// The two columns (or rows) of the bump map around vertex k of `count`, held at its border,
-    /// and how far k is from the first to the second. Pixel centres of both images in the same
-    /// normalised coordinates.
-    struct Between {
-        Between(int k, int count, int bumps) noexcept {
-            const double at = (k + 0.5) / count * bumps - 0.5;  // >= -0.5
-            const int below = at < 0.0 ? -1 : static_cast<int>(at);
-            first = std::max(below, 0);
-            second = std::min(below + 1, bumps - 1);
-            share = at - below;
-        }
-        int first, second;
-        double share;
-    };
+    [[nodiscard]] double bump_height(int i, int j) const noexcept;
 
     const float* from_{nullptr};
     const float* to_{nullptr};

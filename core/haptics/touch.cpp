@@ -84,6 +84,7 @@ const Touch& TouchRenderer::update(const DepthSurface& surface, Vec3 hand,
                                    const SafetyLimits& limits) noexcept {
     if (!is_finite(hand)) {
         goal_velocity_.forget();  // the next step takes longer than its tick
+        last_.proxy.bound_met = false;
         last_.spring_force_newton = Vec3(0.0);
         last_.sent_force_newton = safety_.limit(Vec3(NAN), input, limits);
         last_.cut = safety_.last_cut();
