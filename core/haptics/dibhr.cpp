@@ -1,11 +1,10 @@
 // The walk over TRIANGLEs, EDGEs and VERTEXes, with the friction cone before every straight piece.
 #include "core/haptics/dibhr.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <utility>
 
 #include "core/haptics/crease.hpp"
 #include "core/haptics/facet.hpp"
@@ -188,24 +187,33 @@ class SurfaceWalk : private ProxyWalk {
     /// if there is one.
     Next visit_vertex() noexcept {
         const VertexFan fan(surface_, proxy_.active);
-        const Vec3 to_goal = goal_ - proxy_.position;
-        std::size_t steepest = kSpokes.size();
-        double steepest_gain = kThere_px;
-        for (std::size_t k = 0; k < kSpokes.size(); ++k) {
-            if (!fan.has(k)) continue;
-            const Vec3 along = fan.along(k);
-            const double nearer = glm::dot(to_goal, along);
-            if (nearer <= 0.0) continue;
-            const double gain = nearer / std::sqrt(glm::dot(along, along));
-            if (gain <= steepest_gain) continue;
-            steepest_gain = gain;
-            steepest = k;
-        }
+        const std::size_t steepest = steepest_spoke(fan, kThere_px, [](Vec3) { return true; });
         if (steepest == kSpokes.size()) return rest_or_leave();
         proxy_.active = edge_at(proxy_.active, steepest);
         if (proxy_.moves >= most_moves_) return Next::visit;  // which ends the walk
         ++proxy_.moves;
         return visit_fan_edge(fan, steepest);
+    }
+
+    /// The spoke along which the distance falls fastest, by more than `least`, of those that
+    /// `is_free(along)` lets it go by; their number if there is none.
+    template <typename IsFree>
+    [[nodiscard]] std::size_t steepest_spoke(const VertexFan& fan, double least,
+                                             IsFree&& is_free) const noexcept {
+        const Vec3 to_goal = goal_ - proxy_.position;
+        std::size_t steepest = kSpokes.size();
+        double steepest_gain = least;
+        for (std::size_t k = 0; k < kSpokes.size(); ++k) {
+            if (!fan.has(k)) continue;
+            const Vec3 along = fan.along(k);
+            const double nearer = glm::dot(to_goal, along);
+            if (nearer <= 0.0 || !is_free(along)) continue;
+            const double gain = nearer / std::sqrt(glm::dot(along, along));
+            if (gain <= steepest_gain) continue;
+            steepest_gain = gain;
+            steepest = k;
+        }
+        return steepest;
     }
 
     /// Friction holds the proxy on the active piece. On an EDGE or a VERTEX that is not all that
@@ -276,29 +284,18 @@ class SurfaceWalk : private ProxyWalk {
 
     /// No TRIANGLE around the VERTEX leads on: an EDGE may.
     Next go_on_by_spoke(const Primitive& vertex, const VertexFan& fan) noexcept {
-        const Vec3 to_goal = goal_ - proxy_.position;
-        std::size_t farthest = kSpokes.size();
-        double farthest_gain = 0.0;
-        for (std::size_t k = 0; k < kSpokes.size(); ++k) {
-            if (!fan.has(k)) continue;
-            const Vec3 along = fan.along(k);
-            const double nearer = glm::dot(to_goal, along);
-            if (nearer <= 0.0 || is_held_along(along)) continue;
-            const double gain = nearer / std::sqrt(glm::dot(along, along));
-            if (gain <= farthest_gain) continue;
-            farthest_gain = gain;
-            farthest = k;
-        }
-        if (farthest == kSpokes.size()) return Next::rest;
-        return slide_along(edge_at(vertex, farthest), fan.elevations_along(farthest));
+        const std::size_t steepest =
+            steepest_spoke(fan, 0.0, [this](Vec3 along) { return !is_held_along(along); });
+        if (steepest == kSpokes.size()) return Next::rest;
+        return slide_along(edge_at(vertex, steepest), fan.elevations_along(steepest));
     }
 
     /// The TRIANGLEs beside it are known.
-    Next visit_fan_edge(const VertexFan& fan, std::size_t way) noexcept {
+    Next visit_fan_edge(const VertexFan& fan, std::size_t spoke) noexcept {
         // As `triangles_of` orders them: the even one is towards +x and +y.
-        const std::size_t before = (way + 5) % 6;
-        const std::size_t first = way % 2 == 0 ? way : before;
-        const std::size_t second = way % 2 == 0 ? before : way;
+        const std::size_t before = (spoke + 5) % kSpokes.size();
+        const std::size_t first = spoke % 2 == 0 ? spoke : before;
+        const std::size_t second = spoke % 2 == 0 ? before : spoke;
         const EdgeDirection direction = proxy_.active.direction;
         const Facet facet = fan.facet(fan.has_facet(first) ? first : second);
         const Side one = side_of(facet, direction);

@@ -79,21 +79,19 @@ class Glide {
         const bool at_begin = position_.x == ends.begin_i && position_.y == ends.begin_j;
         return at_begin ? vertex(ends.begin_i, ends.begin_j) : vertex(ends.end_i, ends.end_j);
     }
+
+  private:
     /// An EDGE crossed at the foot itself is crossed: the TRIANGLE behind it may lead on.
     static constexpr double kPastFoot = 1.0 + 1e-11;
 
-  private:
     /// One TRIANGLE on, if friction lets the proxy. Both signs take turns and have code of their
     /// own.
     [[gnu::always_inline]] void go_on() noexcept {
         const Vec3 way = goal_on_.foot - position_;
         length2_ = glm::dot(way, way);
-        const double moving2 = course_.moving * goal_on_.distance2;
         const double holding2 = holding_ * goal_on_.distance2;
         if (length2_ <= holding2 * kConeRounding + square(kThere_px)) return end(End::held);
-        if (exit_.t > kPastFoot || square(1.0 - exit_.t) * length2_ < moving2) {
-            return end(End::cone);
-        }
+        if (ends_before(exit_.t)) return end(End::cone);
         if (facet_.sign() > 0) {
             facet_.assume_sign<1>();
             cross_exit();
@@ -101,6 +99,11 @@ class Glide {
             facet_.assume_sign<-1>();
             cross_exit();
         }
+    }
+
+    /// Whether the way ends in this TRIANGLE: at the foot, or on the cone around it.
+    [[gnu::always_inline, nodiscard]] bool ends_before(double t) const noexcept {
+        return t > kPastFoot || square(1.0 - t) * length2_ < course_.moving * goal_on_.distance2;
     }
 
     [[gnu::always_inline]] void cross_exit() noexcept {
@@ -180,11 +183,10 @@ class Glide {
         StraightWay way(position_, goal_on_.foot, second_);
         way.over_next_edge(second_.sign(), [](auto, double) {});  // into the third: facet_
         Facet here = facet_;  // a local value stays in registers
-        const double moving2 = course_.moving * goal_on_.distance2;
         const auto cross = [&]<EdgeDirection kThrough>(
                                std::integral_constant<EdgeDirection, kThrough>, double t) {
             exit_ = {kThrough, t};
-            if (t > kPastFoot || square(1.0 - t) * length2_ < moving2) return End::cone;
+            if (ends_before(t)) return End::cone;
             const Facet::Across across = here.step_across<kThrough>(
                 course_.surface, here.elevation_across<kThrough>(course_.surface));
             if (across == Facet::Across::border || moves_ >= course_.most_moves) return End::stop;

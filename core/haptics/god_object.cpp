@@ -160,8 +160,9 @@ class ConstraintWalk : private ProxyWalk {
         Vec3& p = proxy_.position;
         const double ground = surface_.elevation_at(p.x, p.y);
         if (proxy_.bound_met && p.z > ground + kSettled_px) return let_go();
-        // Planes that are nearly parallel leave a goal far below them more round-off than this.
-        if (std::abs(p.z - ground) > kRoundOff_px) p.z = ground;
+        // Planes that are nearly parallel leave a goal far below them this much round-off.
+        const double off = std::abs(p.z - ground);
+        if (off > kRoundOff_px && off <= kMostRoundOff_px) p.z = ground;
         proxy_.active = surface_.triangle_at(p.x, p.y);
     }
 
@@ -266,6 +267,7 @@ class ConstraintWalk : private ProxyWalk {
     /// Several times what a collision lets the proxy sink in.
     static constexpr double kSettled_px = 1e-9;
     static constexpr double kRoundOff_px = 1e-8;
+    static constexpr double kMostRoundOff_px = 1e-5;
 
     /// As often as this the active planes may be found anew with the proxy no farther than that.
     static constexpr int kMostIdlePasses = 8;
@@ -281,7 +283,7 @@ class ConstraintWalk : private ProxyWalk {
 
 void GodObject::walk(const DepthSurface& surface, Vec3 goal, const Friction& friction,
                      Proxy& proxy) const noexcept {
-    const int most_moves = surface.has_bump() ? kMostMoves / 2 : kMostMoves;
+    const int most_moves = half_over_bump(surface, kMostMoves);
     ConstraintWalk(surface, goal, friction, most_moves, proxy).run();
 }
 

@@ -268,7 +268,7 @@ class NeighborhoodWalk : private ProxyWalk {
 
 void Neighborhood::walk(const DepthSurface& surface, Vec3 goal, const Friction& friction,
                         Proxy& proxy) const noexcept {
-    const int most_moves = surface.has_bump() ? kMostMoves / 2 : kMostMoves;
+    const int most_moves = half_over_bump(surface, kMostMoves);
     NeighborhoodWalk(surface, goal, friction, most_moves, proxy).run();
 }
 

@@ -25,6 +25,11 @@ inline constexpr double kThere_px = 1e-11;
     return x * x;
 }
 
+/// Of a walk that looks at whole TRIANGLEs: over a bump map they take up to four times as long.
+[[nodiscard]] inline int half_over_bump(const DepthSurface& surface, int most_moves) noexcept {
+    return surface.has_bump() ? most_moves / 2 : most_moves;
+}
+
 /// The proxy of one update on its way to `goal`, which lies inside the image rectangle. A class
 /// derived from it gives the visits.
 class ProxyWalk {

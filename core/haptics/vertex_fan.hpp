@@ -11,7 +11,7 @@
 
 namespace dibhr {
 
-/// A VERTEX and what surrounds it: six EDGEs, the *ways*, in the order of `kSpokes`, and between
+/// A VERTEX and what surrounds it: six EDGEs, its spokes, in the order of `kSpokes`, and between
 /// each and the next a TRIANGLE of the same number. Fewer on the image's border.
 class VertexFan {
   public:
@@ -31,18 +31,20 @@ class VertexFan {
     /// Elevation of the VERTEX.
     [[nodiscard]] double elevation() const noexcept { return z_; }
     [[nodiscard]] bool is_whole() const noexcept { return present_ == 0x3F; }
-    [[nodiscard]] bool has(std::size_t way) const noexcept { return ((present_ >> way) & 1U) != 0; }
-    [[nodiscard]] bool has_facet(std::size_t k) const noexcept {
-        return has(k) && has((k + 1) % 6);
+    [[nodiscard]] bool has(std::size_t spoke) const noexcept {
+        return ((present_ >> spoke) & 1U) != 0;
     }
-    /// From the VERTEX to the far end of a way.
-    [[nodiscard]] Vec3 along(std::size_t way) const noexcept {
-        return {kSpokes[way].i, kSpokes[way].j, around_[way] - z_};
+    [[nodiscard]] bool has_facet(std::size_t k) const noexcept {
+        return has(k) && has((k + 1) % kSpokes.size());
+    }
+    /// From the VERTEX to the far end of a spoke.
+    [[nodiscard]] Vec3 along(std::size_t spoke) const noexcept {
+        return {kSpokes[spoke].i, kSpokes[spoke].j, around_[spoke] - z_};
     }
 
-    /// At the ends of the EDGE along a way.
-    [[nodiscard]] EdgeElevations elevations_along(std::size_t way) const noexcept {
-        return way < 3 ? EdgeElevations{z_, around_[way]} : EdgeElevations{around_[way], z_};
+    /// At the ends of the EDGE along a spoke.
+    [[nodiscard]] EdgeElevations elevations_along(std::size_t spoke) const noexcept {
+        return spoke < 3 ? EdgeElevations{z_, around_[spoke]} : EdgeElevations{around_[spoke], z_};
     }
 
     [[nodiscard]] Facet facet(std::size_t k) const noexcept {
