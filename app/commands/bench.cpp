@@ -123,19 +123,6 @@ struct BenchResults {
     LoopRun loop{};
 };
 
-double us_between(Clock::time_point begin, Clock::time_point end) {
-    return std::chrono::duration<double, std::micro>(end - begin).count();
-}
-
-std::string text_of(Size size) {
-    return std::to_string(size.columns) + "x" + std::to_string(size.rows);
-}
-
-Json json_of(const SampleStatistics& s, const std::string& unit) {
-    return {{"median_" + unit, s.median}, {"mean_" + unit, s.mean},   {"p99_" + unit, s.p99},
-            {"p999_" + unit, s.p999},     {"max_" + unit, s.highest}, {"samples", s.count}};
-}
-
 LoopRun::Lateness lateness_of(const TickSchedule& schedule) {
     const LatenessHistogram& lateness = schedule.lateness();
     const auto us = [](std::chrono::nanoseconds t) { return static_cast<double>(t.count()) / 1e3; };
@@ -217,7 +204,8 @@ std::string table_of(const BenchResults& results) {
     text << table_of(results.updates);
     const HandoverRun& handover = results.handover;
     text << '\n'
-         << std::left << std::setw(40) << "A new depth frame of " + text_of(kPaper) << std::right;
+         << std::left << std::setw(40)
+         << "A new depth frame of " + size_text(kPaper.columns, kPaper.rows) << std::right;
     for (const char* head : {"median", "mean", "p99", "p99.9", "max"})
         text << std::setw(11) << head;
     text << '\n'

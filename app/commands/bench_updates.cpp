@@ -25,10 +25,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::string_view kFlat = "bit-flat";  // the ground of "updates" and "teleports"
 
-double us_between(Clock::time_point begin, Clock::time_point end) {
-    return std::chrono::duration<double, std::micro>(end - begin).count();
-}
-
 PathCost cost_of(const Ground& ground, PathRun path) {
     run_algorithms(path, ground.clip, all_algorithms(), Timing::careful);
     PathCost cost{ground.name, path.name, path.columns, path.rows, path.depth_px};
@@ -117,10 +113,6 @@ constexpr std::size_t kNameWidth = 28;
 constexpr std::size_t kCellWidth = 18;
 constexpr std::size_t kRatioWidth = 14;
 
-std::string size_text(int columns, int rows) {
-    return std::to_string(columns) + "x" + std::to_string(rows);
-}
-
 std::string name_cell(const std::string& ground, const std::string& path, int columns, int rows) {
     return "  " + left(left(ground, 10) + left(path, 8) + size_text(columns, rows), kNameWidth);
 }
@@ -194,11 +186,6 @@ std::string jump_table(const UpdateCosts& costs) {
     return text;
 }
 
-Json json_of(const SampleStatistics& s) {
-    return {{"median_us", s.median}, {"mean_us", s.mean},   {"p99_us", s.p99},
-            {"p999_us", s.p999},     {"max_us", s.highest}, {"samples", s.count}};
-}
-
 Json json_of(const PathCost& cost) {
     Json algorithms = Json::array();
     for (const UpdateCost& update : cost.algorithms) {
@@ -206,7 +193,7 @@ Json json_of(const PathCost& cost) {
                               {"update_ns", update.update_ns},
                               {"moves", update.moves},
                               {"move_ns", update.move_ns()},
-                              {"single", json_of(update.single_us)},
+                              {"single", json_of(update.single_us, "us")},
                               {"bounds_met", update.bounds_met}});
     }
     const auto paper = paper_dibhr_to_pga(cost.path);
@@ -224,8 +211,8 @@ Json json_of(const JumpCost& cost) {
     Json algorithms = Json::array();
     for (const CatchUpCost& jump : cost.algorithms) {
         algorithms.push_back({{"algorithm", name_of(jump.algorithm)},
-                              {"first_update", json_of(jump.first_us)},
-                              {"slowest_update", json_of(jump.slowest_us)},
+                              {"first_update", json_of(jump.first_us, "us")},
+                              {"slowest_update", json_of(jump.slowest_us, "us")},
                               {"updates_to_catch_up", jump.most_updates}});
     }
     return {{"ground", cost.ground},
@@ -238,7 +225,7 @@ Json json_of(const JumpCost& cost) {
 Json with_size(Json json, int columns, int rows, const SampleStatistics& us) {
     json["columns"] = columns;
     json["rows"] = rows;
-    json.update(json_of(us));
+    json.update(json_of(us, "us"));
     return json;
 }
 
@@ -256,14 +243,23 @@ double PathCost::dibhr_to_pga() const {
 UpdateCosts measure_updates() {
     UpdateCosts costs;
     costs.clock_us = clock_cost_us();
-    for (const GroundMaker& maker : made_grounds()) {
-        const Ground ground = maker.make();
+    for (const MakeGround make : made_grounds()) {
+        const Ground ground = make();
         if (costs.paths.empty()) costs.crossing_ns = coplanar_crossing_ns(ground);
         measure(ground, costs);
     }
     measure(video_ground("sample", read_depth_clip(open_depth(sample_files().depth), {}, {}, {})),
             costs);
     return costs;
+}
+
+Json json_of(const SampleStatistics& s, const std::string& unit) {
+    return {{"median_" + unit, s.median}, {"mean_" + unit, s.mean},   {"p99_" + unit, s.p99},
+            {"p999_" + unit, s.p999},     {"max_" + unit, s.highest}, {"samples", s.count}};
+}
+
+std::string size_text(int columns, int rows) {
+    return std::to_string(columns) + "x" + std::to_string(rows);
 }
 
 std::string table_of(const UpdateCosts& costs) {

@@ -110,6 +110,7 @@ void Viewer::load_bump(const std::filesystem::path& file) {
 
 void Viewer::start_loop() {
     hand_over_settings();
+    haptic_state_.publish(HapticState{});  // what the loop before it did is past
     loop_ = std::make_unique<HapticLoop>(HapticConnections{
         *hand_.device, player_.haptics(), haptic_settings_, haptic_state_, *forces_, *ticks_});
 }

@@ -20,7 +20,7 @@ void main() {
     if (b_px.w > 0.0) {
         float dash = b_px.w / max(length(axis), 1e-3);  // in parts of the stroke, as h
         float middle = (floor(h / dash) + 0.5) * dash;
-        h = clamp(h, middle - kHalfDash * dash, min(middle + kHalfDash * dash, 1.0));
+        h = clamp(h, min(middle - kHalfDash * dash, 1.0), min(middle + kHalfDash * dash, 1.0));
     }
     vec2 from_axis = gl_FragCoord.xy - mix(a_px.xy, b_px.xy, h);
     float radius = mix(a_px.z, b_px.z, h);

@@ -25,10 +25,6 @@ constexpr double kRadius_px = 200.0;
 constexpr int kWholeRuns = 9;
 constexpr const char* kPlaneSource = "the paper's goals, 4961 px/s on a flat image";
 
-double us_between(Clock::time_point begin, Clock::time_point end) {
-    return std::chrono::duration<double, std::micro>(end - begin).count();
-}
-
 /// Of the clip at update k [s].
 double time_of(const PathRun& path, std::size_t k) noexcept {
     return path.times_s.empty() ? seconds_of(k) : path.times_s[k];
@@ -216,6 +212,10 @@ void run_algorithms(PathRun& path, const DepthClip& clip, std::span<const Algori
     path.runs = std::move(runs);
 }
 
+double us_between(Clock::time_point begin, Clock::time_point end) {
+    return std::chrono::duration<double, std::micro>(end - begin).count();
+}
+
 double clock_cost_us() {
     std::vector<double> costs(10001);
     for (double& cost : costs) {
@@ -223,27 +223,6 @@ double clock_cost_us() {
         cost = us_between(begin, Clock::now());
     }
     return statistics_of(std::move(costs)).median;
-}
-
-UpdateTiming time_updates(ProxyAlgorithm& algorithm, const DepthSurface& surface,
-                          const std::vector<Vec3>& goals, const Friction& friction) {
-    algorithm.reset();
-    for (const Vec3& goal : goals) algorithm.update(surface, goal, friction);
-
-    UpdateTiming timing;
-    std::vector<double> times_us(goals.size());
-    double moves = 0.0;
-    algorithm.reset();
-    for (std::size_t k = 0; k < goals.size(); ++k) {
-        const auto begin = Clock::now();
-        const Proxy& proxy = algorithm.update(surface, goals[k], friction);
-        times_us[k] = us_between(begin, Clock::now());
-        moves += proxy.moves;
-        timing.bound_met = timing.bound_met || proxy.bound_met;
-    }
-    timing.moves_per_update = goals.empty() ? 0.0 : moves / static_cast<double>(goals.size());
-    timing.update_us = statistics_of(std::move(times_us));
-    return timing;
 }
 
 std::vector<SweepPoint> run_sweep(const SweepRange& range, std::span<const Algorithm> algorithms,

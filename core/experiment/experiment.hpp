@@ -2,6 +2,7 @@
 // came out.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -110,19 +111,11 @@ enum class Timing { quick, careful };
 void run_algorithms(PathRun& path, const DepthClip& clip, std::span<const Algorithm> algorithms,
                     Timing timing, const Progress& progress = {});
 
-struct UpdateTiming {
-    SampleStatistics update_us{};  ///< each includes one reading of the clock
-    double moves_per_update{0.0};
-    bool bound_met{false};
-};
+[[nodiscard]] double us_between(std::chrono::steady_clock::time_point begin,
+                                std::chrono::steady_clock::time_point end);
 
 /// What reading the clock itself costs [us]: the median of many.
 [[nodiscard]] double clock_cost_us();
-
-/// Runs the goals through the algorithm, from a reset, after one unmeasured pass that warms the
-/// caches.
-[[nodiscard]] UpdateTiming time_updates(ProxyAlgorithm& algorithm, const DepthSurface& surface,
-                                        const std::vector<Vec3>& goals, const Friction& friction);
 
 /// What is swept. The paper states neither; these ranges hold what a hand and a device do.
 struct SweepRange {

@@ -38,16 +38,6 @@ class Dice {
     std::mt19937 bits_{5};
 };
 
-template <typename Level>
-DepthImage image_of(int columns, int rows, double highest_level, Level&& level) {
-    DepthImage image{columns, rows, highest_level, {}};
-    image.levels.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-    for (int j = 0; j < rows; ++j) {
-        for (int i = 0; i < columns; ++i) image.at(i, j) = static_cast<float>(level(i, j));
-    }
-    return image;
-}
-
 DepthImage flat_image(int columns, int rows) {
     return image_of(columns, rows, kHighest8Bit, [](int, int) { return kFlat8Bit; });
 }
@@ -145,15 +135,12 @@ Ground crease() {
     return ground;
 }
 
-constexpr std::array kMakers{
-    GroundMaker{"bit-flat", &bit_flat},    GroundMaker{"bit-flat", &large_bit_flat},
-    GroundMaker{"near-flat", &near_flat},  GroundMaker{"bumpy", &bumpy},
-    GroundMaker{"bump map", &bump_mapped}, GroundMaker{"crease", &crease},
-};
+constexpr std::array<MakeGround, 6> kMakers{&bit_flat, &large_bit_flat, &near_flat,
+                                            &bumpy,    &bump_mapped,    &crease};
 
 }  // namespace
 
-std::span<const GroundMaker> made_grounds() noexcept {
+std::span<const MakeGround> made_grounds() noexcept {
     return kMakers;
 }
 

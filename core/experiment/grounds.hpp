@@ -24,24 +24,21 @@ struct Jump {
 struct Ground {
     std::string name{};
     DepthClip clip;
-    /// Linear and circle, ready for run_algorithms: 4961 px/s, each goal 20 px below the surface of
-    /// its moment.
+    /// Linear and, but over the crease, circle, ready for run_algorithms: 4961 px/s, each goal 20
+    /// px below the surface of its moment.
     std::vector<PathRun> paths{};
     std::vector<Jump> jumps{};
 };
 
-/// A ground and how it is made: one at a time, because a large one takes a quarter of a gigabyte.
-struct GroundMaker {
-    const char* name;
-    Ground (*make)();
-};
+/// One at a time: a large ground takes a quarter of a gigabyte.
+using MakeGround = Ground (*)();
 
 /// - bit-flat: every level the same, 720x486 (the paper's) and 7680x4320; jumps across the latter
 /// - near-flat: with one level of 16-bit noise: hardly two TRIANGLEs lie in one plane
 /// - bumpy: 16-bit waves of a few pixels
 /// - bump map: a flat image under 2 px of white noise
 /// - crease: rows by turns one 16-bit level higher, 7680x4320; the goal over a row that is a crease
-[[nodiscard]] std::span<const GroundMaker> made_grounds() noexcept;
+[[nodiscard]] std::span<const MakeGround> made_grounds() noexcept;
 
 /// A video; its image must hold the paper's paths.
 [[nodiscard]] Ground video_ground(const std::string& name, DepthClip clip);

@@ -274,10 +274,11 @@ std::string table_of(std::span<const PathRun> paths, double clock_us) {
     std::string text;
     for (const PathRun& path : paths) text += heading_of(path);
     text += time_table(paths);
-    text += "  Reading the clock, " + number_text(clock_us, 3) +
-            " us, is part of each time but of \"whole\": runs timed as a whole, for each update.\n"
-            "  Moves: primitives visited; bound: updates that ended before the proxy had caught up. "
-            "Paper: a Pentium\n  D, 3.4 GHz.\n";
+    text +=
+        "  Reading the clock, " + number_text(clock_us, 3) +
+        " us, is part of each time but of \"whole\": runs timed as a whole, for each update.\n"
+        "  Moves: primitives visited; bound: updates that ended before the proxy had caught up. "
+        "Paper: a Pentium\n  D, 3.4 GHz.\n";
     text += variation_table(paths);
     text +=
         "  Sliding: without the updates in which the goal's motion turns by more than 90 degrees "

@@ -39,8 +39,8 @@ class CreaseAhead {
   private:
     /// A run of fewer EDGEs is walked as fast one by one.
     static constexpr int kWorthwhile = 2;
-    /// Elevations on a line, and decisions without doubt [px].
     static constexpr double kOnLine_px = 1e-11;
+    /// A decision by less than this, in pixels or in shares of a corner, is in doubt.
     static constexpr double kDoubt = 1e-8;
 
     [[nodiscard]] std::size_t around(std::size_t steps) const noexcept {

@@ -23,6 +23,17 @@ struct DepthImage {
     }
 };
 
+/// The image whose level at column i and row j is `level(i, j)`.
+template <typename Level>
+[[nodiscard]] DepthImage image_of(int columns, int rows, double highest_level, Level&& level) {
+    DepthImage image{columns, rows, highest_level, {}};
+    image.levels.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+    for (int j = 0; j < rows; ++j) {
+        for (int i = 0; i < columns; ++i) image.at(i, j) = static_cast<float>(level(i, j));
+    }
+    return image;
+}
+
 /// Fine relief laid over the whole depth image: rows x columns, row-major, heights in [0, 1].
 struct BumpMap {
     int columns{0};

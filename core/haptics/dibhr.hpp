@@ -14,7 +14,7 @@ namespace dibhr {
 /// hand's step; proportional to the cells crossed.
 class Dibhr final : public ProxyAlgorithm {
   public:
-    /// Primitives visited in an update that flies nowhere: at most 100 us.
+    /// Primitives visited in an update that flies nowhere (README.md, "One update").
     static constexpr int kMostMoves = 1000;
 
   private:

@@ -20,8 +20,8 @@ namespace dibhr {
 /// plane it goes as DIBHR does. Its active primitive is the TRIANGLE under it.
 class GodObject final : public ProxyAlgorithm {
   public:
-    /// Primitives visited in an update that flies nowhere, half of them over a bump map: at most
-    /// 100 us.
+    /// Primitives visited in an update that flies nowhere, half of them over a bump map
+    /// (README.md, "One update").
     static constexpr int kMostMoves = 500;
 
   private:

@@ -27,8 +27,8 @@ namespace dibhr {
 /// and up to two EDGEs, and held back from all of them once more with its three EDGEs.
 class Neighborhood final : public ProxyAlgorithm {
   public:
-    /// Primitives visited in an update that flies nowhere, half of them over a bump map: at most
-    /// 100 us.
+    /// Primitives visited in an update that flies nowhere, half of them over a bump map
+    /// (README.md, "One update").
     static constexpr int kMostMoves = 500;
 
   private:

@@ -23,7 +23,7 @@ namespace dibhr {
 /// first VERTEX, three at every next one, again where friction holds it back from a neighbour.
 class Pga final : public ProxyAlgorithm {
   public:
-    /// Primitives visited in an update that flies nowhere: at most 100 us.
+    /// Primitives visited in an update that flies nowhere (README.md, "One update").
     static constexpr int kMostMoves = 500;
 
   private:

@@ -14,7 +14,8 @@ struct Proxy {
     int moves{0};        ///< primitives visited in this update
     bool contact{false};
     bool slipping{false};  ///< the dynamic coefficient holds
-    /// The walk came to its last move before its end: it goes on from here in the next update.
+    /// The walk came to its last move, or a flight to its last cell, before its end: it goes on
+    /// from here in the next update.
     bool bound_met{false};
 };
 

@@ -132,7 +132,7 @@ class DepthSurface {
     static constexpr double kReach_px = 1e5;
 
   private:
-    /// The cell under a coordinate, held in 0 to `last`. Held first: any number can be given.
+    /// The cell under a coordinate, held in 0 to `last`. Held first: any finite one can be given.
     [[nodiscard]] static int cell_at(double along, int last) noexcept {
         return static_cast<int>(std::clamp(along, 0.0, static_cast<double>(last)));
     }

@@ -92,7 +92,7 @@ TEST_CASE("bench times every algorithm on every ground, for people and for scrip
         CAPTURE(row.dump());
         const Json& costs = row.at("algorithms");
         REQUIRE(algorithms_in(costs) == algorithms);
-        // Behind the sample's person the goal leaves the proxy half an image behind.
+        // Where the sample's frames jump, a person's outline leaves the proxy half an image behind.
         if (row.at("ground") != "sample") CHECK(costs[0].at("bounds_met") == 0);
         for (const Json& cost : costs) {
             CHECK(cost.at("update_ns").get<double>() > 0.0);

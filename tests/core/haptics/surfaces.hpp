@@ -27,15 +27,7 @@ class Dice {
     std::uint64_t state_;
 };
 
-template <typename Level>
-DepthImage image_of(int columns, int rows, double highest_level, Level&& level) {
-    DepthImage image{columns, rows, highest_level, {}};
-    image.levels.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-    for (int j = 0; j < rows; ++j) {
-        for (int i = 0; i < columns; ++i) image.at(i, j) = static_cast<float>(level(i, j));
-    }
-    return image;
-}
+using dibhr::image_of;
 
 inline DepthImage flat(int columns, int rows, double level) {
     return image_of(columns, rows, 255.0, [&](int, int) { return level; });
