@@ -40,7 +40,11 @@ class TouchRun {
           depth_(
               open_depth(options.depth), options.video,
               options.touch.raw_depth ? CleaningOptions{false, false, false} : CleaningOptions{}) {
-        if (!options.touch.bump.empty()) bump_ = read_bump_map(options.touch.bump);
+        if (!options.touch.bump.empty()) {
+            bump_ = read_bump_map(options.touch.bump);
+            const DepthImage& depth = *depth_.now().from->depth;
+            fit(*bump_, depth.columns, depth.rows);
+        }
         input_.from_zero = true;
     }
 

@@ -35,7 +35,9 @@ class Images {
            const std::optional<Levels>& bump)
         : from_{columns_of(from), rows_of(from), highest_level, values_of(from)} {
         if (to) to_ = DepthImage{columns_of(*to), rows_of(*to), highest_level, values_of(*to)};
-        if (bump) bump_ = BumpMap{columns_of(*bump), rows_of(*bump), values_of(*bump)};
+        if (!bump) return;
+        bump_ = BumpMap{columns_of(*bump), rows_of(*bump), values_of(*bump)};
+        fit(*bump_, from_.columns, from_.rows);
     }
 
     [[nodiscard]] DepthSurface at(double blend, const SurfaceShape& shape) const noexcept {

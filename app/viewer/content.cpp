@@ -76,6 +76,7 @@ void Viewer::take_dropped(const std::vector<std::filesystem::path>& files) {
 void Viewer::show_media(std::unique_ptr<Media> media) {
     replay_.end(state_);
     state_.media = media->description();
+    fit_bump();
     frame_relief();
     show_title(state_.media.colour_path);
     player_.play_media(std::move(media), recording_.opened(state_.media));
@@ -105,7 +106,17 @@ void Viewer::load_bump(const std::filesystem::path& file) {
     attempt([&] {
         state_.bump = file.empty() ? nullptr : std::make_shared<const BumpMap>(read_bump_map(file));
         state_.bump_file = file;
+        fit_bump();
     });
+}
+
+void Viewer::fit_bump() {
+    const int columns = state_.media.depth_columns;
+    const int rows = state_.media.depth_rows;
+    if (!state_.bump || is_fit(*state_.bump, columns, rows)) return;
+    auto bump = std::make_shared<BumpMap>(*state_.bump);  // the loop may hold the other one
+    fit(*bump, columns, rows);
+    state_.bump = std::move(bump);
 }
 
 void Viewer::start_loop() {

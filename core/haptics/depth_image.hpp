@@ -39,6 +39,15 @@ struct BumpMap {
     int columns{0};
     int rows{0};
     std::vector<float> heights{};
+
+    /// The same at every VERTEX of a depth image of one size, columns x rows of them, row-major:
+    /// `fit` (surface.hpp) works them out.
+    struct AtVertices {
+        int columns{0};
+        int rows{0};
+        std::vector<double> heights{};
+    };
+    AtVertices at_vertices{};
 };
 
 }  // namespace dibhr

@@ -76,7 +76,7 @@ dibhr_status dibhr_set_blend(dibhr_handle* handle, double blend);
 
 /* Relief laid over the whole image, at any resolution: level / highest_level times the parameter
  * "roughness". NULL: none. (`dibhr touch --bump` and the Python module stretch a picture's lowest to
- * highest level over 0 to 1 before.) */
+ * highest level over 0 to 1 before.) Once there is a depth image it takes 8 bytes a level of that. */
 dibhr_status dibhr_set_bump(dibhr_handle* handle, const dibhr_image* bump);
 
 /* Of the surface under (x, y) [px]; outside the image that of its border. */

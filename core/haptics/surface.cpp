@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
+#include <utility>
+#include <vector>
 
 #include "core/haptics/facet.hpp"
 
@@ -27,6 +29,19 @@ struct Between {
     double share{0.0};
 };
 
+/// Bilinear height of a bump map.
+double height_between(const BumpMap& bump, const Between& x, const Between& y) noexcept {
+    const auto height = [&bump](int column, int row) {
+        return static_cast<double>(bump.heights[static_cast<std::size_t>(row) *
+                                                    static_cast<std::size_t>(bump.columns) +
+                                                static_cast<std::size_t>(column)]);
+    };
+    return (1.0 - y.share) *
+               ((1.0 - x.share) * height(x.first, y.first) + x.share * height(x.second, y.first)) +
+           y.share *
+               ((1.0 - x.share) * height(x.first, y.second) + x.share * height(x.second, y.second));
+}
+
 }  // namespace
 
 DepthSurface::DepthSurface(const DepthImage& from, const DepthImage& to, double blend,
@@ -40,6 +55,9 @@ DepthSurface::DepthSurface(const DepthImage& from, const DepthImage& to, double 
       highest_level_(from.highest_level),
       roughness_px_(shape.roughness_px),
       bump_(shape.roughness_px == 0.0 ? nullptr : bump) {
+    if (bump_ != nullptr && is_fit(*bump_, columns_, rows_)) {
+        fitted_ = bump_->at_vertices.heights.data();
+    }
     assert(columns_ >= 2 && rows_ >= 2);
     assert(to.columns == columns_ && to.rows == rows_ && to.highest_level == highest_level_);
 }
@@ -50,17 +68,25 @@ double DepthSurface::elevation_at(double x, double y) const noexcept {
 }
 
 double DepthSurface::bump_height(int i, int j) const noexcept {
-    const Between x(i, columns_, bump_->columns);
-    const Between y(j, rows_, bump_->rows);
-    const auto height = [this](int column, int row) {
-        return static_cast<double>(bump_->heights[static_cast<std::size_t>(row) *
-                                                      static_cast<std::size_t>(bump_->columns) +
-                                                  static_cast<std::size_t>(column)]);
-    };
-    return (1.0 - y.share) *
-               ((1.0 - x.share) * height(x.first, y.first) + x.share * height(x.second, y.first)) +
-           y.share *
-               ((1.0 - x.share) * height(x.first, y.second) + x.share * height(x.second, y.second));
+    return height_between(*bump_, Between(i, columns_, bump_->columns),
+                          Between(j, rows_, bump_->rows));
+}
+
+void fit(BumpMap& bump, int columns, int rows) {
+    bump.at_vertices = {};  // should memory run out
+    std::vector<double> heights;
+    heights.reserve(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+    for (int j = 0; j < rows; ++j) {
+        const Between y(j, rows, bump.rows);
+        for (int i = 0; i < columns; ++i) {
+            heights.push_back(height_between(bump, Between(i, columns, bump.columns), y));
+        }
+    }
+    bump.at_vertices = {columns, rows, std::move(heights)};
+}
+
+bool is_fit(const BumpMap& bump, int columns, int rows) noexcept {
+    return bump.at_vertices.columns == columns && bump.at_vertices.rows == rows;
 }
 
 }  // namespace dibhr

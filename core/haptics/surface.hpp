@@ -85,7 +85,8 @@ class DepthSurface {
         if (to_ != from_) level += blend_ * (static_cast<double>(to_[k]) - level);
         // Dividing last keeps whole levels exact: relief * level / highest level.
         const double z = relief_px_ * level / highest_level_;
-        return bump_ == nullptr ? z : z + roughness_px_ * bump_height(i, j);
+        if (bump_ == nullptr) return z;
+        return z + roughness_px_ * (fitted_ == nullptr ? bump_height(i, j) : fitted_[k]);
     }
 
     [[nodiscard]] bool has_bump() const noexcept { return bump_ != nullptr; }
@@ -149,6 +150,16 @@ class DepthSurface {
     double highest_level_{255.0};
     double roughness_px_{0.0};
     const BumpMap* bump_{nullptr};
+    const double* fitted_{nullptr};  ///< the bump map's heights at the vertices, if known
 };
+
+/// Stretches a bump map over depth images of this size (at least 1 x 1) beforehand: an update there
+/// takes little more than half as long. Over others its heights are worked out one by one when they
+/// are asked for, to the same bits. Takes 8 bytes a VERTEX. To be called again when the bump map's
+/// own heights change.
+void fit(BumpMap& bump, int columns, int rows);
+
+/// It has been stretched over images of this size.
+[[nodiscard]] bool is_fit(const BumpMap& bump, int columns, int rows) noexcept;
 
 }  // namespace dibhr

@@ -139,28 +139,37 @@ void CleaningWorkers::run() {
 
 SessionFrames::SessionFrames(const Session& session, const SessionFramesOptions& options)
     : options_(options), finder_(session.file(), options.any_media) {
-    find_files(session);
-    if (session.sources().empty()) return;
-    Video& first = videos_[session.sources().front().source.media];
-    description_ = media_of(first).description();
+    find_videos(session);
+    if (!session.sources().empty()) {
+        Video& first = videos_[session.sources().front().source.media];
+        description_ = media_of(first).description();
+    }
+    read_bumps(session);
 }
 
-void SessionFrames::find_files(const Session& session) {
+void SessionFrames::find_videos(const Session& session) {
     for (const SessionSource& source : session.sources()) {
         Video& video = videos_[source.source.media];
         if (!video.depth.empty()) continue;
         video.depth = finder_.find(source.depth, "depth video");
         if (options_.colour) video.colour = finder_.find(source.colour, "colour video");
     }
+}
+
+void SessionFrames::read_bumps(const Session& session) {
+    const auto read = [this](const std::filesystem::path& file) {
+        auto bump = std::make_shared<BumpMap>(read_bump_map(file));
+        fit(*bump, description_.depth_columns, description_.depth_rows);
+        return bump;
+    };
     if (!options_.bump.empty()) {
-        other_bump_ = std::make_shared<const BumpMap>(read_bump_map(options_.bump));
+        other_bump_ = read(options_.bump);
         return;
     }
     for (const SessionParameters& parameters : session.parameters()) {
         const SessionMedia& bump = parameters.bump;
         if (bump.file.empty() || bumps_.contains(bump.file)) continue;
-        bumps_[bump.file] =
-            std::make_shared<const BumpMap>(read_bump_map(finder_.find(bump, "bump map")));
+        bumps_[bump.file] = read(finder_.find(bump, "bump map"));
     }
 }
 

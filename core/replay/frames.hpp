@@ -114,7 +114,8 @@ class SessionFrames final : public RecordedFrames {
         std::shared_future<std::shared_ptr<const DepthImage>> depth{};
     };
 
-    void find_files(const Session& session);
+    void find_videos(const Session& session);
+    void read_bumps(const Session& session);
     [[nodiscard]] Media& media_of(Video& video) const;
     [[nodiscard]] const Kept* find(const FrameSource& source, double media_s) const;
     void read_on(const FrameSource& source, double media_s);

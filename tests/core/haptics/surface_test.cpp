@@ -75,6 +75,29 @@ TEST_CASE("a bump map as large as the image adds roughness times its height at e
     CHECK(surface.ceiling() >= 259.0);
 }
 
+TEST_CASE("a bump map stretched beforehand gives the same bits, over other images as well",
+          "[surface]") {
+    for (const auto& [columns, rows] : {std::pair{37, 23}, {16, 9}, {5, 41}, {1, 1}}) {
+        BumpMap bump{columns, rows, {}};
+        for (int k = 0; k < columns * rows; ++k) {
+            bump.heights.push_back(static_cast<float>(k * 7919 % 256) / 255.0F);
+        }
+        BumpMap fitted = bump;
+        fit(fitted, 23, 19);
+        REQUIRE(is_fit(fitted, 23, 19));
+        for (const auto& [image_columns, image_rows] : {std::pair{23, 19}, {19, 23}, {46, 38}}) {
+            const DepthImage image = test::flat(image_columns, image_rows, 50.0);
+            const DepthSurface one_by_one(image, image, 0.0, {255.0, 4.0}, &bump);
+            const DepthSurface beforehand(image, image, 0.0, {255.0, 4.0}, &fitted);
+            for (int j = 0; j < image_rows; ++j) {
+                for (int i = 0; i < image_columns; ++i) {
+                    REQUIRE(beforehand.elevation(i, j) == one_by_one.elevation(i, j));
+                }
+            }
+        }
+    }
+}
+
 TEST_CASE("without roughness a bump map is not felt", "[surface]") {
     const DepthImage image = test::flat(3, 3, 50.0);
     const BumpMap bump{1, 1, {1.0F}};
