@@ -160,7 +160,8 @@ class ConstraintWalk : private ProxyWalk {
         Vec3& p = proxy_.position;
         const double ground = surface_.elevation_at(p.x, p.y);
         if (proxy_.bound_met && p.z > ground + kSettled_px) return let_go();
-        // Planes that are nearly parallel leave a goal far below them this much round-off.
+        // So much round-off is left by planes that are nearly parallel, with the goal far below
+        // them, and by going to and fro beside a cliff.
         const double off = std::abs(p.z - ground);
         if (off > kRoundOff_px && off <= kMostRoundOff_px) p.z = ground;
         proxy_.active = surface_.triangle_at(p.x, p.y);
@@ -267,11 +268,13 @@ class ConstraintWalk : private ProxyWalk {
     /// Several times what a collision lets the proxy sink in.
     static constexpr double kSettled_px = 1e-9;
     static constexpr double kRoundOff_px = 1e-8;
-    static constexpr double kMostRoundOff_px = 1e-5;
 
     /// As often as this the active planes may be found anew with the proxy no farther than that.
     static constexpr int kMostIdlePasses = 8;
     static constexpr double kNowhere_px = 1e-6;
+
+    /// Nowhere, up a cliff of thousands of pixels.
+    static constexpr double kMostRoundOff_px = 1e4 * kNowhere_px;
 
     ConstraintPlanes planes_{};
     Vec3 last_found_{0.0};  ///< where the planes were found last

@@ -114,10 +114,21 @@ struct TrianglePair {
 /// The TRIANGLE beside an EDGE on whose side a point of the image rectangle lies, seen from above.
 [[nodiscard]] inline Primitive triangle_towards(const DepthSurface& surface, const Primitive& edge,
                                                 double x, double y) noexcept {
-    const TrianglePair pair = triangles_of(surface, edge);
-    if (!pair.first) return *pair.second;
-    if (!pair.second) return *pair.first;
-    return is_towards_first(edge, x, y) ? *pair.first : *pair.second;
+    const bool first = is_towards_first(edge, x, y);
+    const int i = edge.i;
+    const int j = edge.j;
+    switch (edge.direction) {
+        case EdgeDirection::along_row:
+            if (j == 0 || (first && j < surface.rows() - 1)) break;
+            return triangle(TriangleSide::far_corner, i, j - 1);
+        case EdgeDirection::along_column:
+            if (i == 0 || (first && i < surface.columns() - 1)) break;
+            return triangle(TriangleSide::far_corner, i - 1, j);
+        case EdgeDirection::diagonal:
+            if (first) break;
+            return triangle(TriangleSide::far_corner, i, j);
+    }
+    return triangle(TriangleSide::near_origin, i, j);
 }
 
 /// The TRIANGLE around VERTEX (i, j) that lies in the direction of a point of the image rectangle.

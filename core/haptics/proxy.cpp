@@ -87,13 +87,22 @@ ProxyWalk::Next ProxyWalk::leave() noexcept {
 }
 
 ProxyWalk::Next ProxyWalk::rest_or_leave() noexcept {
-    Primitive below = proxy_.active;
-    if (below.kind == PrimitiveKind::edge) {
-        below = triangle_towards(surface_, below, goal_.x, goal_.y);
-    } else if (below.kind == PrimitiveKind::vertex) {
-        below = triangle_around(surface_, below, goal_.x, goal_.y);
+    return goal_.z > ground_towards_goal().elevation_at(goal_.x, goal_.y) ? leave() : Next::rest;
+}
+
+Facet ProxyWalk::ground_towards_goal() const noexcept {
+    // By reference: what was just written in parts is slow to be read as a whole.
+    const Primitive& active = proxy_.active;
+    switch (active.kind) {
+        case PrimitiveKind::edge:
+            return {surface_, triangle_towards(surface_, active, goal_.x, goal_.y)};
+        case PrimitiveKind::vertex:
+            return {surface_, triangle_around(surface_, active, goal_.x, goal_.y)};
+        case PrimitiveKind::triangle:
+        case PrimitiveKind::none:
+            break;
     }
-    return is_above(below) ? leave() : Next::rest;
+    return {surface_, active};
 }
 
 Primitive ProxyWalk::lowest_under_proxy() const noexcept {
@@ -110,10 +119,6 @@ void ProxyWalk::stand_on_lowest() noexcept {
     if (lowest.kind == PrimitiveKind::vertex) {
         proxy_.position = surface_.vertex_at(lowest.i, lowest.j);
     }
-}
-
-bool ProxyWalk::is_above(const Primitive& triangle) const noexcept {
-    return goal_.z > Facet(surface_, triangle).elevation_at(goal_.x, goal_.y);
 }
 
 }  // namespace dibhr

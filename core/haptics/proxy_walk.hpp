@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/haptics/collision.hpp"
+#include "core/haptics/facet.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/proxy.hpp"
 #include "core/haptics/surface.hpp"
@@ -84,7 +85,8 @@ class ProxyWalk {
     /// Makes it active: only then does the proxy see all that surrounds it.
     void stand_on_lowest() noexcept;
 
-    [[nodiscard]] bool is_above(const Primitive& triangle) const noexcept;
+    /// The TRIANGLE of the active primitive, or around it, on whose side the goal is.
+    [[nodiscard]] Facet ground_towards_goal() const noexcept;
 
     void move_to(Vec3 position) noexcept {
         if (position == proxy_.position) return;
@@ -135,10 +137,12 @@ class ProxyWalk {
     /// The same, of a proxy at `begin`.
     [[nodiscard]] ConeView cone_view(Vec3 begin, Vec3 end) const noexcept {
         const Vec3 to_goal = goal_ - begin;
-        const Vec3 piece = end - begin;
-        const Vec3 off = glm::cross(to_goal, piece);
-        return {piece, glm::dot(piece, piece), glm::dot(to_goal, piece),
-                cone_at(glm::dot(off, off))};
+        ConeView view{end - begin};
+        const Vec3 off = glm::cross(to_goal, view.piece);
+        view.length2 = glm::dot(view.piece, view.piece);
+        view.along = glm::dot(to_goal, view.piece);
+        view.cone = cone_at(glm::dot(off, off));
+        return view;
     }
 
     [[nodiscard]] static bool is_held(const ConeView& view) noexcept {

@@ -27,9 +27,9 @@ using Clock = std::chrono::steady_clock;
 
 /// The paper's computer took 4.4 times as long for DIBHR as for PGA.
 constexpr double kMostOfPga = 2.5;
-/// PGA reads three elevations more an update, to see whether it is still on the ground, and knows
-/// the image's border: 1.2 to 1.38 times were measured.
-constexpr double kMostOfPlainWalk = 1.5;
+/// PGA reads three elevations more an update, to see whether the goal has come above the ground,
+/// and knows the image's border: 1.10 to 1.23 times were measured, over the bump map 1.29.
+constexpr double kMostOfPlainWalk = 1.35;
 constexpr int kRounds = 5;
 constexpr int kMostRounds = 40;  // on a machine that others use
 
@@ -131,7 +131,7 @@ void check(const Ground& ground) {
 
 }  // namespace
 
-TEST_CASE("DIBHR costs at most 2.5 times PGA, and PGA 1.5 times a plain walk with its proxies",
+TEST_CASE("DIBHR costs at most 2.5 times PGA, and PGA 1.35 times a plain walk with its proxies",
           "[cost]") {
     for (const MakeGround make : made_grounds()) check<Leaving::never>(make());
     // Where the sample's person ends, the goal comes out of the ground and into it again.

@@ -21,18 +21,20 @@ using namespace dibhr;
 
 namespace {
 
-int most_moves_of(Algorithm algorithm) {
+/// Those that look at whole TRIANGLEs do half as many over a bump map.
+int most_moves_of(Algorithm algorithm, const DepthSurface& surface) {
+    const int half = surface.has_bump() ? 2 : 1;
     switch (algorithm) {
         case Algorithm::dibhr:
             return Dibhr::kMostMoves;
         case Algorithm::pga:
             return Pga::kMostMoves;
         case Algorithm::neighborhood:
-            return Neighborhood::kMostMoves;
+            return Neighborhood::kMostMoves / half;
         case Algorithm::god_object:
             break;
     }
-    return GodObject::kMostMoves;
+    return GodObject::kMostMoves / half;
 }
 
 Algorithm each_algorithm() {
@@ -85,6 +87,7 @@ Scene wild_scene(test::Dice& dice, int columns, int rows) {
         dice.uniform(0.0, 1.0) < 0.5 ? scene.from : test::image_of(columns, rows, highest, level);
     scene.bump = {16, 9, std::vector<float>(16 * 9)};
     for (float& height : scene.bump.heights) height = static_cast<float>(dice.uniform(0.0, 1.0));
+    if (dice.uniform(0.0, 1.0) < 0.5) fit(scene.bump, columns, rows);
     return scene;
 }
 
@@ -94,6 +97,8 @@ TEST_CASE("goals of any size on any ground: finite, on or above the surface, wit
           "[bounded]") {
     const Algorithm algorithm = each_algorithm();
     constexpr int kScenes = 40;
+    constexpr double kUnder_px = 1e-6;  // round-off at the greatest relief is less
+    constexpr int kMostToCatchUp = 3000;  // a proxy that never gets to its goal would go on
     test::Dice dice(101 + static_cast<std::uint64_t>(algorithm));
     const long updates = wild_updates() / kScenes;
     for (int n = 0; n < kScenes; ++n) {
@@ -106,6 +111,7 @@ TEST_CASE("goals of any size on any ground: finite, on or above the surface, wit
         Friction friction{};
         Vec3 goal(0.5 * columns, 0.5 * rows, 50.0);
         double blend = 0.0;
+        int behind = 0;  // updates since the goal was left standing for the proxy to catch up
         for (long k = 0; k < updates; ++k) {
             if (k % 100 == 0) {
                 const double mu = dice.uniform(0.0, 1.0) < 0.5
@@ -115,8 +121,10 @@ TEST_CASE("goals of any size on any ground: finite, on or above the surface, wit
                 if (n % 3 == 0) blend = dice.uniform(0.0, 1.0);
             }
             const Vec3 last = goal;
-            goal = {wild_coordinate(dice, columns, last.x), wild_coordinate(dice, rows, last.y),
-                    wild_coordinate(dice, shape.relief_px, last.z)};
+            if (behind == 0) {
+                goal = {wild_coordinate(dice, columns, last.x), wild_coordinate(dice, rows, last.y),
+                        wild_coordinate(dice, shape.relief_px, last.z)};
+            }
             const DepthSurface surface(scene.from, scene.to, blend, shape, &scene.bump);
             const Proxy& p = proxy->update(surface, goal, friction);
             goal = surface.clamped_to_frame(surface.clamped_to_reach(goal));
@@ -124,8 +132,13 @@ TEST_CASE("goals of any size on any ground: finite, on or above the surface, wit
             const double height = at.z - surface.elevation_at(at.x, at.y);
             const bool in_frame =
                 at.x >= 0.0 && at.y >= 0.0 && at.x <= columns - 1 && at.y <= rows - 1;
+            const bool waits = p.bound_met && (behind > 0 || dice.uniform(0.0, 1.0) < 0.3);
+            behind = waits ? behind + 1 : 0;
+            const bool floats = !p.contact && !p.bound_met &&
+                                goal.z < surface.elevation_at(goal.x, goal.y) - kUnder_px;
             if (!is_finite(at) || !in_frame || height < -1e-8 || (p.contact && height > 1e-7) ||
-                p.moves > most_moves_of(algorithm) + 3) {
+                p.moves > most_moves_of(algorithm, surface) + 3 || floats ||
+                behind > kMostToCatchUp) {
                 CAPTURE(name_of(algorithm), n, k, columns, rows, shape.relief_px,
                         shape.roughness_px, friction.static_coefficient,
                         friction.dynamic_coefficient, goal.x, goal.y, goal.z, at.x, at.y, at.z,

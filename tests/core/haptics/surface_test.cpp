@@ -137,6 +137,27 @@ TEST_CASE("an edge's triangles have that edge, and an inner edge has two", "[pri
     CHECK_FALSE(triangles_of(surface, edge(EdgeDirection::along_column, 3, 0)).first);
 }
 
+TEST_CASE("the triangle towards a point is the one on its side of the edge, or the only one",
+          "[primitives]") {
+    const DepthImage image = test::flat(4, 4, 0.0);
+    const DepthSurface surface(image, image, 0.0, {});
+    for (const auto direction :
+         {EdgeDirection::along_row, EdgeDirection::along_column, EdgeDirection::diagonal}) {
+        const int last_i = direction == EdgeDirection::along_column ? 3 : 2;
+        const int last_j = direction == EdgeDirection::along_row ? 3 : 2;
+        for (int n = 0; n < (last_i + 1) * (last_j + 1); ++n) {
+            const Primitive between = edge(direction, n % (last_i + 1), n / (last_i + 1));
+            const TrianglePair pair = triangles_of(surface, between);
+            for (const auto& [x, y] : {std::pair{0.0, 0.0}, {3.0, 3.0}, {1.0, 2.0}, {2.0, 0.5}}) {
+                const bool first = is_towards_first(between, x, y) ? pair.first.has_value()
+                                                                   : !pair.second.has_value();
+                CHECK(triangle_towards(surface, between, x, y) ==
+                      (first ? *pair.first : *pair.second));
+            }
+        }
+    }
+}
+
 TEST_CASE("a vertex's six edges all end in it", "[primitives]") {
     const Primitive centre = vertex(2, 2);
     for (std::size_t k = 0; k < kSpokes.size(); ++k) {
