@@ -44,6 +44,11 @@ void append_row(std::string& text, const OutputRow& row) {
     text += '\n';
 }
 
+std::string bounds_met_text(std::size_t bounds_met, std::size_t updates) {
+    return std::to_string(bounds_met) + " of " + std::to_string(updates) +
+           " updates ended before the proxy had caught up with its goal";
+}
+
 RowFile::RowFile(const std::filesystem::path& target,
                  const std::vector<std::filesystem::path>& inputs, const std::string& why) {
     if (target.empty()) return;

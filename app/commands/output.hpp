@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -27,6 +28,9 @@ struct OutputRow {
 
 /// Appends one line.
 void append_row(std::string& text, const OutputRow& row);
+
+/// "3 of 10 updates ended before the proxy had caught up with its goal"
+[[nodiscard]] std::string bounds_met_text(std::size_t bounds_met, std::size_t updates);
 
 /// Written in large pieces; appears whole or not at all, at commit().
 class RowFile {

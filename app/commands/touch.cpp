@@ -103,8 +103,7 @@ void touch_all(const TouchOptions& options) {
     }
     out.commit();
     if (run.bounds_met() > 0) {
-        print_error_line(std::to_string(run.bounds_met()) + " of " + std::to_string(goals.size()) +
-                         " updates ended before the proxy had caught up with its goal");
+        print_error_line(bounds_met_text(run.bounds_met(), goals.size()));
     }
 }
 

@@ -98,7 +98,7 @@ class Renderer {
                               tuple_of(touch.spring_force_newton),
                               tuple_of(touch.sent_force_newton), proxy.contact, proxy.slipping,
                               name_of(proxy.active.kind), proxy.active.i, proxy.active.j,
-                              proxy.moves, name_of(touch.cut));
+                              proxy.moves, name_of(touch.cut), proxy.bound_met);
     }
 
     /// Fills a Row for each of the N x 3 goals; `blends`: one for all, or one for each.

@@ -176,6 +176,7 @@ dibhr_touch as_c(const Touch& touch) noexcept {
     c.i = touch.proxy.active.i;
     c.j = touch.proxy.active.j;
     c.moves = touch.proxy.moves;
+    c.bound_met = touch.proxy.bound_met ? 1 : 0;
     c.cut = name_of(touch.cut);
     return c;
 }

@@ -46,6 +46,7 @@ class Touch(NamedTuple):
     j: int  #: its row, -1 for none
     moves: int  #: primitives visited in this update
     cut: str  #: why no force was sent: "late tick", "goal jumped", ...; or empty
+    bound_met: bool  #: that was all an update may do: the proxy is still catching up
 
 
 def _step(dt: float) -> float:

@@ -245,6 +245,28 @@ TEST_CASE("SQL, report and replay tell the same share of the ticks in contact", 
     CHECK(read_text(folder / "json") == percent + "\n");
 }
 
+TEST_CASE("updates that end before the proxy has caught up are told, and replay to the same bits",
+          "[replay]") {
+    const TemporaryFolder folder;
+    run_shell(folder,
+              "ffmpeg -v error -f lavfi -i \"nullsrc=s=1200x20:r=30,format=gray,"
+              "geq=lum='100+mod(X*X+7*Y,3)'\" -frames:v 3 -c:v ffv1 film_depth.mkv && "
+              "cp film_depth.mkv film_color.mkv");
+    RecordedSession session = film_session(folder);
+    session.cleaning = {false, false, false};
+    session.parameters.friction = {0.0, 0.0};
+    session.jumps = true;
+    record_session(folder / "mine.dibhr", session);
+    const ProgramResult result =
+        run_dibhr(folder, {"replay", "mine.dibhr", "--algorithm", "dibhr", "--algorithm", "pga"});
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 0);
+    CHECK(contains(result.output, "\ndibhr: "));
+    CHECK(contains(result.output,
+                   " of 1000 updates ended before the proxy had caught up with its goal\n"));
+    CHECK(contains(result.output, "dibhr, as recorded: all 1000 proxies and forces are identical"));
+}
+
 TEST_CASE("a roughness without a bump map is told to be without effect", "[replay]") {
     const TemporaryFolder folder;
     make_film(folder);

@@ -23,12 +23,18 @@ using std::chrono::steady_clock;
 
 class ScriptedHand final : public Device {
   public:
-    ScriptedHand(double columns, double rows) : columns_(columns), rows_(rows) {}
+    ScriptedHand(double columns, double rows, bool jumps)
+        : columns_(columns), rows_(rows), jumps_(jumps) {}
     [[nodiscard]] const DeviceSpecification& specification() const noexcept override {
         return specification_;
     }
     HandReading read(const HandContext& context) noexcept override {
         t_s_ += context.dt_s;
+        if (jumps_) {
+            const double x = std::fmod(t_s_, 0.2) < 0.1 ? 5.0 : columns_ - 6.0;
+            const double y = 0.5 * rows_;
+            return {.goal_in_grid = {x, y, context.surface.elevation_at(x, y) - 20.0}};
+        }
         const double x = columns_ * (0.5 + 0.45 * std::sin(0.9 * t_s_));
         const double y = rows_ * (0.5 + 0.45 * std::sin(1.3 * t_s_ + 1.0));
         const double height_px = 4.0 + 12.0 * std::cos(7.0 * t_s_);
@@ -40,6 +46,7 @@ class ScriptedHand final : public Device {
     DeviceSpecification specification_{};
     double columns_;
     double rows_;
+    bool jumps_;
     double t_s_{0.0};
 };
 
@@ -48,7 +55,7 @@ class ScriptedHand final : public Device {
 void record_session(const std::filesystem::path& file, const RecordedSession& wanted) {
     auto media = open_media(wanted.colour, wanted.depth);
     const MediaDescription description = media->description();
-    ScriptedHand hand(description.depth_columns, description.depth_rows);
+    ScriptedHand hand(description.depth_columns, description.depth_rows, wanted.jumps);
 
     const steady_clock::time_point begin = steady_clock::now();
     Playback playback;

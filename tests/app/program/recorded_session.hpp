@@ -18,6 +18,7 @@ struct RecordedSession {
     TouchParameters parameters{};
     std::filesystem::path bump{};
     std::int64_t ticks_without_surface{0};  ///< at the end
+    bool jumps{false};  ///< from end to end of the picture, under the surface, ten times a second
 };
 
 /// The hand goes over the whole picture, in and out of the surface. Halfway the friction changes.

@@ -89,6 +89,14 @@ class SameBitsAsTheProgram(FolderTest):
                 facts = (touch.contact, touch.primitive, touch.i, touch.j, touch.moves)
                 self.assertEqual(facts, tuple(rows[k][["contact", "primitive", "i", "j", "moves"]]))
 
+    def test_tells_while_the_proxy_is_catching_up(self):
+        columns = np.arange(1200)
+        levels = np.repeat([100 + columns**2 % 3], 20, axis=0).astype(np.uint8)
+        renderer = dibhr.Renderer(dibhr.Surface(levels), friction=0)
+        goals = [(5, 10, 120), (5, 10, 80)] + 9 * [(1190, 10, 80)]
+        told = [renderer.update(goal).bound_met for goal in goals]
+        self.assertEqual(told[:3] + told[-1:], [False, False, True, False])
+
     def test_again_after_a_reset(self):
         renderer = dibhr.Renderer(dibhr.Surface(hills()))
         goals, t = circle(300, (80, 60), 90.0, 55.0, 0.02), np.arange(300) * 0.001

@@ -86,6 +86,7 @@ TEST_CASE("in C the same goals give the same bits as in C++, with every algorith
                     name_of(touch.proxy.active.kind));
             REQUIRE((c.i == touch.proxy.active.i && c.j == touch.proxy.active.j));
             REQUIRE(c.moves == touch.proxy.moves);
+            REQUIRE(c.bound_met == (touch.proxy.bound_met ? 1 : 0));
             REQUIRE(std::string(c.cut) == name_of(touch.cut));
         }
     }
