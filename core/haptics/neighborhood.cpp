@@ -94,6 +94,13 @@ class NeighborhoodWalk : private ProxyWalk {
         [[nodiscard]] Vec3 position() const noexcept { return {x, y, z}; }
     };
 
+    /// Of a TRIANGLE or an EDGE, nearest to the goal.
+    struct Point {
+        Vec3 position;
+        double to_goal2;
+        Part part;
+    };
+
     /// Calls `look_at` for the TRIANGLEs that touch the active primitive, but for those that have a
     /// bit in `judged`.
     template <typename Look>
@@ -143,54 +150,45 @@ class NeighborhoodWalk : private ProxyWalk {
     /// For a nearer point. Held back from the nearest points of all TRIANGLEs it looks once more:
     /// their EDGEs are neighbours as well.
     void search(unsigned judged) noexcept {
-        for (bool along_edges = false;; along_edges = true, judged = 0) {
-            each_neighbour(judged, [this, along_edges](const Primitive& which) {
-                look_into(which, along_edges);
-            });
-            if (found_ || !held_ || along_edges) return;
-        }
+        each_neighbour(judged, [this](const Primitive& which) { look_into(which); });
+        if (found_ || !held_) return;
+        each_neighbour(0, [this](const Primitive& which) { look_along_edges(which); });
     }
 
-    void look_into(const Primitive& which, bool along_edges) noexcept {
+    /// At the point of a TRIANGLE that is nearest to the goal: its foot, or one of an EDGE that the
+    /// foot is beyond.
+    void look_into(const Primitive& which) noexcept {
         const Facet facet(surface_, which);
         const Vec3 foot = facet.project(goal_).foot;
         const Barycentric share = facet.barycentric(foot.x, foot.y);
-        const bool inside = share.row >= 0.0 && share.column >= 0.0 && share.diagonal >= 0.0;
-        if (inside && !along_edges) {
-            take_if_nearer(foot, squared_distance(foot, goal_), Part::face,
+        if (share.row >= 0.0 && share.column >= 0.0 && share.diagonal >= 0.0) {
+            take_if_nearer({foot, squared_distance(foot, goal_), Part::face},
                            EdgeDirection::along_row, which);
             return;
         }
-        Vec3 position{0.0};
-        double to_goal2 = kFarther;
-        Part part = Part::face;
+        Point nearest{Vec3(0.0), kFarther, Part::face};
         EdgeDirection on = EdgeDirection::along_row;
         const auto look_along = [&](EdgeDirection direction) {
-            // The goal's foot is not beyond this one.
-            if (share.across(direction) >= 0.0 && !along_edges) return;
+            if (share.across(direction) >= 0.0) return;
             const Point point = nearest_on(facet, which, direction);
-            if (along_edges) {
-                take_if_nearer(point.position, point.to_goal2, point.part, direction, which);
-            } else if (point.to_goal2 < to_goal2) {
-                position = point.position;
-                to_goal2 = point.to_goal2;
-                part = point.part;
-                on = direction;
-            }
+            if (point.to_goal2 >= nearest.to_goal2) return;
+            nearest = point;
+            on = direction;
         };
         look_along(EdgeDirection::along_row);
         look_along(EdgeDirection::along_column);
         look_along(EdgeDirection::diagonal);
-        take_if_nearer(position, to_goal2, part, on, which);
+        take_if_nearer(nearest, on, which);
     }
 
-    /// Of an EDGE, nearest to the goal.
-    struct Point {
-        Vec3 position;
-        double to_goal2;
-        Part part;
-    };
+    void look_along_edges(const Primitive& which) noexcept {
+        const Facet facet(surface_, which);
+        for (const EdgeDirection direction : kDirections) {
+            take_if_nearer(nearest_on(facet, which, direction), direction, which);
+        }
+    }
 
+    /// Of one of its EDGEs.
     [[nodiscard]] Point nearest_on(const Facet& facet, const Primitive& which,
                                    EdgeDirection direction) const noexcept {
         const EdgeEnds ends = ends_of(edge_of(which, direction));
@@ -204,19 +202,19 @@ class NeighborhoodWalk : private ProxyWalk {
         return {position, squared_distance(position, goal_), part};
     }
 
-    void take_if_nearer(Vec3 position, double to_goal2, Part part, EdgeDirection direction,
+    void take_if_nearer(const Point& point, EdgeDirection direction,
                         const Primitive& through) noexcept {
-        if (to_goal2 >= nearest_.to_goal2) return;
-        if (is_held(cone_view(position))) {
+        if (point.to_goal2 >= nearest_.to_goal2) return;
+        if (is_held(cone_view(point.position))) {
             held_ = true;
             return;
         }
         found_ = true;
-        nearest_.x = position.x;
-        nearest_.y = position.y;
-        nearest_.z = position.z;
-        nearest_.to_goal2 = to_goal2;
-        nearest_.part = part;
+        nearest_.x = point.position.x;
+        nearest_.y = point.position.y;
+        nearest_.z = point.position.z;
+        nearest_.to_goal2 = point.to_goal2;
+        nearest_.part = point.part;
         nearest_.direction = direction;
         nearest_.side = through.side;
         nearest_.i = through.i;
