@@ -29,7 +29,7 @@ class Neighborhood final : public ProxyAlgorithm {
   public:
     /// Primitives visited in an update that flies nowhere, half of them over a bump map
     /// (README.md, "One update").
-    static constexpr int kMostMoves = 500;
+    static constexpr int kMostMoves = 460;
 
   private:
     void walk(const DepthSurface& surface, Vec3 goal, const Friction& friction,
