@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <concepts>
+#include <cstddef>
 #include <set>
 #include <string>
 #include <string_view>
@@ -124,7 +125,12 @@ const SessionSource* Session::source_of(const FrameSource& source) const noexcep
 
 void Session::read_facts() {
     SessionReader::Query query(reader_, "SELECT key, value FROM session");
-    while (query.next()) facts_[query.text(0)] = query.text(1);
+    while (query.next()) {
+        const std::string key = query.text(0);
+        std::string value = query.text(1);
+        keep(key.size() + value.size());
+        facts_[key] = std::move(value);
+    }
 }
 
 void Session::read_parameters() {
@@ -153,6 +159,7 @@ void Session::read_parameters() {
         visit_numbers(parameters, [&](std::string_view column, double& number) {
             if (columns.contains(std::string(column))) number = row.real();
         });
+        keep(sizeof parameters + parameters.bump.file.native().size());
         parameters_.push_back(std::move(parameters));
     }
 }
@@ -166,6 +173,8 @@ void Session::read_sources() {
     while (query.next()) {
         SessionSource& source = sources_.emplace_back();
         Row(query).take(source.source, source.colour, source.depth, source.first_tick);
+        keep(sizeof source + source.colour.file.native().size() +
+             source.depth.file.native().size());
     }
 }
 
@@ -174,12 +183,25 @@ void Session::read_marks() {
     while (query.next()) {
         SessionMark& mark = marks_.emplace_back();
         Row(query).take(mark.t_s, mark.tag, mark.text);
+        keep(sizeof mark + mark.tag.size() + mark.text.size());
     }
 }
 
+void Session::keep(std::size_t bytes) {
+    constexpr std::size_t kMost_bytes = std::size_t{32} << 20;
+    constexpr std::size_t kOverhead_bytes = 100;  // of a row, about
+    kept_bytes_ += bytes + kOverhead_bytes;
+    if (kept_bytes_ <= kMost_bytes) return;
+    throw InputError(file().string() +
+                     ": holds more notes, marks and parameters than any recording has; choose a "
+                     "file that dibhr recorded");
+}
+
 void Session::read_extent() {
+    // Not count(*): that is one step, which no bound of the reader ends.
     SessionReader::Query count(
-        reader_, "SELECT count(*), ifnull(min(tick), 0), ifnull(max(tick), -1) FROM tick_data");
+        reader_,
+        "SELECT ifnull(sum(1), 0), ifnull(min(tick), 0), ifnull(max(tick), -1) FROM tick_data");
     if (!count.next()) return;
     rows_ = count.integer(0);
     first_tick_ = count.integer(1);

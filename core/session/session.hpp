@@ -2,6 +2,7 @@
 // one by one.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -58,6 +59,8 @@ class Session {
     void read_sources();
     void read_marks();
     void read_extent();
+    /// Counts what of the file stays in memory, and refuses one that holds too much.
+    void keep(std::size_t bytes);
     /// The time of the first tick of that number or a later one.
     [[nodiscard]] double time_from(std::int64_t tick) const;
     /// The number of the first tick at or after that time; one past the last if there is none.
@@ -72,6 +75,7 @@ class Session {
     double begin_s_{0.0}, end_s_{0.0};
     std::int64_t first_tick_{0}, last_tick_{-1};
     std::int64_t missing_{0};
+    std::size_t kept_bytes_{0};
 };
 
 /// The ticks in which a hand was asked where it is: those with a surface.

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/session/session_schema.hpp"
@@ -18,6 +19,9 @@ namespace {
 
 // The recorder may hold the file for a moment.
 constexpr int kPatience_ms = 2000;
+
+constexpr int kLongestValue_bytes = 1 << 20;
+constexpr int kStepsPerLook = 10'000;
 
 std::string percent_encoded(std::string_view path) {
     constexpr std::string_view kDigits = "0123456789abcdef";
@@ -57,10 +61,75 @@ SessionReader::SessionReader(const std::filesystem::path& file) : file_(file) {
     database_.reset(opened);
     if (result != SQLITE_OK) refuse();
     sqlite3_busy_timeout(opened, kPatience_ms);
-    // Anybody may have made the file: its tables run nothing, and every cell is checked.
-    sqlite3_db_config(opened, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
-    sqlite3_exec(opened, "PRAGMA cell_size_check = ON", nullptr, nullptr, nullptr);
+    set_bounds();
     check_kind();
+    check_tables();
+    make_tick_view();
+}
+
+void SessionReader::set_bounds() {
+    sqlite3* const database = database_.get();
+    // Anybody may have made the file: its tables run nothing, its views nothing at all, every cell
+    // is checked, and no value is longer than anybody would write.
+    for (const auto& [setting, value] : {std::pair{SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0},
+                                         {SQLITE_DBCONFIG_ENABLE_TRIGGER, 0},
+                                         {SQLITE_DBCONFIG_ENABLE_VIEW, 0},
+                                         {SQLITE_DBCONFIG_DEFENSIVE, 1}}) {
+        sqlite3_db_config(database, setting, value, nullptr);
+    }
+    sqlite3_exec(database, "PRAGMA cell_size_check = ON; PRAGMA temp_store = MEMORY", nullptr,
+                 nullptr, nullptr);
+    sqlite3_limit(database, SQLITE_LIMIT_LENGTH, kLongestValue_bytes);
+    sqlite3_progress_handler(database, kStepsPerLook, &SessionReader::is_work_over, this);
+}
+
+void SessionReader::allow_work() const {
+    constexpr std::uint64_t kStepsAnyway = 20'000'000;
+    constexpr std::uint64_t kStepsPerByte = 100;  // ten times what the view's longest row takes
+    std::uint64_t bytes = 0;
+    for (const char* const ending : {"", "-wal"}) {
+        std::error_code failed;
+        const std::uint64_t there = std::filesystem::file_size(file_.string() + ending, failed);
+        if (!failed) bytes += there;
+    }
+    looks_left_ = (kStepsAnyway + kStepsPerByte * bytes) / kStepsPerLook;
+}
+
+int SessionReader::is_work_over(void* reader) noexcept {
+    std::uint64_t& left = static_cast<SessionReader*>(reader)->looks_left_;
+    if (left == 0) return 1;
+    --left;
+    return 0;
+}
+
+/// The file's own view is not asked, but who reads the file with another program sees it.
+void SessionReader::make_tick_view() {
+    std::string view = tick_view();
+    view.insert(view.find("VIEW"), "TEMP ");
+    if (sqlite3_exec(database_.get(), view.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) {
+        refuse();
+    }
+}
+
+void SessionReader::check_tables() const {
+    std::string names;
+    for (const std::string_view name : session_tables()) {
+        names.append(names.empty() ? "('" : ", '").append(name).append("'");
+    }
+    // A view has no pages of its own, nor has a table that a module makes up; a hidden column may be
+    // computed.
+    Query tables(*this, "SELECT sum(rootpage > 0) FROM sqlite_master WHERE type = 'table' AND "
+                        "name IN " +
+                            names + ")");
+    Query hidden(*this, "SELECT sum(x.hidden) FROM sqlite_master m, pragma_table_xinfo(m.name) x "
+                        "WHERE m.name IN " +
+                            names + ")");
+    Query view(*this, "SELECT sql FROM sqlite_master WHERE type = 'view' AND name = 'tick'");
+    const auto count = static_cast<std::int64_t>(session_tables().size());
+    if (!tables.next() || tables.integer(0) != count || !hidden.next() || hidden.integer(0) != 0 ||
+        !view.next() || view.text(0) != tick_view()) {
+        refuse("its tables are not those of a recording");
+    }
 }
 
 /// The head of a file that was closed says how long it is, which is refused when it is shorter.
@@ -122,6 +191,8 @@ void SessionReader::refuse() const {
     const int code = sqlite3_errcode(database_.get());
     const std::string words = sqlite3_errmsg(database_.get());
     if (code == SQLITE_CORRUPT) refuse_damaged(words);
+    if (code == SQLITE_INTERRUPT) refuse("reading it would not end");
+    if (code == SQLITE_TOOBIG) refuse("it holds a value of more than a megabyte");
     if (code == SQLITE_CANTOPEN) {
         throw InputError(file_.string() +
                          ": its recording was broken off, and its log cannot be opened; copy both, "
@@ -142,6 +213,7 @@ void SessionReader::refuse_damaged(const std::string& words) const {
 }
 
 SessionReader::Query::Query(const SessionReader& reader, const std::string& sql) : reader_(reader) {
+    reader.allow_work();
     sqlite3_stmt* prepared = nullptr;
     if (sqlite3_prepare_v2(reader.database_.get(), sql.c_str(), -1, &prepared, nullptr) !=
         SQLITE_OK) {

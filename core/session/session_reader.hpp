@@ -13,9 +13,11 @@ namespace dibhr {
 /// One session, read while it is recorded or afterwards, by one thread at a time.
 class SessionReader {
   public:
-    /// Throws InputError for a file that is missing, cut short, damaged, or no session of this
-    /// version.
+    /// Throws InputError for a file that is missing, cut short, damaged, no session of this
+    /// version, or made to keep a reader busy.
     explicit SessionReader(const std::filesystem::path& file);
+    SessionReader(const SessionReader&) = delete;  // its database knows it by its address
+    SessionReader& operator=(const SessionReader&) = delete;
 
     [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
     /// It was written by way of a log, and none is beside it: merged, or not copied along.
@@ -29,7 +31,14 @@ class SessionReader {
 
   private:
     void read_head();
+    /// So that nothing of the file decides what is done with it, or for how long.
+    void set_bounds();
     void check_kind() const;
+    void check_tables() const;
+    void make_tick_view();
+    /// For one question: as many steps as all that the file can hold are worth.
+    void allow_work() const;
+    static int is_work_over(void* reader) noexcept;
     /// Foreign, or damaged: by what SQLite said last.
     [[noreturn]] void refuse() const;
     [[noreturn]] void refuse(const std::string& reason) const;
@@ -38,6 +47,7 @@ class SessionReader {
     std::filesystem::path file_;
     bool lacks_log_{false};
     SqliteDatabase database_{};
+    mutable std::uint64_t looks_left_{0};  ///< at the work of the question being answered
 };
 
 /// The rows of a question, one after the other; must not outlive its reader. Columns count from 0.

@@ -183,21 +183,6 @@ std::string quoted(std::string_view text) {
     return quotation + "'";
 }
 
-std::string tick_view() {
-    std::string select;
-    for (const Column& column : columns()) {
-        select += select.empty() ? "CREATE VIEW tick AS SELECT " : ",\n  ";
-        // A plain column keeps its declared type by itself.
-        select += column.type.empty()
-                      ? column.expression
-                      : "CAST(" + column.expression + " AS " + std::string(column.type) + ")";
-        select += " AS " + std::string(column.name);
-    }
-    return select +
-           "\nFROM tick_data d LEFT JOIN pair q ON q.id = d.pair"
-           " LEFT JOIN parameters s ON s.version = d.settings;\n";
-}
-
 std::string explanations() {
     std::string text;
     for (const Column& column : columns()) {
@@ -211,7 +196,29 @@ std::string explanations() {
     return text;
 }
 
+constexpr std::array<std::string_view, 8> kSessionTables{"session",    "media",     "source", "pair",
+                                                         "parameters", "tick_data", "clock",  "mark"};
+
 }  // namespace
+
+std::span<const std::string_view> session_tables() noexcept {
+    return kSessionTables;
+}
+
+std::string tick_view() {
+    std::string select;
+    for (const Column& column : columns()) {
+        select += select.empty() ? "CREATE VIEW tick AS SELECT " : ",\n  ";
+        // A plain column keeps its declared type by itself.
+        select += column.type.empty()
+                      ? column.expression
+                      : "CAST(" + column.expression + " AS " + std::string(column.type) + ")";
+        select += " AS " + std::string(column.name);
+    }
+    return select +
+           "\nFROM tick_data d LEFT JOIN pair q ON q.id = d.pair"
+           " LEFT JOIN parameters s ON s.version = d.settings";
+}
 
 std::string tick_data_columns() {
     return "tick, t, dt, lateness, ns, state, pair, blend, settings, moves, i, j, "
@@ -223,7 +230,7 @@ std::string session_schema() {
     typed.replace(typed.find("tick,"), 4, "tick INTEGER PRIMARY KEY");
     typed.replace(typed.find("settings"), 8, "settings INTEGER");
     return std::string(kTables) + parameters_table() + "CREATE TABLE tick_data(" + typed + ");\n" +
-           tick_view() + explanations() +
+           tick_view() + ";\n" + explanations() +
            "PRAGMA application_id = " + std::to_string(kSessionApplicationId) +
            ";\nPRAGMA user_version = " + std::to_string(kSessionSchemaVersion) + ";\n";
 }

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
 
 namespace dibhr {
 
@@ -15,6 +17,12 @@ inline constexpr int kSessionSchemaVersion = 2;
 /// are stored in `tick_data` without what follows from the rest of a row; the view `tick` gives
 /// them whole.
 [[nodiscard]] std::string session_schema();
+
+/// What is read of a session are tables, so that reading ends; all but the view `tick`.
+[[nodiscard]] std::span<const std::string_view> session_tables() noexcept;
+
+/// The statement that makes that view, as it stands in a session file.
+[[nodiscard]] std::string tick_view();
 
 /// A tick's columns in `tick_data`, in order.
 [[nodiscard]] std::string tick_data_columns();
