@@ -40,8 +40,6 @@ struct Run {
     ParameterChange change{};
     bool as_recorded{true};  ///< nothing was changed: the bits must be the same
     RunComparison comparison{};
-    std::size_t updates{0};
-    std::size_t bounds_met{0};  ///< of them
 };
 
 Run make_run(const Session& session, const ReplayOptions& options,
@@ -95,11 +93,7 @@ void replay(const Session& session, SessionFrames& video, std::vector<Run>& runs
     for (std::int64_t done = 0; replay.next(); ++done) {
         const TickRecord& tick = replay.recorded();
         for (std::size_t k = 0; k < runs.size(); ++k) {
-            Run& run = runs[k];
-            run.comparison.add(tick, replay.touch(k), replay.update_us(k));
-            if (!tick.surface) continue;
-            ++run.updates;
-            if (replay.touch(k).proxy.bound_met) ++run.bounds_met;
+            runs[k].comparison.add(tick, replay.touch(k), replay.update_us(k));
         }
         if (rows.wanted()) {
             append_row(rows.text(), {tick.t_s, replay.touch(0),
@@ -121,8 +115,10 @@ void print_table(const Session& session, const std::vector<Run>& runs) {
     std::cout << "  force turn: of the force from update to update; off: from the recorded proxy "
                  "and force; contact: of all ticks\n";
     for (const Run& run : runs) {
-        if (run.bounds_met == 0) continue;
-        std::cout << run.name << ": " << bounds_met_text(run.bounds_met, run.updates) << '\n';
+        const std::size_t bounds_met = run.comparison.bounds_met();
+        if (bounds_met == 0) continue;
+        std::cout << run.name << ": " << bounds_met_text(bounds_met, run.comparison.updates())
+                  << '\n';
     }
     for (const Run& run : runs) {
         if (run.as_recorded && !run.comparison.first_difference()) {

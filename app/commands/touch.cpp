@@ -43,7 +43,7 @@ class TouchRun {
         if (!options.touch.bump.empty()) {
             bump_ = read_bump_map(options.touch.bump);
             const DepthImage& depth = *depth_.now().from->depth;
-            fit(*bump_, depth.columns, depth.rows);
+            stretch(*bump_, depth.columns, depth.rows);
         }
         input_.from_zero = true;
     }

@@ -35,9 +35,8 @@ class Images {
            const std::optional<Levels>& bump)
         : from_{columns_of(from), rows_of(from), highest_level, values_of(from)} {
         if (to) to_ = DepthImage{columns_of(*to), rows_of(*to), highest_level, values_of(*to)};
-        if (!bump) return;
-        bump_ = BumpMap{columns_of(*bump), rows_of(*bump), values_of(*bump)};
-        fit(*bump_, from_.columns, from_.rows);
+        // Not stretched beforehand: images may be one frame of many, touched some thirty times.
+        if (bump) bump_ = BumpMap{columns_of(*bump), rows_of(*bump), values_of(*bump)};
     }
 
     [[nodiscard]] DepthSurface at(double blend, const SurfaceShape& shape) const noexcept {

@@ -76,7 +76,7 @@ void Viewer::take_dropped(const std::vector<std::filesystem::path>& files) {
 void Viewer::show_media(std::unique_ptr<Media> media) {
     replay_.end(state_);
     state_.media = media->description();
-    fit_bump();
+    stretch_bump();
     frame_relief();
     show_title(state_.media.colour_path);
     player_.play_media(std::move(media), recording_.opened(state_.media));
@@ -106,17 +106,20 @@ void Viewer::load_bump(const std::filesystem::path& file) {
     attempt([&] {
         state_.bump = file.empty() ? nullptr : std::make_shared<const BumpMap>(read_bump_map(file));
         state_.bump_file = file;
-        fit_bump();
+        stretch_bump();
     });
 }
 
-void Viewer::fit_bump() {
+void Viewer::stretch_bump() try {
     const int columns = state_.media.depth_columns;
     const int rows = state_.media.depth_rows;
-    if (!state_.bump || is_fit(*state_.bump, columns, rows)) return;
-    auto bump = std::make_shared<BumpMap>(*state_.bump);  // the loop may hold the other one
-    fit(*bump, columns, rows);
+    if (!state_.bump || is_stretched(*state_.bump, columns, rows)) return;
+    const BumpMap& unstretched = *state_.bump;  // which the loop may hold
+    auto bump = std::make_shared<BumpMap>(
+        BumpMap{unstretched.columns, unstretched.rows, unstretched.heights});
+    stretch(*bump, columns, rows);
     state_.bump = std::move(bump);
+} catch (const std::bad_alloc&) {  // it is felt all the same, in more time
 }
 
 void Viewer::start_loop() {

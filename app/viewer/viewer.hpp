@@ -81,7 +81,7 @@ class Viewer {
     void start_loop();
     void frame_relief();
     void load_bump(const std::filesystem::path& file);
-    void fit_bump();
+    void stretch_bump();
     void start_or_stop_recording();
     void finish();
     void write_last_picture();

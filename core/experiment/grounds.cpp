@@ -119,7 +119,7 @@ Ground bump_mapped() {
     for (float& height : bump.heights) {
         height = static_cast<float>(dice.below(256)) / static_cast<float>(kHighest8Bit);
     }
-    fit(bump, kPaperColumns, kPaperRows);
+    stretch(bump, kPaperColumns, kPaperRows);
     return ground_of("bump map", still(flat_image(kPaperColumns, kPaperRows),
                                        {SurfaceShape{}.relief_px, kRoughness_px},
                                        std::make_shared<const BumpMap>(std::move(bump))));

@@ -139,12 +139,12 @@ dibhr_status no_surface(const dibhr_handle* handle) noexcept {
 }
 
 /// An update over the bump map is faster then; without memory for it, it works all the same.
-void fit_bump(dibhr_handle& handle) noexcept {
+void stretch_bump(dibhr_handle& handle) noexcept {
     const DepthImage& depth = handle.from;
-    if (!handle.bump || is_fit(*handle.bump, depth.columns, depth.rows)) return;
+    if (!handle.bump || is_stretched(*handle.bump, depth.columns, depth.rows)) return;
     try {
-        fit(*handle.bump, depth.columns, depth.rows);
-    } catch (const std::exception&) {
+        stretch(*handle.bump, depth.columns, depth.rows);
+    } catch (const std::exception&) {  // no memory: it stays as it was
     }
 }
 
@@ -226,7 +226,7 @@ dibhr_status dibhr_set_depth(dibhr_handle* handle, const dibhr_image* from, cons
     std::swap(handle->from, new_from);
     if (to != nullptr) std::swap(handle->to, new_to);
     handle->has_two = to != nullptr;
-    fit_bump(*handle);
+    stretch_bump(*handle);
     handle->blend = 0.0;
     handle->input.from_zero = true;
     return DIBHR_OK;
@@ -269,7 +269,7 @@ dibhr_status dibhr_set_bump(dibhr_handle* handle, const dibhr_image* bump) {
     const float highest = highest_of(*bump);
     for (float& height : read.heights) height /= highest;
     handle->bump = std::move(read);
-    fit_bump(*handle);
+    stretch_bump(*handle);
     return DIBHR_OK;
 }
 

@@ -41,7 +41,7 @@ struct BumpMap {
     std::vector<float> heights{};
 
     /// The same at every VERTEX of a depth image of one size, columns x rows of them, row-major:
-    /// `fit` (surface.hpp) works them out.
+    /// `stretch` (surface.hpp) works them out.
     struct AtVertices {
         int columns{0};
         int rows{0};

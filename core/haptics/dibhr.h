@@ -6,7 +6,9 @@
  *
  * A handle belongs to one thread at a time; different handles share nothing. `dibhr_update` and all
  * that only reads allocate nothing, lock nothing and wait for nothing. `dibhr_set_depth`,
- * `dibhr_push_depth` and `dibhr_set_bump` copy an image, and may allocate and free.
+ * `dibhr_push_depth` and `dibhr_set_bump` copy an image, and may allocate and free. Once there are
+ * both, the bump map is stretched over the depth image: 8 bytes and some nanoseconds a level, again
+ * only when the size changes.
  *
  * A function that can fail gives a status, and changes nothing then; `dibhr_last_error` says what
  * was wrong. No exception leaves it, and a handle of NULL is a bad argument like others. */
@@ -75,8 +77,8 @@ dibhr_status dibhr_push_depth(dibhr_handle* handle, const dibhr_image* next);
 dibhr_status dibhr_set_blend(dibhr_handle* handle, double blend);
 
 /* Relief laid over the whole image, at any resolution: level / highest_level times the parameter
- * "roughness". NULL: none. (`dibhr touch --bump` and the Python module stretch a picture's lowest to
- * highest level over 0 to 1 before.) Once there is a depth image it takes 8 bytes a level of that. */
+ * "roughness". NULL: none. (`dibhr touch --bump` and the Python module stretch a picture's lowest
+ * to highest level over 0 to 1 before.) */
 dibhr_status dibhr_set_bump(dibhr_handle* handle, const dibhr_image* bump);
 
 /* Of the surface under (x, y) [px]; outside the image that of its border. */

@@ -273,8 +273,8 @@ class ConstraintWalk : private ProxyWalk {
     static constexpr int kMostIdlePasses = 8;
     static constexpr double kNowhere_px = 1e-6;
 
-    /// Nowhere, up a cliff of thousands of pixels.
-    static constexpr double kMostRoundOff_px = 1e4 * kNowhere_px;
+    /// As far up a cliff of the greatest relief, in all these passes.
+    static constexpr double kMostRoundOff_px = (kMostIdlePasses + 1) * kNowhere_px * 4096.0;
 
     ConstraintPlanes planes_{};
     Vec3 last_found_{0.0};  ///< where the planes were found last

@@ -114,6 +114,7 @@ struct TrianglePair {
 /// The TRIANGLE beside an EDGE on whose side a point of the image rectangle lies, seen from above.
 [[nodiscard]] inline Primitive triangle_towards(const DepthSurface& surface, const Primitive& edge,
                                                 double x, double y) noexcept {
+    // Of `triangles_of`, without making two to take one.
     const bool first = is_towards_first(edge, x, y);
     const int i = edge.i;
     const int j = edge.j;

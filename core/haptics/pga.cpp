@@ -1,7 +1,6 @@
 // The walk over the graph of VERTEXes.
 #include "core/haptics/pga.hpp"
 
-
 #include "core/haptics/neighbours.hpp"
 #include "core/haptics/proxy_walk.hpp"
 

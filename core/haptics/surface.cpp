@@ -32,9 +32,9 @@ struct Between {
 /// Bilinear height of a bump map.
 double height_between(const BumpMap& bump, const Between& x, const Between& y) noexcept {
     const auto height = [&bump](int column, int row) {
-        return static_cast<double>(bump.heights[static_cast<std::size_t>(row) *
-                                                    static_cast<std::size_t>(bump.columns) +
-                                                static_cast<std::size_t>(column)]);
+        return static_cast<double>(
+            bump.heights[static_cast<std::size_t>(row) * static_cast<std::size_t>(bump.columns) +
+                         static_cast<std::size_t>(column)]);
     };
     return (1.0 - y.share) *
                ((1.0 - x.share) * height(x.first, y.first) + x.share * height(x.second, y.first)) +
@@ -55,8 +55,9 @@ DepthSurface::DepthSurface(const DepthImage& from, const DepthImage& to, double 
       highest_level_(from.highest_level),
       roughness_px_(shape.roughness_px),
       bump_(shape.roughness_px == 0.0 ? nullptr : bump) {
-    if (bump_ != nullptr && is_fit(*bump_, columns_, rows_)) {
-        fitted_ = bump_->at_vertices.heights.data();
+    if (bump_ != nullptr && is_stretched(*bump_, columns_, rows_)) {
+        stretched_ = bump_->at_vertices.heights.data();
+        assert(bump_->at_vertices.heights.size() == from.levels.size());
     }
     assert(columns_ >= 2 && rows_ >= 2);
     assert(to.columns == columns_ && to.rows == rows_ && to.highest_level == highest_level_);
@@ -72,7 +73,7 @@ double DepthSurface::bump_height(int i, int j) const noexcept {
                           Between(j, rows_, bump_->rows));
 }
 
-void fit(BumpMap& bump, int columns, int rows) {
+void stretch(BumpMap& bump, int columns, int rows) {
     bump.at_vertices = {};  // should memory run out
     std::vector<double> heights;
     heights.reserve(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
@@ -85,7 +86,7 @@ void fit(BumpMap& bump, int columns, int rows) {
     bump.at_vertices = {columns, rows, std::move(heights)};
 }
 
-bool is_fit(const BumpMap& bump, int columns, int rows) noexcept {
+bool is_stretched(const BumpMap& bump, int columns, int rows) noexcept {
     return bump.at_vertices.columns == columns && bump.at_vertices.rows == rows;
 }
 

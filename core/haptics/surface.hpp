@@ -66,8 +66,9 @@ struct Primitive {
 }
 
 /// A view that owns nothing and costs nothing to make: elevations are evaluated when they are asked
-/// for, `relief * lerp(from, to, blend) / highest level + roughness * bump(u, v)`. The images must
-/// outlive it, have the same size and highest level, and be at least 2 x 2.
+/// for, `relief * lerp(from, to, blend) / highest level + roughness * bump(u, v)`. The images
+/// and the bump map must outlive it and stay as they are; the images have the same size and highest
+/// level, and are at least 2 x 2.
 class DepthSurface {
   public:
     /// `blend` in [0, 1] (clamped): 0 is `from`, 1 is `to`. `bump` may be null.
@@ -86,7 +87,7 @@ class DepthSurface {
         // Dividing last keeps whole levels exact: relief * level / highest level.
         const double z = relief_px_ * level / highest_level_;
         if (bump_ == nullptr) return z;
-        return z + roughness_px_ * (fitted_ == nullptr ? bump_height(i, j) : fitted_[k]);
+        return z + roughness_px_ * (stretched_ == nullptr ? bump_height(i, j) : stretched_[k]);
     }
 
     [[nodiscard]] bool has_bump() const noexcept { return bump_ != nullptr; }
@@ -150,16 +151,16 @@ class DepthSurface {
     double highest_level_{255.0};
     double roughness_px_{0.0};
     const BumpMap* bump_{nullptr};
-    const double* fitted_{nullptr};  ///< the bump map's heights at the vertices, if known
+    const double* stretched_{nullptr};  ///< the bump map's heights at the vertices, if known
 };
 
 /// Stretches a bump map over depth images of this size (at least 1 x 1) beforehand: an update there
-/// takes little more than half as long. Over others its heights are worked out one by one when they
-/// are asked for, to the same bits. Takes 8 bytes a VERTEX. To be called again when the bump map's
-/// own heights change.
-void fit(BumpMap& bump, int columns, int rows);
+/// takes about half as long. Over others its heights are worked out one by one when they are asked
+/// for, to the same bits. Takes 8 bytes and some nanoseconds a VERTEX. To be called again when the
+/// bump map's own heights change.
+void stretch(BumpMap& bump, int columns, int rows);
 
-/// It has been stretched over images of this size.
-[[nodiscard]] bool is_fit(const BumpMap& bump, int columns, int rows) noexcept;
+/// Whether it has been, over images of this size.
+[[nodiscard]] bool is_stretched(const BumpMap& bump, int columns, int rows) noexcept;
 
 }  // namespace dibhr

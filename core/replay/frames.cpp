@@ -159,7 +159,10 @@ void SessionFrames::find_videos(const Session& session) {
 void SessionFrames::read_bumps(const Session& session) {
     const auto read = [this](const std::filesystem::path& file) {
         auto bump = std::make_shared<BumpMap>(read_bump_map(file));
-        fit(*bump, description_.depth_columns, description_.depth_rows);
+        // Over the first video: mostly there is no other, and one of another size works as well.
+        if (description_.depth_columns > 0) {
+            stretch(*bump, description_.depth_columns, description_.depth_rows);
+        }
         return bump;
     };
     if (!options_.bump.empty()) {

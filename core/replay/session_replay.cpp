@@ -155,6 +155,8 @@ void RunComparison::add(const TickRecord& recorded, const Touch& touch, double u
     }
     ++ticks_;
     if (!recorded.surface) return;
+    ++updates_;
+    if (touch.proxy.bound_met) ++bounds_met_;
     time_us_.add(update_us);
     off_px_.add(glm::length(touch.proxy.position - recorded.proxy));
     const Vec3 lag = touch.proxy.position - touch.goal;

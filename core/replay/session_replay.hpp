@@ -123,11 +123,17 @@ class RunComparison {
     }
     [[nodiscard]] std::int64_t differing() const noexcept { return differing_; }
 
+    /// Ticks that updated, and those of them that ended before the proxy had caught up.
+    [[nodiscard]] std::size_t updates() const noexcept { return updates_; }
+    [[nodiscard]] std::size_t bounds_met() const noexcept { return bounds_met_; }
+
     /// A line of the table under `comparison_heading()`.
     [[nodiscard]] std::string table_row(const std::string& name) const;
 
   private:
     std::int64_t ticks_{0};
+    std::size_t updates_{0};
+    std::size_t bounds_met_{0};
     std::int64_t in_contact_{0};
     std::int64_t differing_{0};
     std::optional<Difference> first_difference_{};

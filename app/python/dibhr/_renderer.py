@@ -157,7 +157,8 @@ class Renderer:
         Returns N rows (TOUCH_ROW) with the columns of `dibhr touch`: t [s]; goal gx, gy, gz and
         proxy px, py, pz [px]; force fx, fy, fz of the spring and cx, cy, cz as sent [N]; contact;
         primitive ("none", "triangle", "edge", "vertex") and its column i and row j; moves, the
-        primitives visited; ns, the time it took.
+        primitives visited; ns, the time it took. (Whether an update ended at its bound, `update`
+        tells; the bound is far beyond a hand's steps.)
         """
         points = finite_numbers(goals, "goals", (None, 3))
         times = None if t is None else finite_numbers(t, "t", (len(points),))

@@ -261,9 +261,14 @@ TEST_CASE("updates that end before the proxy has caught up are told, and replay 
         run_dibhr(folder, {"replay", "mine.dibhr", "--algorithm", "dibhr", "--algorithm", "pga"});
     INFO(result.output << result.errors);
     CHECK(result.exit_code == 0);
-    CHECK(contains(result.output, "\ndibhr: "));
-    CHECK(contains(result.output,
-                   " of 1000 updates ended before the proxy had caught up with its goal\n"));
+    const auto lines = split(result.output, '\n');
+    for (const std::string algorithm : {"dibhr: ", "pga: "}) {
+        CHECK(std::any_of(lines.begin(), lines.end(), [&algorithm](const std::string& line) {
+            return line.starts_with(algorithm) &&
+                   line.ends_with(
+                       " of 1000 updates ended before the proxy had caught up with its goal");
+        }));
+    }
     CHECK(contains(result.output, "dibhr, as recorded: all 1000 proxies and forces are identical"));
 }
 

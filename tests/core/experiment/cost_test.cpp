@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <cstddef>
 #include <limits>
-#include <string>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -29,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double kMostOfPga = 2.5;
 /// PGA reads three elevations more an update, to see whether the goal has come above the ground,
 /// and knows the image's border: 1.10 to 1.23 times were measured, over the bump map 1.29.
-constexpr double kMostOfPlainWalk = 1.35;
+constexpr double kMostOfPlainWalk = 1.4;
 constexpr int kRounds = 5;
 constexpr int kMostRounds = 40;  // on a machine that others use
 
@@ -131,7 +129,7 @@ void check(const Ground& ground) {
 
 }  // namespace
 
-TEST_CASE("DIBHR costs at most 2.5 times PGA, and PGA 1.35 times a plain walk with its proxies",
+TEST_CASE("DIBHR costs at most 2.5 times PGA, and PGA 1.4 times a plain walk with its proxies",
           "[cost]") {
     for (const MakeGround make : made_grounds()) check<Leaving::never>(make());
     // Where the sample's person ends, the goal comes out of the ground and into it again.

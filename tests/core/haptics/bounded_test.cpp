@@ -87,7 +87,7 @@ Scene wild_scene(test::Dice& dice, int columns, int rows) {
         dice.uniform(0.0, 1.0) < 0.5 ? scene.from : test::image_of(columns, rows, highest, level);
     scene.bump = {16, 9, std::vector<float>(16 * 9)};
     for (float& height : scene.bump.heights) height = static_cast<float>(dice.uniform(0.0, 1.0));
-    if (dice.uniform(0.0, 1.0) < 0.5) fit(scene.bump, columns, rows);
+    if (dice.uniform(0.0, 1.0) < 0.5) stretch(scene.bump, columns, rows);
     return scene;
 }
 
@@ -97,7 +97,7 @@ TEST_CASE("goals of any size on any ground: finite, on or above the surface, wit
           "[bounded]") {
     const Algorithm algorithm = each_algorithm();
     constexpr int kScenes = 40;
-    constexpr double kUnder_px = 1e-6;  // round-off at the greatest relief is less
+    constexpr double kUnder_px = 1e-6;    // round-off at the greatest relief is less
     constexpr int kMostToCatchUp = 3000;  // a proxy that never gets to its goal would go on
     test::Dice dice(101 + static_cast<std::uint64_t>(algorithm));
     const long updates = wild_updates() / kScenes;

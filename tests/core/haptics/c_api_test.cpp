@@ -92,6 +92,24 @@ TEST_CASE("in C the same goals give the same bits as in C++, with every algorith
     }
 }
 
+TEST_CASE("a bump map is the same whatever it was set before, and over images of any size",
+          "[c_api]") {
+    const dibhr::BumpMap bump{3, 2, {0.0F, 1.0F, 0.5F, 0.25F, 0.75F, 0.1F}};
+    const dibhr_image c_bump{bump.heights.data(), DIBHR_LEVELS_FLOAT, 3, 2, 0, 1.0};
+    Handle hand;
+    REQUIRE(dibhr_set_bump(hand.c, &c_bump) == DIBHR_OK);
+    REQUIRE(dibhr_set(hand.c, "roughness", 3.0) == DIBHR_OK);
+    for (const auto& [columns, rows] : {std::pair{20, 30}, {30, 20}}) {
+        const dibhr::DepthImage depth = dibhr::test::flat(columns, rows, 50.0);
+        const dibhr_image image = image_of(depth);
+        REQUIRE(dibhr_set_depth(hand.c, &image, nullptr) == DIBHR_OK);
+        const dibhr::DepthSurface surface(depth, depth, 0.0, {255.0, 3.0}, &bump);
+        double z = 0.0;
+        REQUIRE(dibhr_elevation(hand.c, 7.0, 11.0, &z) == DIBHR_OK);
+        CHECK(z == surface.elevation_at(7.0, 11.0));
+    }
+}
+
 TEST_CASE("8 bits, 16 bits and floats of the same depth are the same surface, padded rows too",
           "[c_api]") {
     const std::vector<std::uint8_t> bytes{0, 51, 255, 102, 0, 51};

@@ -82,13 +82,13 @@ TEST_CASE("a bump map stretched beforehand gives the same bits, over other image
         for (int k = 0; k < columns * rows; ++k) {
             bump.heights.push_back(static_cast<float>(k * 7919 % 256) / 255.0F);
         }
-        BumpMap fitted = bump;
-        fit(fitted, 23, 19);
-        REQUIRE(is_fit(fitted, 23, 19));
+        BumpMap stretched = bump;
+        stretch(stretched, 23, 19);
+        REQUIRE(is_stretched(stretched, 23, 19));
         for (const auto& [image_columns, image_rows] : {std::pair{23, 19}, {19, 23}, {46, 38}}) {
             const DepthImage image = test::flat(image_columns, image_rows, 50.0);
             const DepthSurface one_by_one(image, image, 0.0, {255.0, 4.0}, &bump);
-            const DepthSurface beforehand(image, image, 0.0, {255.0, 4.0}, &fitted);
+            const DepthSurface beforehand(image, image, 0.0, {255.0, 4.0}, &stretched);
             for (int j = 0; j < image_rows; ++j) {
                 for (int i = 0; i < image_columns; ++i) {
                     REQUIRE(beforehand.elevation(i, j) == one_by_one.elevation(i, j));
@@ -96,6 +96,20 @@ TEST_CASE("a bump map stretched beforehand gives the same bits, over other image
             }
         }
     }
+}
+
+TEST_CASE("a stretched bump map's heights are not worked out again", "[surface]") {
+    const DepthImage image = test::flat(23, 19, 50.0);
+    const DepthImage turned = test::flat(19, 23, 50.0);
+    BumpMap bump{3, 2, {0.0F, 1.0F, 0.5F, 0.25F, 0.75F, 0.1F}};
+    stretch(bump, 23, 19);
+    const double before = DepthSurface(image, image, 0.0, {255.0, 4.0}, &bump).elevation(4, 5);
+    const double over_turned =
+        DepthSurface(turned, turned, 0.0, {255.0, 4.0}, &bump).elevation(4, 5);
+    for (double& height : bump.at_vertices.heights) height += 1.0;
+    CHECK_THAT(DepthSurface(image, image, 0.0, {255.0, 4.0}, &bump).elevation(4, 5),
+               WithinAbs(before + 4.0, 1e-12));
+    CHECK(DepthSurface(turned, turned, 0.0, {255.0, 4.0}, &bump).elevation(4, 5) == over_turned);
 }
 
 TEST_CASE("without roughness a bump map is not felt", "[surface]") {
