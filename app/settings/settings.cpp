@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
-#include <iostream>
 #include <map>
 #include <optional>
 #include <set>
@@ -110,7 +109,7 @@ class Reading {
         text << file_.string() << ":" << node.source().begin.line << ": ";
         if (!table.empty()) text << table << ".";
         text << name << " " << what << "; the default is kept";
-        warnings_.push_back(text.str());
+        warnings_.push_back(one_line(text.str()));  // a name may hold anything
     }
 
   private:
@@ -194,7 +193,7 @@ toml::table parsed(const fs::path& file) {
         std::ostringstream text;
         text << "cannot understand the settings file " << file.string() << " at line "
              << error.source().begin.line << " (" << error.description() << "): mend or delete it";
-        throw InputError(text.str());
+        throw InputError(one_line(text.str()));  // it quotes the file
     }
 }
 
@@ -248,7 +247,7 @@ Settings load_settings(const fs::path& file, std::vector<std::string>& warnings)
 Settings load_settings(const fs::path& file) {
     std::vector<std::string> warnings;
     Settings settings = load_settings(file, warnings);
-    for (const std::string& warning : warnings) std::cerr << "dibhr: " << warning << "\n";
+    for (const std::string& warning : warnings) print_error_line(warning);
     return settings;
 }
 

@@ -116,14 +116,16 @@ void SessionReader::check_tables() const {
     for (const std::string_view name : session_tables()) {
         names.append(names.empty() ? "('" : ", '").append(name).append("'");
     }
-    // A view has no pages of its own, nor has a table that a module makes up; a hidden column may be
-    // computed.
-    Query tables(*this, "SELECT sum(rootpage > 0) FROM sqlite_master WHERE type = 'table' AND "
-                        "name IN " +
-                            names + ")");
-    Query hidden(*this, "SELECT sum(x.hidden) FROM sqlite_master m, pragma_table_xinfo(m.name) x "
-                        "WHERE m.name IN " +
-                            names + ")");
+    // A view has no pages of its own, nor has a table that a module makes up; a hidden column may
+    // be computed.
+    Query tables(*this,
+                 "SELECT sum(rootpage > 0) FROM sqlite_master WHERE type = 'table' AND "
+                 "name IN " +
+                     names + ")");
+    Query hidden(*this,
+                 "SELECT sum(x.hidden) FROM sqlite_master m, pragma_table_xinfo(m.name) x "
+                 "WHERE m.name IN " +
+                     names + ")");
     Query view(*this, "SELECT sql FROM sqlite_master WHERE type = 'view' AND name = 'tick'");
     const auto count = static_cast<std::int64_t>(session_tables().size());
     if (!tables.next() || tables.integer(0) != count || !hidden.next() || hidden.integer(0) != 0 ||

@@ -196,8 +196,8 @@ std::string explanations() {
     return text;
 }
 
-constexpr std::array<std::string_view, 8> kSessionTables{"session",    "media",     "source", "pair",
-                                                         "parameters", "tick_data", "clock",  "mark"};
+constexpr std::array<std::string_view, 8> kSessionTables{
+    "session", "media", "source", "pair", "parameters", "tick_data", "clock", "mark"};
 
 }  // namespace
 

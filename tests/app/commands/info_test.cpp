@@ -1,4 +1,7 @@
 // `dibhr info` and `dibhr devices`: what files hold and what is attached.
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <string>
@@ -177,6 +180,42 @@ TEST_CASE("every command warns of a recording that was copied without its log", 
         CHECK(result.errors.starts_with("dibhr: warning: mine.dibhr: its recording was broken"));
         CHECK(result.errors.find("mine.dibhr-wal") != std::string::npos);
         CHECK(split(result.errors, '\n').size() == 2);
+    }
+}
+
+TEST_CASE("every command refuses a session made to keep it busy, within 5 s and in one line",
+          "[info]") {
+    const TemporaryFolder folder;
+    run_shell(folder,
+              "ffmpeg -v error -f lavfi -i testsrc2=size=60x40:rate=30:duration=0.2 -c:v ffv1 "
+              "film_color.mkv && cp film_color.mkv film_depth.mkv");
+    record_session(folder / "mine.dibhr",
+                   {.colour = folder / "film_color.mkv", .depth = folder / "film_depth.mkv"});
+    const std::string endless = "WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c) ";
+    const std::string sql = GENERATE_COPY(
+        as<std::string>{},
+        "DROP VIEW tick; CREATE VIEW tick AS " + endless +
+            "SELECT x / 1e3 AS t, 1 AS gx, 1 AS gy, 1 AS gz, x AS tick, 1 AS contact FROM c",
+        "DROP TABLE session; CREATE VIEW session AS " + endless +
+            "SELECT x AS key, hex(zeroblob(1000)) AS value FROM c",
+        "INSERT INTO session " + endless + "SELECT x, hex(zeroblob(400000)) FROM c LIMIT 100");
+    CAPTURE(sql);
+    run_shell(folder, "sqlite3 mine.dibhr \"" + sql + "\"");
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"info", "mine.dibhr"},
+          {"export", "mine.dibhr", "--csv", "mine.csv"},
+          {"report", "mine.dibhr", "--out", "report"},
+          {"replay", "mine.dibhr"},
+          {"experiment", "human", "--session", "mine.dibhr"}}) {
+        CAPTURE(command[0]);
+        const auto begin = std::chrono::steady_clock::now();
+        const ProgramResult result = run_dibhr(folder, command);
+        CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(5));
+        CHECK(result.exit_code == 1);
+        CHECK(result.output.empty());
+        CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);
+        CHECK(result.errors.find("mine.dibhr: ") != std::string::npos);
+        CHECK(result.peak_memory_bytes < std::size_t{300} << 20);
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -53,8 +54,10 @@ ProgramResult run_dibhr(const TemporaryFolder& folder, const std::vector<std::st
         ::_exit(127);
     }
     int status = 0;
-    REQUIRE(::waitpid(child, &status, 0) == child);
-    return {exit_code_of(status), read_text(told / "output"), read_text(told / "errors")};
+    rusage usage{};
+    REQUIRE(::wait4(child, &status, 0, &usage) == child);
+    return {exit_code_of(status), read_text(told / "output"), read_text(told / "errors"),
+            static_cast<std::size_t>(usage.ru_maxrss) * 1024};
 }
 
 void run_shell(const TemporaryFolder& folder, const std::string& command) {

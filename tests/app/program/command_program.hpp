@@ -1,6 +1,7 @@
 // Runs the real program from a test, in a folder of its own.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@ struct ProgramResult {
     int exit_code{-1};  ///< 128 + signal when it was killed
     std::string output{};
     std::string errors{};
+    std::size_t peak_memory_bytes{0};  ///< resident
 };
 
 /// Runs `dibhr ARGUMENTS` inside `folder`, which has its settings and its data, too, without a

@@ -82,6 +82,23 @@ TEST_CASE("each setting that does not fit keeps its default and is told with fil
     CHECK(warnings[0].find(file.string() + ":2: ") == 0);
 }
 
+TEST_CASE("what is said of a settings file is one line, whatever the file holds", "[settings]") {
+    const TemporaryFolder folder;
+    const auto file = folder / "settings.toml";
+    std::vector<std::string> warnings;
+    write(file, "[touch]\n\"soft\\nness\\u001b[31m\" = 1\n");
+    static_cast<void>(load_settings(file, warnings));
+    REQUIRE(warnings.size() == 1);
+    CHECK(warnings[0].find_first_of("\n\x1b") == std::string::npos);
+    write(file, "[panels]\nvideo = tru\nesurface = false\n");
+    try {
+        static_cast<void>(load_settings(file, warnings));
+        FAIL("it was understood");
+    } catch (const InputError& error) {
+        CHECK(std::string(error.what()).find('\n') == std::string::npos);
+    }
+}
+
 TEST_CASE("an integer is a number, for who types 1 and means 1.0", "[settings]") {
     const TemporaryFolder folder;
     const auto file = folder / "settings.toml";

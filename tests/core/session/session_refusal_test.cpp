@@ -166,28 +166,27 @@ TEST_CASE("a session made to keep its reader busy is refused within a second, in
     const SessionFolder folder;
     record_ticks(folder.file(), 10);
     const std::string endless = "WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c) ";
-    const auto& [sql, words] = GENERATE_COPY(
-        from_range(std::vector<std::pair<std::string, std::string>>{
-            {"DROP VIEW tick; CREATE VIEW tick AS " + endless + "SELECT x AS t, x AS tick FROM c",
-             "its tables"},
-            {"DROP TABLE session; CREATE VIEW session AS " + endless +
-                 "SELECT 'k' || x AS key, hex(zeroblob(1000)) AS value FROM c",
-             "its tables"},
-            {"ALTER TABLE tick_data RENAME TO ticks; CREATE VIEW tick_data AS SELECT a.* FROM "
-             "ticks a, ticks b, ticks c, ticks d, ticks e, ticks f, ticks g, ticks h",
-             "its tables"},
-            {"DROP TABLE mark; CREATE TABLE mark(id INTEGER PRIMARY KEY, t REAL, tag TEXT, "
-             "text TEXT AS (hex(zeroblob(400000000))))",
-             "its tables"},
-            {"DROP TABLE mark; CREATE VIRTUAL TABLE mark USING fts5(t, tag, text)", "its tables"},
-            {"DROP TABLE mark", "its tables"},
-            {"INSERT INTO session VALUES('note', hex(zeroblob(1000000)))", "a megabyte"},
-            {"INSERT INTO mark(t, tag, text) " + endless +
-                 "SELECT x, 'a', hex(zeroblob(100000)) FROM c LIMIT 200",
-             "more notes"},
-            {"INSERT INTO session " + endless + "SELECT x, 'fact' FROM c LIMIT 400000",
-             "more notes"},
-        }));
+    const auto& [sql,
+                 words] = GENERATE_COPY(from_range(std::vector<std::pair<std::string, std::string>>{
+        {"DROP VIEW tick; CREATE VIEW tick AS " + endless + "SELECT x AS t, x AS tick FROM c",
+         "its tables"},
+        {"DROP TABLE session; CREATE VIEW session AS " + endless +
+             "SELECT 'k' || x AS key, hex(zeroblob(1000)) AS value FROM c",
+         "its tables"},
+        {"ALTER TABLE tick_data RENAME TO ticks; CREATE VIEW tick_data AS SELECT a.* FROM "
+         "ticks a, ticks b, ticks c, ticks d, ticks e, ticks f, ticks g, ticks h",
+         "its tables"},
+        {"DROP TABLE mark; CREATE TABLE mark(id INTEGER PRIMARY KEY, t REAL, tag TEXT, "
+         "text TEXT AS (hex(zeroblob(400000000))))",
+         "its tables"},
+        {"DROP TABLE mark; CREATE VIRTUAL TABLE mark USING fts5(t, tag, text)", "its tables"},
+        {"DROP TABLE mark", "its tables"},
+        {"INSERT INTO session VALUES('note', hex(zeroblob(1000000)))", "a megabyte"},
+        {"INSERT INTO mark(t, tag, text) " + endless +
+             "SELECT x, 'a', hex(zeroblob(100000)) FROM c LIMIT 200",
+         "more notes"},
+        {"INSERT INTO session " + endless + "SELECT x, 'fact' FROM c LIMIT 400000", "more notes"},
+    }));
     CAPTURE(sql);
     run_sql(folder.file(), sql);
     const auto begin = std::chrono::steady_clock::now();
@@ -203,8 +202,9 @@ TEST_CASE("a question that would not end is ended by the bound of its work", "[s
     record_ticks(folder.file(), 10);
     const SessionReader reader(folder.file());
     SessionReader::Query endless(
-        reader, "WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c) SELECT sum(x) "
-                "FROM c");
+        reader,
+        "WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c) SELECT sum(x) "
+        "FROM c");
     std::string refusal;
     try {
         (void)endless.next();
@@ -220,8 +220,9 @@ TEST_CASE("a question that would not end is ended by the bound of its work", "[s
 TEST_CASE("what others add to a session does not keep it from being read", "[session]") {
     const SessionFolder folder;
     record_ticks(folder.file(), 10);
-    run_sql(folder.file(), "CREATE VIEW mine AS SELECT t, pz FROM tick; CREATE TABLE rating(a, b);"
-                           "CREATE INDEX by_time ON tick_data(t)");
+    run_sql(folder.file(),
+            "CREATE VIEW mine AS SELECT t, pz FROM tick; CREATE TABLE rating(a, b);"
+            "CREATE INDEX by_time ON tick_data(t)");
     CHECK(refusal_of(folder.file()) == "nothing");
 }
 
