@@ -67,7 +67,7 @@ struct SafetyInput {
     bool device_ready{true};   ///< attached and homed
     /// What the device itself adds on the hand, such as its soft boundary [N]; limited with it.
     Vec3 device_force_newton{0.0};
-    bool from_zero{false};  ///< start, engaging, seek, loop, new file or parameters
+    bool from_zero{false};  ///< start, engaging, seek, loop, new file, another hand or its scale
 };
 
 /// The goal moved farther than a hand can in that time, or there was no time to move in.

@@ -55,12 +55,12 @@ void HapticTick::notice_changes(const HapticSettings& settings,
         renderer_.reset();
         state_.touch = {};
     }
-    if (recording_begins || settings.version != version_ ||
-        frames.discontinuity != discontinuity_) {
+    const double pitch_mm = settings.parameters.coupling.pixel_pitch_mm;
+    if (recording_begins || pitch_mm != pitch_mm_ || frames.discontinuity != discontinuity_) {
         from_zero_ = true;
     }
     recording_ = settings.recording;
-    version_ = settings.version;
+    pitch_mm_ = pitch_mm;
     discontinuity_ = frames.discontinuity;
 }
 
@@ -79,18 +79,24 @@ void HapticTick::send_zero_force() noexcept {
 
 TickRecord HapticTick::touch_surface(const DepthBlend& pair, const HapticSettings& settings,
                                      const TickTiming& timing) noexcept {
-    const DepthSurface surface = pair.surface(settings.parameters.shape, settings.bump.get());
+    // What the hand can stand is known with its reading, and where the parameters are only then: it
+    // gets the shape they had.
+    const SurfaceShape& had =
+        from_zero_ ? settings.parameters.shape : glide_.now().parameters.shape;
     const HandReading hand =
-        to_.device.read({timing.dt_s, surface, settings.parameters.coupling.pixel_pitch_mm});
-    limits_ = usable(hand.limits.value_or(to_.device.specification().limits));
-    TouchParameters parameters = settings.parameters;
-    parameters.coupling = held_coupling(parameters.coupling, *limits_);
-    const SafetyLimits limits = held_limits(settings.limits, *limits_);
+        to_.device.read({timing.dt_s, pair.surface(had, settings.bump.get()), pitch_mm_});
+    const DeviceLimits stands = usable(hand.limits.value_or(to_.device.specification().limits));
+    const bool stands_other = limits_ != stands;  // at once, then, not on the way of the parameters
+    limits_ = stands;
+    ParameterGlide::Values wanted{settings.parameters, held_limits(settings.limits, *limits_)};
+    wanted.parameters.coupling = held_coupling(settings.parameters.coupling, *limits_);
     const SafetyInput input{.dt_s = timing.dt_s,
                             .force_enabled = settings.force_enabled,
                             .device_ready = hand.ready && !taken_off(hand, settings),
                             .device_force_newton = hand.own_force_newton,
-                            .from_zero = from_zero_ || hand.taken_over};
+                            .from_zero = from_zero_ || hand.taken_over || stands_other};
+    const auto& [parameters, limits] = glide_.towards(wanted, timing.dt_s, input.from_zero);
+    const DepthSurface surface = pair.surface(parameters.shape, settings.bump.get());
     const bool lets_go = hand.lifted || hand.taken_over;
     if (lets_go && state_.touch.proxy.contact) renderer_.let_go();
     const auto begin = std::chrono::steady_clock::now();
@@ -109,7 +115,8 @@ TickRecord HapticTick::touch_surface(const DepthBlend& pair, const HapticSetting
             .stand_in = hand.stand_in,
             .from_zero = input.from_zero,
             .lets_go = lets_go,
-            .goal_refused = !is_finite(hand.goal_in_grid)};
+            .goal_refused = !is_finite(hand.goal_in_grid),
+            .gliding = glide_.under_way()};
 }
 
 bool HapticTick::taken_off(const HandReading& hand, const HapticSettings& settings) noexcept {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <thread>
 
+#include "core/haptics/parameter_glide.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/safety.hpp"
 #include "core/haptics/touch.hpp"
@@ -28,7 +29,7 @@ struct HapticSettings {
     bool force_enabled{true};
     std::shared_ptr<const BumpMap> bump{};  ///< null: none
     bool recording{false};                  ///< every tick goes into the ring
-    std::uint64_t version{0};               ///< counts changes: the force ramps after each
+    std::uint64_t version{0};               ///< counts changes, for the recorder
 };
 
 /// How the loop did over the last whole second.
@@ -82,8 +83,9 @@ class HapticTick {
     void send_zero_force() noexcept;
 
   private:
-    /// What lets the force begin from zero: other settings, a jump in the video, and a recording,
-    /// which begins as the program does so that it can be replayed.
+    /// What lets the force begin from zero: another scale of the hand, a jump in the video, and a
+    /// recording, which begins as the program does so that it can be replayed. Other settings
+    /// glide.
     void notice_changes(const HapticSettings& settings, const FrameWindow& frames) noexcept;
     /// Moves the proxy and sends the force; gives what they depended on, for record().
     [[nodiscard]] TickRecord touch_surface(const DepthBlend& pair, const HapticSettings& settings,
@@ -98,7 +100,8 @@ class HapticTick {
     HapticConnections to_;
     TouchRenderer renderer_{};
     HapticState state_{};
-    std::uint64_t version_{~0ull};
+    ParameterGlide glide_{};
+    double pitch_mm_{0.0};
     std::uint64_t discontinuity_{~0ull};
     std::optional<DeviceLimits> limits_{};  // what the hand of the last reading can stand
     bool from_zero_{true};

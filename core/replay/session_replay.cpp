@@ -101,13 +101,15 @@ void SessionReplay::update(Run& run) {
         run.touch.proxy.contact = false;
         return;
     }
+    const auto& [parameters, limits] =
+        run.glide.towards({run.parameters, parameters_->limits}, tick_.dt_s, !tick_.gliding);
     const DepthSurface surface = DepthBlend{&touched_->from, &touched_->to, tick_.blend}.surface(
-        run.parameters.shape, bump_.get());
+        parameters.shape, bump_.get());
     const Vec3 goal = tick_.goal_refused ? Vec3(NAN) : tick_.goal;
     if (tick_.lets_go && run.holds) run.renderer.let_go();
     const auto begin = std::chrono::steady_clock::now();
-    run.touch = run.renderer.update(surface, goal, run.parameters,
-                                    safety_input(tick_, *parameters_), parameters_->limits);
+    run.touch =
+        run.renderer.update(surface, goal, parameters, safety_input(tick_, *parameters_), limits);
     const auto end = std::chrono::steady_clock::now();
     run.update_us = std::chrono::duration<double, std::micro>(end - begin).count();
     run.holds = run.touch.proxy.contact;

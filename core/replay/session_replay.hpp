@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/haptics/parameter_glide.hpp"
 #include "core/haptics/touch.hpp"
 #include "core/metrics/force_variation.hpp"
 #include "core/session/session.hpp"
@@ -66,6 +67,7 @@ class SessionReplay {
     struct Run {
         ParameterChange change{};
         TouchParameters parameters{};
+        ParameterGlide glide{};
         TouchRenderer renderer{};
         Touch touch{};
         bool holds{false};  ///< the proxy of the last tick with a surface was in contact

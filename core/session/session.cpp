@@ -77,10 +77,10 @@ constexpr const char* kTickQuestion =
     "t.gx, t.gy, t.gz, t.px, t.py, t.pz, t.fx, t.fy, t.fz, t.cx, t.cy, t.cz, t.ox, t.oy, t.oz, "
     "t.moves, t.i, t.j, t.contact, t.primitive, t.buttons, t.cut, "
     "t.surface, t.ready, t.stand_in, t.restart, t.lets_go, t.refused, "
-    "(SELECT d.state >> 20 & 1 FROM tick_data d WHERE d.tick = t.tick) "
+    "(SELECT d.state >> 20 FROM tick_data d WHERE d.tick = t.tick) "
     "FROM tick t LEFT JOIN pair q ON q.id = t.pair LEFT JOIN source s ON s.id = q.source WHERE "
     "t.tick >= ";
-static_assert(tick_state::kCatchingUp == 20);
+static_assert(tick_state::kCatchingUp == 20 && tick_state::kGliding == 21);
 constexpr const char* kInOrder = " ORDER BY t.tick";
 
 }  // namespace
@@ -253,6 +253,7 @@ Session::Ticks::Ticks(const Session& session, double from_s)
 bool Session::Ticks::next(TickRecord& tick) {
     if (!query_.next()) return false;
     std::int64_t update_ns = 0;
+    std::int64_t state = 0;  // what of it the view does not give
     std::string primitive;
     FramePair& frames = tick.frames;
     Row(query_).take(tick.tick, tick.t_s, tick.dt_s, tick.lateness_us, update_ns, tick.settings,
@@ -261,7 +262,9 @@ bool Session::Ticks::next(TickRecord& tick) {
                      tick.spring_newton, tick.sent_newton, tick.own_newton, tick.moves, tick.i,
                      tick.j, tick.contact, primitive, tick.buttons, tick.cut, tick.surface,
                      tick.device_ready, tick.stand_in, tick.from_zero, tick.lets_go,
-                     tick.goal_refused, tick.catching_up);
+                     tick.goal_refused, state);
+    tick.catching_up = (state & 1) != 0;
+    tick.gliding = (state & 2) != 0;
     tick.update_us = static_cast<double>(update_ns) / 1e3;
     tick.primitive = static_cast<std::uint8_t>(primitive_named(primitive));
     return true;

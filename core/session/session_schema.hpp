@@ -40,8 +40,10 @@ inline constexpr int kStandIn = 13;
 inline constexpr int kFromZero = 14;
 inline constexpr int kLetsGo = 15;
 inline constexpr int kRefused = 16;
-inline constexpr int kCut = 17;         // 3 bits
-inline constexpr int kCatchingUp = 20;  // not in the view: scripts depend on its columns
+inline constexpr int kCut = 17;  // 3 bits
+// Not in the view: scripts depend on its columns.
+inline constexpr int kCatchingUp = 20;
+inline constexpr int kGliding = 21;
 }  // namespace tick_state
 
 /// A time is stored in whole nanoseconds where they give the same bits again, divided by this.

@@ -72,6 +72,7 @@ struct TickRecord {
     bool lets_go{false};       ///< the hand was lifted or replaced: a contact was let go first
     bool goal_refused{false};  ///< the hand's reading was no number: `goal` is the one before
     bool catching_up{false};   ///< the tick ended before the proxy had caught up with its goal
+    bool gliding{false};       ///< parameters were on their way to those of `settings`
 };
 
 /// What "the same" means for recorded reals: every bit, the sign of a zero too.

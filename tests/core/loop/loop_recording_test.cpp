@@ -193,6 +193,44 @@ TEST_CASE("what the loop records replays to the same bits, whenever the recordin
     CHECK(in_contact > 1000);
 }
 
+TEST_CASE("parameters that change in contact, and again on their way, replay to the same bits",
+          "[loop]") {
+    const TemporaryFolder folder;
+    const auto file = folder / "dragged.dibhr";
+    Bench bench;
+    bench.hand_over();
+    const FrameWindow window = rising_window(64, 48, 0.05F);
+    bench.frames.publish(window);
+    HapticTick tick(bench.connections());
+    {
+        Recorder recorder(file, *bench.ticks, {});
+        for (int k = 0; k < 60; ++k) {
+            ++bench.handed.version;
+            bench.handed.parameters.coupling.stiffness_newton_per_mm = 0.2 + 0.01 * k;
+            bench.handed.parameters.friction = {0.8 - 0.01 * k, 0.2};
+            bench.handed.parameters.shape.relief_px = 255.0 + k % 3;
+            recorder.parameters({.version = bench.handed.version,
+                                 .touch = bench.handed.parameters,
+                                 .limits = bench.handed.limits,
+                                 .force_enabled = bench.handed.force_enabled,
+                                 .bump = {}});
+            bench.settings.publish(bench.handed);
+            bench.hand.goal.x = 20.0 + 0.1 * k;
+            run_ticks(tick, k % 20 == 0 ? 300 : 17);
+        }
+    }
+    const Session session(file);
+    WindowFrames frames(window);
+    SessionReplay replay(session, frames, {{}});
+    int gliding = 0;
+    while (replay.next()) {
+        CAPTURE(replay.recorded().tick);
+        REQUIRE(same_bits(replay.touch(0), replay.recorded()));
+        gliding += replay.recorded().gliding ? 1 : 0;
+    }
+    CHECK(gliding > 1000);
+}
+
 TEST_CASE("ticks that end before the proxy has caught up are counted, and replay to the same bits",
           "[loop]") {
     const Algorithm algorithm = GENERATE(from_range(all_algorithms()));

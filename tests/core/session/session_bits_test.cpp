@@ -73,6 +73,7 @@ TickRecord any_tick(std::int64_t number, AnyReal& real) {
     tick.lets_go = bit(4);
     tick.goal_refused = bit(5);
     tick.catching_up = bit(6);
+    tick.gliding = bit(7);
     return tick;
 }
 
@@ -87,7 +88,8 @@ bool same(const TickRecord& a, const TickRecord& b) {
            a.buttons == b.buttons && a.cut == b.cut && a.surface == b.surface &&
            a.device_ready == b.device_ready && a.stand_in == b.stand_in &&
            a.from_zero == b.from_zero && a.lets_go == b.lets_go &&
-           a.goal_refused == b.goal_refused && a.catching_up == b.catching_up;
+           a.goal_refused == b.goal_refused && a.catching_up == b.catching_up &&
+           a.gliding == b.gliding;
 }
 
 }  // namespace
