@@ -138,6 +138,11 @@ struct ViewerState {
     Fonts fonts{};
     float scale{1.0F};         ///< screen pixels of a layout pixel
     float window_width{1.0F};  ///< [px]
+
+    /// What is seen is what is felt: a changed one is on its way.
+    [[nodiscard]] const SurfaceShape& shape() const noexcept {
+        return haptic.touchable ? haptic.shape : settings.touch.shape;
+    }
 };
 
 }  // namespace dibhr

@@ -41,7 +41,7 @@ TouchMarkers markers_of(const ViewerState& state, const DepthSurface& surface) {
 /// frame.
 SceneContent scene_content(const ViewerState& state, const DepthBlend& shown) {
     SceneContent content;
-    content.shape = state.settings.touch.shape;
+    content.shape = state.shape();
     content.bump = state.bump.get();
     content.look = state.settings.look;
     if (!shown.makes_surface()) return content;

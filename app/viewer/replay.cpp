@@ -101,6 +101,7 @@ void ViewerReplay::show(const SessionMoment& moment, ViewerState& state) {
         state.bump_file = moment.parameters->bump.file;
     }
     if (!chosen_) state.settings.touch = recorded_;
+    state.haptic.shape = state.settings.touch.shape;
     const FrameSource& source = tick.frames.source;
     if (tick.surface) {
         state.settings.cleaning = {source.fill_holes, source.remove_spikes, source.smooth_steps};

@@ -160,7 +160,7 @@ void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {
     // While the Falcon touches the mouse only points, so that it does not take over pressing.
     if (hand_.falcon != nullptr && !state_.haptic.hand.stand_in) use.pressed = false;
     if (state_.replay || hand_.mouse == nullptr || !shown_.makes_surface()) return;
-    const DepthSurface surface = shown_.surface(state_.settings.touch.shape, state_.bump.get());
+    const DepthSurface surface = shown_.surface(state_.shape(), state_.bump.get());
     const Camera::Ray ray = camera_.ray_under(pointer.position_px, viewport);
     hand_.mouse->target().publish(pointer_.target(ray, surface, use));
 }

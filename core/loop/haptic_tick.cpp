@@ -96,7 +96,8 @@ TickRecord HapticTick::touch_surface(const DepthBlend& pair, const HapticSetting
                             .device_force_newton = hand.own_force_newton,
                             .from_zero = from_zero_ || hand.taken_over || stands_other};
     const auto& [parameters, limits] = glide_.towards(wanted, timing.dt_s, input.from_zero);
-    const DepthSurface surface = pair.surface(parameters.shape, settings.bump.get());
+    state_.shape = parameters.shape;
+    const DepthSurface surface = pair.surface(state_.shape, settings.bump.get());
     const bool lets_go = hand.lifted || hand.taken_over;
     if (lets_go && state_.touch.proxy.contact) renderer_.let_go();
     const auto begin = std::chrono::steady_clock::now();

@@ -45,6 +45,7 @@ struct LoopSecond {
 struct HapticState {
     Touch touch{};
     bool touchable{false};  ///< there is a surface; without, no update and no force
+    SurfaceShape shape{};   ///< of that surface: on its way to what is set
     HandReading hand{.ready = false};
     std::uint64_t ticks{0};
     std::uint64_t late_ticks{0};

@@ -70,6 +70,24 @@ TEST_CASE("a changed parameter takes the force straight to what it will be, in a
     CHECK_THAT(bench.hand.sent.z, WithinAbs(2.0 * spring, 1e-12));
 }
 
+TEST_CASE("the window is told the shape that is felt, which is on its way to what is set",
+          "[loop]") {
+    Bench bench;
+    HapticTick tick(bench.connections());
+    bench.hand_over();
+    bench.frames.publish(flat_window(64, 48, 0));
+    press(bench, tick);
+    bench.handed.parameters.shape.relief_px += 10.0;
+    bench.hand_over();
+    for (const double way : {5.0, 10.0}) {
+        run_ticks(tick, 50);
+        const HapticState& state = bench.state.front();
+        CHECK_THAT(state.shape.relief_px, WithinAbs(255.0 + way, 1e-9));
+        CHECK_THAT(state.touch.proxy.position.z,
+                   WithinAbs(100.0 * state.shape.relief_px / 255.0, 1e-9));
+    }
+}
+
 TEST_CASE("whatever is changed in contact, no tick's force is off the line from old to new",
           "[loop]") {
     const auto change = GENERATE(
