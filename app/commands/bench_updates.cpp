@@ -152,7 +152,11 @@ std::string mean_table(const UpdateCosts& costs) {
                 right(number_text(paper_dibhr_to_pga(path).value_or(0.0), 2), kRatioWidth) + "\n";
     }
     return text + "  DIBHR from a TRIANGLE to the next one of its plane, two moves: " +
-           number_text(costs.crossing_ns, 1) + " ns in this run, the least a crossing can take\n";
+           number_text(costs.crossing_ns, 1) + " ns in this run, the least a crossing can take\n" +
+           "  Two blended images each. near-flat: a 16-bit level of noise; bumpy: 16-bit waves; "
+           "bump map: "
+           "2 px of white noise, stretched;\n  crease: along one; sample: the built-in video, "
+           "cleaned and playing\n";
 }
 
 std::string single_table(const UpdateCosts& costs) {

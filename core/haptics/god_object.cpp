@@ -155,11 +155,12 @@ class ConstraintWalk : private ProxyWalk {
     }
 
   private:
-    /// On the surface; or in the air, where the last move was spent over a ridge.
+    /// On the surface; or in the air, where the last move was spent over a ridge and the goal is not
+    /// below the surface.
     void settle() noexcept {
         Vec3& p = proxy_.position;
         const double ground = surface_.elevation_at(p.x, p.y);
-        if (proxy_.bound_met && p.z > ground + kSettled_px) return let_go();
+        if (proxy_.bound_met && p.z > ground + kSettled_px && !stay_on_surface()) return let_go();
         // So much round-off is left by planes that are nearly parallel, with the goal far below
         // them, and by going to and fro beside a cliff.
         const double off = std::abs(p.z - ground);

@@ -61,11 +61,21 @@ void ProxyAlgorithm::follow_surface(const DepthSurface& surface) noexcept {
 ProxyWalk::Next ProxyWalk::visit_free() noexcept {
     const Flight flight = fly_to(goal_);
     proxy_.position = flight.end;
+    if (flight.cut_short && touched_) stay_on_surface();
     if (!flight.ground) return Next::rest;
-    proxy_.contact = true;
+    proxy_.contact = touched_ = true;
     proxy_.slipping = false;
     proxy_.active = *flight.ground;
     return Next::visit;
+}
+
+bool ProxyWalk::stay_on_surface() noexcept {
+    if (goal_.z >= surface_.elevation_at(goal_.x, goal_.y)) return false;
+    Vec3& p = proxy_.position;
+    p.z = surface_.elevation_at(p.x, p.y);
+    proxy_.contact = true;
+    proxy_.active = surface_.triangle_at(p.x, p.y);
+    return true;
 }
 
 Flight ProxyWalk::fly_to(Vec3 end) noexcept {

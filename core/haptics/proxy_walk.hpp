@@ -70,6 +70,10 @@ class ProxyWalk {
     /// visit.
     Next visit_free() noexcept;
 
+    /// A hand that pressed goes on pressing while its proxy catches up: a proxy on its way through
+    /// the air comes down where it is. False for a goal that is not below the surface.
+    bool stay_on_surface() noexcept;
+
     /// From where the proxy is, which stays there. Takes its share of the moves.
     Flight fly_to(Vec3 end) noexcept;
 
@@ -177,6 +181,7 @@ class ProxyWalk {
     int most_moves_{all_moves_};  ///< of them: less those that flights have taken
     Proxy& proxy_;
     bool moved_{false};
+    bool touched_{proxy_.contact};  ///< the surface, in this update or at its begin
     Vec3 left_{std::numeric_limits<double>::infinity()};  ///< where it left the surface last
 };
 
