@@ -161,7 +161,7 @@ TEST_CASE("a file all of whose recording is in a log that is not there names the
     CHECK(contains(refusal_of(foreign), "another program"));
 }
 
-TEST_CASE("a session made to keep its reader busy is refused within a second, in one line",
+TEST_CASE("a session made to keep its reader busy is refused within 5 s, in one line",
           "[session]") {
     const SessionFolder folder;
     record_ticks(folder.file(), 10);
@@ -191,7 +191,7 @@ TEST_CASE("a session made to keep its reader busy is refused within a second, in
     run_sql(folder.file(), sql);
     const auto begin = std::chrono::steady_clock::now();
     const std::string refusal = refusal_of(folder.file());
-    CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(2));
+    CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(5));
     CHECK(contains(refusal, folder.file().string() + ": "));
     CHECK(contains(refusal, words));
     CHECK_FALSE(contains(refusal, "\n"));
