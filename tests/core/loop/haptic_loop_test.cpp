@@ -36,11 +36,8 @@ TEST_CASE("without a surface the loop sends zero force and updates nothing", "[l
 }
 
 TEST_CASE("a tick in contact allocates nothing, even when settings and surface change", "[loop]") {
-    Bench bench;
-    HapticTick tick(bench.connections());
-    bench.hand_over();
-    bench.frames.publish(flat_window(64, 48, 0));
-    press(bench, tick);
+    PressingBench bench;
+    HapticTick& tick = bench.tick;
     REQUIRE(bench.state.front().touch.proxy.contact);
     bench.handed.parameters.friction.static_coefficient = 0.9;
     bench.hand_over();
@@ -52,11 +49,8 @@ TEST_CASE("a tick in contact allocates nothing, even when settings and surface c
 
 TEST_CASE("a changed parameter takes the force straight to what it will be, in a tenth of a second",
           "[loop]") {
-    Bench bench;
-    HapticTick tick(bench.connections());
-    bench.hand_over();
-    bench.frames.publish(flat_window(64, 48, 0));
-    press(bench, tick);
+    PressingBench bench;
+    HapticTick& tick = bench.tick;
     const double spring = bench.state.front().touch.spring_force_newton.z;
     REQUIRE_THAT(bench.hand.sent.z, WithinAbs(spring, 1e-9));
     bench.handed.parameters.coupling.stiffness_newton_per_mm *= 2.0;
@@ -72,11 +66,8 @@ TEST_CASE("a changed parameter takes the force straight to what it will be, in a
 
 TEST_CASE("the window is told the shape that is felt, which is on its way to what is set",
           "[loop]") {
-    Bench bench;
-    HapticTick tick(bench.connections());
-    bench.hand_over();
-    bench.frames.publish(flat_window(64, 48, 0));
-    press(bench, tick);
+    PressingBench bench;
+    HapticTick& tick = bench.tick;
     bench.handed.parameters.shape.relief_px += 10.0;
     bench.hand_over();
     for (const double way : {5.0, 10.0}) {
@@ -197,11 +188,8 @@ TEST_CASE("a hand that presses with 3.8 N is not moved by a millimetre when para
 TEST_CASE("a hand of another scale, or another algorithm, lets the force rise again from zero",
           "[loop]") {
     const bool scale = GENERATE(true, false);
-    Bench bench;
-    HapticTick tick(bench.connections());
-    bench.hand_over();
-    bench.frames.publish(flat_window(64, 48, 0));
-    press(bench, tick);
+    PressingBench bench;
+    HapticTick& tick = bench.tick;
     const double before = bench.hand.sent.z;
     if (scale) {
         bench.handed.parameters.coupling.pixel_pitch_mm *= 1.5;
@@ -216,11 +204,8 @@ TEST_CASE("a hand of another scale, or another algorithm, lets the force rise ag
 }
 
 TEST_CASE("a seek or a new file lets the force rise again from zero", "[loop]") {
-    Bench bench;
-    HapticTick tick(bench.connections());
-    bench.hand_over();
-    bench.frames.publish(flat_window(64, 48, 0));
-    press(bench, tick);
+    PressingBench bench;
+    HapticTick& tick = bench.tick;
     const double before = bench.hand.sent.z;
     bench.frames.publish(flat_window(64, 48, 1));
     run_ticks(tick, 10);
@@ -339,11 +324,8 @@ TEST_CASE("what the device itself adds is limited like the rest and ends with th
 }
 
 TEST_CASE("force off is zero on the next tick", "[loop]") {
-    Bench bench;
-    HapticTick tick(bench.connections());
-    bench.hand_over();
-    bench.frames.publish(flat_window(64, 48, 0));
-    press(bench, tick);
+    PressingBench bench;
+    HapticTick& tick = bench.tick;
     REQUIRE(bench.hand.sent.z > 0.1);
     bench.handed.force_enabled = false;
     bench.hand_over();

@@ -90,4 +90,14 @@ inline void press(Bench& bench, HapticTick& tick) {
     run_ticks(tick, 1500);
 }
 
+/// A bench whose hand has come from above and presses.
+struct PressingBench : Bench {
+    PressingBench() {
+        hand_over();
+        frames.publish(flat_window(64, 48, 0));
+        press(*this, tick);
+    }
+    HapticTick tick{connections()};
+};
+
 }  // namespace dibhr::test
