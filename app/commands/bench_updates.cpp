@@ -154,9 +154,8 @@ std::string mean_table(const UpdateCosts& costs) {
     return text + "  DIBHR from a TRIANGLE to the next one of its plane, two moves: " +
            number_text(costs.crossing_ns, 1) + " ns in this run, the least a crossing can take\n" +
            "  Two blended images each. near-flat: a 16-bit level of noise; bumpy: 16-bit waves; "
-           "bump map: "
-           "2 px of white noise, stretched;\n  crease: along one; sample: the built-in video, "
-           "cleaned and playing\n";
+           "bump map: 2 px of\n  white noise, stretched; crease: along one; sample: the built-in "
+           "video, cleaned and playing\n";
 }
 
 std::string single_table(const UpdateCosts& costs) {

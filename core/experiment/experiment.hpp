@@ -111,6 +111,7 @@ enum class Timing { quick, careful };
 void run_algorithms(PathRun& path, const DepthClip& clip, std::span<const Algorithm> algorithms,
                     Timing timing, const Progress& progress = {});
 
+/// Between two readings of the clock [us].
 [[nodiscard]] double us_between(std::chrono::steady_clock::time_point begin,
                                 std::chrono::steady_clock::time_point end);
 

@@ -154,10 +154,10 @@ typedef struct dibhr_touch {
 } dibhr_touch;
 
 /* One update, dt_s seconds after the last: the proxy follows the goal. Its work is bounded: after a
- * jump far along the surface the proxy takes some updates to arrive, and `touch.bound_met` says so. A
- * goal more than 100,000 pixels off the scene counts as there, and `touch.goal` says so. `touch` may
- * be NULL. The first one starts the proxy above the goal, in the air. Where x, y or z is not finite the proxy
- * stays, both forces are zero and the status is DIBHR_BAD_ARGUMENT. */
+ * jump far along the surface the proxy takes some updates to arrive, and `touch.bound_met` says so.
+ * A goal more than 100,000 pixels off the scene counts as there, and `touch.goal` says so. `touch`
+ * may be NULL. The first one starts the proxy above the goal, in the air. Where x, y or z is not
+ * finite the proxy stays, both forces are zero and the status is DIBHR_BAD_ARGUMENT. */
 dibhr_status dibhr_update(dibhr_handle* handle, double x, double y, double z, double dt_s,
                           dibhr_touch* touch);
 

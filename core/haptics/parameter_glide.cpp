@@ -9,7 +9,7 @@ auto ParameterGlide::towards(const Values& target, double dt_s, bool at_once) no
     -> const Values& {
     if (at_once || !started_) {
         age_s_ = kDuration_s;
-    } else if (!(target == to_)) {
+    } else if (target != to_) {
         from_ = now_;
         age_s_ = 0.0;
     }

@@ -81,20 +81,20 @@ TickRecord HapticTick::touch_surface(const DepthBlend& pair, const HapticSetting
                                      const TickTiming& timing) noexcept {
     // What the hand can stand is known with its reading, and where the parameters are only then: it
     // gets the shape they had.
-    const SurfaceShape& had =
+    const SurfaceShape& last_shape =
         from_zero_ ? settings.parameters.shape : glide_.now().parameters.shape;
     const HandReading hand =
-        to_.device.read({timing.dt_s, pair.surface(had, settings.bump.get()), pitch_mm_});
-    const DeviceLimits stands = usable(hand.limits.value_or(to_.device.specification().limits));
-    const bool stands_other = limits_ != stands;  // at once, then, not on the way of the parameters
-    limits_ = stands;
+        to_.device.read({timing.dt_s, pair.surface(last_shape, settings.bump.get()), pitch_mm_});
+    const DeviceLimits limits_now = usable(hand.limits.value_or(to_.device.specification().limits));
+    const bool other_limits = limits_ != limits_now;  // which hold at once: there is no way to them
+    limits_ = limits_now;
     ParameterGlide::Values wanted{settings.parameters, held_limits(settings.limits, *limits_)};
     wanted.parameters.coupling = held_coupling(settings.parameters.coupling, *limits_);
     const SafetyInput input{.dt_s = timing.dt_s,
                             .force_enabled = settings.force_enabled,
                             .device_ready = hand.ready && !taken_off(hand, settings),
                             .device_force_newton = hand.own_force_newton,
-                            .from_zero = from_zero_ || hand.taken_over || stands_other};
+                            .from_zero = from_zero_ || hand.taken_over || other_limits};
     const auto& [parameters, limits] = glide_.towards(wanted, timing.dt_s, input.from_zero);
     state_.shape = parameters.shape;
     const DepthSurface surface = pair.surface(state_.shape, settings.bump.get());

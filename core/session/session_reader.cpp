@@ -9,7 +9,6 @@
 #include <fstream>
 #include <string_view>
 #include <system_error>
-#include <utility>
 
 #include "core/error.hpp"
 #include "core/session/session_schema.hpp"
@@ -64,21 +63,14 @@ SessionReader::SessionReader(const std::filesystem::path& file) : file_(file) {
     set_bounds();
     check_kind();
     check_tables();
-    make_tick_view();
 }
 
 void SessionReader::set_bounds() {
     sqlite3* const database = database_.get();
-    // Anybody may have made the file: its tables run nothing, its views nothing at all, every cell
-    // is checked, and no value is longer than anybody would write.
-    for (const auto& [setting, value] : {std::pair{SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0},
-                                         {SQLITE_DBCONFIG_ENABLE_TRIGGER, 0},
-                                         {SQLITE_DBCONFIG_ENABLE_VIEW, 0},
-                                         {SQLITE_DBCONFIG_DEFENSIVE, 1}}) {
-        sqlite3_db_config(database, setting, value, nullptr);
-    }
-    sqlite3_exec(database, "PRAGMA cell_size_check = ON; PRAGMA temp_store = MEMORY", nullptr,
-                 nullptr, nullptr);
+    // Anybody may have made the file: its tables run nothing, every cell is checked, and no value
+    // is longer than anybody would write.
+    sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+    sqlite3_exec(database, "PRAGMA cell_size_check = ON", nullptr, nullptr, nullptr);
     sqlite3_limit(database, SQLITE_LIMIT_LENGTH, kLongestValue_bytes);
     sqlite3_progress_handler(database, kStepsPerLook, &SessionReader::is_work_over, this);
 }
@@ -102,15 +94,8 @@ int SessionReader::is_work_over(void* reader) noexcept {
     return 0;
 }
 
-/// The file's own view is not asked, but who reads the file with another program sees it.
-void SessionReader::make_tick_view() {
-    std::string view = tick_view();
-    view.insert(view.find("VIEW"), "TEMP ");
-    if (sqlite3_exec(database_.get(), view.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) {
-        refuse();
-    }
-}
-
+/// What is read are the tables of a recording and the view that dibhr makes of them: no other that
+/// could go on for ever.
 void SessionReader::check_tables() const {
     std::string names;
     for (const std::string_view name : session_tables()) {

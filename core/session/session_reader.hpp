@@ -35,7 +35,6 @@ class SessionReader {
     void set_bounds();
     void check_kind() const;
     void check_tables() const;
-    void make_tick_view();
     /// For one question: as many steps as all that the file can hold are worth.
     void allow_work() const;
     static int is_work_over(void* reader) noexcept;

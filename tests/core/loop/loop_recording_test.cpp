@@ -80,6 +80,21 @@ void jump_about(Bench& bench, HapticTick& tick, int columns, int rows) {
     }
 }
 
+/// Replays a session to the same bits, tick by tick; gives how many ticks have `flag`.
+std::uint64_t replayed(const Session& session, const FrameWindow& window, bool TickRecord::*flag) {
+    WindowFrames frames(window);
+    SessionReplay replay(session, frames, {{}});
+    std::uint64_t flagged = 0;
+    while (replay.next()) {
+        const TickRecord& recorded = replay.recorded();
+        CAPTURE(recorded.tick);
+        REQUIRE(same_bits(replay.touch(0), recorded));
+        REQUIRE(replay.touch(0).proxy.bound_met == recorded.catching_up);
+        flagged += recorded.*flag ? 1 : 0;
+    }
+    return flagged;
+}
+
 }  // namespace
 
 TEST_CASE("every tick is recorded, in order", "[loop]") {
@@ -182,15 +197,7 @@ TEST_CASE("what the loop records replays to the same bits, whenever the recordin
     const Session session(file);
     CHECK(session.rows() == 3135);
     CHECK(session.missing() == 0);
-    WindowFrames frames(window);
-    SessionReplay replay(session, frames, {{}});
-    int in_contact = 0;
-    while (replay.next()) {
-        CAPTURE(replay.recorded().tick);
-        REQUIRE(same_bits(replay.touch(0), replay.recorded()));
-        in_contact += replay.recorded().contact ? 1 : 0;
-    }
-    CHECK(in_contact > 1000);
+    CHECK(replayed(session, window, &TickRecord::contact) > 1000);
 }
 
 TEST_CASE("parameters that change in contact, and again on their way, replay to the same bits",
@@ -219,16 +226,7 @@ TEST_CASE("parameters that change in contact, and again on their way, replay to 
             run_ticks(tick, k % 20 == 0 ? 300 : 17);
         }
     }
-    const Session session(file);
-    WindowFrames frames(window);
-    SessionReplay replay(session, frames, {{}});
-    int gliding = 0;
-    while (replay.next()) {
-        CAPTURE(replay.recorded().tick);
-        REQUIRE(same_bits(replay.touch(0), replay.recorded()));
-        gliding += replay.recorded().gliding ? 1 : 0;
-    }
-    CHECK(gliding > 1000);
+    CHECK(replayed(Session(file), window, &TickRecord::gliding) > 1000);
 }
 
 TEST_CASE("ticks that end before the proxy has caught up are counted, and replay to the same bits",
@@ -253,16 +251,7 @@ TEST_CASE("ticks that end before the proxy has caught up are counted, and replay
         jump_about(bench, tick, 640, 480);
     }
     const HapticState& last = bench.state.front();
-    const Session session(file);
-    WindowFrames frames(window);
-    SessionReplay replay(session, frames, {{}});
-    std::uint64_t catching_up = 0;
-    while (replay.next()) {
-        CAPTURE(replay.recorded().tick);
-        REQUIRE(same_bits(replay.touch(0), replay.recorded()));
-        REQUIRE(replay.touch(0).proxy.bound_met == replay.recorded().catching_up);
-        catching_up += replay.recorded().catching_up ? 1 : 0;
-    }
+    const std::uint64_t catching_up = replayed(Session(file), window, &TickRecord::catching_up);
     CHECK(catching_up > 12);  // or this would prove little
     CHECK(catching_up < 48);
     CHECK(last.bounds_met == catching_up);
