@@ -4,7 +4,9 @@
 #include <cstring>
 #include <exception>
 #include <iostream>
+#include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "app/commands/command_line.hpp"
@@ -39,6 +41,15 @@ int exit_code_of(const std::vector<std::string>& arguments) {
     } catch (const dibhr::UsageError& error) {
         dibhr::print_error_line(error.what());
         return kBadUsage;
+    } catch (const std::bad_alloc&) {
+        dibhr::print_error_line(
+            "not enough memory: close other programs, raise the limit (ulimit -v), or take a "
+            "smaller video");
+        return kFailure;
+    } catch (const std::system_error& error) {
+        dibhr::print_error_line(std::string("the system refused a thread or a file (") +
+                                error.what() + "): close other programs or raise its limits");
+        return kFailure;
     } catch (const std::exception& error) {
         dibhr::print_error_line(error.what());
         return kFailure;

@@ -119,6 +119,27 @@ void ShaderProgram::set(const char* name, const glm::mat4& value) const {
     glUniformMatrix4fv(glGetUniformLocation(name_, name), 1, GL_FALSE, glm::value_ptr(value));
 }
 
+void wait_for_drawing(const std::function<bool()>& go_on) {
+    constexpr GLuint64 kStep_ns = 20'000'000;
+    const GLsync fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    while (glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, kStep_ns) == GL_TIMEOUT_EXPIRED &&
+           go_on()) {
+    }
+    glDeleteSync(fence);
+}
+
+void require_graphics() {
+    if (epoxy_has_gl_extension("GL_ARB_robustness") &&
+        glGetGraphicsResetStatusARB() != GL_NO_ERROR) {
+        throw DeviceError("the graphics driver was reset: start dibhr again");
+    }
+    if (glGetError() == GL_OUT_OF_MEMORY) {
+        throw DeviceError(
+            "the graphics driver is out of memory: close other programs, or make the window "
+            "smaller with --size");
+    }
+}
+
 GlLimits read_limits() {
     if (!epoxy_is_desktop_gl() || epoxy_gl_version() < 33) {
         throw DeviceError(

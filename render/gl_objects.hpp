@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -79,6 +80,13 @@ struct GlLimits {
 
 /// Throws DeviceError when the current context is older than OpenGL 3.3.
 [[nodiscard]] GlLimits read_limits();
+
+/// Waits until all is drawn, or until `go_on`, which is asked every 20 ms, says no.
+void wait_for_drawing(const std::function<bool()>& go_on);
+
+/// After a picture. Throws DeviceError when the driver was reset or is out of memory: then nothing
+/// is drawn any more.
+void require_graphics();
 
 /// Colour and depth of `size` pixels. Bound from construction to destruction, which puts back the
 /// framebuffer and the viewport of before.

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <filesystem>
@@ -17,9 +18,12 @@
 #include "app/settings/assets_path.hpp"
 #include "app/settings/command_options.hpp"
 #include "app/viewer/viewer.hpp"
+#include "app/window/crash_handler.hpp"
+#include "app/window/ending.hpp"
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/replay/session_player.hpp"
+#include "device/falcon/guardian.hpp"
 
 namespace dibhr {
 
@@ -48,6 +52,29 @@ std::pair<int, int> parse_size(const std::string& text) {
         at = stop + 1;
     }
     return {size[0], size[1]};
+}
+
+void add_stability_option(CLI::App& app, std::optional<bool>& on) {
+    app.add_option_function<std::string>(
+           "--stability",
+           [&on](const std::string& word) {
+               if (word != "on" && word != "off")
+                   throw CLI::ValidationError("--stability",
+                                              "'" + word + "' is neither on nor off");
+               on = word == "on";
+           },
+           "on: damping as the device needs it, and no energy that rendering creates; off: for "
+           "experiments that must not have it")
+        ->type_name("on|off")
+        ->default_str("on");
+}
+
+/// A person's own damping, instead of what the device needs.
+bool gives_damping(const GivenParameters& given) {
+    return std::any_of(
+        touch_numbers().begin(), touch_numbers().end(), [&](const TouchNumber& number) {
+            return number.topic == TouchTopic::damper && given.value_of(number) != nullptr;
+        });
 }
 
 void check_device(const std::string& device) {
@@ -159,6 +186,8 @@ int run_view(CLI::App& app, const Arguments& arguments) {
                  "Replays a session also over files that have changed since");
     add_algorithm_option(app, touch.given);
     add_touch_options(app, touch);
+    std::optional<bool> stability;
+    add_stability_option(app, stability);
     app.footer(
         "Examples:\n"
         "  dibhr                                  the built-in sample\n"
@@ -175,16 +204,23 @@ int run_view(CLI::App& app, const Arguments& arguments) {
                          "'; see dibhr --help");
     }
     if (names_session(options.colour)) require_replay_options(options, touch);
+    LastWords words;
+    const CrashHandler crash(words, &falcon::Guardian::alarm);
+    Ending ending(words);
     options.in_file = options.settings = load_settings(settings_path());
     Settings& settings = options.settings;
     touch.given.apply(settings.touch);
+    if (stability) settings.stability = *stability;
+    if (gives_damping(touch.given)) settings.damping_as_needed = false;
     if (size) std::tie(settings.width, settings.height) = *size;
     if (touch.raw_depth) settings.cleaning = {false, false, false};
     options.given = touch.given;
     options.bump = touch.bump;
     require_writable_outputs(options);
-    EndingSignals signals;
-    Viewer viewer(options, open_parts(options), signals);
+    words.doing("opening the files");
+    ViewerParts parts = open_parts(options);
+    words.doing("opening the window");
+    Viewer viewer(options, std::move(parts), ending);
     viewer.run();
     return 0;
 }

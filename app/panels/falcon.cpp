@@ -270,6 +270,7 @@ void draw_falcon_state(ViewerState& state) {
             ImGui::TextWrapped("%s", sentence.c_str());
         }
     }
+    if (!status.unguarded.empty()) trouble_text(capitalised(status.unguarded));
     if (status.stage == Stage::no_firmware) {
         const std::string& trouble = state.falcon->firmware_trouble;
         if (!trouble.empty()) trouble_text(capitalised(trouble));

@@ -28,10 +28,24 @@ bool needs_its_person(falcon::Stage stage) {
     return stage != Stage::looking && stage != Stage::ready;
 }
 
+const DeviceLimits& limits_of_hand(const ViewerState& state) {
+    const auto& now = state.haptic.hand.limits;
+    return now ? *now : state.device.limits;
+}
+
+Coupling asked_coupling(const ViewerState& state) {
+    const Settings& settings = state.settings;
+    const Coupling& chosen = settings.touch.coupling;
+    if (state.replay || !settings.stability || !settings.damping_as_needed) return chosen;
+    const DeviceLimits& hand = limits_of_hand(state);
+    const double felt_stiffness = held_coupling(chosen, hand).stiffness_newton_per_mm;
+    return stable_coupling(chosen, felt_stiffness, hand.dynamics);
+}
+
 Coupling felt_coupling(const ViewerState& state) {
-    const Coupling& wished = state.settings.touch.coupling;
-    if (!may_touch(state)) return wished;
-    return held_coupling(wished,
+    const Coupling asked = asked_coupling(state);
+    if (!may_touch(state)) return asked;
+    return held_coupling(asked,
                          at_scale(state.device.limits, state.settings.falcon.workspace.scale));
 }
 

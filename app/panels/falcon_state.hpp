@@ -7,7 +7,14 @@
 
 namespace dibhr {
 
-/// To say what is felt of the coupling that is wished, where the Falcon touches or may begin to
+/// The coupling that the loop is asked for: the chosen one, with the damping that the hand needs
+/// where a person leaves it at that.
+[[nodiscard]] Coupling asked_coupling(const ViewerState& state);
+
+/// What the hand of the last tick can stand.
+[[nodiscard]] const DeviceLimits& limits_of_hand(const ViewerState& state);
+
+/// To say what is felt of the coupling that is asked for, where the Falcon touches or may begin to
 /// before the next picture. (The loop holds it to what the hand it reads can stand.)
 [[nodiscard]] Coupling felt_coupling(const ViewerState& state);
 

@@ -23,12 +23,46 @@ void draw_origin(ViewerState& state) {
 /// Says so when the Falcon cannot be as stiff, or damp as much, as it was asked for.
 void draw_held_coupling(const ViewerState& state) {
     const Coupling held = felt_coupling(state);
-    if (!(held == state.settings.touch.coupling)) {
+    if (!(held == asked_coupling(state))) {
         quiet_text(
             formatted("Felt as %.2f N/mm and %.1f N s/m: at this scale of the workspace the Falcon "
                       "can give no more.",
                       held.stiffness_newton_per_mm, held.damping_newton_s_per_m));
     }
+}
+
+/// Damping as the hand needs it, or a person's own; what is watched, and how it goes.
+void draw_stability(ViewerState& state) {
+    Settings& settings = state.settings;
+    const DeviceDynamics& hand = limits_of_hand(state).dynamics;
+    if (state.replay || !hand.moves()) {  // the mouse's does not
+        draw_numbers(TouchTopic::damper, settings.touch);
+        return;
+    }
+    flag_row("Stability control", settings.stability, true,
+             "Takes out the energy that rendering itself creates, and flicker of the depth "
+             "(--stability); off for experiments that must not have it");
+    if (settings.stability) {
+        flag_row("Damping as the hand needs", settings.damping_as_needed, true,
+                 "As much as the device's delay asks for at this stiffness; else your own");
+    }
+    const Coupling felt = felt_coupling(state);
+    if (felt == held_coupling(settings.touch.coupling, limits_of_hand(state))) {
+        draw_numbers(TouchTopic::damper, settings.touch);
+    } else {
+        fact_row("Damping", formatted("%.1f N s/m below %.0f Hz", felt.damping_newton_s_per_m,
+                                      felt.damping_cutoff_hz));
+    }
+    const double margin = stability_margin(felt, hand);
+    fact_row("Stability margin", formatted("%+.1f N s/m", margin));
+    if (margin < 0.0) trouble_text("A light or free grip swings: damp more, or be less stiff.");
+    const EnergyFlow& energy = state.haptic.touch.energy;
+    fact_row("Energy",
+             formatted("video %.1f, created %.1f mW", energy.from_video_mw, energy.created_mw));
+    constexpr double kNoticed_mw = 0.05;
+    fact_row("Controller", energy.taken_out_mw < kNoticed_mw
+                               ? "quiet"
+                               : formatted("takes out %.1f mW", energy.taken_out_mw));
 }
 
 void draw_bump(ViewerState& state) {
@@ -56,7 +90,7 @@ void draw_touch_panel(ViewerState& state) {
         "How the proxy follows the goal (--algorithm); another one goes on from where it is");
     draw_numbers(TouchTopic::spring, state.settings.touch);
     draw_held_coupling(state);
-    draw_numbers(TouchTopic::damper, state.settings.touch);
+    draw_stability(state);
     draw_numbers(TouchTopic::friction, state.settings.touch);
     draw_bump(state);
     draw_numbers(TouchTopic::texture, state.settings.touch);

@@ -253,7 +253,12 @@ Settings load_settings(const fs::path& file) {
 
 void save_settings(const Settings& settings, const fs::path& file) {
     std::error_code failed;
-    fs::create_directories(file.parent_path(), failed);
+    const fs::path folder = file.parent_path();
+    fs::create_directories(folder, failed);
+    if (failed) {
+        throw InputError("the settings are not kept: the folder " + folder.string() +
+                         " cannot be written (" + failed.message() + "); make it writable");
+    }
     try {
         OutputFile out(file);
         out.write("# dibhr writes this file; change it while it is not running.\nversion = " +
@@ -274,7 +279,9 @@ std::vector<Setting> list_of(Settings& s) {
                               {"panels", "device", &s.panels.device},
                               {"panels", "session", &s.panels.session},
                               {"panels", "loop", &s.panels.loop},
-                              {"touch", "algorithm", &s.touch.algorithm}};
+                              {"touch", "algorithm", &s.touch.algorithm},
+                              {"touch", "stability", &s.stability},
+                              {"touch", "damping-as-needed", &s.damping_as_needed}};
     for (const TouchNumber& number : touch_numbers()) {
         list.push_back({"touch", number.name, &number.in(s.touch), number.lowest, number.highest});
     }

@@ -40,6 +40,8 @@ struct Settings {
     PanelsOpen panels{};
     bool panels_visible{true};
     TouchParameters touch{};
+    bool stability{true};          ///< energy that rendering creates is taken out
+    bool damping_as_needed{true};  ///< with stability: not that of `touch`, but what the hand needs
     CleaningOptions cleaning{};
     ReliefLook look{};
     bool straight_view{false};

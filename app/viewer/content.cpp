@@ -125,8 +125,17 @@ void Viewer::stretch_bump() try {
 void Viewer::start_loop() {
     hand_over_settings();
     haptic_state_.publish(HapticState{});  // what the loop before it did is past
-    loop_ = std::make_unique<HapticLoop>(HapticConnections{
-        *hand_.device, player_.haptics(), haptic_settings_, haptic_state_, *forces_, *ticks_});
+    standstills_ = 0;
+    heart_.beat();
+    loop_ = std::make_unique<HapticLoop>(
+        HapticConnections{*hand_.device,
+                          player_.haptics(),
+                          haptic_settings_,
+                          haptic_state_,
+                          *forces_,
+                          *ticks_,
+                          {&heart_, &player_.heart(), &recording_.heart()},
+                          &ending_.asked()});
 }
 
 void Viewer::draw_scene(glm::ivec2 viewport) {

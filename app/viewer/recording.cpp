@@ -34,6 +34,8 @@ std::map<std::string, std::string> session_facts(const ViewerState& state) {
         {"depth-rows", std::to_string(state.media.depth_rows)},
         {"bump", state.bump_file.string()},
         {"max-force", number_text(state.settings.max_force_newton)},
+        {"stability", state.settings.stability ? "on" : "off"},
+        {"damping-as-needed", state.settings.damping_as_needed ? "yes" : "no"},
     };
     facts.merge(library_versions());
     for (const TouchNumber& number : touch_numbers()) {
@@ -70,7 +72,8 @@ void ViewerRecording::start(const std::filesystem::path& file, ViewerState& stat
     std::map<std::string, std::string> facts = session_facts(state);
     facts.emplace(kParticipant, participant_);
     facts.emplace(kNote, note_);
-    recorder_ = std::make_unique<Recorder>(file, ticks_, facts);
+    recorder_ = std::make_unique<Recorder>(file, ticks_, facts, &heart_);
+    words_.recording(file);
     std::uint32_t number = 0;
     for (const MediaDescription& media : opened_) {
         recorder_->media(++number, media.colour_path, media.depth_path);
@@ -91,7 +94,7 @@ std::string ViewerRecording::stop(ViewerState& state) {
         return {};
     }
     state.recorded_file = state.recording->file;
-    recorder_.reset();
+    leave();
     state.recording.reset();
     state.fields.note = {};  // it was about this one
     return "Recorded " + std::to_string(recorded.rows) + " ticks into " +
@@ -99,9 +102,12 @@ std::string ViewerRecording::stop(ViewerState& state) {
 }
 
 void ViewerRecording::break_off(ViewerState& state, const std::string& failure) {
-    state.recording_trouble = state.message = failure;
+    state.recording_trouble = failure;
+    // What is felt from here on nobody could look up: whoever relies on it is to notice.
+    state.force_enabled = false;
+    state.message = failure + ". The force is off until it is switched on again (F).";
     if (failure_.empty()) failure_ = failure;
-    recorder_.reset();
+    leave();
     state.recording.reset();
 }
 
@@ -146,8 +152,13 @@ void ViewerRecording::take_news(ViewerState& state) {
     if (!failure.empty()) break_off(state, failure);
 }
 
-void ViewerRecording::finish() {
-    const std::string last = recorder_ ? recorder_->finish().failure : std::string{};
+void ViewerRecording::leave() {
+    recorder_.reset();
+    words_.recording({});
+}
+
+void ViewerRecording::finish(std::chrono::milliseconds for_sums) {
+    const std::string last = recorder_ ? recorder_->finish(for_sums).failure : std::string{};
     if (failure_.empty()) failure_ = last;
     if (!failure_.empty()) throw InputError(failure_);
 }

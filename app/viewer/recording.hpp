@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/panels/viewer_state.hpp"
+#include "app/window/last_words.hpp"
 #include "core/loop/haptic_tick.hpp"
 #include "core/session/recorder.hpp"
 #include "core/video/media.hpp"
@@ -18,7 +19,7 @@ namespace dibhr {
 class ViewerRecording {
   public:
     /// `ticks` outlives it: the haptic loop's end.
-    explicit ViewerRecording(TickRing& ticks) : ticks_(ticks) {}
+    ViewerRecording(TickRing& ticks, LastWords& words) : ticks_(ticks), words_(words) {}
 
     /// A video that ticks will refer to by the number given back.
     [[nodiscard]] std::uint32_t opened(const MediaDescription& media);
@@ -39,14 +40,23 @@ class ViewerRecording {
     /// that broke off ends.
     void take_news(ViewerState& state);
 
-    /// At the end of the program. Throws InputError when a recording broke off.
-    void finish();
+    /// At the end of the program; waits so long for sums of large files. Throws InputError when a
+    /// recording broke off.
+    void finish(std::chrono::milliseconds for_sums = Recorder::kPatience);
+
+    /// Of the thread that writes: silent while that waits for the disk.
+    [[nodiscard]] const Heartbeat& heart() const noexcept { return heart_; }
 
   private:
     void break_off(ViewerState& state, const std::string& failure);
     [[nodiscard]] double now_s() const;
 
+    /// Lets the recorder go.
+    void leave();
+
     TickRing& ticks_;
+    LastWords& words_;
+    Heartbeat heart_{};                       // before the recorder, which beats it
     std::vector<MediaDescription> opened_{};  // what the frames' media numbers mean, from 1 on
     std::unique_ptr<Recorder> recorder_{};    // null: not recording
     std::uint64_t told_version_{0};           // of the parameters

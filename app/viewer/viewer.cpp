@@ -2,10 +2,12 @@
 #include "app/viewer/viewer.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 #include "app/panels/falcon_state.hpp"
 #include "app/panels/panels.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/haptics/surface.hpp"
 #include "render/gl_objects.hpp"
 
@@ -17,30 +19,58 @@ using std::chrono::steady_clock;
 
 constexpr double kNoticeTime_s = 4.0;
 constexpr double kCatchingUpTime_s = 0.3;  // also of a single tick: else it would flicker
+/// For the sums of large files, when the end is asked for by a signal or there is no display.
+constexpr auto kPatienceAtAnEnd = std::chrono::milliseconds(200);
 constexpr auto kPictureTime = std::chrono::nanoseconds(1'000'000'000 / 60);
+/// A software drawer that takes longer for a picture stands still.
+constexpr auto kLongestDrawing = std::chrono::seconds(1);
 constexpr auto kSoftwarePictureTime = std::chrono::nanoseconds(1'000'000'000 / 30);
 
-std::chrono::nanoseconds shortest_picture(bool sync) {
+std::chrono::nanoseconds shortest_picture(bool sync, bool software) {
     if (!sync) return std::chrono::nanoseconds(0);
-    return read_limits().software ? kSoftwarePictureTime : kPictureTime;
+    return software ? kSoftwarePictureTime : kPictureTime;
+}
+
+std::string text_of(const Standstill& last) {
+    const char* const of = last.of == Standstill::Of::window  ? "The window"
+                           : last.of == Standstill::Of::video ? "Reading the video"
+                                                              : "Writing the recording";
+    return std::string(of) + " stood still for " + number_text(last.seconds, 1) +
+           " s: the force was off";
+}
+
+/// DIBHR_TEST_HANG_AFTER_S: so long after its first picture the window's thread loops for ever, as
+/// the tests of what then takes the force off want it.
+std::optional<double> hang_asked_for() {
+    const char* const text = std::getenv("DIBHR_TEST_HANG_AFTER_S");
+    if (text == nullptr) return std::nullopt;
+    return std::strtod(text, nullptr);
+}
+
+[[noreturn]] void hang() {
+    for (volatile bool ever = true; ever;) continue;
+    std::abort();
 }
 
 }  // namespace
 
-Viewer::Viewer(const ViewOptions& options, ViewerParts parts, EndingSignals& signals)
+Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending)
     : options_(options),
-      signals_(signals),
+      ending_(ending),
       hand_(std::move(parts.hand)),
       window_(options.settings.width, options.settings.height, options.sync, "dibhr"),
       gui_(window_),
-      pace_(shortest_picture(options.sync)),
+      software_(read_limits().software),
+      pace_(shortest_picture(options.sync, software_)),
       state_{.settings = options.settings},
       falcon_(hand_, state_),
       keeper_(options.in_file, options.settings, settings_path()),
       start_(steady_clock::now()),
+      hang_after_s_(hang_asked_for()),
       forces_(std::make_unique<ForceRing>()),
       ticks_(std::make_unique<TickRing>()),
-      recording_(*ticks_) {
+      recording_(*ticks_, ending.words()) {
+    window_.on_display_loss([this] { close_without_display(); });
     state_.device = hand_.device->specification();
     state_.bump = std::move(parts.bump);
     state_.bump_file = options.bump;
@@ -57,14 +87,46 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, EndingSignals& sig
 
 void Viewer::run() {
     start_ = steady_clock::now();
+    ending_.words().doing("drawing");
     while (!over()) {
         show_one_picture();
         pace_.wait();
+        if (hang_after_s_ && now_s() >= *hang_after_s_) hang();
     }
     finish();
 }
 
+/// Each time the display has answered: a beat is never younger than the last sign of it.
+void Viewer::beat() {
+    window_.meet_display();
+    heart_.beat();
+}
+
+/// On a busy machine software takes long, and goes on: the processor's threads draw, while this one
+/// hears of keys only with the next picture.
+void Viewer::beat_while_drawing() {
+    const auto latest = steady_clock::now() + kLongestDrawing;
+    wait_for_drawing([&] {
+        beat();
+        return steady_clock::now() < latest;
+    });
+}
+
+/// Ends what goes on, and writes what is to last, without the window.
+void Viewer::close_without_display() {
+    ending_.words().doing("closing without a display");
+    state_.message.clear();
+    loop_.reset();
+    attempt([this] { keeper_.finish(replay_.lasting(state_)); });
+    attempt([this] { screenshots_.finish(); });
+    attempt([this] { recording_.finish(kPatienceAtAnEnd); });
+    hand_.device.reset();
+    if (!state_.message.empty()) print_error_line(state_.message);
+}
+
 void Viewer::finish() {
+    const auto now = [this](const char* what) { ending_.words().doing(what); };
+    now("taking the force off");
     if (loop_) loop_->stop();  // no force is sent any more when files are written
     std::string failure;
     const auto try_to = [&failure](auto&& step) {
@@ -74,15 +136,21 @@ void Viewer::finish() {
             if (failure.empty()) failure = error.what();
         }
     };
+    now("writing the last picture");
     try_to([this] { write_last_picture(); });
+    now("saving the settings");
     try_to([this] { keeper_.finish(replay_.lasting(state_)); });
+    now("writing pictures");
     try_to([this] { screenshots_.finish(); });
-    try_to([this] { recording_.finish(); });
+    now("closing the recording");
+    try_to([this] { recording_.finish(ending_.asked() ? kPatienceAtAnEnd : Recorder::kPatience); });
+    now("closing the window");
     if (!failure.empty()) throw InputError(failure);
 }
 
 void Viewer::show_one_picture() {
     const WindowInput input = window_.take_input();
+    beat();
     state_.in_front = input.focus.in_front();
     take_news();
     take_keys(input);
@@ -91,11 +159,16 @@ void Viewer::show_one_picture() {
     const glm::ivec2 viewport = relief_viewport();
     move_hand(input, viewport);
     draw_scene(viewport);
+    beat();
     draw_panels();
+    beat();
     carry_out_requests();
     hand_over_settings();
     keep_settings();
+    if (software_) beat_while_drawing();
     window_.show_picture();
+    require_graphics();
+    beat();
 }
 
 void Viewer::take_news() {
@@ -103,6 +176,7 @@ void Viewer::take_news() {
     if (loop_) state_.haptic = haptic_state_.front();
     if (replay_.player() != nullptr) replay_.advance(state_);
     notice_catching_up();
+    notice_standstill();
     if (const auto notice = falcon_.take_news(state_)) tell(*notice);
     for (const Action action : falcon_.take_presses(state_)) perform(action);
     state_.touched = state_.touched || state_.haptic.touch.proxy.contact;
@@ -113,7 +187,10 @@ void Viewer::take_news() {
     take_opened();
     const std::string& failure =
         state_.replay ? state_.replay->playback.failure : state_.playback.failure;
-    if (!failure.empty() && failure != playback_failure_) state_.message = failure;
+    if (!failure.empty() && failure != playback_failure_) {
+        state_.message = failure;
+        print_error_line(failure);
+    }
     playback_failure_ = failure;
     attempt([this] {
         while (const auto notice = screenshots_.take()) tell(*notice);
@@ -128,6 +205,12 @@ void Viewer::notice_catching_up() {
     }
     bounds_met_ = haptic.bounds_met;
     state_.catching_up = now_s() < catching_up_until_s_;
+}
+
+void Viewer::notice_standstill() {
+    const Standstill& last = state_.haptic.standstill;
+    if (last.count > standstills_) tell(text_of(last));
+    standstills_ = last.count;
 }
 
 void Viewer::take_keys(const WindowInput& input) {
@@ -204,8 +287,10 @@ void Viewer::carry_out_requests() {
 void Viewer::hand_over_settings() {
     if (state_.replay) return;
     // As they are wished: the loop holds them to what the hand it reads can stand.
-    const TouchParameters& parameters = state_.settings.touch;
-    const SafetyLimits limits{.max_force_newton = state_.settings.max_force_newton};
+    TouchParameters parameters = state_.settings.touch;
+    parameters.coupling = asked_coupling(state_);
+    const SafetyLimits limits{.max_force_newton = state_.settings.max_force_newton,
+                              .stability = state_.settings.stability};
     const bool force_enabled = state_.force_enabled && !waits_for_front(state_);
     const bool same = handed_.version > 0 && handed_.parameters == parameters &&
                       handed_.limits == limits && !falcon_.tuning_changed(state_) &&
@@ -267,7 +352,7 @@ double Viewer::now_s() const {
 }
 
 bool Viewer::over() {
-    return signals_.arrived() || window_.wants_to_close() ||
+    return ending_.asked() || window_.wants_to_close() ||
            (options_.seconds && now_s() >= *options_.seconds);
 }
 

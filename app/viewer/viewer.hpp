@@ -17,7 +17,7 @@
 #include "app/viewer/input.hpp"
 #include "app/viewer/recording.hpp"
 #include "app/viewer/replay.hpp"
-#include "app/window/signals.hpp"
+#include "app/window/ending.hpp"
 #include "app/window/window.hpp"
 #include "core/error.hpp"
 #include "core/loop/haptic_tick.hpp"
@@ -54,8 +54,12 @@ struct ViewerParts {
 
 class Viewer {
   public:
-    /// Opens the window and starts the loop. `signals` must outlive it. Throws Error.
-    Viewer(const ViewOptions& options, ViewerParts parts, EndingSignals& signals);
+    /// Opens the window and starts the loop. `ending` must outlive it. Throws Error.
+    Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending);
+    /// From here on a display that goes away finds nothing left to close.
+    ~Viewer() { window_.on_display_loss({}); }
+    Viewer(const Viewer&) = delete;
+    Viewer& operator=(const Viewer&) = delete;
 
     /// Until the window is closed or the asked time is over. Throws InputError when the last
     /// picture or the settings cannot be written.
@@ -65,6 +69,7 @@ class Viewer {
     void show_one_picture();
     void take_news();
     void notice_catching_up();
+    void notice_standstill();
     void take_opened();
     void take_keys(const WindowInput& input);
     void perform(Action action);
@@ -83,7 +88,10 @@ class Viewer {
     void load_bump(const std::filesystem::path& file);
     void stretch_bump();
     void start_or_stop_recording();
+    void beat();
+    void beat_while_drawing();
     void finish();
+    void close_without_display();
     void write_last_picture();
     void tell(const std::string& notice);
     /// Takes a step; its failure goes into the message box, and the program goes on.
@@ -102,11 +110,13 @@ class Viewer {
     // In order of making; the loop goes first, so that no force is sent while the rest
     // ends.
     ViewOptions options_;
-    EndingSignals& signals_;
+    Ending& ending_;
+    Heartbeat heart_{};  // of the window's thread and the display
     HandDevice hand_;
     Window window_;
     Gui gui_;
     SceneView scene_{};
+    bool software_;  // draws
     PicturePace pace_;
     Camera camera_{};
     ReliefMouse mouse_{};
@@ -122,8 +132,10 @@ class Viewer {
     float hint_alpha_{1.0F};
     std::string playback_failure_{};  // as told
     std::uint64_t bounds_met_{0};     // as of the last picture
+    std::uint64_t standstills_{0};    // as told
     double catching_up_until_s_{0.0};
     std::chrono::steady_clock::time_point start_{};
+    std::optional<double> hang_after_s_{};  // for a test
     Player player_{};
     TripleBuffer<HapticSettings> haptic_settings_{};
     TripleBuffer<HapticState> haptic_state_{};

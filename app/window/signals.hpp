@@ -14,6 +14,8 @@ class EndingSignals {
 
     /// Whether one that ends has arrived since the last call.
     [[nodiscard]] bool arrived();
+    /// Can be read when one may have arrived; negative: none is held back.
+    [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
 
   private:
     int descriptor_{-1};

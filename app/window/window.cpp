@@ -7,15 +7,20 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <new>
 #include <thread>
 #include <utility>
 
 #include "app/settings/settings.hpp"
+#include "app/window/display_loss.hpp"
 #include "core/error.hpp"
+#include "core/files/plain_text.hpp"
 
 namespace dibhr {
 
@@ -47,7 +52,16 @@ GLFWwindow* open_window(int width, int height, const std::string& title) {
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
     glfwWindowHint(GLFW_DEPTH_BITS, 24);
+    // Where the driver can: its reset is told, and not a crash.
+    glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
     return glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
+}
+
+/// ImGui takes for granted that there is memory.
+void* allocate_or_throw(std::size_t bytes, void*) {
+    void* const memory = std::malloc(std::max<std::size_t>(bytes, 1));
+    if (memory == nullptr) throw std::bad_alloc();
+    return memory;
 }
 
 constexpr float kTextHeight_px = 13.5F;
@@ -129,6 +143,7 @@ Window::Window(int width, int height, bool sync, const std::string& title) : siz
         throw DeviceError(
             "no display: set DISPLAY, or unset it and use ./app/run, which makes a virtual one");
     }
+    when_display_goes(display_lost_);
     window_ = open_window(width, height, title);
     if (window_ == nullptr) {
         const char* reason = nullptr;
@@ -176,6 +191,13 @@ void Window::collect_events() {
     glfwSetWindowIconifyCallback(window_, [](GLFWwindow* window, int iconified) {
         input_of(window).focus.iconified = iconified == GLFW_TRUE;
     });
+}
+
+void Window::leave_without_display() {
+    if (on_display_loss_) on_display_loss_();
+    print_error_line("the display went away: start dibhr again when it is back");
+    // No destructor and no handler of exit(): a driver's would talk to the display.
+    _exit(EXIT_FAILURE);
 }
 
 bool Window::wants_to_close() const {
@@ -259,6 +281,7 @@ void PicturePace::wait() {
 
 Gui::Gui(const Window& window) : scale_(window.content_scale()) {
     IMGUI_CHECKVERSION();
+    ImGui::SetAllocatorFunctions(allocate_or_throw, [](void* memory, void*) { std::free(memory); });
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
     ImGui::StyleColorsDark();

@@ -4,8 +4,10 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 struct GLFWwindow;
@@ -62,6 +64,10 @@ class Window {
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
+    /// What is to be done when the display goes away, before the program ends with a line and
+    /// status 1; without the window.
+    void on_display_loss(std::function<void()> act) { on_display_loss_ = std::move(act); }
+
     [[nodiscard]] bool wants_to_close() const;
     void close();
 
@@ -74,12 +80,18 @@ class Window {
     void set_title(const std::string& title);
     void toggle_full_screen();
     void show_picture();  ///< swaps; waits for the display when in sync
+    /// Asks the display server something and waits for its answer: shows that it goes on. (Under
+    /// Wayland nothing is asked.)
+    void meet_display() const { static_cast<void>(framebuffer_size()); }
 
     [[nodiscard]] GLFWwindow* handle() const { return window_; }
 
   private:
     void collect_events();
+    [[noreturn]] void leave_without_display();
 
+    std::function<void()> on_display_loss_{};
+    const std::function<void()> display_lost_{[this] { leave_without_display(); }};
     GLFWwindow* window_{nullptr};
     WindowInput input_{};
     glm::ivec2 place_{0};  // before the full screen

@@ -65,13 +65,13 @@ struct TraceSample {
 /// - place: x_mm and y_mm, or x and y, or x01 and y01
 /// - optional: pressure or pressure01 (0 to 1, held in it), pen_down (0 or 1)
 /// Throws InputError naming file and line for a column that is missing or there twice, a value that
-/// is no finite number, times that fall, or fewer than two different times.
+/// is no finite number, a place beyond 1e9, times that fall, or fewer than two different times.
 [[nodiscard]] std::vector<TraceSample> read_trace(const std::filesystem::path& file);
 
-/// The trace at one update a millisecond: rows at one time become their mean, a pause becomes a
-/// smooth way of at most half a second, and what is shorter than `updates` is run back and forth.
-/// Full pressure is 25 px below the surface, a lifted pen 3 px above it. `samples` as read_trace
-/// gives them; `name` is what the report calls it.
+/// The trace at one update a millisecond: rows at one time (to the nanosecond) become their mean, a
+/// pause becomes a smooth way of at most half a second, and what is shorter than `updates` is run
+/// back and forth. Full pressure is 25 px below the surface, a lifted pen 3 px above it. `samples`
+/// as read_trace gives them; `name` is what the report calls it.
 [[nodiscard]] HandMotion motion_of_trace(const std::vector<TraceSample>& samples,
                                          const std::string& name, int updates = kExperimentUpdates);
 

@@ -14,6 +14,7 @@
 
 #include "core/error.hpp"
 #include "core/files/csv_table.hpp"
+#include "core/files/plain_text.hpp"
 
 namespace dibhr {
 
@@ -21,6 +22,8 @@ namespace {
 
 constexpr double kFullPressure_px = 25.0;
 constexpr double kLongestPause_s = 0.5;
+constexpr double kOneTime_s = 1e-9;     // no trace tells times apart that are nearer
+constexpr double kFarthestPlace = 1e9;  // of any unit: beyond all traces, and no sum overflows
 
 double penetration_of(const TraceSample& sample) {
     return sample.down ? kFullPressure_px * sample.pressure : -kLifted_px;
@@ -41,7 +44,7 @@ Columns merged(const std::vector<TraceSample>& samples) {
         Vec2 place{0.0};
         double penetration_px = 0.0;
         std::size_t end = begin;
-        for (; end < samples.size() && samples[end].t_s == samples[begin].t_s; ++end) {
+        for (; end < samples.size() && samples[end].t_s - samples[begin].t_s < kOneTime_s; ++end) {
             place += samples[end].place;
             penetration_px += penetration_of(samples[end]);
         }
@@ -103,13 +106,20 @@ class TraceColumns {
     [[nodiscard]] TraceSample sample() const {
         TraceSample sample;
         sample.t_s = table_.number(time_) / per_second_;
-        sample.place = {table_.number(x_), table_.number(y_)};
+        sample.place = {place(x_), place(y_)};
         sample.pressure = pressure_ ? std::clamp(table_.number(*pressure_), 0.0, 1.0) : kNoPressure;
         sample.down = !pen_down_ || table_.number(*pen_down_) != 0.0;
         return sample;
     }
 
   private:
+    [[nodiscard]] double place(std::size_t column) const {
+        const double value = table_.number(column);
+        if (std::abs(value) <= kFarthestPlace) return value;
+        table_.refuse("the place " + short_text(value) +
+                      " is farther than any hand goes; give it in another unit");
+    }
+
     const CsvTable& table_;
     std::size_t time_{0}, x_{0}, y_{0};
     std::optional<std::size_t> pressure_, pen_down_;
@@ -173,7 +183,7 @@ std::vector<TraceSample> read_trace(const std::filesystem::path& file) {
             samples.size() > 1 && samples.back().t_s < samples[samples.size() - 2].t_s;
         if (falls) table.refuse("the time falls; sort the rows by time");
     }
-    if (samples.size() < 2 || samples.back().t_s == samples.front().t_s) {
+    if (samples.size() < 2 || samples.back().t_s - samples.front().t_s < kOneTime_s) {
         throw InputError(file.string() + ": has fewer than two rows at different times; " +
                          kWanted);
     }

@@ -155,8 +155,8 @@ class ConstraintWalk : private ProxyWalk {
     }
 
   private:
-    /// On the surface; or in the air, where the last move was spent over a ridge and the goal is not
-    /// below the surface.
+    /// On the surface; or in the air, where the last move was spent over a ridge and the goal is
+    /// not below the surface.
     void settle() noexcept {
         Vec3& p = proxy_.position;
         const double ground = surface_.elevation_at(p.x, p.y);

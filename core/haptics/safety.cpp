@@ -37,7 +37,8 @@ SafetyCut reason_to_cut(Vec3 force_newton, const SafetyInput& input,
     if (!input.force_enabled) return SafetyCut::off;
     if (!input.device_ready) return SafetyCut::device_not_ready;
     if (!(input.dt_s > 0.0 && input.dt_s <= limits.max_tick_s)) return SafetyCut::late_tick;
-    return goal_jumped(input, limits) ? SafetyCut::goal_jump : SafetyCut::none;
+    if (goal_jumped(input, limits)) return SafetyCut::goal_jump;
+    return input.standstill ? SafetyCut::standstill : SafetyCut::none;
 }
 
 }  // namespace
@@ -46,13 +47,22 @@ DeviceLimits usable(const DeviceLimits& device) noexcept {
     return {limit_or_zero(device.max_force_newton),
             limit_or_zero(device.max_stiffness_newton_per_mm),
             limit_or_zero(device.max_damping_newton_s_per_m),
-            limit_or_zero(device.max_goal_speed_mm_per_ms)};
+            limit_or_zero(device.max_goal_speed_mm_per_ms),
+            {limit_or_zero(device.dynamics.mass_kg),
+             limit_or_zero(device.dynamics.friction_newton_s_per_m),
+             limit_or_zero(device.dynamics.resolution_mm), limit_or_zero(device.dynamics.delay_s),
+             limit_or_zero(device.dynamics.margin_newton_s_per_m)}};
 }
 
 DeviceLimits at_scale(const DeviceLimits& device, double scale) noexcept {
-    return usable({device.max_force_newton, device.max_stiffness_newton_per_mm / scale,
-                   device.max_damping_newton_s_per_m / scale,
-                   device.max_goal_speed_mm_per_ms * scale});
+    return usable(
+        {device.max_force_newton,
+         device.max_stiffness_newton_per_mm / scale,
+         device.max_damping_newton_s_per_m / scale,
+         device.max_goal_speed_mm_per_ms * scale,
+         {device.dynamics.mass_kg / scale, device.dynamics.friction_newton_s_per_m / scale,
+          device.dynamics.resolution_mm * scale, device.dynamics.delay_s,
+          device.dynamics.margin_newton_s_per_m / scale}});
 }
 
 Coupling held_coupling(Coupling coupling, const DeviceLimits& device) noexcept {
@@ -69,6 +79,7 @@ SafetyLimits held_limits(SafetyLimits limits, const DeviceLimits& device) noexce
     const double asked = limits.max_force_newton;
     limits.max_force_newton = asked > 0.0 ? std::min(asked, most.max_force_newton) : 0.0;
     limits.max_goal_speed_mm_per_ms = most.max_goal_speed_mm_per_ms;
+    limits.watched = limits.stability ? most.dynamics : DeviceDynamics{};
     return limits;
 }
 
@@ -88,6 +99,8 @@ const char* name_of(SafetyCut cut) noexcept {
             return "late tick";
         case SafetyCut::goal_jump:
             return "goal jumped";
+        case SafetyCut::standstill:
+            return "window or disk stopped";
         case SafetyCut::none:
             break;
     }
@@ -96,17 +109,26 @@ const char* name_of(SafetyCut cut) noexcept {
 
 void SafetyStage::drop_to_zero() noexcept {
     ramp_age_s_ = 0.0;
-    sent_newton_ = Vec3(0.0);
+    sent_newton_ = fade_from_newton_ = Vec3(0.0);
 }
 
 Vec3 SafetyStage::limit(Vec3 force_newton, const SafetyInput& input,
                         const SafetyLimits& limits) noexcept {
+    const bool fading = cut_ == SafetyCut::standstill;
     cut_ = reason_to_cut(force_newton, input, limits);
-    if (cut_ != SafetyCut::none) {
+    if (cut_ != SafetyCut::none && cut_ != SafetyCut::standstill) {
         drop_to_zero();
         return sent_newton_;
     }
     if (input.from_zero) drop_to_zero();  // what was sent was another hand's, or another scale's
+    if (cut_ == SafetyCut::standstill) {
+        if (!fading) {
+            fade_from_newton_ = sent_newton_;
+            fade_age_s_ = 0.0;
+        }
+        sent_newton_ = faded(input, limits);
+        return sent_newton_;
+    }
     ramp_age_s_ = input.from_zero ? 0.0 : ramp_age_s_ + input.dt_s;
     const double ramp = limits.ramp_s > 0.0 ? std::min(1.0, ramp_age_s_ / limits.ramp_s) : 1.0;
     const Vec3 wanted = shortened(force_newton, limits.max_force_newton) * ramp;
@@ -114,6 +136,13 @@ Vec3 SafetyStage::limit(Vec3 force_newton, const SafetyInput& input,
     const Vec3 changed = sent_newton_ + shortened(wanted - sent_newton_, most_change);
     sent_newton_ = shortened(changed, limits.max_force_newton);
     return sent_newton_;
+}
+
+Vec3 SafetyStage::faded(const SafetyInput& input, const SafetyLimits& limits) noexcept {
+    ramp_age_s_ = 0.0;  // by which it comes back
+    fade_age_s_ += input.dt_s;
+    const double left = std::max(0.0, 1.0 - fade_age_s_ / kFade_s);
+    return shortened(fade_from_newton_ * left, limits.max_force_newton);
 }
 
 }  // namespace dibhr

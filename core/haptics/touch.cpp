@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "core/haptics/dibhr.hpp"
 #include "core/haptics/god_object.hpp"
@@ -12,18 +11,6 @@
 #include "core/haptics/pga.hpp"
 
 namespace dibhr {
-
-namespace {
-
-/// How much of the newest difference gets through: backward Euler, stable for every tick. Without
-/// exp(), so that the bits are the same on every machine.
-double share_of_newest(double dt_s, double cutoff_hz) noexcept {
-    if (!(dt_s > 0.0)) return 0.0;
-    if (!(cutoff_hz > 0.0)) return 1.0;
-    return dt_s / (dt_s + 1.0 / (2.0 * std::numbers::pi * cutoff_hz));
-}
-
-}  // namespace
 
 Vec3 coupling_force(const Proxy& proxy, Vec3 goal, Vec3 goal_velocity,
                     const Coupling& coupling) noexcept {
@@ -57,6 +44,8 @@ void TouchRenderer::reset() noexcept {
     for (const auto& algorithm : algorithms_) algorithm->reset();
     running_ = Algorithm::dibhr;
     goal_velocity_ = {};
+    video_motion_ = {};
+    passivity_ = {};
     safety_ = {};
     last_ = {};
     started_ = false;
@@ -68,6 +57,7 @@ void TouchRenderer::let_go() noexcept {
 
 void TouchRenderer::pause() noexcept {
     goal_velocity_.forget();
+    passivity_.sent(Vec3(0.0));
     safety_.drop_to_zero();
 }
 
@@ -87,6 +77,7 @@ const Touch& TouchRenderer::update(const DepthSurface& surface, Vec3 hand,
         last_.proxy.bound_met = false;
         last_.spring_force_newton = Vec3(0.0);
         last_.sent_force_newton = safety_.limit(Vec3(NAN), input, limits);
+        passivity_.sent(Vec3(0.0));
         last_.cut = safety_.last_cut();
         return last_;
     }
@@ -97,26 +88,78 @@ const Touch& TouchRenderer::update(const DepthSurface& surface, Vec3 hand,
     input.from_zero = input.from_zero || changed || !started_;
     started_ = true;
 
+    const double rise_px = limits.watched.moves() ? rise_under_proxy(surface) : 0.0;
     last_.goal = goal;
     last_.proxy =
         algorithms_[static_cast<std::size_t>(running_)]->update(surface, goal, parameters.friction);
-    if (input.from_zero || goal_jumped(input, limits)) goal_velocity_.forget();
-    const Vec3 goal_velocity =
-        goal_velocity_.after(goal_step, input.dt_s, parameters.coupling.damping_cutoff_hz);
     last_.spring_force_newton =
-        coupling_force(last_.proxy, goal, goal_velocity, parameters.coupling);
+        rendered_force(goal_step, rise_px, parameters.coupling, input, limits);
     last_.sent_force_newton =
         safety_.limit(last_.spring_force_newton + input.device_force_newton, input, limits);
+    passivity_.sent(last_.sent_force_newton - input.device_force_newton);
     last_.cut = safety_.last_cut();
+    last_.energy = passivity_.flow();
     return last_;
 }
 
-Vec3 GoalVelocity::after(Vec3 step, double dt_s, double cutoff_hz) noexcept {
-    const Vec3 difference = dt_s > 0.0 ? step / dt_s : Vec3(0.0);
+double TouchRenderer::rise_under_proxy(const DepthSurface& surface) const noexcept {
+    constexpr double kRoundOff_px = 1e-6;  // of a proxy on a still surface
+    const Proxy& proxy = last_.proxy;
+    if (proxy.bound_met) return 0.0;  // it is still on its way
+    const double rise = surface.elevation_at(proxy.position.x, proxy.position.y) - proxy.position.z;
+    const bool moved = std::abs(rise) > kRoundOff_px && (proxy.contact || rise > 0.0);
+    return moved ? rise : 0.0;
+}
+
+Vec3 TouchRenderer::rendered_force(Vec3 goal_step, double rise_px, const Coupling& coupling,
+                                   const SafetyInput& input, const SafetyLimits& limits) noexcept {
+    const DeviceDynamics& device = limits.watched;
+    const double mm = coupling.pixel_pitch_mm;
+    const bool goes_on = !input.from_zero && !goal_jumped(input, limits);
+    if (!goes_on) goal_velocity_.forget();
+    const double resolution_px = device.moves() ? device.resolution_mm / mm : 0.0;
+    const Vec3 velocity =
+        goal_velocity_.after(goal_step, input.dt_s, coupling.damping_cutoff_hz, resolution_px);
+    if (!device.moves()) {
+        video_motion_.forget();
+        passivity_ = {};
+        return coupling_force(last_.proxy, last_.goal, velocity, coupling);
+    }
+
+    const Proxy& proxy = last_.proxy;
+    if (!proxy.contact || !goes_on || !(input.dt_s > 0.0)) {
+        video_motion_.forget();
+        passivity_.pass(input.dt_s);
+        return coupling_force(proxy, last_.goal, velocity, coupling);
+    }
+    const double felt_rise_px = video_motion_.followed(rise_px, input.dt_s);
+    const Vec3 felt_from = last_.goal + Vec3(0.0, 0.0, video_motion_.lag_px());
+    const Vec3 force = coupling_force(proxy, felt_from, velocity, coupling);
+    if (safety_.rising(limits)) {
+        passivity_.pass(input.dt_s);
+        return force;
+    }
+    const PassivityControl::Tick tick{.dt_s = input.dt_s,
+                                      .goal_step_mm = goal_step * mm,
+                                      .lag_mm = (proxy.position - felt_from) * mm,
+                                      .stiffness_newton_per_mm = coupling.stiffness_newton_per_mm,
+                                      .max_force_newton = limits.max_force_newton,
+                                      .video_rise_mm = felt_rise_px * mm};
+    return force + passivity_.force_after(tick, device);
+}
+
+Vec3 GoalVelocity::difference(Vec3 step, double dt_s, double resolution) noexcept {
+    if (!(dt_s > 0.0)) return Vec3(0.0);
+    if (!(resolution > 0.0)) return step / dt_s;
+    return continues_ ? window_.after(step, dt_s, resolution) : Vec3(0.0);
+}
+
+Vec3 GoalVelocity::after(Vec3 step, double dt_s, double cutoff_hz, double resolution) noexcept {
+    const Vec3 difference = this->difference(step, dt_s, resolution);
     Vec3 filtered(0.0);
     if (continues_) {
         const Vec3 change = difference - filtered_px_per_s_;
-        filtered = filtered_px_per_s_ + share_of_newest(dt_s, cutoff_hz) * change;
+        filtered = filtered_px_per_s_ + share_of_newest(dt_s, time_constant_of(cutoff_hz)) * change;
     }
     continues_ = is_finite(filtered);
     filtered_px_per_s_ = continues_ ? filtered : Vec3(0.0);

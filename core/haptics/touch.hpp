@@ -7,6 +7,7 @@
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/proxy.hpp"
 #include "core/haptics/safety.hpp"
+#include "core/haptics/stability.hpp"
 #include "core/haptics/vec.hpp"
 
 namespace dibhr {
@@ -18,6 +19,7 @@ struct Touch {
     Vec3 spring_force_newton{0.0};  ///< before the safety stage
     Vec3 sent_force_newton{0.0};    ///< after it
     SafetyCut cut{SafetyCut::none};
+    EnergyFlow energy{};  ///< all zero while no device is watched
 };
 
 /// Spring to the proxy and damping of the goal's velocity [N]; zero out of contact.
@@ -25,19 +27,28 @@ struct Touch {
 [[nodiscard]] Vec3 coupling_force(const Proxy& proxy, Vec3 goal, Vec3 goal_velocity,
                                   const Coupling& coupling) noexcept;
 
-/// The difference of two goals over time, through a first-order low-pass. A device's coarse steps
-/// make the plain difference jump: a step of 0.06 mm in a millisecond is 60 mm/s.
+/// The difference of two goals over time, through an adaptive window and a first-order low-pass. A
+/// device's coarse steps make the plain difference jump: a step of 0.06 mm in a millisecond is 60
+/// mm/s.
 class GoalVelocity {
   public:
     /// Velocity [px/s] after a move of `step` [px] in `dt_s`. The filter's time constant is
     /// 1 / (2 pi cutoff_hz), whatever the ticks' lengths; `cutoff_hz` not above 0: the plain
     /// difference, which is 0 when no time has passed. What would not be finite is forgotten.
-    [[nodiscard]] Vec3 after(Vec3 step, double dt_s, double cutoff_hz) noexcept;
+    /// `resolution` [px] is a step of the device, which the window takes for noise; 0: no window.
+    [[nodiscard]] Vec3 after(Vec3 step, double dt_s, double cutoff_hz,
+                             double resolution = 0.0) noexcept;
 
     /// The next step is no motion of the hand: the filter begins from zero, after that step.
-    void forget() noexcept { continues_ = false; }
+    void forget() noexcept {
+        continues_ = false;
+        window_.forget();
+    }
 
   private:
+    [[nodiscard]] Vec3 difference(Vec3 step, double dt_s, double resolution) noexcept;
+
+    AdaptiveWindow window_{};
     Vec3 filtered_px_per_s_{0.0};
     bool continues_{false};  ///< the next step is a motion of the same hand
 };
@@ -68,12 +79,20 @@ class TouchRenderer {
     void pause() noexcept;
 
   private:
+    /// How far the surface has moved under the last proxy, or through it from below [px].
+    [[nodiscard]] double rise_under_proxy(const DepthSurface& surface) const noexcept;
+    /// The spring and damper's force, with what keeps it stable.
+    [[nodiscard]] Vec3 rendered_force(Vec3 goal_step, double rise_px, const Coupling& coupling,
+                                      const SafetyInput& input,
+                                      const SafetyLimits& limits) noexcept;
     /// Makes the algorithm the running one; true when it was not.
     bool run_with(Algorithm algorithm) noexcept;
 
     std::vector<std::unique_ptr<ProxyAlgorithm>> algorithms_{};  ///< by their enumeration
     Algorithm running_{Algorithm::dibhr};
     GoalVelocity goal_velocity_{};
+    VideoMotion video_motion_{};
+    PassivityControl passivity_{};
     SafetyStage safety_{};
     Touch last_{};
     bool started_{false};

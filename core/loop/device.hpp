@@ -20,7 +20,8 @@ struct DeviceSpecification {
 };
 
 /// No motors: it stands the most that people can ask for (touch_numbers() of core/haptics). Under
-/// the mouse that is stable in ticks of up to 10 ms, and 2 N/mm up to 20 ms.
+/// the mouse that is stable in ticks of up to 10 ms, and 2 N/mm up to 20 ms, by itself: nothing has
+/// to be watched.
 inline constexpr DeviceLimits kVirtualHandLimits{.max_stiffness_newton_per_mm = 10.0,
                                                  .max_damping_newton_s_per_m = 100.0};
 

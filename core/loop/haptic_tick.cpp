@@ -39,6 +39,8 @@ void HapticTick::run(const TickTiming& timing, std::uint64_t late_ticks) noexcep
     const HapticSettings& settings = to_.settings.front();
     state_.late_ticks = late_ticks;
     notice_changes(settings, frames);
+    standstill_ = watch_.look(timing.begin, state_.touchable && state_.touch.proxy.contact);
+    state_.standstill = watch_.last();
     const DepthBlend pair = frames.at(frames.clock.playback_s(timing.begin));
     state_.touchable = pair.makes_surface();
     TickRecord row = state_.touchable ? touch_surface(pair, settings, timing) : touch_nothing();
@@ -94,7 +96,8 @@ TickRecord HapticTick::touch_surface(const DepthBlend& pair, const HapticSetting
                             .force_enabled = settings.force_enabled,
                             .device_ready = hand.ready && !taken_off(hand, settings),
                             .device_force_newton = hand.own_force_newton,
-                            .from_zero = from_zero_ || hand.taken_over || other_limits};
+                            .from_zero = from_zero_ || hand.taken_over || other_limits,
+                            .standstill = standstill_};
     const auto& [parameters, limits] = glide_.towards(wanted, timing.dt_s, input.from_zero);
     state_.shape = parameters.shape;
     const DepthSurface surface = pair.surface(state_.shape, settings.bump.get());
@@ -117,14 +120,15 @@ TickRecord HapticTick::touch_surface(const DepthBlend& pair, const HapticSetting
             .from_zero = input.from_zero,
             .lets_go = lets_go,
             .goal_refused = !is_finite(hand.goal_in_grid),
-            .gliding = glide_.under_way()};
+            .gliding = glide_.under_way(),
+            .standstill = standstill_};
 }
 
 bool HapticTick::taken_off(const HandReading& hand, const HapticSettings& settings) noexcept {
     const bool pressed = hand.force_off && !force_off_pressed_;
     force_off_pressed_ = hand.force_off;
     taken_off_ = (taken_off_ || pressed) && settings.force_enabled;
-    return taken_off_;
+    return taken_off_ || (to_.leaving != nullptr && to_.leaving->load(std::memory_order_relaxed));
 }
 
 void HapticTick::record(TickRecord& row, const TickTiming& timing) noexcept {

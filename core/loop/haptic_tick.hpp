@@ -14,6 +14,7 @@
 #include "core/haptics/safety.hpp"
 #include "core/haptics/touch.hpp"
 #include "core/loop/device.hpp"
+#include "core/loop/standstill.hpp"
 #include "core/realtime/spsc_ring.hpp"
 #include "core/realtime/tick_timer.hpp"
 #include "core/realtime/triple_buffer.hpp"
@@ -52,6 +53,7 @@ struct HapticState {
     /// Ticks that ended before the proxy had caught up with its goal: it goes on in the next one.
     std::uint64_t bounds_met{0};
     LoopSecond second{};
+    Standstill standstill{};  ///< the last one
 
     /// The last tick was one of them.
     [[nodiscard]] bool catching_up() const noexcept { return touchable && touch.proxy.bound_met; }
@@ -68,6 +70,9 @@ struct HapticConnections {
     TripleBuffer<HapticState>& state;
     ForceRing& forces;
     TickRing& ticks;  ///< for the recorder
+    Heartbeats hearts{};
+    /// Once true, no force is sent any more; null: never.
+    const std::atomic<bool>* leaving{nullptr};
 };
 
 /// One tick of the loop, without a thread: nothing in it allocates, locks, waits or throws.
@@ -109,6 +114,8 @@ class HapticTick {
     bool force_off_pressed_{false};
     bool taken_off_{false};
     bool recording_{false};
+    StandstillWatch watch_{to_.hearts};
+    bool standstill_{false};  // in this tick
     std::chrono::steady_clock::time_point start_{};
     std::chrono::steady_clock::time_point second_begin_{};
     LoopSecond sums_{};  // of the running second

@@ -23,7 +23,8 @@ SafetyInput safety_input(const TickRecord& tick, const SessionParameters& parame
             .force_enabled = parameters.force_enabled,
             .device_ready = tick.device_ready,
             .device_force_newton = tick.own_newton,
-            .from_zero = tick.from_zero};
+            .from_zero = tick.from_zero,
+            .standstill = tick.standstill};
 }
 
 constexpr std::size_t kMostKept = std::size_t{1} << 20;

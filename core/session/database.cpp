@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <pthread.h>
 #include <sqlite3.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -29,12 +30,30 @@ double recordable(double value) noexcept {
 }
 
 constexpr auto kBetweenFlushes = std::chrono::seconds(1);
-constexpr auto kLongestPause = std::chrono::milliseconds(200);
+constexpr auto kLongestPause = std::chrono::milliseconds(150);
 constexpr auto kPatience = std::chrono::milliseconds(500);
 constexpr off_t kLongLog = off_t{4} << 20;  // [bytes]
 
 [[noreturn]] void throw_system_error(const char* what) {
     throw DatabaseError(std::string(what) + " (" + std::strerror(errno) + ")");
+}
+
+/// SQLite does not tell that a file may not grow.
+std::string file_size_limit_met(sqlite3* database) {
+    constexpr rlim_t kStep = 32768;  // by which a session's files grow at once, at most
+    const char* const file = sqlite3_db_filename(database, "main");
+    rlimit limit{};
+    getrlimit(RLIMIT_FSIZE, &limit);
+    if (file == nullptr || limit.rlim_cur == RLIM_INFINITY) return {};
+    for (const char* const ending : {"", "-wal", "-shm"}) {
+        struct stat found {};
+        const bool there = ::stat((std::string(file) + ending).c_str(), &found) == 0;
+        if (there && static_cast<rlim_t>(found.st_size) + kStep > limit.rlim_cur) {
+            return "the file-size limit of " + std::to_string(limit.rlim_cur) +
+                   " bytes is met, see ulimit -f";
+        }
+    }
+    return {};
 }
 
 }  // namespace
@@ -81,6 +100,9 @@ LogState Database::merge_log(bool cut) {
 }
 
 std::string Database::last_error() const {
+    if ((sqlite3_errcode(handle_.get()) & 0xff) == SQLITE_IOERR) {
+        if (std::string limit = file_size_limit_met(handle_.get()); !limit.empty()) return limit;
+    }
     std::string words = sqlite3_errmsg(handle_.get());
     const int error = sqlite3_system_errno(handle_.get());
     if (error != 0) words += std::string(" (") + std::strerror(error) + ")";

@@ -119,7 +119,7 @@ class LogKeeper {
     LogKeeper(const LogKeeper&) = delete;
     LogKeeper& operator=(const LogKeeper&) = delete;
 
-    /// Begins a transaction of the one who writes. Waits while the log is being emptied, for 0.2 s
+    /// Begins a transaction of the one who writes. Waits while the log is being emptied, for 0.15 s
     /// at most. Throws DatabaseError when that fails, or flushing failed.
     void begin(Database& writer);
 

@@ -1,11 +1,13 @@
 // Writes every tick into one SQLite file from its own thread, so that no tick waits for a disk.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
 
+#include "core/realtime/heartbeat.hpp"
 #include "core/session/tick_record.hpp"
 
 namespace dibhr {
@@ -25,10 +27,14 @@ struct RecorderStatus {
 /// itself.
 class Recorder {
   public:
+    static constexpr std::chrono::milliseconds kPatience{1000};
+
     /// Creates the session file; throws InputError when it exists already or cannot be made.
     /// `facts` are name/value pairs kept with the session (program version, device, note,
-    /// participant).
-    Recorder(const std::filesystem::path& file, TickRing& ring, const SessionFacts& facts);
+    /// participant). `heart`, if any, beats while something is written, and is silent while that
+    /// waits for the disk; it outlives the recorder.
+    Recorder(const std::filesystem::path& file, TickRing& ring, const SessionFacts& facts,
+             Heartbeat* heart = nullptr);
     ~Recorder();  ///< as finish()
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
@@ -48,9 +54,9 @@ class Recorder {
 
     [[nodiscard]] RecorderStatus status() const;
 
-    /// Drains what is left and closes the file; the last word on how it went. Waits a second at
-    /// most for sums of large files. May be called twice.
-    RecorderStatus finish();
+    /// Drains what is left and closes the file; the last word on how it went. Waits so long at most
+    /// for sums of large files. May be called twice.
+    RecorderStatus finish(std::chrono::milliseconds for_sums = kPatience);
 
   private:
     struct Implementation;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/haptics/surface.hpp"
 #include "core/session/session_schema.hpp"
 
@@ -31,6 +32,28 @@ PrimitiveKind primitive_named(const std::string& name) {
         if (name == name_of(kind)) return kind;
     }
     return PrimitiveKind::none;
+}
+
+/// Nobody could set other numbers, and no proxy can walk with them. Spring and damper may be any:
+/// the safety stage holds what they give.
+void require_in_range(const TouchParameters& touch, const std::filesystem::path& file) {
+    for (const TouchNumber& number : touch_numbers()) {
+        if (number.topic == TouchTopic::spring || number.topic == TouchTopic::damper) continue;
+        const double value = number.of(touch);
+        if (value >= number.lowest && value <= number.highest) continue;
+        throw InputError(file.string() + ": is damaged (" + std::string(number.column) + " is " +
+                         short_text(value) + ", not " + short_text(number.lowest) + " to " +
+                         short_text(number.highest) + "); copy it again");
+    }
+}
+
+/// Else what a device that was watched says of itself would be no number.
+void require_device(const DeviceDynamics& watched, const std::filesystem::path& file) {
+    DeviceLimits device;
+    device.dynamics = watched;
+    if (usable(device).dynamics == watched) return;
+    throw InputError(file.string() +
+                     ": is damaged (what it says of the watched device cannot be); copy it again");
 }
 
 /// Takes the columns of a row one after the other.
@@ -80,7 +103,8 @@ constexpr const char* kTickQuestion =
     "(SELECT d.state >> 20 FROM tick_data d WHERE d.tick = t.tick) "
     "FROM tick t LEFT JOIN pair q ON q.id = t.pair LEFT JOIN source s ON s.id = q.source WHERE "
     "t.tick >= ";
-static_assert(tick_state::kCatchingUp == 20 && tick_state::kGliding == 21);
+static_assert(tick_state::kCatchingUp == 20 && tick_state::kGliding == 21 &&
+              tick_state::kStandstill == 22);
 constexpr const char* kInOrder = " ORDER BY t.tick";
 
 }  // namespace
@@ -151,14 +175,16 @@ void Session::read_parameters() {
         const std::string name = row.text();
         const auto algorithm = algorithm_named(name);
         if (!algorithm) {
-            throw InputError(file().string() + ": was recorded with an algorithm '" + name +
-                             "' that is not known here; update dibhr");
+            throw InputError(file().string() + ": was recorded with an algorithm " +
+                             in_quotes(name) + " that is not known here; update dibhr");
         }
         parameters.touch.algorithm = *algorithm;
         row.take(parameters.force_enabled, parameters.bump);
         visit_numbers(parameters, [&](std::string_view column, double& number) {
             if (columns.contains(std::string(column))) number = row.real();
         });
+        require_in_range(parameters.touch, file());
+        require_device(parameters.limits.watched, file());
         keep(sizeof parameters + parameters.bump.file.native().size());
         parameters_.push_back(std::move(parameters));
     }
@@ -265,6 +291,7 @@ bool Session::Ticks::next(TickRecord& tick) {
                      tick.goal_refused, state);
     tick.catching_up = (state & 1) != 0;
     tick.gliding = (state & 2) != 0;
+    tick.standstill = (state & 4) != 0;
     tick.update_us = static_cast<double>(update_ns) / 1e3;
     tick.primitive = static_cast<std::uint8_t>(primitive_named(primitive));
     return true;

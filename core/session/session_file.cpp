@@ -125,7 +125,8 @@ std::int64_t state_of(const TickRecord& record) {
            bit(!record.device_ready, at::kNotReady) | bit(record.stand_in, at::kStandIn) |
            bit(record.from_zero, at::kFromZero) | bit(record.lets_go, at::kLetsGo) |
            bit(record.goal_refused, at::kRefused) | std::int64_t{record.cut} << at::kCut |
-           bit(record.catching_up, at::kCatchingUp) | bit(record.gliding, at::kGliding);
+           bit(record.catching_up, at::kCatchingUp) | bit(record.gliding, at::kGliding) |
+           bit(record.standstill, at::kStandstill);
 }
 
 /// The pixel of a place; a place beyond all pictures has none.

@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/session/session_schema.hpp"
 
 namespace dibhr {
@@ -40,6 +41,12 @@ std::string percent_encoded(std::string_view path) {
     return encoded;
 }
 
+/// SQLite's words, which may quote what the file holds.
+std::string brief(std::string_view words) {
+    constexpr std::size_t kMostLetters = 200;
+    return one_line(words, kMostLetters);
+}
+
 }  // namespace
 
 SessionReader::SessionReader(const std::filesystem::path& file) : file_(file) {
@@ -52,6 +59,12 @@ SessionReader::SessionReader(const std::filesystem::path& file) : file_(file) {
     // it.
     const bool complete = !std::filesystem::exists(file.string() + "-wal", failed);
     if (complete) read_head();
+    // SQLite would take the log of an empty file for one that was left behind, and delete it.
+    if (!complete && std::filesystem::is_empty(file, failed)) {
+        throw InputError(file.string() + ": is empty, and only " + file.filename().string() +
+                         "-wal, the log of its recording, is beside it; copy both again from where "
+                         "it was recorded");
+    }
     const std::string uri = "file:" + percent_encoded(std::filesystem::absolute(file).string()) +
                             "?mode=ro" + (complete ? "&immutable=1" : "");
     sqlite3* opened = nullptr;
@@ -152,9 +165,21 @@ void SessionReader::check_kind() const {
         return query.next() ? query.integer(0) : 0;
     };
     const std::int64_t application = number("PRAGMA application_id");
-    if (lacks_log_ && application == 0 && number("SELECT count(*) FROM sqlite_master") == 0) {
-        throw InputError(file_.string() + ": its recording was broken off, and all of it is in " +
-                         file_.filename().string() + "-wal, which is not here; copy both files");
+    if (application == 0 && number("SELECT count(*) FROM sqlite_master") == 0) {
+        std::error_code failed;
+        const std::string log = file_.filename().string() + "-wal";
+        if (lacks_log_) {
+            throw InputError(file_.string() +
+                             ": its recording was broken off, and all of it is "
+                             "in " +
+                             log + ", which is not here; copy both files");
+        }
+        if (std::filesystem::exists(file_.string() + "-wal", failed)) {
+            throw InputError(file_.string() +
+                             ": its recording was broken off before anything was "
+                             "written, also into " +
+                             log + "; record it again");
+        }
     }
     if (application != kSessionApplicationId) {
         refuse("another program's database");
@@ -190,12 +215,12 @@ void SessionReader::refuse() const {
 }
 
 void SessionReader::refuse(const std::string& reason) const {
-    throw InputError(file_.string() + ": is no session that can be read (" + reason +
+    throw InputError(file_.string() + ": is no session that can be read (" + brief(reason) +
                      "); choose a file that dibhr recorded");
 }
 
 void SessionReader::refuse_damaged(const std::string& words) const {
-    throw InputError(file_.string() + ": is damaged (" + words +
+    throw InputError(file_.string() + ": is damaged (" + brief(words) +
                      "); copy it again, or save what is left with sqlite3's .recover");
 }
 

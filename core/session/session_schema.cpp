@@ -85,7 +85,7 @@ std::string sent_of(const std::string& axis) {
            wanted_of(axis) + " END)";
 }
 
-/// As off_direction() and bind_forces() of a session file have it.
+/// As off_direction() and add_forces() of a session file have it.
 std::string shortened_of(const std::string& axis) {
     return "CASE typeof(d.c" + axis + ") WHEN 'integer' THEN " + wanted_of(axis) + " * (CAST(" +
            sent_of("z") + " AS REAL) / " + wanted_of("z") + ") + d.c" + axis + " / CAST(" +

@@ -21,7 +21,8 @@ inline constexpr int kSessionSchemaVersion = 2;
 /// What is read of a session are tables, so that reading ends; all but the view `tick`.
 [[nodiscard]] std::span<const std::string_view> session_tables() noexcept;
 
-/// The statement that makes that view, as it stands in a session file.
+/// The statement that makes that view, as it stands in a session file: a reader refuses any other,
+/// so that whoever changes it counts kSessionSchemaVersion up and still knows the one before.
 [[nodiscard]] std::string tick_view();
 
 /// A tick's columns in `tick_data`, in order.
@@ -44,6 +45,7 @@ inline constexpr int kCut = 17;  // 3 bits
 // Not in the view: scripts depend on its columns.
 inline constexpr int kCatchingUp = 20;
 inline constexpr int kGliding = 21;
+inline constexpr int kStandstill = 22;
 }  // namespace tick_state
 
 /// A time is stored in whole nanoseconds where they give the same bits again, divided by this.

@@ -73,6 +73,7 @@ struct TickRecord {
     bool goal_refused{false};  ///< the hand's reading was no number: `goal` is the one before
     bool catching_up{false};   ///< the tick ended before the proxy had caught up with its goal
     bool gliding{false};       ///< parameters were on their way to those of `settings`
+    bool standstill{false};    ///< window, video or recorder stood still: the force goes to zero
 };
 
 /// What "the same" means for recorded reals: every bit, the sign of a zero too.
@@ -117,6 +118,12 @@ void visit_numbers(SessionParameters& parameters, const Visit& visit) {
     visit(std::string_view("ramp_s"), limits.ramp_s);
     visit(std::string_view("max_tick_s"), limits.max_tick_s);
     visit(std::string_view("max_goal_speed_mm_per_ms"), limits.max_goal_speed_mm_per_ms);
+    DeviceDynamics& watched = limits.watched;
+    visit(std::string_view("watched_mass_kg"), watched.mass_kg);
+    visit(std::string_view("watched_friction_newton_s_per_m"), watched.friction_newton_s_per_m);
+    visit(std::string_view("watched_resolution_mm"), watched.resolution_mm);
+    visit(std::string_view("watched_delay_s"), watched.delay_s);
+    visit(std::string_view("watched_margin_newton_s_per_m"), watched.margin_newton_s_per_m);
 }
 
 /// What frames were made of.

@@ -179,6 +179,7 @@ class PairedMedia : public Media {
     std::optional<RawFrame> next() override {
         auto taken = depth_->next();
         describe_time(depth_->facts(), description_);
+        tell_trouble(depth_->facts());
         if (!taken) return std::nullopt;
         keep_size(taken->picture);
         RawFrame frame;
@@ -188,6 +189,7 @@ class PairedMedia : public Media {
         if (colour_) {
             const double interval_s = ColourTrack::interval_of(depth_->facts());
             frame.colour = colour_of(colour_->shown_at(frame.media_s, interval_s));
+            tell_trouble(colour_->facts());
         }
         return frame;
     }
@@ -198,6 +200,10 @@ class PairedMedia : public Media {
     }
 
   private:
+    void tell_trouble(const SourceFacts& facts) {
+        if (description_.trouble.empty()) description_.trouble = facts.trouble;
+    }
+
     /// A stream may change its size on the way; a surface may not. Levels are never mixed.
     void keep_size(cv::Mat& picture) const {
         const cv::Size size(description_.depth_columns, description_.depth_rows);

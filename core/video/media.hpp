@@ -47,6 +47,9 @@ struct MediaDescription {
     bool frames_exact{false};  ///< the end was reached: frames and duration are those of the file
     bool still{false};
     std::string remark{};  ///< what reading loses, in plain words; empty when nothing
+    /// A sentence once a file turned out to hold less than at its opening: it was cut or
+    /// overwritten meanwhile. What is left goes on.
+    std::string trouble{};
 };
 
 /// Containers round times to milliseconds: a time asked for matches a frame's within half of one.

@@ -43,6 +43,7 @@ struct SourceFacts {
     bool frames_exact{false};
     bool still{false};
     std::string remark{};
+    std::string trouble{};  ///< why less is read than at the opening; empty: nothing lacks
 };
 
 enum class PictureRole { colour, depth };

@@ -40,6 +40,7 @@ struct Player::Implementation {
 
     TripleBuffer<FrameWindow> haptics{};
     TripleBuffer<FrameWindow> picture{};
+    Heartbeat heart{};
 
     // The player thread's.
     Playback playback{};
@@ -72,11 +73,13 @@ bool Player::Implementation::wait_for_work(std::vector<Command>& taken) {
     const Time due = playback.next_due();
     std::unique_lock lock(mutex);
     const auto called = [this] { return leaving || !commands.empty(); };
+    if (!needs_frame) heart.rest();
     if (!needs_frame && due == Time::max())
         asked.wait(lock, called);
     else if (!needs_frame)
         asked.wait_until(lock, due, called);
     taken.swap(commands);
+    heart.beat();
     return !leaving;
 }
 
@@ -116,11 +119,13 @@ bool Player::Implementation::attempt(Action action) {
 
 void Player::Implementation::run() {
     pthread_setname_np(pthread_self(), "dibhr-video");
+    heart.also_computes();
     std::vector<Command> taken;
     while (wait_for_work(taken)) {
         work(taken);
         taken.clear();
     }
+    heart.rest();
 }
 
 /// Both readers get the same window; what the old ones held is freed here.
@@ -133,6 +138,7 @@ void Player::Implementation::publish() {
     shown = window;
     status.failure = failure;
     if (!playback.is_open()) return;
+    if (failure.empty()) status.failure = playback.description().trouble;
     status.open = true;
     status.playing = playback.playing();
     status.looping = playback.looping();
@@ -213,6 +219,9 @@ PlaybackStatus Player::status() const {
     return status;
 }
 
+const Heartbeat& Player::heart() const noexcept {
+    return implementation_->heart;
+}
 TripleBuffer<FrameWindow>& Player::haptics() noexcept {
     return implementation_->haptics;
 }

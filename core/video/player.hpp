@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "core/realtime/heartbeat.hpp"
 #include "core/realtime/triple_buffer.hpp"
 #include "core/video/depth_cleaning.hpp"
 #include "core/video/frame_window.hpp"
@@ -25,7 +26,7 @@ struct PlaybackStatus {
     double decode_ms{0.0};  ///< decoding and cleaning of the last frame
     double clean_ms{0.0};
     double handover_us{0.0};  ///< from the last frame being cleaned to its being published
-    std::string failure{};    ///< a plain sentence when reading broke off; empty otherwise
+    std::string failure{};    ///< a plain sentence when reading broke off or met less; else empty
 };
 
 /// Every method may be called from the window thread; none waits for decoding. The two frame
@@ -50,6 +51,8 @@ class Player {
     void set_cleaning(const CleaningOptions& options);
 
     [[nodiscard]] PlaybackStatus status() const;
+    /// Of its thread, for as long as it lives: silent while it waits for a disk.
+    [[nodiscard]] const Heartbeat& heart() const noexcept;
 
     [[nodiscard]] TripleBuffer<FrameWindow>& haptics() noexcept;
     [[nodiscard]] TripleBuffer<FrameWindow>& picture() noexcept;

@@ -160,9 +160,14 @@ std::optional<double> packets_end_s(const std::filesystem::path& file, double fr
     return end_s;
 }
 
+/// A whole file ends there at the earliest.
+double least_end_s(double promised_s) {
+    return promised_s - std::max(kMissing_s, kMissingPart * promised_s);
+}
+
 /// A copy that broke off still opens: its header promises more than the file holds.
 void require_whole(const std::filesystem::path& file, double promised_s) {
-    const double least_s = promised_s - std::max(kMissing_s, kMissingPart * promised_s);
+    const double least_s = least_end_s(promised_s);
     if (!(least_s > 0.0)) return;
     const std::optional<double> end_s = packets_end_s(file, least_s);
     if (!end_s || *end_s >= least_s) return;
@@ -185,6 +190,7 @@ VideoFile::VideoFile(const std::filesystem::path& file) {
     facts_.rows = ahead_.front().picture.rows;
     require_size(file, facts_.columns, facts_.rows);
     require_whole(file, promised_s);
+    promised_s_ = promised_s;
 }
 
 void VideoFile::open() {
@@ -216,6 +222,15 @@ void VideoFile::read_facts() {
     if (is_sixteen_bit_grey(format)) facts_.remark = "16-bit levels are read as 8 bits";
 }
 
+/// Its packets were whole when it was opened.
+void VideoFile::notice_early_end() {
+    const double end_s = time_s_ + interval_s_;
+    if (jumped_ || !(end_s < least_end_s(promised_s_))) return;
+    facts_.trouble = shown(facts_.file) + " breaks off at " + number_text(end_s, 1) + " s of " +
+                     number_text(promised_s_, 1) +
+                     " s since it was opened: what is left plays on; copy or export it again";
+}
+
 bool VideoFile::grab() {
     if (grabbed_) {
         grabbed_ = false;
@@ -223,6 +238,7 @@ bool VideoFile::grab() {
     }
     ended_ = !capture_.grab();
     if (ended_) {
+        notice_early_end();
         if (!jumped_ && counted_ && index_ >= 0 &&
             index_ + 1 == static_cast<std::int64_t>(times_.size())) {
             facts_.frames = index_ + 1;

@@ -31,6 +31,7 @@ class VideoFile : public PictureSource {
   private:
     void open();
     void read_facts();
+    void notice_early_end();
     bool grab();         ///< decodes one frame: its time and index; false at the end
     cv::Mat retrieve();  ///< the picture of the grabbed frame
     void rewind_before(double time_s);
@@ -41,6 +42,7 @@ class VideoFile : public PictureSource {
     cv::VideoCapture capture_{};
     std::deque<TimedPicture> ahead_{};  ///< decoded already, given out next
     std::vector<double> times_{};       ///< of all frames from the first without a gap
+    double promised_s_{0.0};            ///< as the container said at the opening
     double interval_s_{1.0 / 30.0};     ///< as the container says; for frames without a time
     double time_s_{0.0};                ///< of the grabbed frame
     std::int64_t index_{-1};            ///< of the grabbed frame

@@ -23,11 +23,12 @@ bool any(const Counts& motor) noexcept {
 }  // namespace
 
 Conversation::Conversation(const UsbContext& usb, FtdiPort& port, Exchange& exchange,
-                           StatusBoard& board, Memory& memory)
+                           StatusBoard& board, Memory& memory, Guardian& guardian)
     : port_(port),
       exchange_(exchange),
       board_(board),
       memory_(memory),
+      guardian_(guardian),
       link_(usb, port, exchange.wake),
       rate_from_(memory.replies),
       rate_since_(Link::Clock::now()),
@@ -49,7 +50,8 @@ std::optional<UsbError> Conversation::run(const std::stop_token& stop) {
     const std::stop_callback wake_to_leave(stop, [this] { exchange_.wake.signal(); });
     speak(Link::Clock::now());
     while (!stop.stop_requested() && !link_.loss()) {
-        link_.wait(link_.idle() ? spoke_ + kNeverSilentFor : link_.patience_ends());
+        link_.wait(next_look());
+        guardian_.beat();
         const Time now = Link::Clock::now();
         for (const Reply& reply : link_.replies()) take(reply, now);
         pace_chip(now);
@@ -57,6 +59,11 @@ std::optional<UsbError> Conversation::run(const std::stop_token& stop) {
         report(now);
     }
     return link_.loss();
+}
+
+Conversation::Time Conversation::next_look() const noexcept {
+    if (link_.idle()) return std::min(spoke_ + kNeverSilentFor, force_ends_);
+    return std::min(link_.patience_ends(), Link::Clock::now() + kNeverSilentFor);
 }
 
 void Conversation::take(const Reply& reply, Time now) {
@@ -83,10 +90,12 @@ void Conversation::pace_chip(Time now) {
 void Conversation::speak(Time now) {
     if (!link_.takes_command(now)) return;
     const bool again = !link_.idle();
-    const bool due =
-        again || exchange_.commands.fresh() || zeros_owed_ > 0 || now >= spoke_ + kNeverSilentFor;
+    const bool due = again || exchange_.commands.fresh() || zeros_owed_ > 0 ||
+                     now >= spoke_ + kNeverSilentFor || now >= force_ends_;
     if (!due) return;
-    link_.send(encode(command(now)), now);
+    const Command next = command(now);
+    link_.send(encode(next), now);
+    force_ends_ = any(next.motor) ? exchange_.commands.front().at + kOldestCommand : Time::max();
     spoke_ = now;
     zeros_owed_ = std::max(zeros_owed_ - 1, 0);
 }
@@ -98,7 +107,7 @@ Command Conversation::command(Time now) {
     // Nobody knows whether clearing it loses homing (README.md, Homing and lamp).
     command.homing = true;
     if (ready && zeros_owed_ == 0 && wanted.epoch == memory_.homing.epoch() &&
-        now - wanted.at <= kOldestCommand) {
+        now < wanted.at + kOldestCommand && !Guardian::alarmed()) {
         command.motor = wanted.motor;
     }
     // Red: to be homed; blue: ready; green: force.

@@ -6,6 +6,7 @@
 #include <stop_token>
 
 #include "device/falcon/exchange.hpp"
+#include "device/falcon/guardian.hpp"
 #include "device/falcon/link.hpp"
 #include "device/falcon/reply_watch.hpp"
 #include "device/falcon/status.hpp"
@@ -22,12 +23,13 @@ struct Memory {
 };
 
 /// On the USB thread. A force reaches the motors only while all axes are homed, for a pose of this
-/// epoch, and for 20 ms; everything else is sent as zero, at least every 12 ms.
+/// epoch, and for 20 ms, when zero follows; everything else is sent as zero, at least every 12 ms.
+/// The guardian hears of every pass, which is as often.
 class Conversation {
   public:
     /// The port's Falcon must answer. Throws UsbError.
     Conversation(const UsbContext& usb, FtdiPort& port, Exchange& exchange, StatusBoard& board,
-                 Memory& memory);
+                 Memory& memory, Guardian& guardian);
     ~Conversation();
     Conversation(const Conversation&) = delete;
     Conversation& operator=(const Conversation&) = delete;
@@ -38,6 +40,7 @@ class Conversation {
   private:
     using Time = Link::Time;
 
+    [[nodiscard]] Time next_look() const noexcept;
     void take(const Reply& reply, Time now);
     /// While no haptic loop ticks, the chip need not send an empty packet every millisecond.
     void pace_chip(Time now);
@@ -51,9 +54,11 @@ class Conversation {
     Exchange& exchange_;
     StatusBoard& board_;
     Memory& memory_;
+    Guardian& guardian_;
     Link link_;
 
     Time spoke_{};
+    Time force_ends_{Time::max()};  // when the force on the wire is too old; never: there is none
     int zeros_owed_{0};
     bool was_ready_{false};
     bool was_idle_{false};

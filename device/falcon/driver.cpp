@@ -27,6 +27,7 @@ constexpr milliseconds kAskAgainAfter{2000};   // leaves the port to a program t
 
 Driver::Driver(ConnectionOptions options, FirmwareImage firmware, Exchange& exchange)
     : options_(std::move(options)), exchange_(exchange), firmware_(std::move(firmware)) {
+    board_.draft().unguarded = guardian_.fault();
     board_.enter(Stage::looking, "looking for a Falcon");
     thread_ = std::jthread([this](const std::stop_token& stop) { live(stop); });
 }
@@ -136,10 +137,12 @@ void Driver::bring_up_and_talk(const UsbContext& usb, FtdiPort& port, const std:
 }
 
 void Driver::talk(const UsbContext& usb, FtdiPort& port, const std::stop_token& stop) {
+    const Guarded guarded(guardian_, port.descriptor(usb));  // until after the last packet
+    board_.draft().unguarded = guardian_.fault();
     std::optional<UsbError> loss;
     try {
         port.request(options_.event_character ? kFlushOnReplyEnd : kNoEventCharacter);
-        Conversation conversation(usb, port, exchange_, board_, memory_);
+        Conversation conversation(usb, port, exchange_, board_, memory_, guardian_);
         loss = conversation.run(stop);
     } catch (...) {
         leave_without_force(port);

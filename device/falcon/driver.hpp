@@ -12,11 +12,13 @@
 #include "device/falcon/conversation.hpp"
 #include "device/falcon/exchange.hpp"
 #include "device/falcon/firmware_image.hpp"
+#include "device/falcon/guardian.hpp"
 #include "device/falcon/status.hpp"
 #include "device/falcon/usb.hpp"
 
 namespace dibhr::falcon {
 
+/// With a guardian of its own from construction on.
 class Driver {
   public:
     /// `exchange` must outlive it.
@@ -44,6 +46,7 @@ class Driver {
     StatusBoard board_{};
 
     // The USB thread's.
+    Guardian guardian_{};
     Memory memory_{};
     std::string trouble_{};              // what went wrong last, until a Falcon answers again
     std::chrono::milliseconds pause_{};  // before the next look

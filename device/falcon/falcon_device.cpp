@@ -14,6 +14,8 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kOldestReply{20};
 constexpr double kMaxForce_newton = 8.0;
 constexpr double kMaxStiffness_newton_per_mm = 1.0;
+constexpr DeviceDynamics kDynamics{
+    .mass_kg = 0.1, .friction_newton_s_per_m = 0.5, .resolution_mm = 0.06, .delay_s = 0.002};
 constexpr double kMetre_mm = 1000.0;
 constexpr double kAboveAll_px = 6.0;
 
@@ -23,6 +25,7 @@ DeviceSpecification specification_of(const ConnectionOptions& options) {
         options.serial.empty() ? "Novint Falcon" : "Novint Falcon (" + options.serial + ")";
     specification.limits.max_force_newton = kMaxForce_newton;
     specification.limits.max_stiffness_newton_per_mm = kMaxStiffness_newton_per_mm;
+    specification.limits.dynamics = kDynamics;
     return specification;
 }
 

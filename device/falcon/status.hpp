@@ -48,6 +48,7 @@ struct Status {
     std::string serial{};                    ///< empty: not known
     std::string sentence{};                  ///< what is, and what to do next
     bool trouble{false};                     ///< the sentence tells of something that went wrong
+    std::string unguarded{};                 ///< why nobody sends zero if the program is killed
     double loaded{0.0};                      ///< part of the firmware that is in, 0 .. 1
     int load_try{0};                         ///< 1 ..
     Reply reply{};                           ///< the last one, buttons debounced

@@ -2,6 +2,7 @@
 #include "device/falcon/usb.hpp"
 
 #include <libusb.h>
+#include <poll.h>
 
 #include <algorithm>
 #include <array>
@@ -306,6 +307,17 @@ Payload FtdiPort::read(std::chrono::milliseconds limit) {
 void FtdiPort::clear_stall() noexcept {
     libusb_clear_halt(handle(), kInEndpoint);
     libusb_clear_halt(handle(), kOutEndpoint);
+}
+
+int FtdiPort::descriptor(const UsbContext& usb) const noexcept {
+    int found = -1;
+    const libusb_pollfd** list = libusb_get_pollfds(usb.get());
+    // Those of libusb's own are waited for with POLLIN.
+    for (const auto* const* item = list; item != nullptr && *item != nullptr; ++item) {
+        if (((*item)->events & POLLOUT) != 0) found = (*item)->fd;
+    }
+    libusb_free_pollfds(list);
+    return found;
 }
 
 Payload payload_of(std::span<std::uint8_t> transfer) noexcept {

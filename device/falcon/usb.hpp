@@ -171,6 +171,8 @@ class FtdiPort {
 
     [[nodiscard]] libusb_device_handle* handle() const noexcept { return handle_.get(); }
     [[nodiscard]] const AttachedFalcon& falcon() const noexcept { return falcon_; }
+    /// Of the open file of usbfs below; -1 where there is none. The only port opened with `usb`.
+    [[nodiscard]] int descriptor(const UsbContext& usb) const noexcept;
 
   private:
     struct Close {

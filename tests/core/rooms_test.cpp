@@ -80,6 +80,7 @@ const std::vector<Ownership> kOwnerships{
     {"libusb", {"device/"}},
     {"sqlite3", {"core/session/"}},
     {"imgui", {"app/window/", "app/panels/", "app/viewer/"}},
+    {"X11/", {"app/window/"}},
     {"GLFW/", {"app/window/", "app/settings/keys.cpp"}},
     {"CLI/", {"app/settings/", "app/commands/"}},
     {"toml", {"app/settings/"}},

@@ -1,6 +1,6 @@
-// What the sanitizers are to pass over in the test programs, with the reasons: libraries of the
-// distribution, built without the thread sanitizer, which sees their memory but not all that orders
-// it.
+// What the sanitizers are to pass over in the program and its tests, with the reasons: libraries of
+// the distribution, built without the thread sanitizer, which sees their memory but not all that
+// orders it.
 
 // libavcodec and its family order their decoding threads with atomics. libgdal comes with OpenCV's
 // picture readers and writers; it takes two of its own locks in either order while it registers its

@@ -1,11 +1,24 @@
-// What tests ask of a text.
+// Texts: in files, and what tests ask of them.
 #pragma once
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include "tests/support/catch.hpp"
 
 namespace dibhr::test {
+
+inline void write_text(const std::filesystem::path& file, const std::string& text) {
+    std::ofstream(file, std::ios::binary) << text;
+}
+
+/// All of a file, byte for byte; empty when it cannot be read.
+[[nodiscard]] inline std::string read_text(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
 
 /// A text that does not contain the part is told with the test's next failure.
 [[nodiscard]] inline bool contains(const std::string& text, const std::string& part) {

@@ -77,6 +77,7 @@ class Check {
     CheckResult run() {
         guide_.say("Checks " + full_name_of(falcon_.attached()) + "; the record is " +
                    record_.file().string() + ", written again after every step.");
+        if (const std::string fault = falcon_.unguarded(); !fault.empty()) guide_.say(fault);
         record_.write(desk_.findings);  // before the work: an unwritable file is told at once
         for (std::size_t k = 0; k < kSteps.size(); ++k) {
             run_step(std::to_string(k + 1) + " of " + std::to_string(kSteps.size()), kSteps.at(k));

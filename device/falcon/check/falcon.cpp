@@ -8,6 +8,12 @@
 
 namespace dibhr::falcon {
 
+namespace {
+
+constexpr std::chrono::milliseconds kBeatsEvery{10};  // the guardian is told; it waits for 50 ms
+
+}  // namespace
+
 CheckedFalcon::CheckedFalcon(const std::string& serial) {
     const std::vector<AttachedFalcon> attached = attached_falcons(usb_);
     const auto found = choose(attached, serial);
@@ -33,6 +39,7 @@ bool CheckedFalcon::answers() {
 Link& CheckedFalcon::talk() {
     if (!talk_) {
         FtdiPort& opened = port();
+        guarded_.emplace(guardian_, opened.descriptor(usb_));
         opened.request(event_character_ ? kFlushOnReplyEnd : kNoEventCharacter);
         talk_.emplace(usb_, opened, wake_);
     }
@@ -44,10 +51,12 @@ void CheckedFalcon::end_talk() noexcept {
     const bool gone = talk_->loss() && talk_->loss()->gone();
     talk_.reset();
     if (!gone) leave_without_force(*port_);
+    guarded_.reset();
 }
 
 void CheckedFalcon::wait(Clock::time_point until) {
-    talk().wait(until);
+    talk().wait(std::min(until, Clock::now() + kBeatsEvery));
+    guardian_.beat();
     if (talk_->loss()) throw UsbError(*talk_->loss());
 }
 

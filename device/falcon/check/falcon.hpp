@@ -6,6 +6,7 @@
 #include <string>
 
 #include "device/falcon/exchange.hpp"
+#include "device/falcon/guardian.hpp"
 #include "device/falcon/link.hpp"
 #include "device/falcon/packet.hpp"
 #include "device/falcon/usb.hpp"
@@ -30,6 +31,8 @@ class CheckedFalcon {
     CheckedFalcon& operator=(const CheckedFalcon&) = delete;
 
     [[nodiscard]] const AttachedFalcon& attached() const noexcept { return which_; }
+    /// Why no guardian watches, in a line; empty when one does.
+    [[nodiscard]] std::string unguarded() const { return guardian_.fault(); }
 
     /// Opened if it is not; no talk, as the port is used otherwise. Throws UsbError.
     FtdiPort& port();
@@ -61,12 +64,14 @@ class CheckedFalcon {
     void end_talk() noexcept;
     void wait(Clock::time_point until);
 
+    Guardian guardian_{};
     UsbContext usb_{};
     Wake wake_{};
     AttachedFalcon which_{};
     bool answering_{false};
     bool event_character_{false};
     std::optional<FtdiPort> port_{};
+    std::optional<Guarded> guarded_{};  // while it is talked to, and until after the last packet
     std::optional<Link> talk_{};
 };
 

@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include <cstdint>
-#include <fstream>
 #include <iterator>
 
 #include "core/video/media.hpp"
@@ -64,15 +63,6 @@ void run_shell(const TemporaryFolder& folder, const std::string& command) {
     const std::string line = "cd '" + folder.path().string() + "' && " + command + " </dev/null";
     INFO(line);
     REQUIRE(exit_code_of(::system(line.c_str())) == 0);
-}
-
-void write_text(const fs::path& file, const std::string& text) {
-    std::ofstream(file, std::ios::binary) << text;
-}
-
-std::string read_text(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 std::vector<std::string> split(const std::string& text, char separator) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/text.hpp"
 
 namespace dibhr::test {
 
@@ -24,9 +25,6 @@ ProgramResult run_dibhr(const TemporaryFolder& folder, const std::vector<std::st
 
 /// Runs a shell command inside `folder`; fails the test when it does not end with 0.
 void run_shell(const TemporaryFolder& folder, const std::string& command);
-
-void write_text(const std::filesystem::path& file, const std::string& text);
-std::string read_text(const std::filesystem::path& file);
 
 std::vector<std::string> split(const std::string& text, char separator);
 

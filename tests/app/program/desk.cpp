@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <memory>
 #include <stdexcept>
 
@@ -81,7 +82,27 @@ int Process::wait() {
 }
 
 void Process::interrupt() {
-    ::kill(child_, SIGINT);
+    send(SIGINT);
+}
+
+void Process::send(int signal) const {
+    ::kill(child_, signal);
+}
+
+void Process::signal_program(int number) const {
+    const std::string process = std::to_string(child_);
+    std::ifstream children("/proc/" + process + "/task/" + process + "/children");
+    pid_t program = 0;
+    REQUIRE(children >> program);
+    REQUIRE(::kill(program, number) == 0);
+}
+
+std::size_t Process::resident_bytes() const {
+    std::ifstream pages("/proc/" + std::to_string(child_) + "/statm");  // all, resident, ...
+    std::size_t all = 0;
+    std::size_t resident = 0;
+    pages >> all >> resident;
+    return resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
 }
 
 Desk::Desk()

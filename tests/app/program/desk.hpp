@@ -4,6 +4,8 @@
 #include <sys/types.h>
 
 #include <array>
+#include <csignal>
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -27,6 +29,10 @@ class Process {
     /// Waits for its end. The exit code; 128 + signal when it was killed.
     int wait();
     void interrupt();  ///< SIGINT, as Ctrl+C does
+    void send(int signal) const;
+    /// To the program that it has started, as falcon_host has; the test fails when there is none.
+    void signal_program(int number) const;
+    [[nodiscard]] std::size_t resident_bytes() const;
 
   private:
     pid_t child_{-1};
@@ -42,6 +48,11 @@ class Desk {
     [[nodiscard]] Process start_viewer(const TemporaryFolder& folder,
                                        const std::vector<std::string>& arguments,
                                        const std::vector<std::string>& host = {}) const;
+
+    // The server stands still, goes on, or dies.
+    void stop() const { server_.send(SIGSTOP); }
+    void resume() const { server_.send(SIGCONT); }
+    void kill() const { server_.send(SIGKILL); }
 
     /// Runs xdotool with one chain of commands; fails the test when it fails.
     void act(const std::string& commands) const;

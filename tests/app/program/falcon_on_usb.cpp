@@ -36,10 +36,12 @@ void write_firmware(const std::filesystem::path& file) {
 }
 
 FalconOnUsb::FalconOnUsb(const std::filesystem::path& folder, std::vector<std::string> commands)
-    : socket_((folder / "falcon").string()), commands_(std::move(commands)) {}
+    : socket_((folder / "falcon").string()),
+      packets_(folder / "packets.csv"),
+      commands_(std::move(commands)) {}
 
 std::vector<std::string> FalconOnUsb::host() const {
-    std::vector<std::string> words{FALCON_HOST, "--socket", socket_};
+    std::vector<std::string> words{FALCON_HOST, "--socket", socket_, "--packets", packets_};
     for (const std::string& command : commands_) words.insert(words.end(), {"--command", command});
     words.emplace_back("--");
     return words;

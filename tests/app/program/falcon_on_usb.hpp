@@ -18,6 +18,8 @@ class FalconOnUsb {
   public:
     /// `folder`: where its socket is; `commands`: performed before the program begins.
     FalconOnUsb(const std::filesystem::path& folder, std::vector<std::string> commands);
+    /// Every command it has been sent (tests/device/falcon/packet_file.hpp).
+    [[nodiscard]] const std::filesystem::path& packets() const noexcept { return packets_; }
 
     /// What starts the program.
     [[nodiscard]] std::vector<std::string> host() const;
@@ -39,6 +41,7 @@ class FalconOnUsb {
     [[nodiscard]] std::string state() const;
 
     std::string socket_;
+    std::filesystem::path packets_;
     std::vector<std::string> commands_;
 };
 

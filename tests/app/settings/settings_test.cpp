@@ -1,6 +1,5 @@
 // The settings file: what it keeps, and what happens to one that is wrong.
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <string>
 
@@ -14,21 +13,13 @@
 #include "core/video/player.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/text.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
 using Catch::Matchers::WithinAbs;
 
 namespace {
-
-void write(const std::filesystem::path& file, const std::string& text) {
-    std::ofstream(file) << text;
-}
-
-std::string content(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 Settings unusual_settings() {
     Settings settings;
@@ -58,6 +49,20 @@ TEST_CASE("settings come back exactly as they were saved", "[settings]") {
     CHECK(std::distance(std::filesystem::directory_iterator(file.parent_path()), {}) == 1);
 }
 
+TEST_CASE("a folder that cannot be made is named when settings are not kept", "[settings]") {
+    const TemporaryFolder folder;
+    write_text(folder / "home", "no folder");
+    const auto place = folder / "home/dibhr";
+    std::string said;
+    try {
+        save_settings({}, place / "settings.toml");
+    } catch (const InputError& error) {
+        said = error.what();
+    }
+    CHECK(said == "the settings are not kept: the folder " + place.string() +
+                      " cannot be written (Not a directory); make it writable");
+}
+
 TEST_CASE("a settings file that does not exist gives the defaults", "[settings]") {
     const TemporaryFolder folder;
     CHECK(same_settings(load_settings(folder / "settings.toml"), Settings{}));
@@ -72,7 +77,7 @@ TEST_CASE("each setting that does not fit keeps its default and is told with fil
         "[touch]\nstiffness = nan", "[touch]\ndamping-cutoff = 801", "[window]\nwidth = 3",
         "[panels]\nvideo = 1", "[cleaning]\nfill-holes = 0.5", "#\nflavour = 1", "#\ntouch = 3");
     CAPTURE(wrong);
-    write(file, wrong + "\n[device]\nmax-force = 3.5\n");
+    write_text(file, wrong + "\n[device]\nmax-force = 3.5\n");
     std::vector<std::string> warnings;
     const Settings settings = load_settings(file, warnings);
     Settings expected;
@@ -86,11 +91,11 @@ TEST_CASE("what is said of a settings file is one line, whatever the file holds"
     const TemporaryFolder folder;
     const auto file = folder / "settings.toml";
     std::vector<std::string> warnings;
-    write(file, "[touch]\n\"soft\\nness\\u001b[31m\" = 1\n");
+    write_text(file, "[touch]\n\"soft\\nness\\u001b[31m\" = 1\n");
     static_cast<void>(load_settings(file, warnings));
     REQUIRE(warnings.size() == 1);
     CHECK(warnings[0].find_first_of("\n\x1b") == std::string::npos);
-    write(file, "[panels]\nvideo = tru\nesurface = false\n");
+    write_text(file, "[panels]\nvideo = tru\nesurface = false\n");
     try {
         static_cast<void>(load_settings(file, warnings));
         FAIL("it was understood");
@@ -102,7 +107,7 @@ TEST_CASE("what is said of a settings file is one line, whatever the file holds"
 TEST_CASE("an integer is a number, for who types 1 and means 1.0", "[settings]") {
     const TemporaryFolder folder;
     const auto file = folder / "settings.toml";
-    write(file, "[touch]\nstiffness = 1\n");
+    write_text(file, "[touch]\nstiffness = 1\n");
     std::vector<std::string> warnings;
     CHECK_THAT(load_settings(file, warnings).touch.coupling.stiffness_newton_per_mm,
                WithinAbs(1.0, 1e-12));
@@ -114,7 +119,7 @@ TEST_CASE("a settings file that cannot be understood is an error that names it, 
     const TemporaryFolder folder;
     const auto file = folder / "settings.toml";
     const std::string broken = "[touch\nstiffness = = 3";
-    write(file, broken);
+    write_text(file, broken);
     std::string text;
     try {
         static_cast<void>(load_settings(file));
@@ -124,7 +129,7 @@ TEST_CASE("a settings file that cannot be understood is an error that names it, 
     CHECK(text.find(file.string()) != std::string::npos);
     CHECK(text.find("mend or delete") != std::string::npos);
     CHECK(text.find('\n') == std::string::npos);
-    CHECK(content(file) == broken);
+    CHECK(read_text(file) == broken);
 }
 
 TEST_CASE("a folder in the settings file's place is an error that names it", "[settings]") {

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
@@ -20,11 +21,15 @@
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/app/program/falcon_on_usb.hpp"
+#include "tests/app/program/falcon_scene.hpp"
+#include "tests/device/falcon/packet_file.hpp"
 #include "tests/support/catch.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
 using Catch::Matchers::WithinAbs;
+using dibhr::test::falcon::LoggedPacket;
+using dibhr::test::falcon::packets_after;
 
 namespace {
 
@@ -32,55 +37,7 @@ using namespace std::chrono_literals;
 using Words = std::vector<std::string>;
 using Rows = std::vector<Row>;
 
-const Words kHomed{"firmware", "home", "place 0 0 140"};
 constexpr const char* kMeet = "search --sync --onlyvisible --name dibhr sleep 0.1 ";
-
-/// What the program is started with; its firmware and its settings file are written first.
-Words prepared(const TemporaryFolder& folder, Words arguments, const std::string& settings) {
-    write_firmware(folder / "firmware.bin");
-    std::filesystem::create_directories(folder / "config/dibhr");
-    std::ofstream(folder / "config/dibhr/settings.toml") << settings;
-    arguments.insert(arguments.end(),
-                     {"--firmware", "firmware.bin", "--record", "hand.dibhr", "--seconds", "60"});
-    return arguments;
-}
-
-/// The program in its window, with a Falcon that `commands` prepare.
-class Scene {
-  public:
-    Scene(Words commands, Words arguments, const std::string& settings = {})
-        : falcon(folder.path(), std::move(commands)),
-          viewer_(desk.start_viewer(folder, prepared(folder, std::move(arguments), settings),
-                                    falcon.host())) {
-        desk.act(kMeet);
-    }
-
-    /// What was recorded, after the program has ended well.
-    Rows finish() {
-        desk.act(std::string(kMeet) + "key q");
-        REQUIRE(viewer_.wait() == 0);
-        CHECK(std::filesystem::file_size(folder / "errors.txt") == 0);
-        return read_session(folder / "hand.dibhr");
-    }
-
-    /// From afar into the relief, until the hand is pushed back.
-    void press_in() const {
-        desk.act("key space");
-        falcon.move_hand({0.0, 0.0, 105.0}, 0.3);
-        wait_for_force();
-    }
-
-    void wait_for_force() const {
-        FalconOnUsb::wait_until([this] { return falcon.vector("motor_newton").z > 0.5; });
-    }
-
-    const Desk desk{};
-    const TemporaryFolder folder{};
-    const FalconOnUsb falcon;
-
-  private:
-    Process viewer_;
-};
 
 bool falcon_touches(const Row& row) {
     return row.contact && row.ready && !row.stand_in;
@@ -184,7 +141,8 @@ double strongest(const Rows& rows) {
 TEST_CASE(
     "the program loads, homes, rests, presses and slides; its forces are those of dibhr touch",
     "[falcon][window]") {
-    Scene at({"realtime on"}, {"--device", "falcon"});
+    // `touch` has no hand that could swing.
+    FalconScene at({"realtime on"}, {"--device", "falcon", "--stability", "off"});
     at.falcon.home();
     at.falcon.move_hand({0.0, 0.0, 140.0}, 0.3);
     at.desk.act("key Home sleep 0.3");  // ten seconds of video to touch
@@ -223,7 +181,7 @@ TEST_CASE(
 
 TEST_CASE("a Falcon pulled in mid-touch leaves the mouse, and is taken back after homing",
           "[falcon][window]") {
-    Scene at(kHomed, {"--device", "auto"});
+    FalconScene at(kHomedFalcon, {"--device", "auto"});
     at.falcon.move_hand({0.0, 0.0, 105.0}, 0.3);
     at.wait_for_force();
     at.falcon.tell("unplug");
@@ -261,7 +219,7 @@ TEST_CASE("a Falcon pulled in mid-touch leaves the mouse, and is taken back afte
 
 TEST_CASE("centring the hand in mid-touch lets the force rise again from zero",
           "[falcon][window]") {
-    Scene at(kHomed, {"--device", "falcon"});
+    FalconScene at(kHomedFalcon, {"--device", "falcon"});
     at.press_in();
     std::this_thread::sleep_for(700ms);
     at.desk.act("key c sleep 1.2");
@@ -277,8 +235,24 @@ TEST_CASE("centring the hand in mid-touch lets the force rise again from zero",
     CHECK(strongest({weak, rows.end()}) > 0.5);
 }
 
+TEST_CASE("killed in mid-touch, the program leaves a Falcon without force within 100 ms",
+          "[falcon][window]") {
+    const int signal = GENERATE(SIGKILL, SIGSEGV);
+    Words commands = kHomedFalcon;
+    commands.insert(commands.end(), {"hold 0", "realtime on"});
+    FalconScene at(commands, {"--device", "falcon"});
+    at.press_in();
+    const auto killed = std::chrono::steady_clock::now();
+    at.viewer.signal_program(signal);
+    CHECK(at.viewer.wait() == 128 + signal);
+    CHECK(at.seconds_to_zero(killed) < 0.1);
+    const double killed_s = std::chrono::duration<double>(killed.time_since_epoch()).count();
+    const auto packets = packets_after(at.falcon.packets(), killed_s);
+    CHECK(std::ranges::count_if(packets, [](const auto& each) { return !each.has_force(); }) >= 5);
+}
+
 TEST_CASE("the grip's buttons record, hold the film, and take the force off", "[falcon][window]") {
-    Scene at(kHomed, {"--device", "falcon"});
+    FalconScene at(kHomedFalcon, {"--device", "falcon"});
     const auto press = [&at](int bit) {
         at.falcon.tell("press " + std::to_string(bit));
         std::this_thread::sleep_for(150ms);
@@ -307,7 +281,7 @@ TEST_CASE("the grip's buttons record, hold the film, and take the force off", "[
 
 TEST_CASE("the force is off while another window has the keyboard, and rises again when it is back",
           "[falcon][window]") {
-    Scene at(kHomed, {"--device", "falcon"});
+    FalconScene at(kHomedFalcon, {"--device", "falcon"});
     at.press_in();
     std::this_thread::sleep_for(700ms);
     OtherWindow other(at.desk);
@@ -336,7 +310,7 @@ TEST_CASE("the force is off while another window has the keyboard, and rises aga
 
 TEST_CASE("the force stays while another window has the keyboard, when it is wished so",
           "[falcon][window]") {
-    Scene at(kHomed, {"--device", "falcon"}, "[falcon]\nforce-in-front-only = false\n");
+    FalconScene at(kHomedFalcon, {"--device", "falcon"}, "[falcon]\nforce-in-front-only = false\n");
     at.press_in();
     OtherWindow other(at.desk);
     std::this_thread::sleep_for(700ms);
@@ -352,7 +326,7 @@ TEST_CASE("the force stays while another window has the keyboard, when it is wis
 
 TEST_CASE("what is a jump is measured in the hand's millimetres, whatever the scale",
           "[falcon][window]") {
-    Scene at(kHomed, {"--device", "falcon"}, "[falcon]\nscale = 4.0\n");
+    FalconScene at(kHomedFalcon, {"--device", "falcon"}, "[falcon]\nscale = 4.0\n");
     std::this_thread::sleep_for(1500ms);  // the window has seen that it touches
     at.falcon.tell("place 6 0 140");      // a fast hand, of which a reply was lost
     std::this_thread::sleep_for(300ms);

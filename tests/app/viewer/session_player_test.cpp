@@ -225,7 +225,8 @@ TEST_CASE("participant, note and marks are kept as they were typed, before and w
     const TemporaryFolder folder;
     const std::string note = "O'Brien; \"x\" -- %s \\ \u00e9\u20ac\u4e16 \xF0\x9F\x96\x90";
     const auto ticks = std::make_unique<TickRing>();
-    ViewerRecording recording(*ticks);
+    LastWords words;
+    ViewerRecording recording(*ticks, words);
     const auto state = std::make_unique<ViewerState>();
     const auto type = [](TextFields::Field& field, const std::string& text) {
         std::strncpy(field.data(), text.c_str(), field.size() - 1);

@@ -18,6 +18,7 @@
 #include "core/video/media.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/text.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -73,11 +74,6 @@ fs::path recorded_by_key(const TemporaryFolder& folder) {
     }
     REQUIRE_FALSE(found.empty());
     return found;
-}
-
-std::string content(const fs::path& file) {
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), {}};
 }
 
 std::size_t contacts_in(const fs::path& session) {
@@ -167,7 +163,7 @@ TEST_CASE("a session is replayed in the window, moved by keys, and ends like any
         desk.act(std::string(kMeet) + stroke() + "mouseup 1 sleep 0.2 key q");
         REQUIRE(viewer.wait() == 0);
     }
-    const std::string recorded = content(folder / "hand.dibhr");
+    const std::string recorded = read_text(folder / "hand.dibhr");
     SECTION("by itself") {
         Process viewer = desk.start_viewer(
             folder, {"hand.dibhr", "--seconds", "2", "--size", "800x600", "--screenshot", "r.png"});
@@ -194,8 +190,8 @@ TEST_CASE("a session is replayed in the window, moved by keys, and ends like any
         require_same_bits(folder, again);
         CHECK(load_settings(folder / "config/dibhr/settings.toml").touch == TouchParameters{});
     }
-    CHECK(content(folder / "errors.txt").empty());
-    CHECK(content(folder / "hand.dibhr") == recorded);
+    CHECK(read_text(folder / "errors.txt").empty());
+    CHECK(read_text(folder / "hand.dibhr") == recorded);
 }
 
 TEST_CASE("a session file that vanishes while it is recorded is told, and the program goes on",
@@ -210,7 +206,7 @@ TEST_CASE("a session file that vanishes while it is recorded is told, and the pr
     desk.act("sleep 1.2 key Escape sleep 0.2 key ctrl+r sleep 0.5 " + stroke() +
              "mouseup 1 key ctrl+r sleep 0.6 key q");
     CHECK(viewer.wait() == 1);
-    const std::string told = content(folder / "errors.txt");
+    const std::string told = read_text(folder / "errors.txt");
     CHECK(told.starts_with("dibhr: Recording to gone.dibhr stopped: "));
     CHECK(told.find('\n') == told.size() - 1);
     const fs::path next = recorded_by_key(folder);
@@ -235,7 +231,7 @@ TEST_CASE("a disk that becomes full in the midst of a recording stops neither ha
     desk.act("key Escape mouseup 1 sleep 0.2 key ctrl+r sleep 0.5 " + stroke() +
              "mouseup 1 key ctrl+r sleep 0.6 key q");
     CHECK(viewer.wait() == 1);
-    const std::string told = content(folder / "errors.txt");
+    const std::string told = read_text(folder / "errors.txt");
     INFO(told);
     CHECK(told.find("disk/full.dibhr stopped: ") != std::string::npos);
     CHECK(told.find("full") != std::string::npos);

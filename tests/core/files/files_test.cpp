@@ -17,17 +17,14 @@
 #include "core/files/plain_text.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/text.hpp"
 
 using namespace dibhr;
+using dibhr::test::read_text;
 using dibhr::test::TemporaryFolder;
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string content_of(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 std::optional<std::size_t> column_of(const CsvTable& table, std::string_view name) {
     return table.find({&name, 1});
@@ -49,9 +46,9 @@ TEST_CASE("an output file is there after commit, and nothing is without it", "[f
         out.write("whole");
         out.commit();
     }
-    CHECK(content_of(file) == "the whole");
+    CHECK(read_text(file) == "the whole");
     { OutputFile(file).write("broken off"); }
-    CHECK(content_of(file) == "the whole");
+    CHECK(read_text(file) == "the whole");
     CHECK(std::distance(fs::directory_iterator(file.parent_path()), {}) == 1);
 }
 
@@ -68,18 +65,18 @@ TEST_CASE("an output file is written beside what another program left, and as re
         out.commit();
     }
     ::umask(mask);
-    CHECK(content_of(file) == "whole");
+    CHECK(read_text(file) == "whole");
     struct stat status {};
     REQUIRE(::stat(file.c_str(), &status) == 0);
     CHECK((status.st_mode & 0777U) == 0640U);
-    CHECK(content_of(left + "-1") == "half");
+    CHECK(read_text(left + "-1") == "half");
     OutputFile first(folder / "both");
     OutputFile second(folder / "both");  // two at once
     first.write("1");
     second.write("2");
     second.commit();
     first.commit();
-    CHECK(content_of(folder / "both") == "1");
+    CHECK(read_text(folder / "both") == "1");
 }
 
 TEST_CASE("a link stays a link and a pipe stays a pipe", "[files]") {
@@ -89,7 +86,7 @@ TEST_CASE("a link stays a link and a pipe stays a pipe", "[files]") {
     out.write("x");
     out.commit();
     CHECK(fs::is_symlink(folder / "link"));
-    CHECK(content_of(folder / "real") == "x");
+    CHECK(read_text(folder / "real") == "x");
     OutputFile nowhere("/dev/null");
     nowhere.write("y");
     nowhere.commit();

@@ -9,33 +9,14 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/haptics/dibhr.hpp"
-#include "core/haptics/god_object.hpp"
-#include "core/haptics/neighborhood.hpp"
-#include "core/haptics/pga.hpp"
 #include "core/haptics/touch.hpp"
+#include "tests/core/haptics/bounds.hpp"
 #include "tests/core/haptics/surfaces.hpp"
 #include "tests/support/catch.hpp"
 
 using namespace dibhr;
 
 namespace {
-
-/// Those that look at whole TRIANGLEs do half as many over a bump map.
-int most_moves_of(Algorithm algorithm, const DepthSurface& surface) {
-    const int half = surface.has_bump() ? 2 : 1;
-    switch (algorithm) {
-        case Algorithm::dibhr:
-            return Dibhr::kMostMoves;
-        case Algorithm::pga:
-            return Pga::kMostMoves;
-        case Algorithm::neighborhood:
-            return Neighborhood::kMostMoves / half;
-        case Algorithm::god_object:
-            break;
-    }
-    return GodObject::kMostMoves / half;
-}
 
 Algorithm each_algorithm() {
     return GENERATE(Algorithm::dibhr, Algorithm::pga, Algorithm::neighborhood,
@@ -97,7 +78,6 @@ TEST_CASE("goals of any size on any ground: finite, on or above the surface, wit
           "[bounded]") {
     const Algorithm algorithm = each_algorithm();
     constexpr int kScenes = 40;
-    constexpr double kUnder_px = 1e-6;    // round-off at the greatest relief is less
     constexpr int kMostToCatchUp = 3000;  // a proxy that never gets to its goal would go on
     test::Dice dice(101 + static_cast<std::uint64_t>(algorithm));
     const long updates = wild_updates() / kScenes;
@@ -111,7 +91,7 @@ TEST_CASE("goals of any size on any ground: finite, on or above the surface, wit
         Friction friction{};
         Vec3 goal(0.5 * columns, 0.5 * rows, 50.0);
         double blend = 0.0;
-        bool pressed = false;
+        test::BoundsWatch watch;
         int behind = 0;  // updates since the goal was left standing for the proxy to catch up
         for (long k = 0; k < updates; ++k) {
             if (k % 100 == 0) {
@@ -129,24 +109,16 @@ TEST_CASE("goals of any size on any ground: finite, on or above the surface, wit
             const DepthSurface surface(scene.from, scene.to, blend, shape, &scene.bump);
             const Proxy& p = proxy->update(surface, goal, friction);
             goal = surface.clamped_to_frame(surface.clamped_to_reach(goal));
-            const Vec3 at = p.position;
-            const double height = at.z - surface.elevation_at(at.x, at.y);
-            const bool in_frame =
-                at.x >= 0.0 && at.y >= 0.0 && at.x <= columns - 1 && at.y <= rows - 1;
+            const char* broken = watch.broken_by(surface, algorithm, goal, p);
             const bool waits = p.bound_met && (behind > 0 || dice.uniform(0.0, 1.0) < 0.3);
             behind = waits ? behind + 1 : 0;
-            // A hand that comes from the air may be on its way through it for some updates more.
-            const bool floats = !p.contact && (pressed || !p.bound_met) &&
-                                goal.z < surface.elevation_at(goal.x, goal.y) - kUnder_px;
-            pressed = p.contact;
-            if (!is_finite(at) || !in_frame || height < -1e-8 || (p.contact && height > 1e-7) ||
-                p.moves > most_moves_of(algorithm, surface) + 3 || floats ||
-                behind > kMostToCatchUp) {
+            if (behind > kMostToCatchUp) broken = "the proxy never catches up";
+            if (broken != nullptr) {
                 CAPTURE(name_of(algorithm), n, k, columns, rows, shape.relief_px,
                         shape.roughness_px, friction.static_coefficient,
-                        friction.dynamic_coefficient, goal.x, goal.y, goal.z, at.x, at.y, at.z,
-                        height, p.contact, p.moves, p.bound_met);
-                FAIL("an update broke its bounds");
+                        friction.dynamic_coefficient, goal.x, goal.y, goal.z, p.position.x,
+                        p.position.y, p.position.z, p.contact, p.moves, p.bound_met);
+                FAIL(broken);
             }
         }
         SUCCEED();

@@ -5,14 +5,15 @@
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
+#include <ostream>
 #include <vector>
 
 #include <glm/geometric.hpp>
 
 #include "core/haptics/dibhr.hpp"
-#include "core/haptics/facet.hpp"
-#include "core/haptics/neighbours.hpp"
 #include "core/haptics/touch.hpp"
+#include "tests/core/haptics/bounds.hpp"
+#include "tests/core/haptics/resting_place.hpp"
 #include "tests/core/haptics/surfaces.hpp"
 #include "tests/support/catch.hpp"
 
@@ -20,18 +21,36 @@ using namespace dibhr;
 
 namespace {
 
-constexpr int kColumns = 48;
-constexpr int kRows = 37;
+/// What a nasty hand goes over.
+struct Ground {
+    int columns;
+    int rows;
+    double relief_px;
+
+    [[nodiscard]] SurfaceShape shape() const { return {relief_px, 0.0}; }
+};
+
+std::ostream& operator<<(std::ostream& out, const Ground& ground) {
+    return out << ground.columns << " x " << ground.rows << ", relief " << ground.relief_px;
+}
+
+/// The paper's relief, none, gentle and the steepest; strips of one cell's width, odd sizes.
+constexpr std::array kGrounds{Ground{48, 37, 255.0}, Ground{2, 2, 255.0},   Ground{2, 41, 60.0},
+                              Ground{57, 2, 4096.0}, Ground{33, 48, 0.0},   Ground{3, 3, 4096.0},
+                              Ground{48, 37, 1.5},   Ground{31, 29, 4096.0}};
+/// A camera's and a video's, where a hand that jumps is not reached in one update.
+constexpr std::array kLargeGrounds{Ground{641, 481, 255.0}, Ground{1280, 720, 30.0}};
 
 /// Goals a nasty hand would give: smooth strokes, jitter, teleports, positions exactly on the grid.
 class NastyHand {
   public:
-    explicit NastyHand(std::uint64_t seed) : dice_(seed) {}
+    NastyHand(std::uint64_t seed, const Ground& ground) : ground_(ground), dice_(seed) {}
     Vec3 next() {
         const double what = dice_.uniform(0.0, 1.0);
         if (what < 0.02) {
-            goal_ = {dice_.uniform(-5.0, kColumns + 5.0), dice_.uniform(-5.0, kRows + 5.0),
-                     dice_.uniform(-50.0, 280.0)};
+            goal_ = {dice_.uniform(-5.0, ground_.columns + 5.0),
+                     dice_.uniform(-5.0, ground_.rows + 5.0),
+                     dice_.uniform(-50.0, 1.1 * ground_.relief_px)};
         } else if (what < 0.04) {
             goal_ = {std::round(goal_.x), std::round(goal_.y), std::round(goal_.z)};
         } else if (what < 0.06) {
@@ -39,120 +58,19 @@ class NastyHand {
                          dice_.uniform(-6.0, 6.0)};
         } else if (what < 0.9) {
             goal_ += 0.3 * velocity_;
-            goal_ = {std::clamp(goal_.x, -3.0, kColumns + 2.0),
-                     std::clamp(goal_.y, -3.0, kRows + 2.0), std::clamp(goal_.z, -60.0, 290.0)};
+            goal_ = {std::clamp(goal_.x, -3.0, ground_.columns + 2.0),
+                     std::clamp(goal_.y, -3.0, ground_.rows + 2.0),
+                     std::clamp(goal_.z, -60.0, ground_.relief_px + 35.0)};
         }
         return goal_;
     }
 
   private:
+    Ground ground_;
     test::Dice dice_;
-    Vec3 goal_{20.0, 15.0, 120.0};
+    Vec3 goal_{0.4 * ground_.columns, 0.4 * ground_.rows, 0.5 * ground_.relief_px};
     Vec3 velocity_{1.0, 0.5, -1.0};
 };
-
-/// The point of a triangle nearest to p (Ericson, Real-Time Collision Detection, 5.1.5).
-Vec3 nearest_on(Vec3 a, Vec3 b, Vec3 c, Vec3 p) {
-    const Vec3 ab = b - a, ac = c - a, ap = p - a;
-    const double d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
-    if (d1 <= 0.0 && d2 <= 0.0) return a;
-    const Vec3 bp = p - b;
-    const double d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp);
-    if (d3 >= 0.0 && d4 <= d3) return b;
-    const double vc = d1 * d4 - d3 * d2;
-    if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return a + (d1 / (d1 - d3)) * ab;
-    const Vec3 cp = p - c;
-    const double d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
-    if (d6 >= 0.0 && d5 <= d6) return c;
-    const double vb = d5 * d2 - d1 * d6;
-    if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return a + (d2 / (d2 - d6)) * ac;
-    const double va = d3 * d6 - d5 * d4;
-    if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
-        return b + ((d4 - d3) / ((d4 - d3) + (d5 - d6))) * (c - b);
-    }
-    const double sum = va + vb + vc;
-    return a + ab * (vb / sum) + ac * (vc / sum);
-}
-
-/// The smallest distance from the goal to any triangle that the proxy touches.
-double nearest_around(const DepthSurface& surface, Vec3 proxy, Vec3 goal) {
-    double nearest = glm::length(goal - proxy);
-    const int i0 = static_cast<int>(std::floor(proxy.x));
-    const int j0 = static_cast<int>(std::floor(proxy.y));
-    const auto corner = [&](int i, int j) { return Vec3(i, j, surface.elevation(i, j)); };
-    for (int j = std::max(0, j0 - 1); j <= std::min(surface.rows() - 2, j0 + 1); ++j) {
-        for (int i = std::max(0, i0 - 1); i <= std::min(surface.columns() - 2, i0 + 1); ++i) {
-            const Vec3 triangles[2][3] = {
-                {corner(i, j), corner(i + 1, j), corner(i, j + 1)},
-                {corner(i + 1, j + 1), corner(i, j + 1), corner(i + 1, j)}};
-            for (const auto& t : triangles) {
-                if (glm::length(nearest_on(t[0], t[1], t[2], proxy) - proxy) > 1e-9) continue;
-                nearest = std::min(nearest, glm::length(nearest_on(t[0], t[1], t[2], goal) - goal));
-            }
-        }
-    }
-    return nearest;
-}
-
-/// Whether friction holds a proxy back from going to the foot F of the goal on a straight piece.
-bool is_held(Vec3 proxy, Vec3 foot, Vec3 goal, double mu) {
-    return glm::length(proxy - foot) <= mu * glm::length(goal - foot) + 1e-7;
-}
-
-/// Whether a TRIANGLE that the proxy touches leads it nearer to the goal, and friction lets it.
-bool leads_on(const std::array<Vec3, 3>& corners, Vec3 proxy, Vec3 goal, double mu) {
-    const auto& [a, b, c] = corners;
-    if (glm::length(nearest_on(a, b, c, proxy) - proxy) > 1e-9) return false;
-    for (int k = 0; k < 3; ++k) {
-        const Vec3 begin = corners[static_cast<std::size_t>(k)];
-        const Vec3 along = corners[static_cast<std::size_t>((k + 1) % 3)] - begin;
-        const double at = glm::dot(proxy - begin, along) / glm::dot(along, along);
-        if (glm::length(begin + at * along - proxy) > 1e-9) continue;  // not on this EDGE
-        const double foot_at = glm::dot(goal - begin, along) / glm::dot(along, along);
-        const bool is_way = foot_at > at ? at < 1.0 - 1e-6 : at > 1e-6;
-        if (is_way && !is_held(proxy, begin + foot_at * along, goal, mu)) return true;
-    }
-    const Vec3 normal = glm::normalize(glm::cross(b - a, c - a));
-    const Vec3 foot = goal - normal * glm::dot(goal - a, normal);
-    const Vec3 ahead = proxy + 1e-4 * glm::normalize(foot - proxy);
-    const bool is_way = glm::length(nearest_on(a, b, c, ahead) - ahead) <= 1e-9;
-    return is_way && !is_held(proxy, foot, goal, mu);
-}
-
-/// Whether any TRIANGLE or EDGE around the proxy leads it nearer to the goal, and friction lets it.
-bool something_leads_on(const DepthSurface& surface, Vec3 proxy, Vec3 goal, double mu) {
-    const int i0 = static_cast<int>(std::floor(proxy.x));
-    const int j0 = static_cast<int>(std::floor(proxy.y));
-    for (int j = std::max(0, j0 - 1); j <= std::min(surface.rows() - 2, j0 + 1); ++j) {
-        for (int i = std::max(0, i0 - 1); i <= std::min(surface.columns() - 2, i0 + 1); ++i) {
-            const std::array<Vec3, 4> z{surface.vertex_at(i, j), surface.vertex_at(i + 1, j),
-                                        surface.vertex_at(i, j + 1),
-                                        surface.vertex_at(i + 1, j + 1)};
-            if (leads_on({z[0], z[1], z[2]}, proxy, goal, mu)) return true;
-            if (leads_on({z[3], z[2], z[1]}, proxy, goal, mu)) return true;
-        }
-    }
-    return false;
-}
-
-/// Whether the proxy is in the cone around the goal's foot on the active piece.
-bool in_cone(const DepthSurface& surface, const Proxy& proxy, Vec3 goal, double mu) {
-    Vec3 foot(0.0);
-    if (proxy.active.kind == PrimitiveKind::triangle) {
-        const Facet facet(surface, proxy.active);
-        const Vec3 n = glm::normalize(Vec3(-facet.slope_x(), -facet.slope_y(), 1.0));
-        foot = goal - n * glm::dot(goal - proxy.position, n);
-    } else if (proxy.active.kind == PrimitiveKind::edge) {
-        const EdgeEnds ends = ends_of(proxy.active);
-        const Vec3 a(ends.begin_i, ends.begin_j, surface.elevation(ends.begin_i, ends.begin_j));
-        const Vec3 b(ends.end_i, ends.end_j, surface.elevation(ends.end_i, ends.end_j));
-        const Vec3 along = glm::normalize(b - a);
-        foot = a + along * glm::dot(goal - a, along);
-    } else {
-        return false;
-    }
-    return glm::length(proxy.position - foot) <= mu * glm::length(goal - foot) + 1e-7;
-}
 
 /// Updates of the long run; DIBHR_LONG_UPDATES asks for more.
 long long_updates() {
@@ -170,26 +88,26 @@ Algorithm each_algorithm() {
 TEST_CASE(
     "on every surface the proxy stays finite, on or above the surface, and the walk ends by itself",
     "[property]") {
-    const auto surfaces = test::hostile_surfaces(kColumns, kRows);
     const Algorithm algorithm = each_algorithm();
+    const Ground ground = GENERATE(from_range(kGrounds));
+    const auto surfaces = test::hostile_surfaces(ground.columns, ground.rows);
     const long in_all = algorithm == Algorithm::dibhr ? long_updates() : long_updates() / 10;
-    const long updates = in_all / static_cast<long>(surfaces.size()) / 3;
+    const auto runs = 3 * surfaces.size() * kGrounds.size();
     for (const auto& [name, image] : surfaces) {
         for (const double mu : {0.0, 0.3, 1.0}) {
-            CAPTURE(name_of(algorithm), name, mu);
-            const DepthSurface surface(image, image, 0.0, {255.0, 0.0});
-            NastyHand hand(17);
+            const DepthSurface surface(image, image, 0.0, ground.shape());
+            NastyHand hand(17, ground);
+            test::BoundsWatch watch;
             const auto proxy = make_algorithm(algorithm);
-            for (long k = 0; k < updates; ++k) {
+            for (long k = 0; k < in_all / static_cast<long>(runs); ++k) {
                 const Vec3 goal = hand.next();
                 const Proxy& p = proxy->update(surface, goal, {mu, mu});
-                const Vec3 at = p.position;
-                const double height = at.z - surface.elevation_at(at.x, at.y);
-                if (!(is_finite(at) && height >= -1e-9 && (!p.contact || height <= 1e-8) &&
-                      !p.bound_met && at.x >= 0.0 && at.y >= 0.0 && at.x <= kColumns - 1 &&
-                      at.y <= kRows - 1)) {
-                    CAPTURE(k, goal.x, goal.y, goal.z, at.x, at.y, at.z, p.moves, p.bound_met);
-                    FAIL("a property is broken");
+                const char* broken = watch.broken_by(surface, algorithm, goal, p);
+                if (p.bound_met) broken = "the walk did not end by itself";
+                if (broken != nullptr) {
+                    CAPTURE(name_of(algorithm), ground, name, mu, k, goal.x, goal.y, goal.z,
+                            p.position.x, p.position.y, p.position.z, p.moves);
+                    FAIL(broken);
                 }
             }
             SUCCEED();
@@ -197,21 +115,48 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("over large images a hand that jumps is caught up with, on or above the surface",
+          "[property]") {
+    const Algorithm algorithm = each_algorithm();
+    const Ground ground = GENERATE(from_range(kLargeGrounds));
+    for (const auto& [name, image] : test::hostile_surfaces(ground.columns, ground.rows)) {
+        const DepthSurface surface(image, image, 0.0, ground.shape());
+        NastyHand hand(19, ground);
+        test::BoundsWatch watch;
+        const auto proxy = make_algorithm(algorithm);
+        Vec3 goal = hand.next();
+        for (int k = 0, behind = 0; k < 3000; ++k) {
+            const Proxy& p = proxy->update(surface, goal, {0.3, 0.2});
+            const char* broken = watch.broken_by(surface, algorithm, goal, p);
+            behind = p.bound_met ? behind + 1 : 0;
+            if (behind > 1000) broken = "the proxy never catches up";
+            if (broken != nullptr) {
+                CAPTURE(name_of(algorithm), ground, name, k, goal.x, goal.y, goal.z, p.position.x,
+                        p.position.y, p.position.z, p.moves);
+                FAIL(broken);
+            }
+            if (!p.bound_met) goal = hand.next();
+        }
+        SUCCEED();
+    }
+}
+
 TEST_CASE(
     "while the surface moves the proxy stays on it, and a goal deep below never loses contact",
     "[property]") {
     const Algorithm algorithm = each_algorithm();
-    const auto surfaces = test::hostile_surfaces(kColumns, kRows);
+    const Ground ground = GENERATE(from_range(kGrounds));
+    const auto surfaces = test::hostile_surfaces(ground.columns, ground.rows);
     for (std::size_t from = 0; from < surfaces.size(); ++from) {
         const auto& to = surfaces[(from + 3) % surfaces.size()];
-        CAPTURE(name_of(algorithm), surfaces[from].name, to.name);
-        NastyHand hand(53);
+        CAPTURE(name_of(algorithm), ground, surfaces[from].name, to.name);
+        NastyHand hand(53, ground);
         const auto proxy = make_algorithm(algorithm);
-        for (int k = 0; k < 3000; ++k) {
+        for (int k = 0; k < 1000; ++k) {
             const double blend = 0.5 - 0.5 * std::cos(0.05 * k);
-            const DepthSurface surface(surfaces[from].image, to.image, blend, {255.0, 0.0});
+            const DepthSurface surface(surfaces[from].image, to.image, blend, ground.shape());
             Vec3 goal = hand.next();
-            if (k % 1000 >= 500) goal.z = -80.0;  // below every surface
+            if (k % 500 >= 250) goal.z = -80.0;  // below every surface
             const Proxy& p = proxy->update(surface, goal, {0.8, 0.3});
             const double height = p.position.z - surface.elevation_at(p.position.x, p.position.y);
             CAPTURE(k, height);
@@ -227,19 +172,20 @@ TEST_CASE(
 TEST_CASE("without friction DIBHR and neighborhood rest at a local minimum of the distance",
           "[property]") {
     const Algorithm algorithm = GENERATE(Algorithm::dibhr, Algorithm::neighborhood);
-    for (const auto& [name, image] : test::hostile_surfaces(kColumns, kRows)) {
-        CAPTURE(name_of(algorithm), name);
-        const DepthSurface surface(image, image, 0.0, {255.0, 0.0});
-        NastyHand hand(23);
+    const Ground ground = GENERATE(from_range(kGrounds));
+    for (const auto& [name, image] : test::hostile_surfaces(ground.columns, ground.rows)) {
+        CAPTURE(name_of(algorithm), ground, name);
+        const DepthSurface surface(image, image, 0.0, ground.shape());
+        NastyHand hand(23, ground);
         const auto proxy = make_algorithm(algorithm);
-        for (int k = 0; k < 20000; ++k) {
+        for (int k = 0; k < 4000; ++k) {
             const Vec3 goal = hand.next();
             const Proxy& p = proxy->update(surface, goal, {0.0, 0.0});
             if (!p.contact) continue;
             const Vec3 clamped = surface.clamped_to_frame(goal);
             const double distance = glm::length(clamped - p.position);
             CAPTURE(k, distance, name_of(p.active.kind));
-            REQUIRE(nearest_around(surface, p.position, clamped) >= distance - 1e-6);
+            REQUIRE(test::nearest_around(surface, p.position, clamped) >= distance - 1e-6);
         }
     }
 }
@@ -247,20 +193,22 @@ TEST_CASE("without friction DIBHR and neighborhood rest at a local minimum of th
 TEST_CASE("with friction the proxy rests at a local minimum or in the cone of its piece",
           "[property]") {
     const double mu = GENERATE(0.1, 0.4, 1.5);
-    for (const auto& [name, image] : test::hostile_surfaces(kColumns, kRows)) {
-        CAPTURE(name, mu);
-        const DepthSurface surface(image, image, 0.0, {255.0, 0.0});
-        NastyHand hand(29);
+    const Ground ground = GENERATE(from_range(kGrounds));
+    for (const auto& [name, image] : test::hostile_surfaces(ground.columns, ground.rows)) {
+        CAPTURE(ground, name, mu);
+        const DepthSurface surface(image, image, 0.0, ground.shape());
+        NastyHand hand(29, ground);
         Dibhr dibhr;
-        for (int k = 0; k < 10000; ++k) {
+        for (int k = 0; k < 2000; ++k) {
             const Vec3 goal = hand.next();
             const Proxy& p = dibhr.update(surface, goal, {mu, mu});
             if (!p.contact) continue;
             const Vec3 clamped = surface.clamped_to_frame(goal);
             const double distance = glm::length(clamped - p.position);
             CAPTURE(k, distance, name_of(p.active.kind));
-            const bool rests = in_cone(surface, p, clamped, mu) ||
-                               nearest_around(surface, p.position, clamped) >= distance - 1e-6;
+            const bool rests =
+                test::in_cone(surface, p, clamped, mu) ||
+                test::nearest_around(surface, p.position, clamped) >= distance - 1e-6;
             REQUIRE(rests);
         }
     }
@@ -269,19 +217,20 @@ TEST_CASE("with friction the proxy rests at a local minimum or in the cone of it
 TEST_CASE("where the proxy rests, friction holds it on all that surrounds it", "[property]") {
     const double mu = GENERATE(0.1, 0.4, 1.5);
     const double deeper_px = GENERATE(0.0, 60.0);
-    for (const auto& [name, image] : test::hostile_surfaces(kColumns, kRows)) {
-        CAPTURE(name, mu, deeper_px);
-        const DepthSurface surface(image, image, 0.0, {255.0, 0.0});
-        NastyHand hand(41);
+    const Ground ground = GENERATE(from_range(kGrounds));
+    for (const auto& [name, image] : test::hostile_surfaces(ground.columns, ground.rows)) {
+        CAPTURE(ground, name, mu, deeper_px);
+        const DepthSurface surface(image, image, 0.0, ground.shape());
+        NastyHand hand(41, ground);
         Dibhr dibhr;
-        for (int k = 0; k < 10000; ++k) {
+        for (int k = 0; k < 2000; ++k) {
             const Vec3 goal = hand.next() - Vec3(0.0, 0.0, deeper_px);
             const Proxy& p = dibhr.update(surface, goal, {mu, mu});
             if (!p.contact || p.bound_met) continue;
             CAPTURE(k, goal.x, goal.y, goal.z, p.position.x, p.position.y, p.position.z,
                     name_of(p.active.kind));
             REQUIRE_FALSE(
-                something_leads_on(surface, p.position, surface.clamped_to_frame(goal), mu));
+                test::something_leads_on(surface, p.position, surface.clamped_to_frame(goal), mu));
         }
     }
 }
@@ -289,17 +238,49 @@ TEST_CASE("where the proxy rests, friction holds it on all that surrounds it", "
 TEST_CASE("the distance to the goal never grows in an update", "[property]") {
     const Algorithm algorithm = each_algorithm();
     const double mu = GENERATE(0.0, 0.5);
-    for (const auto& [name, image] : test::hostile_surfaces(kColumns, kRows)) {
-        CAPTURE(name_of(algorithm), name, mu);
-        const DepthSurface surface(image, image, 0.0, {255.0, 0.0});
-        NastyHand hand(31);
+    const Ground ground = GENERATE(from_range(kGrounds));
+    for (const auto& [name, image] : test::hostile_surfaces(ground.columns, ground.rows)) {
+        CAPTURE(name_of(algorithm), ground, name, mu);
+        const DepthSurface surface(image, image, 0.0, ground.shape());
+        NastyHand hand(31, ground);
         const auto proxy = make_algorithm(algorithm);
         Vec3 before = proxy->update(surface, hand.next(), {mu, mu}).position;
-        for (int k = 0; k < 20000; ++k) {
+        for (int k = 0; k < 4000; ++k) {
             const Vec3 goal = surface.clamped_to_frame(hand.next());
             const Vec3 after = proxy->update(surface, goal, {mu, mu}).position;
             REQUIRE(glm::length(goal - after) <= glm::length(goal - before) + 1e-9);
             before = after;
+        }
+    }
+}
+
+TEST_CASE("at every pixel pitch the spring pulls to the proxy, and what is sent keeps its limits",
+          "[property]") {
+    TouchParameters parameters;
+    parameters.coupling.pixel_pitch_mm = GENERATE(0.001, 0.05, kPaperPitch_mm, 10.0);
+    const Ground ground = GENERATE(from_range(kGrounds));
+    const SafetyLimits limits;
+    const double newton_per_px =
+        parameters.coupling.stiffness_newton_per_mm * parameters.coupling.pixel_pitch_mm;
+    for (const auto& [name, image] : test::hostile_surfaces(ground.columns, ground.rows)) {
+        const DepthSurface surface(image, image, 0.0, ground.shape());
+        NastyHand hand(43, ground);
+        TouchRenderer renderer;
+        Vec3 last(0.0);
+        for (int k = 0; k < 1000; ++k) {
+            const Touch& touch = renderer.update(surface, hand.next(), parameters, {}, limits);
+            const Vec3 sent = touch.sent_force_newton;
+            const Vec3 spring = touch.proxy.contact
+                                    ? newton_per_px * (touch.proxy.position - touch.goal)
+                                    : Vec3(0.0);
+            CAPTURE(ground, name, k, parameters.coupling.pixel_pitch_mm);
+            REQUIRE(glm::length(touch.spring_force_newton - spring) <=
+                    1e-12 * (1.0 + glm::length(spring)));
+            REQUIRE(glm::length(sent) <= limits.max_force_newton + 1e-12);
+            const bool dropped = sent == Vec3(0.0);
+            REQUIRE(
+                (dropped || glm::length(sent - last) <= limits.max_change_newton_per_ms + 1e-12));
+            last = sent;
         }
     }
 }
@@ -331,15 +312,16 @@ TEST_CASE("a proxy in contact goes where a hand a hundred times slower takes it"
 }
 
 TEST_CASE("the same goals give the same bits twice", "[property]") {
-    const auto surfaces = test::hostile_surfaces(kColumns, kRows);
+    const Ground ground = GENERATE(from_range(kGrounds));
+    const auto surfaces = test::hostile_surfaces(ground.columns, ground.rows);
     const Algorithm algorithm = each_algorithm();
     const auto run = [&] {
         std::vector<Vec3> path;
         for (const auto& named : surfaces) {
-            const DepthSurface surface(named.image, surfaces.back().image, 0.3, {255.0, 0.0});
-            NastyHand hand(37);
+            const DepthSurface surface(named.image, surfaces.back().image, 0.3, ground.shape());
+            NastyHand hand(37, ground);
             const auto proxy = make_algorithm(algorithm);
-            for (int k = 0; k < 3000; ++k)
+            for (int k = 0; k < 1000; ++k)
                 path.push_back(proxy->update(surface, hand.next(), {}).position);
         }
         return path;

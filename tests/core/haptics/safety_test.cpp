@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -22,6 +23,25 @@ SafetyStage warmed_up(Vec3 force, const SafetyLimits& limits) {
     SafetyStage stage;
     for (int k = 0; k < 2000; ++k) static_cast<void>(stage.limit(force, {}, limits));
     return stage;
+}
+
+struct Reason {
+    SafetyCut cut;
+    void (*apply)(SafetyInput&, Vec3&);
+};
+
+/// To send nothing.
+const std::vector<Reason>& reasons_to_cut() {
+    static const std::vector<Reason> reasons{
+        {SafetyCut::off, [](SafetyInput& input, Vec3&) { input.force_enabled = false; }},
+        {SafetyCut::device_not_ready,
+         [](SafetyInput& input, Vec3&) { input.device_ready = false; }},
+        {SafetyCut::late_tick, [](SafetyInput& input, Vec3&) { input.dt_s = 0.021; }},
+        {SafetyCut::goal_jump,
+         [](SafetyInput& input, Vec3&) { input.goal_step_mm = 1e4 * input.dt_s + 0.1; }},
+        {SafetyCut::not_finite, [](SafetyInput&, Vec3& force) { force.x = std::nan(""); }},
+    };
+    return reasons;
 }
 
 }  // namespace
@@ -53,14 +73,31 @@ TEST_CASE("the sent force changes by no more than the limit per millisecond, exc
     SafetyStage stage;
     test::Dice dice(43);
     Vec3 last(0.0);
+    int cuts_of_force = 0;  // by more than the limit
     for (int k = 0; k < 20000; ++k) {
-        const Vec3 force(dice.uniform(-9.0, 9.0), dice.uniform(-9.0, 9.0), dice.uniform(-9.0, 9.0));
+        Vec3 force(dice.uniform(-9.0, 9.0), dice.uniform(-9.0, 9.0), dice.uniform(-9.0, 9.0));
         SafetyInput input;
-        input.dt_s = 0.002;
+        input.dt_s = dice.uniform(0.0001, 0.010);
+        // Long enough between two of them for the force to come back.
+        const bool cut = dice.uniform(0.0, 1.0) < 0.005;
+        if (cut) {
+            const auto& reasons = reasons_to_cut();
+            const double any = dice.uniform(0.0, static_cast<double>(reasons.size()));
+            reasons[static_cast<std::size_t>(any)].apply(input, force);
+        }
         const Vec3 sent = stage.limit(force, input, limits);
-        REQUIRE(glm::length(sent - last) <= 2.0 * limits.max_change_newton_per_ms + 1e-12);
+        const double most_newton =
+            limits.max_change_newton_per_ms * std::min(1e3 * input.dt_s, 3.0) + 1e-12;
+        CAPTURE(k, cut, input.dt_s);
+        if (cut) {
+            REQUIRE(sent == Vec3(0.0));
+            cuts_of_force += glm::length(last) > most_newton ? 1 : 0;
+        } else {
+            REQUIRE(glm::length(sent - last) <= most_newton);
+        }
         last = sent;
     }
+    CHECK(cuts_of_force > 20);
 }
 
 TEST_CASE("a late tick earns neither a larger step of the force nor a longer way of the goal",
@@ -110,18 +147,7 @@ TEST_CASE("a force from zero is zero at once, and the force ramps up from there"
 }
 
 TEST_CASE("each reason to stop sends zero at once, says why, and ramps up again", "[safety]") {
-    struct Reason {
-        SafetyCut cut;
-        void (*apply)(SafetyInput&, Vec3&);
-    };
-    const Reason reason = GENERATE(values<Reason>({
-        {SafetyCut::off, [](SafetyInput& input, Vec3&) { input.force_enabled = false; }},
-        {SafetyCut::device_not_ready,
-         [](SafetyInput& input, Vec3&) { input.device_ready = false; }},
-        {SafetyCut::late_tick, [](SafetyInput& input, Vec3&) { input.dt_s = 0.021; }},
-        {SafetyCut::goal_jump, [](SafetyInput& input, Vec3&) { input.goal_step_mm = 10.1; }},
-        {SafetyCut::not_finite, [](SafetyInput&, Vec3& force) { force.x = std::nan(""); }},
-    }));
+    const Reason reason = GENERATE(from_range(reasons_to_cut()));
     const SafetyLimits limits;
     const Vec3 force(0.0, 0.0, 2.0);
     SafetyStage stage = warmed_up(force, limits);
@@ -132,6 +158,36 @@ TEST_CASE("each reason to stop sends zero at once, says why, and ramps up again"
     CHECK(stage.last_cut() == reason.cut);
     CHECK(std::string(name_of(reason.cut)) != "");
     CHECK(glm::length(stage.limit(force, {}, limits)) <= 2.0 * 0.001 / limits.ramp_s + 1e-12);
+}
+
+TEST_CASE(
+    "at a standstill the force goes straight to zero in 40 ms, also where its change is limited",
+    "[safety]") {
+    SafetyLimits limits;
+    limits.max_change_newton_per_ms = GENERATE(0.5, 0.01);
+    const Vec3 force(1.2, -1.0, 3.4);
+    SafetyStage stage = warmed_up(force, limits);
+    SafetyInput input;
+    input.standstill = true;
+    for (int k = 1; k <= 60; ++k) {
+        CAPTURE(k);
+        const Vec3 sent = stage.limit(force, input, limits);
+        CHECK_THAT(glm::distance(sent, force * std::max(0.0, 1.0 - k / 40.0)),
+                   WithinAbs(0.0, 1e-9));
+        CHECK(stage.last_cut() == SafetyCut::standstill);
+    }
+    CHECK(glm::length(stage.limit(force, {}, limits)) <= 4.0 * 0.001 / limits.ramp_s + 1e-12);
+}
+
+TEST_CASE("a force that was cut at a standstill stays off until that is over", "[safety]") {
+    const SafetyLimits limits;
+    SafetyStage stage = warmed_up({0.0, 0.0, 3.0}, limits);
+    SafetyInput input;
+    input.standstill = true;
+    CHECK(stage.limit({0.0, 0.0, 3.0}, input, limits).z > 2.5);
+    stage.drop_to_zero();  // as without a surface
+    CHECK(stage.limit({0.0, 0.0, 3.0}, input, limits) == Vec3(0.0));
+    CHECK(stage.limit({0.0, 0.0, 3.0}, input, limits) == Vec3(0.0));
 }
 
 TEST_CASE("every reason to stop has a name of its own, up to the last", "[safety]") {

@@ -79,6 +79,15 @@ inline void run_ticks(HapticTick& tick, int count) {
         tick.run({std::chrono::steady_clock::now(), 0.001, {}, false}, 0);
 }
 
+/// What a recorder writes of the settings that were handed over last.
+inline SessionParameters as_recorded(const HapticSettings& handed) {
+    return {.version = handed.version,
+            .touch = handed.parameters,
+            .limits = handed.limits,
+            .force_enabled = handed.force_enabled,
+            .bump = {}};
+}
+
 /// Lets the hand come from above, so that it is in contact and the force has risen.
 inline void press(Bench& bench, HapticTick& tick) {
     const Vec3 pressed = bench.hand.goal;

@@ -95,6 +95,13 @@ std::uint64_t replayed(const Session& session, const FrameWindow& window, bool T
     return flagged;
 }
 
+/// With stability control: a device that a force moves, and energy that is watched.
+void watch(Bench& bench, bool stable) {
+    bench.handed.limits.stability = stable;
+    bench.hand.described.limits.dynamics = {
+        .mass_kg = 0.1, .friction_newton_s_per_m = 0.5, .resolution_mm = 0.05, .delay_s = 0.002};
+}
+
 }  // namespace
 
 TEST_CASE("every tick is recorded, in order", "[loop]") {
@@ -146,6 +153,7 @@ TEST_CASE("what the loop records replays to the same bits, whenever the recordin
     const TemporaryFolder folder;
     const auto file = folder / "loop.dibhr";
     Bench bench;
+    watch(bench, GENERATE(false, true));
     bench.handed.recording = false;
     bench.hand_over();
     FrameWindow window = rising_window(48, 32);
@@ -158,11 +166,7 @@ TEST_CASE("what the loop records replays to the same bits, whenever the recordin
         const auto hand_over = [&] {
             bench.handed.recording = true;
             bench.hand_over();
-            recorder.parameters({.version = bench.handed.version,
-                                 .touch = bench.handed.parameters,
-                                 .limits = bench.handed.limits,
-                                 .force_enabled = bench.handed.force_enabled,
-                                 .bump = {}});
+            recorder.parameters(as_recorded(bench.handed));
         };
         hand_over();
         explore(bench, tick, 400);
@@ -205,6 +209,7 @@ TEST_CASE("parameters that change in contact, and again on their way, replay to 
     const TemporaryFolder folder;
     const auto file = folder / "dragged.dibhr";
     Bench bench;
+    watch(bench, GENERATE(false, true));
     bench.hand_over();
     const FrameWindow window = rising_window(64, 48, 0.05F);
     bench.frames.publish(window);
@@ -216,11 +221,7 @@ TEST_CASE("parameters that change in contact, and again on their way, replay to 
             bench.handed.parameters.coupling.stiffness_newton_per_mm = 0.2 + 0.01 * k;
             bench.handed.parameters.friction = {0.8 - 0.01 * k, 0.2};
             bench.handed.parameters.shape.relief_px = 255.0 + k % 3;
-            recorder.parameters({.version = bench.handed.version,
-                                 .touch = bench.handed.parameters,
-                                 .limits = bench.handed.limits,
-                                 .force_enabled = bench.handed.force_enabled,
-                                 .bump = {}});
+            recorder.parameters(as_recorded(bench.handed));
             bench.settings.publish(bench.handed);
             bench.hand.goal.x = 20.0 + 0.1 * k;
             run_ticks(tick, k % 20 == 0 ? 300 : 17);
@@ -243,11 +244,7 @@ TEST_CASE("ticks that end before the proxy has caught up are counted, and replay
     HapticTick tick(bench.connections());
     {
         Recorder recorder(file, *bench.ticks, {});
-        recorder.parameters({.version = bench.handed.version,
-                             .touch = bench.handed.parameters,
-                             .limits = bench.handed.limits,
-                             .force_enabled = bench.handed.force_enabled,
-                             .bump = {}});
+        recorder.parameters(as_recorded(bench.handed));
         jump_about(bench, tick, 640, 480);
     }
     const HapticState& last = bench.state.front();

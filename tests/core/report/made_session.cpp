@@ -5,13 +5,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <thread>
 
 #include "core/haptics/surface.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/text.hpp"
 
 namespace dibhr::test {
 
@@ -69,7 +68,7 @@ void record(const fs::path& file, const MadeSession& session) {
 }
 
 std::string json_at(const fs::path& file, const std::string& path) {
-    const std::string json = text_in(file);
+    const std::string json = read_text(file);
     sqlite3* database = nullptr;
     sqlite3_stmt* question = nullptr;
     std::string answer;
@@ -85,11 +84,6 @@ std::string json_at(const fs::path& file, const std::string& path) {
     sqlite3_finalize(question);
     sqlite3_close(database);
     return answer;
-}
-
-std::string text_in(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 }  // namespace dibhr::test

@@ -37,6 +37,4 @@ void record(const std::filesystem::path& file, const MadeSession& session);
 /// What SQLite finds at `path` ("$.ticks.all") of a JSON file; an error's words when it is none.
 [[nodiscard]] std::string json_at(const std::filesystem::path& file, const std::string& path);
 
-[[nodiscard]] std::string text_in(const std::filesystem::path& file);
-
 }  // namespace dibhr::test

@@ -116,7 +116,7 @@ TEST_CASE("the page stands alone, closes what it opens, and says it in words", "
     made.facts["participant"] = "P07";
     record(folder / "a.dibhr", made);
     report(folder / "a.dibhr", folder / "out");
-    const std::string page = text_in(folder / "out/report.html");
+    const std::string page = read_text(folder / "out/report.html");
     CHECK(page.starts_with("<!DOCTYPE html>"));
     CHECK(unbalanced(page) == "");
     CHECK(contains(page, "In 2.0 s, P07 touched twice for 1.0 s in all (50 % of the ticks)."));
@@ -143,7 +143,7 @@ TEST_CASE("whatever a session says is shown as text", "[report]") {
     };
     record(folder / "a.dibhr", made);
     report(folder / "a.dibhr", folder / "out");
-    const std::string page = text_in(folder / "out/report.html");
+    const std::string page = read_text(folder / "out/report.html");
     CHECK(unbalanced(page) == "");
     CHECK_FALSE(contains(page, "<script"));
     CHECK_FALSE(contains(page, "\" onload"));
@@ -161,8 +161,8 @@ TEST_CASE("a session that never touched has a report that says so", "[report]") 
     report(folder / "a.dibhr", folder / "out");
     CHECK(names_in(folder / "out") ==
           std::vector<std::string>{"force-over-time.png", "report.html", "report.json"});
-    CHECK(contains(text_in(folder / "out/report.html"), "never touched the surface"));
-    CHECK(unbalanced(text_in(folder / "out/report.html")) == "");
+    CHECK(contains(read_text(folder / "out/report.html"), "never touched the surface"));
+    CHECK(unbalanced(read_text(folder / "out/report.html")) == "");
     CHECK(json_at(folder / "out/report.json", "$.episode_count") == "0");
     CHECK(json_at(folder / "out/report.json", "$.force_sent_newton") == "");
 }
@@ -221,7 +221,7 @@ TEST_CASE("a place beyond any picture takes no memory: it is ignored, or the map
     };
     write_session_report(Session(folder / "a.dibhr"), {folder / "out", "dibhr", pictures, {}});
     CHECK(fs::exists(folder / "out/heat-map.png") == size_known);
-    const std::string page = text_in(folder / "out/report.html");
+    const std::string page = read_text(folder / "out/report.html");
     CHECK(contains(page, "A heat map was left out: 65536 x 65536 pixels") == !size_known);
     if (size_known) {
         CHECK(json_at(folder / "out/report.json", "$.heat_maps[0].columns") == "320");
@@ -235,7 +235,7 @@ TEST_CASE("the page says for how much of the session the mouse stood in", "[repo
     for (std::size_t k = 0; k < 744; ++k) made.ticks[k].stand_in = true;
     record(folder / "a.dibhr", made);
     report(folder / "a.dibhr", folder / "out");
-    CHECK(contains(text_in(folder / "out/report.html"),
+    CHECK(contains(read_text(folder / "out/report.html"),
                    "Novint Falcon 1234; the mouse stood in for 37.2 % of the ticks"));
     CHECK(json_at(folder / "out/report.json", "$.facts.device") == "Novint Falcon 1234");
 }
@@ -251,7 +251,7 @@ TEST_CASE("what speaks against a picture is said, and the picture stays", "[repo
         return picture;
     };
     write_session_report(Session(folder / "a.dibhr"), {folder / "out", "dibhr", pictures, {}});
-    const std::string page = text_in(folder / "out/report.html");
+    const std::string page = read_text(folder / "out/report.html");
     CHECK(contains(page, "a.mp4 is taken for the colour video."));
     CHECK(contains(page, "over the frame that was touched longest"));
 }
@@ -267,7 +267,7 @@ TEST_CASE("an earlier report is replaced, other files stay", "[report]") {
     report(folder / "none.dibhr", folder / "out");
     CHECK(names_in(folder / "out") == std::vector<std::string>{"force-over-time.png", "mine.txt",
                                                                "report.html", "report.json"});
-    CHECK(contains(text_in(folder / "out/report.html"), "none.dibhr"));
+    CHECK(contains(read_text(folder / "out/report.html"), "none.dibhr"));
 }
 
 TEST_CASE("what cannot be reported is refused in one line, and nothing is left or changed",
@@ -303,7 +303,7 @@ TEST_CASE("a report that breaks off leaves the earlier one as it was", "[report]
     const TemporaryFolder folder;
     record(folder / "touch.dibhr", two_touches());
     report(folder / "touch.dibhr", folder / "out");
-    const std::string page = text_in(folder / "out/report.html");
+    const std::string page = read_text(folder / "out/report.html");
     const auto fails = [](const SessionSource&, double) -> RecordedPicture {
         throw InputError("the disk is gone");
     };
@@ -311,7 +311,7 @@ TEST_CASE("a report that breaks off leaves the earlier one as it was", "[report]
     CHECK_THROWS_AS(write_session_report(session, {folder / "out", "dibhr", fails, {}}),
                     InputError);
     CHECK(names_in(folder / "out") == kAllFiles);
-    CHECK(text_in(folder / "out/report.html") == page);
+    CHECK(read_text(folder / "out/report.html") == page);
     CHECK_THROWS_AS(write_session_report(session, {folder / "new", "dibhr", fails, {}}),
                     InputError);
     CHECK_FALSE(fs::exists(folder / "new"));

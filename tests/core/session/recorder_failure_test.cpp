@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <memory>
 #include <string>
 
@@ -15,6 +14,7 @@
 #include "core/session/session.hpp"
 #include "tests/core/session/session_folder.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/text.hpp"
 
 namespace {
 
@@ -26,6 +26,7 @@ using dibhr::test::answer;
 using dibhr::test::eventually;
 using dibhr::test::output_of;
 using dibhr::test::push;
+using dibhr::test::read_text;
 using dibhr::test::SessionFolder;
 using dibhr::test::tick_record;
 
@@ -117,8 +118,7 @@ TEST_CASE("a file that exists is never overwritten", "[session]") {
     std::ofstream(folder.file()) << "my thesis";
     CHECK(refusal_of(folder.file()) ==
           folder.file().string() + ": exists already; choose another name for the session");
-    std::ifstream kept(folder.file());
-    CHECK(std::string(std::istreambuf_iterator<char>(kept), {}) == "my thesis");
+    CHECK(read_text(folder.file()) == "my thesis");
 }
 
 TEST_CASE("a folder that is not there is named, with what to do", "[session]") {
@@ -204,8 +204,7 @@ TEST_CASE("when another file takes its place the status says so, and both stay a
     }));
     CHECK(recorder.status().failure.find("another file is in its place") != std::string::npos);
     recorder.finish();
-    std::ifstream kept(folder.file());
-    CHECK(std::string(std::istreambuf_iterator<char>(kept), {}) == "my thesis");
+    CHECK(read_text(folder.file()) == "my thesis");
 }
 
 TEST_CASE("a file that is made read-only meanwhile is recorded to its end", "[session]") {

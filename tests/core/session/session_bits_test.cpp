@@ -74,6 +74,7 @@ TickRecord any_tick(std::int64_t number, AnyReal& real) {
     tick.goal_refused = bit(5);
     tick.catching_up = bit(6);
     tick.gliding = bit(7);
+    tick.standstill = bit(8);
     return tick;
 }
 
@@ -89,7 +90,7 @@ bool same(const TickRecord& a, const TickRecord& b) {
            a.device_ready == b.device_ready && a.stand_in == b.stand_in &&
            a.from_zero == b.from_zero && a.lets_go == b.lets_go &&
            a.goal_refused == b.goal_refused && a.catching_up == b.catching_up &&
-           a.gliding == b.gliding;
+           a.gliding == b.gliding && a.standstill == b.standstill;
 }
 
 }  // namespace

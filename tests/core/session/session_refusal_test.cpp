@@ -97,8 +97,7 @@ TEST_CASE(
     "[session]") {
     const SessionFolder folder;
     record_ticks(folder.file(), 4000);
-    std::ifstream stream(folder.file(), std::ios::binary);
-    const std::string whole(std::istreambuf_iterator<char>(stream), {});
+    const std::string whole = read_text(folder.file());
     const auto damaged = folder.path() / "damaged.dibhr";
     std::mt19937 random(11);
     std::uniform_int_distribution<std::size_t> place(0, whole.size() - 1);
@@ -159,6 +158,37 @@ TEST_CASE("a file all of whose recording is in a log that is not there names the
     const auto foreign = folder.path() / "foreign.dibhr";
     run_sql(foreign, "PRAGMA journal_mode = WAL; CREATE TABLE a(b)");
     CHECK(contains(refusal_of(foreign), "another program"));
+}
+
+TEST_CASE("an empty file with a log beside it is refused, and the log stays as it is",
+          "[session]") {
+    const SessionFolder folder;
+    const auto ring = std::make_unique<TickRing>();
+    Recorder recorder(folder.file(), *ring, {});
+    push(*ring, tick_record(0));
+    REQUIRE(eventually([&] { return recorder.status().rows == 1; }));
+    const auto copied = folder.path() / "copied.dibhr";
+    const std::string log = copied.string() + "-wal";
+    std::filesystem::copy_file(folder.file().string() + "-wal", log);
+    std::ofstream(copied).flush();
+    const auto bytes = std::filesystem::file_size(log);
+    CHECK(refusal_of(copied) == copied.string() +
+                                    ": is empty, and only copied.dibhr-wal, the log of its "
+                                    "recording, is beside it; copy both again from where it was "
+                                    "recorded");
+    CHECK(std::filesystem::file_size(log) == bytes);
+    std::filesystem::copy_file(folder.file(), copied,
+                               std::filesystem::copy_options::overwrite_existing);
+    CHECK(Session(copied).rows() == 1);
+}
+
+TEST_CASE("a recording that was killed before it had written anything is called one", "[session]") {
+    const SessionFolder folder;
+    run_sql(folder.file(), "PRAGMA journal_mode = WAL; VACUUM");
+    std::ofstream(folder.file().string() + "-wal") << std::string(100, 'x');  // of a torn write
+    const std::string refusal = refusal_of(folder.file());
+    CHECK(contains(refusal, "broken off before anything was written"));
+    CHECK(contains(refusal, "touch.dibhr-wal"));
 }
 
 TEST_CASE("a session made to keep its reader busy is refused within 5 s, in one line",

@@ -2,8 +2,6 @@
 #include "tests/core/video/clips.hpp"
 
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
@@ -39,10 +37,6 @@ void write_picture(const std::filesystem::path& file, int columns, int rows, int
             }
     if (!cv::imwrite(file.string(), picture))
         throw std::runtime_error("not written: " + file.string());
-}
-
-void write_text(const std::filesystem::path& file, const std::string& text) {
-    std::ofstream(file) << text;
 }
 
 void cut(const std::filesystem::path& file, const std::filesystem::path& cut_file,

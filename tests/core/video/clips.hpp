@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 #include <vector>
+#include "tests/support/text.hpp"
 
 namespace dibhr::test {
 
@@ -26,8 +27,6 @@ inline const std::string kVp9 =
 /// A PNG of the given bits and channels, level(column, row, channel).
 void write_picture(const std::filesystem::path& file, int columns, int rows, int bits, int channels,
                    const std::function<int(int, int, int)>& level);
-
-void write_text(const std::filesystem::path& file, const std::string& text);
 
 /// The first `bytes` of a file as another file.
 void cut(const std::filesystem::path& file, const std::filesystem::path& cut_file,

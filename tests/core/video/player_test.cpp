@@ -193,6 +193,25 @@ TEST_CASE("reading every kilohertz tick during play, seeks and loops never tears
     CHECK(seen.load() > 100);
 }
 
+TEST_CASE("a file that is cut while it plays is told, and what is left plays on", "[player]") {
+    const TemporaryFolder folder;
+    for (const char* const name : {"color.mkv", "depth.mkv"}) {
+        make_flat_clip(folder / name, 60, 25, kLossless, "noise=alls=90:allf=t", 320, 240);
+    }
+    const auto cut_file = folder / GENERATE("color.mkv", "depth.mkv");
+    Player player;
+    player.play_media(open_media(folder / "color.mkv"));
+    REQUIRE(soon([&] { return player.status().frame > 1; }));
+    CHECK(player.status().failure.empty());
+    std::filesystem::resize_file(cut_file, std::filesystem::file_size(cut_file) / 2);
+    REQUIRE(soon([&] { return !player.status().failure.empty(); }));
+    CHECK(player.status().failure.find(cut_file.filename().string()) != std::string::npos);
+    CHECK(player.status().failure.find("breaks off at") != std::string::npos);
+    CHECK(player.status().playing);
+    const double now_s = player.picture().front().frames[0].time_s;
+    CHECK(soon([&] { return player.picture().front().frames[0].time_s > now_s + 1.0; }));
+}
+
 TEST_CASE("the loop goes round and raises the discontinuity once a lap", "[player]") {
     Player player;
     player.set_speed(4.0);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <fstream>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -11,6 +10,7 @@
 #include "tests/device/falcon/check_person.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/text.hpp"
 
 namespace dibhr::test::falcon {
 
@@ -36,10 +36,7 @@ struct Checked {
 
     CheckResult run() { return run_check(options, person); }
 
-    [[nodiscard]] std::string record() const {
-        std::ifstream stream(options.record);
-        return {std::istreambuf_iterator<char>(stream), {}};
-    }
+    [[nodiscard]] std::string record() const { return dibhr::test::read_text(options.record); }
     [[nodiscard]] std::string value(const std::string& path) const {
         return json_value(record(), path);
     }

@@ -167,6 +167,7 @@ void FalconBoard::perform(Moment now) {
         log_.zeros_in_a_row = 0;
         if (!homed()) ++log_.force_before_homing;
     }
+    if (watch_) watch_({now, motors_, lamp_, homing_});
 }
 
 FalconBoard::Bytes FalconBoard::reply() const {

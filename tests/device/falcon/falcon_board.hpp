@@ -5,6 +5,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "tests/device/falcon/boot_rom.hpp"
@@ -32,9 +34,18 @@ struct CommandLog {
     int largest{0};                        ///< largest |motor| so far
 };
 
+/// A whole command, as it arrives.
+struct CommandPacket {
+    Moment at{0};
+    std::array<std::int16_t, 3> motors{};
+    unsigned lamp{0};
+    bool homing{false};
+};
+
 class FalconBoard {
   public:
     using Bytes = std::vector<std::uint8_t>;
+    using Watch = std::function<void(const CommandPacket&)>;
 
     /// DTR rising puts the motor controller back under its supervisor, DTR falling after a hello
     /// into its boot ROM. Nobody has published what DTR does: an assumption.
@@ -53,6 +64,8 @@ class FalconBoard {
     /// very short time" is all that sources say. The default is an assumption.
     void hold_commands(Moment time) noexcept { command_holds_ = time; }
     void press(std::uint8_t buttons) noexcept { buttons_ = buttons; }
+    /// Called with every command from now on.
+    void watch(Watch watch) { watch_ = std::move(watch); }
 
     [[nodiscard]] HandModel& hand() noexcept { return hand_; }
     [[nodiscard]] BoardStage stage() const noexcept { return stage_; }
@@ -97,6 +110,7 @@ class FalconBoard {
     Moment last_command_{0};
     Moment command_holds_{std::chrono::milliseconds(100)};
     CommandLog log_{};
+    Watch watch_{};
 };
 
 }  // namespace dibhr::test::falcon

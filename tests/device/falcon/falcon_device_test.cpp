@@ -3,6 +3,8 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -318,4 +320,32 @@ TEST_CASE("a Falcon that loses its homing in mid-touch lets go at once and is ho
     home(homed.unit);
     REQUIRE(loop.tick_until_ready());
     CHECK(loop.tick_until([&] { return !is_limp(homed.unit); }));
+}
+
+TEST_CASE("20 ms after the haptic thread's last command the USB thread sends zero",
+          "[falcon_device]") {
+    Homed at;
+    std::chrono::nanoseconds zero_at{
+        0};  // the first zero after a force; while the bus stands still
+    at.unit.with([&zero_at](FalconModel& model) {
+        model.board().hold_commands(Moment{0});
+        model.board().watch([&zero_at, pushed = false](const CommandPacket& packet) mutable {
+            const bool pushes = packet.motors != std::array<std::int16_t, 3>{};
+            if (pushed && !pushes) zero_at = packet.at;
+            pushed = pushes;
+        });
+    });
+    at.loop->force_newton = {0.0, 0.0, 1.0};
+    std::chrono::nanoseconds soonest = std::chrono::seconds(1);
+    for (int k = 0; k < 10; ++k) {
+        REQUIRE(at.loop->tick_until([&] { return !is_limp(at.unit); }));
+        const auto last = std::chrono::steady_clock::now().time_since_epoch();
+        REQUIRE(eventually([&] { return is_limp(at.unit); }));
+        const auto after = at.unit.with([&](FalconModel&) { return zero_at; }) - last;
+        CHECK(after > milliseconds(10));
+        CHECK(after < milliseconds(200));  // of a busy machine
+        soonest = std::min<std::chrono::nanoseconds>(soonest, after);
+    }
+    CHECK(soonest < milliseconds(22));
+    at.unit.with([](FalconModel& model) { model.board().watch({}); });
 }

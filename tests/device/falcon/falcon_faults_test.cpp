@@ -60,8 +60,11 @@ struct Touching {
                    !is_limp(unit);
         });
     }
+    /// With a tick that begins after it: the last reading knows of it, too.
     bool comes_to_trouble() {
-        return loop.tick_until([&] { return loop.device.status().trouble; });
+        const bool came = loop.tick_until([&] { return loop.device.status().trouble; });
+        loop.tick();
+        return came;
     }
 };
 

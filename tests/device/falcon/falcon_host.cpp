@@ -2,18 +2,19 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <atomic>
+#include <array>
 #include <chrono>
 #include <condition_variable>
 #include <csignal>
-#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <list>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <sstream>
@@ -27,12 +28,19 @@
 #include "tests/device/falcon/line_socket.hpp"
 #include "tests/device/falcon/unit_commands.hpp"
 #include "tests/device/falcon/usb_testbed.hpp"
+#include "tests/device/falcon/usbfs_files.hpp"
+#include "tests/device/falcon/usbfs_host.hpp"
 
 namespace {
 
-using dibhr::test::falcon::ask_line;
+using dibhr::test::falcon::CommandPacket;
+using dibhr::test::falcon::FalconModel;
+using dibhr::test::falcon::KernelWork;
 using dibhr::test::falcon::kUnitCommands;
 using dibhr::test::falcon::LineServer;
+using dibhr::test::falcon::UsbfsFiles;
+using dibhr::test::falcon::UsbfsHost;
+using dibhr::test::falcon::UsbfsUnit;
 using dibhr::test::falcon::UsbPlace;
 using dibhr::test::falcon::UsbTestbed;
 
@@ -44,7 +52,10 @@ Usage: falcon_host [OPTION VALUE]... -- PROGRAM [ARGUMENT]...
   --command COMMAND  performed before the program begins; again for more
   --script FILE      commands, one a line, from the program's beginning on; answers on stderr
   --socket PATH      takes commands while the program runs, one a line, and answers each in one
-  --preload LIBRARY  the unit itself (default libfalcon_preload.so beside falcon_host)
+  --packets FILE     every command that arrives at the first unit, a CSV row each, written at once:
+                     t_s (CLOCK_MONOTONIC), motor1, motor2, motor3 (counts), led (2 green, 4 blue,
+                     8 red), homing. That motors let go by themselves (hold) is no command
+  --preload LIBRARY  the way to it (default libfalcon_preload.so beside falcon_host)
   --help             this text
 
 Commands, for the first unit; "@SERIAL COMMAND" is for another one. X is to the right, Y up, Z
@@ -52,7 +63,7 @@ out of the base towards the person: 80 mm is pushed in, 115 the middle, 172 pull
 )";
 
 constexpr const char* kMoreUsage =
-    R"(  unplug                the cable is pulled (not before the program begins)
+    R"(  unplug                the cable is pulled
   replug [ADDRESS]      and put back, at this USB address or the next
   wait SECONDS          in a script only
   wait arrived          in a script only: until the hand has gone all its way
@@ -61,8 +72,9 @@ Examples, in the build folder:
   LIBGL_ALWAYS_SOFTWARE=1 ./falcon_host --command firmware --command home -- ./dibhr
   ./falcon_host --serial A --serial B --command '@B refuse 13' -- ./dibhr devices
 
-The exit status is the program's; 2: bad usage. PROGRAM has to be the program itself, not a
-script that starts it. Of /sys it sees no more than the simulated bus and /sys/devices/system, so
+The exit status is the program's; 2: bad usage. The units outlive the program: falcon_host ends
+when the program has ended and no process has a unit open any more, at most a second later. PROGRAM
+has to be the program itself, not a script that starts it. Of /sys it sees no more than the simulated bus and /sys/devices/system, so
 with OpenGL it has to draw in software.
 )";
 
@@ -78,14 +90,16 @@ struct Arguments {
     std::vector<std::string> commands{};
     std::string socket{};
     std::string script{};
+    std::string packets{};
     std::string preload{};
     std::vector<char*> program{};  // ends in a null, as execvp() wants it
 };
 
 Arguments parse(int count, char** words) {
     Arguments arguments;
-    std::map<std::string, std::vector<std::string>> values{
-        {"--serial", {}}, {"--command", {}}, {"--socket", {}}, {"--script", {}}, {"--preload", {}}};
+    std::map<std::string, std::vector<std::string>> values{{"--serial", {}},  {"--command", {}},
+                                                           {"--socket", {}},  {"--script", {}},
+                                                           {"--packets", {}}, {"--preload", {}}};
     int i = 1;
     for (; i < count && std::string(words[i]) != "--"; i += 2) {
         const std::string option = words[i];
@@ -112,87 +126,131 @@ Arguments parse(int count, char** words) {
     arguments.commands = values.at("--command");
     arguments.socket = last_of("--socket");
     arguments.script = last_of("--script");
+    arguments.packets = last_of("--packets");
     arguments.preload = last_of("--preload");
     return arguments;
 }
 
-/// The bus outside of the program, and the way to the units inside of it.
+/// A file of every command that a unit gets, written by a thread of its own: a slow disk is not to
+/// stop the bus.
+class PacketFile {
+  public:
+    explicit PacketFile(const std::string& path) : file_(path) {
+        if (!file_) throw std::runtime_error(path + ": cannot be written; choose another file");
+        rows_ = "t_s,motor1,motor2,motor3,led,homing\n";
+        thread_ = std::jthread([this](const std::stop_token& stop) { write(stop); });
+    }
+    void add(const CommandPacket& packet) {
+        const std::chrono::duration<double> seconds = packet.at;
+        const auto& motors = packet.motors;
+        std::array<char, 80> row{};
+        std::snprintf(row.data(), row.size(), "%.6f,%d,%d,%d,%u,%d\n", seconds.count(), motors[0],
+                      motors[1], motors[2], packet.lamp, packet.homing ? 1 : 0);
+        {
+            const std::lock_guard lock(mutex_);
+            rows_ += row.data();
+        }
+        more_.notify_one();
+    }
+
+  private:
+    void write(const std::stop_token& stop) {
+        std::unique_lock lock(mutex_);
+        while (more_.wait(lock, stop, [this] { return !rows_.empty(); })) {
+            const std::string rows = std::exchange(rows_, {});
+            lock.unlock();
+            file_ << rows << std::flush;
+            lock.lock();
+        }
+    }
+
+    std::ofstream file_;
+    std::mutex mutex_{};
+    std::condition_variable_any more_{};
+    std::string rows_{};  // not written yet
+    std::jthread thread_{};
+};
+
+/// The bus with its units, and the kernel that a program reaches them by.
 class Host {
   public:
-    explicit Host(const std::vector<std::string>& serials) {
+    Host(const std::vector<std::string>& serials, const std::string& packets) {
+        if (!packets.empty()) packets_.emplace(packets);
         for (const std::string& serial : serials) {
-            units_.push_back(
-                {serial, {static_cast<int>(units_.size()) + 1, ++last_address_}, true});
-            testbed_.add(units_.back().place, serial);
+            Unit& unit = units_.emplace_back(std::make_shared<UsbfsUnit>(serial),
+                                             UsbPlace{static_cast<int>(units_.size()) + 1, 0});
+            plug(unit, 0);
         }
+        if (!packets_) return;
+        units_.front().usbfs->wire().with([this](FalconModel& model) {
+            model.board().watch([this](const CommandPacket& packet) { packets_->add(packet); });
+        });
     }
 
     [[nodiscard]] std::string folder() const { return testbed_.folder(); }
-    [[nodiscard]] std::string inner_socket() const { return folder() + "/falcon.socket"; }
-    [[nodiscard]] std::string units() const {
-        std::string lines;
-        for (const Unit& unit : units_) lines += unit.place.node() + " " + unit.serial + "\n";
-        return lines;
-    }
-    /// "SERIAL COMMAND" of "COMMAND" or "@SERIAL COMMAND".
-    [[nodiscard]] std::string addressed(const std::string& command) const {
-        if (command.starts_with("@")) return command.substr(1);
-        return units_.front().serial + " " + command;
-    }
+    /// Where the program's system calls come in.
+    [[nodiscard]] std::string socket() const { return folder() + "/usbfs.socket"; }
+    [[nodiscard]] bool in_use() { return files_.any_open(); }
 
-    void program_has_ended() noexcept { program_ended_ = true; }
-
-    std::string answer(const std::string& command) {
+    /// To "COMMAND", for the first unit, or "@SERIAL COMMAND".
+    std::string answer(const std::string& line) {
         const std::lock_guard lock(mutex_);
-        std::istringstream words(addressed(command));
-        std::string serial;
-        std::string word;
-        words >> serial >> word;
+        std::istringstream words(line);
+        std::string serial = units_.front().usbfs->serial();
+        if (line.starts_with("@")) words.ignore(1) >> serial;
+        std::string command;
+        std::getline(words >> std::ws, command);
         for (Unit& unit : units_) {
-            if (unit.serial != serial) continue;
-            if (word == "unplug") return unplug(unit);
-            int address = 0;
-            if (word == "replug") return plug(unit, words >> address ? address : 0);
+            if (unit.usbfs->serial() == serial) return perform(unit, command);
         }
-        return ask(addressed(command));
+        return "error: no unit has the serial number " + serial;
     }
 
   private:
     struct Unit {
-        std::string serial;
+        Unit(std::shared_ptr<UsbfsUnit> made, UsbPlace at) : usbfs(std::move(made)), place(at) {}
+        std::shared_ptr<UsbfsUnit> usbfs;
         UsbPlace place;
-        bool plugged;
+        bool plugged{false};
     };
 
-    /// The program may not have come so far yet, or have ended.
-    std::string ask(const std::string& line) const {
-        return ask_line(inner_socket(), line, [this] { return !program_ended_; });
+    std::string perform(Unit& unit, const std::string& command) {
+        std::istringstream words(command);
+        std::string word;
+        words >> word;
+        int address = 0;
+        if (word == "unplug") return unplug(unit);
+        if (word == "replug") return plug(unit, words >> address ? address : 0);
+        return dibhr::test::falcon::perform(*unit.usbfs, command);
     }
 
     std::string unplug(Unit& unit) {
         if (!unit.plugged) return "error: it is not plugged";
-        std::string answer = ask(unit.serial + " pull");
+        unit.usbfs->wire().unplug();
+        files_.withdraw(unit.place.node());
         testbed_.remove(unit.place);
         unit.plugged = false;
-        return answer;
+        return "ok";
     }
 
     std::string plug(Unit& unit, int address) {
         if (unit.plugged) return "error: it is plugged";
         unit.place.address = address > 0 ? address : last_address_ + 1;
         last_address_ = unit.place.address;
-        // The unit is there before udev says so.
-        std::string answer = ask(unit.serial + " plug " + unit.place.node());
-        testbed_.add(unit.place, unit.serial);
+        unit.usbfs->wire().plug();
+        files_.serve(unit.place.node(), unit.usbfs);  // before udev says so
+        testbed_.add(unit.place, unit.usbfs->serial());
         unit.plugged = true;
-        return answer;
+        return "ok";
     }
 
     std::mutex mutex_{};
+    std::optional<PacketFile> packets_{};  // written while the first unit's bus stands still
     UsbTestbed testbed_{};
-    std::vector<Unit> units_{};
+    std::list<Unit> units_{};
+    UsbfsFiles files_{};
     int last_address_{1};
-    std::atomic<bool> program_ended_{false};
+    UsbfsHost usbfs_{socket(), files_};
 };
 
 /// Sleeps; false when asked to stop.
@@ -243,10 +301,6 @@ void run_script(const std::stop_token& stop, const Script& script, Host& host) {
 }
 
 void become_program(const Arguments& arguments, const Host& host) {
-    std::string commands;
-    for (const std::string& command : arguments.commands) {
-        commands += host.addressed(command) + "\n";
-    }
     std::string libraries = "libumockdev-preload.so.0";
     libraries.insert(0, arguments.preload + ":");
     if (const char* const before = std::getenv("LD_PRELOAD")) {
@@ -254,9 +308,7 @@ void become_program(const Arguments& arguments, const Host& host) {
     }
     setenv("LD_PRELOAD", libraries.c_str(), 1);
     setenv("UMOCKDEV_DIR", host.folder().c_str(), 1);
-    setenv("FALCON_UNITS", host.units().c_str(), 1);
-    setenv("FALCON_SOCKET", host.inner_socket().c_str(), 1);
-    setenv("FALCON_COMMANDS", commands.c_str(), 1);
+    setenv("FALCON_SOCKET", host.socket().c_str(), 1);
     execvp(arguments.program.front(), arguments.program.data());
     std::perror(arguments.program.front());
     _exit(127);
@@ -285,7 +337,16 @@ int run(Arguments arguments) {
     for (const int signal : {SIGCHLD, SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
     pthread_sigmask(SIG_BLOCK, &signals, &before);  // before any thread begins: for all of them
     const Script script = read_script(arguments.script);
-    Host host(arguments.serials);
+    std::optional<Host> host_of_units;
+    {
+        const KernelWork above_the_program;
+        host_of_units.emplace(arguments.serials, arguments.packets);
+    }
+    Host& host = *host_of_units;
+    for (const std::string& command : arguments.commands) {
+        const std::string answer = host.answer(command);
+        if (answer != "ok") std::cerr << "falcon_host: " + command + ": " + answer + "\n";
+    }
     const pid_t program = fork();
     if (program < 0) throw std::runtime_error("cannot start another process");
     if (program == 0) {
@@ -300,7 +361,11 @@ int run(Arguments arguments) {
     const std::jthread scripted(
         [&](const std::stop_token& stop) { run_script(stop, script, host); });
     const int status = wait_for(program, signals);
-    host.program_has_ended();
+    // What it left behind may have something to say yet.
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+    while (host.in_use() && std::chrono::steady_clock::now() < end) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
     return status;
 }
 

@@ -19,6 +19,7 @@
 
 #include "device/falcon/falcon_device.hpp"
 #include "tests/device/falcon/falcon_in_loop.hpp"
+#include "tests/device/falcon/usbfs.hpp"
 #include "tests/support/catch.hpp"
 
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "tests/device/falcon/usbfs_shim.hpp"
+#include "tests/device/falcon/usbfs_unit.hpp"
 
 namespace dibhr::test::falcon {
 

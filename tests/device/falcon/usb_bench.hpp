@@ -11,7 +11,7 @@
 
 #include "tests/device/falcon/falcon_model.hpp"
 #include "tests/device/falcon/usb_bus.hpp"
-#include "tests/device/falcon/usbfs_shim.hpp"
+#include "tests/device/falcon/usbfs_unit.hpp"
 
 namespace dibhr::test::falcon {
 

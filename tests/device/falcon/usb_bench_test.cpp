@@ -2,7 +2,10 @@
 // on a real one (kernel-check).
 #include "tests/device/falcon/usb_bench.hpp"
 
+#include <linux/usbdevice_fs.h>
+#include <sys/ioctl.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <chrono>
@@ -268,6 +271,60 @@ TEST_CASE("a read that waits ends when the cable is pulled, before udev has hear
     bench.unplug(unit);
     CHECK(client.pump_until([&] { return plugs.left == 1; }));
     CHECK(client.addresses().empty());
+}
+
+TEST_CASE("a bulk call goes behind what waits on its endpoint, and says when it took too long",
+          "[bench]") {
+    UsbBench bench;
+    Unit& unit = bench.plug();
+    UsbClient client;
+    REQUIRE(client.open_and_claim(unit.place()) == LIBUSB_SUCCESS);
+    start_firmware(unit, client);
+    unit.set_faults({.frozen_out = 1});
+    Bytes first = kZeroCommand;
+    first[1] = 'B';  // one count on the first motor
+    PendingTransfer write(client, 0x02, first);
+    REQUIRE(write.submit() == LIBUSB_SUCCESS);
+    Bytes second = kZeroCommand;
+    const auto bulk = [&](unsigned limit_ms) {
+        usbdevfs_bulktransfer transfer{0x02, static_cast<unsigned>(second.size()), limit_ms,
+                                       second.data()};
+        const int result = ioctl(client.descriptor(), USBDEVFS_BULK, &transfer);
+        return result < 0 ? -errno : result;
+    };
+    const auto begin = std::chrono::steady_clock::now();
+    CHECK(bulk(30) == -ETIMEDOUT);
+    CHECK(std::chrono::steady_clock::now() - begin >= std::chrono::milliseconds(30));
+    std::thread hand([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        unit.set_faults({});
+    });
+    CHECK(bulk(5000) == static_cast<int>(second.size()));
+    hand.join();
+    CHECK(client.pump_until([&] { return write.ended(); }));
+    const CommandLog log = unit.with([](FalconModel& model) { return model.board().log(); });
+    CHECK(log.commands == 2);
+    CHECK(log.with_force == 1);
+    CHECK(log.zeros_in_a_row == 1);
+}
+
+TEST_CASE("a claim belongs to the open file: a copied descriptor keeps it when its program closes",
+          "[bench]") {
+    UsbBench bench;
+    Unit& unit = bench.plug();
+    UsbClient other;
+    int copy = -1;
+    {
+        UsbClient client;
+        REQUIRE(client.open(unit.place()) == LIBUSB_SUCCESS);
+        copy = dup(client.descriptor());
+        unsigned interface = 0;
+        REQUIRE(ioctl(copy, USBDEVFS_CLAIMINTERFACE, &interface) == 0);
+    }
+    REQUIRE(other.open(unit.place()) == LIBUSB_SUCCESS);
+    CHECK(other.claim() == LIBUSB_ERROR_BUSY);
+    close(copy);
+    CHECK(other.claim() == LIBUSB_SUCCESS);
 }
 
 TEST_CASE("plugging, pulling and plugging again under a new address are all heard", "[bench]") {

@@ -2,6 +2,7 @@
 #include "tests/device/falcon/usb_bus.hpp"
 
 #include "tests/device/falcon/usb_testbed.hpp"
+#include "tests/device/falcon/usbfs_files.hpp"
 
 namespace dibhr::test::falcon {
 
@@ -13,12 +14,12 @@ UsbBus::UsbBus() : implementation_(std::make_unique<Implementation>()) {}
 UsbBus::~UsbBus() = default;
 
 void UsbBus::plug(UsbPlace& place, const std::shared_ptr<UsbfsUnit>& unit) {
-    serve_node(place.node(), unit);  // before anyone hears of it
+    own_files().serve(place.node(), unit);  // before anyone hears of it
     implementation_->testbed.add(place, unit->serial());
 }
 
 void UsbBus::remove(const UsbPlace& place) {
-    withdraw_node(place.node());
+    own_files().withdraw(place.node());
     implementation_->testbed.remove(place);
 }
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "tests/device/falcon/usb_place.hpp"
-#include "tests/device/falcon/usbfs_shim.hpp"
+#include "tests/device/falcon/usbfs_unit.hpp"
 
 namespace dibhr::test::falcon {
 

@@ -1,9 +1,13 @@
 // Thin wrappers over libusb's own calls.
 #include "tests/device/falcon/usb_client.hpp"
 
+#include <poll.h>
+
+#include <array>
 #include <chrono>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 namespace dibhr::test::falcon {
 
@@ -103,6 +107,16 @@ int UsbClient::read(std::vector<std::uint8_t>& bytes, unsigned timeout_ms) {
     return result;
 }
 
+int UsbClient::descriptor() const {
+    const libusb_pollfd** list = libusb_get_pollfds(context_);
+    int found = -1;
+    for (const auto* const* item = list; *item != nullptr; ++item) {
+        if (((*item)->events & POLLOUT) != 0) found = (*item)->fd;
+    }
+    libusb_free_pollfds(list);
+    return found;
+}
+
 bool UsbClient::pump_until(const std::function<bool()>& is_so) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
     while (!is_so()) {
@@ -113,29 +127,30 @@ bool UsbClient::pump_until(const std::function<bool()>& is_so) {
     return true;
 }
 
-PendingRead::PendingRead(UsbClient& client, unsigned timeout_ms)
-    : client_(client), transfer_(libusb_alloc_transfer(0)) {
+PendingTransfer::PendingTransfer(UsbClient& client, std::uint8_t endpoint,
+                                 std::vector<std::uint8_t> bytes, unsigned timeout_ms)
+    : client_(client), bytes_(std::move(bytes)), transfer_(libusb_alloc_transfer(0)) {
     libusb_fill_bulk_transfer(
-        transfer_, client.handle(), 0x81, bytes_.data(), static_cast<int>(bytes_.size()),
+        transfer_, client.handle(), endpoint, bytes_.data(), static_cast<int>(bytes_.size()),
         [](libusb_transfer* transfer) {
-            static_cast<PendingRead*>(transfer->user_data)->ended_ = true;
+            static_cast<PendingTransfer*>(transfer->user_data)->ended_ = true;
         },
         this, timeout_ms);
 }
 
-PendingRead::~PendingRead() {
+PendingTransfer::~PendingTransfer() {
     if (!ended_) libusb_cancel_transfer(transfer_);
     static_cast<void>(client_.pump_until([this] { return ended_; }));
     libusb_free_transfer(transfer_);
 }
 
-int PendingRead::submit() {
+int PendingTransfer::submit() {
     const int result = libusb_submit_transfer(transfer_);
     ended_ = result != LIBUSB_SUCCESS;
     return result;
 }
 
-int PendingRead::cancel() {
+int PendingTransfer::cancel() {
     return libusb_cancel_transfer(transfer_);
 }
 

@@ -1,7 +1,6 @@
 // Plain libusb, closed by destructors: what a test of the bench talks through.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -36,6 +35,8 @@ class UsbClient {
     /// Lets libusb work until it is true; false after ten seconds.
     [[nodiscard]] bool pump_until(const std::function<bool()>& is_so);
 
+    /// Of the open node below libusb.
+    [[nodiscard]] int descriptor() const;
     [[nodiscard]] libusb_context* context() const noexcept { return context_; }
     [[nodiscard]] libusb_device_handle* handle() const noexcept { return handle_; }
 
@@ -44,13 +45,14 @@ class UsbClient {
     libusb_device_handle* handle_{nullptr};
 };
 
-/// One IN transfer that waits.
-class PendingRead {
+/// One bulk transfer that waits.
+class PendingTransfer {
   public:
-    PendingRead(UsbClient& client, unsigned timeout_ms = 0);
-    ~PendingRead();
-    PendingRead(const PendingRead&) = delete;
-    PendingRead& operator=(const PendingRead&) = delete;
+    PendingTransfer(UsbClient& client, std::uint8_t endpoint, std::vector<std::uint8_t> bytes,
+                    unsigned timeout_ms = 0);
+    ~PendingTransfer();
+    PendingTransfer(const PendingTransfer&) = delete;
+    PendingTransfer& operator=(const PendingTransfer&) = delete;
 
     int submit();
     int cancel();
@@ -60,9 +62,14 @@ class PendingRead {
 
   private:
     UsbClient& client_;
-    std::array<std::uint8_t, 64> bytes_{};
+    std::vector<std::uint8_t> bytes_;
     libusb_transfer* transfer_;
     bool ended_{true};
+};
+
+struct PendingRead : PendingTransfer {
+    explicit PendingRead(UsbClient& client, unsigned timeout_ms = 0)
+        : PendingTransfer(client, 0x81, std::vector<std::uint8_t>(64), timeout_ms) {}
 };
 
 }  // namespace dibhr::test::falcon

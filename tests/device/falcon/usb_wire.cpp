@@ -50,16 +50,24 @@ void UsbWire::set_realtime(bool realtime) {
 
 void UsbWire::end(const Pending& pending, int status) {
     pending.urb->status = status;
+    if (pending.waited_for) {
+        ended_.notify_all();
+        return;
+    }
     pending.file->done.push_back(pending.urb);
     if (pending.file->done.size() == 1) pending.file->pipe.ready();
 }
 
 int UsbWire::submit(UsbFile& file, usbdevfs_urb* urb) {
     const std::lock_guard lock(mutex_);
-    if (gone_) return -ENODEV;
+    return queue({&file, urb});
+}
+
+int UsbWire::queue(const Pending& pending) {
+    if (pending.file->gone) return -ENODEV;
+    usbdevfs_urb* const urb = pending.urb;
     urb->actual_length = 0;
     urb->status = -EINPROGRESS;
-    const Pending pending{&file, urb};
     if (urb->type == USBDEVFS_URB_TYPE_CONTROL) {
         if (bytes_of(*urb).size() < kSetupBytes) return -EINVAL;
         control_.push_back(pending);
@@ -74,6 +82,29 @@ int UsbWire::submit(UsbFile& file, usbdevfs_urb* urb) {
     service(moment, !model_.realtime);
     if (next_event(moment) < wakes_) changed_.notify_one();
     return 0;
+}
+
+int UsbWire::bulk(UsbFile& file, unsigned endpoint, std::span<std::uint8_t> bytes,
+                  std::chrono::milliseconds limit) {
+    usbdevfs_urb urb{};
+    urb.type = USBDEVFS_URB_TYPE_BULK;
+    urb.endpoint = static_cast<std::uint8_t>(endpoint);
+    urb.buffer = bytes.data();
+    urb.buffer_length = static_cast<int>(bytes.size());
+    std::unique_lock lock(mutex_);
+    if (const int refused = queue({&file, &urb, true}); refused != 0) return refused;
+    // By its address: clang does not capture what has a flexible array.
+    const usbdevfs_urb* const waited = &urb;
+    const auto has_ended = [waited] { return waited->status != -EINPROGRESS; };
+    if (limit == limit.zero()) {
+        ended_.wait(lock, has_ended);
+    } else if (!ended_.wait_for(lock, limit, has_ended)) {
+        for (auto* waiting : {&in_, &out_}) {
+            std::erase_if(*waiting, [waited](const Pending& each) { return each.urb == waited; });
+        }
+        return -ETIMEDOUT;
+    }
+    return urb.status == 0 ? urb.actual_length : urb.status;
 }
 
 void UsbWire::service(Moment now, bool send) {
@@ -154,43 +185,50 @@ void UsbWire::run() {
 
 int UsbWire::discard(UsbFile& file, usbdevfs_urb* urb) {
     const std::lock_guard lock(mutex_);
-    for (auto* queue : {&in_, &out_, &control_}) {
+    for (auto* waiting : queues()) {
         const auto found = std::ranges::find_if(
-            *queue, [&](const Pending& each) { return each.file == &file && each.urb == urb; });
-        if (found == queue->end()) continue;
+            *waiting, [&](const Pending& each) { return each.file == &file && each.urb == urb; });
+        if (found == waiting->end()) continue;
         const Pending pending = *found;
-        queue->erase(found);
+        waiting->erase(found);
         end(pending, -ENOENT);
         return 0;
     }
     return -EINVAL;
 }
 
-int UsbWire::clear_halt(unsigned endpoint) {
+int UsbWire::clear_halt(UsbFile& file, unsigned endpoint) {
     const std::lock_guard lock(mutex_);
-    if (gone_) return -ENODEV;
+    if (file.gone) return -ENODEV;
     if (endpoint == kInEndpoint) in_halted_ = false;
     return 0;
 }
 
 int UsbWire::reap(UsbFile& file, usbdevfs_urb*& urb) {
     const std::lock_guard lock(mutex_);
-    if (file.done.empty()) return gone_ ? -ENODEV : -EAGAIN;
+    if (file.done.empty()) return file.gone ? -ENODEV : -EAGAIN;
     urb = file.done.front();
     file.done.pop_front();
     if (file.done.empty()) file.pipe.not_ready();
     return 0;
 }
 
-void UsbWire::open(UsbFile& file) {
+int UsbWire::open(UsbFile& file) {
     const std::lock_guard lock(mutex_);
+    if (gone_) return -ENODEV;
     files_.push_back(&file);
+    return 0;
+}
+
+bool UsbWire::abandoned(const UsbFile& file) {
+    const std::lock_guard lock(mutex_);
+    return file.pipe.abandoned();
 }
 
 void UsbWire::forget(UsbFile& file) {
     const std::lock_guard lock(mutex_);
-    for (auto* queue : {&in_, &out_, &control_}) {
-        std::erase_if(*queue, [&](const Pending& each) { return each.file == &file; });
+    for (auto* waiting : queues()) {
+        std::erase_if(*waiting, [&](const Pending& each) { return each.file == &file; });
     }
     std::erase(files_, &file);
     in_halted_ = false;
@@ -199,11 +237,14 @@ void UsbWire::forget(UsbFile& file) {
 void UsbWire::unplug() {
     const std::lock_guard lock(mutex_);
     gone_ = true;
-    for (auto* queue : {&control_, &in_, &out_}) {
-        for (const Pending& each : *queue) end(each, -ESHUTDOWN);
-        queue->clear();
+    for (auto* waiting : queues()) {
+        for (const Pending& each : *waiting) end(each, -ESHUTDOWN);
+        waiting->clear();
     }
-    for (UsbFile* file : files_) file->pipe.hang_up();
+    for (UsbFile* file : files_) {
+        file->gone = true;
+        file->pipe.hang_up();
+    }
 }
 
 void UsbWire::plug() {
@@ -213,9 +254,9 @@ void UsbWire::plug() {
     model_.reconnect();
 }
 
-bool UsbWire::gone() {
+bool UsbWire::gone(const UsbFile& file) {
     const std::lock_guard lock(mutex_);
-    return gone_;
+    return file.gone;
 }
 
 }  // namespace dibhr::test::falcon

@@ -2,10 +2,13 @@
 // cable can be pulled.
 #pragma once
 
+#include <array>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
 #include <mutex>
+#include <span>
 #include <string>
 #include <thread>
 #include <utility>
@@ -21,6 +24,7 @@ namespace dibhr::test::falcon {
 struct UsbFile {
     PollPipe pipe{};
     std::deque<usbdevfs_urb*> done{};  ///< ended, to be reaped
+    bool gone{false};                  ///< its unit was pulled: for good, also when it is back
 };
 
 /// Thread-safe; the unit behind it is reached through with().
@@ -45,7 +49,11 @@ class UsbWire {
     /// As the ioctls: 0, or a negative errno.
     int submit(UsbFile& file, usbdevfs_urb* urb);
     int discard(UsbFile& file, usbdevfs_urb* urb);
-    int clear_halt(unsigned endpoint);
+    int clear_halt(UsbFile& file, unsigned endpoint);
+    /// A transfer that is waited for, behind those that are pending on its endpoint: the bytes that
+    /// went; -ETIMEDOUT: not all of them in time (0: no limit).
+    int bulk(UsbFile& file, unsigned endpoint, std::span<std::uint8_t> bytes,
+             std::chrono::milliseconds limit);
     /// A transfer that has ended; -EAGAIN: none, -ENODEV: none and the cable is out.
     int reap(UsbFile& file, usbdevfs_urb*& urb);
     /// What the file still has on the bus is forgotten.
@@ -53,9 +61,11 @@ class UsbWire {
 
     void unplug();
     void plug();
-    [[nodiscard]] bool gone();
-    /// An open file: it is told when the cable is pulled.
-    void open(UsbFile& file);
+    [[nodiscard]] bool gone(const UsbFile& file);
+    /// An open file: it is told when the cable is pulled. 0, or -ENODEV.
+    int open(UsbFile& file);
+    /// Whether its last descriptor is closed.
+    [[nodiscard]] bool abandoned(const UsbFile& file);
 
     [[nodiscard]] static Moment now();
 
@@ -63,6 +73,7 @@ class UsbWire {
     struct Pending {
         UsbFile* file;
         usbdevfs_urb* urb;
+        bool waited_for{false};  // in a bulk(), not to be reaped
     };
     /// After a test has changed something, the bus looks again.
     struct Wake {
@@ -78,10 +89,15 @@ class UsbWire {
     void service_control(const Pending& pending, Moment now);
     void service_in(Moment now);
     [[nodiscard]] Moment next_event(Moment now) const;
-    static void end(const Pending& pending, int status);
+    int queue(const Pending& pending);
+    void end(const Pending& pending, int status);
+    [[nodiscard]] std::array<std::deque<Pending>*, 3> queues() noexcept {
+        return {&control_, &in_, &out_};
+    }
 
     std::mutex mutex_{};
     std::condition_variable changed_{};
+    std::condition_variable ended_{};  // a transfer that is waited for
     FalconModel model_;
     std::deque<Pending> in_{};
     std::deque<Pending> out_{};

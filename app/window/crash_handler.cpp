@@ -1,0 +1,110 @@
+// Signal handlers of a crash.
+#include "app/window/crash_handler.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <csignal>
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <utility>
+
+namespace dibhr {
+
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;
+#elif defined(__has_feature)
+constexpr bool kSanitized = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
+#else
+constexpr bool kSanitized = false;
+#endif
+
+constexpr std::size_t kStack_bytes = 65536;
+
+constexpr std::array<std::pair<int, const char*>, 5> kCrashes{{{SIGSEGV, "segmentation fault"},
+                                                               {SIGBUS, "bus error"},
+                                                               {SIGFPE, "arithmetic error"},
+                                                               {SIGILL, "illegal instruction"},
+                                                               {SIGABRT, "aborted"}}};
+
+// A signal's handler is given no argument of ours: this is where it finds the one that lives. Taken
+// by the first crash, so that there is one line.
+std::atomic<const CrashHandler*> living{nullptr};
+
+const char* name_of_signal(int signal) noexcept {
+    for (const auto& [number, name] : kCrashes) {
+        if (number == signal) return name;
+    }
+    return "file-size limit";
+}
+
+void on_crash(int signal, siginfo_t* info, void*) noexcept {
+    // The kernel tells the limit in the name of the thread that wrote: the write fails.
+    if (signal == SIGXFSZ && (info->si_code == SI_KERNEL || info->si_pid == getpid())) return;
+    if (const CrashHandler* const handler = living.exchange(nullptr)) {
+        handler->crashed(name_of_signal(signal));
+    }
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);  // pending until this returns
+}
+
+[[noreturn]] void on_terminate() noexcept {
+    if (const CrashHandler* const handler = living.exchange(nullptr)) {
+        try {
+            if (const auto error = std::current_exception()) std::rethrow_exception(error);
+            handler->crashed("terminated");
+        } catch (const std::bad_alloc&) {
+            // In a thread or a library that has nobody to tell it to: no crash of ours.
+            handler->crashed("there is not enough memory: close other programs or raise the limit");
+            _exit(EXIT_FAILURE);
+        } catch (const std::exception& error) {
+            handler->crashed(error.what());
+        } catch (...) {
+            handler->crashed("an error of an unknown kind");
+        }
+    }
+    std::abort();
+}
+
+template <typename Act>
+void for_each_signal(const Act& act) {
+    act(SIGXFSZ);
+    if (kSanitized) return;
+    for (const auto& [number, name] : kCrashes) act(number);
+}
+
+}  // namespace
+
+CrashHandler::CrashHandler(const LastWords& words, void (*first)() noexcept)
+    : words_(words), first_(first), stack_(std::make_unique<std::byte[]>(kStack_bytes)) {
+    living = this;
+    if (!kSanitized) {
+        const stack_t stack{stack_.get(), 0, kStack_bytes};
+        sigaltstack(&stack, nullptr);
+        std::set_terminate(on_terminate);
+    }
+    struct sigaction action {};
+    action.sa_sigaction = on_crash;
+    action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_RESTART;
+    for_each_signal([&action](int signal) { sigaction(signal, &action, nullptr); });
+}
+
+CrashHandler::~CrashHandler() {
+    // What others still write beyond the limit of a file's size fails likewise.
+    for_each_signal([](int signal) { std::signal(signal, signal == SIGXFSZ ? SIG_IGN : SIG_DFL); });
+    living = nullptr;
+    if (kSanitized) return;
+    const stack_t none{nullptr, SS_DISABLE, 0};
+    sigaltstack(&none, nullptr);
+}
+
+void CrashHandler::crashed(const char* how) const noexcept {
+    first_();
+    words_.tell({"crashed (", how, "); the force is off"});
+}
+
+}  // namespace dibhr

@@ -1,0 +1,22 @@
+// The end of the X server as Xlib tells it. GLFW (3.3 and 3.4) leaves that to Xlib, which would
+// print a line of its own and call exit().
+#include "app/window/display_loss.hpp"
+
+#include <X11/Xlib.h>
+
+// Of GLFW's glfw3native.h; weak, since a GLFW that was built for Wayland alone has none.
+extern "C" [[gnu::weak]] Display* glfwGetX11Display();  // NOLINT: its name
+
+namespace dibhr {
+
+void when_display_goes(const std::function<void()>& act) {
+    Display* const display = glfwGetX11Display == nullptr ? nullptr : glfwGetX11Display();
+    if (display == nullptr) return;
+    XSetIOErrorHandler([](Display*) { return 0; });  // which would print
+    const auto call = [](Display*, void* act_to_call) {
+        (*static_cast<const std::function<void()>*>(act_to_call))();
+    };
+    XSetIOErrorExitHandler(display, call, const_cast<std::function<void()>*>(&act));
+}
+
+}  // namespace dibhr

@@ -1,0 +1,44 @@
+// The end that somebody asks for by a signal, which comes whatever the window's thread does.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "app/window/last_words.hpp"
+#include "app/window/signals.hpp"
+
+namespace dibhr {
+
+/// While it lives, SIGINT, SIGTERM, SIGHUP and SIGQUIT are taken by a thread of their own: they ask
+/// for the end, and if the program still lives after kPatience, or another one comes, that thread
+/// says what hangs and ends it with status 1. Ctrl+Z is held back. Made before any thread is
+/// started.
+class Ending {
+  public:
+    /// With the last tick, the recorder's last transaction and the line, less than a second.
+    static constexpr std::chrono::milliseconds kPatience{600};
+    /// A terminal that closes, or `timeout`, sends two signals for one wish.
+    static constexpr std::chrono::milliseconds kOneWish{200};
+
+    /// `words` outlives it. Throws DeviceError when the system has no descriptor left.
+    explicit Ending(LastWords& words);
+    ~Ending();
+    Ending(const Ending&) = delete;
+    Ending& operator=(const Ending&) = delete;
+
+    /// To be looked at by any thread: once true, no force is sent and the window closes.
+    [[nodiscard]] const std::atomic<bool>& asked() const noexcept { return asked_; }
+    [[nodiscard]] LastWords& words() noexcept { return words_; }
+
+  private:
+    void run();
+
+    LastWords& words_;
+    EndingSignals signals_{};
+    std::atomic<bool> asked_{false};
+    int over_;  // a descriptor that tells the thread to leave
+    std::thread thread_{};
+};
+
+}  // namespace dibhr

@@ -1,0 +1,60 @@
+// One line, put together on the stack and written at once.
+#include "app/window/last_words.hpp"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <climits>
+#include <cstddef>
+
+namespace dibhr {
+
+namespace {
+
+class Line {
+  public:
+    void add(const char* text) noexcept {
+        for (; *text != '\0' && length_ + 1 < text_.size(); ++text) {
+            const bool control = static_cast<unsigned char>(*text) < ' ' || *text == '\x7f';
+            text_[length_++] = control ? '?' : *text;
+        }
+    }
+    void write() noexcept {
+        text_[length_++] = '\n';
+        pollfd errors{STDERR_FILENO, POLLOUT, 0};
+        if (poll(&errors, 1, 0) != 1 || (errors.revents & POLLOUT) == 0) return;
+        // Up to PIPE_BUF bytes a pipe that takes any takes all.
+        [[maybe_unused]] const ssize_t told = ::write(STDERR_FILENO, text_.data(), length_);
+    }
+
+  private:
+    std::array<char, PIPE_BUF> text_{};
+    std::size_t length_{0};
+};
+
+}  // namespace
+
+void LastWords::recording(const std::filesystem::path& file) {
+    if (file.empty()) {
+        recording_.store(nullptr, std::memory_order_release);
+        return;
+    }
+    recording_.store(&files_.emplace_back(file.string()), std::memory_order_release);
+}
+
+void LastWords::tell(std::initializer_list<const char*> parts) const noexcept {
+    const int error = errno;
+    Line line;
+    line.add("dibhr: ");
+    for (const char* const part : parts) line.add(part);
+    if (const std::string* const file = recording_.load(std::memory_order_acquire)) {
+        line.add("; the recording up to now is in ");
+        line.add(file->c_str());
+    }
+    line.write();
+    errno = error;
+}
+
+}  // namespace dibhr

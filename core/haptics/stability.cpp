@@ -1,0 +1,190 @@
+// Damping, velocity, the video's motion, and the passivity observer and controller.
+#include "core/haptics/stability.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+
+namespace dibhr {
+
+namespace {
+
+constexpr double kTick_s = 0.001;
+constexpr double kMetre_mm = 1000.0;
+// Measured with tests/bench over all its hands: README.md, Stability.
+constexpr double kDampingCutoff_hz = 200.0;
+constexpr double kVideoCutoff_hz = 4.0;
+constexpr double kOwedFor_s = 1.0;  // of energy that nothing takes out
+constexpr double kTakenOutWithin_s = 0.003;
+constexpr double kRestsAfter_s = 0.1;
+constexpr double kMostOwed_mj = 10.0;
+constexpr double kFlowTime_s = 1.0;
+
+/// How late a held force acts.
+double lateness_s(const DeviceDynamics& device) noexcept {
+    return kTick_s / 2.0 + device.delay_s;
+}
+
+/// The strongest damper that is itself stable on so light a device, so late.
+double most_damping(const DeviceDynamics& device) noexcept {
+    return 0.75 * device.mass_kg / lateness_s(device);
+}
+
+/// What a spring holds that pulls no harder than `most_newton` [mJ].
+double spring_energy(double length_mm, double stiffness, double most_newton) noexcept {
+    const double most_mm = stiffness > 0.0 ? most_newton / stiffness : 0.0;
+    const double elastic_mm = std::min(length_mm, most_mm);
+    return 0.5 * stiffness * elastic_mm * elastic_mm + most_newton * (length_mm - elastic_mm);
+}
+
+}  // namespace
+
+double share_of_newest(double dt_s, double time_constant_s) noexcept {
+    return dt_s > 0.0 ? dt_s / (dt_s + time_constant_s) : 0.0;
+}
+
+double time_constant_of(double cutoff_hz) noexcept {
+    return cutoff_hz > 0.0 ? 1.0 / (2.0 * std::numbers::pi * cutoff_hz) : 0.0;
+}
+
+double stability_margin(const Coupling& coupling, const DeviceDynamics& device) noexcept {
+    const double driven = coupling.stiffness_newton_per_mm * kMetre_mm * lateness_s(device);
+    return coupling.damping_newton_s_per_m + device.friction_newton_s_per_m - driven;
+}
+
+double needed_damping(double stiffness_newton_per_mm, const DeviceDynamics& device) noexcept {
+    if (!device.moves()) return 0.0;
+    const Coupling undamped{.stiffness_newton_per_mm = stiffness_newton_per_mm};
+    return std::max(0.0, device.margin_newton_s_per_m - stability_margin(undamped, device));
+}
+
+Coupling stable_coupling(Coupling coupling, double felt_stiffness,
+                         const DeviceDynamics& device) noexcept {
+    const double needed = needed_damping(felt_stiffness, device);
+    if (!(needed > 0.0)) return coupling;
+    coupling.damping_newton_s_per_m = needed;
+    coupling.damping_cutoff_hz = kDampingCutoff_hz;
+    return coupling;
+}
+
+Vec3 AdaptiveWindow::after(Vec3 way, double dt_s, double resolution) noexcept {
+    length_ = std::min(length_ + 1, kLongest);
+    for (std::size_t k = length_ - 1; k > 0; --k) {
+        way_[k] = way_[k - 1] + way;
+        age_s_[k] = age_s_[k - 1] + dt_s;
+    }
+    way_[0] = way;
+    age_s_[0] = dt_s;
+    const double tolerance = tolerance_ * resolution;
+    return {slope(0, tolerance), slope(1, tolerance), slope(2, tolerance)};
+}
+
+double AdaptiveWindow::slope(int axis, double tolerance) const noexcept {
+    double lowest = -std::numeric_limits<double>::infinity();
+    double highest = std::numeric_limits<double>::infinity();
+    double found = 0.0;
+    for (std::size_t k = 0; k < length_; ++k) {
+        const double way = way_[k][axis];
+        const double straight = way / age_s_[k];
+        if (straight < lowest || straight > highest) break;
+        found = straight;
+        lowest = std::max(lowest, (way - tolerance) / age_s_[k]);
+        highest = std::min(highest, (way + tolerance) / age_s_[k]);
+    }
+    return found;
+}
+
+bool RestWatch::rests_after(Vec3 way, double dt_s, double resolution) noexcept {
+    constexpr double kRoundOff = 1.01;
+    off_ += way;
+    rested_s_ += dt_s;
+    const double distance = glm::length(off_);
+    if (distance > resolution * kRoundOff) {
+        off_ *= resolution / distance;
+        rested_s_ = 0.0;
+    }
+    return rested_s_ > kRestsAfter_s;
+}
+
+double VideoMotion::followed(double rise_px, double dt_s) noexcept {
+    const double behind = lag_px_ + rise_px;
+    lag_px_ = behind * (1.0 - share_of_newest(dt_s, time_constant_of(kVideoCutoff_hz)));
+    return behind - lag_px_;
+}
+
+Vec3 PassivityControl::acting(double dt_s, double delay_s) const noexcept {
+    const double ticks = std::round(delay_s / dt_s);
+    const double held = ticks >= 0.0 ? std::min(ticks, kMostDelay - 1.0) : 0.0;  // also no number
+    return sent_newton_[static_cast<std::size_t>(held)];
+}
+
+double PassivityControl::damping_for(double speed, const DeviceDynamics& device) const noexcept {
+    if (speed == 0.0) return 0.0;
+    const double wanted = kMetre_mm * owed_mj_ / (speed * speed * kTakenOutWithin_s);
+    return std::min(wanted, most_damping(device));
+}
+
+auto PassivityControl::account_for(const Tick& tick, Vec3 along,
+                                   const DeviceDynamics& device) noexcept -> Energy {
+    const double stiffness = tick.stiffness_newton_per_mm;
+    const double length_mm = glm::length(tick.lag_mm);
+    const double lift = std::min(stiffness * length_mm, tick.max_force_newton) * along.z;
+    const double from_video = 0.5 * (lift_newton_ + lift) * tick.video_rise_mm;
+    // Both with the stiffness of now: one that is changed by a person creates nothing.
+    const double stored = spring_energy(length_mm, stiffness, tick.max_force_newton) -
+                          spring_energy(length_mm_, stiffness, tick.max_force_newton);
+    const double worked = glm::dot(acting(tick.dt_s, device.delay_s), tick.goal_step_mm);
+    length_mm_ = length_mm;
+    lift_newton_ = lift;
+    return {worked + stored - from_video, from_video};
+}
+
+Vec3 PassivityControl::force_after(const Tick& tick, const DeviceDynamics& device) noexcept {
+    const double length_mm = glm::length(tick.lag_mm);
+    const Vec3 along = length_mm > 0.0 ? tick.lag_mm / length_mm : Vec3(0.0);
+    const Energy energy = account_for(tick, along, device);
+    const auto speed_in = [&](AdaptiveWindow& window) {
+        return glm::dot(window.after(tick.goal_step_mm, tick.dt_s, device.resolution_mm), along);
+    };
+    const double speed = speed_in(quick_velocity_);
+    const double steady = speed_in(steady_velocity_);
+    const double margin =
+        (device.margin_newton_s_per_m - device.friction_newton_s_per_m) / kMetre_mm;
+    const double still_owed = owed_mj_ * (1.0 - share_of_newest(tick.dt_s, kOwedFor_s));
+    owed_mj_ = std::clamp(still_owed + energy.created + margin * steady * steady * tick.dt_s, 0.0,
+                          kMostOwed_mj);
+    if (rest_.rests_after(tick.goal_step_mm, tick.dt_s, device.resolution_mm)) owed_mj_ = 0.0;
+    const double damping = damping_for(speed, device);
+    follow_flow({energy.from_video / tick.dt_s, std::max(0.0, energy.created) / tick.dt_s,
+                 damping / kMetre_mm * speed * speed, damping},
+                tick.dt_s);
+    return -damping / kMetre_mm * speed * along;
+}
+
+void PassivityControl::sent(Vec3 force_newton) noexcept {
+    std::shift_right(sent_newton_.begin(), sent_newton_.end(), 1);
+    sent_newton_.front() = force_newton;
+}
+
+void PassivityControl::pass(double dt_s) noexcept {
+    quick_velocity_.forget();
+    steady_velocity_.forget();
+    rest_ = {};
+    lift_newton_ = length_mm_ = owed_mj_ = 0.0;
+    follow_flow({}, dt_s);
+}
+
+void PassivityControl::follow_flow(const EnergyFlow& now, double dt_s) noexcept {
+    const double newest = share_of_newest(dt_s, kFlowTime_s);
+    const auto follow = [newest](double& flow_mw, double now_mw) {
+        flow_mw += newest * (now_mw - flow_mw);
+    };
+    follow(flow_.from_video_mw, now.from_video_mw);
+    follow(flow_.created_mw, now.created_mw);
+    follow(flow_.taken_out_mw, now.taken_out_mw);
+    flow_.damping_newton_s_per_m = now.damping_newton_s_per_m;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,66 @@
+// Whom the haptic loop listens to: while one of them stands still, no force is sent.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/realtime/heartbeat.hpp"
+
+namespace dibhr {
+
+/// Null: nobody is missed there.
+struct Heartbeats {
+    const Heartbeat* window{nullptr};    ///< keys, signals' orderly end, the display
+    const Heartbeat* video{nullptr};     ///< reading what is touched
+    const Heartbeat* recorder{nullptr};  ///< writing the session
+};
+
+/// So long nothing may be heard of one of them. Then the force goes to zero within
+/// SafetyStage::kFade_s: together less than the 250 ms that are promised.
+inline constexpr std::chrono::milliseconds kLongestSilence{200};
+
+/// One that is over, in which there was a contact.
+struct Standstill {
+    enum class Of : std::uint8_t { window, video, recorder };
+
+    Of of{Of::window};
+    double seconds{0.0};     ///< in which nothing was heard
+    std::uint64_t count{0};  ///< since the loop began, with this one
+};
+
+/// One thread's.
+class StandstillWatch {
+  public:
+    explicit StandstillWatch(const Heartbeats& hearts) noexcept
+        : listeners_{HeartbeatListener(hearts.window), HeartbeatListener(hearts.video),
+                     HeartbeatListener(hearts.recorder)} {}
+
+    /// Once a tick: whether one of them stands still. `contact`: there is a force to miss.
+    [[nodiscard]] bool look(std::chrono::steady_clock::time_point now, bool contact) noexcept {
+        std::array<std::chrono::steady_clock::duration, 3> silence{};
+        for (std::size_t k = 0; k < silence.size(); ++k) silence[k] = listeners_[k].silence(now);
+        const auto longest = std::max_element(silence.begin(), silence.end());
+        if (*longest >= kLongestSilence) {
+            running_.of = static_cast<Standstill::Of>(longest - silence.begin());
+            running_.seconds = std::chrono::duration<double>(*longest).count();
+            felt_ = felt_ || contact;
+            return true;
+        }
+        if (felt_) last_ = {running_.of, running_.seconds, last_.count + 1};
+        felt_ = false;
+        return false;
+    }
+
+    [[nodiscard]] const Standstill& last() const noexcept { return last_; }
+
+  private:
+    std::array<HeartbeatListener, 3> listeners_;
+    Standstill running_{};
+    Standstill last_{};
+    bool felt_{false};
+};
+
+}  // namespace dibhr

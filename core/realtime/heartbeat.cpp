@@ -1,0 +1,58 @@
+// Beats by the monotonic clock, and on what the kernel says a silent thread waits.
+#include "core/realtime/heartbeat.hpp"
+
+#include <fcntl.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <string_view>
+
+namespace dibhr {
+
+Heartbeat::~Heartbeat() {
+    if (const int file = system_call_; file >= 0) close(file);
+}
+
+void Heartbeat::also_computes() noexcept {
+    const int of_this_thread = open("/proc/thread-self/syscall", O_RDONLY | O_CLOEXEC);
+    const int before = system_call_;
+    if (before < 0 || of_this_thread < 0) {
+        system_call_ = std::max(before, of_this_thread);
+        return;
+    }
+    // Another thread has taken the heart over: the number stays, since a listener may be reading.
+    dup3(of_this_thread, before, O_CLOEXEC);
+    close(of_this_thread);
+}
+
+/// The file (proc_pid_syscall(5)) says "running", or begins with the number of the call in which
+/// the thread waits: in futex() it waits for another thread.
+Heartbeat::Doing Heartbeat::doing() const noexcept {
+    const int file = system_call_.load(std::memory_order_relaxed);
+    std::array<char, 16> text{};
+    if (file < 0 || pread(file, text.data(), text.size() - 1, 0) <= 0) return Doing::waits;
+    if (std::string_view(text.data()).starts_with("running")) return Doing::computes;
+    return std::strtol(text.data(), nullptr, 10) == SYS_futex ? Doing::waits_for_threads
+                                                              : Doing::waits;
+}
+
+Heartbeat::Clock::duration HeartbeatListener::silence(Heartbeat::Clock::time_point now) noexcept {
+    if (heart_ == nullptr) return {};
+    const auto last = heart_->last_.load(std::memory_order_relaxed);
+    if (last == Heartbeat::kResting || now < last) return {};
+    if (now - last >= kPatience && now - looked_ >= kBetweenLooks) {
+        looked_ = now;
+        const auto doing = heart_->doing();
+        const bool waits_in_vain = now - last >= kLongestWaitForThreads;
+        if (doing == Heartbeat::Doing::computes ||
+            (doing == Heartbeat::Doing::waits_for_threads && !waits_in_vain)) {
+            computed_ = now;
+        }
+    }
+    return now - std::max(last, computed_);
+}
+
+}  // namespace dibhr

@@ -1,0 +1,313 @@
+// The guardian's process, and the program's words to it. That process is forked from a program with
+// many threads: no lock, no memory, nothing but async-signal-safe calls.
+#include "device/falcon/guardian.hpp"
+
+#include <linux/usbdevice_fs.h>
+#include <poll.h>
+#include <sched.h>
+#include <sys/ioctl.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstddef>
+#include <cstring>
+#include <ctime>
+#include <new>
+
+#include "device/falcon/usb.hpp"
+
+namespace dibhr::falcon {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+// README.md, Safety numbers.
+constexpr milliseconds kSilentAfter{50};
+constexpr milliseconds kLooksEvery{10};
+constexpr milliseconds kSendsEvery{5};
+constexpr int kLastPackets = 5;
+constexpr unsigned kPacketLimit_ms = 10;
+constexpr int kDismissLimit_ms = 100;
+
+// Words to the guardian; the second one it says back.
+constexpr char kWatch = 'w';
+constexpr char kDismiss = 'd';
+constexpr char kAlarm = 'a';
+
+struct Message {
+    char word{0};
+    Packet farewell{};
+};
+
+/// A message as the sockets take it, with room for one descriptor.
+struct Envelope {
+    explicit Envelope(Message& message) noexcept : part{&message, sizeof message} {
+        head.msg_iov = &part;
+        head.msg_iovlen = 1;
+        head.msg_control = control.data();
+        head.msg_controllen = control.size();
+    }
+    Envelope(const Envelope&) = delete;
+    Envelope& operator=(const Envelope&) = delete;
+
+    void enclose(int descriptor) noexcept {
+        cmsghdr* const rights = CMSG_FIRSTHDR(&head);
+        rights->cmsg_level = SOL_SOCKET;
+        rights->cmsg_type = SCM_RIGHTS;
+        rights->cmsg_len = CMSG_LEN(sizeof descriptor);
+        std::memcpy(CMSG_DATA(rights), &descriptor, sizeof descriptor);
+    }
+    void enclose_nothing() noexcept { head.msg_controllen = 0; }
+    /// -1: none.
+    [[nodiscard]] int enclosed() noexcept {
+        int descriptor = -1;
+        const cmsghdr* const rights = CMSG_FIRSTHDR(&head);
+        if (rights != nullptr) std::memcpy(&descriptor, CMSG_DATA(rights), sizeof descriptor);
+        return descriptor;
+    }
+
+    iovec part;
+    alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(int))> control{};
+    msghdr head{};
+};
+
+// A signal handler has nobody to ask where the guardians are: variables of the whole program. The
+// sockets are the program's ends; 0: none.
+constexpr std::size_t kMostGuardians = 8;
+std::array<std::atomic<int>, kMostGuardians> all_sockets{};
+std::atomic<bool> alarm_sounded{false};
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
+
+void replace_in_all(int before, int after) noexcept {
+    for (auto& socket : all_sockets) {
+        int expected = before;
+        if (socket.compare_exchange_strong(expected, after)) return;
+    }
+}
+
+/// What the guardian's process does.
+class Watch {
+  public:
+    Watch(int socket, const std::atomic<std::uint32_t>& beats) noexcept
+        : socket_(socket), beats_(beats) {}
+
+    /// Until the program has ended.
+    void run() noexcept {
+        while (listen()) {
+            if (file_ < 0) continue;
+            look(Clock::now());
+            if (sending_) send();
+        }
+        for (int k = 0; k < kLastPackets && file_ >= 0; ++k) {
+            if (k > 0) (void)poll(nullptr, 0, kSendsEvery.count());
+            send();
+        }
+    }
+
+  private:
+    /// Sleeps until there is something to do; false when the program has ended.
+    bool listen() noexcept {
+        const milliseconds period = sending_ ? kSendsEvery : kLooksEvery;
+        pollfd end{socket_, POLLIN, 0};
+        if (poll(&end, 1, file_ < 0 ? -1 : static_cast<int>(period.count())) <= 0) return true;
+        Message message;
+        Envelope envelope(message);
+        const ssize_t size = recvmsg(socket_, &envelope.head, MSG_CMSG_CLOEXEC | MSG_DONTWAIT);
+        if (size == 0) return false;
+        if (size < 0) return errno == EAGAIN || errno == EINTR;
+        if (message.word == kAlarm) alarmed_ = true;
+        if (message.word == kDismiss) {
+            release();
+            (void)::send(socket_, &message.word, 1, MSG_NOSIGNAL | MSG_DONTWAIT);
+        }
+        if (message.word == kWatch) {
+            release();
+            file_ = envelope.enclosed();
+            farewell_ = message.farewell;
+            last_beats_ = beats_;
+            heard_ = Clock::now();
+        }
+        return true;
+    }
+
+    void look(Clock::time_point now) noexcept {
+        const std::uint32_t beats = beats_;
+        if (beats != last_beats_) heard_ = now;
+        last_beats_ = beats;
+        sending_ = alarmed_ || now - heard_ >= kSilentAfter;
+    }
+
+    /// Behind what the program still has in its queue.
+    void send() noexcept {
+        usbdevfs_bulktransfer transfer{};
+        transfer.ep = kOutEndpoint;
+        transfer.len = static_cast<unsigned>(farewell_.size());
+        transfer.timeout = kPacketLimit_ms;
+        transfer.data = farewell_.data();
+        if (ioctl(file_, USBDEVFS_BULK, &transfer) < 0 && errno == ENODEV) release();  // unplugged
+    }
+
+    void release() noexcept {
+        if (file_ >= 0) close(file_);
+        file_ = -1;
+        sending_ = false;
+    }
+
+    int socket_;
+    const std::atomic<std::uint32_t>& beats_;
+    int file_{-1};  // of usbfs; -1: nothing to guard
+    Packet farewell_{};
+    std::uint32_t last_beats_{0};
+    Clock::time_point heard_{};  // when the beats had changed
+    bool alarmed_{false};
+    bool sending_{false};
+};
+
+/// Out of the way of what ends the program: its terminal, its process group, a wish to end; and
+/// with nothing of the program's in its hands.
+void step_aside(int socket) noexcept {
+    (void)setsid();
+    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP, SIGPIPE}) {
+        (void)std::signal(number, SIG_IGN);
+    }
+    sigset_t none;
+    sigemptyset(&none);
+    (void)sigprocmask(SIG_SETMASK, &none, nullptr);
+    const auto kept = static_cast<unsigned>(socket);
+    if (kept > 0) (void)close_range(0, kept - 1, 0);
+    (void)close_range(kept + 1, ~0U, 0);
+    (void)prctl(PR_SET_NAME, "dibhr guardian");
+    const sched_param priority{sched_get_priority_max(SCHED_FIFO) - 1};
+    (void)sched_setscheduler(0, SCHED_FIFO, &priority);  // where it is allowed
+}
+
+/// Forked twice, so that the guardian is no child of the program, which would have to wait for it.
+/// 0, or why not: an errno.
+int fork_guardian(int programs_end, int socket, const std::atomic<std::uint32_t>& beats) noexcept {
+    const pid_t between = fork();
+    if (between < 0) return errno;
+    if (between == 0) {
+        const pid_t guardian = fork();
+        if (guardian != 0) _exit(guardian < 0 ? errno : 0);
+        close(programs_end);  // first of all: it is how the program's end is noticed
+        step_aside(socket);
+        Watch(socket, beats).run();
+        _exit(0);
+    }
+    int status = 0;
+    while (waitpid(between, &status, 0) < 0 && errno == EINTR) {
+    }
+    if (WIFSIGNALED(status)) return EINTR;
+    return WEXITSTATUS(status);
+}
+
+}  // namespace
+
+Guardian::Guardian() {
+    begin();
+}
+
+void Guardian::begin() noexcept {
+    void* const page =
+        mmap(nullptr, sizeof(Beats), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (page == MAP_FAILED) return give_up("memory");
+    beats_ = new (page) Beats(0);
+    std::array<int, 2> ends{};
+    if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+        return give_up("socket");
+    }
+    const int refused = fork_guardian(ends[0], ends[1], *beats_);
+    close(ends[1]);
+    if (refused != 0) {
+        close(ends[0]);
+        errno = refused;
+        return give_up("fork");
+    }
+    socket_ = ends[0];
+    replace_in_all(0, socket_);
+}
+
+Guardian::~Guardian() {
+    if (socket_ >= 0) {
+        dismiss();
+        replace_in_all(socket_, 0);
+        close(socket_);
+    }
+    if (beats_ != nullptr) (void)munmap(beats_, sizeof(Beats));
+}
+
+void Guardian::give_up(const char* step) noexcept {
+    failed_ = step;
+    error_ = errno;
+}
+
+std::string Guardian::fault() const {
+    if (failed_ == nullptr) return {};
+    return std::string("no guardian process (") + failed_ + ": " + std::strerror(error_) +
+           "): if dibhr is killed, only the Falcon itself lets go; close other programs and start "
+           "dibhr again";
+}
+
+bool Guardian::say(char word, int descriptor, const Packet& farewell) noexcept {
+    if (socket_ < 0) return false;
+    Message message{word, farewell};
+    Envelope envelope(message);
+    if (descriptor >= 0) {
+        envelope.enclose(descriptor);
+    } else {
+        envelope.enclose_nothing();
+    }
+    if (sendmsg(socket_, &envelope.head, MSG_NOSIGNAL | MSG_DONTWAIT) > 0) return true;
+    give_up("it has ended");
+    return false;
+}
+
+void Guardian::watch(int descriptor, const Packet& farewell) noexcept {
+    beat();
+    if (descriptor >= 0) {
+        (void)say(kWatch, descriptor, farewell);
+    } else if (socket_ >= 0) {
+        errno = EBADF;
+        give_up("the Falcon's open file is not known");
+    }
+}
+
+void Guardian::dismiss() noexcept {
+    if (!say(kDismiss)) return;
+    const auto end = Clock::now() + milliseconds(kDismissLimit_ms);
+    pollfd answer{socket_, POLLIN, 0};
+    while (poll(&answer, 1, kDismissLimit_ms) < 0 && errno == EINTR && Clock::now() < end) {
+    }
+    char word = 0;
+    (void)recv(socket_, &word, sizeof word, MSG_DONTWAIT);
+}
+
+void Guardian::beat() noexcept {
+    if (beats_ != nullptr) beats_->fetch_add(1);
+}
+
+void Guardian::alarm() noexcept {
+    const int error = errno;
+    alarm_sounded = true;
+    const Message message{kAlarm, {}};
+    for (const auto& socket : all_sockets) {
+        const int end = socket;
+        if (end > 0) (void)send(end, &message, sizeof message, MSG_NOSIGNAL | MSG_DONTWAIT);
+    }
+    errno = error;
+}
+
+bool Guardian::alarmed() noexcept {
+    return alarm_sounded;
+}
+
+}  // namespace dibhr::falcon

@@ -1,0 +1,41 @@
+// The whole program under the thread sanitizer, which knows of the distribution's libraries what
+// tests/support/sanitizer_suppressions.cpp says and of dibhr nothing.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/app/program/command_program.hpp"
+#include "tests/app/program/desk.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace dibhr::test;
+
+namespace {
+
+/// Into the sample's chest, in circles there, and out again.
+void write_press(const std::filesystem::path& file) {
+    std::ofstream goals(file);
+    goals << "t,x,y,z\n";
+    for (int k = 0; k < 3000; ++k) {
+        const double t_s = 1e-3 * k;
+        goals << t_s << ',' << 320.0 + 12.0 * std::sin(4.0 * t_s) << ','
+              << 400.0 + 12.0 * std::cos(4.0 * t_s) << ',' << 170.0 + 80.0 * std::cos(2.1 * t_s)
+              << '\n';
+    }
+}
+
+}  // namespace
+
+TEST_CASE("threads of the program race for nothing while a hand touches and is recorded",
+          "[window]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    write_press(folder / "goals.csv");
+    Process viewer = desk.start_viewer(
+        folder, {"--device", "goals:goals.csv", "--record", "touch.dibhr", "--seconds", "5"});
+    CHECK(viewer.wait() == 0);  // 66 after a report
+    CHECK(read_text(folder / "errors.txt") == "");
+    const auto rows = read_session(folder / "touch.dibhr");
+    CHECK(std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.contact; }));
+}

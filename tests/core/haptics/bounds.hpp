@@ -1,0 +1,62 @@
+// What every update keeps, whatever its goal, ground and algorithm.
+#pragma once
+
+#include <utility>
+
+#include "core/haptics/dibhr.hpp"
+#include "core/haptics/god_object.hpp"
+#include "core/haptics/neighborhood.hpp"
+#include "core/haptics/pga.hpp"
+
+namespace dibhr::test {
+
+/// Those that look at whole TRIANGLEs do half as many over a bump map.
+inline int most_moves_of(Algorithm algorithm, const DepthSurface& surface) {
+    const int half = surface.has_bump() ? 2 : 1;
+    switch (algorithm) {
+        case Algorithm::dibhr:
+            return Dibhr::kMostMoves;
+        case Algorithm::pga:
+            return Pga::kMostMoves;
+        case Algorithm::neighborhood:
+            return Neighborhood::kMostMoves / half;
+        case Algorithm::god_object:
+            break;
+    }
+    return GodObject::kMostMoves / half;
+}
+
+/// Follows one proxy from update to update.
+class BoundsWatch {
+  public:
+    /// What the update to `goal` broke; null: nothing.
+    [[nodiscard]] const char* broken_by(const DepthSurface& surface, Algorithm algorithm, Vec3 goal,
+                                        const Proxy& proxy) {
+        constexpr double kUnder_px = 1e-6;  // round-off at the greatest relief is less
+        constexpr int kRestOfPiece = 3;
+        const Vec3 at = proxy.position;
+        const bool pressed = std::exchange(pressed_, proxy.contact);
+        if (!is_finite(at)) return "the proxy is not finite";
+        if (surface.clamped_to_frame(at) != at) return "the proxy is beside the image";
+        const double height_px = at.z - surface.elevation_at(at.x, at.y);
+        if (height_px < -1e-8) return "the proxy is below the surface";
+        if (proxy.contact && height_px > 1e-7) return "a proxy in contact is above the surface";
+        if (proxy.moves > most_moves_of(algorithm, surface) + kRestOfPiece) return "too many moves";
+        goal = surface.clamped_to_frame(surface.clamped_to_reach(goal));
+        // A hand that comes from the air may be on its way through it for some updates more.
+        const bool may_fly = proxy.bound_met && !pressed;
+        if (!proxy.contact && !may_fly &&
+            goal.z < surface.elevation_at(goal.x, goal.y) - kUnder_px) {
+            return "the contact is lost although the goal is below the surface";
+        }
+        return nullptr;
+    }
+
+    /// The next update begins in the air.
+    void let_go() { pressed_ = false; }
+
+  private:
+    bool pressed_{false};
+};
+
+}  // namespace dibhr::test
