@@ -1,0 +1,223 @@
+// The simulation: a mass, a device of coarse steps and late forces, and the program's own tick.
+#include "tests/bench/closed_loop.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <numeric>
+
+namespace dibhr::bench {
+
+namespace {
+
+constexpr int kSide = 8;  // pixels of the image
+constexpr double kTick_s = 0.001;
+constexpr int kStepsOfTick = 50;
+constexpr double kFrame_s = 1.0 / 30.0;
+constexpr double kMiddle_px = 100.0;
+constexpr double kSettled_s = 2.0;  // from then on work and travel count
+constexpr double kStandsAll = 1e9;
+
+/// A device of which only elevation moves.
+class SimulatedArm final : public Device {
+  public:
+    explicit SimulatedArm(const ClosedLoop& loop)
+        : loop_(loop), late_(static_cast<std::size_t>(loop.delay_ticks)) {
+        const double stiffness = 1e3 * loop.parameters.coupling.stiffness_newton_per_mm;
+        depth_m_ = loop.press_newton / stiffness;
+        if (loop.grip.spring_newton_per_m > 0.0)
+            rest_m_ = depth_m_ + loop.press_newton / loop.grip.spring_newton_per_m;
+        specification_.limits.max_stiffness_newton_per_mm = kStandsAll;
+        specification_.limits.max_damping_newton_s_per_m = kStandsAll;
+        // What a driver can state of a device it has not weighed.
+        specification_.limits.dynamics = {
+            .mass_kg = kMasses_kg.front(),
+            .friction_newton_s_per_m = kFrictions_newton_s_per_m.front(),
+            .resolution_mm = loop.resolution_mm,
+            .delay_s = loop.delay_ticks * kTick_s};
+    }
+
+    [[nodiscard]] const DeviceSpecification& specification() const noexcept override {
+        return specification_;
+    }
+    HandReading read(const HandContext& context) noexcept override {
+        const double step = loop_.resolution_mm;
+        const double mm = 1e3 * depth_m_;
+        const double read_mm = step > 0.0 ? std::round(mm / step) * step : mm;
+        return {
+            .goal_in_grid = {kSide / 2, kSide / 2, kMiddle_px - read_mm / context.pixel_pitch_mm}};
+    }
+    void send(Vec3 force_newton) noexcept override { sent_newton_ = force_newton.z; }
+
+    /// A tick of motion under the force that acts now; the work it does on hand and device [J].
+    double move(double push_newton_s) {
+        late_.push_back(sent_newton_);
+        const double up_newton = late_.front();
+        late_.pop_front();
+        speed_m_per_s_ += push_newton_s / loop_.mass_kg;
+        const double before_m = depth_m_;
+        constexpr double kStep_s = kTick_s / kStepsOfTick;
+        for (int k = 0; k < kStepsOfTick; ++k) {
+            const double newton =
+                hand_newton() - up_newton - loop_.friction_newton_s_per_m * speed_m_per_s_;
+            speed_m_per_s_ += newton / loop_.mass_kg * kStep_s;
+            depth_m_ += speed_m_per_s_ * kStep_s;
+        }
+        return up_newton * (before_m - depth_m_);
+    }
+
+    [[nodiscard]] double depth_mm() const { return 1e3 * depth_m_; }
+    [[nodiscard]] double sent_newton() const { return sent_newton_; }
+
+  private:
+    [[nodiscard]] double hand_newton() const {
+        const Grip& grip = loop_.grip;
+        if (!(grip.spring_newton_per_m > 0.0)) return loop_.press_newton;
+        return grip.spring_newton_per_m * (rest_m_ - depth_m_) -
+               grip.damper_newton_s_per_m * speed_m_per_s_;
+    }
+
+    const ClosedLoop& loop_;
+    DeviceSpecification specification_{};
+    std::deque<double> late_;  // forces that do not act yet, the next one first
+    double rest_m_{0.0};
+    double depth_m_{0.0};
+    double speed_m_per_s_{0.0};
+    double sent_newton_{0.0};
+};
+
+Frame frame_at(double time_s, double elevation_px) {
+    auto image = std::make_shared<DepthImage>();
+    image->columns = image->rows = kSide;
+    image->levels.assign(std::size_t{kSide} * kSide, static_cast<float>(elevation_px));
+    Frame frame;
+    frame.depth = image;
+    frame.time_s = time_s;
+    return frame;
+}
+
+double peak_to_peak(const std::vector<double>& values, std::size_t from) {
+    const auto [least, most] =
+        std::minmax_element(values.begin() + static_cast<std::ptrdiff_t>(from), values.end());
+    return *most - *least;
+}
+
+double rms_about_mean(const std::vector<double>& values, std::size_t from) {
+    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(from);
+    const double count = static_cast<double>(values.size() - from);
+    const double mean = std::accumulate(begin, values.end(), 0.0) / count;
+    double squares = 0.0;
+    std::for_each(begin, values.end(),
+                  [&](double value) { squares += (value - mean) * (value - mean); });
+    return std::sqrt(squares / count);
+}
+
+/// The tick with its surroundings.
+class Bench {
+  public:
+    explicit Bench(const ClosedLoop& loop) : loop_(loop), arm_(loop) {
+        handed_.parameters = loop.parameters;
+        handed_.parameters.shape.relief_px = 255.0;
+        handed_.limits.ramp_s = kTick_s;  // the hand has been there for long
+        handed_.limits.stability = loop.stability;
+        if (loop.stability && loop.damping) {
+            Coupling& coupling = handed_.parameters.coupling;
+            coupling = stable_coupling(coupling, coupling.stiffness_newton_per_mm,
+                                       arm_.specification().limits.dynamics);
+        }
+        hand_over();
+    }
+
+    ClosedLoopResult run() {
+        ClosedLoopResult result;
+        const auto ticks = static_cast<std::int64_t>(loop_.seconds / kTick_s);
+        double work_j = 0.0;
+        double last_newton = 0.0;
+        for (std::int64_t k = 0; k < ticks; ++k) {
+            const double t_s = static_cast<double>(k) * kTick_s;
+            if (k % 33 == 0) show_surface(t_s);
+            if (loop_.change) {
+                loop_.change(t_s, handed_);
+                hand_over();
+            }
+            tick_.run({start_ + k * std::chrono::milliseconds(1), kTick_s, {}, false}, 0);
+            const double newton = arm_.sent_newton();
+            const double slew = handed_.limits.max_change_newton_per_ms + 1e-9;
+            result.limits_held = result.limits_held &&
+                                 std::abs(newton) <= handed_.limits.max_force_newton + 1e-9 &&
+                                 std::abs(newton - last_newton) <= slew;
+            last_newton = newton;
+            const bool taps = k == static_cast<std::int64_t>(kSettled_s / kTick_s);
+            const double worked_j = arm_.move(taps ? loop_.tap_newton_s : 0.0);
+            if (t_s >= kSettled_s) work_j += worked_j;
+            result.depth_mm.push_back(arm_.depth_mm());
+            result.force_newton.push_back(newton);
+        }
+        const std::size_t last_second = result.depth_mm.size() - 1000;
+        result.swing_mm = peak_to_peak(result.depth_mm, last_second);
+        result.buzz_newton = rms_about_mean(result.force_newton, last_second);
+        result.travel_mm =
+            peak_to_peak(result.depth_mm, static_cast<std::size_t>(kSettled_s / kTick_s));
+        result.work_mw = 1e3 * work_j / (loop_.seconds - kSettled_s);
+        result.controller_mw = state_.front().touch.energy.taken_out_mw;
+        return result;
+    }
+
+  private:
+    void hand_over() {
+        ++handed_.version;
+        settings_.publish(handed_);
+    }
+    /// The frames around now, as the player would have them.
+    void show_surface(double t_s) {
+        FrameWindow window;
+        const double first = std::floor(t_s / kFrame_s) - 1.0;
+        for (Frame& frame : window.frames) {
+            const double time_s = (first + static_cast<double>(window.count++)) * kFrame_s;
+            const double rise_mm = loop_.surface_mm ? loop_.surface_mm(std::max(time_s, 0.0)) : 0.0;
+            frame =
+                frame_at(time_s, kMiddle_px + rise_mm / handed_.parameters.coupling.pixel_pitch_mm);
+        }
+        window.clock = {start_, 0.0, 1.0};
+        frames_.publish(window);
+    }
+
+    const ClosedLoop& loop_;
+    SimulatedArm arm_;
+    TripleBuffer<FrameWindow> frames_{};
+    TripleBuffer<HapticSettings> settings_{};
+    TripleBuffer<HapticState> state_{};
+    std::unique_ptr<ForceRing> forces_{std::make_unique<ForceRing>()};
+    std::unique_ptr<TickRing> ticks_{std::make_unique<TickRing>()};
+    HapticSettings handed_{};
+    HapticTick tick_{{arm_, frames_, settings_, state_, *forces_, *ticks_}};
+    std::chrono::steady_clock::time_point start_{std::chrono::hours(1)};
+};
+
+}  // namespace
+
+ClosedLoopResult run(const ClosedLoop& loop) {
+    return Bench(loop).run();
+}
+
+bool oscillates(const ClosedLoopResult& result) {
+    constexpr double kMost_mm = 0.2;
+    return result.swing_mm > kMost_mm;
+}
+
+double lowest_oscillating(ClosedLoop loop, double most) {
+    constexpr double kLeast = 0.1;
+    constexpr double kStep = 1.12;
+    double& stiffness = loop.parameters.coupling.stiffness_newton_per_mm;
+    for (stiffness = kLeast; stiffness < most; stiffness *= kStep) {
+        if (oscillates(run(loop))) return stiffness;
+    }
+    return most;
+}
+
+}  // namespace dibhr::bench

@@ -1,0 +1,67 @@
+// A hand on a device on the real haptic tick, simulated: whether it swings, buzzes, and what energy
+// it is given.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/haptics/parameters.hpp"
+#include "core/haptics/safety.hpp"
+#include "core/loop/haptic_tick.hpp"
+
+namespace dibhr::bench {
+
+/// What holds the device: a spring to where the hand rests, a damper, or a constant push alone.
+struct Grip {
+    const char* name;
+    double spring_newton_per_m;  ///< 0: none, the device is pushed
+    double damper_newton_s_per_m;
+};
+inline constexpr std::array kGrips{Grip{"grip", 300.0, 3.0}, Grip{"light", 100.0, 1.0},
+                                   Grip{"free", 0.0, 0.0}};
+inline constexpr std::array kMasses_kg{0.1, 0.2, 0.3};                 ///< device and hand
+inline constexpr std::array kFrictions_newton_s_per_m{0.5, 1.0, 2.0};  ///< of the device
+
+/// Elevation of the surface [mm] at a time [s].
+using SurfaceMotion = std::function<double(double)>;
+
+/// One run.
+struct ClosedLoop {
+    Grip grip{kGrips[0]};
+    double mass_kg{0.2};
+    double friction_newton_s_per_m{1.0};
+    double resolution_mm{0.05};  ///< steps of the measured position
+    int delay_ticks{2};          ///< between reading a pose and its force acting
+    double press_newton{1.0};    ///< at rest
+    double tap_newton_s{0.03};   ///< into the surface, after two seconds; 0: none
+    double seconds{4.0};
+    TouchParameters parameters{};
+    bool stability{false};  ///< as `view` has it: damping as the device needs it, energy watched
+    bool damping{true};     ///< with stability; false: watched only, damping as in `parameters`
+    SurfaceMotion surface_mm{};                             ///< none: it is still
+    std::function<void(double, HapticSettings&)> change{};  ///< settings by the time [s]
+};
+
+/// What came of it. The last second is the one that counts, unless it says otherwise.
+struct ClosedLoopResult {
+    double swing_mm{0.0};     ///< peak to peak
+    double buzz_newton{0.0};  ///< RMS of the force about its mean
+    double work_mw{0.0};      ///< of the force on hand and device, mean from 2 s on
+    double travel_mm{0.0};    ///< peak to peak from 2 s on
+    double controller_mw{0.0};
+    bool limits_held{true};  ///< no force above the limit, no change faster than the slew limit
+    std::vector<double> depth_mm{};  ///< of every tick
+    std::vector<double> force_newton{};
+};
+
+[[nodiscard]] ClosedLoopResult run(const ClosedLoop& loop);
+
+/// More than 0.2 mm peak to peak in the last of four seconds.
+[[nodiscard]] bool oscillates(const ClosedLoopResult& result);
+
+/// The lowest stiffness [N/mm] that oscillates, in steps of 12 %; `most` when none does.
+[[nodiscard]] double lowest_oscillating(ClosedLoop loop, double most = 12.0);
+
+}  // namespace dibhr::bench

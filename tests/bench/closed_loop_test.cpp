@@ -1,0 +1,135 @@
+// Whether a hand on a simulated device stays calm on the program's own tick: the bench's short form.
+#include "tests/bench/closed_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tests/support/catch.hpp"
+
+namespace dibhr::bench {
+
+namespace {
+
+constexpr double kMostBuzz_newton = 0.03;
+
+ClosedLoop as_in_view() {
+    ClosedLoop loop;
+    loop.stability = true;
+    return loop;
+}
+
+ClosedLoop watched_only() {
+    ClosedLoop loop = as_in_view();
+    loop.damping = false;
+    return loop;
+}
+
+/// Of a hand that is held like this, on the lightest and on the heaviest of the loosest devices.
+double lowest_oscillating_of(const Grip& grip, ClosedLoop loop) {
+    loop.grip = grip;
+    loop.friction_newton_s_per_m = kFrictions_newton_s_per_m.front();
+    double lowest = 1e9;
+    for (const double mass : {kMasses_kg.front(), kMasses_kg.back()}) {
+        loop.mass_kg = mass;
+        lowest = std::min(lowest, lowest_oscillating(loop));
+    }
+    return lowest;
+}
+
+ClosedLoop over_a_moving_surface(ClosedLoop loop, SurfaceMotion motion_mm) {
+    loop.tap_newton_s = 0.0;
+    loop.seconds = 10.0;
+    loop.surface_mm = std::move(motion_mm);
+    return loop;
+}
+
+double chest_mm(double t_s) {
+    return 2.5 * std::sin(2.0 * std::numbers::pi * 0.25 * t_s);
+}
+
+/// A frame up, a frame down, at 30 frames a second.
+double flicker_mm(double t_s) {
+    return std::lround(t_s * 30.0) % 2 == 0 ? -0.5 : 0.5;
+}
+
+}  // namespace
+
+TEST_CASE("by default no tapped hand swings on any device, and none buzzes at the usual stiffness",
+          "[closed-loop]") {
+    for (const double stiffness : {0.5, 1.0}) {
+        for (const Grip& grip : kGrips) {
+            for (const double mass : kMasses_kg) {
+                for (const double friction : kFrictions_newton_s_per_m) {
+                    ClosedLoop loop = as_in_view();
+                    loop.grip = grip;
+                    loop.mass_kg = mass;
+                    loop.friction_newton_s_per_m = friction;
+                    loop.press_newton = 0.93;  // between two steps of the device
+                    loop.parameters.coupling.stiffness_newton_per_mm = stiffness;
+                    const ClosedLoopResult result = run(loop);
+                    CAPTURE(stiffness, grip.name, mass, friction, result.swing_mm);
+                    CHECK_FALSE(oscillates(result));
+                    CHECK(result.limits_held);
+                    if (stiffness == 0.5) CHECK(result.buzz_newton <= kMostBuzz_newton);
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("watched, a spring may be three times as stiff before a hand swings, without any damping",
+          "[closed-loop]") {
+    for (const Grip& grip : kGrips) {
+        const double plain = lowest_oscillating_of(grip, ClosedLoop{});
+        const double watched = lowest_oscillating_of(grip, watched_only());
+        CAPTURE(grip.name, plain, watched);
+        CHECK(watched >= 3.0 * plain);
+    }
+}
+
+TEST_CASE("a finger that rests on a still surface for a minute gains no energy", "[closed-loop]") {
+    for (const Grip& grip : kGrips) {
+        ClosedLoop loop = as_in_view();
+        loop.grip = grip;
+        loop.press_newton = 0.93;
+        loop.tap_newton_s = 0.0;
+        loop.seconds = 60.0;
+        const ClosedLoopResult result = run(loop);
+        CAPTURE(grip.name, result.work_mw, result.swing_mm);
+        CHECK(result.swing_mm < 0.1);
+        CHECK(result.work_mw < 0.05);  // what toggling between two steps takes; it is not kept
+    }
+}
+
+TEST_CASE("a chest that rises lifts the finger as it did", "[closed-loop]") {
+    for (const Grip& grip : {kGrips[0], kGrips[1]}) {
+        ClosedLoop before;
+        before.grip = grip;
+        before.mass_kg = 0.1;
+        before.friction_newton_s_per_m = 2.0;  // calm also when nothing watches
+        ClosedLoop now = before;
+        now.stability = true;
+        const double then_mm = run(over_a_moving_surface(before, chest_mm)).travel_mm;
+        const double now_mm = run(over_a_moving_surface(now, chest_mm)).travel_mm;
+        CAPTURE(grip.name, then_mm, now_mm);
+        CHECK(then_mm > 2.0);
+        CHECK(now_mm >= 0.9 * then_mm);
+    }
+}
+
+TEST_CASE("depth that flickers shakes no hand", "[closed-loop]") {
+    for (const Grip& grip : kGrips) {
+        ClosedLoop loop = as_in_view();
+        loop.grip = grip;
+        loop.parameters.coupling.stiffness_newton_per_mm = 1.0;
+        const ClosedLoopResult calm = run(over_a_moving_surface(loop, flicker_mm));
+        loop.stability = false;
+        const ClosedLoopResult shaken = run(over_a_moving_surface(loop, flicker_mm));
+        CAPTURE(grip.name, calm.work_mw, shaken.work_mw);
+        CHECK(shaken.work_mw > 5.0);
+        CHECK(calm.work_mw <= 1.0);
+    }
+}
+
+}  // namespace dibhr::bench
