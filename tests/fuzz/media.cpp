@@ -1,0 +1,64 @@
+// What people open as a picture or a video, and the names that belong together: a picture of a size
+// that can be touched, or one line.
+#include <cmath>
+#include <string>
+
+#include "core/video/media.hpp"
+#include "tests/fuzz/entry.hpp"
+
+using namespace dibhr;
+
+namespace {
+
+void look_at_name(const std::filesystem::path& folder, const std::string& name) {
+    const std::filesystem::path file = folder / name;
+    test::require_one_line(shown(file));
+    std::string looked_for;
+    test::require_rule(!find_depth_beside(file, looked_for) && !find_colour_beside(file),
+                       "in an empty folder nothing is found");
+    test::require_one_line(looked_for);
+    (void)named_depth(file);
+}
+
+void require_sound(const RawFrame& frame, const MediaDescription& description) {
+    const DepthImage& depth = frame.depth;
+    test::require_rule(depth.columns >= 2 && depth.rows >= 2 &&
+                           depth.columns == description.depth_columns &&
+                           depth.rows == description.depth_rows &&
+                           depth.levels.size() == static_cast<std::size_t>(depth.columns) *
+                                                      static_cast<std::size_t>(depth.rows),
+                       "a frame has the size that was told, and can be touched");
+    test::require_rule(std::isfinite(frame.media_s), "a frame has a time");
+    for (const float level : depth.levels) {
+        test::require_rule(level >= 0.0F && level <= static_cast<float>(depth.highest_level),
+                           "a level is between 0 and the highest");
+    }
+}
+
+void look_into(const std::filesystem::path& file) {
+    (void)test::is_taken([&file] { (void)describe_media(file); });
+    (void)test::is_taken([&file] { (void)read_bump_map(file); });
+    (void)test::is_taken([&file] {
+        const auto media = open_depth(file);
+        for (int k = 0; k < 6; ++k) {
+            if (k == 3) media->seek(0.5 * media->description().duration_s);
+            if (const auto frame = media->next()) require_sound(*frame, media->description());
+        }
+    });
+}
+
+}  // namespace
+
+/// "name:" and a name, or the file itself.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static const test::InputFile file("input");
+    static const test::TemporaryFolder nothing;
+    const std::string text(data, data + size);
+    constexpr std::string_view kName = "name:";
+    if (text.starts_with(kName)) {
+        look_at_name(nothing.path(), text.substr(kName.size()));
+    } else {
+        look_into(file.with({data, size}));
+    }
+    return 0;
+}

@@ -1,0 +1,51 @@
+// settings.toml: every number in its range whatever the file holds, every warning one line, and
+// what was read comes back from the file that the program writes.
+#include <string>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "app/settings/settings.hpp"
+#include "tests/fuzz/entry.hpp"
+
+using namespace dibhr;
+
+namespace {
+
+void require_in_range(Settings settings) {
+    for (const Setting& setting : list_of(settings)) {
+        std::visit(
+            [&setting](const auto* value) {
+                if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(*value)>> &&
+                              !std::is_same_v<std::remove_cvref_t<decltype(*value)>, bool>) {
+                    test::require_rule(*value >= setting.lowest && *value <= setting.highest,
+                                       std::string(setting.name) + " is in its range");
+                }
+            },
+            setting.value);
+    }
+}
+
+Settings load_with(const std::filesystem::path& file, std::vector<std::string>& warnings) {
+    Settings settings = load_settings(file, warnings);
+    for (const std::string& warning : warnings) test::require_one_line(warning);
+    require_in_range(settings);
+    return settings;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static const test::InputFile file("settings.toml");
+    const auto& path = file.with({data, size});
+    (void)test::is_taken([&path] {
+        std::vector<std::string> warnings;
+        const Settings settings = load_with(path, warnings);
+        save_settings(settings, path);
+        warnings.clear();
+        const Settings again = load_with(path, warnings);
+        test::require_rule(warnings.empty() && same_settings(settings, again),
+                           "what the program wrote it reads without a word");
+    });
+    return 0;
+}
