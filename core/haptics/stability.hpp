@@ -53,8 +53,7 @@ struct DeviceDynamics {
 /// The velocity over the longest recent time in which every reading lies within a tolerance of the
 /// straight line through the newest and the oldest: steps of a device's position look like noise of
 /// that size while the hand is slow, and hardly delay it while it is fast (Janabi-Sharifi, Hayward
-/// and Chen 2000, end-fit; each axis by itself). A hand that has not left a step for a tenth of a
-/// second rests: its velocity is 0, for that of its steps is noise alone.
+/// and Chen 2000, end-fit; each axis by itself).
 class AdaptiveWindow {
   public:
     /// `tolerance` in steps of the device.
