@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 #include <vector>
+
 #include "tests/support/text.hpp"
 
 namespace dibhr::test {
