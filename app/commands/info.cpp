@@ -86,7 +86,6 @@ void describe_pictures(const fs::path& file) {
         print_fact("duration", number_text(media.duration_s, 3) + " s");
         print_fact("rate", number_text(media.frames_per_s, 2) + " frames/s");
     }
-    if (!media.remark.empty()) print_fact("remark", media.remark);
     if (is_colour) describe_partner(file);
 }
 

@@ -4,6 +4,7 @@
 extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
+#include <libavutil/log.h>
 #include <libswscale/swscale.h>
 }
 
@@ -33,9 +34,10 @@ std::mutex& only_one() {
 void set_up_libraries() {
     static std::once_flag once;
     std::call_once(once, [] {
-        if (std::getenv("OPENCV_LOG_LEVEL") == nullptr)
+        if (std::getenv("OPENCV_LOG_LEVEL") == nullptr) {
             cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-        ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // AV_LOG_QUIET; 0: never over the user's
+            av_log_set_level(AV_LOG_QUIET);
+        }
         // A pool of workers would wake on every conversion and push the haptic thread from its
         // core.
         cv::setNumThreads(1);

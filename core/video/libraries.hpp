@@ -7,8 +7,8 @@
 
 namespace dibhr {
 
-/// Once per process, before the first file is opened. The user's own OPENCV_LOG_LEVEL and
-/// OPENCV_FFMPEG_LOGLEVEL stand. Call it from one thread before others read the environment.
+/// Once per process, before the first file is opened. With OPENCV_LOG_LEVEL set, which asks for
+/// words, they stay as they are.
 void set_up_libraries();
 
 /// While it lives, the standard error stream goes nowhere: the picture decoders under OpenCV

@@ -161,7 +161,6 @@ void describe_time(const SourceFacts& facts, MediaDescription& description) {
     description.frames = facts.frames;
     description.frames_exact = facts.frames_exact;
     description.still = facts.still;
-    description.remark = facts.remark;
 }
 
 /// Depth drives; colour is optional.
@@ -183,7 +182,7 @@ class PairedMedia : public Media {
         if (!taken) return std::nullopt;
         keep_size(taken->picture);
         RawFrame frame;
-        frame.depth = depth_of(taken->picture);
+        frame.depth = depth_of(taken->picture, depth_->facts().bits);
         frame.media_s = taken->time_s;
         frame.index = taken->index;
         if (colour_) {
@@ -306,7 +305,7 @@ std::unique_ptr<PictureSource> open_picture_source(const fs::path& file, Picture
     set_up_libraries();
     require_readable(file);
     if (is_still(file)) return std::make_unique<StillFile>(file, role);
-    return std::make_unique<VideoFile>(file);
+    return std::make_unique<VideoFile>(file, role);
 }
 
 std::unique_ptr<Media> open_media(const fs::path& colour, const fs::path& depth) {
@@ -338,7 +337,7 @@ MediaDescription describe_media(const fs::path& file) {
     if (is_still(file)) {
         describe(StillFile(file, PictureRole::depth).facts());
     } else {
-        VideoFile video(file);
+        VideoFile video(file, PictureRole::depth);
         video.count_frames(kMostCounted);
         describe(video.facts());
     }

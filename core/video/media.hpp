@@ -46,7 +46,6 @@ struct MediaDescription {
     std::int64_t frames{0};    ///< an estimate until the end was reached
     bool frames_exact{false};  ///< the end was reached: frames and duration are those of the file
     bool still{false};
-    std::string remark{};  ///< what reading loses, in plain words; empty when nothing
     /// A sentence once a file turned out to hold less than at its opening: it was cut or
     /// overwritten meanwhile. What is left goes on.
     std::string trouble{};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <opencv2/core.hpp>
@@ -63,18 +64,26 @@ cv::Mat read_picture_unchanged(const fs::path& file) {
     return picture;
 }
 
+int bits_of(const cv::Mat& picture) {
+    return picture.depth() == CV_16U ? 16 : 8;
+}
+
 cv::Mat read_colour_picture(const fs::path& file) {
     return read_picture(file, cv::IMREAD_COLOR);
 }
 
 }  // namespace
 
-DepthImage depth_of(const cv::Mat& picture) {
+double highest_level(int bits) {
+    return std::ldexp(1.0, bits) - 1.0;
+}
+
+DepthImage depth_of(const cv::Mat& picture, int bits) {
     const cv::Mat grey = grey_of(picture);
     DepthImage depth;
     depth.columns = grey.cols;
     depth.rows = grey.rows;
-    depth.highest_level = grey.depth() == CV_16U ? 65535.0 : 255.0;
+    depth.highest_level = highest_level(bits);
     depth.levels.resize(grey.total());
     cv::Mat levels(grey.rows, grey.cols, CV_32FC1, depth.levels.data());
     grey.convertTo(levels, CV_32F);
@@ -94,7 +103,7 @@ ColourImage colour_of(const cv::Mat& picture) {
 BumpMap read_bump_map(const fs::path& file) {
     const cv::Mat picture = read_picture_unchanged(file);
     require_size(file, picture.cols, picture.rows);
-    DepthImage depth = depth_of(picture);
+    DepthImage depth = depth_of(picture, bits_of(picture));
     BumpMap bump{depth.columns, depth.rows, std::move(depth.levels)};
     cv::Mat heights(bump.rows, bump.columns, CV_32FC1, bump.heights.data());
     double lowest = 0.0;
@@ -137,7 +146,7 @@ StillFile::StillFile(const std::filesystem::path& file, PictureRole role)
     facts_.file = file;
     facts_.columns = picture_.cols;
     facts_.rows = picture_.rows;
-    facts_.bits = picture_.depth() == CV_16U ? 16 : 8;
+    facts_.bits = bits_of(picture_);
     facts_.channels = picture_.channels();
     facts_.codec = file.extension().string();
     if (!facts_.codec.empty()) facts_.codec.erase(0, 1);

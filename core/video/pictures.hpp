@@ -14,15 +14,18 @@
 
 namespace dibhr {
 
-/// Grey levels of an 8- or 16-bit picture of 1 to 4 channels. Where the channels are equal the
-/// level is exactly theirs, otherwise their luma.
-[[nodiscard]] DepthImage depth_of(const cv::Mat& picture);
+/// Of levels of so many bits.
+[[nodiscard]] double highest_level(int bits);
+
+/// Grey levels of a picture of 1 to 4 channels, none above highest_level(bits). Where the
+/// channels are equal the level is exactly theirs, otherwise their luma.
+[[nodiscard]] DepthImage depth_of(const cv::Mat& picture, int bits);
 
 /// RGB of an 8-bit BGR picture.
 [[nodiscard]] ColourImage colour_of(const cv::Mat& picture);
 
-/// A decoded picture: 8-bit BGR, or as the file has it where depth needs it (8 or 16 bits, 1 to 4
-/// channels). Shared with nobody who writes.
+/// A decoded picture: 8-bit BGR, or as the file has it where depth needs it (8 or 16 bits or float,
+/// 1 to 4 channels). Shared with nobody who writes.
 struct TimedPicture {
     cv::Mat picture{};
     double time_s{0.0};  ///< presentation time, from the file's own beginning
@@ -34,15 +37,14 @@ struct SourceFacts {
     std::filesystem::path file{};
     int columns{0};
     int rows{0};
-    int bits{8};
-    int channels{3};
+    int bits{8};      ///< of a level: the highest is 2^bits - 1
+    int channels{3};  ///< 1: grey
     std::string codec{};
     double duration_s{0.0};
     double frames_per_s{0.0};
     std::int64_t frames{0};
     bool frames_exact{false};
     bool still{false};
-    std::string remark{};
     std::string trouble{};  ///< why less is read than at the opening; empty: nothing lacks
 };
 

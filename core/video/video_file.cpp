@@ -1,29 +1,18 @@
 // A video file as pictures in order of presentation time, with an exact seek.
 #include "core/video/video_file.hpp"
 
-extern "C" {
-#include <libavcodec/packet.h>
-#include <libavformat/avformat.h>
-#include <libavutil/avutil.h>
-#include <libavutil/rational.h>
-}
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
-#include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/libraries.hpp"
 #include "core/video/media.hpp"
+#include "core/video/video_packets.hpp"
 
 namespace dibhr {
 
@@ -33,132 +22,6 @@ constexpr double kNearAhead_s = 1.0;   ///< up to here decoding on is as quick a
 constexpr double kMissing_s = 0.5;     ///< less than this at the end is a container's rounding,
 constexpr double kMissingPart = 0.15;  ///< and less than this part may be a long last frame
 constexpr double kLongest_s = 1e6;     ///< bounds a seek into a file of unknown length
-
-std::string text_of_fourcc(int fourcc) {
-    std::string text;
-    for (int shift = 0; shift < 32; shift += 8) {
-        const char c = static_cast<char>((fourcc >> shift) & 0xff);
-        if (c > ' ' && c < 127) text += c;
-    }
-    return text;
-}
-
-/// Matroska and WebM have no four-letter code; they name the codec in their header.
-std::string matroska_codec(const std::filesystem::path& file) {
-    static constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kNames{
-        {{"V_VP8", "VP8"},
-         {"V_VP9", "VP9"},
-         {"V_AV1", "AV1"},
-         {"V_FFV1", "FFV1"},
-         {"V_MPEG4/ISO/AVC", "H.264"},
-         {"V_MPEGH/ISO/HEVC", "HEVC"},
-         {"V_MJPEG", "MJPEG"},
-         {"V_THEORA", "Theora"},
-         {"V_PNG", "PNG"}}};
-    std::string head(16384, '\0');
-    std::ifstream in(file, std::ios::binary);
-    in.read(head.data(), static_cast<std::streamsize>(head.size()));
-    for (const auto& [key, name] : kNames)
-        if (head.find(key) != std::string::npos) return std::string(name);
-    return {};
-}
-
-bool is_sixteen_bit_grey(int pixel_format) {
-    // 'Y' '1' 0 16 (little endian) and 16 0 '1' 'Y' (big endian), FFmpeg's codes of gray16.
-    return pixel_format == 0x10003159 || pixel_format == 0x59310010;
-}
-
-bool open_capture(cv::VideoCapture& capture, const std::filesystem::path& file) {
-    try {
-        // Absolute, so that a colon in a name is no protocol.
-        return capture.open(std::filesystem::absolute(file).string(), cv::CAP_FFMPEG);
-    } catch (const cv::Exception&) {
-        return false;
-    }
-}
-
-constexpr int kMostPackets = 30000;  ///< looked through for the end: a quarter of an hour at 30 Hz
-
-struct ContextCloser {
-    void operator()(AVFormatContext* context) const noexcept { avformat_close_input(&context); }
-};
-struct PacketCloser {
-    void operator()(AVPacket* packet) const noexcept { av_packet_free(&packet); }
-};
-
-/// The packets of a file's first video stream.
-class VideoPackets {
-  public:
-    explicit VideoPackets(const std::filesystem::path& file) {
-        // Absolute and with its protocol, so that a colon in a name is no other one.
-        std::error_code gone;
-        const std::string url = "file:" + std::filesystem::absolute(file, gone).string();
-        AVFormatContext* opened = nullptr;
-        if (!packet_ || avformat_open_input(&opened, url.c_str(), nullptr, nullptr) != 0) return;
-        context_.reset(opened);
-        if (avformat_find_stream_info(opened, nullptr) < 0) return;
-        for (unsigned k = 0; k < opened->nb_streams; ++k) {
-            AVStream* const stream = opened->streams[k];
-            const bool first =
-                stream_ == nullptr && stream->codecpar->codec_type == AVMEDIA_TYPE_VIDEO;
-            if (first) stream_ = stream;
-            stream->discard = first ? AVDISCARD_DEFAULT : AVDISCARD_ALL;
-        }
-    }
-
-    [[nodiscard]] bool is_open() const noexcept { return stream_ != nullptr; }
-
-    /// To the key frame at or before the time; false where the file cannot jump.
-    bool jump(double time_s) {
-        const auto at = std::llround(time_s / av_q2d(stream_->time_base));
-        const std::int64_t to = start() + at;
-        return av_seek_frame(context_.get(), stream_->index, to, AVSEEK_FLAG_BACKWARD) >= 0;
-    }
-
-    /// When the last whole packet from here on ends; negative when there is none, nothing when
-    /// there are too many.
-    std::optional<double> end_s() {
-        double end_s = -1.0;
-        for (int read = 0; av_read_frame(context_.get(), packet_.get()) >= 0; ++read) {
-            if (read == kMostPackets) return std::nullopt;
-            const bool whole = (packet_->flags & AV_PKT_FLAG_CORRUPT) == 0;
-            const std::int64_t at = packet_->pts != AV_NOPTS_VALUE ? packet_->pts : packet_->dts;
-            if (packet_->stream_index == stream_->index && whole && at != AV_NOPTS_VALUE) {
-                end_s = std::max(end_s, static_cast<double>(at - start() + packet_->duration) *
-                                            av_q2d(stream_->time_base));
-            }
-            av_packet_unref(packet_.get());
-        }
-        return end_s;
-    }
-
-  private:
-    [[nodiscard]] std::int64_t start() const noexcept {
-        return stream_->start_time == AV_NOPTS_VALUE ? 0 : stream_->start_time;
-    }
-
-    std::unique_ptr<AVFormatContext, ContextCloser> context_{};
-    std::unique_ptr<AVPacket, PacketCloser> packet_{av_packet_alloc()};
-    AVStream* stream_{nullptr};  // the context's
-};
-
-/// When the last frame of the first video stream ends, as far as its packets are whole, counted
-/// from the stream's beginning [s]; looked for from `from_s` on, and from the beginning where that
-/// finds none. Nothing when the file cannot be opened, its packets have no times, or the end is too
-/// far to look for.
-std::optional<double> packets_end_s(const std::filesystem::path& file, double from_s) {
-    VideoPackets packets(file);
-    if (!packets.is_open()) return std::nullopt;
-    std::optional<double> end_s;
-    if (packets.jump(from_s)) end_s = packets.end_s();
-    if (!end_s || *end_s < from_s) {  // or the file cannot jump: look through it
-        VideoPackets all(file);
-        if (!all.is_open()) return std::nullopt;
-        end_s = all.end_s();
-    }
-    if (end_s && *end_s < 0.0) return std::nullopt;
-    return end_s;
-}
 
 /// A whole file ends there at the earliest.
 double least_end_s(double promised_s) {
@@ -177,28 +40,25 @@ void require_whole(const std::filesystem::path& file, double promised_s) {
 
 }  // namespace
 
-VideoFile::VideoFile(const std::filesystem::path& file) {
-    set_up_libraries();
+VideoFile::VideoFile(const std::filesystem::path& file, PictureRole role)
+    : role_(role), decoder_((set_up_libraries(), file)) {
     facts_.file = file;
-    open();
     read_facts();
     const double promised_s = facts_.duration_s;
     if (!grab())
         throw InputError(shown(file) + " holds no picture that can be decoded: record it again");
+    facts_.bits = decoder_.bits();
     ahead_.push_back({retrieve(), time_s_, index_});
     facts_.columns = ahead_.front().picture.cols;
     facts_.rows = ahead_.front().picture.rows;
+    facts_.channels = decoder_.is_grey() ? 1 : 3;
     require_size(file, facts_.columns, facts_.rows);
     require_whole(file, promised_s);
     promised_s_ = promised_s;
 }
 
-void VideoFile::open() {
-    if (!open_capture(capture_, facts_.file))
-        throw InputError(
-            shown(facts_.file) +
-            " cannot be opened as a video: it is cut off, has no video stream or is of "
-            "an unknown kind; record or convert it again");
+void VideoFile::begin_again() {
+    decoder_ = VideoDecoder(facts_.file);
     index_ = -1;
     time_s_ = 0.0;
     grabbed_ = false;
@@ -208,18 +68,12 @@ void VideoFile::open() {
 }
 
 void VideoFile::read_facts() {
-    const double rate = capture_.get(cv::CAP_PROP_FPS);
-    if (rate > 0.0 && rate <= 1000.0) interval_s_ = 1.0 / rate;
+    const VideoPackets& packets = decoder_.packets();
+    if (const double rate = packets.frames_per_s(); rate > 0.0) interval_s_ = 1.0 / rate;
     facts_.frames_per_s = 1.0 / interval_s_;
-    const double count = capture_.get(cv::CAP_PROP_FRAME_COUNT);
-    if (count >= 1.0 && count < 1e9) {  // unknown lengths show as huge or negative
-        facts_.frames = static_cast<std::int64_t>(count);
-        facts_.duration_s = count * interval_s_;
-    }
-    facts_.codec = text_of_fourcc(static_cast<int>(capture_.get(cv::CAP_PROP_FOURCC)));
-    if (facts_.codec.empty()) facts_.codec = matroska_codec(facts_.file);
-    const auto format = static_cast<int>(capture_.get(cv::CAP_PROP_CODEC_PIXEL_FORMAT));
-    if (is_sixteen_bit_grey(format)) facts_.remark = "16-bit levels are read as 8 bits";
+    facts_.frames = packets.frames();
+    facts_.duration_s = static_cast<double>(facts_.frames) * interval_s_;
+    facts_.codec = decoder_.codec();
 }
 
 /// Its packets were whole when it was opened.
@@ -236,7 +90,7 @@ bool VideoFile::grab() {
         grabbed_ = false;
         return true;
     }
-    ended_ = !capture_.grab();
+    ended_ = !decoder_.decode();
     if (ended_) {
         notice_early_end();
         if (!jumped_ && counted_ && index_ >= 0 &&
@@ -249,7 +103,7 @@ bool VideoFile::grab() {
     }
     const double last_s = time_s_;
     const bool follows = index_ >= 0 && !jumped_;
-    time_s_ = capture_.get(cv::CAP_PROP_POS_MSEC) / 1000.0;
+    time_s_ = decoder_.time_s();
     if (index_ < 0 && !(time_s_ >= 0.0)) time_s_ = 0.0;
     if (follows && !(time_s_ > last_s)) {
         timed_ = false;
@@ -268,10 +122,18 @@ bool VideoFile::grab() {
 }
 
 cv::Mat VideoFile::retrieve() {
-    cv::Mat picture;
-    if (!capture_.retrieve(picture) || picture.empty())
+    cv::Mat picture = role_ == PictureRole::depth ? decoder_.levels() : decoder_.colour();
+    if (picture.empty())
         throw InputError(shown(facts_.file) + " breaks off at " + short_text(time_s_) +
                          " s: record or convert it again");
+    if (role_ == PictureRole::depth && decoder_.has_floats())
+        throw InputError(shown(facts_.file) +
+                         " holds floating-point levels: convert it to 16-bit grey");
+    if (role_ == PictureRole::depth && decoder_.bits() != facts_.bits) {
+        // A stream may change on the way; what the levels of a surface mean may not.
+        picture.convertTo(picture, CV_32F,
+                          highest_level(facts_.bits) / highest_level(decoder_.bits()));
+    }
     return picture;
 }
 
@@ -311,20 +173,18 @@ std::optional<TimedPicture> VideoFile::next() {
 
 void VideoFile::rewind_before(double time_s) {
     for (double margin_s = 0.25; timed_ && time_s - margin_s > 0.0; margin_s *= 4.0) {
-        capture_.set(cv::CAP_PROP_POS_MSEC, (time_s - margin_s) * 1000.0);
+        if (!decoder_.jump(time_s - margin_s)) break;
         jumped_ = true;
         if (!grab()) continue;
         grabbed_ = time_s_ <= time_s;
         if (grabbed_) return;
     }
-    if (timed_) {
-        capture_.set(cv::CAP_PROP_POS_MSEC, 0.0);
+    if (timed_ && decoder_.jump(0.0)) {
         jumped_ = true;
-        grabbed_ = grab() && index_ == 0;
+        grabbed_ = grab() && index_ == 0 && time_s_ >= 0.0;
         if (grabbed_) return;
     }
-    capture_.release();
-    open();
+    begin_again();
 }
 
 void VideoFile::seek(double time_s) {

@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
-#include <opencv2/videoio.hpp>
 #include <optional>
 #include <vector>
 
 #include "core/video/pictures.hpp"
+#include "core/video/video_decoder.hpp"
 
 namespace dibhr {
 
@@ -19,7 +19,7 @@ class VideoFile : public PictureSource {
   public:
     /// Reads the first frame. Throws InputError when the file cannot be opened, holds none,
     /// or ends well before its header says.
-    explicit VideoFile(const std::filesystem::path& file);
+    VideoFile(const std::filesystem::path& file, PictureRole role);
 
     [[nodiscard]] const SourceFacts& facts() const override { return facts_; }
     std::optional<TimedPicture> next() override;
@@ -29,7 +29,7 @@ class VideoFile : public PictureSource {
     void count_frames(std::int64_t most);
 
   private:
-    void open();
+    void begin_again();
     void read_facts();
     void notice_early_end();
     bool grab();         ///< decodes one frame: its time and index; false at the end
@@ -39,7 +39,8 @@ class VideoFile : public PictureSource {
     void learn();                  ///< rate and duration from the times read so far
 
     SourceFacts facts_{};
-    cv::VideoCapture capture_{};
+    PictureRole role_;
+    VideoDecoder decoder_;
     std::deque<TimedPicture> ahead_{};  ///< decoded already, given out next
     std::vector<double> times_{};       ///< of all frames from the first without a gap
     double promised_s_{0.0};            ///< as the container said at the opening

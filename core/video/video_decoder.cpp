@@ -1,0 +1,285 @@
+// libav's decoder, and its pictures as OpenCV's.
+#include "core/video/video_decoder.hpp"
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/display.h>
+#include <libavutil/frame.h>
+#include <libavutil/pixdesc.h>
+#include <libswscale/swscale.h>
+}
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <opencv2/core.hpp>
+#include <string_view>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/video/media.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr int kMostFailures = 4096;  ///< packets in a row that cannot be decoded: nothing follows
+
+std::string text_of_tag(std::uint32_t tag) {
+    std::string text;
+    for (int shift = 0; shift < 32; shift += 8) {
+        const char c = static_cast<char>((tag >> shift) & 0xffU);
+        if (c > ' ' && c < 127) text += c;
+    }
+    return text;
+}
+
+std::string name_of(AVCodecID codec) {
+    static constexpr std::array<std::pair<AVCodecID, std::string_view>, 9> kNames{
+        {{AV_CODEC_ID_VP8, "VP8"},
+         {AV_CODEC_ID_VP9, "VP9"},
+         {AV_CODEC_ID_AV1, "AV1"},
+         {AV_CODEC_ID_FFV1, "FFV1"},
+         {AV_CODEC_ID_H264, "H.264"},
+         {AV_CODEC_ID_HEVC, "HEVC"},
+         {AV_CODEC_ID_MJPEG, "MJPEG"},
+         {AV_CODEC_ID_THEORA, "Theora"},
+         {AV_CODEC_ID_PNG, "PNG"}}};
+    for (const auto& [id, name] : kNames)
+        if (id == codec) return std::string(name);
+    return avcodec_get_name(codec);
+}
+
+const std::uint8_t* display_matrix(const AVStream& stream) {
+#if LIBAVFORMAT_VERSION_INT >= AV_VERSION_INT(60, 15, 100)
+    const AVPacketSideData* const data =
+        av_packet_side_data_get(stream.codecpar->coded_side_data,
+                                stream.codecpar->nb_coded_side_data, AV_PKT_DATA_DISPLAYMATRIX);
+    return data == nullptr ? nullptr : data->data;
+#else
+    return av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
+#endif
+}
+
+/// Clockwise, 0 to 3, of a file that was recorded with the camera turned.
+int quarter_turns(const AVStream& stream) {
+    const std::uint8_t* const matrix = display_matrix(stream);
+    if (matrix == nullptr) return 0;
+    std::array<std::int32_t, 9> numbers{};
+    std::memcpy(numbers.data(), matrix, sizeof numbers);
+    const double anticlockwise = av_display_rotation_get(numbers.data());
+    if (!std::isfinite(anticlockwise)) return 0;
+    return (static_cast<int>(std::lround(-anticlockwise / 90.0)) % 4 + 4) % 4;
+}
+
+const AVPixFmtDescriptor* kind_of(const AVFrame& frame) {
+    return av_pix_fmt_desc_get(static_cast<AVPixelFormat>(frame.format));
+}
+
+bool has(const AVPixFmtDescriptor& kind, std::uint64_t flag) {
+    return (kind.flags & flag) != 0;
+}
+
+/// Levels are in the first component, as numbers.
+bool has_luma(const AVPixFmtDescriptor& kind) {
+    return !has(kind, AV_PIX_FMT_FLAG_RGB) && !has(kind, AV_PIX_FMT_FLAG_PAL) &&
+           !has(kind, AV_PIX_FMT_FLAG_BITSTREAM) && !has(kind, AV_PIX_FMT_FLAG_HWACCEL);
+}
+
+/// One component, or with transparency.
+bool is_grey_kind(const AVPixFmtDescriptor& kind) {
+    return has_luma(kind) && kind.nb_components <= 2;
+}
+
+cv::Mat floats_of(const AVFrame& frame, const AVPixFmtDescriptor& kind) {
+    cv::Mat levels(frame.height, frame.width, CV_32FC1);
+    const bool big = has(kind, AV_PIX_FMT_FLAG_BE);
+    const bool swapped = big != (std::endian::native == std::endian::big);
+    for (int j = 0; j < frame.height; ++j) {
+        const std::uint8_t* const row =
+            frame.data[0] + static_cast<std::ptrdiff_t>(j) * frame.linesize[0];
+        std::memcpy(levels.ptr(j), row, static_cast<std::size_t>(frame.width) * sizeof(float));
+        if (!swapped) continue;
+        for (int i = 0; i < frame.width; ++i) {
+            const auto bits = std::bit_cast<std::uint32_t>(levels.at<float>(j, i));
+            levels.at<float>(j, i) = std::bit_cast<float>(__builtin_bswap32(bits));
+        }
+    }
+    return levels;
+}
+
+/// The first component as it was coded.
+cv::Mat luma_of(const AVFrame& frame, const AVPixFmtDescriptor& kind) {
+    if (has(kind, AV_PIX_FMT_FLAG_FLOAT)) return floats_of(frame, kind);
+    const AVComponentDescriptor& luma = kind.comp[0];
+    if (luma.depth == 8 && luma.step == 1) {
+        const cv::Mat plane(frame.height, frame.width, CV_8UC1, frame.data[0] + luma.offset,
+                            static_cast<std::size_t>(frame.linesize[0]));
+        return plane.clone();
+    }
+    cv::Mat levels(frame.height, frame.width, CV_16UC1);
+    std::array<const std::uint8_t*, 4> planes{frame.data[0], frame.data[1], frame.data[2],
+                                              frame.data[3]};
+    for (int j = 0; j < frame.height; ++j) {
+        av_read_image_line2(levels.ptr(j), planes.data(), frame.linesize, &kind, 0, j, 0,
+                            frame.width, 0, sizeof(std::uint16_t));
+    }
+    return levels;
+}
+
+/// Whether black is not 0 and white not the highest level. Grey is always whole, whatever its tag
+/// says: so every encoder and decoder of libav has it. Where no tag says it, levels beyond black
+/// and white do: grey that a codec without grey holds as a picture in colours of grey (H.264).
+bool is_limited(const AVFrame& frame, const AVPixFmtDescriptor& kind, const cv::Mat& luma) {
+    constexpr double kMostBeyond = 0.005;  // of all pixels: what compression adds
+    const bool is_whole_kind = std::string_view(kind.name).starts_with("yuvj");
+    if (is_grey_kind(kind) || is_whole_kind || frame.color_range == AVCOL_RANGE_JPEG) return false;
+    if (frame.color_range == AVCOL_RANGE_MPEG) return true;
+    const double step = std::ldexp(1.0, kind.comp[0].depth - 8);
+    const int beyond = cv::countNonZero(luma < 16.0 * step) + cv::countNonZero(luma > 235.0 * step);
+    return beyond <= kMostBeyond * static_cast<double>(luma.total());
+}
+
+/// Black at 0, white at the highest level.
+cv::Mat stretched(const cv::Mat& levels, int bits) {
+    const double step = std::ldexp(1.0, bits - 8);
+    const double highest = std::ldexp(1.0, bits) - 1.0;
+    const double scale = highest / (219.0 * step);
+    cv::Mat whole;
+    levels.convertTo(whole, CV_32F, scale, -16.0 * step * scale);
+    return cv::min(cv::max(whole, 0.0), highest);
+}
+
+}  // namespace
+
+void VideoDecoder::Closer::operator()(AVCodecContext* context) const noexcept {
+    avcodec_free_context(&context);
+}
+
+void VideoDecoder::Closer::operator()(AVFrame* frame) const noexcept {
+    av_frame_free(&frame);
+}
+
+void VideoDecoder::Closer::operator()(SwsContext* scaler) const noexcept {
+    sws_freeContext(scaler);
+}
+
+VideoDecoder::VideoDecoder(const std::filesystem::path& file)
+    : packets_(file), frame_(av_frame_alloc()) {
+    const AVCodec* const codec =
+        packets_.is_open() ? avcodec_find_decoder(packets_.stream()->codecpar->codec_id) : nullptr;
+    if (codec != nullptr) decoder_.reset(avcodec_alloc_context3(codec));
+    bool opened = decoder_ != nullptr && frame_ != nullptr;
+    if (opened) {
+        opened = avcodec_parameters_to_context(decoder_.get(), packets_.stream()->codecpar) >= 0;
+        decoder_->thread_count = 0;  // as many as there are cores
+        opened = opened && avcodec_open2(decoder_.get(), codec, nullptr) >= 0;
+    }
+    if (!opened)
+        throw InputError(
+            shown(file) +
+            " cannot be opened as a video: it is cut off, has no video stream or is of "
+            "an unknown kind; record or convert it again");
+    quarter_turns_ = quarter_turns(*packets_.stream());
+}
+
+std::string VideoDecoder::codec() const {
+    const AVCodecParameters& coded = *packets_.stream()->codecpar;
+    const std::string tag = text_of_tag(coded.codec_tag);
+    return tag.empty() ? name_of(coded.codec_id) : tag;
+}
+
+bool VideoDecoder::decode() {
+    for (int failures = 0; failures < kMostFailures;) {
+        const int given = avcodec_receive_frame(decoder_.get(), frame_.get());
+        if (given == 0) return true;
+        if (given == AVERROR_EOF || (given == AVERROR(EAGAIN) && drained_)) return false;
+        if (given != AVERROR(EAGAIN)) {
+            ++failures;
+            continue;
+        }
+        const AVPacket* const packet = packets_.next();
+        drained_ = packet == nullptr;
+        if (avcodec_send_packet(decoder_.get(), packet) < 0) ++failures;
+    }
+    return false;
+}
+
+bool VideoDecoder::jump(double time_s) {
+    if (!packets_.jump(time_s)) return false;
+    avcodec_flush_buffers(decoder_.get());
+    drained_ = false;
+    return true;
+}
+
+double VideoDecoder::time_s() const noexcept {
+    return packets_.seconds(frame_->best_effort_timestamp);
+}
+
+bool VideoDecoder::has_floats() const noexcept {
+    const AVPixFmtDescriptor* const kind = kind_of(*frame_);
+    return kind != nullptr && has(*kind, AV_PIX_FMT_FLAG_FLOAT);
+}
+
+int VideoDecoder::bits() const noexcept {
+    const AVPixFmtDescriptor* const kind = kind_of(*frame_);
+    if (kind == nullptr) return 8;
+    if (has_luma(*kind)) return kind->comp[0].depth;
+    return kind->comp[0].depth > 8 ? 16 : 8;
+}
+
+bool VideoDecoder::is_grey() const noexcept {
+    const AVPixFmtDescriptor* const kind = kind_of(*frame_);
+    return kind != nullptr && is_grey_kind(*kind);
+}
+
+cv::Mat VideoDecoder::colour() {
+    return turned(converted(AV_PIX_FMT_BGR24, CV_8UC3));
+}
+
+cv::Mat VideoDecoder::levels() {
+    const AVPixFmtDescriptor* const kind = kind_of(*frame_);
+    if (kind == nullptr) return {};
+    if (!has_luma(*kind)) {
+        return turned(bits() > 8 ? converted(AV_PIX_FMT_BGR48, CV_16UC3)
+                                 : converted(AV_PIX_FMT_BGR24, CV_8UC3));
+    }
+    cv::Mat levels = luma_of(*frame_, *kind);
+    if (!limited_) limited_ = is_limited(*frame_, *kind, levels);
+    if (*limited_) levels = stretched(levels, kind->comp[0].depth);
+    return turned(std::move(levels));
+}
+
+cv::Mat VideoDecoder::converted(int pixel_format, int type) {
+    const AVFrame& frame = *frame_;
+    scaler_.reset(sws_getCachedContext(scaler_.release(), frame.width, frame.height,
+                                       static_cast<AVPixelFormat>(frame.format), frame.width,
+                                       frame.height, static_cast<AVPixelFormat>(pixel_format),
+                                       SWS_BICUBIC, nullptr, nullptr, nullptr));
+    if (!scaler_) return {};
+    // The scaler writes whole vectors: beyond a row's end, and beyond the last one's.
+    constexpr int kVector = 64;
+    const int columns = (frame.width + kVector - 1) / kVector * kVector;
+    const cv::Mat room(frame.height + 1, columns, type);
+    std::array<std::uint8_t*, 4> planes{room.data};
+    std::array<int, 4> steps{static_cast<int>(room.step)};
+    const int rows = sws_scale(scaler_.get(), frame.data, frame.linesize, 0, frame.height,
+                               planes.data(), steps.data());
+    if (rows != frame.height) return {};
+    return room(cv::Rect(0, 0, frame.width, frame.height));
+}
+
+cv::Mat VideoDecoder::turned(cv::Mat picture) const {
+    static constexpr std::array kTurns{cv::ROTATE_90_CLOCKWISE, cv::ROTATE_180,
+                                       cv::ROTATE_90_COUNTERCLOCKWISE};
+    if (quarter_turns_ == 0 || picture.empty()) return picture;
+    cv::Mat turned;
+    cv::rotate(picture, turned, kTurns[static_cast<std::size_t>(quarter_turns_ - 1)]);
+    return turned;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,126 @@
+// Opens a file, and reads on and jumps in one of its tracks.
+#include "core/video/video_packets.hpp"
+
+extern "C" {
+#include <libavcodec/packet.h>
+#include <libavformat/avformat.h>
+#include <libavutil/avutil.h>
+#include <libavutil/rational.h>
+}
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <system_error>
+
+namespace dibhr {
+
+namespace {
+
+constexpr int kMostPackets = 30000;  ///< looked through for the end: a quarter of an hour at 30 Hz
+
+bool is_video(const AVStream& stream) noexcept {
+    return stream.codecpar->codec_type == AVMEDIA_TYPE_VIDEO &&
+           (stream.disposition & AV_DISPOSITION_ATTACHED_PIC) == 0;
+}
+
+}  // namespace
+
+void VideoPackets::Closer::operator()(AVFormatContext* context) const noexcept {
+    avformat_close_input(&context);
+}
+
+void VideoPackets::Closer::operator()(AVPacket* packet) const noexcept {
+    av_packet_free(&packet);
+}
+
+VideoPackets::VideoPackets(const std::filesystem::path& file) : packet_(av_packet_alloc()) {
+    // Absolute and with its protocol, so that a colon in a name is no other one.
+    std::error_code gone;
+    const std::string url = "file:" + std::filesystem::absolute(file, gone).string();
+    AVFormatContext* opened = nullptr;
+    if (!packet_ || avformat_open_input(&opened, url.c_str(), nullptr, nullptr) != 0) return;
+    context_.reset(opened);
+    if (avformat_find_stream_info(opened, nullptr) < 0) return;
+    for (unsigned k = 0; k < opened->nb_streams; ++k) {
+        AVStream* const stream = opened->streams[k];
+        const bool first = stream_ == nullptr && is_video(*stream);
+        if (first) stream_ = stream;
+        stream->discard = first ? AVDISCARD_DEFAULT : AVDISCARD_ALL;
+    }
+}
+
+double VideoPackets::frames_per_s() const noexcept {
+    const double rate = av_q2d(av_guess_frame_rate(context_.get(), stream_, nullptr));
+    return rate > 0.0 && rate <= 1000.0 ? rate : 0.0;
+}
+
+std::int64_t VideoPackets::frames() const noexcept {
+    if (stream_->nb_frames > 0) return stream_->nb_frames;
+    const double length_s = context_->duration > 0
+                                ? static_cast<double>(context_->duration) / AV_TIME_BASE
+                                : static_cast<double>(stream_->duration) * unit_s();
+    const double frames = std::round(length_s * frames_per_s());
+    return frames >= 1.0 && frames < 1e9 ? static_cast<std::int64_t>(frames) : 0;
+}
+
+AVPacket* VideoPackets::next() noexcept {
+    av_packet_unref(packet_.get());
+    while (av_read_frame(context_.get(), packet_.get()) >= 0) {
+        if (packet_->stream_index == stream_->index) return packet_.get();
+        av_packet_unref(packet_.get());
+    }
+    return nullptr;
+}
+
+bool VideoPackets::jump(double time_s) noexcept {
+    const std::int64_t to = start() + std::llround(time_s / unit_s());
+    return av_seek_frame(context_.get(), stream_->index, to, AVSEEK_FLAG_BACKWARD) >= 0;
+}
+
+double VideoPackets::seconds(std::int64_t stamp) const noexcept {
+    if (stamp == AV_NOPTS_VALUE) return std::numeric_limits<double>::quiet_NaN();
+    return static_cast<double>(stamp - start()) * unit_s();
+}
+
+double VideoPackets::unit_s() const noexcept {
+    return av_q2d(stream_->time_base);
+}
+
+std::int64_t VideoPackets::start() const noexcept {
+    return stream_->start_time == AV_NOPTS_VALUE ? 0 : stream_->start_time;
+}
+
+namespace {
+
+/// Of the packets from here on; negative when there is none, nothing when there are too many.
+std::optional<double> end_of_packets_s(VideoPackets& packets) {
+    double end_s = -1.0;
+    int read = 0;
+    for (const AVPacket* packet = packets.next(); packet != nullptr; packet = packets.next()) {
+        if (++read > kMostPackets) return std::nullopt;
+        if ((packet->flags & AV_PKT_FLAG_CORRUPT) != 0) continue;
+        const std::int64_t at = packet->pts != AV_NOPTS_VALUE ? packet->pts : packet->dts;
+        if (at != AV_NOPTS_VALUE) end_s = std::max(end_s, packets.seconds(at + packet->duration));
+    }
+    return end_s;
+}
+
+}  // namespace
+
+std::optional<double> packets_end_s(const std::filesystem::path& file, double from_s) {
+    VideoPackets packets(file);
+    if (!packets.is_open()) return std::nullopt;
+    std::optional<double> end_s;
+    if (packets.jump(from_s)) end_s = end_of_packets_s(packets);
+    if (!end_s || *end_s < from_s) {  // or the file cannot jump: look through it
+        VideoPackets all(file);
+        if (!all.is_open()) return std::nullopt;
+        end_s = end_of_packets_s(all);
+    }
+    if (end_s && *end_s < 0.0) return std::nullopt;
+    return end_s;
+}
+
+}  // namespace dibhr

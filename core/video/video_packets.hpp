@@ -1,0 +1,56 @@
+// The packets of one video track of a file, through libavformat; inside the room.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+struct AVFormatContext;
+struct AVPacket;
+struct AVStream;
+
+namespace dibhr {
+
+class VideoPackets {
+  public:
+    /// Of the file's first video track (a cover picture is none). Not open when there is none, or
+    /// when the file is of an unknown kind.
+    explicit VideoPackets(const std::filesystem::path& file);
+
+    [[nodiscard]] bool is_open() const noexcept { return stream_ != nullptr; }
+    [[nodiscard]] AVStream* stream() const noexcept { return stream_; }
+    /// Pictures a second, as well as the file says it; 0: it does not.
+    [[nodiscard]] double frames_per_s() const noexcept;
+    /// As the container says; an estimate; 0: it does not.
+    [[nodiscard]] std::int64_t frames() const noexcept;
+
+    /// The next packet of the track, the reader's until the next call; null at the end.
+    [[nodiscard]] AVPacket* next() noexcept;
+    /// To the key frame at or before the time [s]; false where the file cannot jump.
+    bool jump(double time_s) noexcept;
+
+    /// From the track's beginning [s]; NaN for no time stamp.
+    [[nodiscard]] double seconds(std::int64_t stamp) const noexcept;
+
+  private:
+    [[nodiscard]] double unit_s() const noexcept;  ///< of a time stamp
+    [[nodiscard]] std::int64_t start() const noexcept;
+
+    struct Closer {
+        void operator()(AVFormatContext* context) const noexcept;
+        void operator()(AVPacket* packet) const noexcept;
+    };
+
+    std::unique_ptr<AVFormatContext, Closer> context_{};
+    std::unique_ptr<AVPacket, Closer> packet_;
+    AVStream* stream_{nullptr};  // the context's
+};
+
+/// When the last frame of the first video track ends, as far as its packets are whole, counted from
+/// the track's beginning [s]; looked for from `from_s` on, and from the beginning where that finds
+/// none. Nothing when the file cannot be opened, its packets have no times, or the end is too far
+/// to look for.
+[[nodiscard]] std::optional<double> packets_end_s(const std::filesystem::path& file, double from_s);
+
+}  // namespace dibhr

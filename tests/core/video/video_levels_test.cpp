@@ -1,0 +1,130 @@
+// Every level that a video's track holds arrives, whatever its bits, range and byte order.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+#include "core/video/media.hpp"
+#include "tests/core/video/clips.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+
+namespace {
+
+constexpr int kPixels = 64 * 64;  // of a picture, each another level where there are as many
+
+/// The level of pixel k of 4096, over the whole range of so many bits.
+int level_of(int k, int bits) {
+    return static_cast<int>(std::lround(k * (std::ldexp(1.0, bits) - 1.0) / (kPixels - 1)));
+}
+
+struct Form {
+    const char* name;
+    int bits;
+    bool limited;  ///< black is 16, white 235 (times 4 in 10 bits), with colours of grey
+    const char* encoding;
+};
+
+std::string raw_format(const Form& form) {
+    const std::string colours = form.limited ? "yuv420p" : "gray";
+    return form.bits == 8 ? colours : colours + std::to_string(form.bits) + "le";
+}
+
+/// One picture of all levels as raw numbers.
+void write_levels(const std::filesystem::path& file, const Form& form) {
+    std::ofstream out(file, std::ios::binary);
+    const auto put = [&](double level) {
+        const auto number = static_cast<unsigned>(std::lround(level));
+        out.put(static_cast<char>(number & 0xffU));
+        if (form.bits > 8) out.put(static_cast<char>(number >> 8U));
+    };
+    const double step = std::ldexp(1.0, form.bits - 8);
+    for (int k = 0; k < kPixels; ++k) {
+        const double level = level_of(k, form.bits);
+        put(form.limited ? 16.0 * step + level * 219.0 * step / (256.0 * step - 1.0) : level);
+    }
+    for (int k = 0; form.limited && k < kPixels / 2; ++k) put(128.0 * step);
+}
+
+/// The same video, to be shown turned clockwise.
+void turn(const std::filesystem::path& file, const std::filesystem::path& turned, int degrees) {
+    const std::string from = "-i '" + file.string() + "' -c copy ";
+    const std::string to = "'" + turned.string() + "'";
+    try {
+        ffmpeg("-display_rotation:v:0 " + std::to_string(-degrees) + " " + from + to);
+    } catch (const std::runtime_error&) {  // before ffmpeg 6
+        ffmpeg(from + "-metadata:s:v:0 rotate=" + std::to_string(degrees) + " " + to);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("every level of a video arrives, in 8 to 16 bits, whatever the range and the byte order",
+          "[media]") {
+    const TemporaryFolder folder;
+    const Form form = GENERATE(
+        Form{"ffv1.mkv", 8, false, "-c:v ffv1 -pix_fmt gray"},
+        Form{"ffv1.mkv", 10, false, "-c:v ffv1 -pix_fmt gray10le"},
+        Form{"ffv1.mkv", 12, false, "-c:v ffv1 -pix_fmt gray12le"},
+        Form{"ffv1.mkv", 16, false, "-c:v ffv1 -pix_fmt gray16le"},
+        Form{"png.mov", 8, false, "-c:v png -pix_fmt gray"},
+        Form{"png.mov", 16, false, "-c:v png -pix_fmt gray16be"},
+        Form{"png.mkv", 8, false, "-c:v png -pix_fmt rgb24"},
+        Form{"png.mkv", 16, false, "-c:v png -pix_fmt rgb48be"},
+        Form{"raw.mov", 16, false, "-c:v rawvideo -tag:v b16g -pix_fmt gray16be"},
+        Form{"raw.nut", 16, false, "-c:v rawvideo -pix_fmt gray16le"},
+        Form{"x264.mp4", 8, false, "-c:v libx264 -qp 0 -pix_fmt gray"},
+        Form{"x265.mp4", 10, false,
+             "-c:v libx265 -x265-params lossless=1:log-level=none -pix_fmt gray10le"},
+        Form{"x265.mkv", 12, false,
+             "-c:v libx265 -x265-params lossless=1:log-level=none -pix_fmt gray12le"},
+        Form{"full.mkv", 8, false,
+             "-c:v libx264 -qp 0 -vf scale=out_range=full -color_range pc -pix_fmt yuv420p"},
+        Form{"limited.mkv", 8, true, "-c:v libx264 -qp 0"},
+        Form{"limited.webm", 10, true, "-c:v libvpx-vp9 -lossless 1"},
+        Form{"limited.mkv", 10, true, "-c:v ffv1"});
+    CAPTURE(form.name, form.bits, form.encoding);
+    const auto raw = folder / "raw";
+    const auto file = folder / form.name;
+    write_levels(raw, form);
+    ffmpeg("-f rawvideo -pix_fmt " + raw_format(form) + " -s 64x64 -i '" + raw.string() + "' " +
+           form.encoding + " '" + file.string() + "'");
+    const auto media = open_depth(file);
+    const auto frame = media->next();
+    REQUIRE(frame);
+    CHECK(media->description().depth_bits == form.bits);
+    CHECK(frame->depth.highest_level == std::ldexp(1.0, form.bits) - 1.0);
+    double worst = 0.0;
+    for (int k = 0; k < kPixels; ++k) {
+        const auto level = static_cast<double>(frame->depth.levels[static_cast<std::size_t>(k)]);
+        worst = std::max(worst, std::abs(level - level_of(k, form.bits)));
+    }
+    CHECK(worst <= (form.limited ? 0.6 : 0.0));  // of whose levels there are fewer
+}
+
+TEST_CASE("a video that was recorded with the camera turned is turned back, depth and colour",
+          "[media]") {
+    const TemporaryFolder folder;
+    const auto [degrees, level] =
+        GENERATE(table<int, double>({{0, 10.0}, {90, 60.0}, {180, 210.0}, {270, 160.0}}));
+    // Corners of 10, 60, 210 and 160, clockwise from the upper left.
+    ffmpeg(
+        "-f lavfi -i color=black:s=80x60:r=10:d=0.3,format=gray,"
+        "geq=lum='if(lt(X\\,40)\\,if(lt(Y\\,30)\\,10\\,160)\\,if(lt(Y\\,30)\\,60\\,210))' "
+        "-c:v ffv1 -pix_fmt gray '" +
+        (folder / "plain.mov").string() + "'");
+    turn(folder / "plain.mov", folder / "turned.mov", degrees);
+    CAPTURE(degrees);
+    const auto frame = open_media(folder / "turned.mov", folder / "turned.mov")->next();
+    REQUIRE(frame);
+    CHECK((frame->depth.columns == 80) == (degrees % 180 == 0));
+    CHECK(frame->depth.at(2, 2) == static_cast<float>(level));
+    CHECK(frame->colour.columns == frame->depth.columns);
+    CHECK(frame->colour.rgb.front() == static_cast<std::uint8_t>(level));
+}
