@@ -105,17 +105,25 @@ std::optional<fs::path> with_stem(const fs::path& given, const std::string& stem
 constexpr double kNotLater = 0.4;
 constexpr std::int64_t kMostCounted = 3000;  ///< frames decoded to describe a video exactly
 
+/// How much later than the depth the colour begins [s]: as both files say, when they overlap.
+double colour_start_s(const SourceFacts& colour, const SourceFacts& depth) {
+    const double later_s = colour.start_s - depth.start_s;
+    const bool overlap = later_s < depth.duration_s && -later_s < colour.duration_s;
+    return overlap ? later_s : 0.0;
+}
+
 /// The colour that belongs to each depth frame: the newest one of its time.
 class ColourTrack {
   public:
-    explicit ColourTrack(std::unique_ptr<PictureSource> source) : source_(std::move(source)) {}
+    ColourTrack(std::unique_ptr<PictureSource> source, double starts_later_s)
+        : source_(std::move(source)), starts_later_s_(starts_later_s) {}
 
     [[nodiscard]] const SourceFacts& facts() const { return source_->facts(); }
     void forget() { placed_ = false; }
 
     const cv::Mat& shown_at(double depth_time_s, double depth_interval_s) {
         const double interval_s = std::min(depth_interval_s, interval_of(source_->facts()));
-        const double latest_s = depth_time_s + kNotLater * interval_s;
+        const double latest_s = depth_time_s - starts_later_s_ + kNotLater * interval_s;
         if (!placed_) {
             source_->seek(latest_s);
             now_ = source_->next().value_or(now_);
@@ -135,6 +143,7 @@ class ColourTrack {
 
   private:
     std::unique_ptr<PictureSource> source_;
+    double starts_later_s_;  // than the depth
     TimedPicture now_{};
     std::optional<TimedPicture> later_{};
     bool placed_{false};
@@ -316,8 +325,10 @@ std::unique_ptr<Media> open_media(const fs::path& colour, const fs::path& depth)
     // First, so that a colour file that cannot be read is not blamed on a missing depth file.
     auto colour_source = open_picture_source(colour, PictureRole::colour);
     const fs::path depth_file = depth_file_for(colour, depth);
-    return std::make_unique<PairedMedia>(open_picture_source(depth_file, PictureRole::depth),
-                                         ColourTrack(std::move(colour_source)));
+    auto depth_source = open_picture_source(depth_file, PictureRole::depth);
+    const double later_s = colour_start_s(colour_source->facts(), depth_source->facts());
+    return std::make_unique<PairedMedia>(std::move(depth_source),
+                                         ColourTrack(std::move(colour_source), later_s));
 }
 
 std::unique_ptr<Media> open_depth(const fs::path& depth) {

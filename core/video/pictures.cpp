@@ -140,6 +140,22 @@ void write_png(const ColourImage& picture, const fs::path& file) {
     out.commit();
 }
 
+cv::Mat with_square_pixels(const cv::Mat& picture, double aspect, PictureRole role) {
+    if (aspect == 1.0 || picture.empty()) return picture;
+    const cv::Size size(static_cast<int>(std::lround(picture.cols * std::max(aspect, 1.0))),
+                        static_cast<int>(std::lround(picture.rows / std::min(aspect, 1.0))));
+    cv::Mat between;
+    cv::resize(picture, between, size, 0.0, 0.0, cv::INTER_LINEAR);
+    if (role == PictureRole::colour) return between;
+    const cv::Mat data = grey_of(picture) > 0.0;  // 255 each
+    cv::Mat beside_none;
+    cv::resize(data, beside_none, size, 0.0, 0.0, cv::INTER_LINEAR);
+    cv::Mat nearest;
+    cv::resize(picture, nearest, size, 0.0, 0.0, cv::INTER_NEAREST);
+    nearest.copyTo(between, beside_none < 255.0);
+    return between;
+}
+
 StillFile::StillFile(const std::filesystem::path& file, PictureRole role)
     : picture_(role == PictureRole::depth ? read_picture_unchanged(file)
                                           : read_colour_picture(file)) {

@@ -40,6 +40,7 @@ struct SourceFacts {
     int bits{8};      ///< of a level: the highest is 2^bits - 1
     int channels{3};  ///< 1: grey
     std::string codec{};
+    double start_s{0.0};  ///< by the clock of its file; NaN: that is nobody else's
     double duration_s{0.0};
     double frames_per_s{0.0};
     std::int64_t frames{0};
@@ -49,6 +50,10 @@ struct SourceFacts {
 };
 
 enum class PictureRole { colour, depth };
+
+/// The picture as it is to be seen: stretched along one side until its pixels, `aspect` times as
+/// wide as high, are square. A level of depth is never mixed with no data, which is level 0.
+[[nodiscard]] cv::Mat with_square_pixels(const cv::Mat& picture, double aspect, PictureRole role);
 
 class PictureSource {
   public:

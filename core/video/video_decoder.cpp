@@ -237,6 +237,16 @@ bool VideoDecoder::is_grey() const noexcept {
     return kind != nullptr && is_grey_kind(*kind);
 }
 
+double VideoDecoder::pixel_aspect() const noexcept {
+    constexpr double kMost = 4.0;
+    const AVRational of_frame = frame_->sample_aspect_ratio;
+    const AVRational ratio = of_frame.num > 0 ? of_frame : packets_.stream()->sample_aspect_ratio;
+    if (ratio.num <= 0 || ratio.den <= 0) return 1.0;
+    const double aspect = av_q2d(ratio);
+    if (aspect > kMost || aspect < 1.0 / kMost) return 1.0;
+    return quarter_turns_ % 2 == 0 ? aspect : 1.0 / aspect;
+}
+
 cv::Mat VideoDecoder::colour() {
     return turned(converted(AV_PIX_FMT_BGR24, CV_8UC3));
 }

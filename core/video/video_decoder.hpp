@@ -46,6 +46,9 @@ class VideoDecoder {
     /// Of a level, of which the highest is 2^bits - 1; with floats, any number.
     [[nodiscard]] int bits() const noexcept;
     [[nodiscard]] bool has_floats() const noexcept;
+    /// How many times as wide as high a pixel is to be shown, of colour() and levels(); 1 where the
+    /// file does not say, or nothing that can be.
+    [[nodiscard]] double pixel_aspect() const noexcept;
     /// Coded without colours.
     [[nodiscard]] bool is_grey() const noexcept;
 

@@ -48,6 +48,7 @@ VideoFile::VideoFile(const std::filesystem::path& file, PictureRole role)
     if (!grab())
         throw InputError(shown(file) + " holds no picture that can be decoded: record it again");
     facts_.bits = decoder_.bits();
+    pixel_aspect_ = decoder_.pixel_aspect();
     ahead_.push_back({retrieve(), time_s_, index_});
     facts_.columns = ahead_.front().picture.cols;
     facts_.rows = ahead_.front().picture.rows;
@@ -73,6 +74,7 @@ void VideoFile::read_facts() {
     facts_.frames_per_s = 1.0 / interval_s_;
     facts_.frames = packets.frames();
     facts_.duration_s = static_cast<double>(facts_.frames) * interval_s_;
+    facts_.start_s = packets.start_s();
     facts_.codec = decoder_.codec();
 }
 
@@ -134,7 +136,7 @@ cv::Mat VideoFile::retrieve() {
         picture.convertTo(picture, CV_32F,
                           highest_level(facts_.bits) / highest_level(decoder_.bits()));
     }
-    return picture;
+    return with_square_pixels(picture, pixel_aspect_, role_);
 }
 
 void VideoFile::learn() {

@@ -41,6 +41,7 @@ class VideoFile : public PictureSource {
     SourceFacts facts_{};
     PictureRole role_;
     VideoDecoder decoder_;
+    double pixel_aspect_{1.0};
     std::deque<TimedPicture> ahead_{};  ///< decoded already, given out next
     std::vector<double> times_{};       ///< of all frames from the first without a gap
     double promised_s_{0.0};            ///< as the container said at the opening

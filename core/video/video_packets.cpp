@@ -56,13 +56,25 @@ double VideoPackets::frames_per_s() const noexcept {
     return rate > 0.0 && rate <= 1000.0 ? rate : 0.0;
 }
 
+double VideoPackets::length_s() const noexcept {
+    if (context_->duration <= 0) return static_cast<double>(stream_->duration) * unit_s();
+    const double duration_s = static_cast<double>(context_->duration) / AV_TIME_BASE;
+    // A header counts from 0 of its clock; libav itself from the beginning.
+    const bool of_header = context_->duration_estimation_method == AVFMT_DURATION_FROM_STREAM;
+    return of_header ? duration_s - static_cast<double>(start()) * unit_s() : duration_s;
+}
+
 std::int64_t VideoPackets::frames() const noexcept {
     if (stream_->nb_frames > 0) return stream_->nb_frames;
-    const double length_s = context_->duration > 0
-                                ? static_cast<double>(context_->duration) / AV_TIME_BASE
-                                : static_cast<double>(stream_->duration) * unit_s();
-    const double frames = std::round(length_s * frames_per_s());
+    const double frames = std::round(length_s() * frames_per_s());
     return frames >= 1.0 && frames < 1e9 ? static_cast<std::int64_t>(frames) : 0;
+}
+
+double VideoPackets::start_s() const noexcept {
+    // A transport stream begins at any time.
+    const bool own_clock = (context_->iformat->flags & AVFMT_TS_DISCONT) != 0;
+    return own_clock ? std::numeric_limits<double>::quiet_NaN()
+                     : static_cast<double>(start()) * unit_s();
 }
 
 AVPacket* VideoPackets::next() noexcept {

@@ -25,6 +25,10 @@ class VideoPackets {
     /// As the container says; an estimate; 0: it does not.
     [[nodiscard]] std::int64_t frames() const noexcept;
 
+    /// When the track begins, by the clock of its file [s]; NaN when that says nothing of another
+    /// file's.
+    [[nodiscard]] double start_s() const noexcept;
+
     /// The next packet of the track, the reader's until the next call; null at the end.
     [[nodiscard]] AVPacket* next() noexcept;
     /// To the key frame at or before the time [s]; false where the file cannot jump.
@@ -35,6 +39,7 @@ class VideoPackets {
 
   private:
     [[nodiscard]] double unit_s() const noexcept;  ///< of a time stamp
+    [[nodiscard]] double length_s() const noexcept;
     [[nodiscard]] std::int64_t start() const noexcept;
 
     struct Closer {

@@ -1,4 +1,5 @@
-// Every level that a video's track holds arrives, whatever its bits, range and byte order.
+// What a video file says of its pictures arrives: every level, which way up, the shape of a pixel,
+// when it begins.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -127,4 +128,70 @@ TEST_CASE("a video that was recorded with the camera turned is turned back, dept
     CHECK(frame->depth.at(2, 2) == static_cast<float>(level));
     CHECK(frame->colour.columns == frame->depth.columns);
     CHECK(frame->colour.rgb.front() == static_cast<std::uint8_t>(level));
+}
+
+TEST_CASE(
+    "pixels that are not square are shown square, depth and colour, and no data stays no data",
+    "[media]") {
+    const TemporaryFolder folder;
+    const auto [aspect, columns, rows] = GENERATE(
+        table<std::string, int, int>({{"2/1", 128, 60}, {"1/2", 64, 120}, {"1/1", 64, 60}}));
+    CAPTURE(aspect);
+    // A slope along the long side, and no data beside it.
+    const std::string file = (folder / "squeezed.mkv").string();
+    ffmpeg(
+        "-f lavfi -i color=black:s=64x60:r=10:d=0.3,format=gray,"
+        "geq=lum='if(gt(X\\,55)\\,0\\,60+2*X+Y)',setsar=" +
+        aspect + " -c:v ffv1 -pix_fmt gray '" + file + "'");
+    const auto frame = open_media(file, file)->next();
+    REQUIRE(frame);
+    REQUIRE(frame->depth.columns == columns);
+    REQUIRE(frame->depth.rows == rows);
+    CHECK(frame->colour.columns == columns);
+    CHECK(frame->colour.rows == rows);
+    const double across = 2.0 * 64 / columns;
+    const double down = 60.0 / rows;
+    const double begin = 60.0 + (across - 2.0) / 2.0 + (down - 1.0) / 2.0;  // pixels have a middle
+    double worst = 0.0;
+    int between = 0;
+    for (int j = 2; j + 2 < rows; ++j) {
+        for (int i = 2; i + 2 < columns; ++i) {
+            const auto level = static_cast<double>(frame->depth.at(i, j));
+            const bool of_slope = i < 54 * columns / 64;
+            if (of_slope)
+                worst = std::max(worst, std::abs(level - (begin + across * i + down * j)));
+            if (level > 0.0 && level < 60.0) ++between;
+        }
+    }
+    CHECK(worst <= 0.5);
+    CHECK(between == 0);
+}
+
+TEST_CASE("colour that begins later than depth by its file's clock is shown later", "[media]") {
+    const TemporaryFolder folder;
+    const auto [name, colour_s, depth_s, later] =
+        GENERATE(table<std::string, double, double, int>({{"mkv", 0.0, 0.0, 0},
+                                                          {"mkv", 0.4, 0.0, 4},
+                                                          {"mp4", 0.4, 0.0, 4},
+                                                          {"mkv", 0.0, 0.3, -3},
+                                                          {"mkv", 50.0, 0.0, 0},
+                                                          {"ts", 0.4, 0.0, 0}}));
+    CAPTURE(name, colour_s, depth_s);
+    const auto begin_at = [&](const std::string& what, double start_s) {
+        const auto plain = folder / (what + "_plain." + name);
+        const auto shifted = folder / (what + "." + name);
+        make_flat_clip(plain, 20, 10, "-c:v libx264 -qp 0 -bf 0 -pix_fmt yuv420p");
+        ffmpeg("-itsoffset " + std::to_string(start_s) + " -i '" + plain.string() + "' -c copy '" +
+               shifted.string() + "'");
+        return shifted;
+    };
+    const auto media = open_media(begin_at("colour", colour_s), begin_at("depth", depth_s));
+    int told = 0;
+    while (const auto frame = media->next()) {
+        const auto depth = std::lround(frame->depth.at(30, 20) / 5.0F);
+        const auto colour = std::lround(frame->colour.rgb[frame->colour.rgb.size() / 2] / 5.0);
+        CHECK(colour == std::clamp(depth - later, 0L, 19L));
+        ++told;
+    }
+    CHECK(told == 20);
 }
