@@ -72,6 +72,7 @@ void describe_partner(const fs::path& file) {
 void describe_pictures(const fs::path& file) {
     const MediaDescription media = describe_media(file);
     const bool is_colour = media.colour_columns > 0;
+    const bool has_depth = media.depth_columns > 0;
     const int columns = is_colour ? media.colour_columns : media.depth_columns;
     const int rows = is_colour ? media.colour_rows : media.depth_rows;
     const std::string& codec = is_colour ? media.colour_codec : media.depth_codec;
@@ -81,12 +82,16 @@ void describe_pictures(const fs::path& file) {
     print_fact("size", std::to_string(columns) + "x" + std::to_string(rows));
     if (!codec.empty()) print_fact("codec", codec);
     print_fact("bits", std::to_string(media.depth_bits) + " a channel");
+    if (is_colour && has_depth) {
+        print_fact("depth track", std::to_string(media.depth_columns) + "x" +
+                                      std::to_string(media.depth_rows) + ", " + media.depth_codec);
+    }
     if (!media.still) {
         print_fact("frames", (media.frames_exact ? "" : "about ") + std::to_string(media.frames));
         print_fact("duration", number_text(media.duration_s, 3) + " s");
         print_fact("rate", number_text(media.frames_per_s, 2) + " frames/s");
     }
-    if (is_colour) describe_partner(file);
+    if (is_colour && !has_depth) describe_partner(file);
 }
 
 }  // namespace

@@ -235,7 +235,7 @@ Settings load_settings(const fs::path& file, std::vector<std::string>& warnings)
     Settings settings;
     Reading reading(root, file, warnings);
     if (const toml::node* version = root.get("version")) {
-        if (version->value<std::int64_t>() != kVersion) {
+        if (version->value_exact<std::int64_t>() != kVersion) {
             reading.warn(*version, "", "version", "is not 1, the one this program writes");
         }
     }

@@ -13,12 +13,14 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/libraries.hpp"
 #include "core/video/pictures.hpp"
 #include "core/video/video_file.hpp"
+#include "core/video/video_packets.hpp"
 
 namespace dibhr {
 
@@ -234,6 +236,45 @@ bool is_still(const fs::path& file) {
     }
 }
 
+/// The two of a file's tracks that belong together.
+struct ColourAndDepth {
+    int colour;
+    int depth;
+};
+
+/// Where a file's own words say it: one track has depth in its title, or is coded without colours
+/// beside one that has them; of several such the one of the most bits. Nothing when none does.
+std::optional<ColourAndDepth> colour_and_depth_tracks(const fs::path& file) {
+    if (is_still(file)) return std::nullopt;
+    const std::vector<VideoTrack> tracks = video_tracks(file);
+    const auto likelihood_of_depth = [](const VideoTrack& track) {
+        if (lower(track.title).find("depth") != std::string::npos) return 100;
+        return track.grey ? track.bits : 0;
+    };
+    const auto depth = std::max_element(tracks.begin(), tracks.end(),
+                                        [&](const VideoTrack& a, const VideoTrack& b) {
+                                            return likelihood_of_depth(a) < likelihood_of_depth(b);
+                                        });
+    if (depth == tracks.end() || likelihood_of_depth(*depth) == 0) return std::nullopt;
+    const auto colour = std::find_if(tracks.begin(), tracks.end(), [&](const VideoTrack& track) {
+        return likelihood_of_depth(track) == 0;
+    });
+    if (colour == tracks.end()) return std::nullopt;
+    return ColourAndDepth{static_cast<int>(colour - tracks.begin()),
+                          static_cast<int>(depth - tracks.begin())};
+}
+
+std::unique_ptr<Media> paired(std::unique_ptr<PictureSource> colour,
+                              std::unique_ptr<PictureSource> depth) {
+    const double later_s = colour_start_s(colour->facts(), depth->facts());
+    return std::make_unique<PairedMedia>(std::move(depth), ColourTrack(std::move(colour), later_s));
+}
+
+std::unique_ptr<Media> paired(const fs::path& file, const ColourAndDepth& tracks) {
+    return paired(std::make_unique<VideoFile>(file, PictureRole::colour, tracks.colour),
+                  std::make_unique<VideoFile>(file, PictureRole::depth, tracks.depth));
+}
+
 /// The depth file given, or found beside the colour file. Throws InputError that says what is
 /// missing.
 fs::path depth_file_for(const fs::path& colour, const fs::path& depth) {
@@ -322,18 +363,22 @@ std::unique_ptr<Media> open_media(const fs::path& colour, const fs::path& depth)
         throw InputError(shown(depth) +
                          " is depth alone: give the colour file that belongs to it, too");
     require_readable(colour);
+    if (depth.empty() || depth == colour) {
+        if (const auto tracks = colour_and_depth_tracks(colour)) return paired(colour, *tracks);
+    }
     // First, so that a colour file that cannot be read is not blamed on a missing depth file.
     auto colour_source = open_picture_source(colour, PictureRole::colour);
     const fs::path depth_file = depth_file_for(colour, depth);
-    auto depth_source = open_picture_source(depth_file, PictureRole::depth);
-    const double later_s = colour_start_s(colour_source->facts(), depth_source->facts());
-    return std::make_unique<PairedMedia>(std::move(depth_source),
-                                         ColourTrack(std::move(colour_source), later_s));
+    return paired(std::move(colour_source), open_picture_source(depth_file, PictureRole::depth));
 }
 
 std::unique_ptr<Media> open_depth(const fs::path& depth) {
-    return std::make_unique<PairedMedia>(open_picture_source(depth, PictureRole::depth),
-                                         std::nullopt);
+    require_readable(depth);
+    const auto tracks = colour_and_depth_tracks(depth);
+    return std::make_unique<PairedMedia>(
+        tracks ? std::make_unique<VideoFile>(depth, PictureRole::depth, tracks->depth)
+               : open_picture_source(depth, PictureRole::depth),
+        std::nullopt);
 }
 
 MediaDescription describe_media(const fs::path& file) {
@@ -347,6 +392,12 @@ MediaDescription describe_media(const fs::path& file) {
     };
     if (is_still(file)) {
         describe(StillFile(file, PictureRole::depth).facts());
+    } else if (const auto tracks = colour_and_depth_tracks(file)) {
+        VideoFile depth(file, PictureRole::depth, tracks->depth);
+        depth.count_frames(kMostCounted);
+        describe_depth(depth.facts(), description);
+        describe_time(depth.facts(), description);
+        describe_colour(VideoFile(file, PictureRole::colour, tracks->colour).facts(), description);
     } else {
         VideoFile video(file, PictureRole::depth);
         video.count_frames(kMostCounted);

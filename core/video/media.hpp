@@ -76,16 +76,19 @@ class Media {
 [[nodiscard]] std::optional<std::filesystem::path> find_colour_beside(
     const std::filesystem::path& depth);
 
-/// Opens a pair; an empty depth path is found beside the colour file. Throws InputError: what,
-/// which file, what to do next.
+/// Opens a pair. An empty depth path, or the colour's: the depth is another track of the colour's
+/// file, where that says so, or else a file beside it. Throws InputError: what, which file, what to
+/// do next.
 [[nodiscard]] std::unique_ptr<Media> open_media(const std::filesystem::path& colour,
                                                 const std::filesystem::path& depth = {});
 
-/// Opens a depth video or image alone (`dibhr touch --depth`); its colour is empty.
+/// Opens a depth video, a file's depth track or an image alone (`dibhr touch --depth`); its colour
+/// is empty.
 [[nodiscard]] std::unique_ptr<Media> open_depth(const std::filesystem::path& depth);
 
 /// Describes one media file of any kind without needing its partner (`dibhr info FILE`): what looks
-/// like depth (by name, or grey, or 16 bits) fills the depth fields, other files the colour fields.
+/// like depth (by name, or grey, or 16 bits) fills the depth fields, other files the colour fields;
+/// one of a colour and a depth track both.
 /// Videos of up to a few thousand frames are read to their end, so that the numbers are exact.
 [[nodiscard]] MediaDescription describe_media(const std::filesystem::path& file);
 

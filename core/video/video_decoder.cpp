@@ -11,7 +11,6 @@ extern "C" {
 }
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -95,26 +94,8 @@ bool is_grey_kind(const AVPixFmtDescriptor& kind) {
     return has_luma(kind) && kind.nb_components <= 2;
 }
 
-cv::Mat floats_of(const AVFrame& frame, const AVPixFmtDescriptor& kind) {
-    cv::Mat levels(frame.height, frame.width, CV_32FC1);
-    const bool big = has(kind, AV_PIX_FMT_FLAG_BE);
-    const bool swapped = big != (std::endian::native == std::endian::big);
-    for (int j = 0; j < frame.height; ++j) {
-        const std::uint8_t* const row =
-            frame.data[0] + static_cast<std::ptrdiff_t>(j) * frame.linesize[0];
-        std::memcpy(levels.ptr(j), row, static_cast<std::size_t>(frame.width) * sizeof(float));
-        if (!swapped) continue;
-        for (int i = 0; i < frame.width; ++i) {
-            const auto bits = std::bit_cast<std::uint32_t>(levels.at<float>(j, i));
-            levels.at<float>(j, i) = std::bit_cast<float>(__builtin_bswap32(bits));
-        }
-    }
-    return levels;
-}
-
 /// The first component as it was coded.
 cv::Mat luma_of(const AVFrame& frame, const AVPixFmtDescriptor& kind) {
-    if (has(kind, AV_PIX_FMT_FLAG_FLOAT)) return floats_of(frame, kind);
     const AVComponentDescriptor& luma = kind.comp[0];
     if (luma.depth == 8 && luma.step == 1) {
         const cv::Mat plane(frame.height, frame.width, CV_8UC1, frame.data[0] + luma.offset,
@@ -168,8 +149,8 @@ void VideoDecoder::Closer::operator()(SwsContext* scaler) const noexcept {
     sws_freeContext(scaler);
 }
 
-VideoDecoder::VideoDecoder(const std::filesystem::path& file)
-    : packets_(file), frame_(av_frame_alloc()) {
+VideoDecoder::VideoDecoder(const std::filesystem::path& file, int track)
+    : packets_(file, track), frame_(av_frame_alloc()) {
     const AVCodec* const codec =
         packets_.is_open() ? avcodec_find_decoder(packets_.stream()->codecpar->codec_id) : nullptr;
     if (codec != nullptr) decoder_.reset(avcodec_alloc_context3(codec));

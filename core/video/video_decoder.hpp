@@ -20,7 +20,7 @@ namespace dibhr {
 class VideoDecoder {
   public:
     /// Decodes nothing yet. Throws InputError: cut off, of an unknown kind, no video.
-    explicit VideoDecoder(const std::filesystem::path& file);
+    VideoDecoder(const std::filesystem::path& file, int track);
 
     [[nodiscard]] const VideoPackets& packets() const noexcept { return packets_; }
     /// The name of the codec; as the container writes it, where that does.
@@ -43,8 +43,9 @@ class VideoDecoder {
     /// rounds nothing. Of pictures coded in red, green and blue those, blue first, of 8 or 16
     /// bits. Empty when it cannot be converted.
     [[nodiscard]] cv::Mat levels();
-    /// Of a level, of which the highest is 2^bits - 1; with floats, any number.
+    /// Of a level, of which the highest is 2^bits - 1.
     [[nodiscard]] int bits() const noexcept;
+    /// Coded as floating-point numbers, which have no levels.
     [[nodiscard]] bool has_floats() const noexcept;
     /// How many times as wide as high a pixel is to be shown, of colour() and levels(); 1 where the
     /// file does not say, or nothing that can be.

@@ -10,7 +10,6 @@
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/libraries.hpp"
 #include "core/video/media.hpp"
 #include "core/video/video_packets.hpp"
 
@@ -29,10 +28,10 @@ double least_end_s(double promised_s) {
 }
 
 /// A copy that broke off still opens: its header promises more than the file holds.
-void require_whole(const std::filesystem::path& file, double promised_s) {
+void require_whole(const std::filesystem::path& file, int track, double promised_s) {
     const double least_s = least_end_s(promised_s);
     if (!(least_s > 0.0)) return;
-    const std::optional<double> end_s = packets_end_s(file, least_s);
+    const std::optional<double> end_s = packets_end_s(file, track, least_s);
     if (!end_s || *end_s >= least_s) return;
     throw InputError(shown(file) + " is cut off: it ends at " + number_text(*end_s, 1) + " s of " +
                      number_text(promised_s, 1) + " s; copy or export it again");
@@ -40,8 +39,8 @@ void require_whole(const std::filesystem::path& file, double promised_s) {
 
 }  // namespace
 
-VideoFile::VideoFile(const std::filesystem::path& file, PictureRole role)
-    : role_(role), decoder_((set_up_libraries(), file)) {
+VideoFile::VideoFile(const std::filesystem::path& file, PictureRole role, int track)
+    : role_(role), track_(track), decoder_(file, track) {
     facts_.file = file;
     read_facts();
     const double promised_s = facts_.duration_s;
@@ -54,12 +53,12 @@ VideoFile::VideoFile(const std::filesystem::path& file, PictureRole role)
     facts_.rows = ahead_.front().picture.rows;
     facts_.channels = decoder_.is_grey() ? 1 : 3;
     require_size(file, facts_.columns, facts_.rows);
-    require_whole(file, promised_s);
+    require_whole(file, track, promised_s);
     promised_s_ = promised_s;
 }
 
 void VideoFile::begin_again() {
-    decoder_ = VideoDecoder(facts_.file);
+    decoder_ = VideoDecoder(facts_.file, track_);
     index_ = -1;
     time_s_ = 0.0;
     grabbed_ = false;
@@ -124,14 +123,15 @@ bool VideoFile::grab() {
 }
 
 cv::Mat VideoFile::retrieve() {
-    cv::Mat picture = role_ == PictureRole::depth ? decoder_.levels() : decoder_.colour();
+    const bool is_depth = role_ == PictureRole::depth;
+    if (is_depth && decoder_.has_floats())
+        throw InputError(shown(facts_.file) +
+                         " holds floating-point levels: convert it to 16-bit grey");
+    cv::Mat picture = is_depth ? decoder_.levels() : decoder_.colour();
     if (picture.empty())
         throw InputError(shown(facts_.file) + " breaks off at " + short_text(time_s_) +
                          " s: record or convert it again");
-    if (role_ == PictureRole::depth && decoder_.has_floats())
-        throw InputError(shown(facts_.file) +
-                         " holds floating-point levels: convert it to 16-bit grey");
-    if (role_ == PictureRole::depth && decoder_.bits() != facts_.bits) {
+    if (is_depth && decoder_.bits() != facts_.bits) {
         // A stream may change on the way; what the levels of a surface mean may not.
         picture.convertTo(picture, CV_32F,
                           highest_level(facts_.bits) / highest_level(decoder_.bits()));

@@ -19,7 +19,7 @@ class VideoFile : public PictureSource {
   public:
     /// Reads the first frame. Throws InputError when the file cannot be opened, holds none,
     /// or ends well before its header says.
-    VideoFile(const std::filesystem::path& file, PictureRole role);
+    VideoFile(const std::filesystem::path& file, PictureRole role, int track = 0);
 
     [[nodiscard]] const SourceFacts& facts() const override { return facts_; }
     std::optional<TimedPicture> next() override;
@@ -40,6 +40,7 @@ class VideoFile : public PictureSource {
 
     SourceFacts facts_{};
     PictureRole role_;
+    int track_;
     VideoDecoder decoder_;
     double pixel_aspect_{1.0};
     std::deque<TimedPicture> ahead_{};  ///< decoded already, given out next

@@ -5,6 +5,8 @@ extern "C" {
 #include <libavcodec/packet.h>
 #include <libavformat/avformat.h>
 #include <libavutil/avutil.h>
+#include <libavutil/dict.h>
+#include <libavutil/pixdesc.h>
 #include <libavutil/rational.h>
 }
 
@@ -13,6 +15,7 @@ extern "C" {
 #include <limits>
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace dibhr {
 
@@ -25,29 +28,44 @@ bool is_video(const AVStream& stream) noexcept {
            (stream.disposition & AV_DISPOSITION_ATTACHED_PIC) == 0;
 }
 
-}  // namespace
-
-void VideoPackets::Closer::operator()(AVFormatContext* context) const noexcept {
-    avformat_close_input(&context);
-}
-
-void VideoPackets::Closer::operator()(AVPacket* packet) const noexcept {
-    av_packet_free(&packet);
-}
-
-VideoPackets::VideoPackets(const std::filesystem::path& file) : packet_(av_packet_alloc()) {
+/// Null when it cannot be opened.
+AVFormatContext* opened(const std::filesystem::path& file) {
     // Absolute and with its protocol, so that a colon in a name is no other one.
     std::error_code gone;
     const std::string url = "file:" + std::filesystem::absolute(file, gone).string();
-    AVFormatContext* opened = nullptr;
-    if (!packet_ || avformat_open_input(&opened, url.c_str(), nullptr, nullptr) != 0) return;
-    context_.reset(opened);
-    if (avformat_find_stream_info(opened, nullptr) < 0) return;
-    for (unsigned k = 0; k < opened->nb_streams; ++k) {
-        AVStream* const stream = opened->streams[k];
-        const bool first = stream_ == nullptr && is_video(*stream);
-        if (first) stream_ = stream;
-        stream->discard = first ? AVDISCARD_DEFAULT : AVDISCARD_ALL;
+    AVFormatContext* context = nullptr;
+    if (avformat_open_input(&context, url.c_str(), nullptr, nullptr) != 0) return nullptr;
+    if (avformat_find_stream_info(context, nullptr) < 0) avformat_close_input(&context);
+    return context;
+}
+
+std::vector<AVStream*> video_streams(const AVFormatContext* context) {
+    std::vector<AVStream*> found;
+    for (unsigned k = 0; context != nullptr && k < context->nb_streams; ++k) {
+        if (is_video(*context->streams[k])) found.push_back(context->streams[k]);
+    }
+    return found;
+}
+
+}  // namespace
+
+void PacketsCloser::operator()(AVFormatContext* context) const noexcept {
+    avformat_close_input(&context);
+}
+
+void PacketsCloser::operator()(AVPacket* packet) const noexcept {
+    av_packet_free(&packet);
+}
+
+VideoPackets::VideoPackets(const std::filesystem::path& file, int track)
+    : context_(opened(file)), packet_(av_packet_alloc()) {
+    if (!packet_) return;
+    for (AVStream* const stream : video_streams(context_.get())) {
+        if (track-- == 0) stream_ = stream;
+    }
+    for (unsigned k = 0; context_ && k < context_->nb_streams; ++k) {
+        AVStream* const stream = context_->streams[k];
+        stream->discard = stream == stream_ ? AVDISCARD_DEFAULT : AVDISCARD_ALL;
     }
 }
 
@@ -121,18 +139,36 @@ std::optional<double> end_of_packets_s(VideoPackets& packets) {
 
 }  // namespace
 
-std::optional<double> packets_end_s(const std::filesystem::path& file, double from_s) {
-    VideoPackets packets(file);
+std::optional<double> packets_end_s(const std::filesystem::path& file, int track, double from_s) {
+    VideoPackets packets(file, track);
     if (!packets.is_open()) return std::nullopt;
     std::optional<double> end_s;
     if (packets.jump(from_s)) end_s = end_of_packets_s(packets);
     if (!end_s || *end_s < from_s) {  // or the file cannot jump: look through it
-        VideoPackets all(file);
+        VideoPackets all(file, track);
         if (!all.is_open()) return std::nullopt;
         end_s = end_of_packets_s(all);
     }
     if (end_s && *end_s < 0.0) return std::nullopt;
     return end_s;
+}
+
+std::vector<VideoTrack> video_tracks(const std::filesystem::path& file) {
+    const std::unique_ptr<AVFormatContext, PacketsCloser> context(opened(file));
+    std::vector<VideoTrack> tracks;
+    for (const AVStream* const stream : video_streams(context.get())) {
+        VideoTrack track;
+        if (const auto* title = av_dict_get(stream->metadata, "title", nullptr, 0))
+            track.title = title->value;
+        const auto format = static_cast<AVPixelFormat>(stream->codecpar->format);
+        if (const AVPixFmtDescriptor* const kind = av_pix_fmt_desc_get(format)) {
+            track.bits = kind->comp[0].depth;
+            track.grey = kind->nb_components == 1 &&
+                         (kind->flags & (AV_PIX_FMT_FLAG_PAL | AV_PIX_FMT_FLAG_BITSTREAM)) == 0;
+        }
+        tracks.push_back(std::move(track));
+    }
+    return tracks;
 }
 
 }  // namespace dibhr

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 struct AVFormatContext;
 struct AVPacket;
@@ -12,11 +14,16 @@ struct AVStream;
 
 namespace dibhr {
 
+struct PacketsCloser {
+    void operator()(AVFormatContext* context) const noexcept;
+    void operator()(AVPacket* packet) const noexcept;
+};
+
 class VideoPackets {
   public:
-    /// Of the file's first video track (a cover picture is none). Not open when there is none, or
-    /// when the file is of an unknown kind.
-    explicit VideoPackets(const std::filesystem::path& file);
+    /// Of one of the file's video tracks, numbered from 0 (a cover picture is none). Not open when
+    /// there is no such track, or when the file is of an unknown kind.
+    explicit VideoPackets(const std::filesystem::path& file, int track = 0);
 
     [[nodiscard]] bool is_open() const noexcept { return stream_ != nullptr; }
     [[nodiscard]] AVStream* stream() const noexcept { return stream_; }
@@ -42,20 +49,26 @@ class VideoPackets {
     [[nodiscard]] double length_s() const noexcept;
     [[nodiscard]] std::int64_t start() const noexcept;
 
-    struct Closer {
-        void operator()(AVFormatContext* context) const noexcept;
-        void operator()(AVPacket* packet) const noexcept;
-    };
-
-    std::unique_ptr<AVFormatContext, Closer> context_{};
-    std::unique_ptr<AVPacket, Closer> packet_;
+    std::unique_ptr<AVFormatContext, PacketsCloser> context_;
+    std::unique_ptr<AVPacket, PacketsCloser> packet_;
     AVStream* stream_{nullptr};  // the context's
 };
 
-/// When the last frame of the first video track ends, as far as its packets are whole, counted from
-/// the track's beginning [s]; looked for from `from_s` on, and from the beginning where that finds
+/// When the last frame of the track ends, as far as its packets are whole, counted from the track's
+/// beginning [s]; looked for from `from_s` on, and from the beginning where that finds
 /// none. Nothing when the file cannot be opened, its packets have no times, or the end is too far
 /// to look for.
-[[nodiscard]] std::optional<double> packets_end_s(const std::filesystem::path& file, double from_s);
+[[nodiscard]] std::optional<double> packets_end_s(const std::filesystem::path& file, int track,
+                                                  double from_s);
+
+/// What a file says of one of its video tracks.
+struct VideoTrack {
+    std::string title{};
+    bool grey{false};  ///< coded without colours
+    int bits{8};       ///< of a level
+};
+
+/// In their order; none when the file is of an unknown kind.
+[[nodiscard]] std::vector<VideoTrack> video_tracks(const std::filesystem::path& file);
 
 }  // namespace dibhr

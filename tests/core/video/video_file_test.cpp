@@ -195,3 +195,49 @@ TEST_CASE("colour that begins later than depth by its file's clock is shown late
     }
     CHECK(told == 20);
 }
+
+TEST_CASE("a file of a colour and a depth track is opened as both, whichever comes first",
+          "[media]") {
+    const TemporaryFolder folder;
+    const auto [first, second, title] = GENERATE(table<std::string, std::string, std::string>(
+        {{"rgb", "gray16", ""}, {"gray16", "rgb", ""}, {"rgb", "rgb", "Depth"}}));
+    CAPTURE(first, second, title);
+    // Colour is 200, depth a quarter of the highest level.
+    const auto source = [](const std::string& kind) {
+        const std::string grey = kind == "gray16" ? "0x404040" : "0xc8c8c8";
+        return "-f lavfi -i color=" + grey + ":s=64x48:r=10:d=0.5 ";
+    };
+    const auto coding = [](const std::string& kind, int track) {
+        const std::string n = std::to_string(track);
+        return "-map " + n + " -c:v:" + n + " ffv1 -pix_fmt:v:" + n + " " +
+               (kind == "gray16" ? "gray16le " : "bgr0 ");
+    };
+    const auto file = folder / "both.mkv";
+    ffmpeg(source(first) + source(second) + coding(first, 0) + coding(second, 1) +
+           "-metadata:s:v:1 title='" + title + "' '" + file.string() + "'");
+    for (const auto& depth_file : {std::filesystem::path{}, file}) {
+        const auto media = open_media(file, depth_file);
+        const auto frame = media->next();
+        REQUIRE(frame);
+        const bool deep = title.empty();
+        CHECK(media->description().depth_bits == (deep ? 16 : 8));
+        const double grey = deep ? 64.0 * 257.0 : 200.0;  // as ffmpeg's filter rounds it
+        CHECK(std::abs(static_cast<double>(frame->depth.at(9, 9)) - grey) < 0.004 * grey);
+        CHECK(frame->colour.rgb.front() == 200);
+    }
+    CHECK(open_depth(file)->next()->colour.rgb.empty());
+    const MediaDescription told = describe_media(file);
+    CHECK(told.colour_columns == 64);
+    CHECK(told.depth_columns == 64);
+    CHECK(told.frames == 5);
+}
+
+TEST_CASE("a film of two angles is no colour and depth", "[media]") {
+    const TemporaryFolder folder;
+    const auto file = folder / "film.mkv";
+    ffmpeg(
+        "-f lavfi -i testsrc=s=64x48:r=10:d=0.5 -f lavfi -i testsrc2=s=64x48:r=10:d=0.5 -map 0 "
+        "-map 1 -c:v ffv1 -pix_fmt yuv420p '" +
+        file.string() + "'");
+    CHECK(refusal([&] { (void)open_media(file); }).find("needs a depth file") != std::string::npos);
+}
