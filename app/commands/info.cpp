@@ -83,8 +83,8 @@ void describe_pictures(const fs::path& file) {
     if (!codec.empty()) print_fact("codec", codec);
     print_fact("bits", std::to_string(media.depth_bits) + " a channel");
     if (is_colour && has_depth) {
-        print_fact("depth track", std::to_string(media.depth_columns) + "x" +
-                                      std::to_string(media.depth_rows) + ", " + media.depth_codec);
+        print_fact("depth", std::to_string(media.depth_columns) + "x" +
+                                std::to_string(media.depth_rows) + ", " + media.depth_codec);
     }
     if (!media.still) {
         print_fact("frames", (media.frames_exact ? "" : "about ") + std::to_string(media.frames));

@@ -20,15 +20,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool is_file(const fs::path& file) {
+/// A file or a folder of pictures.
+bool is_media(const fs::path& file) {
     std::error_code failed;
-    return fs::is_regular_file(file, failed);
+    return fs::is_regular_file(file, failed) || fs::is_directory(file, failed);
 }
 
 bool has_content(const fs::path& file, const SessionMedia& media) {
-    std::error_code failed;
-    if (fs::file_size(file, failed) != media.bytes || failed) return false;
-    return sha256_of_file(file) == media.sha256;
+    try {
+        return content_bytes(file) == media.bytes && sha256_of_file(file) == media.sha256;
+    } catch (const fs::filesystem_error&) {
+        return false;
+    }
 }
 
 /// How far to read ahead and how much to keep: of a run as quick as it can be, and of a window,
@@ -67,7 +70,7 @@ fs::path SessionMediaFinder::find(const SessionMedia& media, const std::string& 
     const fs::path beside = fs::absolute(session_).parent_path() / media.file.filename();
     std::optional<fs::path> found;
     for (const fs::path& candidate : {media.file, beside}) {
-        if (!is_file(candidate)) continue;
+        if (!is_media(candidate)) continue;
         if (!media.sha256.empty() && has_content(candidate, media)) return candidate;
         if (!found) found = candidate;
     }

@@ -56,10 +56,8 @@ std::filesystem::path whole_path(const std::filesystem::path& file) {
 /// Nothing when the file cannot be read or `leaving` became true.
 std::optional<SessionMedia> content_of(const std::filesystem::path& file,
                                        const std::atomic<bool>& leaving) {
-    std::error_code failed;
-    const auto bytes = std::filesystem::file_size(file, failed);
-    if (failed) return std::nullopt;
     try {
+        const std::uintmax_t bytes = content_bytes(file);
         auto sum = sha256_of_file(file, leaving);
         if (!sum) return std::nullopt;
         return SessionMedia{file, bytes, std::move(*sum)};

@@ -18,6 +18,7 @@
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/libraries.hpp"
+#include "core/video/picture_folder.hpp"
 #include "core/video/pictures.hpp"
 #include "core/video/video_file.hpp"
 #include "core/video/video_packets.hpp"
@@ -68,6 +69,11 @@ std::optional<std::string> renamed(const std::string& stem, std::string_view wor
     return std::string(stem).replace(at, word.size(), written);
 }
 
+bool is_folder(const fs::path& place) {
+    std::error_code ignored;
+    return fs::is_directory(place, ignored);
+}
+
 bool is_file(const fs::path& file) {
     std::error_code ignored;
     return fs::is_regular_file(file, ignored);
@@ -94,10 +100,12 @@ std::optional<fs::path> with_any_extension(const fs::path& folder, const std::st
     return *found.begin();
 }
 
-/// The file beside `given` of that stem: of the same extension, else of another.
+/// The file beside `given` of that stem: of the same extension, else of another; the folder beside
+/// a folder.
 std::optional<fs::path> with_stem(const fs::path& given, const std::string& stem) {
     const auto folder = given.parent_path();
     const auto same = folder / (stem + given.extension().string());
+    if (is_folder(given)) return is_folder(same) ? std::optional(same) : std::nullopt;
     return is_file(same) ? same : with_any_extension(folder, stem);
 }
 
@@ -209,6 +217,12 @@ class PairedMedia : public Media {
         if (colour_) colour_->forget();
     }
 
+    /// Reads depth on, at most `most` frames, so that the description becomes exact.
+    void count_frames(std::int64_t most) {
+        depth_->count_frames(most);
+        describe_time(depth_->facts(), description_);
+    }
+
   private:
     void tell_trouble(const SourceFacts& facts) {
         if (description_.trouble.empty()) description_.trouble = facts.trouble;
@@ -245,6 +259,8 @@ struct ColourAndDepth {
 /// Where a file's own words say it: one track has depth in its title, or is coded without colours
 /// beside one that has them; of several such the one of the most bits. Nothing when none does.
 std::optional<ColourAndDepth> colour_and_depth_tracks(const fs::path& file) {
+    if (is_folder(file)) return std::nullopt;
+    require_readable(file);
     if (is_still(file)) return std::nullopt;
     const std::vector<VideoTrack> tracks = video_tracks(file);
     const auto likelihood_of_depth = [](const VideoTrack& track) {
@@ -264,15 +280,49 @@ std::optional<ColourAndDepth> colour_and_depth_tracks(const fs::path& file) {
                           static_cast<int>(depth - tracks.begin())};
 }
 
-std::unique_ptr<Media> paired(std::unique_ptr<PictureSource> colour,
-                              std::unique_ptr<PictureSource> depth) {
+std::unique_ptr<PairedMedia> paired(std::unique_ptr<PictureSource> colour,
+                                    std::unique_ptr<PictureSource> depth) {
     const double later_s = colour_start_s(colour->facts(), depth->facts());
     return std::make_unique<PairedMedia>(std::move(depth), ColourTrack(std::move(colour), later_s));
 }
 
-std::unique_ptr<Media> paired(const fs::path& file, const ColourAndDepth& tracks) {
-    return paired(std::make_unique<VideoFile>(file, PictureRole::colour, tracks.colour),
-                  std::make_unique<VideoFile>(file, PictureRole::depth, tracks.depth));
+std::unique_ptr<PictureSource> sequence(const fs::path& folder, const PictureRow& row,
+                                        const PictureRow& other, PictureRole role) {
+    return std::make_unique<PictureSequence>(folder, row, times_s(row, other, kPicturesPerSecond),
+                                             role);
+}
+
+std::unique_ptr<PairedMedia> paired(const fs::path& colour_folder, const PictureRow& colour,
+                                    const fs::path& depth_folder, const PictureRow& depth) {
+    return paired(sequence(colour_folder, colour, depth, PictureRole::colour),
+                  sequence(depth_folder, depth, colour, PictureRole::depth));
+}
+
+/// The pictures of that role, or those whose names say nothing. Throws InputError when there are
+/// none.
+PictureRow row_of(const fs::path& folder, PictureRole role) {
+    PictureFolder found = look_into(folder);
+    const bool is_depth = role == PictureRole::depth;
+    PictureRow& named = is_depth ? found.depth : found.colour;
+    PictureRow& row = named.empty() ? found.unnamed : named;
+    if (row.empty())
+        throw InputError(shown(folder) + " is a folder without " + (is_depth ? "depth" : "colour") +
+                         " pictures: give the folder or the file that holds them");
+    return std::move(row);
+}
+
+/// The colour and the depth of one file's tracks, or of one folder; null when it does not hold
+/// both.
+std::unique_ptr<PairedMedia> open_both(const fs::path& place) {
+    if (is_folder(place)) {
+        const PictureFolder found = look_into(place);
+        if (found.colour.empty() || found.depth.empty()) return nullptr;
+        return paired(place, found.colour, place, found.depth);
+    }
+    const auto tracks = colour_and_depth_tracks(place);
+    if (!tracks) return nullptr;
+    return paired(std::make_unique<VideoFile>(place, PictureRole::colour, tracks->colour),
+                  std::make_unique<VideoFile>(place, PictureRole::depth, tracks->depth));
 }
 
 /// The depth file given, or found beside the colour file. Throws InputError that says what is
@@ -353,6 +403,7 @@ std::optional<fs::path> find_colour_beside(const fs::path& depth) {
 
 std::unique_ptr<PictureSource> open_picture_source(const fs::path& file, PictureRole role) {
     set_up_libraries();
+    if (is_folder(file)) return sequence(file, row_of(file, role), {}, role);
     require_readable(file);
     if (is_still(file)) return std::make_unique<StillFile>(file, role);
     return std::make_unique<VideoFile>(file, role);
@@ -362,18 +413,21 @@ std::unique_ptr<Media> open_media(const fs::path& colour, const fs::path& depth)
     if (colour.empty())
         throw InputError(shown(depth) +
                          " is depth alone: give the colour file that belongs to it, too");
-    require_readable(colour);
+    set_up_libraries();
     if (depth.empty() || depth == colour) {
-        if (const auto tracks = colour_and_depth_tracks(colour)) return paired(colour, *tracks);
+        if (auto both = open_both(colour)) return both;
     }
     // First, so that a colour file that cannot be read is not blamed on a missing depth file.
     auto colour_source = open_picture_source(colour, PictureRole::colour);
     const fs::path depth_file = depth_file_for(colour, depth);
+    if (is_folder(colour) && is_folder(depth_file))
+        return paired(colour, row_of(colour, PictureRole::colour), depth_file,
+                      row_of(depth_file, PictureRole::depth));
     return paired(std::move(colour_source), open_picture_source(depth_file, PictureRole::depth));
 }
 
 std::unique_ptr<Media> open_depth(const fs::path& depth) {
-    require_readable(depth);
+    set_up_libraries();
     const auto tracks = colour_and_depth_tracks(depth);
     return std::make_unique<PairedMedia>(
         tracks ? std::make_unique<VideoFile>(depth, PictureRole::depth, tracks->depth)
@@ -383,26 +437,17 @@ std::unique_ptr<Media> open_depth(const fs::path& depth) {
 
 MediaDescription describe_media(const fs::path& file) {
     set_up_libraries();
-    require_readable(file);
-    MediaDescription description;
-    const auto describe = [&](const SourceFacts& facts) {
-        const bool depth = named_depth(file) || facts.channels == 1 || facts.bits == 16;
-        depth ? describe_depth(facts, description) : describe_colour(facts, description);
-        describe_time(facts, description);
-    };
-    if (is_still(file)) {
-        describe(StillFile(file, PictureRole::depth).facts());
-    } else if (const auto tracks = colour_and_depth_tracks(file)) {
-        VideoFile depth(file, PictureRole::depth, tracks->depth);
-        depth.count_frames(kMostCounted);
-        describe_depth(depth.facts(), description);
-        describe_time(depth.facts(), description);
-        describe_colour(VideoFile(file, PictureRole::colour, tracks->colour).facts(), description);
-    } else {
-        VideoFile video(file, PictureRole::depth);
-        video.count_frames(kMostCounted);
-        describe(video.facts());
+    if (const auto both = open_both(file)) {
+        both->count_frames(kMostCounted);
+        return both->description();
     }
+    const auto source = open_picture_source(file, PictureRole::depth);
+    source->count_frames(kMostCounted);
+    const SourceFacts& facts = source->facts();
+    MediaDescription description;
+    const bool depth = named_depth(file) || facts.channels == 1 || facts.bits == 16;
+    depth ? describe_depth(facts, description) : describe_colour(facts, description);
+    describe_time(facts, description);
     return description;
 }
 

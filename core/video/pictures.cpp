@@ -140,6 +140,13 @@ void write_png(const ColourImage& picture, const fs::path& file) {
     out.commit();
 }
 
+cv::Mat with_bits(const cv::Mat& picture, int bits_now, int bits) {
+    if (bits_now == bits) return picture;
+    cv::Mat scaled;
+    picture.convertTo(scaled, CV_32F, highest_level(bits) / highest_level(bits_now));
+    return scaled;
+}
+
 cv::Mat with_square_pixels(const cv::Mat& picture, double aspect, PictureRole role) {
     if (aspect == 1.0 || picture.empty()) return picture;
     const cv::Size size(static_cast<int>(std::lround(picture.cols * std::max(aspect, 1.0))),

@@ -49,6 +49,10 @@ struct SourceFacts {
     std::string trouble{};  ///< why less is read than at the opening; empty: nothing lacks
 };
 
+/// The same levels, of which the highest is highest_level(bits): of a row of pictures that do not
+/// agree.
+[[nodiscard]] cv::Mat with_bits(const cv::Mat& picture, int bits_now, int bits);
+
 enum class PictureRole { colour, depth };
 
 /// The picture as it is to be seen: stretched along one side until its pixels, `aspect` times as
@@ -64,6 +68,9 @@ class PictureSource {
     /// The next picture returned is the one shown at `time_s`: the first before the beginning, the
     /// last after the end.
     virtual void seek(double time_s) = 0;
+    /// Goes through at most `most` pictures, so that the facts become exact; for a source that is
+    /// not read otherwise.
+    virtual void count_frames(std::int64_t /*most*/) {}
 };
 
 /// A still image as a source of one picture.
@@ -82,7 +89,7 @@ class StillFile : public PictureSource {
     bool given_{false};
 };
 
-/// A still image or a video, told apart by content. Throws InputError.
+/// A still image or a video, told apart by content, or a folder of pictures. Throws InputError.
 [[nodiscard]] std::unique_ptr<PictureSource> open_picture_source(const std::filesystem::path& file,
                                                                  PictureRole role);
 

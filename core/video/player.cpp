@@ -1,6 +1,7 @@
 // Plays a colour + depth pair on its own thread: decodes ahead, cleans, pairs by time, publishes.
 #include "core/video/player.hpp"
 
+#include <malloc.h>
 #include <pthread.h>
 
 #include <condition_variable>
@@ -171,8 +172,11 @@ void Player::play_media(std::unique_ptr<Media> media, std::uint32_t number) {
     // std::function wants to be copyable, hence shared; the reader moves on when the command runs.
     auto reader = std::make_shared<std::unique_ptr<FrameReader>>(
         std::make_unique<FrameReader>(std::move(media), number));
-    implementation_->ask(
-        {[reader](Playback& playback, Time now) { playback.open(std::move(*reader), now); }});
+    implementation_->ask({[reader](Playback& playback, Time now) {
+        playback.open(std::move(*reader), now);
+        // What the media before took, in whatever order its frames lie in memory.
+        malloc_trim(0);
+    }});
 }
 
 void Player::play() {

@@ -131,11 +131,7 @@ cv::Mat VideoFile::retrieve() {
     if (picture.empty())
         throw InputError(shown(facts_.file) + " breaks off at " + short_text(time_s_) +
                          " s: record or convert it again");
-    if (is_depth && decoder_.bits() != facts_.bits) {
-        // A stream may change on the way; what the levels of a surface mean may not.
-        picture.convertTo(picture, CV_32F,
-                          highest_level(facts_.bits) / highest_level(decoder_.bits()));
-    }
+    if (is_depth) picture = with_bits(picture, decoder_.bits(), facts_.bits);
     return with_square_pixels(picture, pixel_aspect_, role_);
 }
 

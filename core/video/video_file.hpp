@@ -26,7 +26,7 @@ class VideoFile : public PictureSource {
     void seek(double time_s) override;
 
     /// Decodes on without pictures, at most `most` frames, so that the facts become exact.
-    void count_frames(std::int64_t most);
+    void count_frames(std::int64_t most) override;
 
   private:
     void begin_again();

@@ -349,6 +349,28 @@ TEST_CASE("a video that has changed is refused, unless it is asked for", "[repla
     CHECK(run_dibhr(folder, {"replay", "elsewhere/mine.dibhr"}).exit_code == 0);
 }
 
+TEST_CASE("a session over a folder of pictures replays, unless a picture has changed", "[replay]") {
+    const TemporaryFolder folder;
+    make_film(folder);
+    fs::create_directories(folder / "shots/rgb");
+    fs::create_directories(folder / "shots/depth");
+    run_shell(folder, "ffmpeg -v error -i film_color.mkv shots/rgb/%d.png");
+    run_shell(folder, "ffmpeg -v error -i film_depth.mkv -pix_fmt gray16be shots/depth/%d.png");
+    const bool as_one = GENERATE(true, false);
+    const RecordedSession shots{.colour = as_one ? folder / "shots" : folder / "shots/rgb",
+                                .depth = as_one ? folder / "shots" : folder / "shots/depth"};
+    record_session(folder / "mine.dibhr", shots);
+    const ProgramResult replayed = run_dibhr(folder, {"replay", "mine.dibhr"});
+    INFO(replayed.output << replayed.errors);
+    CHECK(replayed.exit_code == 0);
+    CHECK(replayed.errors.empty());
+    CHECK(contains(replayed.output, "as recorded: all 1000"));
+    run_shell(folder, "cp shots/depth/1.png shots/depth/2.png");
+    const ProgramResult refused = run_dibhr(folder, {"replay", "mine.dibhr"});
+    CHECK(refused.exit_code == 1);
+    CHECK(contains(refused.errors, "has changed"));
+}
+
 TEST_CASE("files that are no session are refused by every command in one line", "[replay]") {
     const TemporaryFolder folder;
     make_film(folder);

@@ -33,3 +33,23 @@ TEST_CASE("a file's hash is that of its bytes, however long it is; a missing fil
     std::filesystem::remove(file);
     CHECK_THROWS_AS(sha256_of_file(file), InputError);
 }
+
+TEST_CASE("a folder's hash is that of its names and bytes, wherever the folder is", "[files]") {
+    const test::TemporaryFolder folder;
+    const auto fill = [&](const std::string& name, const std::string& text) {
+        std::filesystem::create_directories(folder / name / "depth");
+        std::ofstream(folder / name / "1.png") << text;
+        std::ofstream(folder / name / "depth" / "1.png") << "two";
+    };
+    fill("here", "one");
+    fill("there", "one");
+    const std::string sum = sha256_of_file(folder / "here");
+    CHECK(sum == sha256_of_file(folder / "there"));
+    CHECK(content_bytes(folder / "here") == 6);
+    std::ofstream(folder / "there" / ".listing") << "of a file manager";
+    CHECK(sum == sha256_of_file(folder / "there"));
+    std::filesystem::rename(folder / "there" / "1.png", folder / "there" / "2.png");
+    CHECK(sum != sha256_of_file(folder / "there"));
+    fill("there", "One");
+    CHECK(sum != sha256_of_file(folder / "there"));
+}
