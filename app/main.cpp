@@ -1,4 +1,6 @@
 // The program `dibhr`: runs the command line and turns how it ended into an exit code.
+#include <malloc.h>
+
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -59,6 +61,8 @@ int exit_code_of(const std::vector<std::string>& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    // One heap for all threads: what one gives back, the others take, and the system can have it.
+    mallopt(M_ARENA_MAX, 1);
     // A closed pipe is an ordinary end, not a signal.
     std::signal(SIGPIPE, SIG_IGN);
     std::cout.exceptions(std::ios::badbit);

@@ -154,10 +154,13 @@ int run_view(CLI::App& app, const Arguments& arguments) {
     TouchRequest touch;
     std::optional<std::pair<int, int>> size;
     add_file(app, "COLOR", options.colour,
-             "Colour video or image, or a recorded session to replay; none: the built-in sample",
+             "Colour video, image or folder of pictures, or a recorded session to replay; none: "
+             "the built-in sample",
              "");
     add_file(app, "DEPTH", options.depth,
-             "Depth video or image; none: *color* -> *depth* beside it", "");
+             "Depth video, image or folder; none: in the colour's file or folder, else *color* -> "
+             "*depth* beside it",
+             "");
     app.add_option_function<std::string>(
            "--device",
            [&options](const std::string& device) {
