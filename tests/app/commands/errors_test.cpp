@@ -19,6 +19,7 @@ struct BadInput {
 
 void write_inputs(const TemporaryFolder& folder) {
     write_depth_png(folder / "depth.png", 16, 12, 100);
+    std::filesystem::create_directory(folder / "nothing_here");
     write_depth_png(folder / "one.png", 1, 1, 100);
     write_text(folder / "text.mp4", "this is no video\n");
     write_text(folder / "empty.png", "");
@@ -37,7 +38,7 @@ std::vector<BadInput> bad_inputs() {
     };
     return {
         {"a missing depth file", touch("none.png", "goals.csv"), "none.png"},
-        {"a folder", touch(".", "goals.csv"), "."},
+        {"a folder without pictures", touch("nothing_here", "goals.csv"), "nothing_here"},
         {"text named .mp4", touch("text.mp4", "goals.csv"), "text.mp4"},
         {"an empty image", touch("empty.png", "goals.csv"), "empty.png"},
         {"a one-pixel image", touch("one.png", "goals.csv"), "one.png"},

@@ -89,11 +89,11 @@ double processor_s(const std::string& thread_name) {
     return -1.0;
 }
 
-/// Part of a processor that the USB thread takes while the test sleeps; the least of three times,
-/// because a busy machine makes everything dearer.
+/// Part of a processor that the USB thread takes while the test sleeps; the least of up to ten
+/// times, because a busy machine makes everything dearer.
 double usb_thread_load(milliseconds asleep = milliseconds(1000)) {
     double least = 1.0;
-    for (int k = 0; k < 3 && least > 0.5 * kMostLoad; ++k) {
+    for (int k = 0; k < 10 && least > 0.75 * kMostLoad; ++k) {
         const double before_s = processor_s("dibhr falcon");
         REQUIRE(before_s >= 0.0);
         const auto begin = Clock::now();
