@@ -184,9 +184,9 @@ TEST_CASE("colour that begins later than depth by its file's clock is shown late
                                                           {"mkv", 50.0, 0.0, 0},
                                                           {"ts", 0.4, 0.0, 0}}));
     CAPTURE(name, colour_s, depth_s);
-    const auto begin_at = [&](const std::string& what, double start_s) {
-        const auto plain = folder / (what + "_plain." + name);
-        const auto shifted = folder / (what + "." + name);
+    const auto begin_at = [&folder, ending = name](const std::string& what, double start_s) {
+        const auto plain = folder / (what + "_plain." + ending);
+        const auto shifted = folder / (what + "." + ending);
         make_flat_clip(plain, 20, 10, "-c:v libx264 -qp 0 -bf 0 -pix_fmt yuv420p");
         ffmpeg("-itsoffset " + std::to_string(start_s) + " -i '" + plain.string() + "' -c copy '" +
                shifted.string() + "'");
