@@ -7,6 +7,8 @@
 // drivers. libudev's devices are written by libusb's event thread, under a lock, before the thread
 // that lists them reads them. A testbed of libumockdev has a thread of its own, joined with GLib's
 // atomics.
+// Mesa's software driver counts who still needs a fence with atomics, and destroys it when nobody
+// does; it is swrast_dri.so, or in newer ones libgallium.
 // Pango matches fonts on a thread of its own and keeps what Fontconfig found until the program
 // ends.
 extern "C" const char* __tsan_default_suppressions();  // NOLINT: the sanitizer's name
@@ -22,6 +24,8 @@ extern "C" const char* __tsan_default_suppressions() {  // NOLINT
            "race:libudev.so.1\n"
            "race:libumockdev.so.0\n"
            "race:libglib-2.0.so.0\n"
+           "race:swrast_dri.so\n"
+           "race:libgallium\n"
            "race:libpangoft2-1.0.so.0\n"
            "race:libfontconfig.so.1\n";
 }
