@@ -29,12 +29,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
-
 /// Whether the file begins like text: no zero and no control bytes. Playlists are text, too, and
 /// would make the decoder open other files. Text pictures (PNM) are not refused.
 bool begins_like_text(std::ifstream& in) {
@@ -54,7 +48,7 @@ constexpr std::array<std::string_view, 3> kColourWords{"colour", "color", "rgb"}
 /// the stem does not hold the word.
 std::optional<std::string> renamed(const std::string& stem, std::string_view word,
                                    std::string_view other) {
-    const auto at = lower(stem).find(word);
+    const auto at = lower_case(stem).find(word);
     if (at == std::string::npos) return std::nullopt;
     const auto is_large = [&](std::size_t k) {
         return std::isupper(static_cast<unsigned char>(stem[k])) != 0;
@@ -90,7 +84,7 @@ std::optional<fs::path> with_any_extension(const fs::path& folder, const std::st
     for (fs::directory_iterator entry(folder.empty() ? "." : folder, failed), end;
          !failed && entry != end; entry.increment(failed)) {
         const auto& file = entry->path();
-        const auto extension = lower(file.extension().string());
+        const auto extension = lower_case(file.extension().string());
         if (file.stem() == stem &&
             std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end() &&
             is_file(file))
@@ -264,7 +258,7 @@ std::optional<ColourAndDepth> colour_and_depth_tracks(const fs::path& file) {
     if (is_still(file)) return std::nullopt;
     const std::vector<VideoTrack> tracks = video_tracks(file);
     const auto likelihood_of_depth = [](const VideoTrack& track) {
-        if (lower(track.title).find("depth") != std::string::npos) return 100;
+        if (lower_case(track.title).find("depth") != std::string::npos) return 100;
         return track.grey ? track.bits : 0;
     };
     const auto depth = std::max_element(tracks.begin(), tracks.end(),
@@ -347,8 +341,14 @@ std::string shown(const fs::path& file) {
     return in_quotes(file.string(), std::string::npos);
 }
 
+bool named_colour(const fs::path& file) {
+    const std::string name = lower_case(file.filename().string());
+    return std::any_of(kColourWords.begin(), kColourWords.end(),
+                       [&](std::string_view word) { return name.find(word) != std::string::npos; });
+}
+
 bool named_depth(const fs::path& file) {
-    return lower(file.stem().string()).find("depth") != std::string::npos;
+    return lower_case(file.stem().string()).find("depth") != std::string::npos;
 }
 
 void require_readable(const fs::path& file) {

@@ -22,7 +22,8 @@ void require_size(const std::filesystem::path& file, int columns, int rows);
 /// The name in quotes, as messages show it, without control characters: always one line.
 [[nodiscard]] std::string shown(const std::filesystem::path& file);
 
-/// Whether the file's name says that it holds depth.
+/// Whether the file's name says that it holds colour, or depth.
+[[nodiscard]] bool named_colour(const std::filesystem::path& file);
 [[nodiscard]] bool named_depth(const std::filesystem::path& file);
 
 /// A decoded, not yet cleaned pair.

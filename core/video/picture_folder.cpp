@@ -27,16 +27,10 @@ bool is_digit(char c) {
     return std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
 
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
-
 bool is_picture(const fs::path& file) {
     static constexpr std::array<std::string_view, 11> kEndings{
         ".bmp", ".jpeg", ".jpg", ".pgm", ".png", ".pnm", ".ppm", ".tga", ".tif", ".tiff", ".webp"};
-    const std::string ending = lower(file.extension().string());
+    const std::string ending = lower_case(file.extension().string());
     return !file.filename().string().starts_with('.') &&
            std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
 }
@@ -80,12 +74,6 @@ bool in_natural_order(const std::string& a, const std::string& b) {
     return a.size() - i < b.size() - j;
 }
 
-bool says_colour(const std::string& name) {
-    const std::string text = lower(name);
-    return text.find("color") != std::string::npos || text.find("colour") != std::string::npos ||
-           text.find("rgb") != std::string::npos;
-}
-
 std::vector<fs::path> entries_of(const fs::path& folder) {
     std::vector<fs::path> entries;
     std::error_code failed;
@@ -105,7 +93,7 @@ std::vector<fs::path> entries_of(const fs::path& folder) {
 /// By the words in `name`, which is of the picture or of its folder.
 PictureRow& row_for(PictureFolder& folder, const fs::path& name) {
     if (named_depth(name)) return folder.depth;
-    return says_colour(name.filename().string()) ? folder.colour : folder.unnamed;
+    return named_colour(name) ? folder.colour : folder.unnamed;
 }
 
 /// Every number once, and with or without a point throughout.
