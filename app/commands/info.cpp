@@ -15,6 +15,7 @@
 #include "core/report/report_words.hpp"
 #include "core/session/session.hpp"
 #include "core/video/media.hpp"
+#include "core/video/media_names.hpp"
 
 namespace dibhr {
 namespace {

@@ -12,6 +12,7 @@
 
 #include "core/error.hpp"
 #include "core/video/media.hpp"
+#include "core/video/media_names.hpp"
 
 namespace dibhr {
 

@@ -22,10 +22,6 @@ void require_size(const std::filesystem::path& file, int columns, int rows);
 /// The name in quotes, as messages show it, without control characters: always one line.
 [[nodiscard]] std::string shown(const std::filesystem::path& file);
 
-/// Whether the file's name says that it holds colour, or depth.
-[[nodiscard]] bool named_colour(const std::filesystem::path& file);
-[[nodiscard]] bool named_depth(const std::filesystem::path& file);
-
 /// A decoded, not yet cleaned pair.
 struct RawFrame {
     DepthImage depth{};
@@ -66,16 +62,6 @@ class Media {
     /// The next frame returned is the one shown at `media_s`.
     virtual void seek(double media_s) = 0;
 };
-
-/// The depth file that belongs to a colour file: `*color*` -> `*depth*` (also colour, rgb) beside
-/// it. Nothing when there is none; `looked_for` then says what was tried, for the message.
-[[nodiscard]] std::optional<std::filesystem::path> find_depth_beside(
-    const std::filesystem::path& colour, std::string& looked_for);
-
-/// The colour file that belongs to a depth file, likewise: `*depth*` -> `*color*`, `*colour*`,
-/// `*rgb*`.
-[[nodiscard]] std::optional<std::filesystem::path> find_colour_beside(
-    const std::filesystem::path& depth);
 
 /// Opens a pair. An empty depth path, or the colour's: the depth is another track of the colour's
 /// file, where that says so, or else a file beside it. Throws InputError: what, which file, what to

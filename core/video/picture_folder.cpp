@@ -2,7 +2,6 @@
 #include "core/video/picture_folder.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cstddef>
 #include <cstdint>
@@ -16,6 +15,7 @@
 
 #include "core/error.hpp"
 #include "core/video/media.hpp"
+#include "core/video/media_names.hpp"
 
 namespace dibhr {
 
@@ -28,11 +28,9 @@ bool is_digit(char c) {
 }
 
 bool is_picture(const fs::path& file) {
-    static constexpr std::array<std::string_view, 11> kEndings{
-        ".bmp", ".jpeg", ".jpg", ".pgm", ".png", ".pnm", ".ppm", ".tga", ".tif", ".tiff", ".webp"};
-    const std::string ending = lower_case(file.extension().string());
-    return !file.filename().string().starts_with('.') &&
-           std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
+    std::error_code ignored;
+    return named_picture(file) && !file.filename().string().starts_with('.') &&
+           fs::is_regular_file(file, ignored);
 }
 
 NumberedPicture numbered(const fs::path& file) {
@@ -122,20 +120,17 @@ std::set<double> numbers_of(const PictureRow& row) {
 
 PictureFolder look_into(const fs::path& folder) {
     PictureFolder found;
-    std::error_code ignored;
     const std::vector<fs::path> entries = entries_of(folder);
     for (const fs::path& entry : entries) {
-        if (is_picture(entry) && fs::is_regular_file(entry, ignored))
-            row_for(found, entry).push_back(numbered(entry));
+        if (is_picture(entry)) row_for(found, entry).push_back(numbered(entry));
     }
     const bool has_own = !found.colour.empty() || !found.depth.empty() || !found.unnamed.empty();
     for (const fs::path& entry : entries) {
-        if (has_own || !fs::is_directory(entry, ignored)) continue;
+        if (has_own || !is_folder(entry)) continue;
         PictureRow& row = row_for(found, entry);
         if (&row == &found.unnamed || !row.empty()) continue;
         for (const fs::path& file : entries_of(entry)) {
-            if (is_picture(file) && fs::is_regular_file(file, ignored))
-                row.push_back(numbered(file));
+            if (is_picture(file)) row.push_back(numbered(file));
         }
     }
     sort_by_number(found.colour);

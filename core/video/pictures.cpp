@@ -74,12 +74,6 @@ cv::Mat read_colour_picture(const fs::path& file) {
 
 }  // namespace
 
-std::string lower_case(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
-
 double highest_level(int bits) {
     return std::ldexp(1.0, bits) - 1.0;
 }

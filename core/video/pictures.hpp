@@ -14,9 +14,6 @@
 
 namespace dibhr {
 
-/// The text with A to Z as a to z.
-[[nodiscard]] std::string lower_case(std::string text);
-
 /// Of levels of so many bits.
 [[nodiscard]] double highest_level(int bits);
 

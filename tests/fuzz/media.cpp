@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/video/media.hpp"
+#include "core/video/media_names.hpp"
 #include "tests/fuzz/entry.hpp"
 
 using namespace dibhr;

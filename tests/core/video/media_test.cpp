@@ -1,6 +1,7 @@
 // Reading videos: pairing by time, exact seeking, levels that survive.
 #include "core/video/media.hpp"
 #include "core/error.hpp"
+#include "core/video/media_names.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,122 @@
+// Pairs frames by their presentation times.
+#include "core/video/paired_media.hpp"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+namespace dibhr {
+
+namespace {
+
+/// A colour frame up to this part of an interval later than the depth frame still belongs to it:
+/// streams that run together may be a little apart. Less than half, so that halfway the earlier one
+/// is taken.
+constexpr double kNotLater = 0.4;
+
+/// How much later than the depth the colour begins [s]: as both files say, when they overlap.
+double colour_start_s(const SourceFacts& colour, const SourceFacts& depth) {
+    const double later_s = colour.start_s - depth.start_s;
+    const bool overlap = later_s < depth.duration_s && -later_s < colour.duration_s;
+    return overlap ? later_s : 0.0;
+}
+
+double interval_of(const SourceFacts& facts) {
+    return facts.frames_per_s > 0.0 ? 1.0 / facts.frames_per_s : 1.0;
+}
+
+}  // namespace
+
+void describe_depth(const SourceFacts& facts, MediaDescription& description) {
+    description.depth_path = facts.file;
+    description.depth_columns = facts.columns;
+    description.depth_rows = facts.rows;
+    description.depth_codec = facts.codec;
+    description.depth_bits = facts.bits;
+}
+
+void describe_colour(const SourceFacts& facts, MediaDescription& description) {
+    description.colour_path = facts.file;
+    description.colour_columns = facts.columns;
+    description.colour_rows = facts.rows;
+    description.colour_codec = facts.codec;
+}
+
+void describe_time(const SourceFacts& facts, MediaDescription& description) {
+    description.duration_s = facts.duration_s;
+    description.frames_per_s = facts.still ? 0.0 : facts.frames_per_s;
+    description.frames = facts.frames;
+    description.frames_exact = facts.frames_exact;
+    description.still = facts.still;
+}
+
+ColourTrack::ColourTrack(std::unique_ptr<PictureSource> source, const SourceFacts& depth)
+    : source_(std::move(source)), starts_later_s_(colour_start_s(source_->facts(), depth)) {}
+
+const cv::Mat& ColourTrack::shown_at(double depth_time_s, double depth_interval_s) {
+    const double interval_s = std::min(depth_interval_s, interval_of(source_->facts()));
+    const double latest_s = depth_time_s - starts_later_s_ + kNotLater * interval_s;
+    if (!placed_) {
+        source_->seek(latest_s);
+        now_ = source_->next().value_or(now_);
+        later_ = source_->next();
+        placed_ = true;
+    }
+    while (later_ && later_->time_s <= latest_s) {
+        now_ = std::move(*later_);
+        later_ = source_->next();
+    }
+    return now_.picture;
+}
+
+PairedMedia::PairedMedia(std::unique_ptr<PictureSource> depth,
+                         std::unique_ptr<PictureSource> colour)
+    : depth_(std::move(depth)) {
+    describe_depth(depth_->facts(), description_);
+    describe_time(depth_->facts(), description_);
+    if (colour == nullptr) return;
+    describe_colour(colour->facts(), description_);
+    colour_.emplace(std::move(colour), depth_->facts());
+}
+
+std::optional<RawFrame> PairedMedia::next() {
+    auto taken = depth_->next();
+    describe_time(depth_->facts(), description_);
+    tell_trouble(depth_->facts());
+    if (!taken) return std::nullopt;
+    keep_size(taken->picture);
+    RawFrame frame;
+    frame.depth = depth_of(taken->picture, depth_->facts().bits);
+    frame.media_s = taken->time_s;
+    frame.index = taken->index;
+    if (colour_) {
+        frame.colour = colour_of(colour_->shown_at(frame.media_s, interval_of(depth_->facts())));
+        tell_trouble(colour_->facts());
+    }
+    return frame;
+}
+
+void PairedMedia::seek(double media_s) {
+    depth_->seek(media_s);
+    if (colour_) colour_->forget();
+}
+
+void PairedMedia::count_frames(std::int64_t most) {
+    depth_->count_frames(most);
+    describe_time(depth_->facts(), description_);
+}
+
+void PairedMedia::tell_trouble(const SourceFacts& facts) {
+    if (description_.trouble.empty()) description_.trouble = facts.trouble;
+}
+
+/// A stream may change its size on the way; a surface may not. Levels are never mixed.
+void PairedMedia::keep_size(cv::Mat& picture) const {
+    const cv::Size size(description_.depth_columns, description_.depth_rows);
+    if (picture.size() == size) return;
+    cv::Mat resized;
+    cv::resize(picture, resized, size, 0.0, 0.0, cv::INTER_NEAREST);
+    picture = resized;
+}
+
+}  // namespace dibhr

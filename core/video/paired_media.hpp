@@ -1,0 +1,57 @@
+// A source of depth and one of colour as one media; inside the room.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "core/video/media.hpp"
+#include "core/video/pictures.hpp"
+
+namespace dibhr {
+
+/// The facts of a source that gives depth, or colour, in the words of a description.
+void describe_depth(const SourceFacts& facts, MediaDescription& description);
+void describe_colour(const SourceFacts& facts, MediaDescription& description);
+void describe_time(const SourceFacts& facts, MediaDescription& description);
+
+/// The colour that belongs to each depth frame: the newest one of its time.
+class ColourTrack {
+  public:
+    ColourTrack(std::unique_ptr<PictureSource> source, const SourceFacts& depth);
+
+    [[nodiscard]] const SourceFacts& facts() const { return source_->facts(); }
+    void forget() { placed_ = false; }
+    const cv::Mat& shown_at(double depth_time_s, double depth_interval_s);
+
+  private:
+    std::unique_ptr<PictureSource> source_;
+    double starts_later_s_;  // than the depth
+    TimedPicture now_{};
+    std::optional<TimedPicture> later_{};
+    bool placed_{false};
+};
+
+/// Depth drives.
+class PairedMedia : public Media {
+  public:
+    /// `colour` may be null: then frames have none.
+    PairedMedia(std::unique_ptr<PictureSource> depth, std::unique_ptr<PictureSource> colour);
+
+    [[nodiscard]] const MediaDescription& description() const override { return description_; }
+    std::optional<RawFrame> next() override;
+    void seek(double media_s) override;
+
+    /// Reads depth on, at most `most` frames, so that the description becomes exact.
+    void count_frames(std::int64_t most);
+
+  private:
+    void tell_trouble(const SourceFacts& facts);
+    void keep_size(cv::Mat& picture) const;
+
+    std::unique_ptr<PictureSource> depth_;
+    std::optional<ColourTrack> colour_{};
+    MediaDescription description_{};
+};
+
+}  // namespace dibhr
