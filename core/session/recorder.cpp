@@ -356,8 +356,7 @@ Recorder::Recorder(const std::filesystem::path& file, TickRing& ring, const Sess
 
 Recorder::~Recorder() {
     implementation_.reset();
-    // What SQLite needed lies in the arenas of threads that are gone: each recording would leave
-    // more of it. Takes a third of a millisecond.
+    // Else what SQLite needed stays with the program. Takes a third of a millisecond.
     ::malloc_trim(0);
 }
 

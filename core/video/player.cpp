@@ -174,7 +174,7 @@ void Player::play_media(std::unique_ptr<Media> media, std::uint32_t number) {
         std::make_unique<FrameReader>(std::move(media), number));
     implementation_->ask({[reader](Playback& playback, Time now) {
         playback.open(std::move(*reader), now);
-        // What the media before took, in whatever order its frames lie in memory.
+        // Else what the media before took stays with the program.
         malloc_trim(0);
     }});
 }

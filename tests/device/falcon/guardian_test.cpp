@@ -86,6 +86,12 @@ class Pressing {
 
     [[nodiscard]] fs::path file(const std::string& name) const { return folder_ / name; }
     [[nodiscard]] std::vector<pid_t> guardians() const { return guardians_of(folder_.path()); }
+    /// Once there is one, which a busy machine may hide for a moment.
+    [[nodiscard]] std::vector<pid_t> guardians_at_work() const {
+        std::vector<pid_t> found;
+        (void)eventually([&] { return !(found = guardians()).empty(); }, std::chrono::seconds(2));
+        return found;
+    }
 
     /// Until it has pressed, just before it goes its way; then when that was.
     double end_begins() {
@@ -216,7 +222,7 @@ TEST_CASE("a program that presses is never disturbed, nor is it on a busy machin
         GENERATE(false, true) ? std::make_optional<Load>(4) : std::nullopt;
     Pressing pressing("leave");
     const double begin_s = pressing.end_begins();
-    CHECK(pressing.guardians().size() == 1);
+    CHECK(pressing.guardians_at_work().size() == 1);
     CHECK(pressing.ended() == 0);
     CHECK(pressing.errors().empty());
     const Packets packets = pressing.after(begin_s);
@@ -240,7 +246,7 @@ TEST_CASE("an alarm takes the force off for good, though the program goes on", "
 TEST_CASE("a program whose guardian was killed presses on, and leaves in order", "[guardian]") {
     Pressing pressing("leave");
     const double begin_s = pressing.end_begins();
-    const std::vector<pid_t> guardians = pressing.guardians();
+    const std::vector<pid_t> guardians = pressing.guardians_at_work();
     REQUIRE(guardians.size() == 1);
     REQUIRE(::kill(guardians.front(), SIGKILL) == 0);
     CHECK(pressing.ended() == 0);
