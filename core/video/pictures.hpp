@@ -10,9 +10,13 @@
 #include <string>
 
 #include "core/haptics/depth_image.hpp"
+#include "core/video/depth_meaning.hpp"
 #include "core/video/frame_window.hpp"
 
 namespace dibhr {
+
+/// The bits of levels that are real numbers: they have no highest one.
+inline constexpr int kRealBits = 32;
 
 /// Of levels of so many bits.
 [[nodiscard]] double highest_level(int bits);
@@ -24,8 +28,9 @@ namespace dibhr {
 /// RGB of an 8-bit BGR picture.
 [[nodiscard]] ColourImage colour_of(const cv::Mat& picture);
 
-/// A decoded picture: 8-bit BGR, or as the file has it where depth needs it (8 or 16 bits or float,
-/// 1 to 4 channels). Shared with nobody who writes.
+/// A decoded picture: 8-bit BGR, or as the file has it where depth needs it (8 or 16 bits or 32-bit
+/// real numbers, of which what is not finite is no data; 1 to 4 channels). Shared with nobody who
+/// writes.
 struct TimedPicture {
     cv::Mat picture{};
     double time_s{0.0};  ///< presentation time, from the file's own beginning
@@ -37,7 +42,7 @@ struct SourceFacts {
     std::filesystem::path file{};
     int columns{0};
     int rows{0};
-    int bits{8};      ///< of a level: the highest is 2^bits - 1
+    int bits{8};      ///< of a level: the highest is 2^bits - 1; kRealBits: real numbers
     int channels{3};  ///< 1: grey
     std::string codec{};
     double start_s{0.0};  ///< by the clock of its file; NaN: that is nobody else's
@@ -46,7 +51,9 @@ struct SourceFacts {
     std::int64_t frames{0};
     bool frames_exact{false};
     bool still{false};
-    std::string trouble{};  ///< why less is read than at the opening; empty: nothing lacks
+    std::string trouble{};     ///< why less is read than at the opening; empty: nothing lacks
+    DepthStatement known{};    ///< what the file's own metadata or its format says of its depth
+    std::string known_from{};  ///< where it says so: "EXR channel Z"; empty: nowhere
 };
 
 /// The same levels, of which the highest is highest_level(bits): of a row of pictures that do not

@@ -1,0 +1,80 @@
+// What the levels of a depth source mean: what somebody says of them, what is known in the end and
+// from whom, and how high a level stands.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dibhr {
+
+/// Which levels are near to the camera.
+enum class NearLevels { bright, dark };
+
+/// What a level times its scale is: of no unit and linear, of no unit and one over a distance, or a
+/// distance from the camera.
+enum class DepthUnit { levels, disparity, mm, m };
+
+/// Where colour and depth are: in files of their own, in halves of one picture (colour first), or
+/// in tracks of one file.
+enum class DepthPacking { separate, left_right, right_left, top_bottom, bottom_top, tracks };
+
+/// How a picture holds depth: by its brightness, or by its hue.
+enum class DepthCode { grey, hue };
+
+/// The picture plane plus elevation, as in the paper, or the shape in millimetres, seen straight
+/// on.
+enum class Geometry { relief, true_shape };
+
+[[nodiscard]] std::string_view name_of(NearLevels value) noexcept;
+[[nodiscard]] std::string_view name_of(DepthUnit value) noexcept;
+[[nodiscard]] std::string_view name_of(DepthPacking value) noexcept;
+[[nodiscard]] std::string_view name_of(DepthCode value) noexcept;
+[[nodiscard]] std::string_view name_of(Geometry value) noexcept;
+
+inline constexpr std::array kNearLevels{NearLevels::bright, NearLevels::dark};
+inline constexpr std::array kDepthUnits{DepthUnit::levels, DepthUnit::disparity, DepthUnit::mm,
+                                        DepthUnit::m};
+inline constexpr std::array kDepthPackings{DepthPacking::separate,   DepthPacking::left_right,
+                                           DepthPacking::right_left, DepthPacking::top_bottom,
+                                           DepthPacking::bottom_top, DepthPacking::tracks};
+inline constexpr std::array kDepthCodes{DepthCode::grey, DepthCode::hue};
+inline constexpr std::array kGeometries{Geometry::relief, Geometry::true_shape};
+
+/// Values in the unit (level times scale): the nearest and the farthest that are told apart.
+struct DepthRange {
+    double near{0.0};
+    double far{0.0};
+
+    bool operator==(const DepthRange&) const = default;
+};
+
+/// Of a pinhole camera, in depth pixels: the focal lengths, and where its axis meets the picture
+/// (0, 0: the centre of the first pixel).
+struct Intrinsics {
+    double fx{0.0}, fy{0.0}, cx{0.0}, cy{0.0};
+
+    bool operator==(const Intrinsics&) const = default;
+};
+
+/// What one voice says of a depth source: a file's own metadata, a sidecar, the panel, the command
+/// line. What it does not say is empty.
+struct DepthStatement {
+    std::optional<NearLevels> near{};
+    std::optional<DepthUnit> unit{};
+    std::optional<double> scale{};  ///< one level in that unit
+    std::optional<DepthRange> range{};
+    std::optional<std::vector<double>> no_data{};  ///< levels of the file that mean nothing
+    std::optional<DepthPacking> packing{};
+    std::optional<DepthCode> code{};
+    std::optional<Geometry> geometry{};
+    std::optional<Intrinsics> intrinsics{};
+
+    bool operator==(const DepthStatement&) const = default;
+    /// What `other` says, where this says nothing.
+    void fill_in(const DepthStatement& other);
+};
+
+}  // namespace dibhr
