@@ -16,22 +16,27 @@
 #include "core/report/session_report.hpp"
 #include "core/session/session.hpp"
 #include "core/video/media.hpp"
+#include "core/video/sidecar.hpp"
 
 namespace dibhr {
 
 namespace {
 
-RecordedPicture picture_of(SessionMediaFinder& finder, const SessionSource& source,
-                           double media_s) {
+RecordedPicture picture_of(const std::filesystem::path& session, SessionMediaFinder& finder,
+                           const SessionSource& source, double media_s) {
     RecordedPicture picture;
     const std::filesystem::path depth = finder.find(source.depth, "depth video");
-    const std::filesystem::path colour = finder.find(source.colour, "colour video");
-    const std::unique_ptr<Media> media = open_media(colour, depth);
+    std::filesystem::path colour;  // of depth alone there is none
+    if (!source.colour.file.empty()) colour = finder.find(source.colour, "colour video");
+    DepthRequest request;
+    if (!source.depth_meaning.empty())
+        request.recorded = statement_in(source.depth_meaning, session.string());
+    const std::unique_ptr<Media> media = open_media(colour, depth, request);
     picture.columns = media->description().depth_columns;
     picture.rows = media->description().depth_rows;
     media->seek(media_s);
     std::optional<RawFrame> frame = media->next();
-    if (!frame) throw InputError(colour.string() + " holds no frame");
+    if (!frame) throw InputError(depth.string() + " holds no frame");
     picture.colour = std::move(frame->colour);
     picture.warning = finder.warning();
     return picture;
@@ -42,7 +47,7 @@ RecordedPicture picture_or_remark(const Session& session, const SessionSource& s
                                   double media_s) {
     SessionMediaFinder finder(session.file(), false);
     try {
-        return picture_of(finder, source, media_s);
+        return picture_of(session.file(), finder, source, media_s);
     } catch (const InputError& error) {
         RecordedPicture none;
         none.remark = error.what();

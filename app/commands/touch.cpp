@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -37,9 +38,7 @@ class TouchRun {
   public:
     explicit TouchRun(const TouchOptions& options)
         : parameters_(options.parameters),
-          depth_(
-              open_depth(options.depth), options.video,
-              options.touch.raw_depth ? CleaningOptions{false, false, false} : CleaningOptions{}) {
+          depth_(opened(options, parameters_), options.video, options.touch.cleaning()) {
         if (!options.touch.bump.empty()) {
             bump_ = read_bump_map(options.touch.bump);
             const DepthImage& depth = *depth_.now().from->depth;
@@ -57,6 +56,12 @@ class TouchRun {
     [[nodiscard]] std::size_t bounds_met() const noexcept { return bounds_met_; }
 
   private:
+    static std::unique_ptr<Media> opened(const TouchOptions& options, TouchParameters& parameters) {
+        auto media = open_depth(options.depth, options.touch.depth_request());
+        options.touch.given.fit(media->description(), options.touch.raw_depth, parameters);
+        return media;
+    }
+
     OutputRow update(const TimedGoal& goal) {
         if (depth_.advance_to(goal.t_s)) input_.from_zero = true;
         // Recorded hands have equal time stamps: still an update, of the usual length.

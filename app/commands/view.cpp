@@ -89,10 +89,10 @@ void check_device(const std::string& device) {
 
 /// A replay is what was recorded: there is nothing to record, and its surface is given.
 void require_replay_options(const ViewOptions& options, const TouchRequest& touch) {
-    const bool wrong =
-        !options.depth.empty() || !options.record.empty() || !touch.bump.empty() || touch.raw_depth;
+    const bool wrong = !options.open.depth.empty() || !options.record.empty() ||
+                       !touch.bump.empty() || touch.raw_depth;
     if (!wrong) return;
-    throw UsageError(options.colour.string() +
+    throw UsageError(options.open.colour.string() +
                      " is a session, which is replayed as it was recorded: leave away a depth "
                      "file, --record, --bump and --raw-depth");
 }
@@ -120,30 +120,40 @@ void require_writable_outputs(const ViewOptions& options) {
     }
 }
 
-std::unique_ptr<Media> open_asked_media(const ViewOptions& options) {
-    fs::path colour = options.colour;
-    fs::path depth = options.depth;
-    if (colour.empty()) {
-        const SampleFiles sample = sample_files();
-        colour = sample.colour;
-        depth = sample.depth;
-    }
-    return open_media(colour, depth);
+void take_sample_for_nothing(OpenRequest& open) {
+    if (!open.colour.empty()) return;
+    const SampleFiles sample = sample_files();
+    open.colour = sample.colour;
+    open.depth = sample.depth;
+}
+
+/// What the command line says of the relief and the pitch; raw depth has the paper's.
+void take_fitting(const TouchRequest& touch, Settings& settings) {
+    TouchParameters& parameters = settings.touch;
+    const auto take = [&](bool& fits, bool as_auto, double& number) {
+        const TouchNumber& row = number_of(number, parameters);
+        const bool given = touch.given.value_of(row) != nullptr;
+        if (touch.raw_depth && !given) number = row.standard();
+        if (touch.raw_depth || given) fits = false;
+        if (as_auto) fits = true;
+    };
+    take(settings.fit_relief, touch.given.fit_relief, parameters.shape.relief_px);
+    take(settings.fit_pitch, touch.given.fit_pitch, parameters.coupling.pixel_pitch_mm);
 }
 
 ViewerParts open_parts(const ViewOptions& options) {
     ViewerParts parts;
-    if (names_session(options.colour)) {
-        parts.session = std::make_unique<OpenedSession>(options.colour, options.any_media);
+    if (names_session(options.open.colour)) {
+        parts.session = std::make_unique<OpenedSession>(options.open.colour, options.any_media);
         print_warning(parts.session->session.warning());
         print_warning(parts.session->frames.warning());
     } else {
-        parts.media = open_asked_media(options);
+        parts.media = open_request(options.open);
     }
     parts.hand =
         make_hand_device(options.device, {options.settings.falcon.connection, options.firmware});
-    if (!options.bump.empty())
-        parts.bump = std::make_shared<const BumpMap>(read_bump_map(options.bump));
+    if (!options.touch.bump.empty())
+        parts.bump = std::make_shared<const BumpMap>(read_bump_map(options.touch.bump));
     return parts;
 }
 
@@ -153,11 +163,11 @@ int run_view(CLI::App& app, const Arguments& arguments) {
     ViewOptions options;
     TouchRequest touch;
     std::optional<std::pair<int, int>> size;
-    add_file(app, "COLOR", options.colour,
+    add_file(app, "COLOR", options.open.colour,
              "Colour video, image or folder of pictures, or a recorded session to replay; none: "
              "the built-in sample",
              "");
-    add_file(app, "DEPTH", options.depth,
+    add_file(app, "DEPTH", options.open.depth,
              "Depth video, image or folder; none: in the colour's file or folder, else *color* -> "
              "*depth* beside it",
              "");
@@ -199,14 +209,14 @@ int run_view(CLI::App& app, const Arguments& arguments) {
         "  dibhr color.mp4 --record mine.dibhr --seconds 20 --screenshot last.png\n"
         "  dibhr mine.dibhr --algorithm pga       what was recorded, through another algorithm");
     if (!parse(app, arguments)) return 0;
-    const std::string colour = options.colour.string();
+    const std::string colour = options.open.colour.string();
     std::error_code unknown;
     if (colour.find_first_of("./") == std::string::npos && !colour.empty() &&
         !fs::exists(colour, unknown)) {
         throw UsageError("neither a command nor a file is called '" + colour +
                          "'; see dibhr --help");
     }
-    if (names_session(options.colour)) require_replay_options(options, touch);
+    if (names_session(options.open.colour)) require_replay_options(options, touch);
     LastWords words;
     const CrashHandler crash(words, &falcon::Guardian::alarm);
     Ending ending(words);
@@ -217,10 +227,12 @@ int run_view(CLI::App& app, const Arguments& arguments) {
     if (gives_damping(touch.given)) settings.damping_as_needed = false;
     if (size) std::tie(settings.width, settings.height) = *size;
     if (touch.raw_depth) settings.cleaning = {false, false, false};
-    options.given = touch.given;
-    options.bump = touch.bump;
+    take_fitting(touch, settings);
+    options.touch = touch;
+    options.open.request = touch.depth_request();
     require_writable_outputs(options);
     words.doing("opening the files");
+    if (!names_session(options.open.colour)) take_sample_for_nothing(options.open);
     ViewerParts parts = open_parts(options);
     words.doing("opening the window");
     Viewer viewer(options, std::move(parts), ending);

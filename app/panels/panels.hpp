@@ -7,6 +7,10 @@ namespace dibhr {
 
 /// `player` null: the video of a replay, which goes by itself.
 void draw_video_panel(ViewerState& state, Player* player);
+/// What the depth's levels mean, to be changed; part of the Video panel.
+void draw_depth_rows(ViewerState& state);
+/// The same in one line, which opens them when it is clicked.
+void draw_depth_line(ViewerState& state);
 void draw_surface_panel(ViewerState& state);
 void draw_touch_panel(ViewerState& state);
 void draw_device_panel(ViewerState& state);

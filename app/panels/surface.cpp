@@ -4,12 +4,31 @@
 
 namespace dibhr {
 
+namespace {
+
+/// A number that is moved is a person's own from then on.
+void draw_shape(ViewerState& state) {
+    Settings& settings = state.settings;
+    const TouchParameters before = settings.touch;
+    draw_numbers(TouchTopic::shape, settings.touch);
+    const TouchParameters& now = settings.touch;
+    if (now.shape.relief_px != before.shape.relief_px) settings.fit_relief = false;
+    if (now.coupling.pixel_pitch_mm != before.coupling.pixel_pitch_mm) settings.fit_pitch = false;
+    if (state.replay) return;
+    flag_row("Relief as fits the picture", settings.fit_relief, true,
+             "From the farthest to the nearest a third of the picture's width (--relief auto)");
+    flag_row("Pitch as fits the picture", settings.fit_pitch, true,
+             "The hand's reach is the picture's width (--pixel-pitch auto)");
+}
+
+}  // namespace
+
 void draw_surface_panel(ViewerState& state) {
     if (!section(state, "Surface", state.settings.panels.surface)) return;
     ImGui::PushID("surface");
     Settings& settings = state.settings;
     const ReliefLook standard;
-    draw_numbers(TouchTopic::shape, settings.touch);
+    draw_shape(state);
     number_row({"Shading", "%.2f", 0.0, 1.0, standard.light, "0: flat colour, 1: strong"},
                settings.look.light);
     flag_row("Colour of the video", settings.look.textured, standard.textured,

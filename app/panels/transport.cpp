@@ -120,7 +120,8 @@ std::optional<double> draw_line_and_time(const TimeLineContents& line, float rig
 void begin_bottom_bar(const ViewerState& state, const char* name) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const ImGuiStyle& style = ImGui::GetStyle();
-    const float height = ImGui::GetFrameHeight() + 2.0F * style.WindowPadding.y;
+    const float line = state.replay ? 0.0F : ImGui::GetTextLineHeight() + style.ItemSpacing.y;
+    const float height = ImGui::GetFrameHeight() + line + 2.0F * style.WindowPadding.y;
     ImGui::SetNextWindowPos({0.0F, display.y - height});
     ImGui::SetNextWindowSize({display.x - panel_column_width(state), height});
     ImGui::SetNextWindowBgAlpha(0.85F);
@@ -169,6 +170,7 @@ void draw_transport_bar(ViewerState& state, Player& player) {
         draw_playback(state, player, force_width + style.ItemSpacing.x);
     }
     draw_force_switch(state, force_width);
+    draw_depth_line(state);
     ImGui::End();
 }
 

@@ -33,7 +33,9 @@ void draw_files(const MediaDescription& media) {
     file_row("Depth", media.depth_path);
     fact_row("Size", formatted("%d x %d", media.colour_columns, media.colour_rows));
     fact_row("Depth size",
-             formatted("%d x %d, %d bit", media.depth_columns, media.depth_rows, media.depth_bits));
+             formatted("%d x %d, %s", media.depth_columns, media.depth_rows,
+                       media.has_real_numbers() ? "real numbers"
+                                                : formatted("%d bit", media.depth_bits).c_str()));
 }
 
 void draw_playback(const ViewerState& state, Player& player) {
@@ -56,6 +58,7 @@ void draw_video_panel(ViewerState& state, Player* player) {
     draw_open(state);
     draw_files(state.media);
     if (player != nullptr && !state.media.still) draw_playback(state, *player);
+    if (player != nullptr && part("Depth")) draw_depth_rows(state);
     ImGui::BeginDisabled(player == nullptr);  // a replay shows what was touched
     CleaningOptions& cleaning = state.settings.cleaning;
     const CleaningOptions standard;

@@ -41,6 +41,8 @@ struct OpenRequest {
     std::filesystem::path colour{};
     std::filesystem::path depth{};
     bool in_any_order{false};  ///< dropped together: which is which is found out
+    DepthRequest request{.find_out = true};
+    double at_s{0.0};  ///< where to go on [s]
 };
 
 /// Text fields of the panels.
@@ -52,6 +54,8 @@ struct TextFields {
     Field depth{};
     Field bump{};
     Field firmware{};
+    Field depth_range{};  ///< "480:4210"
+    Field no_data{};      ///< "0,65535"
     Field participant{};  ///< kept with a recording
     Field note{};
     Field tag{};              ///< of the next mark
@@ -61,6 +65,8 @@ struct TextFields {
 /// What a panel asks the viewer to do after the picture.
 struct Requests {
     std::optional<OpenRequest> open{};
+    std::optional<DepthStatement> meaning{};  ///< what a person says of the depth that is open
+    bool save_sidecar{false};
     std::optional<std::filesystem::path> bump{};  ///< empty path: no bump map
     std::optional<std::filesystem::path> firmware{};
     bool reset_view{false};
@@ -112,6 +118,7 @@ struct ViewerState {
     // Shown only.
     DeviceSpecification device{};
     MediaDescription media{};
+    OpenRequest opened{};  ///< how it was opened
     PlaybackStatus playback{};
     HapticState haptic{};
     bool catching_up{false};  ///< the proxy is, or was a moment ago: long enough to be read

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "core/files/plain_text.hpp"
+#include "core/video/sidecar.hpp"
 
 namespace dibhr {
 namespace {
@@ -45,6 +46,42 @@ auto value_called(const std::string& name, const Values& values, const char* opt
     throw CLI::ValidationError(option, "'" + name + "' is none of " + names_of(values));
 }
 
+constexpr std::string_view kAutomatic = "auto";
+
+/// --NAME with one of some words, or auto, which leaves `fact` empty.
+template <typename Values>
+void add_word_option(CLI::App& app, const char* name, const Values& values,
+                     std::optional<typename Values::value_type>& fact, const std::string& help) {
+    app.add_option_function<std::string>(
+           name,
+           [&fact, &values, name](const std::string& word) {
+               if (word == kAutomatic)
+                   fact.reset();
+               else
+                   fact = value_called(word, values, name);
+           },
+           help + ": auto, " + names_of(values))
+        ->type_name("WORD")
+        ->default_str(std::string(kAutomatic));
+}
+
+/// --NAME with what `read` makes of the text, or auto.
+template <typename Fact, typename Read>
+void add_fact_option(CLI::App& app, const char* name, std::optional<Fact>& fact, const Read& read,
+                     const char* type, const char* lacking, const std::string& help) {
+    app.add_option_function<std::string>(
+           name,
+           [&fact, read, name, lacking](const std::string& text) {
+               fact.reset();
+               if (text == kAutomatic) return;
+               fact = read(text);
+               if (!fact) throw CLI::ValidationError(name, "'" + text + "' " + lacking);
+           },
+           help)
+        ->type_name(type)
+        ->default_str(std::string(kAutomatic));
+}
+
 Algorithm known_algorithm(const std::string& name) {
     return value_called(name, all_algorithms(), "--algorithm");
 }
@@ -70,6 +107,39 @@ double parse_number(const std::string& option, const std::string& text, double l
 
 }  // namespace
 
+namespace {
+
+std::function<void(double)> taken(const TouchNumber& option, GivenParameters& given) {
+    return [&option, &given](double value) { given.numbers.emplace_back(&option, value); };
+}
+
+/// Whether auto was given for one of the numbers that can be fitted to a media; null: another.
+bool* fitted(const TouchNumber& option, GivenParameters& given) {
+    TouchParameters any;
+    if (&option == &number_of(any.shape.relief_px, any)) return &given.fit_relief;
+    if (&option == &number_of(any.coupling.pixel_pitch_mm, any)) return &given.fit_pitch;
+    return nullptr;
+}
+
+/// A number, or auto.
+void add_fitted_option(CLI::App& app, const TouchNumber& option, GivenParameters& given,
+                       bool& fits) {
+    const std::string name = "--" + std::string(option.name);
+    app.add_option_function<std::string>(
+           name,
+           [&option, &given, &fits, name](const std::string& text) {
+               fits = text == kAutomatic;
+               if (!fits)
+                   taken(option, given)(parse_number(name, text, option.lowest, option.highest));
+           },
+           std::string(option.help) + ", " + range_of(option.lowest, option.highest) +
+               "; auto: as fits the picture")
+        ->type_name(placeholder_of(option) + "|auto")
+        ->default_str(std::string(kAutomatic));
+}
+
+}  // namespace
+
 const double* GivenParameters::value_of(const TouchNumber& number) const {
     const auto last = std::find_if(numbers.rbegin(), numbers.rend(),
                                    [&number](const auto& given) { return given.first == &number; });
@@ -89,6 +159,25 @@ void GivenParameters::apply(TouchParameters& parameters) const {
                          ": give --static-friction of at least as much, or --friction for both");
     }
     keep_in_range(parameters);
+}
+
+void GivenParameters::fit(const MediaDescription& media, bool raw,
+                          TouchParameters& parameters) const {
+    const auto is_free = [&](const double& number, bool as_auto) {
+        return as_auto || (!raw && value_of(number_of(number, parameters)) == nullptr);
+    };
+    const Fit fit = fit_of(media);
+    if (is_free(parameters.shape.relief_px, fit_relief)) parameters.shape.relief_px = fit.relief_px;
+    if (is_free(parameters.coupling.pixel_pitch_mm, fit_pitch))
+        parameters.coupling.pixel_pitch_mm = fit.pixel_pitch_mm;
+    keep_in_range(parameters);
+}
+
+DepthRequest TouchRequest::depth_request() const {
+    DepthRequest request;
+    request.find_out = !raw_depth;
+    request.command_line = depth;
+    return request;
 }
 
 std::string roughness_warning(const GivenParameters& given, bool has_bump) {
@@ -153,6 +242,35 @@ void add_algorithm_option(CLI::App& app, GivenParameters& given) {
         ->default_str("dibhr");
 }
 
+void add_depth_options(CLI::App& app, DepthStatement& depth) {
+    add_word_option(app, "--near", kNearLevels, depth.near, "Which levels are near");
+    add_word_option(app, "--depth-unit", kDepthUnits, depth.unit,
+                    "What a level times its scale is");
+    add_fact_option(
+        app, "--depth-scale", depth.scale,
+        [](const std::string& text) -> std::optional<double> {
+            const auto numbers = levels_in(text);
+            if (!numbers || numbers->size() != 1 || !(numbers->front() > 0.0)) return std::nullopt;
+            return numbers->front();
+        },
+        "NUMBER", "is not a number above 0",
+        "One level in that unit (TUM: --depth-unit m --depth-scale 0.0002)");
+    add_fact_option(app, "--depth-range", depth.range, range_in, "NEAR:FAR",
+                    "is not two numbers that differ, NEAR:FAR",
+                    "The nearest and the farthest, in that unit; auto: as far as most of the clip "
+                    "reaches");
+    add_fact_option(app, "--no-data", depth.no_data, levels_in, "LEVELS",
+                    "is not a list of up to 64 levels like 0,65535", "Levels that mean nothing");
+    add_word_option(app, "--packing", kDepthPackings, depth.packing,
+                    "Where colour and depth are, colour first");
+    add_word_option(app, "--depth-code", kDepthCodes, depth.code, "How a picture holds depth");
+    add_word_option(app, "--geometry", kGeometries, depth.geometry,
+                    "relief: the picture plane plus elevation; true: the shape in mm");
+    add_fact_option(app, "--intrinsics", depth.intrinsics, intrinsics_in, "FX,FY,CX,CY",
+                    "is not FX,FY,CX,CY with focal lengths above 0",
+                    "Of the camera, in depth pixels");
+}
+
 void add_touch_options(CLI::App& app, TouchRequest& request) {
     // The range is that of the coefficients it stands for.
     TouchParameters any;
@@ -162,13 +280,19 @@ void add_touch_options(CLI::App& app, TouchRequest& request) {
                       [&request](double mu) { request.given.friction = mu; })
         ->type_name("MU");
     for (const TouchNumber& option : touch_numbers()) {
-        add_touch_option(app, option, std::string(option.help), [&request, &option](double value) {
-            request.given.numbers.emplace_back(&option, value);
-        });
+        bool* const fits = fitted(option, request.given);
+        if (fits == nullptr)
+            add_touch_option(app, option, std::string(option.help), taken(option, request.given));
+        else
+            add_fitted_option(app, option, request.given, *fits);
     }
     app.add_option("--bump", request.bump, "Bump map laid over the surface: an 8- or 16-bit image")
         ->type_name("IMAGE");
-    app.add_flag("--raw-depth", request.raw_depth, "Depth as it is in the file: no cleaning");
+    app.add_flag(
+        "--raw-depth", request.raw_depth,
+        "Depth as it is in the file: nothing cleaned or found out, relief 255 px and pitch "
+        "101.6/720 mm unless given");
+    add_depth_options(app, request.depth);
 }
 
 }  // namespace dibhr

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/plot/canvas.hpp"
+#include "core/video/media.hpp"
 
 namespace dibhr {
 
@@ -26,18 +27,29 @@ struct GivenParameters {
     std::optional<Algorithm> algorithm{};
     std::vector<std::pair<const TouchNumber*, double>> numbers{};
     std::optional<double> friction{};  ///< both coefficients, unless one is given by itself
+    bool fit_relief{false};            ///< --relief auto
+    bool fit_pitch{false};             ///< --pixel-pitch auto
 
     /// What was given for that entry of touch_numbers(); null: nothing.
     [[nodiscard]] const double* value_of(const TouchNumber& number) const;
     /// Throws UsageError when --dynamic-friction ends above the static coefficient.
     void apply(TouchParameters& parameters) const;
+    /// The relief and the pitch that were not given as numbers are the media's. `raw`: only those
+    /// that were given as auto.
+    void fit(const MediaDescription& media, bool raw, TouchParameters& parameters) const;
 };
 
 /// What all commands that compute forces take.
 struct TouchRequest {
     GivenParameters given{};
-    std::string bump{};     ///< --bump IMAGE; empty: none
-    bool raw_depth{false};  ///< --raw-depth
+    std::string bump{};      ///< --bump IMAGE; empty: none
+    bool raw_depth{false};   ///< --raw-depth
+    DepthStatement depth{};  ///< --near, --depth-unit and so on
+
+    [[nodiscard]] DepthRequest depth_request() const;
+    [[nodiscard]] CleaningOptions cleaning() const {
+        return raw_depth ? CleaningOptions{false, false, false} : CleaningOptions{};
+    }
 };
 
 /// That a roughness is given, but no bump map that it could scale, as a sentence; or empty.
@@ -63,8 +75,12 @@ void add_algorithms_option(CLI::App& app, std::vector<Algorithm>& algorithms);
 /// none is given.
 CLI::Option* add_plot_format_option(CLI::App& app, std::vector<PlotFormat>& formats);
 
-/// --friction, --bump, --raw-depth and every entry of touch_numbers(). `request` must outlive the
-/// parsing of `app`.
+/// --near, --depth-unit, --depth-scale, --depth-range, --no-data, --packing, --depth-code,
+/// --geometry and --intrinsics. `depth` must outlive the parsing of `app`.
+void add_depth_options(CLI::App& app, DepthStatement& depth);
+
+/// --friction, --bump, --raw-depth, those of add_depth_options and every entry of touch_numbers().
+/// `request` must outlive the parsing of `app`.
 void add_touch_options(CLI::App& app, TouchRequest& request);
 
 }  // namespace dibhr

@@ -281,7 +281,9 @@ std::vector<Setting> list_of(Settings& s) {
                               {"panels", "loop", &s.panels.loop},
                               {"touch", "algorithm", &s.touch.algorithm},
                               {"touch", "stability", &s.stability},
-                              {"touch", "damping-as-needed", &s.damping_as_needed}};
+                              {"touch", "damping-as-needed", &s.damping_as_needed},
+                              {"touch", "fit-relief", &s.fit_relief},
+                              {"touch", "fit-pixel-pitch", &s.fit_pitch}};
     for (const TouchNumber& number : touch_numbers()) {
         list.push_back({"touch", number.name, &number.in(s.touch), number.lowest, number.highest});
     }

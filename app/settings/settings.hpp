@@ -45,6 +45,8 @@ struct Settings {
     CleaningOptions cleaning{};
     ReliefLook look{};
     bool straight_view{false};
+    bool fit_relief{true};  ///< to the media, whenever one is opened
+    bool fit_pitch{true};
     double max_force_newton{SafetyLimits{}.max_force_newton};  ///< 0 .. 8
     FalconSettings falcon{};
 };

@@ -7,8 +7,10 @@
 
 #include "app/panels/widgets.hpp"
 #include "app/viewer/viewer.hpp"
+#include "core/error.hpp"
 #include "core/haptics/facet.hpp"
 #include "core/haptics/surface.hpp"
+#include "core/video/sidecar.hpp"
 
 namespace dibhr {
 
@@ -56,7 +58,7 @@ SceneContent scene_content(const ViewerState& state, const DepthBlend& shown) {
 
 void Viewer::take_opened() {
     if (auto opened = opening_.take()) {
-        if (opened->media) show_media(std::move(opened->media));
+        if (opened->media) show_media(std::move(opened->media), opened->request);
         if (opened->session) replay_session(std::move(opened->session));
         if (!opened->failure.empty()) state_.message = opened->failure;
     }
@@ -73,13 +75,17 @@ void Viewer::take_dropped(const std::vector<std::filesystem::path>& files) {
     }
 }
 
-void Viewer::show_media(std::unique_ptr<Media> media) {
+void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request) {
     replay_.end(state_);
     state_.media = media->description();
+    state_.opened = request;
+    fit_to_media();
     stretch_bump();
     frame_relief();
-    show_title(state_.media.colour_path);
+    show_title(state_.media.colour_path.empty() ? state_.media.depth_path
+                                                : state_.media.colour_path);
     player_.play_media(std::move(media), recording_.opened(state_.media));
+    if (request.at_s > 0.0) player_.seek(request.at_s);
     if (!loop_) start_loop();
 }
 
@@ -89,12 +95,37 @@ void Viewer::replay_session(std::unique_ptr<OpenedSession> session) {
     loop_.reset();  // the force goes to zero, and nobody touches
     player_.pause();
     show_title(session->session.file());
-    replay_.begin(std::move(session), std::exchange(options_.given, {}), state_);
+    replay_.begin(std::move(session), std::exchange(options_.touch.given, {}), state_);
     frame_relief();
 }
 
 void Viewer::show_title(const std::filesystem::path& file) {
     window_.set_title(file.filename().string() + " - dibhr");
+}
+
+/// The same files, with what the panel says of the depth, at the same moment.
+void Viewer::open_again(const DepthStatement& panel) {
+    OpenRequest request = state_.opened;
+    request.request.find_out = true;
+    request.request.panel = panel;
+    request.at_s = state_.playback.media_s;
+    if (!opening_.start(request)) tell("Still opening the last files");
+}
+
+std::string Viewer::save_sidecar() {
+    if (!state_.media.meaning) throw InputError("nothing is known of this depth: it is shown raw");
+    const std::filesystem::path file =
+        state_.media.depth_path.empty() ? state_.media.colour_path : state_.media.depth_path;
+    write_sidecar(file, state_.media.meaning->statement());
+    return "Saved " + sidecar_of(file).string();
+}
+
+void Viewer::fit_to_media() {
+    Settings& settings = state_.settings;
+    const Fit fit = fit_of(state_.media);
+    if (settings.fit_relief) settings.touch.shape.relief_px = fit.relief_px;
+    if (settings.fit_pitch) settings.touch.coupling.pixel_pitch_mm = fit.pixel_pitch_mm;
+    keep_in_range(settings.touch);
 }
 
 void Viewer::frame_relief() {

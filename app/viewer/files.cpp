@@ -44,11 +44,11 @@ bool shows_grey(const fs::path& colour, const fs::path& depth) {
 Opened try_open(const OpenRequest& request) {
     try {
         if (request.depth.empty() && names_session(request.colour)) {
-            return {nullptr, std::make_unique<OpenedSession>(request.colour, false), {}};
+            return {request, nullptr, std::make_unique<OpenedSession>(request.colour, false), {}};
         }
-        return {open_request(request), nullptr, {}};
+        return {request, open_request(request), nullptr, {}};
     } catch (const std::exception& error) {
-        return {nullptr, nullptr, error.what()};
+        return {request, nullptr, nullptr, error.what()};
     }
 }
 
@@ -127,12 +127,14 @@ std::unique_ptr<Media> open_request(const OpenRequest& request) {
         const bool swapped = by_name ? named_depth(colour) : shows_grey(colour, depth);
         if (swapped) std::swap(colour, depth);
     }
-    return open_media(colour, depth);
+    return open_media(colour, depth, request.request);
 }
 
 std::optional<OpenRequest> dropped_request(const std::vector<fs::path>& files) {
     if (files.empty() || files.size() > 2) return {};
-    return OpenRequest{files.front(), files.size() == 2 ? files.back() : fs::path{}, true};
+    OpenRequest request{files.front(), files.size() == 2 ? files.back() : fs::path{}};
+    request.in_any_order = true;
+    return request;
 }
 
 bool Opening::start(const OpenRequest& request) {

@@ -63,6 +63,7 @@ class SettingsKeeper {
 
 /// What came of opening files: media, a session, or a plain sentence.
 struct Opened {
+    OpenRequest request{};
     std::unique_ptr<Media> media{};
     std::unique_ptr<OpenedSession> session{};
     std::string failure{};

@@ -8,6 +8,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/video/libraries.hpp"
+#include "core/video/sidecar.hpp"
 
 namespace dibhr {
 
@@ -60,8 +61,13 @@ std::map<std::string, std::string> session_facts(const ViewerState& state) {
 std::uint32_t ViewerRecording::opened(const MediaDescription& media) {
     opened_.push_back(media);
     const auto number = static_cast<std::uint32_t>(opened_.size());
-    if (recorder_) recorder_->media(number, media.colour_path, media.depth_path);
+    if (recorder_) tell_media(number, media);
     return number;
+}
+
+void ViewerRecording::tell_media(std::uint32_t number, const MediaDescription& media) {
+    recorder_->media(number, media.colour_path, media.depth_path,
+                     media.meaning ? toml_of(media.meaning->statement()) : std::string{});
 }
 
 void ViewerRecording::start(const std::filesystem::path& file, ViewerState& state) {
@@ -76,7 +82,7 @@ void ViewerRecording::start(const std::filesystem::path& file, ViewerState& stat
     words_.recording(file);
     std::uint32_t number = 0;
     for (const MediaDescription& media : opened_) {
-        recorder_->media(++number, media.colour_path, media.depth_path);
+        tell_media(++number, media);
     }
     told_version_ = 0;
     falcon_serial_.clear();

@@ -48,6 +48,7 @@ class ViewerRecording {
     [[nodiscard]] const Heartbeat& heart() const noexcept { return heart_; }
 
   private:
+    void tell_media(std::uint32_t number, const MediaDescription& media);
     void break_off(ViewerState& state, const std::string& failure);
     [[nodiscard]] double now_s() const;
 

@@ -73,7 +73,7 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending)
     window_.on_display_loss([this] { close_without_display(); });
     state_.device = hand_.device->specification();
     state_.bump = std::move(parts.bump);
-    state_.bump_file = options.bump;
+    state_.bump_file = options.touch.bump;
     state_.fonts = gui_.fonts();
     state_.scale = gui_.scale();
     if (parts.session) {
@@ -82,7 +82,7 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending)
     }
     state_.media = parts.media->description();
     if (!options.record.empty()) recording_.start(options.record, state_);
-    show_media(std::move(parts.media));
+    show_media(std::move(parts.media), options.open);
 }
 
 void Viewer::run() {
@@ -272,6 +272,8 @@ void Viewer::carry_out_requests() {
     if (state_.replay) replay_.follow_panels(state_);
     const Requests asked = std::exchange(state_.requests, {});
     if (asked.open && !opening_.start(*asked.open)) tell("Still opening the last files");
+    if (asked.meaning) open_again(*asked.meaning);
+    if (asked.save_sidecar) attempt([&] { tell(save_sidecar()); });
     if (asked.bump) load_bump(*asked.bump);
     if (asked.firmware) attempt([&] { tell(falcon_.use_firmware(*asked.firmware, state_)); });
     if (asked.reset_view) frame_relief();
@@ -286,6 +288,7 @@ void Viewer::carry_out_requests() {
 
 void Viewer::hand_over_settings() {
     if (state_.replay) return;
+    fit_to_media();
     // As they are wished: the loop holds them to what the hand it reads can stand.
     TouchParameters parameters = state_.settings.touch;
     parameters.coupling = asked_coupling(state_);

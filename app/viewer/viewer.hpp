@@ -29,19 +29,17 @@ namespace dibhr {
 
 /// What `dibhr view` was asked for.
 struct ViewOptions {
-    std::filesystem::path colour{};    ///< or a session; empty: the built-in sample
-    std::filesystem::path depth{};     ///< empty: found beside the colour file
+    OpenRequest open{};                ///< its colour may be a session; empty: the built-in sample
     std::string device{"auto"};        ///< auto | falcon | falcon:SERIAL | mouse | goals:FILE
     std::filesystem::path firmware{};  ///< for a Falcon that has none; empty: the kept one
     std::filesystem::path record{};
     std::filesystem::path screenshot{};  ///< the last picture, as PNG
     std::optional<double> seconds{};     ///< leave after so long
     bool sync{true};                     ///< --no-sync: do not wait for the display
-    std::filesystem::path bump{};
-    bool any_media{false};    ///< replay: also over files that have changed
-    GivenParameters given{};  ///< the command line's alone: they beat a session's
-    Settings in_file{};       ///< as read; the window saves only what a person changed in it
-    Settings settings{};      ///< the same, the command line's values on top
+    bool any_media{false};               ///< replay: also over files that have changed
+    TouchRequest touch{};  ///< the command line's alone: its parameters beat a session's
+    Settings in_file{};    ///< as read; the window saves only what a person changed in it
+    Settings settings{};   ///< the same, the command line's values on top
 };
 
 /// What was opened before there was a window.
@@ -80,10 +78,13 @@ class Viewer {
     void carry_out_requests();
     void hand_over_settings();
     void keep_settings();
-    void show_media(std::unique_ptr<Media> media);
+    void show_media(std::unique_ptr<Media> media, const OpenRequest& request);
     void replay_session(std::unique_ptr<OpenedSession> session);
     void show_title(const std::filesystem::path& file);
     void start_loop();
+    void fit_to_media();
+    void open_again(const DepthStatement& panel);
+    std::string save_sidecar();
     void frame_relief();
     void load_bump(const std::filesystem::path& file);
     void stretch_bump();

@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/files/content_hash.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/sidecar.hpp"
 
 namespace dibhr {
 
@@ -155,7 +156,10 @@ void SessionFrames::find_videos(const Session& session) {
         Video& video = videos_[source.source.media];
         if (!video.depth.empty()) continue;
         video.depth = finder_.find(source.depth, "depth video");
-        if (options_.colour) video.colour = finder_.find(source.colour, "colour video");
+        if (options_.colour && !source.colour.file.empty())
+            video.colour = finder_.find(source.colour, "colour video");
+        if (!source.depth_meaning.empty())
+            video.request.recorded = statement_in(source.depth_meaning, session.file().string());
     }
 }
 
@@ -203,8 +207,8 @@ Frame SessionFrames::frame(const FrameSource& source, double media_s) {
 
 Media& SessionFrames::media_of(Video& video) const {
     if (!video.media) {
-        video.media =
-            options_.colour ? open_media(video.colour, video.depth) : open_depth(video.depth);
+        video.media = options_.colour ? open_media(video.colour, video.depth, video.request)
+                                      : open_depth(video.depth, video.request);
     }
     return *video.media;
 }

@@ -105,6 +105,7 @@ class SessionFrames final : public RecordedFrames {
     /// One of the session's videos, opened when it is needed.
     struct Video {
         std::filesystem::path colour{}, depth{};
+        DepthRequest request{};  ///< what its depth meant
         std::unique_ptr<Media> media{};
         std::optional<double> last_s{};  ///< of the last frame decoded
     };

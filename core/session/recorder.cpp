@@ -368,11 +368,11 @@ void Recorder::parameters(const SessionParameters& parameters) {
 }
 
 void Recorder::media(std::uint32_t number, const std::filesystem::path& colour,
-                     const std::filesystem::path& depth) {
-    implementation_->leave(
-        [number, colour = whole_path(colour), depth = whole_path(depth)](Implementation& writer) {
-            writer.session->know_media(number, colour, depth);
-        });
+                     const std::filesystem::path& depth, const std::string& depth_meaning) {
+    implementation_->leave([number, colour = whole_path(colour), depth = whole_path(depth),
+                            depth_meaning](Implementation& writer) {
+        writer.session->know_media(number, colour, depth, depth_meaning);
+    });
 }
 
 void Recorder::mark(const std::string& tag, const std::string& text) {

@@ -43,10 +43,11 @@ class Recorder {
 
     /// Parameters that ticks may refer to from now on by their version.
     void parameters(const SessionParameters& parameters);
-    /// The files that ticks may refer to from now on as media `number`; either may be empty. Their
-    /// content is summed up (SHA-256) on a thread of its own once a tick touches them.
+    /// The files that ticks may refer to from now on as media `number`; either may be empty.
+    /// `depth_meaning`: see SessionSource. Their content is summed up (SHA-256) on a thread of its
+    /// own once a tick touches them.
     void media(std::uint32_t number, const std::filesystem::path& colour,
-               const std::filesystem::path& depth);
+               const std::filesystem::path& depth, const std::string& depth_meaning = {});
     /// Marks this moment.
     void mark(const std::string& tag, const std::string& text = {});
     /// Changes or adds a fact: "participant", "note".

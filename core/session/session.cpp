@@ -18,10 +18,10 @@ namespace dibhr {
 
 namespace {
 
-/// A file of before a parameter has no column for it: the parameter then was what it is by default.
-std::set<std::string> columns_of_parameters(const SessionReader& reader) {
+/// A file of before a fact has no column for it: it then was what it is by default.
+std::set<std::string> columns_of(const SessionReader& reader, const std::string& table) {
     std::set<std::string> columns;
-    SessionReader::Query query(reader, "SELECT name FROM pragma_table_info('parameters')");
+    SessionReader::Query query(reader, "SELECT name FROM pragma_table_info('" + table + "')");
     while (query.next()) columns.insert(query.text(0));
     return columns;
 }
@@ -158,7 +158,7 @@ void Session::read_facts() {
 }
 
 void Session::read_parameters() {
-    const std::set<std::string> columns = columns_of_parameters(reader_);
+    const std::set<std::string> columns = columns_of(reader_, "parameters");
     std::string question =
         "SELECT version, first_tick, algorithm, force_enabled, m.file, m.bytes, m.sha256";
     SessionParameters standard;
@@ -191,16 +191,20 @@ void Session::read_parameters() {
 }
 
 void Session::read_sources() {
+    const bool has_meaning = columns_of(reader_, "source").contains("depth_meaning");
     SessionReader::Query query(
         reader_,
         "SELECT s.media, fill_holes, remove_spikes, smooth_steps, c.file, c.bytes, c.sha256, "
-        "d.file, d.bytes, d.sha256, first_tick FROM source s LEFT JOIN media c ON c.id = s.colour "
-        "LEFT JOIN media d ON d.id = s.depth ORDER BY first_tick");
+        "d.file, d.bytes, d.sha256, first_tick, " +
+            std::string(has_meaning ? "depth_meaning" : "''") +
+            " FROM source s LEFT JOIN media c ON c.id = s.colour "
+            "LEFT JOIN media d ON d.id = s.depth ORDER BY first_tick");
     while (query.next()) {
         SessionSource& source = sources_.emplace_back();
-        Row(query).take(source.source, source.colour, source.depth, source.first_tick);
+        Row(query).take(source.source, source.colour, source.depth, source.first_tick,
+                        source.depth_meaning);
         keep(sizeof source + source.colour.file.native().size() +
-             source.depth.file.native().size());
+             source.depth.file.native().size() + source.depth_meaning.size());
     }
 }
 

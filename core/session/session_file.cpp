@@ -264,8 +264,8 @@ void SessionFile::know(const SessionParameters& parameters) {
 }
 
 void SessionFile::know_media(std::uint32_t number, const std::filesystem::path& colour,
-                             const std::filesystem::path& depth) {
-    known_media_[number] = {colour, depth};
+                             const std::filesystem::path& depth, const std::string& depth_meaning) {
+    known_media_[number] = {colour, depth, depth_meaning};
 }
 
 void SessionFile::set_fact(const std::string& key, const std::string& value) {
@@ -335,9 +335,9 @@ std::int64_t SessionFile::source_row(const FrameSource& source, std::int64_t tic
     const auto id = static_cast<std::int64_t>(sources_.size());
     const MediaFiles files = known_media_[source.media];
     const auto colour = media_row(files.colour), depth = media_row(files.depth);
-    Statement insert(database_, "INSERT INTO source VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+    Statement insert(database_, "INSERT INTO source VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
     insert.run(id, tick, source.media, colour, depth, source.fill_holes, source.remove_spikes,
-               source.smooth_steps);
+               source.smooth_steps, files.depth_meaning);
     return id;
 }
 

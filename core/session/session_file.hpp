@@ -36,7 +36,7 @@ class SessionFile {
     // Known from here on, and written with the first tick that uses them; files by absolute paths.
     void know(const SessionParameters& parameters);
     void know_media(std::uint32_t number, const std::filesystem::path& colour,
-                    const std::filesystem::path& depth);
+                    const std::filesystem::path& depth, const std::string& depth_meaning);
 
     void set_fact(const std::string& key, const std::string& value);
     void add_mark(const SessionMark& mark);
@@ -64,6 +64,7 @@ class SessionFile {
     using Place = std::pair<std::uint64_t, std::uint64_t>;  ///< device and node; zero: nothing
     struct MediaFiles {
         std::filesystem::path colour{}, depth{};
+        std::string depth_meaning{};
     };
 
     void try_to(const char* sql) noexcept;

@@ -17,7 +17,8 @@ constexpr std::string_view kTables = R"(
 CREATE TABLE session(key TEXT PRIMARY KEY, value TEXT);
 CREATE TABLE media(id INTEGER PRIMARY KEY, file TEXT UNIQUE, bytes INTEGER, sha256 TEXT);
 CREATE TABLE source(id INTEGER PRIMARY KEY, first_tick INTEGER, media INTEGER, colour INTEGER,
-  depth INTEGER, fill_holes INTEGER, remove_spikes INTEGER, smooth_steps INTEGER);
+  depth INTEGER, fill_holes INTEGER, remove_spikes INTEGER, smooth_steps INTEGER,
+  depth_meaning TEXT);
 CREATE TABLE pair(id INTEGER PRIMARY KEY, source INTEGER, from_frame INTEGER, to_frame INTEGER,
   from_s, to_s, span_s);
 CREATE TABLE clock(t_ns INTEGER PRIMARY KEY, utc_s REAL, dropped INTEGER, high_water INTEGER);

@@ -131,6 +131,7 @@ struct SessionSource {
     FrameSource source{};
     SessionMedia colour{}, depth{};
     std::int64_t first_tick{0};
+    std::string depth_meaning{};  ///< as a sidecar says it (TOML); empty: levels as in the file
 };
 
 /// A moment a person marked while recording.

@@ -1,6 +1,8 @@
 // Names, and one voice over another.
 #include "core/video/depth_meaning.hpp"
 
+#include "core/files/plain_text.hpp"
+
 namespace dibhr {
 
 std::string_view name_of(NearLevels value) noexcept {
@@ -60,6 +62,94 @@ void DepthStatement::fill_in(const DepthStatement& other) {
     take(code, other.code);
     take(geometry, other.geometry);
     take(intrinsics, other.intrinsics);
+}
+
+std::string_view name_of(Origin value) noexcept {
+    switch (value) {
+        case Origin::assumed:
+            return "assumed";
+        case Origin::found:
+            return "found";
+        case Origin::sidecar:
+            return "sidecar";
+        case Origin::panel:
+            return "panel";
+        case Origin::command_line:
+            return "command line";
+        case Origin::recorded:
+            return "recorded";
+    }
+    return {};
+}
+
+DepthStatement DepthMeaning::statement() const {
+    DepthStatement all{near.value,    unit.value, scale.value,    range.value, no_data.value,
+                       packing.value, code.value, geometry.value, {}};
+    if (intrinsics) all.intrinsics = intrinsics->value;
+    return all;
+}
+
+void hear(const Voices& voices, DepthMeaning& meaning) {
+    const auto take = [&voices](auto& fact, auto said) {
+        for (const auto& [origin, statement] : voices) {
+            const auto& value = statement.*said;
+            if (!value) continue;
+            fact = {*value, origin};
+            return;
+        }
+    };
+    take(meaning.near, &DepthStatement::near);
+    take(meaning.unit, &DepthStatement::unit);
+    take(meaning.scale, &DepthStatement::scale);
+    take(meaning.range, &DepthStatement::range);
+    take(meaning.no_data, &DepthStatement::no_data);
+    take(meaning.packing, &DepthStatement::packing);
+    take(meaning.code, &DepthStatement::code);
+    take(meaning.geometry, &DepthStatement::geometry);
+    Known<Intrinsics> intrinsics{meaning.intrinsics.value_or(Known<Intrinsics>{})};
+    const Intrinsics before = intrinsics.value;
+    take(intrinsics, &DepthStatement::intrinsics);
+    if (intrinsics.value != before) meaning.intrinsics = intrinsics;
+}
+
+std::string in_words(const DepthMeaning& meaning) {
+    std::string words;
+    const DepthRange& range = meaning.range.value;
+    const std::string ends = short_text(range.near, 4) + " to " + short_text(range.far, 4);
+    switch (meaning.unit.value) {
+        case DepthUnit::levels:
+            words = "levels " + ends;
+            break;
+        case DepthUnit::disparity:
+            words = "disparity " + ends;
+            break;
+        case DepthUnit::mm:
+            words = "distance " + ends + " mm";
+            break;
+        case DepthUnit::m:
+            words = "distance " + ends + " m";
+            break;
+    }
+    words += ", near is " + std::string(name_of(meaning.near.value));
+    if (meaning.no_data.value.empty()) return words;
+    words += ", no data is";
+    for (const double level : meaning.no_data.value) words += " " + short_text(level);
+    return words;
+}
+
+std::vector<std::string> assumed_facts(const DepthMeaning& meaning) {
+    std::vector<std::string> names;
+    const auto add = [&names](const char* name, const auto& fact) {
+        if (fact.origin == Origin::assumed) names.emplace_back(name);
+    };
+    add("near", meaning.near);
+    add("unit", meaning.unit);
+    add("scale", meaning.scale);
+    add("range", meaning.range);
+    add("no_data", meaning.no_data);
+    add("packing", meaning.packing);
+    add("code", meaning.code);
+    return names;
 }
 
 }  // namespace dibhr

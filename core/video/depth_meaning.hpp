@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace dibhr {
@@ -76,5 +77,52 @@ struct DepthStatement {
     /// What `other` says, where this says nothing.
     void fill_in(const DepthStatement& other);
 };
+
+/// Whose word a fact of the meaning is; a later one beats those before it.
+enum class Origin { assumed, found, sidecar, panel, command_line, recorded };
+
+/// "assumed", "found", "sidecar", "panel", "command line", "recorded".
+[[nodiscard]] std::string_view name_of(Origin value) noexcept;
+
+/// A fact and whose word it is.
+template <typename Value>
+struct Known {
+    Value value{};
+    Origin origin{Origin::assumed};
+
+    bool operator==(const Known&) const = default;
+};
+
+/// What the levels of a source mean, all said.
+struct DepthMeaning {
+    Known<NearLevels> near{NearLevels::bright};
+    Known<DepthUnit> unit{DepthUnit::levels};
+    Known<double> scale{1.0};
+    Known<DepthRange> range{};  ///< near > far for levels that are near where bright, disparity
+    Known<std::vector<double>> no_data{};
+    Known<DepthPacking> packing{DepthPacking::separate};
+    Known<DepthCode> code{DepthCode::grey};
+    Known<Geometry> geometry{Geometry::relief};
+    std::optional<Known<Intrinsics>> intrinsics{};
+    std::string found_in{};  ///< where what was found was found: "TUM lists"; empty: nowhere
+
+    [[nodiscard]] bool is_metric() const {
+        return unit.value == DepthUnit::mm || unit.value == DepthUnit::m;
+    }
+    /// All of it, as one voice: a recording's, or a sidecar's.
+    [[nodiscard]] DepthStatement statement() const;
+};
+
+/// Statements by whose word they are, the strongest first.
+using Voices = std::vector<std::pair<Origin, DepthStatement>>;
+
+/// What the strongest voice says of each thing; where none says anything it stays as it is.
+void hear(const Voices& voices, DepthMeaning& meaning);
+
+/// In one line, for a person: "16-bit millimetres, near is dark, 480 to 4210 mm, 0 is no data".
+[[nodiscard]] std::string in_words(const DepthMeaning& meaning);
+
+/// The names of what was assumed, as `info` lists them: "near", "unit", "scale", "range", ...
+[[nodiscard]] std::vector<std::string> assumed_facts(const DepthMeaning& meaning);
 
 }  // namespace dibhr

@@ -13,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/depth_finding.hpp"
 #include "core/video/libraries.hpp"
 #include "core/video/media_names.hpp"
 #include "core/video/paired_media.hpp"
@@ -40,6 +41,8 @@ bool begins_like_text(std::ifstream& in) {
     });
 }
 
+constexpr double kPaperRelief = 255.0 / 720.0;  ///< of the width
+constexpr double kPaperWidth_mm = 101.6;
 constexpr std::int64_t kMostCounted = 3000;  ///< frames decoded to describe a video exactly
 
 bool is_still(const fs::path& file) {
@@ -87,11 +90,29 @@ std::unique_ptr<PictureSource> sequence(const fs::path& folder, const PictureRow
                                              role);
 }
 
+/// A depth source and, unless null, the colour that belongs to it. Who says something of the depth
+/// says it beside the depth or beside the colour.
+std::unique_ptr<PairedMedia> pair_of(std::unique_ptr<PictureSource> depth,
+                                     std::unique_ptr<PictureSource> colour,
+                                     const DepthRequest& request) {
+    std::vector<fs::path> places{depth->facts().file};
+    if (colour) places.push_back(colour->facts().file);
+    DepthScale scale = find_scale(*depth, places, request);
+    return std::make_unique<PairedMedia>(std::move(depth), std::move(colour), std::move(scale));
+}
+
 std::unique_ptr<PairedMedia> paired(const fs::path& colour_folder, const PictureRow& colour,
-                                    const fs::path& depth_folder, const PictureRow& depth) {
-    return std::make_unique<PairedMedia>(
-        sequence(depth_folder, depth, colour, PictureRole::depth),
-        sequence(colour_folder, colour, depth, PictureRole::colour));
+                                    const fs::path& depth_folder, const PictureRow& depth,
+                                    const DepthRequest& request) {
+    return pair_of(sequence(depth_folder, depth, colour, PictureRole::depth),
+                   sequence(colour_folder, colour, depth, PictureRole::colour), request);
+}
+
+/// Depth alone, in colours of its own.
+std::unique_ptr<PairedMedia> painted(std::unique_ptr<PictureSource> depth,
+                                     const DepthRequest& request) {
+    DepthScale scale = find_scale(*depth, {depth->facts().file}, request);
+    return std::make_unique<PairedMedia>(std::move(depth), nullptr, std::move(scale), true);
 }
 
 /// The pictures of that role, or those whose names say nothing. Throws InputError when there are
@@ -109,17 +130,17 @@ PictureRow row_of(const fs::path& folder, PictureRole role) {
 
 /// The colour and the depth of one file's tracks, or of one folder; null when it does not hold
 /// both.
-std::unique_ptr<PairedMedia> open_both(const fs::path& place) {
+std::unique_ptr<PairedMedia> open_both(const fs::path& place, const DepthRequest& request) {
     if (is_folder(place)) {
         const PictureFolder found = look_into(place);
         if (found.colour.empty() || found.depth.empty()) return nullptr;
-        return paired(place, found.colour, place, found.depth);
+        return paired(place, found.colour, place, found.depth, request);
     }
     const auto tracks = colour_and_depth_tracks(place);
     if (!tracks) return nullptr;
-    return std::make_unique<PairedMedia>(
-        std::make_unique<VideoFile>(place, PictureRole::depth, tracks->depth),
-        std::make_unique<VideoFile>(place, PictureRole::colour, tracks->colour));
+    return pair_of(std::make_unique<VideoFile>(place, PictureRole::depth, tracks->depth),
+                   std::make_unique<VideoFile>(place, PictureRole::colour, tracks->colour),
+                   request);
 }
 
 /// The depth file given, or found beside the colour file. Throws InputError that says what is
@@ -139,16 +160,23 @@ fs::path depth_file_for(const fs::path& colour, const fs::path& depth) {
 }
 
 /// A folder of colour pictures, and the folder or file of the depth that belongs to it.
-std::unique_ptr<Media> open_with_folder(const fs::path& colour, const fs::path& depth) {
+std::unique_ptr<Media> open_with_folder(const fs::path& colour, const fs::path& depth,
+                                        const DepthRequest& request) {
     const PictureRow colours = row_of(colour, PictureRole::colour);
     const fs::path depth_place = depth_file_for(colour, depth);
     if (is_folder(depth_place))
-        return paired(colour, colours, depth_place, row_of(depth_place, PictureRole::depth));
-    return std::make_unique<PairedMedia>(open_picture_source(depth_place, PictureRole::depth),
-                                         sequence(colour, colours, {}, PictureRole::colour));
+        return paired(colour, colours, depth_place, row_of(depth_place, PictureRole::depth),
+                      request);
+    return pair_of(open_picture_source(depth_place, PictureRole::depth),
+                   sequence(colour, colours, {}, PictureRole::colour), request);
 }
 
 }  // namespace
+
+Fit fit_of(const MediaDescription& media) {
+    const double columns = std::max(media.depth_columns, 2);
+    return {kPaperRelief * columns, kPaperWidth_mm / columns};
+}
 
 std::string shown(const fs::path& file) {
     return in_quotes(file.string(), std::string::npos);
@@ -188,33 +216,31 @@ std::unique_ptr<PictureSource> open_picture_source(const fs::path& file, Picture
     return std::make_unique<VideoFile>(file, role);
 }
 
-std::unique_ptr<Media> open_media(const fs::path& colour, const fs::path& depth) {
-    if (colour.empty())
-        throw InputError(shown(depth) +
-                         " is depth alone: give the colour file that belongs to it, too");
+std::unique_ptr<Media> open_media(const fs::path& colour, const fs::path& depth,
+                                  const DepthRequest& request) {
     set_up_libraries();
+    if (colour.empty()) return painted(open_picture_source(depth, PictureRole::depth), request);
     if (depth.empty() || depth == colour) {
-        if (auto both = open_both(colour)) return both;
+        if (auto both = open_both(colour, request)) return both;
     }
-    if (is_folder(colour)) return open_with_folder(colour, depth);
+    if (is_folder(colour)) return open_with_folder(colour, depth, request);
     // First, so that a colour file that cannot be read is not blamed on a missing depth file.
     auto colour_source = open_picture_source(colour, PictureRole::colour);
     auto depth_source = open_picture_source(depth_file_for(colour, depth), PictureRole::depth);
-    return std::make_unique<PairedMedia>(std::move(depth_source), std::move(colour_source));
+    return pair_of(std::move(depth_source), std::move(colour_source), request);
 }
 
-std::unique_ptr<Media> open_depth(const fs::path& depth) {
+std::unique_ptr<Media> open_depth(const fs::path& depth, const DepthRequest& request) {
     set_up_libraries();
     const auto tracks = colour_and_depth_tracks(depth);
-    return std::make_unique<PairedMedia>(
-        tracks ? std::make_unique<VideoFile>(depth, PictureRole::depth, tracks->depth)
-               : open_picture_source(depth, PictureRole::depth),
-        nullptr);
+    return pair_of(tracks ? std::make_unique<VideoFile>(depth, PictureRole::depth, tracks->depth)
+                          : open_picture_source(depth, PictureRole::depth),
+                   nullptr, request);
 }
 
 MediaDescription describe_media(const fs::path& file) {
     set_up_libraries();
-    if (const auto both = open_both(file)) {
+    if (const auto both = open_both(file, {})) {
         both->count_frames(kMostCounted);
         return both->description();
     }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "core/video/depth_meaning.hpp"
 #include "core/video/frame_window.hpp"
 
 namespace dibhr {
@@ -30,6 +31,17 @@ struct RawFrame {
     std::int64_t index{0};
 };
 
+/// Whose words count on what depth means.
+struct DepthRequest {
+    /// What nobody says is looked up in sidecars and in the files' own metadata, and else found out
+    /// from their content. False: levels are as the file has them, but for what the command line
+    /// says.
+    bool find_out{false};
+    DepthStatement command_line{};
+    DepthStatement panel{};
+    DepthStatement recorded{};  ///< a session's, which beats all others
+};
+
 /// For `dibhr info` and the Video panel.
 struct MediaDescription {
     std::filesystem::path colour_path{};
@@ -37,7 +49,8 @@ struct MediaDescription {
     int colour_columns{0}, colour_rows{0};
     int depth_columns{0}, depth_rows{0};
     std::string colour_codec{}, depth_codec{};
-    int depth_bits{8};
+    int depth_bits{8};                      ///< of a level; 32: real numbers
+    std::optional<DepthMeaning> meaning{};  ///< nothing: levels are as the file has them
     double duration_s{0.0};
     double frames_per_s{0.0};  ///< average of the real intervals as far as known; 0 for a still
     std::int64_t frames{0};    ///< an estimate until the end was reached
@@ -46,7 +59,19 @@ struct MediaDescription {
     /// A sentence once a file turned out to hold less than at its opening: it was cut or
     /// overwritten meanwhile. What is left goes on.
     std::string trouble{};
+
+    [[nodiscard]] bool has_real_numbers() const noexcept { return depth_bits > 16; }
 };
+
+/// The relief and the pitch that fit a media.
+struct Fit {
+    double relief_px;  ///< of the highest level
+    double pixel_pitch_mm;
+};
+
+/// From the farthest to the nearest it is as high as 255/720 of the width, and the width is what a
+/// Falcon's hand reaches, 101.6 mm: as in the paper, whatever the picture's size.
+[[nodiscard]] Fit fit_of(const MediaDescription& media);
 
 /// Containers round times to milliseconds: a time asked for matches a frame's within half of one.
 inline constexpr double kTimeTolerance_s = 0.0005;
@@ -63,15 +88,17 @@ class Media {
     virtual void seek(double media_s) = 0;
 };
 
-/// Opens a pair. An empty depth path, or the colour's: the depth is another track of the colour's
-/// file, where that says so, or else a file beside it. Throws InputError: what, which file, what to
-/// do next.
+/// Opens a pair. An empty colour path: the depth alone, shown in colours of its own. An empty depth
+/// path, or the colour's: the depth is another track of the colour's file, where that says so, or
+/// else a file beside it. Throws InputError: what, which file, what to do next.
 [[nodiscard]] std::unique_ptr<Media> open_media(const std::filesystem::path& colour,
-                                                const std::filesystem::path& depth = {});
+                                                const std::filesystem::path& depth = {},
+                                                const DepthRequest& request = {});
 
 /// Opens a depth video, a file's depth track or an image alone (`dibhr touch --depth`); its colour
 /// is empty.
-[[nodiscard]] std::unique_ptr<Media> open_depth(const std::filesystem::path& depth);
+[[nodiscard]] std::unique_ptr<Media> open_depth(const std::filesystem::path& depth,
+                                                const DepthRequest& request = {});
 
 /// Describes one media file of any kind without needing its partner (`dibhr info FILE`): what looks
 /// like depth (by name, or grey, or 16 bits) fills the depth fields, other files the colour fields;

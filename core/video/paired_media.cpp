@@ -21,6 +21,18 @@ double colour_start_s(const SourceFacts& colour, const SourceFacts& depth) {
     return overlap ? later_s : 0.0;
 }
 
+/// Near is light, far is dark, no data is grey.
+ColourImage painted(const DepthImage& depth) {
+    const cv::Mat levels(depth.rows, depth.columns, CV_32FC1,
+                         const_cast<float*>(depth.levels.data()));  // only read
+    cv::Mat shades;
+    levels.convertTo(shades, CV_8U, 255.0 / depth.highest_level);
+    cv::Mat colours;
+    cv::applyColorMap(shades, colours, cv::COLORMAP_CIVIDIS);
+    colours.setTo(cv::Scalar(96, 96, 96), levels != levels);
+    return colour_of(colours);
+}
+
 double interval_of(const SourceFacts& facts) {
     return facts.frames_per_s > 0.0 ? 1.0 / facts.frames_per_s : 1.0;
 }
@@ -70,10 +82,15 @@ const cv::Mat& ColourTrack::shown_at(double depth_time_s, double depth_interval_
 }
 
 PairedMedia::PairedMedia(std::unique_ptr<PictureSource> depth,
-                         std::unique_ptr<PictureSource> colour)
-    : depth_(std::move(depth)) {
+                         std::unique_ptr<PictureSource> colour, DepthScale scale, bool painted)
+    : depth_(std::move(depth)), scale_(std::move(scale)), painted_(painted) {
     describe_depth(depth_->facts(), description_);
     describe_time(depth_->facts(), description_);
+    description_.meaning = scale_.meaning();
+    if (painted_) {
+        description_.colour_columns = description_.depth_columns;
+        description_.colour_rows = description_.depth_rows;
+    }
     if (colour == nullptr) return;
     describe_colour(colour->facts(), description_);
     colour_.emplace(std::move(colour), depth_->facts());
@@ -86,9 +103,10 @@ std::optional<RawFrame> PairedMedia::next() {
     if (!taken) return std::nullopt;
     keep_size(taken->picture);
     RawFrame frame;
-    frame.depth = depth_of(taken->picture, depth_->facts().bits);
+    frame.depth = scale_.image_of(taken->picture);
     frame.media_s = taken->time_s;
     frame.index = taken->index;
+    if (painted_) frame.colour = painted(frame.depth);
     if (colour_) {
         frame.colour = colour_of(colour_->shown_at(frame.media_s, interval_of(depth_->facts())));
         tell_trouble(colour_->facts());

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/video/depth_scale.hpp"
 #include "core/video/media.hpp"
 #include "core/video/pictures.hpp"
 
@@ -35,8 +36,9 @@ class ColourTrack {
 /// Depth drives.
 class PairedMedia : public Media {
   public:
-    /// `colour` may be null: then frames have none.
-    PairedMedia(std::unique_ptr<PictureSource> depth, std::unique_ptr<PictureSource> colour);
+    /// `colour` may be null: then frames have none, or `painted` in colours of their depth.
+    PairedMedia(std::unique_ptr<PictureSource> depth, std::unique_ptr<PictureSource> colour,
+                DepthScale scale, bool painted = false);
 
     [[nodiscard]] const MediaDescription& description() const override { return description_; }
     std::optional<RawFrame> next() override;
@@ -51,6 +53,8 @@ class PairedMedia : public Media {
 
     std::unique_ptr<PictureSource> depth_;
     std::optional<ColourTrack> colour_{};
+    DepthScale scale_;
+    bool painted_;
     MediaDescription description_{};
 };
 

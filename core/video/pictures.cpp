@@ -40,21 +40,6 @@ cv::Mat read_picture(const fs::path& file, int flags) {
     return picture;
 }
 
-/// One channel of the same bits. The weights of luma sum to one in OpenCV's fixed point, so equal
-/// channels keep their level exactly.
-cv::Mat grey_of(const cv::Mat& picture) {
-    cv::Mat grey;
-    if (picture.channels() == 3)
-        cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);
-    else if (picture.channels() == 4)
-        cv::cvtColor(picture, grey, cv::COLOR_BGRA2GRAY);
-    else if (picture.channels() == 2)
-        cv::extractChannel(picture, grey, 0);
-    else
-        grey = picture;
-    return grey;
-}
-
 /// 8 or 16 bits, 1 to 4 channels, as the file has them.
 cv::Mat read_picture_unchanged(const fs::path& file) {
     cv::Mat picture = read_picture(file, cv::IMREAD_UNCHANGED);
@@ -78,16 +63,19 @@ double highest_level(int bits) {
     return std::ldexp(1.0, bits) - 1.0;
 }
 
-DepthImage depth_of(const cv::Mat& picture, int bits) {
-    const cv::Mat grey = grey_of(picture);
-    DepthImage depth;
-    depth.columns = grey.cols;
-    depth.rows = grey.rows;
-    depth.highest_level = highest_level(bits);
-    depth.levels.resize(grey.total());
-    cv::Mat levels(grey.rows, grey.cols, CV_32FC1, depth.levels.data());
-    grey.convertTo(levels, CV_32F);
-    return depth;
+/// The weights of luma sum to one in OpenCV's fixed point, so equal channels keep their level
+/// exactly.
+cv::Mat grey_of(const cv::Mat& picture) {
+    cv::Mat grey;
+    if (picture.channels() == 3)
+        cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);
+    else if (picture.channels() == 4)
+        cv::cvtColor(picture, grey, cv::COLOR_BGRA2GRAY);
+    else if (picture.channels() == 2)
+        cv::extractChannel(picture, grey, 0);
+    else
+        grey = picture;
+    return grey;
 }
 
 ColourImage colour_of(const cv::Mat& picture) {
@@ -103,9 +91,9 @@ ColourImage colour_of(const cv::Mat& picture) {
 BumpMap read_bump_map(const fs::path& file) {
     const cv::Mat picture = read_picture_unchanged(file);
     require_size(file, picture.cols, picture.rows);
-    DepthImage depth = depth_of(picture, bits_of(picture));
-    BumpMap bump{depth.columns, depth.rows, std::move(depth.levels)};
+    BumpMap bump{picture.cols, picture.rows, std::vector<float>(picture.total())};
     cv::Mat heights(bump.rows, bump.columns, CV_32FC1, bump.heights.data());
+    grey_of(picture).convertTo(heights, CV_32F);
     double lowest = 0.0;
     double highest = 0.0;
     cv::minMaxLoc(heights, &lowest, &highest);
@@ -161,6 +149,17 @@ cv::Mat with_square_pixels(const cv::Mat& picture, double aspect, PictureRole ro
     cv::resize(picture, nearest, size, 0.0, 0.0, cv::INTER_NEAREST);
     nearest.copyTo(between, beside_none < 255.0);
     return between;
+}
+
+std::vector<cv::Mat> PictureSource::samples(int most) {
+    std::vector<cv::Mat> pictures;
+    const auto count = std::clamp<std::int64_t>(facts().frames, 1, most);
+    for (std::int64_t k = 0; k < count; ++k) {
+        seek(facts().duration_s * static_cast<double>(k) / static_cast<double>(count));
+        if (auto picture = next()) pictures.push_back(std::move(picture->picture));
+    }
+    seek(0.0);
+    return pictures;
 }
 
 StillFile::StillFile(const std::filesystem::path& file, PictureRole role)

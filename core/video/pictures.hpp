@@ -8,6 +8,7 @@
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/haptics/depth_image.hpp"
 #include "core/video/depth_meaning.hpp"
@@ -21,9 +22,9 @@ inline constexpr int kRealBits = 32;
 /// Of levels of so many bits.
 [[nodiscard]] double highest_level(int bits);
 
-/// Grey levels of a picture of 1 to 4 channels, none above highest_level(bits). Where the
-/// channels are equal the level is exactly theirs, otherwise their luma.
-[[nodiscard]] DepthImage depth_of(const cv::Mat& picture, int bits);
+/// One channel of the same bits, of a picture of 1 to 4. Where the channels are equal the level is
+/// exactly theirs, otherwise their luma.
+[[nodiscard]] cv::Mat grey_of(const cv::Mat& picture);
 
 /// RGB of an 8-bit BGR picture.
 [[nodiscard]] ColourImage colour_of(const cv::Mat& picture);
@@ -78,6 +79,9 @@ class PictureSource {
     /// Goes through at most `most` pictures, so that the facts become exact; for a source that is
     /// not read otherwise.
     virtual void count_frames(std::int64_t /*most*/) {}
+    /// At most `most` pictures from all over it, the first among them, as cheap to get as can be;
+    /// the next picture returned is the first.
+    virtual std::vector<cv::Mat> samples(int most);
 };
 
 /// A still image as a source of one picture.

@@ -116,13 +116,20 @@ cv::Mat luma_of(const AVFrame& frame, const AVPixFmtDescriptor& kind) {
 /// says: so every encoder and decoder of libav has it. Where no tag says it, levels beyond black
 /// and white do: grey that a codec without grey holds as a picture in colours of grey (H.264).
 bool is_limited(const AVFrame& frame, const AVPixFmtDescriptor& kind, const cv::Mat& luma) {
-    constexpr double kMostBeyond = 0.005;  // of all pixels: what compression adds
+    // Of all pixels: what compression adds beyond black and white, and far beyond them.
+    constexpr double kMostBeyond = 0.05;
+    constexpr double kMostFarBeyond = 0.001;
+    constexpr double kFar = 8.0;  // of 8 bits
     const bool is_whole_kind = std::string_view(kind.name).starts_with("yuvj");
     if (is_grey_kind(kind) || is_whole_kind || frame.color_range == AVCOL_RANGE_JPEG) return false;
     if (frame.color_range == AVCOL_RANGE_MPEG) return true;
     const double step = std::ldexp(1.0, kind.comp[0].depth - 8);
-    const int beyond = cv::countNonZero(luma < 16.0 * step) + cv::countNonZero(luma > 235.0 * step);
-    return beyond <= kMostBeyond * static_cast<double>(luma.total());
+    const auto share_beyond = [&](double by) {
+        const int beyond = cv::countNonZero(luma < (16.0 - by) * step) +
+                           cv::countNonZero(luma > (235.0 + by) * step);
+        return beyond / static_cast<double>(luma.total());
+    };
+    return share_beyond(0.0) <= kMostBeyond && share_beyond(kFar) <= kMostFarBeyond;
 }
 
 /// Black at 0, white at the highest level.

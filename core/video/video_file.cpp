@@ -20,6 +20,7 @@ namespace {
 constexpr double kNearAhead_s = 1.0;   ///< up to here decoding on is as quick as a jump
 constexpr double kMissing_s = 0.5;     ///< less than this at the end is a container's rounding,
 constexpr double kMissingPart = 0.15;  ///< and less than this part may be a long last frame
+constexpr double kMostSampled = 1e8;   ///< pixels decoded to get samples: a third of a second
 constexpr double kLongest_s = 1e6;     ///< bounds a seek into a file of unknown length
 
 /// A whole file ends there at the earliest.
@@ -211,6 +212,41 @@ void VideoFile::seek(double time_s) {
 
 void VideoFile::count_frames(std::int64_t most) {
     for (std::int64_t read = 0; read < most && grab(); ++read) {
+    }
+}
+
+std::vector<cv::Mat> VideoFile::samples(int most) {
+    std::vector<cv::Mat> pictures;
+    const double pixels = static_cast<double>(facts_.columns) * facts_.rows;
+    const double frames = kMostSampled / pixels;
+    if (!ahead_.empty()) pictures.push_back(ahead_.front().picture);
+    if (static_cast<double>(facts_.frames) <= frames)
+        sample_evenly(most, pictures);
+    else if (timed_)
+        sample_by_jumps(most, static_cast<int>(frames / most), pictures);
+    seek(0.0);
+    return pictures;
+}
+
+void VideoFile::sample_evenly(int most, std::vector<cv::Mat>& pictures) {
+    const std::int64_t step = facts_.frames / most + 1;
+    while (grab())
+        if (index_ % step == 0) pictures.push_back(retrieve());
+}
+
+void VideoFile::sample_by_jumps(int most, int frames_each, std::vector<cv::Mat>& pictures) {
+    const double duration_s = facts_.duration_s;
+    for (int k = 1; k < most; ++k) {
+        const double wanted_s = duration_s * k / most;
+        // Where key frames are far apart the frames from here on are new, and the key frame is not.
+        const auto key_s = decoder_.packets().key_frame_s(wanted_s);
+        if (!key_s || *key_s > time_s_) {
+            if (!decoder_.jump(wanted_s)) break;
+            jumped_ = true;
+        }
+        for (int n = 0; n <= frames_each && grab(); ++n) {
+        }
+        if (!ended_) pictures.push_back(retrieve());
     }
 }
 

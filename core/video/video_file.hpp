@@ -27,9 +27,13 @@ class VideoFile : public PictureSource {
 
     /// Decodes on without pictures, at most `most` frames, so that the facts become exact.
     void count_frames(std::int64_t most) override;
+    /// A short file is decoded once, of a longer one some frames after each key frame nearby.
+    std::vector<cv::Mat> samples(int most) override;
 
   private:
     void begin_again();
+    void sample_evenly(int most, std::vector<cv::Mat>& pictures);
+    void sample_by_jumps(int most, int frames_each, std::vector<cv::Mat>& pictures);
     void read_facts();
     void notice_early_end();
     bool grab();         ///< decodes one frame: its time and index; false at the end

@@ -109,6 +109,14 @@ bool VideoPackets::jump(double time_s) noexcept {
     return av_seek_frame(context_.get(), stream_->index, to, AVSEEK_FLAG_BACKWARD) >= 0;
 }
 
+std::optional<double> VideoPackets::key_frame_s(double time_s) const noexcept {
+    const std::int64_t to = start() + std::llround(time_s / unit_s());
+    const int at = av_index_search_timestamp(stream_, to, AVSEEK_FLAG_BACKWARD);
+    const AVIndexEntry* const entry = at < 0 ? nullptr : avformat_index_get_entry(stream_, at);
+    if (entry == nullptr) return std::nullopt;
+    return seconds(entry->timestamp);
+}
+
 double VideoPackets::seconds(std::int64_t stamp) const noexcept {
     if (stamp == AV_NOPTS_VALUE) return std::numeric_limits<double>::quiet_NaN();
     return static_cast<double>(stamp - start()) * unit_s();

@@ -40,6 +40,8 @@ class VideoPackets {
     [[nodiscard]] AVPacket* next() noexcept;
     /// To the key frame at or before the time [s]; false where the file cannot jump.
     bool jump(double time_s) noexcept;
+    /// When that key frame is shown, as far as the file's index tells [s].
+    [[nodiscard]] std::optional<double> key_frame_s(double time_s) const noexcept;
 
     /// From the track's beginning [s]; NaN for no time stamp.
     [[nodiscard]] double seconds(std::int64_t stamp) const noexcept;

@@ -83,7 +83,7 @@ const std::vector<Ownership> kOwnerships{
     {"X11/", {"app/window/"}},
     {"GLFW/", {"app/window/", "app/settings/keys.cpp"}},
     {"CLI/", {"app/settings/", "app/commands/"}},
-    {"toml", {"app/settings/"}},
+    {"toml", {"app/settings/", "core/video/sidecar"}},
     {"pybind11/", {"app/python/"}},
     {"opencv2/", {"core/video/", "assets/"}},
     {"cairo", {"core/plot/"}},

@@ -1,0 +1,300 @@
+// Measures pictures on a lattice of pixels and weighs what it sees.
+#include "core/video/depth_guess.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <set>
+
+#include "core/video/depth_scale.hpp"
+#include "core/video/pictures.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr int kLatticePixels = 12000;  ///< looked at in each picture, about
+
+// No data.
+constexpr double kLeastNone = 5e-4;  ///< share of pixels; fewer are no sensor's holes
+constexpr double kGap = 0.05;        ///< of the other levels' reach: sensors see nothing that near
+constexpr double kStandsOut8 = 4.0;  ///< times as many as of the three levels next to 0
+
+// Unit.
+constexpr double kFarthest_mm = 20000.0;
+constexpr double kUsualFarthest_mm = 12000.0;
+constexpr double kFifthsOfMillimetre = 0.2;
+constexpr double kMostMetres = 100.0;
+
+constexpr double kClear = 0.25;  ///< standard deviations that the middle or the floor stands out
+
+// Range.
+constexpr double kTail = 0.005;
+constexpr double kVeryTail = 1e-4;
+constexpr double kBeyondTail = 0.05;  ///< of the span
+constexpr double kBeyondVeryTail = 0.02;
+constexpr double kNearestDisparity = 0.5;  ///< of the nearest distance
+constexpr double kNearest = 0.9;
+constexpr double kOutlier = 1.0;  ///< of the span of the nearest so many, beyond them
+
+/// One picture's levels on a lattice.
+struct Lattice {
+    int columns{0}, rows{0};
+    std::vector<float> levels{};
+};
+
+Lattice lattice_of(const cv::Mat& picture) {
+    const int step = std::max(
+        1, static_cast<int>(std::sqrt(static_cast<double>(picture.total()) / kLatticePixels)));
+    cv::Mat all;
+    grey_of(picture).convertTo(all, CV_32F);
+    Lattice lattice;
+    lattice.columns = (all.cols + step - 1) / step;
+    for (int j = 0; j < all.rows; j += step) {
+        const float* row = all.ptr<float>(j);
+        for (int i = 0; i < all.cols; i += step) lattice.levels.push_back(row[i]);
+        ++lattice.rows;
+    }
+    return lattice;
+}
+
+/// The levels of all lattices that are not no data, rising.
+std::vector<float> sorted_levels(const std::vector<Lattice>& lattices,
+                                 const std::vector<double>& no_data) {
+    std::vector<float> levels;
+    for (const Lattice& lattice : lattices) {
+        for (const float level : lattice.levels) {
+            const bool none = std::find(no_data.begin(), no_data.end(), level) != no_data.end();
+            if (std::isfinite(level) && !none) levels.push_back(level);
+        }
+    }
+    std::sort(levels.begin(), levels.end());
+    return levels;
+}
+
+/// Of values in order; `share` in [0, 1].
+template <typename Value>
+double quantile(const std::vector<Value>& rising, double share) {
+    const auto last = static_cast<double>(rising.size() - 1);
+    return rising[static_cast<std::size_t>(std::lround(share * last))];
+}
+
+double share_between(const std::vector<float>& rising, double lowest, double highest) {
+    const auto begin = std::lower_bound(rising.begin(), rising.end(), lowest);
+    const auto end = std::upper_bound(begin, rising.end(), highest);
+    return static_cast<double>(end - begin) / static_cast<double>(rising.size());
+}
+
+std::vector<double> guess_no_data(const std::vector<Lattice>& lattices, int bits) {
+    const std::vector<float> levels = sorted_levels(lattices, {});
+    if (levels.empty() || bits == kRealBits) return {};
+    const double zeros = share_between(levels, 0.0, 0.0);
+    if (bits == 8) {
+        const bool stands_out = zeros > kStandsOut8 * share_between(levels, 1.0, 3.0);
+        return zeros > kLeastNone && stands_out ? std::vector{0.0} : std::vector<double>{};
+    }
+    const double highest = highest_level(bits);
+    const std::vector<float> others = sorted_levels(lattices, {0.0, highest});
+    if (others.empty()) return zeros > 0.0 ? std::vector{0.0} : std::vector<double>{};
+    const double nearest = quantile(others, kTail);
+    const double farthest = quantile(others, kNearest);
+    std::vector<double> none;
+    if (zeros > kLeastNone && nearest > kGap * farthest) none.push_back(0.0);
+    const double tops = share_between(levels, highest, highest);
+    if (tops > 0.0 && highest - farthest > kGap * highest) none.push_back(highest);
+    return none;
+}
+
+/// How many standard deviations brighter the picture's middle is than its border, and its floor
+/// than its top, together; negative: darker. Things stand in the middle, and on a floor.
+double brighter_where_near(const std::vector<Lattice>& lattices,
+                           const std::vector<double>& no_data) {
+    double sums[4]{};  // middle, border, floor, top
+    double counts[4]{};
+    double sum = 0.0;
+    double squares = 0.0;
+    double count = 0.0;
+    for (const Lattice& lattice : lattices) {
+        for (int j = 0; j < lattice.rows; ++j) {
+            for (int i = 0; i < lattice.columns; ++i) {
+                const double level = lattice.levels[static_cast<std::size_t>(j) *
+                                                        static_cast<std::size_t>(lattice.columns) +
+                                                    static_cast<std::size_t>(i)];
+                if (!std::isfinite(level) ||
+                    std::find(no_data.begin(), no_data.end(), level) != no_data.end())
+                    continue;
+                const double x = std::fabs((i + 0.5) / lattice.columns - 0.5);
+                const double y = (j + 0.5) / lattice.rows - 0.5;
+                const auto add = [&](int part) {
+                    sums[part] += level;
+                    counts[part] += 1.0;
+                };
+                if (x < 0.25 && std::fabs(y) < 0.25) add(0);
+                if (x > 0.4 || y < -0.4) add(1);
+                if (y > 0.3) add(2);
+                if (y < -0.3) add(3);
+                sum += level;
+                squares += level * level;
+                count += 1.0;
+            }
+        }
+    }
+    if (!(count > 0.0)) return 0.0;
+    const double deviation =
+        std::sqrt(std::max(squares / count - sum * sum / (count * count), 0.0));
+    if (!(deviation > 0.0)) return 0.0;
+    const auto brighter = [&](int a, int b) {
+        if (!(counts[a] > 0.0 && counts[b] > 0.0)) return 0.0;
+        return (sums[a] / counts[a] - sums[b] / counts[b]) / deviation;
+    };
+    return brighter(0, 1) + brighter(2, 3);
+}
+
+/// The unit, and what a level is of it.
+struct Scaled {
+    DepthUnit unit;
+    double scale;
+};
+
+Scaled guess_integers(const std::vector<float>& levels, const std::vector<double>& no_data,
+                      int bits) {
+    if (bits == 8 || levels.empty()) return {DepthUnit::levels, 1.0};
+    const double farthest = quantile(levels, kNearest);
+    const bool has_holes = std::find(no_data.begin(), no_data.end(), 0.0) != no_data.end();
+    if (bits == 16 && farthest <= kUsualFarthest_mm) return {DepthUnit::mm, 1.0};
+    if (!has_holes) return {DepthUnit::levels, 1.0};
+    if (farthest > kFarthest_mm) return {DepthUnit::mm, kFifthsOfMillimetre};
+    return {DepthUnit::mm, 1.0};
+}
+
+DepthUnit guess_real_numbers(const std::vector<float>& levels, double brighter) {
+    if (levels.empty()) return DepthUnit::levels;
+    const double highest = quantile(levels, 1.0 - kTail);
+    if (brighter > kClear) return highest <= 1.0 ? DepthUnit::levels : DepthUnit::disparity;
+    if (highest > kMostMetres) return DepthUnit::mm;
+    return brighter < -kClear || highest > 1.0 ? DepthUnit::m : DepthUnit::levels;
+}
+
+/// Values on the line on which elevation is linear, so turned that the nearest is the highest, in
+/// order.
+std::vector<double> nearness_of(const std::vector<float>& levels, const DepthMeaning& meaning) {
+    const double sign = meaning.near.value == NearLevels::bright ? 1.0 : -1.0;
+    const bool disparity = meaning.unit.value == DepthUnit::disparity;
+    std::vector<double> nearness;
+    nearness.reserve(levels.size());
+    for (const float level : levels) {
+        const double value = level * meaning.scale.value;
+        if (disparity && !(value > 0.0)) continue;
+        nearness.push_back(disparity ? -sign / value : sign * value);
+    }
+    std::sort(nearness.begin(), nearness.end());
+    return nearness;
+}
+
+/// The farthest that is no outlier: sensors see walls through walls.
+double farthest_of(const std::vector<double>& nearness, double nearest, bool has_outliers) {
+    if (!has_outliers) return quantile(nearness, kTail);
+    const double most = quantile(nearness, 1.0 - kNearest);
+    const double fence = most - kOutlier * (nearest - most);
+    const auto first = std::lower_bound(nearness.begin(), nearness.end(), fence);
+    return quantile(std::vector<double>(first, nearness.end()), kTail);
+}
+
+/// Integers have a lowest and a highest one; and the ends differ.
+DepthRange within_levels(DepthRange range, const DepthMeaning& meaning, int bits) {
+    if (bits != kRealBits && meaning.unit.value != DepthUnit::disparity) {
+        const double highest = highest_level(bits) * meaning.scale.value;
+        range = {std::clamp(range.near, 0.0, highest), std::clamp(range.far, 0.0, highest)};
+    }
+    if (range.near != range.far) return range;
+    const double some = std::max(std::fabs(range.far), meaning.scale.value);  // of a plane
+    (meaning.near.value == NearLevels::bright ? range.near : range.far) += some;
+    return range;
+}
+
+DepthRange guess_range(const std::vector<float>& levels, const DepthMeaning& meaning, int bits) {
+    const double sign = meaning.near.value == NearLevels::bright ? 1.0 : -1.0;
+    const bool disparity = meaning.unit.value == DepthUnit::disparity;
+    const std::vector<double> nearness = nearness_of(levels, meaning);
+    const auto value = [&](double of) { return disparity ? -sign / of : sign * of; };
+    if (nearness.empty()) return sign > 0.0 ? DepthRange{1.0, 0.0} : DepthRange{0.0, 1.0};
+    const double most = quantile(nearness, 1.0 - kTail);
+    const double least = farthest_of(nearness, most, meaning.is_metric() || disparity);
+    const double span = most - least;
+    // What little there is beyond the tails may be a fingertip.
+    double near = std::max(most + kBeyondTail * span,
+                           quantile(nearness, 1.0 - kVeryTail) + kBeyondVeryTail * span);
+    double far = least - kBeyondTail * span;
+    if (near == far) {  // a plane, or very little beside one
+        near = nearness.back();
+        far = nearness.front();
+    }
+    if (disparity) near = std::min(near, most * kNearestDisparity);
+    return within_levels({value(near), value(far)}, meaning, bits);
+}
+
+}  // namespace
+
+void guess(const std::vector<cv::Mat>& pictures, int bits, DepthMeaning& meaning,
+           const Voices& voices) {
+    std::vector<Lattice> lattices;
+    for (const cv::Mat& picture : pictures) lattices.push_back(lattice_of(picture));
+    const auto says = [&voices](auto fact) {
+        return std::any_of(voices.begin(), voices.end(),
+                           [&](const auto& voice) { return (voice.second.*fact).has_value(); });
+    };
+    if (!says(&DepthStatement::no_data)) meaning.no_data.value = guess_no_data(lattices, bits);
+    const std::vector<double>& no_data = meaning.no_data.value;
+    const std::vector<float> levels = sorted_levels(lattices, no_data);
+    const double brighter = brighter_where_near(lattices, no_data);
+    if (!says(&DepthStatement::unit)) {
+        const Scaled scaled = bits == kRealBits ? Scaled{guess_real_numbers(levels, brighter), 1.0}
+                                                : guess_integers(levels, no_data, bits);
+        meaning.unit.value = scaled.unit;
+        if (!says(&DepthStatement::scale)) meaning.scale.value = scaled.scale;
+    } else if (!says(&DepthStatement::scale)) {
+        meaning.scale = {1.0, meaning.unit.origin};
+    }
+    if (!says(&DepthStatement::near)) {
+        const bool by_unit = meaning.unit.value != DepthUnit::levels;
+        const bool dark = by_unit ? meaning.is_metric() : brighter < -kClear;
+        meaning.near = {dark ? NearLevels::dark : NearLevels::bright,
+                        by_unit ? meaning.unit.origin : Origin::assumed};
+        if (says(&DepthStatement::range) && !by_unit) {
+            const bool falls = meaning.range.value.near > meaning.range.value.far;
+            meaning.near = {falls ? NearLevels::bright : NearLevels::dark, meaning.range.origin};
+        }
+    }
+    if (!says(&DepthStatement::range))
+        meaning.range = {guess_range(levels, meaning, bits), Origin::found};
+}
+
+double holes_share(const std::vector<cv::Mat>& pictures, const DepthMeaning& meaning) {
+    std::size_t all = 0;
+    std::size_t seen = 0;
+    for (const cv::Mat& picture : pictures) {
+        const Lattice lattice = lattice_of(picture);
+        all += lattice.levels.size();
+        seen += sorted_levels({lattice}, meaning.no_data.value).size();
+    }
+    if (all == 0) return 0.0;
+    return static_cast<double>(all - seen) / static_cast<double>(all);
+}
+
+int levels_used(const std::vector<cv::Mat>& pictures) {
+    std::set<float> used;
+    for (const cv::Mat& picture : pictures) {
+        cv::Mat all;
+        grey_of(picture).convertTo(all, CV_32F);
+        for (int j = 0; j < all.rows; ++j) {
+            const float* row = all.ptr<float>(j);
+            for (int i = 0; i < all.cols; ++i)
+                if (std::isfinite(row[i])) used.insert(row[i]);
+        }
+    }
+    return static_cast<int>(used.size());
+}
+
+}  // namespace dibhr

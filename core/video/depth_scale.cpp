@@ -1,0 +1,103 @@
+// Levels to elevations, by table where there are few enough levels.
+#include "core/video/depth_scale.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <opencv2/core.hpp>
+
+#include "core/video/pictures.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr double kFineSteps = 65535.0;  ///< where the source has no steps of its own
+/// Fewer millimetres than this would be taken for an 8-bit image's steps.
+constexpr double kLeastMillimetres = 256.0;
+constexpr int kMostTabled = 16;
+
+double in_mm(DepthUnit unit, double distance) {
+    return unit == DepthUnit::m ? 1000.0 * distance : distance;
+}
+
+double highest_of(const DepthMeaning& meaning, int bits) {
+    const DepthRange& range = meaning.range.value;
+    if (meaning.unit.value == DepthUnit::levels && bits != kRealBits)
+        return std::fabs(range.near - range.far) / meaning.scale.value;
+    const double span_mm = in_mm(meaning.unit.value, std::fabs(range.far - range.near));
+    return meaning.is_metric() && span_mm >= kLeastMillimetres ? span_mm : kFineSteps;
+}
+
+template <typename Level>
+void map_levels(const cv::Mat& grey, const std::vector<float>& of_level, std::vector<float>& out) {
+    std::size_t k = 0;
+    const std::size_t last = of_level.size() - 1;
+    for (int j = 0; j < grey.rows; ++j) {
+        const Level* row = grey.ptr<Level>(j);
+        for (int i = 0; i < grey.cols; ++i)
+            out[k++] = of_level[std::min<std::size_t>(row[i], last)];
+    }
+}
+
+}  // namespace
+
+double on_the_line(DepthUnit unit, double value) {
+    return unit == DepthUnit::disparity ? 1.0 / value : value;
+}
+
+DepthScale::DepthScale(const DepthMeaning& meaning, int bits)
+    : meaning_(meaning), highest_(highest_of(meaning, bits)) {
+    const DepthRange& range = meaning_.range.value;
+    far_ = on_the_line(meaning_.unit.value, range.far);
+    per_one_ = 1.0 / (on_the_line(meaning_.unit.value, range.near) - far_);
+    if (bits > kMostTabled) return;
+    of_level_.resize(std::size_t{1} << bits);
+    for (std::size_t level = 0; level < of_level_.size(); ++level)
+        of_level_[level] = (*this)(static_cast<double>(level));
+}
+
+DepthScale DepthScale::as_recorded(int bits) {
+    DepthMeaning meaning;
+    meaning.range.value = {bits == kRealBits ? dibhr::highest_level(8) : dibhr::highest_level(bits),
+                           0.0};
+    DepthScale scale(meaning, bits);
+    scale.highest_ = meaning.range.value.near;
+    scale.as_recorded_ = true;
+    return scale;
+}
+
+bool DepthScale::is_no_data(double level) const {
+    if (!std::isfinite(level)) return true;
+    const std::vector<double>& none = meaning_.no_data.value;
+    return std::find(none.begin(), none.end(), level) != none.end();
+}
+
+float DepthScale::operator()(double level) const {
+    if (is_no_data(level)) return std::nanf("");
+    const double value = level * meaning_.scale.value;
+    const bool of_infinity = meaning_.unit.value == DepthUnit::disparity && !(value > 0.0);
+    if (of_infinity) return 0.0F;
+    const double nearness = (on_the_line(meaning_.unit.value, value) - far_) * per_one_;
+    return static_cast<float>(highest_ *
+                              (as_recorded_ ? nearness : std::clamp(nearness, 0.0, 1.0)));
+}
+
+DepthImage DepthScale::image_of(const cv::Mat& picture) const {
+    const cv::Mat grey = grey_of(picture);
+    DepthImage depth{grey.cols, grey.rows, highest_, {}};
+    depth.levels.resize(grey.total());
+    if (grey.depth() == CV_8U && !of_level_.empty()) {
+        map_levels<std::uint8_t>(grey, of_level_, depth.levels);
+    } else if (grey.depth() == CV_16U && !of_level_.empty()) {
+        map_levels<std::uint16_t>(grey, of_level_, depth.levels);
+    } else {
+        cv::Mat levels(grey.rows, grey.cols, CV_32FC1, depth.levels.data());
+        grey.convertTo(levels, CV_32F);
+        for (float& level : depth.levels) level = (*this)(level);
+    }
+    return depth;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,245 @@
+// Reads and writes the table of what depth means.
+#include "core/video/sidecar.hpp"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string_view>
+#include <system_error>
+
+#include "core/error.hpp"
+#include "core/files/output_file.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/video/media.hpp"
+
+namespace dibhr {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::uintmax_t kMostBytes = 1U << 20;  ///< a page of text; more is no sidecar
+constexpr std::size_t kMostNoData = 64;
+
+/// The finite numbers between `separator`s; nothing where one is none.
+std::optional<std::vector<double>> numbers_in(const std::string& text, char separator) {
+    std::vector<double> numbers;
+    if (text.empty()) return numbers;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    while (true) {
+        double number = 0.0;
+        const auto [stop, error] = std::from_chars(at, end, number);
+        if (error != std::errc{} || !std::isfinite(number)) return std::nullopt;
+        numbers.push_back(number);
+        if (stop == end) return numbers;
+        if (*stop != separator) return std::nullopt;
+        at = stop + 1;
+    }
+}
+
+std::optional<DepthRange> range_of(const std::vector<double>& ends) {
+    if (ends.size() != 2 || ends[0] == ends[1]) return std::nullopt;
+    return DepthRange{ends[0], ends[1]};
+}
+
+std::optional<Intrinsics> intrinsics_of(const std::vector<double>& numbers) {
+    if (numbers.size() != 4 || !(numbers[0] > 0.0) || !(numbers[1] > 0.0)) return std::nullopt;
+    return Intrinsics{numbers[0], numbers[1], numbers[2], numbers[3]};
+}
+
+/// The numbers of an array, or of a text as the command line has it.
+std::optional<std::vector<double>> numbers_of(const toml::node& node, char separator) {
+    if (const auto text = node.value_exact<std::string>()) return numbers_in(*text, separator);
+    if (node.is_number()) return std::vector{*node.value<double>()};
+    const toml::array* const array = node.as_array();
+    if (array == nullptr) return std::nullopt;
+    std::vector<double> numbers;
+    for (const toml::node& entry : *array) {
+        const auto number = entry.is_number() ? entry.value<double>() : std::nullopt;
+        if (!number || !std::isfinite(*number)) return std::nullopt;
+        numbers.push_back(*number);
+    }
+    return numbers;
+}
+
+template <typename Values>
+auto word_of(const toml::node& node, const Values& values) {
+    std::optional<typename Values::value_type> named;
+    const auto word = node.value<std::string_view>().value_or("");
+    for (const auto value : values)
+        if (word == name_of(value)) named = value;
+    return named;
+}
+
+/// "depth-unit", "depth_unit" and "unit" are one name.
+std::string plain_name(std::string_view key) {
+    std::string name(key);
+    std::replace(name.begin(), name.end(), '_', '-');
+    constexpr std::string_view kPrefix = "depth-";
+    return name.starts_with(kPrefix) ? name.substr(kPrefix.size()) : name;
+}
+
+/// Takes one fact; what it lacks as words, or nothing.
+std::string take(const std::string& name, const toml::node& node, DepthStatement& said) {
+    const auto keep = [](auto& fact, auto value, const char* lacking) -> std::string {
+        if (!value) return lacking;
+        fact = *value;
+        return {};
+    };
+    const bool automatic = node.value<std::string_view>() == "auto";
+    if (automatic) return {};
+    if (name == "near")
+        return keep(said.near, word_of(node, kNearLevels), "is neither bright nor dark");
+    if (name == "unit")
+        return keep(said.unit, word_of(node, kDepthUnits), "is none of levels, disparity, mm, m");
+    if (name == "packing")
+        return keep(said.packing, word_of(node, kDepthPackings), "is not the name of a packing");
+    if (name == "code")
+        return keep(said.code, word_of(node, kDepthCodes), "is neither grey nor hue");
+    if (name == "geometry")
+        return keep(said.geometry, word_of(node, kGeometries), "is neither relief nor true");
+    const auto numbers = numbers_of(node, name == "range" ? ':' : ',');
+    if (name == "scale") {
+        const bool fits = numbers && numbers->size() == 1 && numbers->front() > 0.0;
+        return keep(said.scale, fits ? std::optional(numbers->front()) : std::nullopt,
+                    "is not a number above 0");
+    }
+    if (name == "range")
+        return keep(said.range, numbers ? range_of(*numbers) : std::nullopt,
+                    "is not two numbers that differ, [near, far]");
+    if (name == "intrinsics")
+        return keep(said.intrinsics, numbers ? intrinsics_of(*numbers) : std::nullopt,
+                    "is not [fx, fy, cx, cy] with fx and fy above 0");
+    if (name == "no-data")
+        return keep(said.no_data,
+                    numbers && numbers->size() <= kMostNoData ? numbers : std::nullopt,
+                    "is not a list of up to 64 levels");
+    return "is not a fact of depth";
+}
+
+toml::table parsed(const std::string& toml, const std::string& name) {
+    try {
+        return toml::parse(toml);
+    } catch (const toml::parse_error& error) {
+        std::ostringstream text;
+        text << name << " cannot be understood at line " << error.source().begin.line << " ("
+             << error.description() << "): mend or delete it";
+        throw InputError(one_line(text.str()));  // it quotes the file
+    }
+}
+
+std::string content_of(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream content;
+    std::error_code failed;
+    const bool small = fs::is_regular_file(file, failed) && fs::file_size(file) <= kMostBytes;
+    if (in && small && fs::file_size(file) > 0) content << in.rdbuf();
+    if (!in || !small || content.fail())
+        throw InputError(shown(file) + " cannot be read as a sidecar: make it readable or move it");
+    return content.str();
+}
+
+/// A folder's name may end with a slash.
+fs::path without_slash(const fs::path& media) {
+    return media.has_filename() ? media : media.parent_path();
+}
+
+std::optional<fs::path> find_sidecar(const fs::path& media) {
+    std::error_code ignored;
+    const fs::path longer = without_slash(media).string() + ".toml";
+    for (const fs::path& file : {sidecar_of(media), longer})
+        if (fs::exists(file, ignored)) return file;
+    return std::nullopt;
+}
+
+std::string list_of(const std::vector<double>& numbers) {
+    std::string list = "[";
+    for (const double number : numbers) list += (list.size() > 1 ? ", " : "") + number_text(number);
+    return list + "]";
+}
+
+}  // namespace
+
+fs::path sidecar_of(const fs::path& media) {
+    return without_slash(media).replace_extension(".toml");
+}
+
+std::optional<DepthStatement> read_sidecar(const fs::path& media) {
+    if (media.empty()) return std::nullopt;
+    const auto file = find_sidecar(media);
+    if (!file) return std::nullopt;
+    return statement_in(content_of(*file), shown(*file));
+}
+
+void write_sidecar(const fs::path& media, const DepthStatement& statement) {
+    const fs::path file = find_sidecar(media).value_or(sidecar_of(media));
+    std::error_code ignored;
+    toml::table root;
+    if (fs::exists(file, ignored)) root = parsed(content_of(file), shown(file));
+    root.insert_or_assign("depth", parsed(toml_of(statement), "")["depth"]);
+    std::ostringstream text;
+    text << root << '\n';
+    OutputFile out(file);
+    out.write(text.str());
+    out.commit();
+}
+
+std::string toml_of(const DepthStatement& said) {
+    std::string toml = "[depth]\n";
+    const auto line = [&toml](const char* name, const std::string& value) {
+        toml += std::string(name) + " = " + value + "\n";
+    };
+    const auto word = [&line](const char* name, const auto& fact) {
+        if (fact) line(name, '"' + std::string(name_of(*fact)) + '"');
+    };
+    word("near", said.near);
+    word("unit", said.unit);
+    if (said.scale) line("scale", number_text(*said.scale));
+    if (said.range) line("range", list_of({said.range->near, said.range->far}));
+    if (said.no_data) line("no-data", list_of(*said.no_data));
+    word("packing", said.packing);
+    word("code", said.code);
+    word("geometry", said.geometry);
+    if (said.intrinsics)
+        line("intrinsics", list_of({said.intrinsics->fx, said.intrinsics->fy, said.intrinsics->cx,
+                                    said.intrinsics->cy}));
+    return toml;
+}
+
+DepthStatement statement_in(const std::string& toml, const std::string& name) {
+    DepthStatement said;
+    const toml::table root = parsed(toml, name);
+    const toml::table* const depth = root["depth"].as_table();
+    if (depth == nullptr) return said;
+    for (const auto& [key, node] : *depth) {
+        const std::string lacking = take(plain_name(key.str()), node, said);
+        if (lacking.empty()) continue;
+        std::ostringstream text;
+        text << name << ", line " << node.source().begin.line << ": " << key.str() << " " << lacking
+             << "; mend or delete it";
+        throw InputError(one_line(text.str()));  // a name may hold anything
+    }
+    return said;
+}
+
+std::optional<std::vector<double>> levels_in(const std::string& text) {
+    auto levels = numbers_in(text, ',');
+    return levels && levels->size() <= kMostNoData ? levels : std::nullopt;
+}
+
+std::optional<DepthRange> range_in(const std::string& text) {
+    const auto ends = numbers_in(text, ':');
+    return ends ? range_of(*ends) : std::nullopt;
+}
+
+std::optional<Intrinsics> intrinsics_in(const std::string& text) {
+    const auto numbers = numbers_in(text, ',');
+    return numbers ? intrinsics_of(*numbers) : std::nullopt;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,38 @@
+// A sidecar: what depth means, written down beside the file it is said of.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/video/depth_meaning.hpp"
+
+namespace dibhr {
+
+/// Where the sidecar of a file or folder is written: NAME.toml beside it.
+[[nodiscard]] std::filesystem::path sidecar_of(const std::filesystem::path& media);
+
+/// The `[depth]` table of the sidecar beside `media`, which is called NAME.toml or
+/// NAME.EXTENSION.toml; nothing where there is none. Throws InputError for one that cannot be
+/// understood: which file, which line.
+[[nodiscard]] std::optional<DepthStatement> read_sidecar(const std::filesystem::path& media);
+
+/// Writes the sidecar of `media`, whole or not at all; what else a sidecar that is there holds is
+/// kept. Throws InputError.
+void write_sidecar(const std::filesystem::path& media, const DepthStatement& statement);
+
+/// The table as TOML, a fact a line, and back; numbers as short as they come back the same. Throws
+/// InputError that begins with `name` for what cannot be understood.
+[[nodiscard]] std::string toml_of(const DepthStatement& statement);
+[[nodiscard]] DepthStatement statement_in(const std::string& toml, const std::string& name);
+
+// The same facts as the command line writes them. Each gives nothing for a text that is none.
+
+/// "0,65535": finite numbers between commas; empty: none.
+[[nodiscard]] std::optional<std::vector<double>> levels_in(const std::string& text);
+/// "480:4210": two finite numbers that differ.
+[[nodiscard]] std::optional<DepthRange> range_in(const std::string& text);
+/// "FX,FY,CX,CY": the focal lengths above 0.
+[[nodiscard]] std::optional<Intrinsics> intrinsics_in(const std::string& text);
+
+}  // namespace dibhr
