@@ -25,6 +25,8 @@ constexpr std::array kCommands{
             run_view},
     Command{"touch", "--depth FILE --goals GOALS.csv [--out OUT.csv]",
             "The core alone, head-less, over a stream of goals", run_touch},
+    Command{"surface", "COLOR [DEPTH] [--time S] --out FILE",
+            "The surface as it is felt: .pfm (px), .png (16 bit), .ply or .stl (mm)", run_surface},
     Command{"experiment", "[linear|circle|human|all|sweep]",
             "The paper's table, all algorithms side by side", run_experiment},
     Command{"replay", "SESSION [--algorithm NAME]... [--csv FILE]",

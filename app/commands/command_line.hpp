@@ -36,6 +36,8 @@ CLI::Option* add_firmware(CLI::App& app, std::filesystem::path& file);
 int run_view(CLI::App& app, const Arguments& arguments);
 /// One row an update, computed by the core alone.
 int run_touch(CLI::App& app, const Arguments& arguments);
+/// A surface at one moment as a file of another form. Prints its size and how high it is.
+int run_surface(CLI::App& app, const Arguments& arguments);
 /// Whether the runs that change nothing gave the recorded bits, and a table of all runs. 1 when
 /// those bits differ.
 int run_replay(CLI::App& app, const Arguments& arguments);

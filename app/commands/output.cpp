@@ -49,15 +49,20 @@ std::string bounds_met_text(std::size_t bounds_met, std::size_t updates) {
            " updates ended before the proxy had caught up with its goal";
 }
 
-RowFile::RowFile(const std::filesystem::path& target,
-                 const std::vector<std::filesystem::path>& inputs, const std::string& why) {
-    if (target.empty()) return;
+void refuse_overwriting(const std::filesystem::path& target,
+                        const std::vector<std::filesystem::path>& inputs, const std::string& why) {
     for (const std::filesystem::path& input : inputs) {
         std::error_code missing;
         if (std::filesystem::equivalent(input, target, missing)) {
             throw InputError(target.string() + ": " + why);
         }
     }
+}
+
+RowFile::RowFile(const std::filesystem::path& target,
+                 const std::vector<std::filesystem::path>& inputs, const std::string& why) {
+    if (target.empty()) return;
+    refuse_overwriting(target, inputs, why);
     file_.emplace(target);
 }
 

@@ -105,9 +105,10 @@ double parse_number(const std::string& option, const std::string& text, double l
     return value;
 }
 
-}  // namespace
-
-namespace {
+/// The shape on the picture plane, and how large a pixel of it is.
+bool shapes_surface(const TouchNumber& number) {
+    return number.topic == TouchTopic::shape || number.topic == TouchTopic::texture;
+}
 
 std::function<void(double)> taken(const TouchNumber& option, GivenParameters& given) {
     return [&option, &given](double value) { given.numbers.emplace_back(&option, value); };
@@ -136,6 +137,23 @@ void add_fitted_option(CLI::App& app, const TouchNumber& option, GivenParameters
                "; auto: as fits the picture")
         ->type_name(placeholder_of(option) + "|auto")
         ->default_str(std::string(kAutomatic));
+}
+
+void add_number_of_touch(CLI::App& app, const TouchNumber& option, GivenParameters& given) {
+    if (bool* const fits = fitted(option, given))
+        add_fitted_option(app, option, given, *fits);
+    else
+        add_touch_option(app, option, std::string(option.help), taken(option, given));
+}
+
+void add_surface_options(CLI::App& app, TouchRequest& request) {
+    app.add_option("--bump", request.bump, "Bump map laid over the surface: an 8- or 16-bit image")
+        ->type_name("IMAGE");
+    app.add_flag(
+        "--raw-depth", request.raw_depth,
+        "Depth as it is in the file: nothing cleaned or found out, relief 255 px and pitch "
+        "101.6/720 mm unless given");
+    add_depth_options(app, request.depth);
 }
 
 }  // namespace
@@ -271,6 +289,13 @@ void add_depth_options(CLI::App& app, DepthStatement& depth) {
                     "Of the camera, in depth pixels");
 }
 
+void add_shape_options(CLI::App& app, TouchRequest& request) {
+    for (const TouchNumber& option : touch_numbers()) {
+        if (shapes_surface(option)) add_number_of_touch(app, option, request.given);
+    }
+    add_surface_options(app, request);
+}
+
 void add_touch_options(CLI::App& app, TouchRequest& request) {
     // The range is that of the coefficients it stands for.
     TouchParameters any;
@@ -279,20 +304,9 @@ void add_touch_options(CLI::App& app, TouchRequest& request) {
                       "Both coefficients of friction; one given by itself wins",
                       [&request](double mu) { request.given.friction = mu; })
         ->type_name("MU");
-    for (const TouchNumber& option : touch_numbers()) {
-        bool* const fits = fitted(option, request.given);
-        if (fits == nullptr)
-            add_touch_option(app, option, std::string(option.help), taken(option, request.given));
-        else
-            add_fitted_option(app, option, request.given, *fits);
-    }
-    app.add_option("--bump", request.bump, "Bump map laid over the surface: an 8- or 16-bit image")
-        ->type_name("IMAGE");
-    app.add_flag(
-        "--raw-depth", request.raw_depth,
-        "Depth as it is in the file: nothing cleaned or found out, relief 255 px and pitch "
-        "101.6/720 mm unless given");
-    add_depth_options(app, request.depth);
+    for (const TouchNumber& option : touch_numbers())
+        add_number_of_touch(app, option, request.given);
+    add_surface_options(app, request);
 }
 
 }  // namespace dibhr

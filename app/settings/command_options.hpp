@@ -79,8 +79,11 @@ CLI::Option* add_plot_format_option(CLI::App& app, std::vector<PlotFormat>& form
 /// --geometry and --intrinsics. `depth` must outlive the parsing of `app`.
 void add_depth_options(CLI::App& app, DepthStatement& depth);
 
-/// --friction, --bump, --raw-depth, those of add_depth_options and every entry of touch_numbers().
-/// `request` must outlive the parsing of `app`.
+/// --bump, --raw-depth, those of add_depth_options and the entries of touch_numbers() that shape a
+/// surface. `request` must outlive the parsing of `app`.
+void add_shape_options(CLI::App& app, TouchRequest& request);
+
+/// The same, --friction and the other entries of touch_numbers().
 void add_touch_options(CLI::App& app, TouchRequest& request);
 
 }  // namespace dibhr

@@ -32,6 +32,8 @@ const std::vector<Room> kRooms{
     {"core/files/", {"core/files/", "core/error.hpp"}},
     {"core/video/",
      {"core/video/", "core/files/", "core/haptics/", "core/realtime/", "core/error.hpp"}},
+    {"core/surface_files/",
+     {"core/surface_files/", "core/files/", "core/haptics/", "core/video/", "core/error.hpp"}},
     {"core/session/",
      {"core/session/", "core/files/", "core/haptics/", "core/realtime/", "core/error.hpp"}},
     {"core/metrics/", {"core/metrics/", "core/haptics/"}},
@@ -86,6 +88,7 @@ const std::vector<Ownership> kOwnerships{
     {"toml", {"app/settings/", "core/video/sidecar"}},
     {"pybind11/", {"app/python/"}},
     {"opencv2/", {"core/video/", "assets/"}},
+    {"png.h", {"core/surface_files/"}},
     {"cairo", {"core/plot/"}},
     {"pango/", {"core/plot/"}},
 };

@@ -1,0 +1,148 @@
+// `dibhr surface`: a surface as it is felt at one moment, for other programs, printers and mills.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/commands/command_line.hpp"
+#include "app/commands/output.hpp"
+#include "app/settings/command_options.hpp"
+#include "core/error.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/surface_files/surface_file.hpp"
+#include "core/video/frame_reader.hpp"
+#include "core/video/media_names.hpp"
+
+namespace dibhr {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kLongestMedia_s = 1e6;
+constexpr int kDigits = 5;  ///< of an elevation, as told
+
+struct SurfaceOptions {
+    fs::path colour{};
+    fs::path depth{};  ///< empty: found beside the colour file, or `colour` is depth itself
+    fs::path out{};
+    double time_s{0.0};
+    TouchRequest touch{};
+    TouchParameters parameters{};
+};
+
+/// A colour and a depth file, or depth alone.
+std::unique_ptr<Media> open_given(const SurfaceOptions& options, TouchParameters& parameters) {
+    auto media = open_media(options.colour, options.depth, options.touch.depth_request());
+    options.touch.given.fit(media->description(), options.touch.raw_depth, parameters);
+    return media;
+}
+
+[[noreturn]] void refuse_time(const fs::path& file, double time_s, double duration_s) {
+    throw InputError(shown(file) + " lasts " + short_text(duration_s) +
+                     " s: give --time less than " + "that instead of " + short_text(time_s));
+}
+
+/// The frame shown at `time_s` of the media and, in a video, the one after it, which after the last
+/// one is the first again, as in playing. Throws InputError when the media ends before.
+std::vector<Frame> frames_around(FrameReader& reader, double time_s) {
+    const fs::path& file = reader.description().depth_path;
+    std::optional<Frame> now = reader.at(time_s);
+    if (!now) throw InputError(shown(file) + " holds no picture: give another depth file");
+    now->time_s = now->media_s;
+    std::vector<Frame> frames{*now};
+    if (reader.description().still) {
+        if (time_s > 0.0) throw InputError(shown(file) + " is a still picture: leave --time away");
+        return frames;
+    }
+    std::optional<Frame> next = reader.after(now->media_s);
+    if (next) {
+        next->time_s = next->media_s;
+    } else {
+        const double end_s = now->media_s + reader.last_interval_s(now->media_s);
+        if (time_s >= end_s - kTimeTolerance_s) refuse_time(file, time_s, end_s);
+        next = reader.at(0.0);
+        if (!next) return frames;
+        next->time_s = end_s;
+    }
+    frames.push_back(std::move(*next));
+    return frames;
+}
+
+std::string range_text(double lowest, double highest, const std::string& unit) {
+    return short_text(lowest, kDigits) + " to " + short_text(highest, kDigits) + ' ' + unit;
+}
+
+std::string told(const FeltSurface& felt, SurfaceFormat format) {
+    const ElevationRange range = elevation_range(felt.surface);
+    const double pitch_mm = felt.pixel_pitch_mm;
+    std::string text = std::to_string(felt.surface.columns()) + " x " +
+                       std::to_string(felt.surface.rows()) + ", elevation " +
+                       range_text(range.lowest_px, range.highest_px, "px") + ", " +
+                       range_text(range.lowest_px * pitch_mm, range.highest_px * pitch_mm, "mm");
+    if (format == SurfaceFormat::png)
+        text += ", white is " + short_text(felt.surface.ceiling()) + " px";
+    return text;
+}
+
+SurfaceFormat format_asked(const fs::path& out) {
+    if (const auto format = surface_format_of(out)) return *format;
+    throw UsageError("--out " + out.string() +
+                     ": its ending says how the surface is written; give a name that ends in "
+                     ".pfm, .png, .ply or .stl");
+}
+
+void write_felt_surface(const SurfaceOptions& options, SurfaceFormat format) {
+    TouchParameters parameters = options.parameters;
+    FrameReader reader(open_given(options, parameters));
+    reader.set_cleaning(options.touch.cleaning());
+    std::optional<BumpMap> bump;
+    if (!options.touch.bump.empty()) bump = read_bump_map(options.touch.bump);
+    const std::vector<Frame> frames = frames_around(reader, options.time_s);
+    const DepthBlend blend = depth_at(frames, options.time_s);
+    const FeltSurface felt{blend.surface(parameters.shape, bump ? &*bump : nullptr),
+                           parameters.coupling.pixel_pitch_mm, blend.from->colour.get()};
+
+    const MediaDescription& media = reader.description();
+    refuse_overwriting(options.out, {media.colour_path, media.depth_path, options.touch.bump},
+                       "is also read by this command; give --out another name");
+    OutputFile file(options.out);
+    write_surface(felt, format, file);
+    file.commit();
+    std::cout << one_line(options.out.string()) << ": " << told(felt, format) << '\n';
+}
+
+}  // namespace
+
+int run_surface(CLI::App& app, const Arguments& arguments) {
+    SurfaceOptions options;
+    add_file(app, "COLOR", options.colour, "Colour video, image or folder, or depth alone", "")
+        ->required();
+    add_file(app, "DEPTH", options.depth, "Depth video, image or folder; else found beside COLOR",
+             "");
+    add_file(app, "--out", options.out,
+             "By its ending: .pfm elevations (px), .png 16-bit relief, .ply coloured mesh (mm), "
+             ".stl solid plate (mm)")
+        ->required();
+    add_number_option(app, "--time", 0.0, kLongestMedia_s,
+                      "Seconds from the beginning; between two frames they are blended",
+                      [&options](double time_s) { options.time_s = time_s; })
+        ->type_name("S")
+        ->default_str("0");
+    add_shape_options(app, options.touch);
+    app.footer(
+        "Examples:\n"
+        "  dibhr surface color.mp4 depth.mp4 --time 2.5 --out hand.ply\n"
+        "  dibhr surface depth.png --relief 60 --out plate.stl");
+    if (!parse(app, arguments)) return 0;
+    const SurfaceFormat format = format_asked(options.out);
+    options.touch.given.apply(options.parameters);
+    print_warning(roughness_warning(options.touch.given, !options.touch.bump.empty()));
+    write_felt_surface(options, format);
+    return 0;
+}
+
+}  // namespace dibhr

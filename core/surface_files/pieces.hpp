@@ -1,0 +1,72 @@
+// What all forms of a surface's file are made of: places as they are written, and bytes in large
+// pieces; inside the room.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <string>
+#include <string_view>
+
+#include "core/surface_files/surface_file.hpp"
+
+namespace dibhr {
+
+/// The elevation of a VERTEX as it is written [px]: always finite.
+[[nodiscard]] inline double written_px(const DepthSurface& surface, int i, int j) noexcept {
+    const double elevation = surface.elevation(i, j);
+    return std::isfinite(elevation) ? elevation : 0.0;
+}
+
+/// Where a VERTEX is [mm]: x to the right, y up from the lowest row, z to the viewer.
+[[nodiscard]] inline glm::vec3 place_mm(const FeltSurface& felt, int i, int j) noexcept {
+    const double pitch_mm = felt.pixel_pitch_mm;
+    return {static_cast<float>(i * pitch_mm),
+            static_cast<float>((felt.surface.rows() - 1 - j) * pitch_mm),
+            static_cast<float>(written_px(felt.surface, i, j) * pitch_mm)};
+}
+
+/// Bytes on their way into a file, whose numbers are little-endian.
+class Pieces {
+  public:
+    explicit Pieces(OutputFile& file) : file_(file) { bytes_.reserve(kPiece_bytes + kSlack_bytes); }
+
+    void add(std::string_view text) {
+        bytes_ += text;
+        if (bytes_.size() >= kPiece_bytes) send();
+    }
+    void add(std::uint32_t number) {
+        const std::array<char, 4> bytes{
+            static_cast<char>(number & 0xFFU), static_cast<char>((number >> 8U) & 0xFFU),
+            static_cast<char>((number >> 16U) & 0xFFU), static_cast<char>(number >> 24U)};
+        add(std::string_view(bytes.data(), bytes.size()));
+    }
+    void add(float number) { add(std::bit_cast<std::uint32_t>(number)); }
+    void add(glm::vec3 place) {
+        add(place.x);
+        add(place.y);
+        add(place.z);
+    }
+    /// What was added goes to the file. Throws InputError.
+    void send() {
+        file_.write(bytes_);
+        bytes_.clear();
+    }
+
+  private:
+    static constexpr std::size_t kPiece_bytes = std::size_t{1} << 20;
+    static constexpr std::size_t kSlack_bytes = 4096;
+
+    OutputFile& file_;
+    std::string bytes_{};
+};
+
+void write_pfm(const FeltSurface& felt, OutputFile& file);
+void write_relief_png(const FeltSurface& felt, OutputFile& file);
+void write_ply(const FeltSurface& felt, OutputFile& file);
+void write_stl(const FeltSurface& felt, OutputFile& file);
+
+}  // namespace dibhr

@@ -1,0 +1,76 @@
+// Which form a name asks for, and elevations as plain numbers.
+#include "core/surface_files/surface_file.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+
+#include "core/surface_files/pieces.hpp"
+
+namespace dibhr {
+
+std::string_view name_of(SurfaceFormat format) noexcept {
+    switch (format) {
+        case SurfaceFormat::pfm:
+            return "pfm";
+        case SurfaceFormat::png:
+            return "png";
+        case SurfaceFormat::ply:
+            return "ply";
+        case SurfaceFormat::stl:
+            break;
+    }
+    return "stl";
+}
+
+std::optional<SurfaceFormat> surface_format_of(const std::filesystem::path& file) {
+    std::string ending = file.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    for (const SurfaceFormat format : kSurfaceFormats) {
+        if (ending == "." + std::string(name_of(format))) return format;
+    }
+    return std::nullopt;
+}
+
+ElevationRange elevation_range(const DepthSurface& surface) {
+    const double first = written_px(surface, 0, 0);
+    ElevationRange range{first, first};
+    for (int j = 0; j < surface.rows(); ++j) {
+        for (int i = 0; i < surface.columns(); ++i) {
+            const double elevation = written_px(surface, i, j);
+            range.lowest_px = std::min(range.lowest_px, elevation);
+            range.highest_px = std::max(range.highest_px, elevation);
+        }
+    }
+    return range;
+}
+
+/// The lowest row comes first; a negative scale says little-endian.
+void write_pfm(const FeltSurface& felt, OutputFile& file) {
+    const DepthSurface& surface = felt.surface;
+    Pieces pieces(file);
+    pieces.add("Pf\n" + std::to_string(surface.columns()) + ' ' + std::to_string(surface.rows()) +
+               "\n-1.0\n");
+    for (int j = surface.rows() - 1; j >= 0; --j) {
+        for (int i = 0; i < surface.columns(); ++i) {
+            pieces.add(static_cast<float>(written_px(surface, i, j)));
+        }
+    }
+    pieces.send();
+}
+
+void write_surface(const FeltSurface& felt, SurfaceFormat format, OutputFile& file) {
+    switch (format) {
+        case SurfaceFormat::pfm:
+            return write_pfm(felt, file);
+        case SurfaceFormat::png:
+            return write_relief_png(felt, file);
+        case SurfaceFormat::ply:
+            return write_ply(felt, file);
+        case SurfaceFormat::stl:
+            return write_stl(felt, file);
+    }
+}
+
+}  // namespace dibhr
