@@ -1,0 +1,250 @@
+// Draws the camera's surface into an orthographic grid, row by row.
+#include "core/video/true_shape.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/video/pictures.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
+constexpr double kUsualPoints = 1 << 20;  ///< of a grid, at most; large pictures may have more
+constexpr double kMostAlong = 32000.0;    ///< points of a side: cv::remap takes less than 2^15
+constexpr double kWidestRay = 20.0;       ///< sideways over forwards: 87 degrees
+constexpr double kNarrowestView = 0.005;  ///< of a picture, likewise: 0.3 degrees
+
+/// Steeper, in pixels of height to a pixel sideways, is an edge with something behind it: 86.4
+/// degrees. A sphere is whole up to its last pixel, and the noise of sensors (a hundredth of the
+/// distance) stays one surface with 640 columns or less over 60 degrees.
+constexpr double kSteepest = 16.0;
+
+/// So far outside its border a triangle still counts, so that between two there is no gap [share].
+constexpr float kOverlap = 1e-4F;
+
+/// The picture's first and last ray along one side: sideways over forwards.
+struct Rays {
+    double first;
+    double last;
+};
+
+Rays rays_of(int pixels, double focal, double centre) {
+    return {(0.0 - centre) / focal, (pixels - 1.0 - centre) / focal};
+}
+
+void require_view(const Rays& rays, double focal) {
+    const bool is_camera = focal > 0.0 && rays.last - rays.first >= kNarrowestView &&
+                           rays.first >= -kWidestRay && rays.last <= kWidestRay;
+    if (!is_camera)
+        throw InputError(
+            "the intrinsics are not of a camera that took this picture: give its focal lengths and "
+            "its centre in depth pixels, FX,FY,CX,CY");
+}
+
+void require_range(const DepthRange& range_mm) {
+    const bool is_range =
+        range_mm.near > 0.0 && range_mm.far > range_mm.near && std::isfinite(range_mm.far);
+    if (!is_range)
+        throw InputError("true shape needs a depth range of distances, the nearest above 0: not " +
+                         short_text(range_mm.near) + " to " + short_text(range_mm.far) + " mm");
+}
+
+/// What rays see between two distances [mm].
+struct Extent {
+    double begin;
+    double end;
+
+    [[nodiscard]] double length() const { return end - begin; }
+};
+
+Extent extent_of(const Rays& rays, const DepthRange& range_mm) {
+    return {std::min(rays.first * range_mm.near, rays.first * range_mm.far),
+            std::max(rays.last * range_mm.near, rays.last * range_mm.far)};
+}
+
+/// The points of the grid along one side, in the middle of the extent.
+void lay_out(const Extent& extent, double pitch_mm, int& count, double& first_mm) {
+    count = static_cast<int>(extent.length() / pitch_mm) + 1;
+    first_mm = 0.5 * (extent.begin + extent.end - (count - 1) * pitch_mm);
+}
+
+/// The first whole number not below a coordinate of the grid, and the last not above it; both by
+/// kOverlap more. Coordinates are -1/2 or more.
+int first_from(float coordinate) {
+    return static_cast<int>(coordinate + (1.0F - kOverlap));
+}
+int last_to(float coordinate) {
+    return static_cast<int>(coordinate + kOverlap);
+}
+
+/// cv::remap() takes no larger ones.
+cv::Mat of_possible_size(const cv::Mat& colour) {
+    const double shrink = kMostAlong / std::max(colour.cols, colour.rows);
+    if (shrink >= 1.0) return colour;
+    cv::Mat smaller;
+    cv::resize(colour, smaller, {}, shrink, shrink, cv::INTER_AREA);
+    return smaller;
+}
+
+}  // namespace
+
+StraightGrid straight_grid(cv::Size depth_size, const Intrinsics& camera,
+                           const DepthRange& range_mm) {
+    require_range(range_mm);
+    const Rays across = rays_of(depth_size.width, camera.fx, camera.cx);
+    const Rays down = rays_of(depth_size.height, camera.fy, camera.cy);
+    require_view(across, camera.fx);
+    require_view(down, camera.fy);
+    const Extent width = extent_of(across, range_mm);
+    const Extent height = extent_of(down, range_mm);
+    const double nearest_pixel_mm = range_mm.near / std::sqrt(camera.fx * camera.fy);
+    const double most_points = std::max(kUsualPoints, 1.0 * depth_size.width * depth_size.height);
+    StraightGrid grid;
+    grid.pitch_mm =
+        std::max({nearest_pixel_mm, std::sqrt(width.length() * height.length() / most_points),
+                  width.length() / kMostAlong, height.length() / kMostAlong});
+    lay_out(width, grid.pitch_mm, grid.columns, grid.left_mm);
+    lay_out(height, grid.pitch_mm, grid.rows, grid.top_mm);
+    if (grid.columns < 2 || grid.rows < 2)
+        throw InputError(
+            "the picture is too flat to be seen straight on: give intrinsics that fit "
+            "its width and its height");
+    return grid;
+}
+
+TrueShape::TrueShape(cv::Size depth_size, const Intrinsics& camera, const DepthRange& range_mm)
+    : depth_size_(depth_size),
+      camera_(camera),
+      range_mm_(range_mm),
+      grid_(straight_grid(depth_size, camera, range_mm)),
+      steepest_(static_cast<float>(kSteepest / std::sqrt(camera.fx * camera.fy))) {}
+
+StraightPicture TrueShape::seen_straight_on(const cv::Mat& depth_mm, const cv::Mat& colour) {
+    assert(depth_mm.type() == CV_32FC1 && depth_mm.size() == depth_size_);
+    StraightPicture picture;
+    DepthImage& image = picture.depth;
+    image.columns = grid_.columns;
+    image.rows = grid_.rows;
+    // As the elevations are rounded, so that none is higher.
+    image.highest_level =
+        double{static_cast<float>(range_mm_.far) - static_cast<float>(range_mm_.near)};
+    image.levels.assign(
+        static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(grid_.rows), kNothing);
+    place_row(depth_mm, 0, below_);
+    for (int row = 1; row < depth_mm.rows; ++row) {
+        std::swap(above_, below_);
+        place_row(depth_mm, row, below_);
+        for (std::size_t i = 0; i + 1 < above_.size(); ++i) {
+            draw(above_[i], above_[i + 1], below_[i], image);
+            draw(below_[i + 1], below_[i], above_[i + 1], image);
+        }
+    }
+    if (!colour.empty()) picture.colour = colour_on(image, colour);
+    return picture;
+}
+
+void TrueShape::place_row(const cv::Mat& depth_mm, int row, std::vector<Corner>& corners) const {
+    const float* const distances_mm = depth_mm.ptr<float>(row);
+    const auto near = static_cast<float>(range_mm_.near);
+    const auto far = static_cast<float>(range_mm_.far);
+    const auto left = static_cast<float>(grid_.left_mm / grid_.pitch_mm);
+    const auto top = static_cast<float>(grid_.top_mm / grid_.pitch_mm);
+    const auto ray_y = static_cast<float>((row - camera_.cy) / (camera_.fy * grid_.pitch_mm));
+    const auto step_x = static_cast<float>(1.0 / (camera_.fx * grid_.pitch_mm));
+    const auto centre_x = static_cast<float>(camera_.cx);
+    corners.resize(static_cast<std::size_t>(depth_mm.cols));
+    for (int i = 0; i < depth_mm.cols; ++i) {
+        const float distance = distances_mm[i];
+        const bool has_data = distance > 0.0F && std::isfinite(distance);
+        const float held = has_data ? std::clamp(distance, near, far) : kNothing;
+        const float ray_x = (static_cast<float>(i) - centre_x) * step_x;
+        corners[static_cast<std::size_t>(i)] = {ray_x * held - left, ray_y * held - top,
+                                                far - held};
+    }
+}
+
+/// The elevations at the points of the grid inside a triangle. Seen from its back it counts, too:
+/// then something nearer is in front of it.
+void TrueShape::draw(const Corner& a, const Corner& b, const Corner& c, DepthImage& image) const {
+    if (std::isnan(a.elevation + b.elevation + c.elevation)) return;
+    const auto [lowest, highest] = std::minmax({a.elevation, b.elevation, c.elevation});
+    const float nearest = static_cast<float>(range_mm_.far) - highest;
+    if (highest - lowest > steepest_ * nearest) return;
+    const auto [left, right] = std::minmax({a.x, b.x, c.x});
+    const int first_column = first_from(left);
+    const int last_column = std::min(last_to(right), image.columns - 1);
+    if (first_column > last_column) return;
+    const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
+    const int first_row = first_from(top);
+    const int last_row = std::min(last_to(bottom), image.rows - 1);
+    if (first_row > last_row) return;
+
+    const float b_x = b.x - a.x, b_y = b.y - a.y;
+    const float c_x = c.x - a.x, c_y = c.y - a.y;
+    const float twice_area = b_x * c_y - b_y * c_x;
+    if (twice_area == 0.0F) return;  // seen along itself
+    const float scale = 1.0F / twice_area;
+    for (int row = first_row; row <= last_row; ++row) {
+        float* const levels = &image.levels[image.index(0, row)];
+        const float y = static_cast<float>(row) - a.y;
+        for (int column = first_column; column <= last_column; ++column) {
+            const float x = static_cast<float>(column) - a.x;
+            const float share_b = (x * c_y - y * c_x) * scale;
+            const float share_c = (y * b_x - x * b_y) * scale;
+            if (share_b < -kOverlap || share_c < -kOverlap || share_b + share_c > 1.0F + kOverlap)
+                continue;
+            const float elevation = std::clamp(a.elevation + share_b * (b.elevation - a.elevation) +
+                                                   share_c * (c.elevation - a.elevation),
+                                               lowest, highest);
+            if (!(levels[column] >= elevation)) levels[column] = elevation;  // NaN: the first one
+        }
+    }
+}
+
+/// Where in the colour picture the surface at every point of the grid was seen.
+void TrueShape::find_pixels(const DepthImage& image, cv::Size colour_size) {
+    constexpr float kOutside = -2.0F;
+    const double across = 1.0 * colour_size.width / depth_size_.width;
+    const double down = 1.0 * colour_size.height / depth_size_.height;
+    const auto centre_x = static_cast<float>((camera_.cx + 0.5) * across - 0.5);
+    const auto centre_y = static_cast<float>((camera_.cy + 0.5) * down - 0.5);
+    const auto far = static_cast<float>(range_mm_.far);
+    const auto last_x = static_cast<float>(colour_size.width - 1);
+    const auto last_y = static_cast<float>(colour_size.height - 1);
+    pixel_x_.create(image.rows, image.columns, CV_32FC1);
+    pixel_y_.create(image.rows, image.columns, CV_32FC1);
+    for (int j = 0; j < image.rows; ++j) {
+        const float* const levels = &image.levels[image.index(0, j)];
+        float* const xs = pixel_x_.ptr<float>(j);
+        float* const ys = pixel_y_.ptr<float>(j);
+        const auto y = static_cast<float>((grid_.top_mm + j * grid_.pitch_mm) * camera_.fy * down);
+        const auto left = static_cast<float>(grid_.left_mm * camera_.fx * across);
+        const auto step = static_cast<float>(grid_.pitch_mm * camera_.fx * across);
+        for (int i = 0; i < image.columns; ++i) {
+            const bool is_seen = levels[i] == levels[i];
+            const float nearness = 1.0F / (far - levels[i]);
+            const float x = centre_x + (left + static_cast<float>(i) * step) * nearness;
+            xs[i] = is_seen ? std::clamp(x, 0.0F, last_x) : kOutside;
+            ys[i] = is_seen ? std::clamp(centre_y + y * nearness, 0.0F, last_y) : kOutside;
+        }
+    }
+}
+
+ColourImage TrueShape::colour_on(const DepthImage& image, const cv::Mat& colour) {
+    const cv::Mat source = of_possible_size(colour);
+    find_pixels(image, source.size());
+    cv::Mat resampled;
+    cv::remap(source, resampled, pixel_x_, pixel_y_, cv::INTER_LINEAR, cv::BORDER_CONSTANT);
+    return colour_of(resampled);
+}
+
+}  // namespace dibhr

@@ -1,0 +1,82 @@
+// The true shape of what a depth camera sees: its surface in millimetres, seen straight on instead
+// of from the camera, so that a ball is round and a table flat whatever its distance; inside the
+// room.
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <opencv2/core/types.hpp>
+#include <vector>
+
+#include "core/haptics/depth_image.hpp"
+#include "core/video/depth_meaning.hpp"
+#include "core/video/frame_window.hpp"
+
+namespace dibhr {
+
+/// Where a surface is sampled: column i is left_mm + i pitch_mm to the right of the camera's axis,
+/// row j is top_mm + j pitch_mm below it, at every distance.
+struct StraightGrid {
+    int columns{0};
+    int rows{0};
+    double pitch_mm{0.0};
+    double left_mm{0.0};
+    double top_mm{0.0};
+};
+
+/// The grid for all that a camera sees between the two distances `range_mm` from its plane. It is
+/// as fine as the camera's pixels are at the nearest distance, so that nothing of a near hand is
+/// lost, but of no more points than a million, or than the pictures have pixels if they have more:
+/// else a room behind the hand would make it grow with the square of far / near.
+/// Throws InputError when the intrinsics are no camera's, or the range is none.
+[[nodiscard]] StraightGrid straight_grid(cv::Size depth_size, const Intrinsics& camera,
+                                         const DepthRange& range_mm);
+
+/// One moment of a grid.
+struct StraightPicture {
+    /// Elevation over the farthest distance [mm], of which the highest is that of the nearest; NaN
+    /// where nothing is seen: behind something nearer, outside the picture, without data.
+    DepthImage depth{};
+    ColourImage colour{};  ///< of the grid's size, black where nothing is seen; empty: none given
+};
+
+/// Resamples the pictures of one clip. The surface goes through the middle of every depth pixel
+/// that has data, in triangles, but not on from an edge to what is behind it; where it lies over
+/// itself the nearest is taken. Deterministic. Scratch memory is kept from picture to picture.
+class TrueShape {
+  public:
+    /// For depth pictures of this size. Throws InputError as straight_grid().
+    TrueShape(cv::Size depth_size, const Intrinsics& camera, const DepthRange& range_mm);
+
+    [[nodiscard]] const StraightGrid& grid() const noexcept { return grid_; }
+    /// The relief that gives the depth image its true shape: elevation in grid pitches.
+    [[nodiscard]] double relief_px() const noexcept {
+        return (range_mm_.far - range_mm_.near) / grid_.pitch_mm;
+    }
+
+    /// `depth_mm`: CV_32FC1 of the clip's size, distances from the camera's plane; what is not
+    /// finite or not above 0 is no data, what is out of the range is moved into it along its ray.
+    /// `colour`: 8-bit BGR of any size and the same field of view, or empty.
+    [[nodiscard]] StraightPicture seen_straight_on(const cv::Mat& depth_mm, const cv::Mat& colour);
+
+  private:
+    /// The middle of a depth pixel: its place in the grid [px] and its elevation [mm], NaN without
+    /// data.
+    struct Corner {
+        float x, y, elevation;
+    };
+
+    void place_row(const cv::Mat& depth_mm, int row, std::vector<Corner>& corners) const;
+    void draw(const Corner& a, const Corner& b, const Corner& c, DepthImage& image) const;
+    void find_pixels(const DepthImage& image, cv::Size colour_size);
+    [[nodiscard]] ColourImage colour_on(const DepthImage& image, const cv::Mat& colour);
+
+    cv::Size depth_size_;
+    Intrinsics camera_;
+    DepthRange range_mm_;
+    StraightGrid grid_;
+    float steepest_;  ///< of a triangle: its height over the distance of its nearest corner
+    std::vector<Corner> above_{}, below_{};
+    cv::Mat pixel_x_{}, pixel_y_{};  ///< of the colour picture, for every point of the grid
+};
+
+}  // namespace dibhr
