@@ -162,6 +162,54 @@ std::vector<cv::Mat> PictureSource::samples(int most) {
     return pictures;
 }
 
+ChangedPictures::ChangedPictures(std::unique_ptr<PictureSource> source, Change change, Tell tell)
+    : source_(std::move(source)), change_(std::move(change)), tell_(std::move(tell)) {
+    first_ = changed_next();
+    if (first_) {
+        facts_.columns = first_->picture.cols;
+        facts_.rows = first_->picture.rows;
+    }
+    require_size(facts_.file, facts_.columns, facts_.rows);
+}
+
+void ChangedPictures::learn() {
+    const cv::Size size(facts_.columns, facts_.rows);
+    facts_ = source_->facts();
+    facts_.columns = size.width;
+    facts_.rows = size.height;
+    tell_(facts_);
+}
+
+std::optional<TimedPicture> ChangedPictures::changed_next() {
+    std::optional<TimedPicture> taken = source_->next();
+    if (taken) taken->picture = change_(taken->picture);
+    learn();
+    return taken;
+}
+
+std::optional<TimedPicture> ChangedPictures::next() {
+    if (!first_) return changed_next();
+    return std::exchange(first_, std::nullopt);
+}
+
+void ChangedPictures::seek(double time_s) {
+    first_.reset();
+    source_->seek(time_s);
+    learn();
+}
+
+std::vector<cv::Mat> ChangedPictures::samples(int most) {
+    first_.reset();
+    std::vector<cv::Mat> pictures = source_->samples(most);
+    for (cv::Mat& picture : pictures) picture = change_(picture);
+    return pictures;
+}
+
+void ChangedPictures::count_frames(std::int64_t most) {
+    source_->count_frames(most);
+    learn();
+}
+
 StillFile::StillFile(const std::filesystem::path& file, PictureRole role)
     : picture_(role == PictureRole::depth ? read_picture_unchanged(file)
                                           : read_colour_picture(file)) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
@@ -82,6 +83,34 @@ class PictureSource {
     /// At most `most` pictures from all over it, the first among them, as cheap to get as can be;
     /// the next picture returned is the first.
     virtual std::vector<cv::Mat> samples(int most);
+};
+
+/// The pictures of another source, each changed in the same way: a half of it, decoded, stretched.
+class ChangedPictures : public PictureSource {
+  public:
+    using Change = std::function<cv::Mat(const cv::Mat&)>;
+    using Tell = std::function<void(SourceFacts&)>;
+
+    /// `tell` puts into the facts of the source what the change makes of them, but the size, which
+    /// is that of the first changed picture. Reads that picture. Throws InputError when it is too
+    /// small to touch.
+    ChangedPictures(std::unique_ptr<PictureSource> source, Change change, Tell tell);
+
+    [[nodiscard]] const SourceFacts& facts() const override { return facts_; }
+    std::optional<TimedPicture> next() override;
+    void seek(double time_s) override;
+    void count_frames(std::int64_t most) override;
+    std::vector<cv::Mat> samples(int most) override;
+
+  private:
+    void learn();
+    std::optional<TimedPicture> changed_next();
+
+    std::unique_ptr<PictureSource> source_;
+    Change change_;
+    Tell tell_;
+    SourceFacts facts_{};
+    std::optional<TimedPicture> first_{};  ///< read already, given out next
 };
 
 /// A still image as a source of one picture.
