@@ -13,7 +13,7 @@
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/depth_finding.hpp"
+#include "core/video/layouts.hpp"
 #include "core/video/libraries.hpp"
 #include "core/video/media_names.hpp"
 #include "core/video/paired_media.hpp"
@@ -62,7 +62,7 @@ struct ColourAndDepth {
 /// Where a file's own words say it: one track has depth in its title, or is coded without colours
 /// beside one that has them; of several such the one of the most bits. Nothing when none does.
 std::optional<ColourAndDepth> colour_and_depth_tracks(const fs::path& file) {
-    if (is_folder(file)) return std::nullopt;
+    if (names_pictures(file)) return std::nullopt;
     require_readable(file);
     if (is_still(file)) return std::nullopt;
     const std::vector<VideoTrack> tracks = video_tracks(file);
@@ -84,57 +84,47 @@ std::optional<ColourAndDepth> colour_and_depth_tracks(const fs::path& file) {
                           static_cast<int>(depth - tracks.begin())};
 }
 
-std::unique_ptr<PictureSource> sequence(const fs::path& folder, const PictureRow& row,
-                                        const PictureRow& other, PictureRole role) {
-    return std::make_unique<PictureSequence>(folder, row, times_s(row, other, kPicturesPerSecond),
-                                             role);
+/// Pictures of one kind, where they were found.
+struct PlacedRow {
+    fs::path place{};
+    PictureRow pictures{};
+    LayoutFacts said{};
+};
+
+std::unique_ptr<PictureSource> sequence(const PlacedRow& row, const PictureRow& other,
+                                        PictureRole role) {
+    return std::make_unique<PictureSequence>(
+        row.place, row.pictures, times_s(row.pictures, other, kPicturesPerSecond), role, row.said);
 }
 
-/// A depth source and, unless null, the colour that belongs to it. Who says something of the depth
-/// says it beside the depth or beside the colour.
-std::unique_ptr<PairedMedia> pair_of(std::unique_ptr<PictureSource> depth,
-                                     std::unique_ptr<PictureSource> colour,
-                                     const DepthRequest& request) {
-    std::vector<fs::path> places{depth->facts().file};
-    if (colour) places.push_back(colour->facts().file);
-    DepthScale scale = find_scale(*depth, places, request);
-    return std::make_unique<PairedMedia>(std::move(depth), std::move(colour), std::move(scale));
-}
-
-std::unique_ptr<PairedMedia> paired(const fs::path& colour_folder, const PictureRow& colour,
-                                    const fs::path& depth_folder, const PictureRow& depth,
-                                    const DepthRequest& request) {
-    return pair_of(sequence(depth_folder, depth, colour, PictureRole::depth),
-                   sequence(colour_folder, colour, depth, PictureRole::colour), request);
-}
-
-/// Depth alone, in colours of its own.
-std::unique_ptr<PairedMedia> painted(std::unique_ptr<PictureSource> depth,
-                                     const DepthRequest& request) {
-    DepthScale scale = find_scale(*depth, {depth->facts().file}, request);
-    return std::make_unique<PairedMedia>(std::move(depth), nullptr, std::move(scale), true);
+std::unique_ptr<PairedMedia> paired(PlacedRow colour, const PlacedRow& depth) {
+    colour.pictures = nearest_in_time(colour.pictures, depth.pictures);
+    return std::make_unique<PairedMedia>(sequence(depth, colour.pictures, PictureRole::depth),
+                                         sequence(colour, depth.pictures, PictureRole::colour));
 }
 
 /// The pictures of that role, or those whose names say nothing. Throws InputError when there are
 /// none.
-PictureRow row_of(const fs::path& folder, PictureRole role) {
-    PictureFolder found = look_into(folder);
+PlacedRow row_of(const fs::path& place, PictureRole role) {
+    PictureSet found = pictures_at(place);
     const bool is_depth = role == PictureRole::depth;
     PictureRow& named = is_depth ? found.depth : found.colour;
     PictureRow& row = named.empty() ? found.unnamed : named;
     if (row.empty())
-        throw InputError(shown(folder) + " is a folder without " + (is_depth ? "depth" : "colour") +
+        throw InputError(shown(place) + (is_folder(place) ? " is a folder" : " is a list") +
+                         " without " + (is_depth ? "depth" : "colour") +
                          " pictures: give the folder or the file that holds them");
-    return std::move(row);
+    return {place, std::move(row), std::move(found.facts)};
 }
 
 /// The colour and the depth of one file's tracks, or of one folder; null when it does not hold
 /// both.
-std::unique_ptr<PairedMedia> open_both(const fs::path& place, const DepthRequest& request) {
-    if (is_folder(place)) {
-        const PictureFolder found = look_into(place);
+std::unique_ptr<PairedMedia> open_both(const fs::path& place) {
+    if (names_pictures(place)) {
+        PictureSet found = pictures_at(place);
         if (found.colour.empty() || found.depth.empty()) return nullptr;
-        return paired(place, found.colour, place, found.depth, request);
+        return paired({place, std::move(found.colour), {}},
+                      {place, std::move(found.depth), std::move(found.facts)});
     }
     const auto tracks = colour_and_depth_tracks(place);
     if (!tracks) return nullptr;
@@ -159,16 +149,34 @@ fs::path depth_file_for(const fs::path& colour, const fs::path& depth) {
                      looked_for + ")");
 }
 
-/// A folder of colour pictures, and the folder or file of the depth that belongs to it.
-std::unique_ptr<Media> open_with_folder(const fs::path& colour, const fs::path& depth,
-                                        const DepthRequest& request) {
-    const PictureRow colours = row_of(colour, PictureRole::colour);
+/// Colour pictures of a folder, a list or a pattern, and the place of the depth that belongs to
+/// them.
+std::unique_ptr<PairedMedia> open_with_pictures(const fs::path& colour, const fs::path& depth) {
+    PlacedRow colours = row_of(colour, PictureRole::colour);
     const fs::path depth_place = depth_file_for(colour, depth);
-    if (is_folder(depth_place))
-        return paired(colour, colours, depth_place, row_of(depth_place, PictureRole::depth),
-                      request);
-    return pair_of(open_picture_source(depth_place, PictureRole::depth),
-                   sequence(colour, colours, {}, PictureRole::colour), request);
+    if (names_pictures(depth_place))
+        return paired(std::move(colours), row_of(depth_place, PictureRole::depth));
+    return std::make_unique<PairedMedia>(open_picture_source(depth_place, PictureRole::depth),
+                                         sequence(colours, {}, PictureRole::colour));
+}
+
+/// Of a place that holds one of them only, as far as names say.
+PictureRole role_of(const fs::path& place) {
+    if (!names_pictures(place)) return PictureRole::depth;
+    const PictureSet found = pictures_at(place);
+    const bool is_colour = !found.colour.empty() && found.depth.empty() && found.unnamed.empty();
+    return is_colour ? PictureRole::colour : PictureRole::depth;
+}
+
+std::unique_ptr<PairedMedia> open_places(const fs::path& colour, const fs::path& depth) {
+    if (depth.empty() || depth == colour) {
+        if (auto both = open_both(colour)) return both;
+    }
+    if (names_pictures(colour)) return open_with_pictures(colour, depth);
+    // First, so that a colour file that cannot be read is not blamed on a missing depth file.
+    auto colour_source = open_picture_source(colour, PictureRole::colour);
+    auto depth_source = open_picture_source(depth_file_for(colour, depth), PictureRole::depth);
+    return std::make_unique<PairedMedia>(std::move(depth_source), std::move(colour_source));
 }
 
 }  // namespace
@@ -210,7 +218,7 @@ void require_size(const fs::path& file, int columns, int rows) {
 
 std::unique_ptr<PictureSource> open_picture_source(const fs::path& file, PictureRole role) {
     set_up_libraries();
-    if (is_folder(file)) return sequence(file, row_of(file, role), {}, role);
+    if (names_pictures(file)) return sequence(row_of(file, role), {}, role);
     require_readable(file);
     if (is_still(file)) return std::make_unique<StillFile>(file, role);
     return std::make_unique<VideoFile>(file, role);
@@ -219,38 +227,39 @@ std::unique_ptr<PictureSource> open_picture_source(const fs::path& file, Picture
 std::unique_ptr<Media> open_media(const fs::path& colour, const fs::path& depth,
                                   const DepthRequest& request) {
     set_up_libraries();
-    if (colour.empty()) return painted(open_picture_source(depth, PictureRole::depth), request);
-    if (depth.empty() || depth == colour) {
-        if (auto both = open_both(colour, request)) return both;
-    }
-    if (is_folder(colour)) return open_with_folder(colour, depth, request);
-    // First, so that a colour file that cannot be read is not blamed on a missing depth file.
-    auto colour_source = open_picture_source(colour, PictureRole::colour);
-    auto depth_source = open_picture_source(depth_file_for(colour, depth), PictureRole::depth);
-    return pair_of(std::move(depth_source), std::move(colour_source), request);
+    const MediaPlaces places = places_for(colour, depth);
+    auto media = open_places(places.colour, places.depth);
+    media->add_notice(places.notice);
+    return media;
 }
 
-std::unique_ptr<Media> open_depth(const fs::path& depth, const DepthRequest& request) {
+std::unique_ptr<Media> open_depth(const fs::path& place) {
     set_up_libraries();
+    const fs::path depth = depth_place_for(place);
     const auto tracks = colour_and_depth_tracks(depth);
     return pair_of(tracks ? std::make_unique<VideoFile>(depth, PictureRole::depth, tracks->depth)
                           : open_picture_source(depth, PictureRole::depth),
                    nullptr, request);
 }
 
-MediaDescription describe_media(const fs::path& file) {
+MediaDescription describe_media(const fs::path& place) {
     set_up_libraries();
-    if (const auto both = open_both(file, {})) {
+    const MediaPlaces places = places_for(place, {});
+    const fs::path& file = places.colour;
+    if (const auto both =
+            places.depth.empty() ? open_both(file) : open_places(file, places.depth)) {
+        both->add_notice(places.notice);
         both->count_frames(kMostCounted);
         return both->description();
     }
-    const auto source = open_picture_source(file, PictureRole::depth);
+    const auto source = open_picture_source(file, role_of(file));
     source->count_frames(kMostCounted);
     const SourceFacts& facts = source->facts();
     MediaDescription description;
     const bool depth = named_depth(file) || facts.channels == 1 || facts.bits == 16;
     depth ? describe_depth(facts, description) : describe_colour(facts, description);
     describe_time(facts, description);
+    description.notice = facts.notice;
     return description;
 }
 

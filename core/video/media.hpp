@@ -59,6 +59,8 @@ struct MediaDescription {
     /// A sentence once a file turned out to hold less than at its opening: it was cut or
     /// overwritten meanwhile. What is left goes on.
     std::string trouble{};
+    /// Sentences on what was passed over or chosen at the opening; mostly empty.
+    std::string notice{};
 
     [[nodiscard]] bool has_real_numbers() const noexcept { return depth_bits > 16; }
 };
@@ -88,23 +90,24 @@ class Media {
     virtual void seek(double media_s) = 0;
 };
 
-/// Opens a pair. An empty colour path: the depth alone, shown in colours of its own. An empty depth
-/// path, or the colour's: the depth is another track of the colour's file, where that says so, or
-/// else a file beside it. Throws InputError: what, which file, what to do next.
+/// Opens a pair, each of them a file, a folder, a list or a pattern of pictures. An empty colour
+/// path: the depth alone, shown in colours of its own. An empty depth path, or the colour's: the
+/// depth is in the same place, another track of the colour's file where that says so, or else a
+/// file beside it. Throws InputError: what, which file, what to do next.
 [[nodiscard]] std::unique_ptr<Media> open_media(const std::filesystem::path& colour,
                                                 const std::filesystem::path& depth = {},
                                                 const DepthRequest& request = {});
 
-/// Opens a depth video, a file's depth track or an image alone (`dibhr touch --depth`); its colour
-/// is empty.
-[[nodiscard]] std::unique_ptr<Media> open_depth(const std::filesystem::path& depth,
+/// Opens a depth video, a file's depth track, an image, or the depth of a folder, list or pattern
+/// alone (`dibhr touch --depth`); its colour is empty.
+[[nodiscard]] std::unique_ptr<Media> open_depth(const std::filesystem::path& place,
                                                 const DepthRequest& request = {});
 
 /// Describes one media file of any kind without needing its partner (`dibhr info FILE`): what looks
 /// like depth (by name, or grey, or 16 bits) fills the depth fields, other files the colour fields;
 /// one of a colour and a depth track both.
 /// Videos of up to a few thousand frames are read to their end, so that the numbers are exact.
-[[nodiscard]] MediaDescription describe_media(const std::filesystem::path& file);
+[[nodiscard]] MediaDescription describe_media(const std::filesystem::path& place);
 
 /// A bump map from an 8- or 16-bit image, normalised so that its lowest level is 0 and its
 /// highest 1.

@@ -9,6 +9,7 @@
 #include <span>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "core/video/media.hpp"
 
@@ -19,7 +20,18 @@ namespace fs = std::filesystem;
 namespace {
 
 using Words = std::span<const std::string_view>;
-constexpr std::array<std::string_view, 3> kColourWords{"colour", "color", "rgb"};
+
+// Anywhere in a name.
+constexpr std::array<std::string_view, 5> kColourWords{"colour", "color", "rgb", "albedo",
+                                                       "diffuse"};
+constexpr std::array<std::string_view, 4> kDepthWords{"depth", "disparity", "displacement",
+                                                      "heightmap"};
+// Between other letters they mean something else: "display", "different".
+constexpr std::array<std::string_view, 1> kShortColourWords{"diff"};
+constexpr std::array<std::string_view, 2> kShortDepthWords{"disp", "height"};
+constexpr std::array<std::string_view, 4> kMayBeColour{"image", "images", "img", "left"};
+constexpr std::array<std::string_view, 2> kSayNothing{"map", "mono"};  // "mono_depth", "depth map"
+
 constexpr std::array<std::string_view, 11> kPictureEndings{
     ".bmp", ".jpeg", ".jpg", ".pgm", ".png", ".pnm", ".ppm", ".tga", ".tif", ".tiff", ".webp"};
 constexpr std::array<std::string_view, 9> kVideoEndings{".avi", ".m4v", ".mkv", ".mov", ".mp4",
@@ -30,8 +42,48 @@ bool ends_as(const fs::path& file, Words endings) {
     return std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 
-bool holds(const fs::path& file, std::string_view word) {
-    return lower_case(file.filename().string()).find(word) != std::string::npos;
+bool is_digit(char c) {
+    return std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
+
+bool is_one_of(std::string_view word, Words words) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+/// Whether one word of a name ends and another begins between the two letters.
+bool is_between_words(char before, char after) {
+    const auto is = [](int (*kind)(int), char c) {
+        return kind(static_cast<unsigned char>(c)) != 0;
+    };
+    return is_digit(before) != is_digit(after) ||
+           (is(std::islower, before) && is(std::isupper, after));
+}
+
+/// In small letters; runs of digits are words, too.
+std::vector<std::string> words_of(const std::string& name) {
+    std::vector<std::string> words(1);
+    for (std::size_t k = 0; k < name.size(); ++k) {
+        const auto byte = static_cast<unsigned char>(name[k]);
+        const bool counts = byte >= 0x80 || std::isalnum(byte) != 0;
+        if (k > 0 && is_between_words(name[k - 1], name[k])) words.emplace_back();
+        if (counts)
+            words.back().push_back(name[k]);
+        else
+            words.emplace_back();
+    }
+    std::erase(words, "");
+    std::transform(words.begin(), words.end(), words.begin(), lower_case);
+    return words;
+}
+
+bool holds(const fs::path& file, Words anywhere, Words whole) {
+    const std::string name = lower_case(file.filename().string());
+    const std::vector<std::string> words = words_of(file.filename().string());
+    return std::any_of(
+               anywhere.begin(), anywhere.end(),
+               [&](std::string_view word) { return name.find(word) != std::string::npos; }) ||
+           std::any_of(words.begin(), words.end(),
+                       [&](const std::string& word) { return is_one_of(word, whole); });
 }
 
 /// `stem` with the first `word` replaced by `other`, written as large as `word` is; nothing when
@@ -58,6 +110,10 @@ bool is_file(const fs::path& file) {
     return fs::is_regular_file(file, ignored);
 }
 
+bool named_media(const fs::path& file) {
+    return named_picture(file) || named_video(file);
+}
+
 /// The file of that stem in that folder, whatever its extension; the first by name. Nothing when
 /// none.
 std::optional<fs::path> with_any_extension(const fs::path& folder, const std::string& stem) {
@@ -66,8 +122,7 @@ std::optional<fs::path> with_any_extension(const fs::path& folder, const std::st
     for (fs::directory_iterator entry(folder.empty() ? "." : folder, failed), end;
          !failed && entry != end; entry.increment(failed)) {
         const auto& file = entry->path();
-        const bool of_media = named_picture(file) || ends_as(file, kVideoEndings);
-        if (file.stem() == stem && of_media && is_file(file))
+        if (file.stem() == stem && named_media(file) && is_file(file))
             found.insert(folder / file.filename());
     }
     if (found.empty()) return std::nullopt;
@@ -81,6 +136,28 @@ std::optional<fs::path> with_stem(const fs::path& given, const std::string& stem
     const auto same = folder / (stem + given.extension().string());
     if (is_folder(given)) return is_folder(same) ? std::optional(same) : std::nullopt;
     return is_file(same) ? same : with_any_extension(folder, stem);
+}
+
+/// The first file beside `given`, or folder beside a folder, that is of the same subject and that
+/// `fits`.
+template <typename Fits>
+std::optional<fs::path> of_same_subject(const fs::path& given, Fits fits) {
+    std::optional<fs::path> found;
+    const std::string subject = subject_of(given);
+    const fs::path folder = given.parent_path();
+    std::error_code failed;
+    for (fs::directory_iterator entry(folder.empty() ? "." : folder, failed), end;
+         !failed && entry != end; entry.increment(failed)) {
+        const fs::path name = entry->path().filename();
+        const bool of_kind =
+            is_folder(given) ? is_folder(*entry) : named_media(name) && is_file(*entry);
+        if (!of_kind || name == given.filename() || name.string().starts_with('.') || !fits(name) ||
+            subject_of(name) != subject)
+            continue;
+        if (!found || in_natural_order(name.string(), found->filename().string()))
+            found = folder / name;
+    }
+    return found;
 }
 
 }  // namespace
@@ -100,13 +177,63 @@ bool named_picture(const fs::path& file) {
     return ends_as(file, kPictureEndings);
 }
 
+bool named_video(const fs::path& file) {
+    return ends_as(file, kVideoEndings);
+}
+
 bool named_colour(const fs::path& file) {
-    return std::any_of(kColourWords.begin(), kColourWords.end(),
-                       [&file](std::string_view word) { return holds(file, word); });
+    return holds(file, kColourWords, kShortColourWords);
 }
 
 bool named_depth(const fs::path& file) {
-    return holds(file, "depth");
+    return holds(file, kDepthWords, kShortDepthWords);
+}
+
+bool may_name_colour(const fs::path& file) {
+    return holds(file, {}, kMayBeColour);
+}
+
+std::string subject_of(const fs::path& file) {
+    std::string subject;
+    for (std::string word : words_of(file.stem().string())) {
+        for (const Words anywhere : {Words(kColourWords), Words(kDepthWords)}) {
+            for (const std::string_view said : anywhere) {
+                if (const auto at = word.find(said); at != std::string::npos)
+                    word.erase(at, said.size());
+            }
+        }
+        if (word.empty() || is_one_of(word, kShortColourWords) ||
+            is_one_of(word, kShortDepthWords) || is_one_of(word, kMayBeColour) ||
+            is_one_of(word, kSayNothing))
+            continue;
+        if (!subject.empty()) subject += ' ';
+        subject += word;
+    }
+    return subject;
+}
+
+bool in_natural_order(const std::string& a, const std::string& b) {
+    std::size_t i = 0;
+    std::size_t j = 0;
+    while (i < a.size() && j < b.size()) {
+        if (!is_digit(a[i]) || !is_digit(b[j])) {
+            if (a[i] != b[j]) return a[i] < b[j];
+            ++i;
+            ++j;
+            continue;
+        }
+        const auto run = [](const std::string& text, std::size_t& at) {
+            while (at + 1 < text.size() && text[at] == '0' && is_digit(text[at + 1])) ++at;
+            const std::size_t begin = at;
+            while (at < text.size() && is_digit(text[at])) ++at;
+            return std::string_view(text).substr(begin, at - begin);
+        };
+        const std::string_view left = run(a, i);
+        const std::string_view right = run(b, j);
+        if (left.size() != right.size()) return left.size() < right.size();
+        if (left != right) return left < right;
+    }
+    return a.size() - i < b.size() - j;
 }
 
 std::optional<fs::path> find_depth_beside(const fs::path& colour, std::string& looked_for) {
@@ -121,7 +248,8 @@ std::optional<fs::path> find_depth_beside(const fs::path& colour, std::string& l
     }
     if (looked_for.empty())
         looked_for = "nothing, because the name holds neither color, colour nor rgb";
-    return std::nullopt;
+    if (named_depth(colour)) return std::nullopt;
+    return of_same_subject(colour, named_depth);
 }
 
 std::optional<fs::path> find_colour_beside(const fs::path& depth) {
@@ -130,7 +258,8 @@ std::optional<fs::path> find_colour_beside(const fs::path& depth) {
         if (!stem) continue;
         if (auto found = with_stem(depth, *stem)) return found;
     }
-    return std::nullopt;
+    if (!named_depth(depth)) return std::nullopt;
+    return of_same_subject(depth, [](const fs::path& name) { return !named_depth(name); });
 }
 
 }  // namespace dibhr

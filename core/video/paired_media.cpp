@@ -91,8 +91,10 @@ PairedMedia::PairedMedia(std::unique_ptr<PictureSource> depth,
         description_.colour_columns = description_.depth_columns;
         description_.colour_rows = description_.depth_rows;
     }
+    add_notice(depth_->facts().notice);
     if (colour == nullptr) return;
     describe_colour(colour->facts(), description_);
+    add_notice(colour->facts().notice);
     colour_.emplace(std::move(colour), depth_->facts());
 }
 
@@ -122,6 +124,12 @@ void PairedMedia::seek(double media_s) {
 void PairedMedia::count_frames(std::int64_t most) {
     depth_->count_frames(most);
     describe_time(depth_->facts(), description_);
+}
+
+void PairedMedia::add_notice(const std::string& sentence) {
+    std::string& notice = description_.notice;
+    if (sentence.empty() || notice.find(sentence) != std::string::npos) return;
+    notice += (notice.empty() ? "" : "; ") + sentence;
 }
 
 void PairedMedia::tell_trouble(const SourceFacts& facts) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "core/video/depth_scale.hpp"
 #include "core/video/media.hpp"
@@ -46,6 +47,9 @@ class PairedMedia : public Media {
 
     /// Reads depth on, at most `most` frames, so that the description becomes exact.
     void count_frames(std::int64_t most);
+
+    /// Adds to the description's notice what that does not say yet.
+    void add_notice(const std::string& sentence);
 
   private:
     void tell_trouble(const SourceFacts& facts);

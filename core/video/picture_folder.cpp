@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/video/media.hpp"
 #include "core/video/media_names.hpp"
 
@@ -26,6 +27,8 @@ namespace {
 bool is_digit(char c) {
     return std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
+
+}  // namespace
 
 bool is_picture(const fs::path& file) {
     std::error_code ignored;
@@ -47,31 +50,6 @@ NumberedPicture numbered(const fs::path& file) {
     return {file, std::strtod(std::string(first, last).c_str(), nullptr), decimal};
 }
 
-/// Runs of digits by their value, everything else by its letters.
-bool in_natural_order(const std::string& a, const std::string& b) {
-    std::size_t i = 0;
-    std::size_t j = 0;
-    while (i < a.size() && j < b.size()) {
-        if (!is_digit(a[i]) || !is_digit(b[j])) {
-            if (a[i] != b[j]) return a[i] < b[j];
-            ++i;
-            ++j;
-            continue;
-        }
-        const auto run = [](const std::string& text, std::size_t& at) {
-            while (at + 1 < text.size() && text[at] == '0' && is_digit(text[at + 1])) ++at;
-            const std::size_t begin = at;
-            while (at < text.size() && is_digit(text[at])) ++at;
-            return std::string_view(text).substr(begin, at - begin);
-        };
-        const std::string_view left = run(a, i);
-        const std::string_view right = run(b, j);
-        if (left.size() != right.size()) return left.size() < right.size();
-        if (left != right) return left < right;
-    }
-    return a.size() - i < b.size() - j;
-}
-
 std::vector<fs::path> entries_of(const fs::path& folder) {
     std::vector<fs::path> entries;
     std::error_code failed;
@@ -88,10 +66,15 @@ std::vector<fs::path> entries_of(const fs::path& folder) {
     return entries;
 }
 
+namespace {
+
+constexpr double kSameTime_s = 0.02;  ///< associate.py's own limit
+constexpr double kLongestRow_s = 1e6;
+
 /// By the words in `name`, which is of the picture or of its folder.
-PictureRow& row_for(PictureFolder& folder, const fs::path& name) {
-    if (named_depth(name)) return folder.depth;
-    return named_colour(name) ? folder.colour : folder.unnamed;
+PictureRow& row_for(PictureSet& set, const fs::path& name) {
+    if (named_depth(name)) return set.depth;
+    return named_colour(name) ? set.colour : set.unnamed;
 }
 
 /// Every number once, and with or without a point throughout.
@@ -103,6 +86,50 @@ bool has_order(const PictureRow& row, bool decimal) {
     });
 }
 
+std::set<double> numbers_of(const PictureRow& row) {
+    std::set<double> numbers;
+    for (const NumberedPicture& picture : row) numbers.insert(*picture.number);
+    return numbers;
+}
+
+void append_pictures_of(const fs::path& folder, PictureRow& row) {
+    for (const fs::path& file : entries_of(folder)) {
+        if (is_picture(file)) row.push_back(numbered(file));
+    }
+}
+
+/// Beside depth, pictures whose names do not say colour are all the same where a word allows it, or
+/// where they are named as depth pictures without the word.
+void adopt_colour(PictureSet& set) {
+    if (set.depth.empty() || !set.colour.empty()) return;
+    std::set<std::string> subjects;
+    for (const NumberedPicture& picture : set.depth) subjects.insert(subject_of(picture.file));
+    const auto allowed = [](const NumberedPicture& picture) {
+        return may_name_colour(picture.file.filename());
+    };
+    const auto belongs = [&subjects](const NumberedPicture& picture) {
+        return subjects.contains(subject_of(picture.file));
+    };
+    std::copy_if(set.unnamed.begin(), set.unnamed.end(), std::back_inserter(set.colour), allowed);
+    if (!set.colour.empty()) return;
+    std::copy_if(set.unnamed.begin(), set.unnamed.end(), std::back_inserter(set.colour), belongs);
+}
+
+/// The folders in `folder` whose names say what they hold; of several the first.
+void look_into_folders(const std::vector<fs::path>& entries, PictureSet& set) {
+    for (const fs::path& entry : entries) {
+        if (!is_folder(entry)) continue;
+        PictureRow& row = row_for(set, entry.filename());
+        if (&row != &set.unnamed && row.empty()) append_pictures_of(entry, row);
+    }
+    for (const fs::path& entry : entries) {
+        if (set.depth.empty() || !set.colour.empty()) return;
+        if (may_name_colour(entry) && is_folder(entry)) append_pictures_of(entry, set.colour);
+    }
+}
+
+}  // namespace
+
 void sort_by_number(PictureRow& row) {
     if (!has_order(row, false) && !has_order(row, true)) return;
     std::sort(row.begin(), row.end(), [](const NumberedPicture& a, const NumberedPicture& b) {
@@ -110,33 +137,45 @@ void sort_by_number(PictureRow& row) {
     });
 }
 
-std::set<double> numbers_of(const PictureRow& row) {
-    std::set<double> numbers;
-    for (const NumberedPicture& picture : row) numbers.insert(*picture.number);
-    return numbers;
-}
-
-}  // namespace
-
-PictureFolder look_into(const fs::path& folder) {
-    PictureFolder found;
+PictureSet look_into(const fs::path& folder) {
+    PictureSet found;
     const std::vector<fs::path> entries = entries_of(folder);
     for (const fs::path& entry : entries) {
         if (is_picture(entry)) row_for(found, entry).push_back(numbered(entry));
     }
     const bool has_own = !found.colour.empty() || !found.depth.empty() || !found.unnamed.empty();
-    for (const fs::path& entry : entries) {
-        if (has_own || !is_folder(entry)) continue;
-        PictureRow& row = row_for(found, entry);
-        if (&row == &found.unnamed || !row.empty()) continue;
-        for (const fs::path& file : entries_of(entry)) {
-            if (is_picture(file)) row.push_back(numbered(file));
-        }
-    }
+    if (has_own)
+        adopt_colour(found);
+    else
+        look_into_folders(entries, found);
     sort_by_number(found.colour);
     sort_by_number(found.depth);
     sort_by_number(found.unnamed);
     return found;
+}
+
+PictureRow nearest_in_time(const PictureRow& colour, const PictureRow& depth) {
+    if (colour.empty() || depth.empty() || !has_order(colour, true) || !has_order(depth, true))
+        return colour;
+    const auto time_of = [](const NumberedPicture& picture) { return *picture.number; };
+    const bool overlap = time_of(colour.front()) <= time_of(depth.back()) + kSameTime_s &&
+                         time_of(depth.front()) <= time_of(colour.back()) + kSameTime_s;
+    if (!overlap) return colour;
+    PictureRow nearest;
+    auto later = colour.begin();
+    for (const NumberedPicture& picture : depth) {
+        const double time_s = time_of(picture);
+        while (later != colour.end() && time_of(*later) <= time_s) ++later;
+        const bool has_before = later != colour.begin();
+        const double before_s = has_before ? time_s - time_of(later[-1]) : kLongestRow_s;
+        const double until_s = later != colour.end() ? time_of(*later) - time_s : kLongestRow_s;
+        const bool takes_later = until_s <= kSameTime_s && until_s < before_s;
+        if (!takes_later && !has_before) continue;
+        const NumberedPicture& taken = takes_later ? *later : later[-1];
+        if (nearest.empty() || nearest.back().file != taken.file)
+            nearest.push_back({taken.file, time_s, true});
+    }
+    return nearest.empty() ? colour : nearest;
 }
 
 std::vector<double> times_s(const PictureRow& row, const PictureRow& other, double frames_per_s) {
@@ -160,7 +199,7 @@ std::vector<double> times_s(const PictureRow& row, const PictureRow& other, doub
 }
 
 PictureSequence::PictureSequence(fs::path place, PictureRow row, std::vector<double> times,
-                                 PictureRole role)
+                                 PictureRole role, const LayoutFacts& said)
     : row_(std::move(row)), times_s_(std::move(times)), role_(role) {
     StillFile first(row_.front().file, role_);
     facts_ = first.facts();
@@ -168,13 +207,29 @@ PictureSequence::PictureSequence(fs::path place, PictureRow row, std::vector<dou
     facts_.file = std::move(place);
     facts_.start_s = times_s_.front();
     for (double& time_s : times_s_) time_s -= facts_.start_s;
+    take_in(said);
     const auto count = static_cast<std::int64_t>(row_.size());
     facts_.frames = count;
     facts_.still = count == 1;
     if (count == 1) return;
+    if (!(times_s_.back() <= kLongestRow_s))
+        throw InputError(shown(facts_.file) + " has pictures that are " +
+                         short_text(times_s_.back()) +
+                         " s apart: give each its time in seconds, or only a number");
     const double interval_s = times_s_.back() / static_cast<double>(count - 1);
     facts_.frames_per_s = 1.0 / interval_s;
     facts_.duration_s = times_s_.back() + interval_s;
+}
+
+void PictureSequence::take_in(const LayoutFacts& said) {
+    facts_.notice = said.notice;
+    if (role_ != PictureRole::depth || facts_.bits != 16) return;
+    DepthStatement known = said.known;
+    const bool is_size =
+        said.columns == 0 || (said.columns == facts_.columns && said.rows == facts_.rows);
+    if (!is_size) known.intrinsics.reset();
+    if (facts_.known_from.empty() && known != DepthStatement{}) facts_.known_from = said.known_from;
+    facts_.known.fill_in(known);
 }
 
 std::optional<TimedPicture> PictureSequence::next() {

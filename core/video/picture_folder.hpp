@@ -1,9 +1,10 @@
-// Folders of numbered pictures, as cameras and datasets leave them: one row of pictures, or one of
-// colour and one of depth that belong together; inside the room.
+// Numbered pictures, as cameras and datasets leave them: one row of pictures, or one of colour and
+// one of depth that belong together; inside the room.
 #pragma once
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/video/pictures.hpp"
@@ -21,16 +22,43 @@ struct NumberedPicture {
 /// In natural order: 97 before 100.
 using PictureRow = std::vector<NumberedPicture>;
 
-/// What a folder holds, told apart by words in names: depth; color, colour or rgb.
-struct PictureFolder {
+/// What the layout of pictures says of their depth, where that has 16 bits: the conventions of
+/// datasets are for such pictures.
+struct LayoutFacts {
+    DepthStatement known{};
+    std::string known_from{};
+    int columns{0}, rows{0};  ///< of the pictures that the intrinsics are for; 0: of any
+    std::string notice{};     ///< a sentence on what was passed over
+};
+
+/// Pictures that are kept together, told apart by words in names (media_names.hpp).
+struct PictureSet {
     PictureRow colour{};
     PictureRow depth{};
     PictureRow unnamed{};
+    LayoutFacts facts{};
 };
 
-/// Of its own pictures, or, where it has none, of those in folders in it whose names say what they
-/// hold. Files that begin with a point are passed over. Throws InputError when it cannot be read.
-[[nodiscard]] PictureFolder look_into(const std::filesystem::path& folder);
+/// What is in a folder, in natural order. Throws InputError when it cannot be read.
+[[nodiscard]] std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder);
+
+/// Whether there is such a file and its name is that of a picture; not where it begins with a
+/// point.
+[[nodiscard]] bool is_picture(const std::filesystem::path& file);
+
+[[nodiscard]] NumberedPicture numbered(const std::filesystem::path& file);
+
+/// By number, where every picture has another one.
+void sort_by_number(PictureRow& row);
+
+/// The pictures of a folder, or, where it has none, of those in folders in it whose names say what
+/// they hold. Throws InputError when it cannot be read.
+[[nodiscard]] PictureSet look_into(const std::filesystem::path& folder);
+
+/// The colour row as it goes with a depth row where both have times: with each depth picture the
+/// nearest of colour when it is within 0.02 s, as TUM's associate.py has it, else the newest before
+/// it. Where the rows have no times, or times of two clocks, it is the colour row itself.
+[[nodiscard]] PictureRow nearest_in_time(const PictureRow& colour, const PictureRow& depth);
 
 /// When each picture of a row is shown, by the clock that it shares with the other row [s]: decimal
 /// numbers are seconds; pictures of both rows of the same number go together, one after the other
@@ -45,15 +73,18 @@ inline constexpr double kPicturesPerSecond = 30.0;
 /// stays.
 class PictureSequence : public PictureSource {
   public:
-    /// `times`: one a picture, rising. Throws InputError when the first cannot be read.
+    /// `times`: one a picture, rising. Throws InputError when the first cannot be read, or when
+    /// they go over more than a million seconds.
     PictureSequence(std::filesystem::path place, PictureRow row, std::vector<double> times,
-                    PictureRole role);
+                    PictureRole role, const LayoutFacts& said = {});
 
     [[nodiscard]] const SourceFacts& facts() const override { return facts_; }
     std::optional<TimedPicture> next() override;
     void seek(double time_s) override;
 
   private:
+    void take_in(const LayoutFacts& said);
+
     SourceFacts facts_{};
     PictureRow row_;
     std::vector<double> times_s_;  // from the first

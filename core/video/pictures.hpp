@@ -54,6 +54,7 @@ struct SourceFacts {
     bool frames_exact{false};
     bool still{false};
     std::string trouble{};     ///< why less is read than at the opening; empty: nothing lacks
+    std::string notice{};      ///< what was passed over or chosen at the opening; mostly empty
     DepthStatement known{};    ///< what the file's own metadata or its format says of its depth
     std::string known_from{};  ///< where it says so: "EXR channel Z"; empty: nowhere
 };

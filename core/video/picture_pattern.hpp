@@ -1,0 +1,18 @@
+// Names of pictures by a pattern: depth_%04d.png, rgb/*.jpg; inside the room.
+#pragma once
+
+#include <filesystem>
+
+#include "core/video/picture_folder.hpp"
+
+namespace dibhr {
+
+/// Whether the name is a pattern, with a number as printf has it (%d, %04d) or with stars, and no
+/// file is called so.
+[[nodiscard]] bool is_picture_pattern(const std::filesystem::path& place);
+
+/// The pictures in the pattern's folder whose names it matches, by number; as unnamed, whatever
+/// they are called. Throws InputError when there are none.
+[[nodiscard]] PictureSet pictures_of_pattern(const std::filesystem::path& pattern);
+
+}  // namespace dibhr
