@@ -102,6 +102,23 @@ std::string html_text(std::string_view text) {
     return result;
 }
 
+std::string percent_encoded(std::string_view path) {
+    constexpr std::string_view kDigits = "0123456789abcdef";
+    constexpr std::string_view kPlain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/-_.";
+    std::string encoded;
+    for (std::size_t k = 0; k < path.size(); ++k) {
+        if (kPlain.find(path[k]) != std::string_view::npos) {
+            encoded += path[k];
+        } else {
+            encoded += '%';
+            encoded += kDigits[byte_at(path, k) >> 4U];
+            encoded += kDigits[byte_at(path, k) & 15U];
+        }
+    }
+    return encoded;
+}
+
 std::string base64_text(std::string_view bytes) {
     const auto size = static_cast<int>(bytes.size());
     std::string text(AV_BASE64_SIZE(bytes.size()), '\0');

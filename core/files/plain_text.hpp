@@ -22,6 +22,9 @@ namespace dibhr {
 /// double quotes.
 [[nodiscard]] std::string html_text(std::string_view text);
 
+/// A path as a `file:` address takes it (RFC 3986, section 2.1).
+[[nodiscard]] std::string percent_encoded(std::string_view path);
+
 /// Bytes as a `data:` address takes them (RFC 4648, section 4).
 [[nodiscard]] std::string base64_text(std::string_view bytes);
 

@@ -50,6 +50,7 @@ constexpr std::size_t kLeastKept = 16;
 
 bool names_session(const std::filesystem::path& file) {
     if (file.extension() == ".dibhr") return true;
+    if (file.extension() == ".db3") return false;  // a ROS 2 bag: SQLite's, too
     std::error_code unknown;
     if (!std::filesystem::is_regular_file(file, unknown)) return false;
     constexpr std::string_view kMagic = "SQLite format 3";  // SQLite's file format, section 1.3

@@ -23,24 +23,6 @@ constexpr int kPatience_ms = 2000;
 constexpr int kLongestValue_bytes = 1 << 20;
 constexpr int kStepsPerLook = 10'000;
 
-std::string percent_encoded(std::string_view path) {
-    constexpr std::string_view kDigits = "0123456789abcdef";
-    constexpr std::string_view kPlain =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/-_.";
-    std::string encoded;
-    for (const char c : path) {
-        if (kPlain.find(c) != std::string_view::npos) {
-            encoded += c;
-        } else {
-            const auto byte = static_cast<unsigned char>(c);
-            encoded += '%';
-            encoded += kDigits[byte >> 4U];
-            encoded += kDigits[byte & 15U];
-        }
-    }
-    return encoded;
-}
-
 /// SQLite's words, which may quote what the file holds.
 std::string brief(std::string_view words) {
     constexpr std::size_t kMostLetters = 200;

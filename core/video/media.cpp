@@ -13,6 +13,8 @@
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/formats/foreign.hpp"
+#include "core/video/formats/ros_bag.hpp"
 #include "core/video/layouts.hpp"
 #include "core/video/libraries.hpp"
 #include "core/video/media_names.hpp"
@@ -62,7 +64,7 @@ struct ColourAndDepth {
 /// Where a file's own words say it: one track has depth in its title, or is coded without colours
 /// beside one that has them; of several such the one of the most bits. Nothing when none does.
 std::optional<ColourAndDepth> colour_and_depth_tracks(const fs::path& file) {
-    if (names_pictures(file)) return std::nullopt;
+    if (names_pictures(file) || is_ros_bag(file)) return std::nullopt;
     require_readable(file);
     if (is_still(file)) return std::nullopt;
     const std::vector<VideoTrack> tracks = video_tracks(file);
@@ -120,6 +122,11 @@ PlacedRow row_of(const fs::path& place, PictureRole role) {
 /// The colour and the depth of one file's tracks, or of one folder; null when it does not hold
 /// both.
 std::unique_ptr<PairedMedia> open_both(const fs::path& place) {
+    if (is_ros_bag(place)) {
+        if (!ros_bag_holds(place, PictureRole::colour)) return nullptr;
+        return std::make_unique<PairedMedia>(open_ros_topic(place, PictureRole::depth),
+                                             open_ros_topic(place, PictureRole::colour));
+    }
     if (names_pictures(place)) {
         PictureSet found = pictures_at(place);
         if (found.colour.empty() || found.depth.empty()) return nullptr;
@@ -162,7 +169,7 @@ std::unique_ptr<PairedMedia> open_with_pictures(const fs::path& colour, const fs
 
 /// Of a place that holds one of them only, as far as names say.
 PictureRole role_of(const fs::path& place) {
-    if (!names_pictures(place)) return PictureRole::depth;
+    if (!names_pictures(place) || is_ros_bag(place)) return PictureRole::depth;
     const PictureSet found = pictures_at(place);
     const bool is_colour = !found.colour.empty() && found.depth.empty() && found.unnamed.empty();
     return is_colour ? PictureRole::colour : PictureRole::depth;
@@ -172,7 +179,7 @@ std::unique_ptr<PairedMedia> open_places(const fs::path& colour, const fs::path&
     if (depth.empty() || depth == colour) {
         if (auto both = open_both(colour)) return both;
     }
-    if (names_pictures(colour)) return open_with_pictures(colour, depth);
+    if (names_pictures(colour) && !is_ros_bag(colour)) return open_with_pictures(colour, depth);
     // First, so that a colour file that cannot be read is not blamed on a missing depth file.
     auto colour_source = open_picture_source(colour, PictureRole::colour);
     auto depth_source = open_picture_source(depth_file_for(colour, depth), PictureRole::depth);
@@ -206,6 +213,8 @@ void require_readable(const fs::path& file) {
     if (!in) throw InputError(shown(file) + " cannot be read: check its permissions (chmod u+r)");
     if (fs::file_size(file, failed) == 0)
         throw InputError(shown(file) + " is empty: record or copy it again");
+    if (const std::string advice = advice_on_foreign(file); !advice.empty())
+        throw InputError(shown(file) + advice);
     if (begins_like_text(in))
         throw InputError(shown(file) + " holds text, not a video or a picture: give another file");
 }
@@ -218,6 +227,7 @@ void require_size(const fs::path& file, int columns, int rows) {
 
 std::unique_ptr<PictureSource> open_picture_source(const fs::path& file, PictureRole role) {
     set_up_libraries();
+    if (is_ros_bag(file)) return open_ros_topic(file, role);
     if (names_pictures(file)) return sequence(row_of(file, role), {}, role);
     require_readable(file);
     if (is_still(file)) return std::make_unique<StillFile>(file, role);

@@ -29,6 +29,10 @@ TEST_CASE("a text is shown on one line, cut short where it is too long", "[files
     CHECK(one_line("a long name of a file", 10) == "a long n..");
 }
 
+TEST_CASE("a path in an address keeps its letters, whatever they mean there", "[files]") {
+    CHECK(percent_encoded("/a b/50%?#\xc3\xbc.db3") == "/a%20b/50%25%3f%23%c3%bc.db3");
+}
+
 TEST_CASE("base64 gives the standard's own examples", "[files]") {  // RFC 4648, section 10
     CHECK(base64_text("") == "");
     CHECK(base64_text("f") == "Zg==");

@@ -1,0 +1,88 @@
+// Told by how files begin, and by their names where that says too little.
+#include "core/video/formats/foreign.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+
+#include "core/video/media_names.hpp"
+
+namespace dibhr {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using namespace std::string_view_literals;
+
+struct Foreign {
+    std::string_view begins;  ///< empty: as any
+    std::string_view ending;  ///< of the name; empty: any
+    std::string_view advice;
+};
+
+constexpr std::string_view kZip = "PK\x03\x04";
+constexpr std::string_view kRecord3d =
+    " is an archive of Record3D, whose depth is packed with LZFSE: export it in Record3D as RGBD "
+    "video (MP4) or as EXR and JPEG, and give that";
+constexpr std::string_view kZed =
+    " is a recording of a ZED camera, which only the ZED SDK reads: export its left view and its "
+    "depth as 16-bit PNG with the ZED SDK's SVO Export";
+
+// The first that fits.
+constexpr std::array kForeign{
+    Foreign{kZip, ".r3d", kRecord3d},
+    Foreign{kZip, ".depthviewer",
+            " is an archive of DepthViewer: unpack it with unzip and give the folder of its depth "
+            "pictures"},
+    Foreign{kZip, ".zip", " is a zip archive: unpack it and give the folder or the files in it"},
+    Foreign{{}, ".svo", kZed},
+    Foreign{{}, ".svo2", kZed},
+    Foreign{"#ROSBAG V"sv,
+            {},
+            " is a bag of ROS 1 or RealSense: export its pictures with rs-convert -p, or make a "
+            "bag of ROS 2 (.db3) of it with rosbags-convert"},
+    Foreign{"\x89MCAP0\r\n"sv,
+            {},
+            " is an MCAP recording: make a bag in SQLite (.db3) of it with ros2 bag convert"},
+    Foreign{"NI10"sv,
+            {},
+            " is a recording of OpenNI: export its colour and its depth as PNG pictures with "
+            "OpenNI's tools"},
+    Foreign{"\x28\xb5\x2f\xfd"sv, {}, " is packed with zstd: unpack it with zstd -d"}};
+
+/// The names in a zip archive are listed at its end.
+bool lists_record3d(std::ifstream& in) {
+    constexpr std::streamoff kListed_bytes = 64 * 1024;
+    in.clear();
+    in.seekg(0, std::ios::end);
+    const std::streamoff from = std::max<std::streamoff>(0, in.tellg() - kListed_bytes);
+    in.seekg(from);
+    std::string end(static_cast<std::size_t>(kListed_bytes), '\0');
+    in.read(end.data(), static_cast<std::streamsize>(end.size()));
+    end.resize(static_cast<std::size_t>(in.gcount()));
+    return end.find("rgbd/") != std::string::npos && end.find("metadata") != std::string::npos;
+}
+
+}  // namespace
+
+std::string advice_on_foreign(const fs::path& file) {
+    std::error_code failed;
+    if (!fs::is_regular_file(file, failed)) return {};
+    std::array<char, 16> bytes{};
+    std::ifstream in(file, std::ios::binary);
+    in.read(bytes.data(), bytes.size());
+    const std::string_view head(bytes.data(), static_cast<std::size_t>(in.gcount()));
+    const std::string ending = lower_case(file.extension().string());
+    for (const Foreign& foreign : kForeign) {
+        if (head.starts_with(foreign.begins) &&
+            (foreign.ending.empty() || foreign.ending == ending))
+            return std::string(foreign.advice);
+    }
+    return head.starts_with(kZip) && lists_record3d(in) ? std::string(kRecord3d) : std::string();
+}
+
+}  // namespace dibhr

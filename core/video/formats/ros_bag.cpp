@@ -1,0 +1,463 @@
+// Reads a bag as what it is: a file that anybody may have made.
+#include "core/video/formats/ros_bag.hpp"
+
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+#include <tuple>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/video/media.hpp"
+#include "core/video/media_names.hpp"
+#include "core/video/picture_folder.hpp"
+
+namespace dibhr {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kLongestText_bytes = 1 << 20;        ///< of names of topics
+constexpr int kLargestMessage_bytes = 512 << 20;   ///< a 100-megapixel picture of floats
+constexpr std::size_t kMostMessages = 10'000'000;  ///< of one topic: four days at 30 Hz
+constexpr std::int64_t kLongestBag_ns = 1'000'000'000'000'000;  ///< a million seconds
+
+// When a message can have been recorded: sums and differences of such times are numbers, too.
+constexpr std::int64_t kFirst_ns = 0;
+constexpr std::int64_t kLast_ns = 4'000'000'000'000'000'000;
+
+struct Topic {
+    std::int64_t id{0};
+    std::string name{};
+    std::string type{};
+};
+
+struct Closer {
+    void operator()(sqlite3* database) const noexcept { sqlite3_close_v2(database); }
+    void operator()(sqlite3_stmt* statement) const noexcept { sqlite3_finalize(statement); }
+    void operator()(sqlite3_blob* blob) const noexcept { sqlite3_blob_close(blob); }
+};
+
+/// One file of a bag. Every method throws InputError when the file turns out to be damaged.
+class BagFile {
+  public:
+    explicit BagFile(const fs::path& file) : file_(file) {
+        require_readable(file);
+        open();
+        set_bounds();
+        check_tables();
+    }
+
+    [[nodiscard]] std::vector<Topic> topics() {
+        std::vector<Topic> topics;
+        const auto statement = prepared("SELECT id, name, type FROM topics ORDER BY id");
+        while (next(statement.get())) {
+            topics.push_back({sqlite3_column_int64(statement.get(), 0), text(statement.get(), 1),
+                              text(statement.get(), 2)});
+        }
+        return topics;
+    }
+
+    struct Message {
+        std::int64_t row;
+        std::int64_t recorded_ns;
+    };
+
+    /// In the order of recording, at most `most`.
+    [[nodiscard]] std::vector<Message> messages(std::int64_t topic, std::size_t most) {
+        std::vector<Message> found;
+        const auto statement = prepared(
+            "SELECT rowid, timestamp FROM messages WHERE topic_id = ? ORDER BY rowid LIMIT ?");
+        sqlite3_bind_int64(statement.get(), 1, topic);
+        sqlite3_bind_int64(statement.get(), 2, static_cast<std::int64_t>(most));
+        while (next(statement.get())) {
+            found.push_back({sqlite3_column_int64(statement.get(), 0),
+                             sqlite3_column_int64(statement.get(), 1)});
+        }
+        return found;
+    }
+
+    /// The beginning of a message's data, or all of it.
+    [[nodiscard]] std::vector<std::uint8_t> data(std::int64_t row,
+                                                 int most = kLargestMessage_bytes) {
+        sqlite3_blob* opened = blob_.release();
+        const int result =
+            opened == nullptr
+                ? sqlite3_blob_open(database_.get(), "main", "messages", "data", row, 0, &opened)
+                : sqlite3_blob_reopen(opened, row);
+        blob_.reset(opened);
+        if (result != SQLITE_OK) refuse();
+        const int bytes = sqlite3_blob_bytes(blob_.get());
+        if (bytes > kLargestMessage_bytes) refuse("a message is larger than any picture");
+        std::vector<std::uint8_t> data(static_cast<std::size_t>(std::min(bytes, most)));
+        if (sqlite3_blob_read(blob_.get(), data.data(), static_cast<int>(data.size()), 0) !=
+            SQLITE_OK)
+            refuse();
+        return data;
+    }
+
+  private:
+    using Statement = std::unique_ptr<sqlite3_stmt, Closer>;
+
+    void open() {
+        // Without a log beside it the file is complete: as immutable, SQLite makes no files there.
+        std::error_code failed;
+        const bool complete = !fs::exists(file_.string() + "-wal", failed);
+        const std::string uri = "file:" + percent_encoded(fs::absolute(file_, failed).string()) +
+                                "?mode=ro" + (complete ? "&immutable=1" : "");
+        sqlite3* opened = nullptr;
+        const int result =
+            sqlite3_open_v2(uri.c_str(), &opened, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
+        database_.reset(opened);
+        if (result != SQLITE_OK) refuse();
+    }
+
+    void set_bounds() {
+        sqlite3* const database = database_.get();
+        sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+        sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+        sqlite3_exec(database, "PRAGMA cell_size_check = ON", nullptr, nullptr, nullptr);
+        sqlite3_limit(database, SQLITE_LIMIT_LENGTH, kLongestText_bytes);
+        // Ten steps a row, and a row is of more than a byte.
+        std::error_code failed;
+        const std::uintmax_t bytes = fs::file_size(file_, failed);
+        looks_ = 2'000 + (failed ? 0 : bytes / 100);
+        constexpr int kStepsPerLook = 10'000;
+        sqlite3_progress_handler(database, kStepsPerLook, &BagFile::is_work_over, this);
+    }
+
+    static int is_work_over(void* file) noexcept {
+        std::uint64_t& left = static_cast<BagFile*>(file)->looks_left_;
+        if (left == 0) return 1;
+        --left;
+        return 0;
+    }
+
+    /// Tables with pages of their own, whose columns are not computed.
+    void check_tables() {
+        const auto count = [this](const char* question) {
+            const auto statement = prepared(question);
+            return next(statement.get()) ? sqlite3_column_int64(statement.get(), 0) : 0;
+        };
+        const bool there = count(
+                               "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND "
+                               "rootpage > 0 AND name IN ('topics', 'messages')") == 2;
+        const bool plain = count(
+                               "SELECT count(*) FROM sqlite_master m, pragma_table_xinfo(m.name) "
+                               "x WHERE m.name IN ('topics', 'messages') AND x.hidden != 0") == 0;
+        if (!there || !plain)
+            throw InputError(shown(file_) +
+                             " is a database, and not one of ROS 2: give the .db3 file of a bag");
+    }
+
+    [[nodiscard]] Statement prepared(const char* sql) {
+        looks_left_ = looks_;
+        sqlite3_stmt* statement = nullptr;
+        if (sqlite3_prepare_v2(database_.get(), sql, -1, &statement, nullptr) != SQLITE_OK)
+            refuse();
+        return Statement(statement);
+    }
+
+    [[nodiscard]] bool next(sqlite3_stmt* statement) const {
+        const int result = sqlite3_step(statement);
+        if (result != SQLITE_ROW && result != SQLITE_DONE) refuse();
+        return result == SQLITE_ROW;
+    }
+
+    [[nodiscard]] static std::string text(sqlite3_stmt* statement, int column) {
+        const unsigned char* const text = sqlite3_column_text(statement, column);
+        const int bytes = sqlite3_column_bytes(statement, column);
+        return text == nullptr ? std::string{} : std::string(text, text + bytes);
+    }
+
+    [[noreturn]] void refuse() const { refuse(sqlite3_errmsg(database_.get())); }
+    [[noreturn]] void refuse(std::string_view why) const {
+        constexpr std::size_t kMostLetters = 200;
+        throw InputError(shown(file_) + " cannot be read as a bag of ROS 2 (" +
+                         one_line(why, kMostLetters) + "): copy or record it again");
+    }
+
+    fs::path file_;
+    std::uint64_t looks_{0};
+    std::uint64_t looks_left_{0};
+    std::unique_ptr<sqlite3, Closer> database_{};
+    std::unique_ptr<sqlite3_blob, Closer> blob_{};
+};
+
+using BagFiles = std::vector<std::unique_ptr<BagFile>>;
+
+bool is_bag_name(const fs::path& file) {
+    const std::string name = lower_case(file.filename().string());
+    return name.ends_with(".db3") || name.ends_with(".db3.zstd") || name.ends_with(".mcap");
+}
+
+/// The file, or those of a folder.
+BagFiles opened(const fs::path& place) {
+    BagFiles files;
+    if (!is_folder(place)) {
+        files.push_back(std::make_unique<BagFile>(place));
+        return files;
+    }
+    for (const fs::path& entry : entries_of(place)) {
+        if (is_bag_name(entry)) files.push_back(std::make_unique<BagFile>(entry));
+    }
+    return files;
+}
+
+bool is_compressed(const Topic& topic) {
+    return topic.type == "sensor_msgs/msg/CompressedImage";
+}
+
+bool is_of_pictures(const Topic& topic) {
+    return topic.type == "sensor_msgs/msg/Image" || is_compressed(topic);
+}
+
+/// The first message of a topic of that name, and its whole data.
+std::optional<std::vector<std::uint8_t>> first_message(BagFiles& files, const Topic& wanted) {
+    for (const auto& file : files) {
+        for (const Topic& topic : file->topics()) {
+            if (topic.name != wanted.name || topic.type != wanted.type) continue;
+            const auto messages = file->messages(topic.id, 1);
+            if (!messages.empty()) return file->data(messages.front().row);
+        }
+    }
+    return std::nullopt;
+}
+
+/// How likely a topic is of that role; 0: it is not.
+int likelihood(const Topic& topic, const RosImage& image, PictureRole role) {
+    const std::string name = lower_case(topic.name);
+    const auto says = [&name](std::string_view word) {
+        return name.find(word) != std::string::npos;
+    };
+    const RosPicture kind = kind_of(image);
+    const int plain = image.compressed ? 0 : 1;
+    if (role == PictureRole::depth) {
+        const bool named = says("depth");
+        if (kind != RosPicture::depth || (image.encoding == "mono16" && !named)) return 0;
+        return (says("aligned") || says("registered") ? 6 : named ? 4 : 2) + plain;
+    }
+    if (kind != RosPicture::colour && kind != RosPicture::grey) return 0;
+    if (says("depth")) return 0;
+    return (kind == RosPicture::grey ? 2 : says("color") || says("rgb") ? 6 : 4) + plain;
+}
+
+struct Choice {
+    Topic topic{};
+    std::string others{};  ///< of pictures, and what they hold: for a message
+};
+
+/// Nothing of a topic when none is of that role.
+Choice chosen(BagFiles& files, PictureRole role) {
+    Choice choice;
+    int best = 0;
+    std::vector<std::string> seen;
+    for (const auto& file : files) {
+        for (const Topic& topic : file->topics()) {
+            if (!is_of_pictures(topic) ||
+                std::find(seen.begin(), seen.end(), topic.name) != seen.end())
+                continue;
+            seen.push_back(topic.name);
+            const auto data = first_message(files, topic);
+            const auto image = data ? ros_image(*data, is_compressed(topic)) : std::nullopt;
+            if (!image) continue;
+            choice.others +=
+                (choice.others.empty() ? "" : ", ") + topic.name + ": " + image->encoding;
+            const int now = likelihood(topic, *image, role);
+            if (now > best) choice.topic = topic;
+            best = std::max(best, now);
+        }
+    }
+    return choice;
+}
+
+/// "/camera/depth/image_rect_raw/compressedDepth" has its camera at "/camera/depth/camera_info".
+std::string camera_info_of(std::string topic) {
+    for (const std::string_view transport : {"/compressedDepth", "/compressed"}) {
+        if (topic.ends_with(transport)) topic.resize(topic.size() - transport.size());
+    }
+    return topic.substr(0, topic.rfind('/') + 1) + "camera_info";
+}
+
+struct Stamped {
+    std::size_t file;
+    std::int64_t row;
+    std::int64_t time_ns;
+};
+
+/// In order, and each time once.
+void put_in_order(std::vector<Stamped>& messages) {
+    std::stable_sort(messages.begin(), messages.end(),
+                     [](const Stamped& a, const Stamped& b) { return a.time_ns < b.time_ns; });
+    const auto same = [](const Stamped& a, const Stamped& b) { return a.time_ns == b.time_ns; };
+    messages.erase(std::unique(messages.begin(), messages.end(), same), messages.end());
+}
+
+/// By their stamps, or, where one of them says nothing, by when they were recorded.
+std::vector<Stamped> messages_of(BagFiles& files, const Topic& wanted) {
+    std::vector<Stamped> stamped;
+    std::vector<Stamped> recorded;
+    for (std::size_t k = 0; k < files.size(); ++k) {
+        for (const Topic& topic : files[k]->topics()) {
+            if (topic.name != wanted.name || topic.type != wanted.type) continue;
+            for (const auto& message : files[k]->messages(topic.id, kMostMessages)) {
+                const auto head = files[k]->data(message.row, kStampBytes);
+                const std::int64_t stamp_ns = ros_stamp_ns(head).value_or(0);
+                if (stamp_ns > 0) stamped.push_back({k, message.row, stamp_ns});
+                recorded.push_back(
+                    {k, message.row, std::clamp(message.recorded_ns, kFirst_ns, kLast_ns)});
+            }
+        }
+    }
+    std::vector<Stamped>& taken = stamped.size() == recorded.size() ? stamped : recorded;
+    put_in_order(taken);
+    return std::move(taken);
+}
+
+class RosTopic : public PictureSource {
+  public:
+    RosTopic(const fs::path& place, BagFiles files, Topic topic, PictureRole role)
+        : files_(std::move(files)), topic_(std::move(topic)) {
+        facts_.file = place;
+        messages_ = messages_of(files_, topic_);
+        if (messages_.empty()) throw InputError(unreadable());
+        last_ = picture(messages_.front());
+        if (last_.empty()) throw InputError(unreadable());
+        require_size(place, last_.cols, last_.rows);
+        describe_picture();
+        describe_times();
+        if (role == PictureRole::depth) know_depth();
+    }
+
+    [[nodiscard]] const SourceFacts& facts() const override { return facts_; }
+
+    std::optional<TimedPicture> next() override {
+        if (at_ == messages_.size()) return std::nullopt;
+        const std::size_t at = at_++;
+        try {
+            const cv::Mat now = picture(messages_[at]);
+            if (now.empty() || now.type() != last_.type())
+                tell_trouble(unreadable());
+            else
+                last_ = now;
+        } catch (const InputError& error) {
+            tell_trouble(error.what());
+        }
+        return TimedPicture{last_, time_s(at), static_cast<std::int64_t>(at)};
+    }
+
+    void seek(double time_s) override {
+        const auto wanted_ns = static_cast<std::int64_t>(
+            std::clamp(time_s + kTimeTolerance_s, -1.0, facts_.duration_s + 1.0) * 1e9);
+        const auto later = std::upper_bound(
+            messages_.begin(), messages_.end(), messages_.front().time_ns + wanted_ns,
+            [](std::int64_t time_ns, const Stamped& message) { return time_ns < message.time_ns; });
+        at_ = later == messages_.begin() ? 0
+                                         : static_cast<std::size_t>(later - messages_.begin()) - 1;
+    }
+
+  private:
+    [[nodiscard]] double time_s(std::size_t at) const {
+        return static_cast<double>(messages_[at].time_ns - messages_.front().time_ns) * 1e-9;
+    }
+
+    [[nodiscard]] std::string unreadable() const {
+        return shown(facts_.file) + " holds a picture of the topic " + one_line(topic_.name, 100) +
+               " that cannot be decoded: record it again without compressing messages";
+    }
+
+    void tell_trouble(const std::string& what) {
+        if (facts_.trouble.empty())
+            facts_.trouble = what + "; until then the one before it is shown";
+    }
+
+    /// Empty when it is broken.
+    [[nodiscard]] cv::Mat picture(const Stamped& message) {
+        const std::vector<std::uint8_t> data = files_[message.file]->data(message.row);
+        const auto image = ros_image(data, is_compressed(topic_));
+        if (!image) return {};
+        if (facts_.codec.empty()) facts_.codec = "ROS " + one_line(image->encoding, 40);
+        return picture_of(*image);
+    }
+
+    void describe_picture() {
+        facts_.columns = last_.cols;
+        facts_.rows = last_.rows;
+        facts_.channels = last_.channels();
+        facts_.bits = last_.depth() == CV_32F ? kRealBits : last_.depth() == CV_16U ? 16 : 8;
+    }
+
+    void describe_times() {
+        const std::int64_t length_ns = messages_.back().time_ns - messages_.front().time_ns;
+        if (length_ns > kLongestBag_ns)
+            throw InputError(shown(facts_.file) +
+                             " has messages that are years apart: record it "
+                             "again with clocks that are set");
+        facts_.frames = static_cast<std::int64_t>(messages_.size());
+        facts_.frames_exact = true;
+        facts_.still = facts_.frames == 1;
+        facts_.start_s = static_cast<double>(messages_.front().time_ns) * 1e-9;
+        if (facts_.still) return;
+        const double interval_s =
+            static_cast<double>(length_ns) * 1e-9 / static_cast<double>(facts_.frames - 1);
+        facts_.frames_per_s = 1.0 / interval_s;
+        facts_.duration_s = static_cast<double>(length_ns) * 1e-9 + interval_s;
+    }
+
+    void know_depth() {
+        facts_.known.unit = facts_.bits == kRealBits ? DepthUnit::m : DepthUnit::mm;
+        facts_.known.scale = 1.0;
+        facts_.known.no_data = std::vector<double>{0.0};
+        facts_.known_from = "ROS topic " + one_line(topic_.name, 100);
+        const auto camera =
+            first_message(files_, {0, camera_info_of(topic_.name), "sensor_msgs/msg/CameraInfo"});
+        if (camera) facts_.known.intrinsics = ros_intrinsics(*camera, facts_.columns, facts_.rows);
+    }
+
+    BagFiles files_;
+    Topic topic_;
+    SourceFacts facts_{};
+    std::vector<Stamped> messages_{};
+    std::size_t at_{0};
+    cv::Mat last_{};
+};
+
+}  // namespace
+
+bool is_ros_bag(const fs::path& place) {
+    if (is_folder(place)) {
+        const std::vector<fs::path> entries = entries_of(place);
+        return std::any_of(entries.begin(), entries.end(), is_bag_name);
+    }
+    constexpr std::string_view kMagic = "SQLite format 3";  // SQLite's file format, section 1.3
+    std::error_code failed;
+    if (!fs::is_regular_file(place, failed)) return false;
+    std::array<char, kMagic.size()> head{};
+    std::ifstream(place, std::ios::binary).read(head.data(), head.size());
+    return std::string_view(head.data(), head.size()) == kMagic;
+}
+
+bool ros_bag_holds(const fs::path& place, PictureRole role) {
+    BagFiles files = opened(place);
+    return !chosen(files, role).topic.name.empty();
+}
+
+std::unique_ptr<PictureSource> open_ros_topic(const fs::path& place, PictureRole role) {
+    BagFiles files = opened(place);
+    Choice choice = chosen(files, role);
+    if (choice.topic.name.empty())
+        throw InputError(
+            shown(place) + " holds no topic of " +
+            (role == PictureRole::depth ? "depth" : "colour") + " pictures (" +
+            (choice.others.empty() ? "none of pictures at all" : one_line(choice.others, 300)) +
+            "): record one of 16UC1 or 32FC1 for depth, rgb8 or compressed for colour");
+    return std::make_unique<RosTopic>(place, std::move(files), std::move(choice.topic), role);
+}
+
+}  // namespace dibhr

@@ -1,0 +1,33 @@
+// Bags of ROS 2 in SQLite (.db3): their topics of pictures, by the stamps of the messages; inside
+// the room.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/video/formats/ros_messages.hpp"
+#include "core/video/pictures.hpp"
+
+struct sqlite3;
+
+namespace dibhr {
+
+/// Whether it is a SQLite file, or a folder of a bag's files.
+[[nodiscard]] bool is_ros_bag(const std::filesystem::path& place);
+
+/// Whether it holds pictures of that role. Throws InputError as below.
+[[nodiscard]] bool ros_bag_holds(const std::filesystem::path& place, PictureRole role);
+
+/// The topic that is most likely of that role, by its encoding and its name; depth that was
+/// registered to the colour camera before other. What is known of depth: 16 bits are millimetres
+/// and floats metres (REP 118), 0 is no data, and the intrinsics of the topic's camera_info. Throws
+/// InputError when the file is no bag, is damaged, or holds no such topic.
+[[nodiscard]] std::unique_ptr<PictureSource> open_ros_topic(const std::filesystem::path& place,
+                                                            PictureRole role);
+
+}  // namespace dibhr
