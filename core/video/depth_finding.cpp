@@ -65,6 +65,10 @@ DepthStatement as_in_file(const DepthRequest& request, int bits) {
     return file;
 }
 
+/// Files of their own, grey and as a relief, as nobody needs to say.
+const DepthStatement kPlain{
+    .packing = DepthPacking::separate, .code = DepthCode::grey, .geometry = Geometry::relief};
+
 /// A range that a unit cannot have is told, whoever said it.
 void require_range(const DepthMeaning& meaning, const fs::path& file) {
     const DepthRange& range = meaning.range.value;
@@ -90,8 +94,17 @@ std::vector<cv::Mat> some_pictures(PictureSource& source) {
     return source.samples(static_cast<int>(most));
 }
 
-DepthScale find_scale(PictureSource& depth, const std::vector<fs::path>& places,
-                      const DepthRequest& request) {
+DepthStatement said_of(const std::vector<fs::path>& places, const DepthRequest& request) {
+    DepthStatement said = request.recorded;
+    said.fill_in(request.command_line);
+    if (!request.find_out) return said;
+    said.fill_in(request.panel);
+    said.fill_in(sidecars_of(places));
+    return said;
+}
+
+DepthScale find_scale(const Sources& sources, const DepthRequest& request) {
+    PictureSource& depth = *sources.depth;
     const SourceFacts& facts = depth.facts();
     const bool said =
         request.command_line != DepthStatement{} || request.recorded != DepthStatement{};
@@ -99,10 +112,15 @@ DepthScale find_scale(PictureSource& depth, const std::vector<fs::path>& places,
     Voices voices{{Origin::recorded, request.recorded},
                   {Origin::command_line, request.command_line}};
     if (request.find_out) {
+        std::vector<fs::path> places{facts.file};
+        if (sources.colour) places.push_back(sources.colour->facts().file);
         voices.insert(voices.end(), {{Origin::panel, request.panel},
                                      {Origin::sidecar, sidecars_of(places)},
+                                     {Origin::assumed, sources.assumed},
                                      {Origin::found, facts.known},
-                                     {Origin::found, said_by_name(facts.file)}});
+                                     {Origin::found, said_by_name(facts.file)},
+                                     {Origin::found, sources.found},
+                                     {Origin::found, kPlain}});
     } else {
         voices.emplace_back(Origin::assumed, as_in_file(request, facts.bits));
     }

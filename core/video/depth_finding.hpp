@@ -7,16 +7,20 @@
 #include "core/video/depth_scale.hpp"
 #include "core/video/media.hpp"
 #include "core/video/pictures.hpp"
+#include "core/video/sources.hpp"
 
 namespace dibhr {
 
-/// What is to be known of a source before its first frame is shown. `places` are the files and
-/// folders that may have a sidecar, the depth's own first. The source is read here and there, and
+/// What is said of depth before anything is opened, the strongest word on each thing: by the
+/// request and by the sidecars of those places, the first before the second. Throws InputError for
+/// a sidecar that cannot be understood.
+[[nodiscard]] DepthStatement said_of(const std::vector<std::filesystem::path>& places,
+                                     const DepthRequest& request);
+
+/// What is to be known of the depth before its first frame is shown. It is read here and there, and
 /// then from its beginning. Throws InputError for a sidecar that cannot be understood, and for a
 /// range that cannot be one.
-[[nodiscard]] DepthScale find_scale(PictureSource& depth,
-                                    const std::vector<std::filesystem::path>& places,
-                                    const DepthRequest& request);
+[[nodiscard]] DepthScale find_scale(const Sources& sources, const DepthRequest& request);
 
 /// As many pictures as tell what a source holds and can be read within a moment.
 [[nodiscard]] std::vector<cv::Mat> some_pictures(PictureSource& source);

@@ -49,7 +49,9 @@ struct MediaDescription {
     int colour_columns{0}, colour_rows{0};
     int depth_columns{0}, depth_rows{0};
     std::string colour_codec{}, depth_codec{};
-    int depth_bits{8};                      ///< of a level; 32: real numbers
+    int depth_bits{8};        ///< of a level; 32: real numbers
+    int levels_used{0};       ///< how many there are in pictures from all over it (`dibhr info`)
+    double holes_share{0.0};  ///< of their pixels that are no data, in [0, 1] (`dibhr info`)
     std::optional<DepthMeaning> meaning{};  ///< nothing: levels are as the file has them
     double duration_s{0.0};
     double frames_per_s{0.0};  ///< average of the real intervals as far as known; 0 for a still
@@ -103,11 +105,12 @@ class Media {
 [[nodiscard]] std::unique_ptr<Media> open_depth(const std::filesystem::path& place,
                                                 const DepthRequest& request = {});
 
-/// Describes one media file of any kind without needing its partner (`dibhr info FILE`): what looks
-/// like depth (by name, or grey, or 16 bits) fills the depth fields, other files the colour fields;
-/// one of a colour and a depth track both.
-/// Videos of up to a few thousand frames are read to their end, so that the numbers are exact.
-[[nodiscard]] MediaDescription describe_media(const std::filesystem::path& place);
+/// Describes what one place of any kind holds, without needing its partner (`dibhr info FILE`):
+/// what is depth fills the depth fields, other files the colour fields, a place of both all of
+/// them. Videos of up to a few thousand frames are read to their end, so that the numbers are
+/// exact.
+[[nodiscard]] MediaDescription describe_media(const std::filesystem::path& place,
+                                              const DepthRequest& request = {.find_out = true});
 
 /// A bump map from an 8- or 16-bit image, normalised so that its lowest level is 0 and its
 /// highest 1.

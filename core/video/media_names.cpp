@@ -32,8 +32,9 @@ constexpr std::array<std::string_view, 2> kShortDepthWords{"disp", "height"};
 constexpr std::array<std::string_view, 4> kMayBeColour{"image", "images", "img", "left"};
 constexpr std::array<std::string_view, 2> kSayNothing{"map", "mono"};  // "mono_depth", "depth map"
 
-constexpr std::array<std::string_view, 11> kPictureEndings{
-    ".bmp", ".jpeg", ".jpg", ".pgm", ".png", ".pnm", ".ppm", ".tga", ".tif", ".tiff", ".webp"};
+constexpr std::array<std::string_view, 18> kPictureEndings{
+    ".bmp", ".exr", ".heic", ".heif", ".hif", ".jpeg", ".jpg", ".npy",  ".npz",
+    ".pfm", ".pgm", ".png",  ".pnm",  ".ppm", ".tga",  ".tif", ".tiff", ".webp"};
 constexpr std::array<std::string_view, 9> kVideoEndings{".avi", ".m4v", ".mkv", ".mov", ".mp4",
                                                         ".mpg", ".ogv", ".ts",  ".webm"};
 

@@ -25,7 +25,7 @@ bool is_side_by_side(DepthPacking packing) noexcept {
 
 /// Where packed pictures are all that a folder holds.
 std::unique_ptr<PictureSource> open_row(const fs::path& folder, PictureRole role) {
-    PictureFolder found = look_into(folder);
+    PictureSet found = look_into(folder);
     const auto longest =
         std::max({&found.unnamed, &found.colour, &found.depth},
                  [](const PictureRow* a, const PictureRow* b) { return a->size() < b->size(); });

@@ -41,7 +41,7 @@ struct UnpackedSources {
 /// do where colour and depth are files of their own. Throws InputError, also when the halves are
 /// too small.
 [[nodiscard]] UnpackedSources open_packed(const std::filesystem::path& place,
-                                         const PackedForm& form);
+                                          const PackedForm& form);
 
 /// What a file's name says of halves in its pictures.
 struct NamedPacking {

@@ -2,10 +2,10 @@
 #include "core/video/pictures.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -15,49 +15,13 @@
 
 #include "core/error.hpp"
 #include "core/files/output_file.hpp"
+#include "core/video/formats/still_picture.hpp"
 #include "core/video/libraries.hpp"
 #include "core/video/media.hpp"
 
 namespace dibhr {
 
-namespace {
-
 namespace fs = std::filesystem;
-
-cv::Mat read_picture(const fs::path& file, int flags) {
-    set_up_libraries();
-    require_readable(file);
-    cv::Mat picture;
-    try {
-        const QuietErrors quiet;
-        picture = cv::imread(file.string(), flags);
-    } catch (const cv::Exception&) {
-        picture.release();  // refused, for example as too large: said below
-    }
-    if (picture.empty())
-        throw InputError(shown(file) +
-                         " cannot be decoded as a picture: it may be damaged, export it again");
-    return picture;
-}
-
-/// 8 or 16 bits, 1 to 4 channels, as the file has them.
-cv::Mat read_picture_unchanged(const fs::path& file) {
-    cv::Mat picture = read_picture(file, cv::IMREAD_UNCHANGED);
-    if (picture.depth() != CV_8U && picture.depth() != CV_16U)
-        throw InputError(shown(file) +
-                         " does not hold 8- or 16-bit levels: save it as a 16-bit PNG");
-    return picture;
-}
-
-int bits_of(const cv::Mat& picture) {
-    return picture.depth() == CV_16U ? 16 : 8;
-}
-
-cv::Mat read_colour_picture(const fs::path& file) {
-    return read_picture(file, cv::IMREAD_COLOR);
-}
-
-}  // namespace
 
 double highest_level(int bits) {
     return std::ldexp(1.0, bits) - 1.0;
@@ -89,14 +53,17 @@ ColourImage colour_of(const cv::Mat& picture) {
 }
 
 BumpMap read_bump_map(const fs::path& file) {
-    const cv::Mat picture = read_picture_unchanged(file);
+    const StillPicture still = read_still(file, PictureRole::depth);
+    const cv::Mat& picture = still.picture;
     require_size(file, picture.cols, picture.rows);
     BumpMap bump{picture.cols, picture.rows, std::vector<float>(picture.total())};
     cv::Mat heights(bump.rows, bump.columns, CV_32FC1, bump.heights.data());
     grey_of(picture).convertTo(heights, CV_32F);
     double lowest = 0.0;
     double highest = 0.0;
-    cv::minMaxLoc(heights, &lowest, &highest);
+    const cv::Mat finite = cv::abs(heights) <= std::numeric_limits<float>::max();
+    cv::minMaxLoc(heights, &lowest, &highest, nullptr, nullptr, finite);
+    heights.setTo(lowest, ~finite);
     const auto low = static_cast<float>(lowest);
     const auto range = static_cast<float>(highest - lowest);
     for (float& height : bump.heights) height = range > 0.0F ? (height - low) / range : 0.0F;
@@ -131,6 +98,12 @@ void write_png(const ColourImage& picture, const fs::path& file) {
 cv::Mat with_bits(const cv::Mat& picture, int bits_now, int bits) {
     if (bits_now == bits) return picture;
     cv::Mat scaled;
+    if (bits_now == kRealBits || bits == kRealBits) {  // no highest level to go by
+        picture.convertTo(scaled, CV_32F);
+        if (bits == kRealBits) return scaled;
+        cv::patchNaNs(scaled, 0.0);
+        return cv::min(cv::max(scaled, 0.0), highest_level(bits));
+    }
     picture.convertTo(scaled, CV_32F, highest_level(bits) / highest_level(bits_now));
     return scaled;
 }
@@ -210,18 +183,17 @@ void ChangedPictures::count_frames(std::int64_t most) {
     learn();
 }
 
-StillFile::StillFile(const std::filesystem::path& file, PictureRole role)
-    : picture_(role == PictureRole::depth ? read_picture_unchanged(file)
-                                          : read_colour_picture(file)) {
+StillFile::StillFile(const std::filesystem::path& file, PictureRole role) {
+    StillPicture still = read_still(file, role);
+    picture_ = std::move(still.picture);
     facts_.file = file;
     facts_.columns = picture_.cols;
     facts_.rows = picture_.rows;
-    facts_.bits = bits_of(picture_);
+    facts_.bits = still.bits;
     facts_.channels = picture_.channels();
-    facts_.codec = file.extension().string();
-    if (!facts_.codec.empty()) facts_.codec.erase(0, 1);
-    std::transform(facts_.codec.begin(), facts_.codec.end(), facts_.codec.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    facts_.codec = std::move(still.codec);
+    facts_.known = std::move(still.known);
+    facts_.known_from = std::move(still.known_from);
     facts_.frames = 1;
     facts_.frames_exact = true;
     facts_.still = true;

@@ -60,7 +60,7 @@ struct SourceFacts {
 };
 
 /// The same levels, of which the highest is highest_level(bits): of a row of pictures that do not
-/// agree.
+/// agree. Real numbers stay as they are, as far as they are levels of so many bits.
 [[nodiscard]] cv::Mat with_bits(const cv::Mat& picture, int bits_now, int bits);
 
 enum class PictureRole { colour, depth };

@@ -1,0 +1,193 @@
+// Chooses the array of a file that is meant, and gives its frames with their times.
+#include "core/video/formats/array_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <opencv2/imgproc.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/video/formats/file_bytes.hpp"
+#include "core/video/media.hpp"
+#include "core/video/media_names.hpp"
+#include "core/video/picture_folder.hpp"
+
+namespace dibhr {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::span<const std::string_view>;
+
+constexpr std::array<std::string_view, 4> kDepthNames{"depths", "depth", "disparity", "disp"};
+constexpr std::array<std::string_view, 7> kColourNames{"images", "image",  "rgb",    "color",
+                                                       "colour", "colors", "colours"};
+constexpr std::array<std::string_view, 2> kTimeNames{"times", "timestamps"};
+constexpr std::array<std::string_view, 1> kRateNames{"fps"};
+constexpr std::array<std::string_view, 3> kCameraNames{"k", "intrinsics", "intrinsic"};
+
+/// The array called by the first of these words, large or small letters; nothing when none is.
+std::optional<std::string> named(const Arrays& arrays, Words words) {
+    for (const std::string_view word : words)
+        for (const std::string& name : arrays.names())
+            if (lower_case(name) == word) return name;
+    return std::nullopt;
+}
+
+bool is_one_of(const std::string& name, Words words) {
+    return std::find(words.begin(), words.end(), lower_case(name)) != words.end();
+}
+
+/// Throws InputError when none, or more than one, can be meant.
+std::string chosen(const Arrays& arrays, PictureRole role) {
+    const bool is_depth = role == PictureRole::depth;
+    const auto called = is_depth ? named(arrays, kDepthNames) : named(arrays, kColourNames);
+    if (called) return *called;
+    std::vector<std::string> left;
+    std::copy_if(arrays.names().begin(), arrays.names().end(), std::back_inserter(left),
+                 [](const std::string& name) {
+                     return !is_one_of(name, kTimeNames) && !is_one_of(name, kRateNames) &&
+                            !is_one_of(name, kCameraNames);
+                 });
+    if (left.size() == 1) return left.front();
+    throw InputError(shown(arrays.file()) + " holds " + std::to_string(left.size()) +
+                     " arrays, none of them called " +
+                     (is_depth ? "depths, depth, disparity or disp" : "images or rgb") +
+                     ": save it with that name");
+}
+
+NumpyArray opened(const Arrays& arrays, const std::string& name) {
+    return {arrays.file(), arrays.open(name)};
+}
+
+/// The numbers of the array called so; none when there is none, or it is larger than `most`, or no
+/// array of numbers.
+std::vector<double> numbers_of(const Arrays& arrays, Words words, std::int64_t most) {
+    const auto name = named(arrays, words);
+    if (!name) return {};
+    try {
+        NumpyArray array = opened(arrays, *name);
+        return array.numbers(most);
+    } catch (const InputError&) {
+        return {};  // the depth is there all the same
+    }
+}
+
+bool rises(const std::vector<double>& times) {
+    return std::all_of(times.begin(), times.end(), [](double t) { return std::isfinite(t); }) &&
+           std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
+}
+
+/// Row by row the first nine numbers; nothing when they are no camera in pixels.
+std::optional<Intrinsics> intrinsics_of(const std::vector<double>& rows) {
+    if (rows.size() < 9) return std::nullopt;
+    const Intrinsics camera{rows[0], rows[4], rows[2], rows[5]};
+    const bool finite = std::isfinite(camera.fx) && std::isfinite(camera.fy) &&
+                        std::isfinite(camera.cx) && std::isfinite(camera.cy);
+    if (!finite || camera.fx <= 1.0 || camera.fy <= 1.0) return std::nullopt;
+    return camera;
+}
+
+void state(SourceFacts& facts, const std::string& array) {
+    if (!facts.known_from.empty()) facts.known_from += ", ";
+    facts.known_from += "array " + in_quotes(array);
+}
+
+}  // namespace
+
+bool is_array_file(const fs::path& file) {
+    const std::string head = head_of(file);
+    return is_npy(head) || is_npz(file, head);
+}
+
+bool arrays_have_colour_and_depth(const fs::path& file) {
+    if (!is_npz(file, head_of(file))) return false;
+    const Arrays arrays(file);
+    return named(arrays, kColourNames) && named(arrays, kDepthNames);
+}
+
+ArrayFile::ArrayFile(const fs::path& file, PictureRole role) : ArrayFile(Arrays(file), role) {}
+
+ArrayFile::ArrayFile(const Arrays& arrays, PictureRole role)
+    : role_(role), array_(opened(arrays, chosen(arrays, role))), shape_(array_.pictures()) {
+    if (role == PictureRole::colour &&
+        (array_.header().kind != 'u' || array_.header().number_bytes != 1))
+        throw InputError(shown(arrays.file()) +
+                         " holds depth and no colours (uint8): give it as the depth file");
+    read_facts(arrays);
+    read_times(arrays);
+    require_size(facts_.file, facts_.columns, facts_.rows);
+}
+
+void ArrayFile::read_facts(const Arrays& arrays) {
+    facts_.file = arrays.file();
+    facts_.columns = static_cast<int>(shape_.columns);
+    facts_.rows = static_cast<int>(shape_.rows);
+    const bool whole = array_.header().kind == 'u';
+    const int bytes = array_.header().number_bytes;
+    facts_.bits = whole && bytes <= 2 ? 8 * bytes : kRealBits;
+    facts_.channels = role_ == PictureRole::colour ? 3 : static_cast<int>(shape_.channels);
+    facts_.codec = arrays.zipped() ? "NPZ" : "NPY";
+    facts_.frames = shape_.frames;
+    facts_.frames_exact = true;
+    facts_.still = shape_.frames == 1;
+    if (role_ == PictureRole::colour || !arrays.zipped()) return;
+    const std::string name = chosen(arrays, role_);
+    if (lower_case(name).starts_with("disp")) {
+        facts_.known.unit = DepthUnit::disparity;
+        state(facts_, name);
+    }
+    constexpr std::int64_t kMostOfCamera = std::int64_t{9} << 20;  // one a frame
+    facts_.known.intrinsics = intrinsics_of(numbers_of(arrays, kCameraNames, kMostOfCamera));
+    if (facts_.known.intrinsics) state(facts_, *named(arrays, kCameraNames));
+}
+
+void ArrayFile::read_times(const Arrays& arrays) {
+    const std::vector<double> rate = numbers_of(arrays, kRateNames, 1);
+    const bool usable = !rate.empty() && rate[0] >= 0.001 && rate[0] <= 10000.0;
+    const double frames_per_s = usable ? rate[0] : kPicturesPerSecond;
+    times_s_ = numbers_of(arrays, kTimeNames, shape_.frames);
+    if (std::cmp_not_equal(times_s_.size(), shape_.frames) || !rises(times_s_)) {
+        times_s_.clear();
+        for (std::int64_t k = 0; k < shape_.frames; ++k)
+            times_s_.push_back(static_cast<double>(k) / frames_per_s);
+    }
+    facts_.start_s = times_s_.front();
+    for (double& time_s : times_s_) time_s -= facts_.start_s;
+    if (facts_.still) return;
+    const double interval_s = times_s_.back() / static_cast<double>(shape_.frames - 1);
+    facts_.frames_per_s = 1.0 / interval_s;
+    facts_.duration_s = times_s_.back() + interval_s;
+}
+
+std::optional<TimedPicture> ArrayFile::next() {
+    if (at_ == shape_.frames) return std::nullopt;
+    const std::int64_t at = at_++;
+    cv::Mat picture = array_.picture(shape_, at);
+    if (role_ == PictureRole::colour && picture.channels() == 1)
+        cv::cvtColor(picture, picture, cv::COLOR_GRAY2BGR);
+    if (role_ == PictureRole::colour && picture.channels() == 4)
+        cv::cvtColor(picture, picture, cv::COLOR_BGRA2BGR);
+    return TimedPicture{picture, times_s_[static_cast<std::size_t>(at)], at};
+}
+
+void ArrayFile::seek(double time_s) {
+    const auto later =
+        std::upper_bound(times_s_.begin(), times_s_.end(), time_s + kTimeTolerance_s);
+    at_ = std::max<std::int64_t>(later - times_s_.begin() - 1, 0);
+}
+
+StillPicture read_array(const fs::path& file, PictureRole role) {
+    ArrayFile array(file, role);
+    const SourceFacts& facts = array.facts();
+    return {array.next()->picture, facts.bits, facts.codec, facts.known, facts.known_from};
+}
+
+}  // namespace dibhr

@@ -1,0 +1,66 @@
+// How files begin, how large they may claim to be, and light as a screen shows it.
+#include "core/video/formats/file_bytes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <fstream>
+#include <opencv2/core.hpp>
+#include <system_error>
+
+#include "core/error.hpp"
+#include "core/video/media.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr std::int64_t kMostPixels = std::int64_t{1} << 30;  // OpenCV's own limit
+constexpr std::uint64_t kMostCompressed = 65536;  // flat pictures in DWAB and HEVC; deflate: 1032
+
+std::uint8_t screen_level(float light) {
+    if (!(light > 0.0F)) return 0;  // no number is black, too
+    if (light >= 1.0F) return 255;
+    const float level =
+        light <= 0.0031308F ? 12.92F * light : 1.055F * std::pow(light, 1.0F / 2.4F) - 0.055F;
+    return static_cast<std::uint8_t>(std::lround(255.0F * level));
+}
+
+}  // namespace
+
+std::string head_of(const std::filesystem::path& file) {
+    std::string head(32, '\0');
+    std::ifstream in(file, std::ios::binary);
+    in.read(head.data(), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(std::max<std::streamsize>(in.gcount(), 0)));
+    return head;
+}
+
+std::uint64_t size_of(const std::filesystem::path& file) {
+    std::error_code failed;
+    const auto size = std::filesystem::file_size(file, failed);
+    return failed ? 0 : size;
+}
+
+void require_plausible_size(const std::filesystem::path& file, std::int64_t columns,
+                            std::int64_t rows, int bytes_per_pixel) {
+    if (columns < 1 || rows < 1 || columns > kMostPixels / rows)
+        throw InputError(shown(file) + " says that it is " + std::to_string(columns) + " x " +
+                         std::to_string(rows) + " pixels: give a smaller one");
+    const auto bytes = static_cast<std::uint64_t>(columns * rows * bytes_per_pixel);
+    if (bytes / kMostCompressed > size_of(file))
+        throw InputError(shown(file) + " says that it is " + std::to_string(columns) + " x " +
+                         std::to_string(rows) +
+                         " pixels and is too short for them: it is damaged, export it again");
+}
+
+cv::Mat screen_colours(const cv::Mat& linear) {
+    cv::Mat screen(linear.size(), CV_8UC(linear.channels()));
+    const int values = linear.cols * linear.channels();
+    for (int j = 0; j < linear.rows; ++j)
+        std::transform(linear.ptr<float>(j), linear.ptr<float>(j) + values,
+                       screen.ptr<std::uint8_t>(j), screen_level);
+    return screen;
+}
+
+}  // namespace dibhr

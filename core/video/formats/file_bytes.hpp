@@ -1,0 +1,27 @@
+// What the readers of forms share: how a file begins, how large it may claim to be, and pictures of
+// real numbers; inside the room.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <opencv2/core/mat.hpp>
+#include <string>
+
+namespace dibhr {
+
+/// The first bytes of a file, at most 32; none when it cannot be read.
+[[nodiscard]] std::string head_of(const std::filesystem::path& file);
+
+/// In bytes; 0 when it cannot be told.
+[[nodiscard]] std::uint64_t size_of(const std::filesystem::path& file);
+
+/// Throws InputError when a header's picture is larger than any (2^30 pixels), or than what a file
+/// of that size can hold however well it is compressed: before memory is taken for it.
+void require_plausible_size(const std::filesystem::path& file, std::int64_t columns,
+                            std::int64_t rows, int bytes_per_pixel);
+
+/// 8-bit BGR as a screen shows it (the sRGB transfer), of linear light from 0 to 1 in the same
+/// order.
+[[nodiscard]] cv::Mat screen_colours(const cv::Mat& linear);
+
+}  // namespace dibhr

@@ -1,0 +1,243 @@
+// Reads numpy's headers, and pictures from the numbers behind them.
+#include "core/video/formats/numpy_array.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cstring>
+#include <limits>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/video/formats/numbers.hpp"
+#include "core/video/media.hpp"
+
+namespace dibhr {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t kMostNumbers = std::int64_t{1} << 30;  // of a picture: OpenCV's own limit
+constexpr std::int64_t kMostWholeBytes = std::int64_t{1} << 30;
+constexpr std::uint64_t kMostHeaderBytes = 65536;
+
+/// What stands behind "'name':" in the header's dictionary; empty when it has no such name.
+std::string_view value_of(std::string_view dictionary, const std::string& name) {
+    const auto at = dictionary.find("'" + name + "':");
+    if (at == std::string_view::npos) return {};
+    const auto value = dictionary.find_first_not_of(' ', at + name.size() + 3);
+    return value == std::string_view::npos ? std::string_view() : dictionary.substr(value);
+}
+
+/// "(3, 4)": 3, 4. Nothing when it is written otherwise.
+std::optional<std::vector<std::int64_t>> shape_of(std::string_view text) {
+    if (!text.starts_with('(')) return std::nullopt;
+    std::vector<std::int64_t> shape;
+    text.remove_prefix(1);
+    while (!text.empty()) {
+        if (text.front() == ')') return shape;
+        if (text.front() == ' ' || text.front() == ',' || text.front() == 'L') {
+            text.remove_prefix(1);
+            continue;
+        }
+        std::int64_t side = 0;
+        const auto end = std::from_chars(text.data(), text.data() + text.size(), side);
+        if (end.ec != std::errc() || side < 0) return std::nullopt;
+        shape.push_back(side);
+        text.remove_prefix(static_cast<std::size_t>(end.ptr - text.data()));
+    }
+    return std::nullopt;
+}
+
+/// "'<f4'" into the kind, the bytes and their order. False for what is no number here.
+bool read_type(std::string_view text, NumpyHeader& header) {
+    if (text.size() < 5 || text[0] != '\'' || text[4] != '\'') return false;
+    header.kind = text[2];
+    header.number_bytes = text[3] - '0';
+    const bool little = std::endian::native == std::endian::little;
+    header.swapped = text[1] == (little ? '>' : '<');
+    constexpr std::array<std::string_view, 11> kTypes{"f2", "f4", "f8", "u1", "u2", "u4",
+                                                      "u8", "i1", "i2", "i4", "i8"};
+    return std::find(kTypes.begin(), kTypes.end(), text.substr(2, 2)) != kTypes.end();
+}
+
+/// The dictionary of a header, and where it ends. Throws InputError.
+std::pair<std::string, std::uint64_t> dictionary_of(const fs::path& file, ArrayBytes& bytes) {
+    std::array<std::uint8_t, 12> head{};
+    const bool long_enough = bytes.size() >= head.size();
+    if (long_enough) bytes.read(0, head);
+    constexpr std::string_view kMagic = "\x93NUMPY";
+    if (!long_enough || std::memcmp(head.data(), kMagic.data(), kMagic.size()) != 0)
+        throw InputError(shown(file) + " holds no numpy array: save it again by numpy.save");
+    const bool first_version = head[6] == 1;
+    const std::uint64_t begin = first_version ? 10 : 12;
+    std::uint64_t length = head[8] | std::uint64_t{head[9]} << 8U;
+    if (!first_version) length |= std::uint64_t{head[10]} << 16U | std::uint64_t{head[11]} << 24U;
+    if (length > kMostHeaderBytes || begin + length > bytes.size())
+        throw InputError(shown(file) + " is cut off or damaged: copy it or save it again");
+    std::string dictionary(length, '\0');
+    bytes.read(begin, {reinterpret_cast<std::uint8_t*>(dictionary.data()), length});
+    return {std::move(dictionary), begin + length};
+}
+
+NumpyHeader read_header(const fs::path& file, ArrayBytes& bytes) {
+    NumpyHeader header;
+    const auto [dictionary, end] = dictionary_of(file, bytes);
+    header.data_at = end;
+    header.fortran = value_of(dictionary, "fortran_order").starts_with("True");
+    const auto shape = shape_of(value_of(dictionary, "shape"));
+    if (!shape || !read_type(value_of(dictionary, "descr"), header))
+        throw InputError(shown(file) +
+                         " holds no array of plain numbers: save the depth as float32 by "
+                         "numpy.save");
+    header.shape = *shape;
+    return header;
+}
+
+std::string text_of(const std::vector<std::int64_t>& shape) {
+    std::string text;
+    for (const std::int64_t side : shape) text += (text.empty() ? "" : ", ") + std::to_string(side);
+    return "[" + text + "]";
+}
+
+/// How many numbers, as long as they fit into `most` bytes; nothing when not.
+std::optional<std::int64_t> count_of(const NumpyHeader& header, std::uint64_t most_bytes) {
+    const auto bytes = static_cast<std::uint64_t>(header.number_bytes);
+    std::uint64_t count = 1;
+    for (const std::int64_t side : header.shape) {
+        const auto factor = static_cast<std::uint64_t>(side);
+        if (factor == 0) return 0;
+        if (count > most_bytes / bytes / factor) return std::nullopt;
+        count *= factor;
+    }
+    return static_cast<std::int64_t>(count);
+}
+
+/// OpenCV's type of the numbers; whole ones of four bytes as if they had a sign, of eight none.
+int mat_type(const NumpyHeader& header) {
+    const bool has_sign = header.kind == 'i';
+    switch (header.number_bytes) {
+        case 1:
+            return has_sign ? CV_8S : CV_8U;
+        case 2:
+            return header.kind == 'f' ? CV_16F : has_sign ? CV_16S : CV_16U;
+        case 4:
+            return header.kind == 'f' ? CV_32F : CV_32S;
+        default:
+            return CV_64F;
+    }
+}
+
+/// OpenCV has no whole numbers of eight bytes.
+void make_real(cv::Mat& numbers) {
+    for (double& number : cv::Mat_<double>(numbers)) {
+        std::int64_t whole = 0;
+        std::memcpy(&whole, &number, sizeof whole);
+        number = static_cast<double>(whole);
+    }
+}
+
+/// What OpenCV took for negative is beyond the highest number with a sign.
+void give_back_sign(cv::Mat& numbers) {
+    cv::Mat real;
+    numbers.convertTo(real, CV_64F);
+    cv::add(real, cv::Scalar::all(4294967296.0), real, real < 0.0);
+    numbers = real;
+}
+
+}  // namespace
+
+NumpyArray::NumpyArray(fs::path file, std::unique_ptr<ArrayBytes> bytes)
+    : file_(std::move(file)), bytes_(std::move(bytes)), header_(read_header(file_, *bytes_)) {
+    const auto count = count_of(header_, bytes_->size() - header_.data_at);
+    if (!count)
+        throw InputError(shown(file_) + " is shorter than its header says (" +
+                         text_of(header_.shape) + "): copy it or save it again");
+    count_ = *count;
+}
+
+std::vector<double> NumpyArray::numbers(std::int64_t most) {
+    if (count_ > most || count_ == 0) return {};
+    cv::Mat real;
+    read(0, count_).convertTo(real, CV_64F);
+    return {real.begin<double>(), real.end<double>()};
+}
+
+PictureShape NumpyArray::pictures() const {
+    std::vector<std::int64_t> sides = header_.shape;
+    const bool of_colours = header_.kind == 'u' && header_.number_bytes == 1;
+    PictureShape shape;
+    if (sides.size() > 2) {
+        const std::int64_t last = sides.back();
+        if (last == 1 || (of_colours && (last == 3 || last == 4))) {
+            shape.channels = last;
+            sides.pop_back();
+        } else if (sides.size() == 4 && sides[1] == 1) {  // [frames, 1, rows, columns]
+            sides.erase(sides.begin() + 1);
+        }
+    }
+    if (sides.size() == 2) sides.insert(sides.begin(), 1);
+    if (sides.size() != 3 || count_ == 0)
+        throw InputError(shown(file_) + " holds numbers in the shape " + text_of(header_.shape) +
+                         ": save depth as [rows, columns] or [frames, rows, columns]");
+    shape.frames = sides[0];
+    shape.rows = sides[1];
+    shape.columns = sides[2];
+    if (shape.rows > kMostNumbers / shape.columns / shape.channels)
+        throw InputError(shown(file_) + " holds pictures of " + std::to_string(shape.columns) +
+                         " x " + std::to_string(shape.rows) + " pixels: save smaller ones");
+    if (header_.fortran && count_ > kMostWholeBytes / header_.number_bytes)
+        throw InputError(shown(file_) +
+                         " is too large in Fortran order: save numpy.ascontiguousarray of it");
+    return shape;
+}
+
+/// So many numbers from the `first` on, as one row.
+cv::Mat NumpyArray::read(std::uint64_t first, std::int64_t count) {
+    const auto number_bytes = static_cast<std::size_t>(header_.number_bytes);
+    cv::Mat numbers(1, static_cast<int>(count), mat_type(header_));
+    const std::span<std::uint8_t> bytes(numbers.ptr<std::uint8_t>(),
+                                        static_cast<std::size_t>(count) * number_bytes);
+    bytes_->read(header_.data_at + first * number_bytes, bytes);
+    if (header_.swapped) swap_bytes(bytes, number_bytes);
+    if (header_.kind != 'f' && number_bytes == 8) make_real(numbers);
+    if (header_.kind == 'u' && number_bytes == 4) give_back_sign(numbers);
+    return numbers;
+}
+
+/// The numbers of all frames stand beside each other, column after column of the picture.
+cv::Mat NumpyArray::fortran_picture(const PictureShape& shape, std::int64_t frame) {
+    if (whole_.empty()) whole_ = read(0, count_);
+    const cv::Mat by_frame = whole_.reshape(1, static_cast<int>(count_ / shape.frames));
+    const cv::Mat own = by_frame.col(static_cast<int>(frame)).clone();
+    const auto columns = static_cast<int>(shape.columns);
+    const cv::Mat upright = own.reshape(1, columns * static_cast<int>(shape.channels));
+    std::vector<cv::Mat> planes;
+    for (int k = 0; k < static_cast<int>(shape.channels); ++k)
+        planes.emplace_back(upright.rowRange(k * columns, (k + 1) * columns).t());
+    if (planes.size() == 1) return planes.front();
+    cv::Mat picture;
+    cv::merge(planes, picture);
+    return picture;
+}
+
+cv::Mat NumpyArray::picture(const PictureShape& shape, std::int64_t frame) {
+    const std::int64_t count = shape.rows * shape.columns * shape.channels;
+    cv::Mat picture = header_.fortran ? fortran_picture(shape, frame)
+                                      : read(static_cast<std::uint64_t>(frame * count), count)
+                                            .reshape(static_cast<int>(shape.channels),
+                                                     static_cast<int>(shape.rows));
+    const bool keeps = picture.depth() == CV_8U || picture.depth() == CV_16U;
+    if (!keeps) picture.convertTo(picture, CV_32F);
+    if (picture.channels() == 3) cv::cvtColor(picture, picture, cv::COLOR_RGB2BGR);
+    if (picture.channels() == 4) cv::cvtColor(picture, picture, cv::COLOR_RGBA2BGRA);
+    return picture;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,60 @@
+// One numpy array as pictures: what its header says, and its numbers; inside the room.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <vector>
+
+#include "core/video/formats/array_bytes.hpp"
+
+namespace dibhr {
+
+/// What a numpy header says (numpy.lib.format).
+struct NumpyHeader {
+    char kind{'f'};       ///< f: real, i: whole, u: whole and not negative
+    int number_bytes{4};  ///< 1, 2, 4 or 8
+    bool swapped{false};  ///< not in this machine's byte order
+    bool fortran{false};  ///< the first index runs fastest
+    std::vector<std::int64_t> shape{};
+    std::uint64_t data_at{0};  ///< where the numbers begin
+};
+
+/// [rows, columns], [frames, rows, columns], and either with 1, 3 or 4 channels behind.
+struct PictureShape {
+    std::int64_t frames{1};
+    std::int64_t rows{0};
+    std::int64_t columns{0};
+    std::int64_t channels{1};
+};
+
+class NumpyArray {
+  public:
+    /// Throws InputError when it is no array of numbers, or shorter than its header says.
+    NumpyArray(std::filesystem::path file, std::unique_ptr<ArrayBytes> bytes);
+
+    [[nodiscard]] const NumpyHeader& header() const { return header_; }
+
+    /// All of a small array in its own order; none of one with more than `most`. Throws InputError.
+    [[nodiscard]] std::vector<double> numbers(std::int64_t most);
+
+    /// Throws InputError when these are no pictures, or pictures that are too large.
+    [[nodiscard]] PictureShape pictures() const;
+
+    /// Levels of 8 or 16 bits where the numbers are u1 or u2, else real ones. Throws InputError.
+    [[nodiscard]] cv::Mat picture(const PictureShape& shape, std::int64_t frame);
+
+  private:
+    [[nodiscard]] cv::Mat read(std::uint64_t first, std::int64_t count);
+    [[nodiscard]] cv::Mat fortran_picture(const PictureShape& shape, std::int64_t frame);
+
+    std::filesystem::path file_;
+    std::unique_ptr<ArrayBytes> bytes_;
+    NumpyHeader header_{};
+    std::int64_t count_{1};
+    cv::Mat whole_{};  ///< in Fortran's order, where a picture lies all over the file
+};
+
+}  // namespace dibhr

@@ -1,0 +1,95 @@
+// Gives each file to the reader of its form; what is left is OpenCV's.
+#include "core/video/formats/still_picture.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "core/error.hpp"
+#include "core/video/formats/array_file.hpp"
+#include "core/video/formats/exr.hpp"
+#include "core/video/formats/file_bytes.hpp"
+#include "core/video/formats/heif.hpp"
+#include "core/video/formats/pfm.hpp"
+#include "core/video/libraries.hpp"
+#include "core/video/media.hpp"
+
+namespace dibhr {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using Reader = StillPicture (*)(const fs::path&, PictureRole);
+
+bool opencv_reads(const fs::path& file) {
+    try {
+        return cv::haveImageReader(file.string());
+    } catch (const cv::Exception&) {
+        return false;
+    }
+}
+
+std::string codec_by_name(const fs::path& file) {
+    std::string codec = file.extension().string();
+    if (!codec.empty()) codec.erase(0, 1);
+    std::transform(codec.begin(), codec.end(), codec.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    return codec;
+}
+
+cv::Mat decoded(const fs::path& file, int flags) {
+    cv::Mat picture;
+    try {
+        const QuietErrors quiet;
+        picture = cv::imread(file.string(), flags);
+    } catch (const cv::Exception&) {
+        picture.release();  // refused, for example as too large: said below
+    }
+    if (picture.empty())
+        throw InputError(shown(file) +
+                         " cannot be decoded as a picture: it may be damaged, export it again");
+    return picture;
+}
+
+/// What OpenCV reads right: among it levels with a sign and real ones (TIFF), which become real.
+StillPicture read_by_opencv(const fs::path& file, PictureRole role) {
+    const bool is_depth = role == PictureRole::depth;
+    cv::Mat picture = decoded(file, is_depth ? cv::IMREAD_UNCHANGED : cv::IMREAD_COLOR);
+    if (picture.depth() != CV_8U && picture.depth() != CV_16U) picture.convertTo(picture, CV_32F);
+    const int bits = picture.depth() == CV_8U ? 8 : picture.depth() == CV_16U ? 16 : kRealBits;
+    return {picture, bits, codec_by_name(file), {}, {}};
+}
+
+/// By content; null when none of ours takes it.
+Reader own_reader_of(const fs::path& file) {
+    const std::string head = head_of(file);
+    if (is_exr(head)) return read_exr;
+    if (is_pfm(head)) return read_pfm;
+    if (is_heif(head)) return read_heif;
+    if (is_array_file(file)) return read_array;
+    return nullptr;
+}
+
+}  // namespace
+
+bool is_still(const fs::path& file) {
+    return own_reader_of(file) != nullptr || opencv_reads(file);
+}
+
+bool holds_colour_and_depth(const fs::path& file) {
+    const std::string head = head_of(file);
+    if (is_exr(head)) return exr_has_colour_and_depth(file);
+    if (is_heif(head)) return heif_has_depth(file);
+    return arrays_have_colour_and_depth(file);
+}
+
+StillPicture read_still(const fs::path& file, PictureRole role) {
+    set_up_libraries();
+    require_readable(file);
+    const Reader own = own_reader_of(file);
+    return own != nullptr ? own(file, role) : read_by_opencv(file, role);
+}
+
+}  // namespace dibhr
