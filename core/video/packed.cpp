@@ -97,7 +97,7 @@ struct PackingWord {
     bool says_depth;
 };
 
-constexpr std::array<PackingWord, 17> kPackingWords{{
+constexpr std::array<PackingWord, 18> kPackingWords{{
     {"rgbd", std::nullopt, false, true},
     {"hrgbd", std::nullopt, true, true},
     {"half", std::nullopt, true, false},
@@ -108,6 +108,7 @@ constexpr std::array<PackingWord, 17> kPackingWords{{
     {"hsbs", DepthPacking::left_right, true, false},
     {"rl", DepthPacking::right_left, false, false},
     {"rlf", DepthPacking::right_left, false, false},
+    {"cross", DepthPacking::right_left, false, false},
     {"tb", DepthPacking::top_bottom, false, false},
     {"tbf", DepthPacking::top_bottom, false, false},
     {"fulltb", DepthPacking::top_bottom, false, false},

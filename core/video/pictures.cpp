@@ -142,6 +142,7 @@ ChangedPictures::ChangedPictures(std::unique_ptr<PictureSource> source, Change c
         facts_.columns = first_->picture.cols;
         facts_.rows = first_->picture.rows;
     }
+    learn();
     require_size(facts_.file, facts_.columns, facts_.rows);
 }
 
@@ -156,13 +157,14 @@ void ChangedPictures::learn() {
 std::optional<TimedPicture> ChangedPictures::changed_next() {
     std::optional<TimedPicture> taken = source_->next();
     if (taken) taken->picture = change_(taken->picture);
-    learn();
     return taken;
 }
 
 std::optional<TimedPicture> ChangedPictures::next() {
-    if (!first_) return changed_next();
-    return std::exchange(first_, std::nullopt);
+    if (first_) return std::exchange(first_, std::nullopt);
+    std::optional<TimedPicture> taken = changed_next();
+    learn();
+    return taken;
 }
 
 void ChangedPictures::seek(double time_s) {

@@ -1,0 +1,34 @@
+// One scene of known depth - a tilted plane, a ball, a step, a rim without data - as pictures in
+// the codes that depth comes in, and as a photograph.
+#pragma once
+
+#include <functional>
+#include <opencv2/core/mat.hpp>
+
+namespace dibhr::test {
+
+inline constexpr int kSceneColumns = 320;
+inline constexpr int kSceneRows = 240;
+
+/// From 0, near, to 1, far; NaN: no data. CV_32F.
+[[nodiscard]] cv::Mat scene_depth();
+
+/// What `level` says of each depth, as 8-bit BGR.
+[[nodiscard]] cv::Mat painted(const cv::Mat& depth, const std::function<cv::Vec3b(float)>& level);
+
+// Codes of one depth.
+[[nodiscard]] cv::Vec3b as_hue(float depth);   ///< red near, black none
+[[nodiscard]] cv::Vec3b as_grey(float depth);  ///< white near, black none
+[[nodiscard]] cv::Vec3b as_ramp(float depth);  ///< white, cyan, blue, black
+
+/// Surfaces of other colours with a rough texture, seen from `to_the_right` pixels further right.
+[[nodiscard]] cv::Mat scene_photo(double to_the_right = 0.0);
+
+/// Noise of several sizes around mid-grey, as photographs of rough things have it.
+[[nodiscard]] cv::Mat rough(int columns, int rows, int seed);
+
+/// Two pictures of a size side by side, or the first above the second.
+[[nodiscard]] cv::Mat beside(const cv::Mat& left, const cv::Mat& right);
+[[nodiscard]] cv::Mat above(const cv::Mat& top, const cv::Mat& bottom);
+
+}  // namespace dibhr::test
