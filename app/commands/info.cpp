@@ -3,12 +3,14 @@
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "app/commands/command_line.hpp"
+#include "app/settings/command_options.hpp"
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/replay/frames.hpp"
@@ -70,29 +72,139 @@ void describe_partner(const fs::path& file) {
     }
 }
 
-void describe_pictures(const fs::path& file) {
-    const MediaDescription media = describe_media(file);
+std::string form_of(const MediaDescription& media) {
+    const bool is_colour = media.colour_columns > 0;
+    const std::string& codec = is_colour ? media.colour_codec : media.depth_codec;
+    return std::string(media.still ? "image" : "video") + (codec.empty() ? "" : ", " + codec);
+}
+
+std::string size_text(int columns, int rows) {
+    return std::to_string(columns) + "x" + std::to_string(rows);
+}
+
+std::string levels_text(const MediaDescription& media) {
+    const std::string used = std::to_string(media.levels_used) + " levels used";
+    return media.has_real_numbers() ? "real numbers, " + used
+                                    : std::to_string(media.depth_bits) + " bits, " + used;
+}
+
+std::string list_text(const std::vector<std::string>& words) {
+    std::string list;
+    for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
+    return list.empty() ? "nothing" : list;
+}
+
+void print_depth(const MediaDescription& media) {
+    print_fact("depth", size_text(media.depth_columns, media.depth_rows) + ", " +
+                            media.depth_codec + ", " + levels_text(media));
+    if (!media.meaning) return;
+    const DepthMeaning& meaning = *media.meaning;
+    print_fact("meaning", in_words(meaning));
+    if (!meaning.found_in.empty()) print_fact("found in", meaning.found_in);
+    print_fact("assumed", list_text(assumed_facts(meaning)));
+    print_fact("packing", name_of(meaning.packing.value));
+    print_fact("code", name_of(meaning.code.value));
+    print_fact("holes", number_text(100.0 * media.holes_share, 1) + " %");
+}
+
+void describe_pictures(const fs::path& file, const DepthRequest& request) {
+    const MediaDescription media = describe_media(file, request);
     const bool is_colour = media.colour_columns > 0;
     const bool has_depth = media.depth_columns > 0;
-    const int columns = is_colour ? media.colour_columns : media.depth_columns;
-    const int rows = is_colour ? media.colour_rows : media.depth_rows;
-    const std::string& codec = is_colour ? media.colour_codec : media.depth_codec;
 
     std::cout << one_line(file.string()) << '\n';
     print_fact("kind", media.still ? "image" : "video");
-    print_fact("size", std::to_string(columns) + "x" + std::to_string(rows));
+    print_fact("size", is_colour ? size_text(media.colour_columns, media.colour_rows)
+                                 : size_text(media.depth_columns, media.depth_rows));
+    const std::string& codec = is_colour ? media.colour_codec : media.depth_codec;
     if (!codec.empty()) print_fact("codec", codec);
-    print_fact("bits", std::to_string(media.depth_bits) + " a channel");
-    if (is_colour && has_depth) {
-        print_fact("depth", std::to_string(media.depth_columns) + "x" +
-                                std::to_string(media.depth_rows) + ", " + media.depth_codec);
-    }
+    if (has_depth) print_depth(media);
     if (!media.still) {
         print_fact("frames", (media.frames_exact ? "" : "about ") + std::to_string(media.frames));
         print_fact("duration", number_text(media.duration_s, 3) + " s");
         print_fact("rate", number_text(media.frames_per_s, 2) + " frames/s");
     }
+    if (!media.notice.empty()) print_fact("notice", media.notice);
     if (is_colour && !has_depth) describe_partner(file);
+}
+
+using Json = nlohmann::ordered_json;
+
+/// What is not known of a file is null.
+Json json_of(const fs::path& file, const MediaDescription& media) {
+    const bool has_depth = media.depth_columns > 0;
+    Json json{{"path", file.string()},
+              {"form", form_of(media)},
+              {"columns", has_depth ? Json(media.depth_columns) : Json()},
+              {"rows", has_depth ? Json(media.depth_rows) : Json()},
+              {"colour_columns", media.colour_columns > 0 ? Json(media.colour_columns) : Json()},
+              {"colour_rows", media.colour_rows > 0 ? Json(media.colour_rows) : Json()},
+              {"bits", has_depth ? Json(media.depth_bits) : Json()},
+              {"levels_used", has_depth ? Json(media.levels_used) : Json()}};
+    for (const char* const name : {"near", "unit", "scale", "range", "no_data"}) json[name] = {};
+    json["holes_share"] = has_depth ? Json(media.holes_share) : Json();
+    json["frames"] = media.frames;
+    json["duration_s"] = media.duration_s;
+    for (const char* const name : {"packing", "code", "geometry", "intrinsics"}) json[name] = {};
+    json["found_in"] = "";
+    json["assumed"] = Json::array();
+    json["origin"] = Json::object();
+    json["notice"] = media.notice;
+    if (!media.meaning) return json;
+    const DepthMeaning& meaning = *media.meaning;
+    json["range"] = {meaning.range.value.near, meaning.range.value.far};
+    json["scale"] = meaning.scale.value;
+    json["no_data"] = meaning.no_data.value;
+    json["near"] = name_of(meaning.near.value);
+    json["unit"] = name_of(meaning.unit.value);
+    json["packing"] = name_of(meaning.packing.value);
+    json["code"] = name_of(meaning.code.value);
+    json["geometry"] = name_of(meaning.geometry.value);
+    if (meaning.intrinsics) {
+        const Intrinsics& camera = meaning.intrinsics->value;
+        json["intrinsics"] = {camera.fx, camera.fy, camera.cx, camera.cy};
+        json["origin"]["intrinsics"] = name_of(meaning.intrinsics->origin);
+    }
+    json["found_in"] = meaning.found_in;
+    json["assumed"] = assumed_facts(meaning);
+    json["origin"]["near"] = name_of(meaning.near.origin);
+    json["origin"]["unit"] = name_of(meaning.unit.origin);
+    json["origin"]["scale"] = name_of(meaning.scale.origin);
+    json["origin"]["range"] = name_of(meaning.range.origin);
+    json["origin"]["no_data"] = name_of(meaning.no_data.origin);
+    json["origin"]["packing"] = name_of(meaning.packing.origin);
+    json["origin"]["code"] = name_of(meaning.code.origin);
+    json["origin"]["geometry"] = name_of(meaning.geometry.origin);
+    return json;
+}
+
+/// Of a session what its view gives, by the names of the facts.
+Json json_of_session(const fs::path& file) {
+    const Session session(file);
+    session.check();
+    print_warning(session.warning());
+    Json json{{"path", file.string()},
+              {"form", "dibhr session"},
+              {"rows", session.rows()},
+              {"duration_s", session.end_s() - session.begin_s()},
+              {"missing_rows", session.missing()}};
+    for (const auto& [name, value] : session.facts())
+        json["facts"][utf8_text(name)] = utf8_text(value);
+    return json;
+}
+
+/// One object a line, so that what follows a file that cannot be read is read, too.
+void print_json(const fs::path& file, const DepthRequest& request) {
+    const Json json =
+        names_session(file) ? json_of_session(file) : json_of(file, describe_media(file, request));
+    std::cout << json.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
+}
+
+void describe(const fs::path& file, const DepthRequest& request) {
+    if (names_session(file))
+        describe_session(file);
+    else
+        describe_pictures(file, request);
 }
 
 }  // namespace
@@ -100,16 +212,19 @@ void describe_pictures(const fs::path& file) {
 int run_info(CLI::App& app, const Arguments& arguments) {
     std::vector<std::string> files;
     app.add_option("FILE", files, "Videos, images and session files")->type_name("")->required();
-    app.footer("Example:\n  dibhr info color.mp4 depth.mp4 mine.dibhr");
+    bool json = false;
+    DepthRequest request{.find_out = true};
+    app.add_flag("--json", json, "One JSON object a file and line; what is not known is null");
+    add_depth_options(app, request.command_line);
+    app.footer(
+        "Examples:\n"
+        "  dibhr info color.mp4 depth.mp4 mine.dibhr\n"
+        "  dibhr info scan/ --json");
     if (!parse(app, arguments)) return 0;
     int exit_code = 0;
     for (const fs::path file : files) {
         try {
-            if (names_session(file)) {
-                describe_session(file);
-            } else {
-                describe_pictures(file);
-            }
+            json ? print_json(file, request) : describe(file, request);
         } catch (const Error& error) {
             std::cout.flush();
             print_error_line(error.what());

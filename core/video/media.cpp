@@ -55,6 +55,7 @@ std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthRequest& reque
 }  // namespace
 
 Fit fit_of(const MediaDescription& media) {
+    if (media.true_fit) return *media.true_fit;
     const double columns = std::max(media.depth_columns, 2);
     return {kPaperRelief * columns, kPaperWidth_mm / columns};
 }

@@ -42,6 +42,12 @@ struct DepthRequest {
     DepthStatement recorded{};  ///< a session's, which beats all others
 };
 
+/// The relief and the pitch that fit a media.
+struct Fit {
+    double relief_px;  ///< of the highest level
+    double pixel_pitch_mm;
+};
+
 /// For `dibhr info` and the Video panel.
 struct MediaDescription {
     std::filesystem::path colour_path{};
@@ -52,6 +58,7 @@ struct MediaDescription {
     int depth_bits{8};        ///< of a level; 32: real numbers
     int levels_used{0};       ///< how many there are in pictures from all over it (`dibhr info`)
     double holes_share{0.0};  ///< of their pixels that are no data, in [0, 1] (`dibhr info`)
+    std::optional<Fit> true_fit{};          ///< of a true shape, whose pixels are millimetres
     std::optional<DepthMeaning> meaning{};  ///< nothing: levels are as the file has them
     double duration_s{0.0};
     double frames_per_s{0.0};  ///< average of the real intervals as far as known; 0 for a still
@@ -67,14 +74,9 @@ struct MediaDescription {
     [[nodiscard]] bool has_real_numbers() const noexcept { return depth_bits > 16; }
 };
 
-/// The relief and the pitch that fit a media.
-struct Fit {
-    double relief_px;  ///< of the highest level
-    double pixel_pitch_mm;
-};
-
 /// From the farthest to the nearest it is as high as 255/720 of the width, and the width is what a
-/// Falcon's hand reaches, 101.6 mm: as in the paper, whatever the picture's size.
+/// Falcon's hand reaches, 101.6 mm: as in the paper, whatever the picture's size. A true shape fits
+/// as it is.
 [[nodiscard]] Fit fit_of(const MediaDescription& media);
 
 /// Containers round times to milliseconds: a time asked for matches a frame's within half of one.

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
+#include <string>
 #include <utility>
+
+#include "core/error.hpp"
 
 namespace dibhr {
 
@@ -85,15 +88,17 @@ PairedMedia::PairedMedia(std::unique_ptr<PictureSource> depth,
                          std::unique_ptr<PictureSource> colour, DepthScale scale, bool painted)
     : depth_(std::move(depth)), scale_(std::move(scale)), painted_(painted) {
     describe_depth(depth_->facts(), description_);
+    size_ = {description_.depth_columns, description_.depth_rows};
     describe_time(depth_->facts(), description_);
     description_.meaning = scale_.meaning();
-    if (painted_) {
+    if (colour != nullptr) describe_colour(colour->facts(), description_);
+    take_true_shape();
+    if (painted_ || shape_) {
         description_.colour_columns = description_.depth_columns;
         description_.colour_rows = description_.depth_rows;
     }
     add_notice(depth_->facts().notice);
     if (colour == nullptr) return;
-    describe_colour(colour->facts(), description_);
     add_notice(colour->facts().notice);
     colour_.emplace(std::move(colour), depth_->facts());
 }
@@ -108,12 +113,50 @@ std::optional<RawFrame> PairedMedia::next() {
     frame.depth = scale_.image_of(taken->picture);
     frame.media_s = taken->time_s;
     frame.index = taken->index;
-    if (painted_) frame.colour = painted(frame.depth);
+    cv::Mat colour;
     if (colour_) {
-        frame.colour = colour_of(colour_->shown_at(frame.media_s, interval_of(depth_->facts())));
+        colour = colour_->shown_at(frame.media_s, interval_of(depth_->facts()));
         tell_trouble(colour_->facts());
     }
+    if (shape_)
+        put_straight(frame, colour);
+    else if (colour_)
+        frame.colour = colour_of(colour);
+    if (painted_) frame.colour = painted(frame.depth);
     return frame;
+}
+
+void PairedMedia::take_true_shape() {
+    const auto meaning = scale_.meaning();
+    if (!meaning || meaning->geometry.value != Geometry::true_shape) return;
+    const std::string file = shown(description_.depth_path);
+    if (!meaning->is_metric())
+        throw InputError(file +
+                         " has no distances, so its true shape is not known: give --depth-unit mm "
+                         "or m with the scale, or leave --geometry true away");
+    if (!meaning->intrinsics)
+        throw InputError(file +
+                         " does not say through which camera it was seen: give --intrinsics "
+                         "FX,FY,CX,CY, or leave --geometry true away");
+    const double unit_mm = meaning->unit.value == DepthUnit::m ? 1000.0 : 1.0;
+    range_mm_ = {meaning->range.value.near * unit_mm, meaning->range.value.far * unit_mm};
+    shape_.emplace(cv::Size(description_.depth_columns, description_.depth_rows),
+                   meaning->intrinsics->value, range_mm_);
+    description_.depth_columns = shape_->grid().columns;
+    description_.depth_rows = shape_->grid().rows;
+    description_.true_fit = Fit{shape_->relief_px(), shape_->grid().pitch_mm};
+}
+
+/// Elevation is over the farthest distance.
+void PairedMedia::put_straight(RawFrame& frame, const cv::Mat& colour) {
+    const cv::Mat levels(frame.depth.rows, frame.depth.columns, CV_32FC1,
+                         frame.depth.levels.data());
+    cv::Mat depth_mm;
+    levels.convertTo(depth_mm, CV_32F, (range_mm_.near - range_mm_.far) / scale_.highest_level(),
+                     range_mm_.far);
+    StraightPicture straight = shape_->seen_straight_on(depth_mm, colour);
+    frame.depth = std::move(straight.depth);
+    frame.colour = std::move(straight.colour);
 }
 
 void PairedMedia::seek(double media_s) {
@@ -138,10 +181,9 @@ void PairedMedia::tell_trouble(const SourceFacts& facts) {
 
 /// A stream may change its size on the way; a surface may not. Levels are never mixed.
 void PairedMedia::keep_size(cv::Mat& picture) const {
-    const cv::Size size(description_.depth_columns, description_.depth_rows);
-    if (picture.size() == size) return;
+    if (picture.size() == size_) return;
     cv::Mat resized;
-    cv::resize(picture, resized, size, 0.0, 0.0, cv::INTER_NEAREST);
+    cv::resize(picture, resized, size_, 0.0, 0.0, cv::INTER_NEAREST);
     picture = resized;
 }
 

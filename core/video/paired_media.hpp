@@ -9,6 +9,7 @@
 #include "core/video/depth_scale.hpp"
 #include "core/video/media.hpp"
 #include "core/video/pictures.hpp"
+#include "core/video/true_shape.hpp"
 
 namespace dibhr {
 
@@ -52,12 +53,17 @@ class PairedMedia : public Media {
     void add_notice(const std::string& sentence);
 
   private:
+    void take_true_shape();
+    void put_straight(RawFrame& frame, const cv::Mat& colour);
     void tell_trouble(const SourceFacts& facts);
     void keep_size(cv::Mat& picture) const;
 
     std::unique_ptr<PictureSource> depth_;
     std::optional<ColourTrack> colour_{};
     DepthScale scale_;
+    cv::Size size_{};                   ///< of the depth's pictures
+    std::optional<TrueShape> shape_{};  ///< for `--geometry true`
+    DepthRange range_mm_{};             ///< of that
     bool painted_;
     MediaDescription description_{};
 };
