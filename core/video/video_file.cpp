@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/formats/camera_files.hpp"
 #include "core/video/media.hpp"
 #include "core/video/video_packets.hpp"
 
@@ -56,6 +57,7 @@ VideoFile::VideoFile(const std::filesystem::path& file, PictureRole role, int tr
     require_size(file, facts_.columns, facts_.rows);
     require_whole(file, track, promised_s);
     promised_s_ = promised_s;
+    if (role == PictureRole::depth) know_azure_kinect();
 }
 
 void VideoFile::begin_again() {
@@ -76,6 +78,20 @@ void VideoFile::read_facts() {
     facts_.duration_s = static_cast<double>(facts_.frames) * interval_s_;
     facts_.start_s = packets.start_s();
     facts_.codec = decoder_.codec();
+}
+
+/// Its recordings name the mode of the depth camera, and carry the calibration of all cameras
+/// (Azure Kinect DK, record file format).
+void VideoFile::know_azure_kinect() {
+    const VideoPackets& packets = decoder_.packets();
+    if (facts_.bits != 16 || packets.tag("K4A_DEPTH_MODE").empty()) return;
+    facts_.known.unit = DepthUnit::mm;
+    facts_.known.scale = 1.0;
+    facts_.known.no_data = std::vector<double>{0.0};
+    facts_.known.intrinsics = azure_kinect_intrinsics(packets.attachment("calibration.json"),
+                                                      facts_.columns, facts_.rows);
+    facts_.known_from =
+        facts_.known.intrinsics ? "Azure Kinect calibration" : "Azure Kinect recording";
 }
 
 /// Its packets were whole when it was opened.

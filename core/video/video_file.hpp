@@ -35,6 +35,7 @@ class VideoFile : public PictureSource {
     void sample_evenly(int most, std::vector<cv::Mat>& pictures);
     void sample_by_jumps(int most, int frames_each, std::vector<cv::Mat>& pictures);
     void read_facts();
+    void know_azure_kinect();
     void notice_early_end();
     bool grab();         ///< decodes one frame: its time and index; false at the end
     cv::Mat retrieve();  ///< the picture of the grabbed frame

@@ -39,6 +39,11 @@ AVFormatContext* opened(const std::filesystem::path& file) {
     return context;
 }
 
+std::string tag_of(const AVStream& stream, const char* name) {
+    const AVDictionaryEntry* const entry = av_dict_get(stream.metadata, name, nullptr, 0);
+    return entry == nullptr ? std::string() : std::string(entry->value);
+}
+
 std::vector<AVStream*> video_streams(const AVFormatContext* context) {
     std::vector<AVStream*> found;
     for (unsigned k = 0; context != nullptr && k < context->nb_streams; ++k) {
@@ -93,6 +98,23 @@ double VideoPackets::start_s() const noexcept {
     const bool own_clock = (context_->iformat->flags & AVFMT_TS_DISCONT) != 0;
     return own_clock ? std::numeric_limits<double>::quiet_NaN()
                      : static_cast<double>(start()) * unit_s();
+}
+
+std::string VideoPackets::tag(const char* name) const {
+    return tag_of(*stream_, name);
+}
+
+std::string VideoPackets::attachment(std::string_view name) const {
+    for (unsigned k = 0; k < context_->nb_streams; ++k) {
+        const AVStream& stream = *context_->streams[k];
+        const AVCodecParameters& held = *stream.codecpar;
+        if (held.codec_type != AVMEDIA_TYPE_ATTACHMENT || held.extradata_size <= 0 ||
+            tag_of(stream, "filename") != name)
+            continue;
+        const auto* const begin = reinterpret_cast<const char*>(held.extradata);
+        return {begin, static_cast<std::size_t>(held.extradata_size)};
+    }
+    return {};
 }
 
 AVPacket* VideoPackets::next() noexcept {
@@ -166,8 +188,7 @@ std::vector<VideoTrack> video_tracks(const std::filesystem::path& file) {
     std::vector<VideoTrack> tracks;
     for (const AVStream* const stream : video_streams(context.get())) {
         VideoTrack track;
-        if (const auto* title = av_dict_get(stream->metadata, "title", nullptr, 0))
-            track.title = title->value;
+        track.title = tag_of(*stream, "title");
         const auto format = static_cast<AVPixelFormat>(stream->codecpar->format);
         if (const AVPixFmtDescriptor* const kind = av_pix_fmt_desc_get(format)) {
             track.bits = kind->comp[0].depth;

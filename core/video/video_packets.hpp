@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 struct AVFormatContext;
@@ -35,6 +36,11 @@ class VideoPackets {
     /// When the track begins, by the clock of its file [s]; NaN when that says nothing of another
     /// file's.
     [[nodiscard]] double start_s() const noexcept;
+
+    /// What the file says of the track under that name; empty when nothing.
+    [[nodiscard]] std::string tag(const char* name) const;
+    /// The content of a file of that name that is attached to this one; empty when there is none.
+    [[nodiscard]] std::string attachment(std::string_view name) const;
 
     /// The next packet of the track, the reader's until the next call; null at the end.
     [[nodiscard]] AVPacket* next() noexcept;

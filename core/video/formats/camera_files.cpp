@@ -31,9 +31,10 @@ std::string text_of(const fs::path& file) {
     return text.str();
 }
 
-/// A discarded value when it is no JSON.
+/// A discarded value when it is no JSON, or too long. Zeros behind it belong to what held it.
 Json json_of(const std::string& text) {
-    return Json::parse(text, nullptr, false);
+    if (text.size() > kLongest_bytes) return Json::value_t::discarded;
+    return Json::parse(text.substr(0, text.find('\0')), nullptr, false);
 }
 
 std::optional<double> number_in(const Json& json, const char* name) {
