@@ -149,6 +149,7 @@ ViewerParts open_parts(const ViewOptions& options) {
         print_warning(parts.session->frames.warning());
     } else {
         parts.media = open_request(options.open);
+        print_warning(parts.media->description().notice);
     }
     parts.hand =
         make_hand_device(options.device, {options.settings.falcon.connection, options.firmware});

@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/files/content_hash.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/picture_pattern.hpp"
 #include "core/video/sidecar.hpp"
 
 namespace dibhr {
@@ -21,10 +22,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A file or a folder of pictures.
+/// A file, a folder of pictures, or a pattern of their names.
 bool is_media(const fs::path& file) {
     std::error_code failed;
-    return fs::is_regular_file(file, failed) || fs::is_directory(file, failed);
+    return fs::is_regular_file(file, failed) || fs::is_directory(file, failed) ||
+           is_picture_pattern(file);
 }
 
 bool has_content(const fs::path& file, const SessionMedia& media) {

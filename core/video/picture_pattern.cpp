@@ -13,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "core/video/media.hpp"
+#include "core/video/picture_folder.hpp"
 
 namespace dibhr {
 

@@ -1,11 +1,11 @@
-// Names of pictures by a pattern: depth_%04d.png, rgb/*.jpg; inside the room.
+// Names of pictures by a pattern: depth_%04d.png, rgb/*.jpg.
 #pragma once
 
 #include <filesystem>
 
-#include "core/video/picture_folder.hpp"
-
 namespace dibhr {
+
+struct PictureSet;
 
 /// Whether the name is a pattern, with a number as printf has it (%d, %04d) or with stars, and no
 /// file is called so.

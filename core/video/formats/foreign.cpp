@@ -25,6 +25,10 @@ struct Foreign {
 };
 
 constexpr std::string_view kZip = "PK\x03\x04";
+constexpr std::string_view kMatroska = "\x1a\x45\xdf\xa3";
+constexpr std::string_view kLibrgbd =
+    " is a recording of librgbd (Telegie), whose depth has a codec of its own: export it as 16-bit "
+    "PNG pictures with its Python package pyrgbd";
 constexpr std::string_view kRecord3d =
     " is an archive of Record3D, whose depth is packed with LZFSE: export it in Record3D as RGBD "
     "video (MP4) or as EXR and JPEG, and give that";
@@ -54,17 +58,35 @@ constexpr std::array kForeign{
             "OpenNI's tools"},
     Foreign{"\x28\xb5\x2f\xfd"sv, {}, " is packed with zstd: unpack it with zstd -d"}};
 
+constexpr std::streamoff kLookedAt_bytes = 64 * 1024;
+
+/// From there on.
+std::string some_of(std::ifstream& in, std::streamoff from) {
+    std::string bytes(static_cast<std::size_t>(kLookedAt_bytes), '\0');
+    in.clear();
+    in.seekg(from);
+    in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<std::size_t>(in.gcount()));
+    return bytes;
+}
+
+bool hold(const std::string& bytes, std::string_view part) {
+    return bytes.find(part) != std::string::npos;
+}
+
 /// The names in a zip archive are listed at its end.
 bool lists_record3d(std::ifstream& in) {
-    constexpr std::streamoff kListed_bytes = 64 * 1024;
     in.clear();
     in.seekg(0, std::ios::end);
-    const std::streamoff from = std::max<std::streamoff>(0, in.tellg() - kListed_bytes);
-    in.seekg(from);
-    std::string end(static_cast<std::size_t>(kListed_bytes), '\0');
-    in.read(end.data(), static_cast<std::streamsize>(end.size()));
-    end.resize(static_cast<std::size_t>(in.gcount()));
-    return end.find("rgbd/") != std::string::npos && end.find("metadata") != std::string::npos;
+    const std::string end =
+        some_of(in, std::max<std::streamoff>(0, std::streamoff{in.tellg()} - kLookedAt_bytes));
+    return hold(end, "rgbd/") && hold(end, "metadata");
+}
+
+/// Its own codecs of depth, in the Matroska file's list of tracks.
+bool is_of_librgbd(std::ifstream& in) {
+    const std::string begin = some_of(in, 0);
+    return hold(begin, "V_TDC1") || hold(begin, "V_RVL");
 }
 
 }  // namespace
@@ -82,7 +104,9 @@ std::string advice_on_foreign(const fs::path& file) {
             (foreign.ending.empty() || foreign.ending == ending))
             return std::string(foreign.advice);
     }
-    return head.starts_with(kZip) && lists_record3d(in) ? std::string(kRecord3d) : std::string();
+    if (head.starts_with(kZip) && lists_record3d(in)) return std::string(kRecord3d);
+    if (head.starts_with(kMatroska) && is_of_librgbd(in)) return std::string(kLibrgbd);
+    return {};
 }
 
 }  // namespace dibhr
