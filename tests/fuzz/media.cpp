@@ -30,10 +30,21 @@ void require_sound(const RawFrame& frame, const MediaDescription& description) {
                                                       static_cast<std::size_t>(depth.rows),
                        "a frame has the size that was told, and can be touched");
     test::require_rule(std::isfinite(frame.media_s), "a frame has a time");
+    constexpr int kRealBits = 32;  // numbers as they are, and what is none
+    if (description.depth_bits == kRealBits) return;
     for (const float level : depth.levels) {
         test::require_rule(level >= 0.0F && level <= static_cast<float>(depth.highest_level),
                            "a level is between 0 and the highest");
     }
+}
+
+/// A depth picture that colours go with.
+const std::filesystem::path& other_picture() {
+    static const test::InputFile file("depth.pgm");
+    static const std::string bytes = "P5 2 2 255\nabcd";
+    static const std::filesystem::path path =
+        file.with({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+    return path;
 }
 
 void look_into(const std::filesystem::path& file) {
@@ -45,6 +56,11 @@ void look_into(const std::filesystem::path& file) {
             if (k == 3) media->seek(0.5 * media->description().duration_s);
             if (const auto frame = media->next()) require_sound(*frame, media->description());
         }
+    });
+    (void)test::is_taken([&file] {
+        const auto frame = open_media(file, other_picture())->next();
+        test::require_rule(frame && frame->colour.columns >= 2 && frame->colour.rows >= 2,
+                           "colours have a size that can be shown");
     });
 }
 

@@ -140,7 +140,7 @@ Coded coded(const std::string& source, const std::string& format) {
     const TemporaryFolder folder;
     const std::string file = (folder / "one.mp4").string();
     ffmpeg("-f lavfi -i '" + source + "' -frames:v 1 -c:v libx265 -x265-params " +
-           "log-level=none:lossless=1 -tag:v hvc1 -pix_fmt " + format + " '" + file + "'");
+           "log-level=none:info=0:lossless=1 -tag:v hvc1 -pix_fmt " + format + " '" + file + "'");
     const std::string bytes = read_text(file);
     const std::string entry = box_in(bytes, "hvc1");
     return {box_in(bytes, "hvcC"), box_in(bytes, "mdat").substr(8), big_at(entry, 30) & 0xffffU,

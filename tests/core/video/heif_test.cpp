@@ -1,4 +1,7 @@
 // Portrait photos: a colour picture and the depth beside it in one HEIC file.
+#include <libheif/heif.h>
+
+#include <filesystem>
 #include <opencv2/core.hpp>
 #include <string>
 
@@ -17,12 +20,22 @@ namespace {
 
 const std::string kRamp = "color=black:s=32x24,format=gray,geq=lum='X*4+Y'";
 
+/// Distributions leave the decoder out; then the line says which package has it.
+bool is_decoded(const std::filesystem::path& photo) {
+    if (heif_have_decoder_for_format(heif_compression_HEVC) != 0) return true;
+    CHECK(contains(refusal([&] { (void)read_still(photo, PictureRole::colour); }),
+                   "libheif-plugin-libde265"));
+    WARN("HEIC pictures are not tested: libheif has no decoder here");
+    return false;
+}
+
 }  // namespace
 
 TEST_CASE("a portrait photo opens as colour and depth, and keeps the depth's levels", "[heif]") {
     const TemporaryFolder folder;
     write_photo({.colour = "color=red:s=64x48", .depth = kRamp}, folder / "portrait.heic");
     CHECK(holds_colour_and_depth(folder / "portrait.heic"));
+    if (!is_decoded(folder / "portrait.heic")) return;
     const StillPicture depth = read_still(folder / "portrait.heic", PictureRole::depth);
     CHECK(depth.bits == 8);
     CHECK(depth.codec == "HEIC");
@@ -43,6 +56,7 @@ TEST_CASE("the photo says what its levels of depth are", "[heif]") {
     const TemporaryFolder folder;
     write_photo({.depth = kRamp, .depth_information = disparity_information()},
                 folder / "portrait.heic");
+    if (!is_decoded(folder / "portrait.heic")) return;
     const StillPicture depth = read_still(folder / "portrait.heic", PictureRole::depth);
     CHECK(depth.known.unit == DepthUnit::disparity);
     REQUIRE(depth.known.scale);
@@ -53,6 +67,7 @@ TEST_CASE("a turned photo is upright in colour and in depth", "[heif]") {
     const TemporaryFolder folder;
     write_photo({.colour = "color=red:s=64x48", .depth = kRamp, .quarter_turns = 1},
                 folder / "turned.heic");
+    if (!is_decoded(folder / "turned.heic")) return;
     CHECK(read_still(folder / "turned.heic", PictureRole::colour).picture.size() ==
           cv::Size(48, 64));
     const cv::Mat depth = read_still(folder / "turned.heic", PictureRole::depth).picture;
@@ -66,6 +81,7 @@ TEST_CASE("a photo without depth is colour, and refused as depth", "[heif]") {
     const TemporaryFolder folder;
     write_photo({}, folder / "plain.heic");
     CHECK_FALSE(holds_colour_and_depth(folder / "plain.heic"));
+    if (!is_decoded(folder / "plain.heic")) return;
     CHECK(read_still(folder / "plain.heic", PictureRole::colour).picture.type() == CV_8UC3);
     CHECK(
         contains(refusal([&] { (void)open_depth(folder / "plain.heic"); }), "photo without depth"));
