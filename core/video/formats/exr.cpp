@@ -7,7 +7,6 @@
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
 #include <ImfPartType.h>
-#include <openexr.h>
 
 #include <algorithm>
 #include <array>
@@ -22,6 +21,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/video/formats/exr_header.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/media.hpp"
 #include "core/video/media_names.hpp"
@@ -121,17 +121,6 @@ std::optional<Channels> find_grey(const Imf::MultiPartInputFile& input) {
     return find_kind(input, {"R", "G"});
 }
 
-/// Whether the library's C half takes the header. It holds what that claims against the size of the
-/// file; the other half takes the memory first.
-bool has_sound_header(const fs::path& file) {
-    exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    how.error_handler_fn = [](exr_const_context_t, exr_result_t, const char*) {};
-    exr_context_t context = nullptr;
-    const bool sound = exr_start_read(&context, file.c_str(), &how) == EXR_ERR_SUCCESS;
-    exr_finish(&context);
-    return sound;
-}
-
 [[noreturn]] void refuse_as_damaged(const fs::path& file) {
     throw InputError(shown(file) +
                      " cannot be decoded as an EXR picture: it may be damaged, export it again");
@@ -226,7 +215,7 @@ bool is_exr(std::string_view head) {
 }
 
 StillPicture read_exr(const fs::path& file, PictureRole role) {
-    if (!has_sound_header(file)) refuse_as_damaged(file);
+    if (!has_sound_exr_header(file)) refuse_as_damaged(file);
     try {
         Imf::MultiPartInputFile input(file.c_str(), 0);
         return role == PictureRole::colour ? read_colour(input, file) : read_depth(input, file);
@@ -238,7 +227,7 @@ StillPicture read_exr(const fs::path& file, PictureRole role) {
 }
 
 bool exr_has_colour_and_depth(const fs::path& file) {
-    if (!has_sound_header(file)) return false;
+    if (!has_sound_exr_header(file)) return false;
     try {
         const Imf::MultiPartInputFile input(file.c_str(), 0);
         return find_colour(input).has_value() && find_depth(input).has_value();
