@@ -18,15 +18,17 @@ namespace dibhr {
 namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
-constexpr double kUsualPoints = 1 << 20;  ///< of a grid, at most; large pictures may have more
+constexpr double kUsualPoints = 1 << 19;  ///< of a grid, at most; large pictures may have more
 constexpr double kMostAlong = 32000.0;    ///< points of a side: cv::remap takes less than 2^15
 constexpr double kWidestRay = 20.0;       ///< sideways over forwards: 87 degrees
 constexpr double kNarrowestView = 0.005;  ///< of a picture, likewise: 0.3 degrees
 
 /// Steeper, in pixels of height to a pixel sideways, is an edge with something behind it: 86.4
-/// degrees. A sphere is whole up to its last pixel, and the noise of sensors (a hundredth of the
-/// distance) stays one surface with 640 columns or less over 60 degrees.
+/// degrees. A sphere is whole up to its last pixel, and the noise of sensors, a hundredth or two of
+/// the distance, does not tear a surface.
 constexpr double kSteepest = 16.0;
+/// And so is a step of more than this part of the distance, whatever the size of a pixel.
+constexpr double kMostStep = 0.05;
 
 /// So far outside its border a triangle still counts, so that between two there is no gap [share].
 constexpr float kOverlap = 1e-4F;
@@ -71,16 +73,58 @@ Extent extent_of(const Rays& rays, const DepthRange& range_mm) {
             std::max(rays.last * range_mm.near, rays.last * range_mm.far)};
 }
 
+/// Where samples have something in the range [mm].
+struct Places {
+    std::vector<float> x{};
+    std::vector<float> y{};
+};
+
+/// One pixel of 4 x 4 says enough.
+Places places_in(const std::vector<cv::Mat>& samples_mm, const Intrinsics& camera,
+                 const DepthRange& range_mm) {
+    constexpr int kStep = 4;
+    Places places;
+    for (const cv::Mat& sample : samples_mm) {
+        for (int j = 0; j < sample.rows; j += kStep) {
+            for (int i = 0; i < sample.cols; i += kStep) {
+                const double distance = double{sample.at<float>(j, i)};
+                if (!(distance >= range_mm.near && distance <= range_mm.far)) continue;
+                places.x.push_back(static_cast<float>(distance * (i - camera.cx) / camera.fx));
+                places.y.push_back(static_cast<float>(distance * (j - camera.cy) / camera.fy));
+            }
+        }
+    }
+    return places;
+}
+
+/// The part of an extent where nearly all places are, and some more; all of it when there are none.
+Extent around(std::vector<float>& places, const Extent& all) {
+    constexpr double kLeftOut = 0.002;
+    constexpr double kMore = 0.1;
+    if (places.empty()) return all;
+    const auto quantile = [&places](double share) {
+        const auto rank = static_cast<std::ptrdiff_t>(
+            std::lround(share * static_cast<double>(places.size() - 1)));
+        std::nth_element(places.begin(), places.begin() + rank, places.end());
+        return double{places[static_cast<std::size_t>(rank)]};
+    };
+    const double begin = quantile(kLeftOut);
+    const double end = quantile(1.0 - kLeftOut);
+    const double more = kMore * (end - begin);
+    return {std::max(all.begin, begin - more), std::min(all.end, end + more)};
+}
+
 /// The points of the grid along one side, in the middle of the extent.
 void lay_out(const Extent& extent, double pitch_mm, int& count, double& first_mm) {
-    count = static_cast<int>(extent.length() / pitch_mm) + 1;
+    count = std::max(2, static_cast<int>(extent.length() / pitch_mm) + 1);
     first_mm = 0.5 * (extent.begin + extent.end - (count - 1) * pitch_mm);
 }
 
 /// The first whole number not below a coordinate of the grid, and the last not above it; both by
-/// kOverlap more. Coordinates are -1/2 or more.
+/// kOverlap more. Of coordinates below 0 the first is 0, and so may the last be: cutting off the
+/// fraction, which costs less than rounding down, rounds those up.
 int first_from(float coordinate) {
-    return static_cast<int>(coordinate + (1.0F - kOverlap));
+    return std::max(0, static_cast<int>(coordinate + (1.0F - kOverlap)));
 }
 int last_to(float coordinate) {
     return static_cast<int>(coordinate + kOverlap);
@@ -98,14 +142,15 @@ cv::Mat of_possible_size(const cv::Mat& colour) {
 }  // namespace
 
 StraightGrid straight_grid(cv::Size depth_size, const Intrinsics& camera,
-                           const DepthRange& range_mm) {
+                           const DepthRange& range_mm, const std::vector<cv::Mat>& samples_mm) {
     require_range(range_mm);
     const Rays across = rays_of(depth_size.width, camera.fx, camera.cx);
     const Rays down = rays_of(depth_size.height, camera.fy, camera.cy);
     require_view(across, camera.fx);
     require_view(down, camera.fy);
-    const Extent width = extent_of(across, range_mm);
-    const Extent height = extent_of(down, range_mm);
+    Places places = places_in(samples_mm, camera, range_mm);
+    const Extent width = around(places.x, extent_of(across, range_mm));
+    const Extent height = around(places.y, extent_of(down, range_mm));
     const double nearest_pixel_mm = range_mm.near / std::sqrt(camera.fx * camera.fy);
     const double most_points = std::max(kUsualPoints, 1.0 * depth_size.width * depth_size.height);
     StraightGrid grid;
@@ -114,19 +159,17 @@ StraightGrid straight_grid(cv::Size depth_size, const Intrinsics& camera,
                   width.length() / kMostAlong, height.length() / kMostAlong});
     lay_out(width, grid.pitch_mm, grid.columns, grid.left_mm);
     lay_out(height, grid.pitch_mm, grid.rows, grid.top_mm);
-    if (grid.columns < 2 || grid.rows < 2)
-        throw InputError(
-            "the picture is too flat to be seen straight on: give intrinsics that fit "
-            "its width and its height");
     return grid;
 }
 
-TrueShape::TrueShape(cv::Size depth_size, const Intrinsics& camera, const DepthRange& range_mm)
+TrueShape::TrueShape(cv::Size depth_size, const Intrinsics& camera, const DepthRange& range_mm,
+                     const StraightGrid& grid)
     : depth_size_(depth_size),
       camera_(camera),
       range_mm_(range_mm),
-      grid_(straight_grid(depth_size, camera, range_mm)),
-      steepest_(static_cast<float>(kSteepest / std::sqrt(camera.fx * camera.fy))) {}
+      grid_(grid),
+      steepest_(
+          static_cast<float>(std::min(kSteepest / std::sqrt(camera.fx * camera.fy), kMostStep))) {}
 
 StraightPicture TrueShape::seen_straight_on(const cv::Mat& depth_mm, const cv::Mat& colour) {
     assert(depth_mm.type() == CV_32FC1 && depth_mm.size() == depth_size_);
@@ -172,27 +215,27 @@ void TrueShape::place_row(const cv::Mat& depth_mm, int row, std::vector<Corner>&
     }
 }
 
-/// The elevations at the points of the grid inside a triangle. Seen from its back it counts, too:
-/// then something nearer is in front of it.
+/// The elevations at the points of the grid inside a triangle. One that turns its back is left out:
+/// the camera looks under it, and where its surface goes on there is something nearer in front.
 void TrueShape::draw(const Corner& a, const Corner& b, const Corner& c, DepthImage& image) const {
-    if (std::isnan(a.elevation + b.elevation + c.elevation)) return;
+    const float b_x = b.x - a.x, b_y = b.y - a.y;
+    const float c_x = c.x - a.x, c_y = c.y - a.y;
+    const float twice_area = b_x * c_y - b_y * c_x;
+    if (!(twice_area > 0.0F)) return;  // NaN: without data
     const auto [lowest, highest] = std::minmax({a.elevation, b.elevation, c.elevation});
     const float nearest = static_cast<float>(range_mm_.far) - highest;
     if (highest - lowest > steepest_ * nearest) return;
     const auto [left, right] = std::minmax({a.x, b.x, c.x});
     const int first_column = first_from(left);
     const int last_column = std::min(last_to(right), image.columns - 1);
-    if (first_column > last_column) return;
     const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
     const int first_row = first_from(top);
     const int last_row = std::min(last_to(bottom), image.rows - 1);
-    if (first_row > last_row) return;
+    if (first_column > last_column || first_row > last_row) return;
 
-    const float b_x = b.x - a.x, b_y = b.y - a.y;
-    const float c_x = c.x - a.x, c_y = c.y - a.y;
-    const float twice_area = b_x * c_y - b_y * c_x;
-    if (twice_area == 0.0F) return;  // seen along itself
     const float scale = 1.0F / twice_area;
+    const float b_higher = b.elevation - a.elevation;
+    const float c_higher = c.elevation - a.elevation;
     for (int row = first_row; row <= last_row; ++row) {
         float* const levels = &image.levels[image.index(0, row)];
         const float y = static_cast<float>(row) - a.y;
@@ -200,11 +243,9 @@ void TrueShape::draw(const Corner& a, const Corner& b, const Corner& c, DepthIma
             const float x = static_cast<float>(column) - a.x;
             const float share_b = (x * c_y - y * c_x) * scale;
             const float share_c = (y * b_x - x * b_y) * scale;
-            if (share_b < -kOverlap || share_c < -kOverlap || share_b + share_c > 1.0F + kOverlap)
-                continue;
-            const float elevation = std::clamp(a.elevation + share_b * (b.elevation - a.elevation) +
-                                                   share_c * (c.elevation - a.elevation),
-                                               lowest, highest);
+            if (std::min({share_b, share_c, 1.0F - share_b - share_c}) < -kOverlap) continue;
+            const float elevation =
+                std::clamp(a.elevation + share_b * b_higher + share_c * c_higher, lowest, highest);
             if (!(levels[column] >= elevation)) levels[column] = elevation;  // NaN: the first one
         }
     }

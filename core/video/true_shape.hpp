@@ -23,13 +23,18 @@ struct StraightGrid {
     double top_mm{0.0};
 };
 
-/// The grid for all that a camera sees between the two distances `range_mm` from its plane. It is
-/// as fine as the camera's pixels are at the nearest distance, so that nothing of a near hand is
-/// lost, but of no more points than a million, or than the pictures have pixels if they have more:
-/// else a room behind the hand would make it grow with the square of far / near.
+/// The grid for what a camera sees between the two distances `range_mm` from its plane, which is
+/// much wider at the far one. It spans what `samples_mm` have there, pictures from all over the
+/// clip as TrueShape takes them, but for two thousandths of their pixels on each side, and a
+/// tenth more; without samples, or when those have nothing there, all that the camera can see.
+///
+/// It is as fine as the camera's pixels are at the nearest distance, so that nothing of a near hand
+/// is lost, but of no more points than half a million, or than the pictures have pixels if they
+/// have more: else a room behind the hand would make it grow with the square of far / near.
 /// Throws InputError when the intrinsics are no camera's, or the range is none.
 [[nodiscard]] StraightGrid straight_grid(cv::Size depth_size, const Intrinsics& camera,
-                                         const DepthRange& range_mm);
+                                         const DepthRange& range_mm,
+                                         const std::vector<cv::Mat>& samples_mm = {});
 
 /// One moment of a grid.
 struct StraightPicture {
@@ -44,8 +49,9 @@ struct StraightPicture {
 /// itself the nearest is taken. Deterministic. Scratch memory is kept from picture to picture.
 class TrueShape {
   public:
-    /// For depth pictures of this size. Throws InputError as straight_grid().
-    TrueShape(cv::Size depth_size, const Intrinsics& camera, const DepthRange& range_mm);
+    /// For depth pictures of this size, with a grid that was made for the same camera and range.
+    TrueShape(cv::Size depth_size, const Intrinsics& camera, const DepthRange& range_mm,
+              const StraightGrid& grid);
 
     [[nodiscard]] const StraightGrid& grid() const noexcept { return grid_; }
     /// The relief that gives the depth image its true shape: elevation in grid pitches.

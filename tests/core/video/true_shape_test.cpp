@@ -31,7 +31,8 @@ cv::Mat picture_of(const std::vector<float>& distances_mm) {
 }
 
 TrueShape true_shape() {
-    return {cv::Size(kSeenColumns, kSeenRows), kSeenBy, kRange_mm};
+    const cv::Size size(kSeenColumns, kSeenRows);
+    return {size, kSeenBy, kRange_mm, straight_grid(size, kSeenBy, kRange_mm)};
 }
 
 DepthImage straight(const std::vector<float>& distances_mm) {
@@ -236,7 +237,7 @@ TEST_CASE("the grid is as fine as the nearest pixels, unless it were too large",
     CHECK_THAT(shallow.pitch_mm, WithinAbs(0.8, 1e-12));
     CHECK(shallow.columns == 639 * 5 / 4 + 1);
     const StraightGrid deep = straight_grid(size, camera, {400.0, 4000.0});
-    CHECK_THAT(1.0 * deep.columns * deep.rows, WithinRel(1048576.0, 0.005));
+    CHECK_THAT(1.0 * deep.columns * deep.rows, WithinRel(524288.0, 0.005));
     const StraightGrid large =
         straight_grid(cv::Size(3840, 2160), {3000, 3000, 1919.5, 1079.5}, {400.0, 4000.0});
     CHECK_THAT(1.0 * large.columns * large.rows, WithinRel(3840.0 * 2160.0, 0.005));
@@ -244,7 +245,10 @@ TEST_CASE("the grid is as fine as the nearest pixels, unless it were too large",
 }
 
 TEST_CASE("a camera whose axis is beside the picture is seen straight on, too", "[true_shape]") {
-    TrueShape shape(cv::Size(64, 48), {60.0, 60.0, -100.0, 24.0}, {500.0, 1000.0});
+    const cv::Size size(64, 48);
+    const Intrinsics camera{60.0, 60.0, -100.0, 24.0};
+    const DepthRange range_mm{500.0, 1000.0};
+    TrueShape shape(size, camera, range_mm, straight_grid(size, camera, range_mm));
     const cv::Mat depth(48, 64, CV_32FC1, cv::Scalar(750.0));
     const DepthImage image = shape.seen_straight_on(depth, {}).depth;
     CHECK(shape.grid().left_mm > 800.0);
@@ -288,5 +292,49 @@ TEST_CASE("intrinsics of no camera and ranges that are none are refused in a pla
         CAPTURE(range_mm.near, range_mm.far);
         CHECK(contains(refused(size, kSeenBy, range_mm), "range"));
     }
-    CHECK(contains(refused(cv::Size(640, 2), {50, 190, 319, 0.5}, {400, 401}), "intrinsics"));
+}
+
+TEST_CASE("a view of one grid pitch still is a surface", "[true_shape]") {
+    const cv::Size size(640, 2);
+    const Intrinsics camera{50, 190, 319, 0.5};
+    const DepthRange range_mm{400, 401};
+    const StraightGrid grid = straight_grid(size, camera, range_mm);
+    CHECK(grid.rows == 2);
+    TrueShape shape(size, camera, range_mm, grid);
+    const cv::Mat depth(size, CV_32FC1, cv::Scalar(400.0));
+    CHECK(shape.seen_straight_on(depth, {}).depth.rows == 2);
+}
+
+TEST_CASE("with samples of the clip the grid spans what they show", "[true_shape]") {
+    const cv::Size size(kSeenColumns, kSeenRows);
+    const DepthRange range_mm{500.0, kWall_mm};
+    const auto sphere_alone = [](glm::dvec3 centre) {
+        std::vector<float> distances_mm = seen_sphere(centre);
+        for (float& distance : distances_mm) distance = distance < kWall_mm ? distance : kNone;
+        distances_mm.front() = 10000.0F;  // out of the range
+        return picture_of(distances_mm);
+    };
+    std::vector<cv::Mat> samples{sphere_alone({-150.0, 0.0, 900.0}),
+                                 sphere_alone({250.0, -50.0, 1000.0})};
+    samples.front().at<float>(0, 0) = 400.0F;  // a stray pixel
+    const StraightGrid grid = straight_grid(size, kSeenBy, range_mm, samples);
+    const double right_mm = grid.left_mm + (grid.columns - 1) * grid.pitch_mm;
+    const double lowest_mm = grid.top_mm + (grid.rows - 1) * grid.pitch_mm;
+    // Left to right 600 mm, top to bottom 250 mm, and a tenth more on each side.
+    CHECK_THAT(grid.left_mm, WithinAbs(-310.0, 20.0));
+    CHECK_THAT(right_mm, WithinAbs(410.0, 20.0));
+    CHECK_THAT(grid.top_mm, WithinAbs(-175.0, 15.0));
+    CHECK_THAT(lowest_mm, WithinAbs(125.0, 15.0));
+    CHECK_THAT(grid.pitch_mm, WithinAbs(500.0 / kSeenBy.fx, 1e-9));
+    // What is beside it is left out, and what is in it is as it was.
+    TrueShape all = true_shape();
+    TrueShape shape(size, kSeenBy, range_mm, grid);
+    const cv::Mat depth = picture_of(seen_sphere({250.0, -50.0, 1000.0}));
+    const DepthImage image = shape.seen_straight_on(depth, {}).depth;
+    const DepthImage whole = all.seen_straight_on(depth, {}).depth;
+    CHECK_THAT(image.levels[index_at(shape, image, 250.0, -50.0)],
+               WithinAbs(whole.levels[index_at(all, whole, 250.0, -50.0)], 0.5));
+    const std::vector<cv::Mat> empty{cv::Mat(size, CV_32FC1, cv::Scalar(kNone))};
+    CHECK(straight_grid(size, kSeenBy, range_mm, empty).columns ==
+          straight_grid(size, kSeenBy, range_mm).columns);
 }
