@@ -14,6 +14,7 @@
 #include "core/files/content_hash.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/picture_pattern.hpp"
+#include "core/video/remembering_media.hpp"
 #include "core/video/sidecar.hpp"
 
 namespace dibhr {
@@ -113,9 +114,10 @@ CleaningWorkers::~CleaningWorkers() {
     for (std::thread& thread : threads_) thread.join();
 }
 
-std::shared_future<std::shared_ptr<const DepthImage>> CleaningWorkers::clean(
-    DepthImage depth, const CleaningOptions& options) {
-    Job job{std::move(depth), options, {}};
+std::shared_future<CleanedDepth> CleaningWorkers::clean(DepthImage depth,
+                                                        const CleaningOptions& options,
+                                                        std::vector<HeldLevel> held) {
+    Job job{std::move(depth), options, std::move(held), {}};
     auto cleaned = job.done.get_future().share();
     {
         const std::lock_guard lock(mutex_);
@@ -135,8 +137,7 @@ void CleaningWorkers::run() {
         waiting_.pop_front();
         lock.unlock();
         try {
-            if (job.options.any()) cleaner.clean(job.depth, job.options);
-            job.done.set_value(std::make_shared<const DepthImage>(std::move(job.depth)));
+            job.done.set_value(cleaner.cleaned(std::move(job.depth), job.options, job.held));
         } catch (...) {
             job.done.set_exception(std::current_exception());
         }
@@ -204,14 +205,16 @@ Frame SessionFrames::frame(const FrameSource& source, double media_s) {
                          " s, which was touched; put the video back that was recorded over");
     }
     Frame frame = kept->frame;
-    frame.depth = kept->depth.get();
+    frame.depth = kept->depth.get().depth;
+    frame.unseen = kept->depth.get().unseen;
     return frame;
 }
 
 Media& SessionFrames::media_of(Video& video) const {
     if (!video.media) {
-        video.media = options_.colour ? open_media(video.colour, video.depth, video.request)
-                                      : open_depth(video.depth, video.request);
+        video.media = std::make_unique<RememberingMedia>(
+            options_.colour ? open_media(video.colour, video.depth, video.request)
+                            : open_depth(video.depth, video.request));
     }
     return *video.media;
 }
@@ -256,7 +259,7 @@ void SessionFrames::keep(const FrameSource& source, RawFrame raw) {
                 .media = source.media,
                 .cleaning = {source.fill_holes, source.remove_spikes, source.smooth_steps}};
     if (options_.raw_depth) frame.cleaning = {false, false, false};
-    auto depth = cleaning_.clean(std::move(raw.depth), frame.cleaning);
+    auto depth = cleaning_.clean(std::move(raw.depth), frame.cleaning, std::move(raw.held));
     kept_.push_back({source, std::move(frame), std::move(depth)});
 }
 

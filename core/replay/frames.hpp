@@ -15,6 +15,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "core/haptics/depth_image.hpp"
 #include "core/replay/session_replay.hpp"
@@ -58,14 +59,16 @@ class CleaningWorkers {
     CleaningWorkers(const CleaningWorkers&) = delete;
     CleaningWorkers& operator=(const CleaningWorkers&) = delete;
 
-    [[nodiscard]] std::shared_future<std::shared_ptr<const DepthImage>> clean(
-        DepthImage depth, const CleaningOptions& options);
+    [[nodiscard]] std::shared_future<CleanedDepth> clean(DepthImage depth,
+                                                         const CleaningOptions& options,
+                                                         std::vector<HeldLevel> held = {});
 
   private:
     struct Job {
         DepthImage depth{};
         CleaningOptions options{};
-        std::promise<std::shared_ptr<const DepthImage>> done{};
+        std::vector<HeldLevel> held{};
+        std::promise<CleanedDepth> done{};
     };
 
     void run();
@@ -112,7 +115,7 @@ class SessionFrames final : public RecordedFrames {
     struct Kept {
         FrameSource source{};
         Frame frame{};  ///< its depth is still to come
-        std::shared_future<std::shared_ptr<const DepthImage>> depth{};
+        std::shared_future<CleanedDepth> depth{};
     };
 
     void find_videos(const Session& session);

@@ -5,19 +5,17 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
+#include <limits>
+#include <utility>
 
 namespace dibhr {
 
 namespace {
 
-constexpr int kWidthsInImage = 20;  ///< a hole may be this part of the image's width
-constexpr int kNone = -1;           ///< no row holds a level
-
-// Of the highest level: 8 of 255 stand out of a curved surface seen in 8 bits; 16 bits are mostly
-// millimetres, of which 100 are far beyond a sensor's noise (up to 65 at 4 m).
-constexpr float kSpike8_levels = 8.0F;
-constexpr float kSpike16_levels = 100.0F;
+// 8 levels of 255 stand out of a curved surface seen in 8 bits; 16 bits are mostly millimetres, of
+// which 100 are far beyond a sensor's noise (up to 65 at 4 m).
+constexpr double kSpike_share = 8.0 / 255.0;
+constexpr double kSpike_levels = 100.0;
 constexpr float kSmoothing = 0.2F;  ///< of the second difference, per axis; stable below 0.25
 
 /// One pass of smoothing between pixels `px` apart; a larger difference than `edge_levels` is an
@@ -41,13 +39,26 @@ bool is_eight_bit(const DepthImage& image) {
     return image.highest_level < 256.0;
 }
 
+/// Of those with data; NaN: there is none.
 float median_of_neighbours(const DepthImage& image, int i, int j) {
     std::array<float, 8> around{image.at(i - 1, j - 1), image.at(i, j - 1),
                                 image.at(i + 1, j - 1), image.at(i - 1, j),
                                 image.at(i + 1, j),     image.at(i - 1, j + 1),
                                 image.at(i, j + 1),     image.at(i + 1, j + 1)};
-    std::nth_element(around.begin(), around.begin() + 4, around.end());
-    return around[4];
+    auto* const end =
+        std::remove_if(around.begin(), around.end(), [](float level) { return std::isnan(level); });
+    if (end == around.begin()) return std::numeric_limits<float>::quiet_NaN();
+    auto* const median = around.begin() + (end - around.begin()) / 2;
+    std::nth_element(around.begin(), median, end);
+    return *median;
+}
+
+/// As std::max and std::min, of a `level` that may be NaN: then it is passed over.
+float higher(float level, float most) {
+    return level > most ? level : most;
+}
+float lower(float level, float least) {
+    return level < least ? level : least;
 }
 
 /// Change that draws `centre` towards the straight line between its two neighbours; none across an
@@ -81,138 +92,10 @@ void smooth_row(const float* up, const float* row, const float* down, const floa
 
 }  // namespace
 
-void HoleFiller::fill(DepthImage& image) {
-    find_runs(image);
-    if (runs_.empty()) return;
-    join_runs();
-    keep_small(image);
-    std::size_t pixels = 0;
-    for (const Run& run : runs_) pixels += static_cast<std::size_t>(run.end - run.begin);
-    sum_.assign(pixels, 0.0F);
-    weight_.assign(pixels, 0.0F);
-    weigh_rows(image);
-    weigh_columns(image, 1);
-    weigh_columns(image, -1);
-    std::size_t k = 0;
-    for (const Run& run : runs_)
-        for (int i = run.begin; i < run.end; ++i, ++k)
-            if (weight_[k] > 0.0F) image.at(i, run.row) = sum_[k] / weight_[k];
-}
-
-void HoleFiller::find_runs(const DepthImage& image) {
-    runs_.clear();
-    for (int j = 0; j < image.rows; ++j) {
-        const float* row = image.levels.data() + image.index(0, j);
-        const float* const end = row + image.columns;
-        for (const float* at = std::find(row, end, 0.0F); at != end;
-             at = std::find(at, end, 0.0F)) {
-            const float* const stop =
-                std::find_if(at, end, [](float level) { return level != 0.0F; });
-            runs_.push_back({j, static_cast<int>(at - row), static_cast<int>(stop - row), 0});
-            at = stop;
-        }
-    }
-}
-
-/// Each run begins as its own patch and joins those of the row above that it touches.
-void HoleFiller::join_runs() {
-    patches_.clear();
-    std::size_t above = 0;
-    for (std::size_t k = 0; k < runs_.size(); ++k) {
-        Run& run = runs_[k];
-        run.patch = static_cast<std::int32_t>(k);
-        patches_.push_back({run.begin, run.end, run.row, run.row + 1, run.patch});
-        while (above < k && (runs_[above].row < run.row - 1 ||
-                             (runs_[above].row == run.row - 1 && runs_[above].end < run.begin)))
-            ++above;
-        for (std::size_t a = above;
-             a < k && runs_[a].row == run.row - 1 && runs_[a].begin <= run.end; ++a)
-            join(runs_[a].patch, run.patch);
-    }
-}
-
-std::int32_t HoleFiller::root(std::int32_t patch) {
-    const auto parent = [this](std::int32_t p) -> std::int32_t& {
-        return patches_[static_cast<std::size_t>(p)].parent;
-    };
-    while (parent(patch) != patch) {
-        parent(patch) = parent(parent(patch));
-        patch = parent(patch);
-    }
-    return patch;
-}
-
-void HoleFiller::join(std::int32_t a, std::int32_t b) {
-    a = root(a);
-    b = root(b);
-    if (a == b) return;
-    Patch& first = patches_[static_cast<std::size_t>(a)];
-    Patch& second = patches_[static_cast<std::size_t>(b)];
-    second.parent = a;
-    first.left = std::min(first.left, second.left);
-    first.right = std::max(first.right, second.right);
-    first.top = std::min(first.top, second.top);
-    first.bottom = std::max(first.bottom, second.bottom);
-}
-
-/// Forgets the runs of patches that are too large to be filled.
-void HoleFiller::keep_small(const DepthImage& image) {
-    const int most = std::max(2, image.columns / kWidthsInImage);
-    const auto large = [&](const Run& run) {
-        const Patch& patch = patches_[static_cast<std::size_t>(root(run.patch))];
-        return patch.right - patch.left > most || patch.bottom - patch.top > most;
-    };
-    runs_.erase(std::remove_if(runs_.begin(), runs_.end(), large), runs_.end());
-}
-
-void HoleFiller::weigh_rows(const DepthImage& image) {
-    std::size_t k = 0;
-    for (const Run& run : runs_) {
-        const bool left = run.begin > 0;
-        const bool right = run.end < image.columns;
-        const float left_level = left ? image.at(run.begin - 1, run.row) : 0.0F;
-        const float right_level = right ? image.at(run.end, run.row) : 0.0F;
-        for (int i = run.begin; i < run.end; ++i, ++k) {
-            const float from_left = left ? 1.0F / static_cast<float>(i - run.begin + 1) : 0.0F;
-            const float from_right = right ? 1.0F / static_cast<float>(run.end - i) : 0.0F;
-            sum_[k] += left_level * from_left + right_level * from_right;
-            weight_[k] += from_left + from_right;
-        }
-    }
-}
-
-/// Walks the runs down (step 1) or up (-1). Where the pixel before is no hole it is the column's
-/// nearest level from here on; where it is one, it belongs to the same patch and its column stands.
-void HoleFiller::weigh_columns(const DepthImage& image, int step) {
-    column_level_.assign(static_cast<std::size_t>(image.columns), 0.0F);
-    column_row_.assign(static_cast<std::size_t>(image.columns), kNone);
-    std::size_t before = step > 0 ? 0 : sum_.size();
-    for (std::size_t n = 0; n < runs_.size(); ++n) {
-        const Run& run = runs_[step > 0 ? n : runs_.size() - 1 - n];
-        const auto length = static_cast<std::size_t>(run.end - run.begin);
-        const std::size_t first = step > 0 ? before : before - length;
-        const int previous = run.row - step;
-        const bool inside = previous >= 0 && previous < image.rows;
-        for (int i = run.begin; i < run.end; ++i) {
-            const auto column = static_cast<std::size_t>(i);
-            if (!inside) {
-                column_row_[column] = kNone;
-            } else if (const float level = image.at(i, previous); level != 0.0F) {
-                column_level_[column] = level;
-                column_row_[column] = previous;
-            }
-            if (column_row_[column] == kNone) continue;
-            const std::size_t k = first + static_cast<std::size_t>(i - run.begin);
-            const float near = 1.0F / static_cast<float>(std::abs(run.row - column_row_[column]));
-            sum_[k] += column_level_[column] * near;
-            weight_[k] += near;
-        }
-        before = step > 0 ? first + length : first;
-    }
-}
-
 void DepthCleaner::remove_spikes(DepthImage& image) {
-    const float threshold = is_eight_bit(image) ? kSpike8_levels : kSpike16_levels;
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    const auto threshold =
+        static_cast<float>(std::min(kSpike_share * image.highest_level, kSpike_levels));
     const int columns = image.columns;
     highest_.resize(static_cast<std::size_t>(columns));
     lowest_.resize(static_cast<std::size_t>(columns));
@@ -223,23 +106,24 @@ void DepthCleaner::remove_spikes(DepthImage& image) {
         const float* row = up + columns;
         const float* down = row + columns;
         for (int i = 0; i < columns; ++i) {
-            highest_[static_cast<std::size_t>(i)] = std::max(up[i], down[i]);
-            lowest_[static_cast<std::size_t>(i)] = std::min(up[i], down[i]);
+            highest_[static_cast<std::size_t>(i)] = higher(up[i], higher(down[i], -kInfinity));
+            lowest_[static_cast<std::size_t>(i)] = lower(up[i], lower(down[i], kInfinity));
         }
         const float* high = highest_.data();
         const float* low = lowest_.data();
         int found = 0;
         for (int i = 1; i + 1 < columns; ++i) {
-            const float most = std::max(std::max(std::max(high[i - 1], high[i]), high[i + 1]),
-                                        std::max(row[i - 1], row[i + 1]));
-            const float least = std::min(std::min(std::min(low[i - 1], low[i]), low[i + 1]),
-                                         std::min(row[i - 1], row[i + 1]));
+            const float most =
+                higher(row[i - 1],
+                       higher(row[i + 1], std::max(std::max(high[i - 1], high[i]), high[i + 1])));
+            const float least = lower(
+                row[i - 1], lower(row[i + 1], std::min(std::min(low[i - 1], low[i]), low[i + 1])));
             const int outlies = (row[i] > most + threshold) | (row[i] < least - threshold);
             outlying_[static_cast<std::size_t>(i)] = outlies;
             found |= outlies;
         }
         for (int i = 1; found != 0 && i + 1 < columns; ++i)
-            if (outlying_[static_cast<std::size_t>(i)] != 0 && row[i] != 0.0F)
+            if (outlying_[static_cast<std::size_t>(i)] != 0)
                 spikes_.push_back({image.index(i, j), median_of_neighbours(image, i, j)});
     }
     for (const Spike& spike : spikes_) image.levels[spike.index] = spike.level;
@@ -254,7 +138,7 @@ void DepthCleaner::smooth_steps(DepthImage& image) {
     for (std::size_t k = 0; k < pixels; ++k) {
         const float level = image.levels[k];
         low_[k] = std::max(level - 0.5F, 0.0F);
-        high_[k] = level > 0.0F ? std::min(level + 0.5F, highest) : 0.0F;  // no data stays no data
+        high_[k] = level > 0.0F ? std::min(level + 0.5F, highest) : 0.0F;  // the back wall stands
     }
     for (const Reach reach : kReaches) {
         for (int j = 0; j < image.rows; ++j) {
@@ -270,11 +154,35 @@ void DepthCleaner::smooth_steps(DepthImage& image) {
     }
 }
 
-void DepthCleaner::clean(DepthImage& image, const CleaningOptions& options) {
-    if (image.columns < 2 || image.rows < 2) return;
-    if (options.remove_spikes) remove_spikes(image);
-    if (options.fill_holes) holes_.fill(image);
-    if (options.smooth_steps && is_eight_bit(image)) smooth_steps(image);
+std::vector<std::uint8_t> DepthCleaner::clean(DepthImage& image, const CleaningOptions& options,
+                                              std::span<const HeldLevel> held) {
+    std::vector<std::uint8_t> unseen(image.levels.size(), 0);
+    const bool touchable = image.columns >= 2 && image.rows >= 2;
+    if (touchable && options.remove_spikes) remove_spikes(image);
+    if (touchable && options.fill_holes) {
+        seen_ = image;
+        held_.fill(image, held);
+        small_holes_.fill(image);
+        large_holes_.fill(image, seen_, unseen);
+    }
+    for (std::size_t k = 0; k < image.levels.size(); ++k) {
+        if (!std::isnan(image.levels[k])) continue;
+        image.levels[k] = 0.0F;
+        unseen[k] = 1;
+    }
+    if (touchable && options.smooth_steps && is_eight_bit(image)) smooth_steps(image);
+    if (std::find(unseen.begin(), unseen.end(), 1) == unseen.end()) unseen.clear();
+    return unseen;
+}
+
+CleanedDepth DepthCleaner::cleaned(DepthImage image, const CleaningOptions& options,
+                                   std::span<const HeldLevel> held) {
+    CleanedDepth done;
+    std::vector<std::uint8_t> unseen = clean(image, options, held);
+    if (!unseen.empty())
+        done.unseen = std::make_shared<const std::vector<std::uint8_t>>(std::move(unseen));
+    done.depth = std::make_shared<const DepthImage>(std::move(image));
+    return done;
 }
 
 }  // namespace dibhr

@@ -3,49 +3,18 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
+#include "core/video/depth_memory.hpp"
+#include "core/video/hole_filling.hpp"
 
 namespace dibhr {
 
-/// A hole is a patch of pixels of level 0, joined over edges and corners. One that is no wider and
-/// no higher than a twentieth of the image's width is filled: each pixel takes the mean of the
-/// nearest levels to its left, right, above and below, weighted by 1 / distance, which continues a
-/// plane. Larger ones stay as they are: empty background must not become a surface.
-class HoleFiller {
-  public:
-    void fill(DepthImage& image);
-
-  private:
-    /// Pixels [begin, end) of one row, all of level 0.
-    struct Run {
-        int row, begin, end;
-        std::int32_t patch;
-    };
-    /// The rectangle around a patch, and the patch it was joined to.
-    struct Patch {
-        int left, right, top, bottom;
-        std::int32_t parent;
-    };
-
-    void find_runs(const DepthImage& image);
-    void join_runs();
-    std::int32_t root(std::int32_t patch);
-    void join(std::int32_t a, std::int32_t b);
-    void keep_small(const DepthImage& image);
-    void weigh_rows(const DepthImage& image);
-    void weigh_columns(const DepthImage& image, int step);
-
-    std::vector<Run> runs_{};
-    std::vector<Patch> patches_{};
-    std::vector<float> sum_{}, weight_{};  ///< of the pixels of all runs, one after the other
-    std::vector<float> column_level_{};    ///< nearest level above (or below), by column
-    std::vector<int> column_row_{};        ///< its row; negative: there is none
-};
-
 struct CleaningOptions {
-    bool fill_holes{true};     ///< level 0 = no data: small holes take the levels around them
+    bool fill_holes{true};     ///< where there is no data, take what was there, or is around
     bool remove_spikes{true};  ///< single pixels that stand out of all their neighbours
     bool smooth_steps{true};   ///< 8-bit terraces, within half a level of the data
 
@@ -53,11 +22,25 @@ struct CleaningOptions {
     [[nodiscard]] bool any() const { return fill_holes || remove_spikes || smooth_steps; }
 };
 
-/// Cleans in place: spikes, then holes, then steps. What is off leaves every bit as it is; the same
-/// image gives the same bits. Scratch memory is kept inside and reused from frame to frame.
+/// A depth image without holes, and where nothing was ever seen (see Frame).
+struct CleanedDepth {
+    std::shared_ptr<const DepthImage> depth{};
+    std::shared_ptr<const std::vector<std::uint8_t>> unseen{};
+};
+
+/// Cleans in place: spikes, then holes, then steps. What is off leaves every level as it is, but no
+/// data (NaN) becomes level 0, the farthest; the same image gives the same bits. Scratch memory is
+/// kept inside and reused from frame to frame.
 class DepthCleaner {
   public:
-    void clean(DepthImage& image, const CleaningOptions& options);
+    /// `held`: what pixels without data were before. Gives the mask of what was never seen, columns
+    /// x rows, 1 where a level says nothing about the scene; empty when there is no such pixel.
+    std::vector<std::uint8_t> clean(DepthImage& image, const CleaningOptions& options,
+                                    std::span<const HeldLevel> held = {});
+
+    /// The same, to be published.
+    [[nodiscard]] CleanedDepth cleaned(DepthImage image, const CleaningOptions& options,
+                                       std::span<const HeldLevel> held = {});
 
   private:
     struct Spike {
@@ -65,7 +48,8 @@ class DepthCleaner {
         float level;
     };
 
-    /// A pixel beyond all its 8 neighbours by more than a threshold takes their median.
+    /// A pixel beyond all its neighbours with data by more than a threshold takes their median; one
+    /// that has no such neighbour is no data.
     void remove_spikes(DepthImage& image);
 
     /// 8-bit images only. Every pixel is drawn towards the line between its neighbours at growing
@@ -74,7 +58,10 @@ class DepthCleaner {
     /// said.
     void smooth_steps(DepthImage& image);
 
-    HoleFiller holes_{};
+    DepthImage seen_{};  ///< without anything filled
+    HeldFiller held_{};
+    SmallHoleFiller small_holes_{};
+    LargeHoleFiller large_holes_{};
     std::vector<Spike> spikes_{};
     std::vector<int> outlying_{};
     std::vector<float> highest_{}, lowest_{};      ///< of the rows above and below, by column

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/video/remembering_media.hpp"
 
 namespace dibhr {
 
@@ -30,14 +31,10 @@ double interval_s(const MediaDescription& description) {
     return description.frames_per_s > 0.0 ? 1.0 / description.frames_per_s : kUnknownInterval_s;
 }
 
-std::size_t bytes_of(const Frame& frame) {
-    return 2 * frame.depth->levels.size() * sizeof(float) + frame.colour->rgb.size();
-}
-
 }  // namespace
 
 FrameReader::FrameReader(std::unique_ptr<Media> media, std::uint32_t number)
-    : media_(std::move(media)), number_(number) {}
+    : media_(std::make_unique<RememberingMedia>(std::move(media))), number_(number) {}
 
 FrameReader::Kept* FrameReader::find(double media_s) {
     const auto found = std::find_if(kept_.begin(), kept_.end(), [media_s](const Kept& kept) {
@@ -59,6 +56,7 @@ FrameReader::Kept* FrameReader::read() {
         drop_oldest();
         kept = &kept_.emplace_back();
         kept->raw.depth = std::make_shared<const DepthImage>(std::move(raw->depth));
+        kept->held = std::move(raw->held);
         kept->raw.colour = std::make_shared<const ColourImage>(std::move(raw->colour));
         kept->raw.media_s = raw->media_s;
         kept->raw.index = raw->index;
@@ -72,9 +70,14 @@ FrameReader::Kept* FrameReader::read() {
 /// Makes room for one more. Re-read frames stay where they are: the oldest decoded goes first.
 void FrameReader::drop_oldest() {
     if (kept_.empty()) return;
-    const std::size_t by_size = kMostBytes / std::max<std::size_t>(1, bytes_of(kept_.back().raw));
+    const std::size_t by_size = kMostBytes / std::max<std::size_t>(1, bytes_of(kept_.back()));
     const std::size_t most = std::clamp(by_size, kLeastKept, kKept);
     while (kept_.size() >= most) kept_.pop_front();
+}
+
+std::size_t FrameReader::bytes_of(const Kept& kept) {
+    return 2 * kept.raw.depth->levels.size() * sizeof(float) +
+           kept.held.size() * sizeof(HeldLevel) + kept.raw.colour->rgb.size();
 }
 
 void FrameReader::jump_to(double media_s) {
@@ -84,19 +87,14 @@ void FrameReader::jump_to(double media_s) {
 
 Frame FrameReader::cleaned(Kept& kept) {
     Frame frame = kept.raw;
-    if (kept.cleaned == nullptr) {
-        if (!cleaning_.any()) {
-            kept.cleaned = kept.raw.depth;
-        } else {
-            const auto begin = std::chrono::steady_clock::now();
-            auto depth = std::make_shared<DepthImage>(*kept.raw.depth);
-            cleaner_.clean(*depth, cleaning_);
-            kept.cleaned = std::move(depth);
-            cost_.clean_ms = milliseconds_since(begin);
-        }
+    if (!kept.cleaned) {
+        const auto begin = std::chrono::steady_clock::now();
+        kept.cleaned = cleaner_.cleaned(*kept.raw.depth, cleaning_, kept.held);
+        cost_.clean_ms = milliseconds_since(begin);
         cost_.cleaned = std::chrono::steady_clock::now();
     }
-    frame.depth = kept.cleaned;
+    frame.depth = kept.cleaned->depth;
+    frame.unseen = kept.cleaned->unseen;
     frame.cleaning = cleaning_;
     return frame;
 }

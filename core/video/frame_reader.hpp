@@ -52,7 +52,8 @@ class FrameReader {
     /// A decoded frame and its neighbours, as far as they were read one after the other.
     struct Kept {
         Frame raw{};
-        std::shared_ptr<const DepthImage> cleaned{};
+        std::vector<HeldLevel> held{};
+        std::optional<CleanedDepth> cleaned{};
         std::optional<double> previous_s{}, next_s{};
     };
 
@@ -60,6 +61,7 @@ class FrameReader {
     Kept* read();  ///< decodes the next frame and keeps it; null at the end
     void jump_to(double media_s);
     void drop_oldest();
+    [[nodiscard]] static std::size_t bytes_of(const Kept& kept);
     Frame cleaned(Kept& kept);
 
     std::unique_ptr<Media> media_;

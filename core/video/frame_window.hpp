@@ -27,6 +27,9 @@ struct ColourImage {
 /// One colour + depth frame, cleaned and ready to touch. Immutable once published.
 struct Frame {
     std::shared_ptr<const DepthImage> depth{};
+    /// Of the depth image's pixels, row-major: 1 where no surface was ever seen; null: seen all
+    /// over.
+    std::shared_ptr<const std::vector<std::uint8_t>> unseen{};
     std::shared_ptr<const ColourImage> colour{};
     double time_s{0.0};          ///< on a playback timeline, which goes on across loops
     double media_s{0.0};         ///< presentation time in the file

@@ -7,8 +7,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/video/depth_meaning.hpp"
+#include "core/video/depth_memory.hpp"
 #include "core/video/frame_window.hpp"
 
 namespace dibhr {
@@ -23,9 +25,10 @@ void require_size(const std::filesystem::path& file, int columns, int rows);
 /// The name in quotes, as messages show it, without control characters: always one line.
 [[nodiscard]] std::string shown(const std::filesystem::path& file);
 
-/// A decoded, not yet cleaned pair.
+/// A decoded, not yet cleaned pair. NaN in its depth is no data.
 struct RawFrame {
     DepthImage depth{};
+    std::vector<HeldLevel> held{};  ///< what pixels without data were before; of RememberingMedia
     ColourImage colour{};
     double media_s{0.0};
     std::int64_t index{0};

@@ -5,8 +5,10 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/error.hpp"
+#include "core/video/depth_finding.hpp"
 
 namespace dibhr {
 
@@ -140,21 +142,28 @@ void PairedMedia::take_true_shape() {
                          "FX,FY,CX,CY, or leave --geometry true away");
     const double unit_mm = meaning->unit.value == DepthUnit::m ? 1000.0 : 1.0;
     range_mm_ = {meaning->range.value.near * unit_mm, meaning->range.value.far * unit_mm};
-    shape_.emplace(cv::Size(description_.depth_columns, description_.depth_rows),
-                   meaning->intrinsics->value, range_mm_);
+    std::vector<cv::Mat> samples_mm;
+    for (const cv::Mat& picture : some_pictures(*depth_))
+        samples_mm.push_back(in_mm(scale_.image_of(picture)));
+    const Intrinsics& camera = meaning->intrinsics->value;
+    shape_.emplace(size_, camera, range_mm_, straight_grid(size_, camera, range_mm_, samples_mm));
     description_.depth_columns = shape_->grid().columns;
     description_.depth_rows = shape_->grid().rows;
     description_.true_fit = Fit{shape_->relief_px(), shape_->grid().pitch_mm};
 }
 
-/// Elevation is over the farthest distance.
-void PairedMedia::put_straight(RawFrame& frame, const cv::Mat& colour) {
-    const cv::Mat levels(frame.depth.rows, frame.depth.columns, CV_32FC1,
-                         frame.depth.levels.data());
+/// Distances from the camera; elevation is over the farthest one.
+cv::Mat PairedMedia::in_mm(const DepthImage& depth) const {
+    const cv::Mat levels(depth.rows, depth.columns, CV_32FC1,
+                         const_cast<float*>(depth.levels.data()));  // only read
     cv::Mat depth_mm;
     levels.convertTo(depth_mm, CV_32F, (range_mm_.near - range_mm_.far) / scale_.highest_level(),
                      range_mm_.far);
-    StraightPicture straight = shape_->seen_straight_on(depth_mm, colour);
+    return depth_mm;
+}
+
+void PairedMedia::put_straight(RawFrame& frame, const cv::Mat& colour) {
+    StraightPicture straight = shape_->seen_straight_on(in_mm(frame.depth), colour);
     frame.depth = std::move(straight.depth);
     frame.colour = std::move(straight.colour);
 }

@@ -54,6 +54,7 @@ class PairedMedia : public Media {
 
   private:
     void take_true_shape();
+    [[nodiscard]] cv::Mat in_mm(const DepthImage& depth) const;
     void put_straight(RawFrame& frame, const cv::Mat& colour);
     void tell_trouble(const SourceFacts& facts);
     void keep_size(cv::Mat& picture) const;

@@ -1,6 +1,7 @@
 // Cleaning on a few threads, however much is waiting.
 #include "core/replay/frames.hpp"
 
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <future>
@@ -18,7 +19,8 @@ namespace {
 DepthImage image_of(int number) {
     DepthImage depth{64, 48, 255.0, {}};
     for (int k = 0; k < depth.columns * depth.rows; ++k) {
-        depth.levels.push_back(k % 11 == 0 ? 0.0F : static_cast<float>((k + 7 * number) % 97));
+        depth.levels.push_back(k % 11 == 0 ? std::nanf("")
+                                           : static_cast<float>((k + 7 * number) % 97));
     }
     return depth;
 }
@@ -34,7 +36,7 @@ TEST_CASE("hundreds of images are cleaned by two threads, each as if it were alo
     const CleaningOptions options{true, true, true};
     const auto before = threads_of_this_process();
     CleaningWorkers workers;
-    std::vector<std::shared_future<std::shared_ptr<const DepthImage>>> cleaned;
+    std::vector<std::shared_future<CleanedDepth>> cleaned;
     for (int k = 0; k < kImages; ++k) cleaned.push_back(workers.clean(image_of(k), options));
     CHECK(threads_of_this_process() <= before + 2);
     DepthCleaner alone;
@@ -42,13 +44,14 @@ TEST_CASE("hundreds of images are cleaned by two threads, each as if it were alo
     for (int k = 0; k < kImages; ++k) {
         DepthImage expected = image_of(k);
         alone.clean(expected, options);
-        differing += cleaned[static_cast<std::size_t>(k)].get()->levels == expected.levels ? 0 : 1;
+        differing +=
+            cleaned[static_cast<std::size_t>(k)].get().depth->levels == expected.levels ? 0 : 1;
     }
     CHECK(differing == 0);
 }
 
 TEST_CASE("what waits to be cleaned is given up when nobody wants it any more", "[replay]") {
-    std::shared_future<std::shared_ptr<const DepthImage>> last;
+    std::shared_future<CleanedDepth> last;
     {
         CleaningWorkers workers;
         for (int k = 0; k < 2000; ++k) last = workers.clean(image_of(k), {true, true, true});

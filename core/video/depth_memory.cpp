@@ -1,0 +1,135 @@
+// What a pixel without data was a moment before.
+#include "core/video/depth_memory.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+namespace dibhr {
+
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr double kMostly = 0.9;  ///< of a patch
+
+// Measured on sensors' recordings, by the next level that such pixels had: one like a level within
+// 3 px comes back more often than what is behind; another one is behind 2 to 10 times as often.
+constexpr int kLike_px = 3;
+constexpr int kSquare_px = 4;  ///< levels around are looked up by square,
+constexpr int kSquares = 2;    ///< so many to each side: 8 to 11 px
+
+bool is_like(float a, float b, float outline) {
+    return std::fabs(a - b) <= outline;
+}
+
+/// Whether data within kLike_px is on one surface with `level`.
+bool has_its_like(const DepthImage& image, int i, int j, float level, float outline) {
+    const int left = std::max(i - kLike_px, 0);
+    const int right = std::min(i + kLike_px, image.columns - 1);
+    for (int y = std::max(j - kLike_px, 0); y <= std::min(j + kLike_px, image.rows - 1); ++y)
+        for (int x = left; x <= right; ++x)
+            if (is_like(image.at(x, y), level, outline)) return true;
+    return false;
+}
+
+int squares_in(int pixels) {
+    return (pixels + kSquare_px - 1) / kSquare_px;
+}
+
+}  // namespace
+
+std::vector<HeldLevel> DepthMemory::take(const DepthImage& depth, double media_s) {
+    if (levels_.size() != depth.levels.size()) {
+        levels_.assign(depth.levels.size(), 0.0F);
+        seen_in_.assign(depth.levels.size(), 0);
+    }
+    while (!times_.empty() && !(media_s - times_.front() < kHold_s)) {
+        times_.pop_front();
+        ++oldest_;
+    }
+    const auto now = oldest_ + static_cast<std::uint32_t>(times_.size());
+    times_.push_back(media_s);
+    std::vector<HeldLevel> held;
+    for (std::size_t k = 0; k < depth.levels.size(); ++k) {
+        if (const float level = depth.levels[k]; !std::isnan(level)) {
+            levels_[k] = level;
+            seen_in_[k] = now;
+        } else if (seen_in_[k] >= oldest_) {
+            held.push_back({static_cast<std::uint32_t>(k), levels_[k]});
+        }
+    }
+    return held;
+}
+
+void DepthMemory::forget() noexcept {
+    levels_.clear();
+    times_.clear();
+    oldest_ = 1;
+}
+
+void HeldFiller::fill(DepthImage& image, std::span<const HeldLevel> held) {
+    if (held.empty()) return;
+    find_farthest(image);
+    find_seen_patches(image, held);
+    const float outline = outline_levels(image);
+    used_.clear();
+    for (std::size_t k = 0; k < held.size(); ++k) {
+        const auto [index, level] = held[k];
+        const auto i = static_cast<int>(index % static_cast<std::uint32_t>(image.columns));
+        const auto j = static_cast<int>(index / static_cast<std::uint32_t>(image.columns));
+        const float behind = farthest_[static_cast<std::size_t>(j / kSquare_px) *
+                                           static_cast<std::size_t>(squares_in(image.columns)) +
+                                       static_cast<std::size_t>(i / kSquare_px)];
+        const bool holds = behind == kInfinity ? was_seen(k)
+                                               : is_like(level, behind, outline) ||
+                                                     has_its_like(image, i, j, level, outline);
+        // What lies below all that is around would be a pit.
+        if (holds) used_.push_back({index, behind == kInfinity ? level : std::max(level, behind)});
+    }
+    for (const HeldLevel& level : used_) image.levels[level.index] = level.level;
+}
+
+void HeldFiller::find_farthest(const DepthImage& image) {
+    const int columns = squares_in(image.columns);
+    const int rows = squares_in(image.rows);
+    const auto at = [columns](int i, int j) {
+        return static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) +
+               static_cast<std::size_t>(i);
+    };
+    lowest_.assign(at(0, rows), kInfinity);
+    for (int j = 0; j < image.rows; ++j) {
+        const float* row = image.levels.data() + image.index(0, j);
+        float* lowest = lowest_.data() + at(0, j / kSquare_px);
+        for (int i = 0; i < image.columns; ++i)
+            if (row[i] < lowest[i / kSquare_px]) lowest[i / kSquare_px] = row[i];
+    }
+    farthest_.assign(at(0, rows), kInfinity);
+    for (int j = 0; j < rows; ++j)
+        for (int i = 0; i < columns; ++i)
+            for (int y = std::max(j - kSquares, 0); y <= std::min(j + kSquares, rows - 1); ++y)
+                for (int x = std::max(i - kSquares, 0); x <= std::min(i + kSquares, columns - 1);
+                     ++x)
+                    farthest_[at(i, j)] = std::min(farthest_[at(i, j)], lowest_[at(x, y)]);
+}
+
+void HeldFiller::find_seen_patches(const DepthImage& image, std::span<const HeldLevel> held) {
+    patches_.find(image);
+    const std::vector<HolePatches::Run>& runs = patches_.runs();
+    held_in_.assign(runs.size(), 0);
+    patch_of_.clear();
+    auto run = runs.begin();
+    for (const HeldLevel& level : held) {
+        while (image.index(run->end - 1, run->row) < level.index) ++run;
+        patch_of_.push_back(run->patch);
+        ++held_in_[static_cast<std::size_t>(run->patch)];
+    }
+}
+
+bool HeldFiller::was_seen(std::size_t k) const {
+    const std::int32_t patch = patch_of_[k];
+    return static_cast<double>(held_in_[static_cast<std::size_t>(patch)]) >=
+           kMostly * static_cast<double>(patches_.patch(patch).pixels);
+}
+
+}  // namespace dibhr

@@ -1,0 +1,45 @@
+// Reads a second more where it matters.
+#include "core/video/remembering_media.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dibhr {
+
+namespace {
+
+bool has_holes(const DepthImage& depth) {
+    return std::any_of(depth.levels.begin(), depth.levels.end(),
+                       [](float level) { return std::isnan(level); });
+}
+
+}  // namespace
+
+std::optional<RawFrame> RememberingMedia::next() {
+    if (!wanted_s_) return read();
+    const double media_s = *wanted_s_;
+    wanted_s_.reset();
+    return read_at(media_s);
+}
+
+std::optional<RawFrame> RememberingMedia::read() {
+    std::optional<RawFrame> frame = media_->next();
+    if (frame) frame->held = memory_.take(frame->depth, frame->media_s);
+    return frame;
+}
+
+std::optional<RawFrame> RememberingMedia::read_at(double media_s) {
+    memory_.forget();
+    media_->seek(media_s);
+    std::optional<RawFrame> frame = read();
+    if (!frame || frame->index == 0 || !has_holes(frame->depth)) return frame;
+    const double frame_s = frame->media_s;
+    memory_.forget();
+    media_->seek(std::max(0.0, frame_s - kHold_s - 2.0 * kTimeTolerance_s));
+    do frame = read();
+    while (frame && frame->media_s < frame_s);
+    return frame;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,61 @@
+// What is felt of holes: pits, and whether a finger at rest stays in contact.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "core/haptics/depth_image.hpp"
+
+namespace dibhr::test {
+
+inline constexpr double kRelief_px = 255.0;  ///< of the highest level
+
+inline double elevation_px(const DepthImage& image, std::size_t pixel) {
+    return kRelief_px * static_cast<double>(image.levels[pixel]) / image.highest_level;
+}
+
+/// Pixels more than 5 px below every neighbour within 10 px that has data in `raw`.
+inline int count_pits(const DepthImage& raw, const DepthImage& cleaned) {
+    constexpr int kReach = 10;
+    constexpr double kDeep_px = 5.0;
+    const auto is_pit = [&](int i, int j) {
+        double lowest_px = 1e9;
+        for (int y = std::max(j - kReach, 0); y <= std::min(j + kReach, raw.rows - 1); ++y)
+            for (int x = std::max(i - kReach, 0); x <= std::min(i + kReach, raw.columns - 1); ++x) {
+                const int away = (x - i) * (x - i) + (y - j) * (y - j);
+                if (away == 0 || away > kReach * kReach || std::isnan(raw.at(x, y))) continue;
+                lowest_px = std::min(lowest_px, elevation_px(cleaned, raw.index(x, y)));
+            }
+        const bool near_data = lowest_px < 1e9;
+        return near_data && elevation_px(cleaned, raw.index(i, j)) < lowest_px - kDeep_px;
+    };
+    int pits = 0;
+    for (int j = 0; j < raw.rows; ++j)
+        for (int i = 0; i < raw.columns; ++i) pits += is_pit(i, j) ? 1 : 0;
+    return pits;
+}
+
+/// The share of the time in which a finger 12 px below the surface, which follows it within 250 ms,
+/// is below it: at `pixel`, over frames `frame_s` apart.
+inline double contact_share(const std::vector<DepthImage>& frames, std::size_t pixel,
+                            double frame_s) {
+    constexpr double kStep_s = 0.001;
+    constexpr double kFollows_s = 0.25;
+    constexpr double kPressed_px = 12.0;
+    double smooth_px = elevation_px(frames.front(), pixel);
+    int in_contact = 0;
+    int steps = 0;
+    for (std::size_t k = 0; k + 1 < frames.size(); ++k)
+        for (double t_s = 0.0; t_s < frame_s; t_s += kStep_s, ++steps) {
+            const double from_px = elevation_px(frames[k], pixel);
+            const double to_px = elevation_px(frames[k + 1], pixel);
+            const double z_px = from_px + t_s / frame_s * (to_px - from_px);
+            smooth_px += kStep_s / kFollows_s * (z_px - smooth_px);
+            in_contact += z_px > smooth_px - kPressed_px ? 1 : 0;
+        }
+    return static_cast<double>(in_contact) / steps;
+}
+
+}  // namespace dibhr::test
