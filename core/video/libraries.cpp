@@ -9,8 +9,11 @@ extern "C" {
 }
 
 #include <fcntl.h>
+#include <libheif/heif.h>
+#include <openexr.h>
 #include <stdlib.h>
 #include <unistd.h>
+#include <zip.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -72,10 +75,18 @@ std::string text_of(unsigned version) {
 }  // namespace
 
 std::map<std::string, std::string> library_versions() {
+    int major = 0;
+    int minor = 0;
+    int patch = 0;
+    exr_get_library_version(&major, &minor, &patch, nullptr);
     return {{"libavcodec", text_of(avcodec_version())},
             {"libavformat", text_of(avformat_version())},
             {"libswscale", text_of(swscale_version())},
-            {"opencv", cv::getVersionString()}};
+            {"libheif", heif_get_version()},
+            {"libzip", zip_libzip_version()},
+            {"opencv", cv::getVersionString()},
+            {"openexr",
+             std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(patch)}};
 }
 
 }  // namespace dibhr

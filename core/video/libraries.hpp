@@ -26,7 +26,8 @@ class QuietErrors {
     int kept_{-1};  ///< the stream's own descriptor
 };
 
-/// Versions by name: "libavcodec", "libavformat", "libswscale" ("59.37.100"), "opencv" ("4.6.0").
+/// Versions by name: "libavcodec", "libavformat", "libswscale" ("59.37.100"), "libheif", "libzip",
+/// "opencv" ("4.6.0"), "openexr".
 /// Of the libraries that are loaded, not of those that the program was compiled against.
 [[nodiscard]] std::map<std::string, std::string> library_versions();
 

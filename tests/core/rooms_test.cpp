@@ -89,9 +89,9 @@ const std::vector<Ownership> kOwnerships{
     {"pybind11/", {"app/python/"}},
     {"opencv2/", {"core/video/", "assets/"}},
     {"png.h", {"core/surface_files/"}},
-    {"Imf", {"core/video/formats/"}},
-    {"libheif/", {"core/video/formats/"}},
-    {"zip.h", {"core/video/formats/"}},
+    {"Imf", {"core/video/"}},
+    {"libheif/", {"core/video/"}},
+    {"zip.h", {"core/video/"}},
     {"cairo", {"core/plot/"}},
     {"pango/", {"core/plot/"}},
 };

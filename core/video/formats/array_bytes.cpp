@@ -134,7 +134,7 @@ bool is_npz(const fs::path& file, std::string_view head) {
     return archive != nullptr && !names_in(*archive).empty();
 }
 
-Arrays::Arrays(fs::path file) : file_(std::move(file)) {
+NamedArrays::NamedArrays(fs::path file) : file_(std::move(file)) {
     if (is_npy(head_of(file_))) {
         names_.emplace_back();
         return;
@@ -144,7 +144,7 @@ Arrays::Arrays(fs::path file) : file_(std::move(file)) {
     names_ = names_in(*archive_);
 }
 
-std::unique_ptr<ArrayBytes> Arrays::open(const std::string& name) const {
+std::unique_ptr<ArrayBytes> NamedArrays::open(const std::string& name) const {
     if (archive_ == nullptr) return std::make_unique<FileBytes>(file_);
     return std::make_unique<ZippedBytes>(file_, archive_, name + std::string(kEnding));
 }

@@ -25,10 +25,10 @@ class ArrayBytes {
 };
 
 /// The arrays of a file.
-class Arrays {
+class NamedArrays {
   public:
     /// Throws InputError when a .npz cannot be opened.
-    explicit Arrays(std::filesystem::path file);
+    explicit NamedArrays(std::filesystem::path file);
 
     [[nodiscard]] const std::filesystem::path& file() const { return file_; }
     [[nodiscard]] bool zipped() const { return archive_ != nullptr; }

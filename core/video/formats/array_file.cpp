@@ -34,7 +34,7 @@ constexpr std::array<std::string_view, 1> kRateNames{"fps"};
 constexpr std::array<std::string_view, 3> kCameraNames{"k", "intrinsics", "intrinsic"};
 
 /// The array called by the first of these words, large or small letters; nothing when none is.
-std::optional<std::string> named(const Arrays& arrays, Words words) {
+std::optional<std::string> named(const NamedArrays& arrays, Words words) {
     for (const std::string_view word : words)
         for (const std::string& name : arrays.names())
             if (lower_case(name) == word) return name;
@@ -46,7 +46,7 @@ bool is_one_of(const std::string& name, Words words) {
 }
 
 /// Throws InputError when none, or more than one, can be meant.
-std::string chosen(const Arrays& arrays, PictureRole role) {
+std::string chosen(const NamedArrays& arrays, PictureRole role) {
     const bool is_depth = role == PictureRole::depth;
     const auto called = is_depth ? named(arrays, kDepthNames) : named(arrays, kColourNames);
     if (called) return *called;
@@ -63,13 +63,13 @@ std::string chosen(const Arrays& arrays, PictureRole role) {
                      ": save it with that name");
 }
 
-NumpyArray opened(const Arrays& arrays, const std::string& name) {
+NumpyArray opened(const NamedArrays& arrays, const std::string& name) {
     return {arrays.file(), arrays.open(name)};
 }
 
 /// The numbers of the array called so; none when there is none, or it is larger than `most`, or no
 /// array of numbers.
-std::vector<double> numbers_of(const Arrays& arrays, Words words, std::int64_t most) {
+std::vector<double> numbers_of(const NamedArrays& arrays, Words words, std::int64_t most) {
     const auto name = named(arrays, words);
     if (!name) return {};
     try {
@@ -109,13 +109,13 @@ bool is_array_file(const fs::path& file) {
 
 bool arrays_have_colour_and_depth(const fs::path& file) {
     if (!is_npz(file, head_of(file))) return false;
-    const Arrays arrays(file);
+    const NamedArrays arrays(file);
     return named(arrays, kColourNames) && named(arrays, kDepthNames);
 }
 
-ArrayFile::ArrayFile(const fs::path& file, PictureRole role) : ArrayFile(Arrays(file), role) {}
+ArrayFile::ArrayFile(const fs::path& file, PictureRole role) : ArrayFile(NamedArrays(file), role) {}
 
-ArrayFile::ArrayFile(const Arrays& arrays, PictureRole role)
+ArrayFile::ArrayFile(const NamedArrays& arrays, PictureRole role)
     : role_(role), array_(opened(arrays, chosen(arrays, role))), shape_(array_.pictures()) {
     if (role == PictureRole::colour &&
         (array_.header().kind != 'u' || array_.header().number_bytes != 1))
@@ -126,7 +126,7 @@ ArrayFile::ArrayFile(const Arrays& arrays, PictureRole role)
     require_size(facts_.file, facts_.columns, facts_.rows);
 }
 
-void ArrayFile::read_facts(const Arrays& arrays) {
+void ArrayFile::read_facts(const NamedArrays& arrays) {
     facts_.file = arrays.file();
     facts_.columns = static_cast<int>(shape_.columns);
     facts_.rows = static_cast<int>(shape_.rows);
@@ -149,7 +149,7 @@ void ArrayFile::read_facts(const Arrays& arrays) {
     if (facts_.known.intrinsics) state(facts_, *named(arrays, kCameraNames));
 }
 
-void ArrayFile::read_times(const Arrays& arrays) {
+void ArrayFile::read_times(const NamedArrays& arrays) {
     const std::vector<double> rate = numbers_of(arrays, kRateNames, 1);
     const bool usable = !rate.empty() && rate[0] >= 0.001 && rate[0] <= 10000.0;
     const double frames_per_s = usable ? rate[0] : kPicturesPerSecond;

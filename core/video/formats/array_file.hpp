@@ -30,9 +30,9 @@ class ArrayFile : public PictureSource {
     void seek(double time_s) override;
 
   private:
-    ArrayFile(const Arrays& arrays, PictureRole role);
-    void read_facts(const Arrays& arrays);
-    void read_times(const Arrays& arrays);
+    ArrayFile(const NamedArrays& arrays, PictureRole role);
+    void read_facts(const NamedArrays& arrays);
+    void read_times(const NamedArrays& arrays);
 
     PictureRole role_;
     NumpyArray array_;

@@ -219,6 +219,7 @@ cv::Mat NumpyArray::fortran_picture(const PictureShape& shape, std::int64_t fram
     const auto columns = static_cast<int>(shape.columns);
     const cv::Mat upright = own.reshape(1, columns * static_cast<int>(shape.channels));
     std::vector<cv::Mat> planes;
+    planes.reserve(static_cast<std::size_t>(shape.channels));
     for (int k = 0; k < static_cast<int>(shape.channels); ++k)
         planes.emplace_back(upright.rowRange(k * columns, (k + 1) * columns).t());
     if (planes.size() == 1) return planes.front();

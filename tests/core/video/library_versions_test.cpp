@@ -12,7 +12,8 @@ using namespace dibhr;
 TEST_CASE("every library that turns files into depth levels has a version of three numbers",
           "[video]") {
     const auto versions = library_versions();
-    for (const char* library : {"libavcodec", "libavformat", "libswscale", "opencv"}) {
+    for (const char* library :
+         {"libavcodec", "libavformat", "libheif", "libswscale", "libzip", "opencv", "openexr"}) {
         CAPTURE(library);
         const std::string& version = versions.at(library);
         CAPTURE(version);
