@@ -53,12 +53,12 @@ float hue_at(const cv::Vec3f& pixel, const HueCode& code) {
     return hue < code.nearest || hue > code.farthest ? kNone : hue;
 }
 
-/// The median chroma of pixels with data; 0 when there are none.
+/// The median chroma of pixels with data, of every few; 0 when there are none.
 float usual_chroma(const cv::Mat& colours, const cv::Mat& hues) {
+    constexpr int kEvery = 3;
     std::vector<float> chromas;
-    chromas.reserve(hues.total());
-    for (int j = 0; j < hues.rows; ++j) {
-        for (int i = 0; i < hues.cols; ++i) {
+    for (int j = 0; j < hues.rows; j += kEvery) {
+        for (int i = 0; i < hues.cols; i += kEvery) {
             if (std::isfinite(hues.at<float>(j, i)))
                 chromas.push_back(chroma_of(colours.at<cv::Vec3f>(j, i)));
         }
@@ -237,7 +237,7 @@ cv::Mat hues_of(const cv::Mat& picture, const HueCode& code) {
 void settle_red(cv::Mat& hues) {
     const cv::Mat low = hues < kRed;
     const cv::Mat high = hues > 1.0F - kRed;
-    settle_areas(hues, low | high);
+    if (cv::countNonZero(high) > 0) settle_areas(hues, low | high);
 }
 
 std::unique_ptr<PictureSource> hue_decoded(std::unique_ptr<PictureSource> colours, HueCode code,

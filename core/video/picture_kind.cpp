@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <vector>
 
 #include "core/video/hue_code.hpp"
@@ -28,6 +29,8 @@ constexpr int kPure = 170;      ///< by more
 constexpr float kFlat = 0.15F;  ///< rises a pixel
 constexpr float kSlope = 4.0F;
 constexpr float kEdge = 8.0F;
+
+constexpr double kMostlyPure = 0.5;  ///< share of a picture whose hues may say something
 
 cv::Mat reduced(const cv::Mat& picture, int long_side, int how) {
     const double scale = static_cast<double>(long_side) / std::max(picture.cols, picture.rows);
@@ -217,47 +220,76 @@ double correlation_by_chance(const cv::Mat& a, const cv::Mat& b) {
     return highest;
 }
 
-PictureGuess look_at_halves(std::span<const cv::Mat> pictures, DepthPacking packing) {
-    PictureGuess guess;
-    guess.packing = packing;
+/// The mean of the part of each picture that would be depth; without a packing of the whole.
+PictureLook mean_look(std::span<const cv::Mat> pictures, std::optional<DepthPacking> packing = {}) {
+    PictureLook mean;
+    for (const cv::Mat& picture : pictures) {
+        const cv::Rect whole({}, picture.size());
+        const cv::Rect part =
+            packing ? half_of(picture.size(), *packing, PictureRole::depth) : whole;
+        add(mean, look_of(picture(part)), 1.0 / static_cast<double>(pictures.size()));
+    }
+    return mean;
+}
+
+/// How much the halves are of the same things.
+void compare_halves(std::span<const cv::Mat> pictures, PictureGuess& halves) {
     const double weight = 1.0 / static_cast<double>(pictures.size());
     for (const cv::Mat& picture : pictures) {
-        const cv::Mat colour = picture(half_of(picture.size(), packing, PictureRole::colour));
-        const cv::Mat depth = picture(half_of(picture.size(), packing, PictureRole::depth));
-        add(guess.colour_half, look_of(colour), weight);
-        add(guess.depth_half, look_of(depth), weight);
+        const cv::Size size = picture.size();
+        const cv::Mat colour = picture(half_of(size, halves.packing, PictureRole::colour));
+        const cv::Mat depth = picture(half_of(size, halves.packing, PictureRole::depth));
         const cv::Mat colour_edges = edges_of(colour);
         const cv::Mat depth_edges = edges_of(depth);
-        guess.brightness_alike += weight * std::abs(correlation(soft(colour), soft(depth)));
-        guess.edges_agree += weight * correlation(colour_edges, depth_edges);
-        guess.edges_by_chance += weight * correlation_by_chance(colour_edges, depth_edges);
+        halves.brightness_alike += weight * std::abs(correlation(soft(colour), soft(depth)));
+        halves.edges_agree += weight * correlation(colour_edges, depth_edges);
+        halves.edges_by_chance += weight * correlation_by_chance(colour_edges, depth_edges);
     }
-    return guess;
 }
 
-/// Whether one half is a photograph, by itself and against the other.
-bool is_photo_of(const PictureGuess& halves) {
+/// Whether one half looks like depth, then of which code, and the other like a photograph.
+bool could_be_packed(PictureGuess& halves) {
     constexpr double kRougher = 2.5;
-    constexpr double kMostAlike = 0.9;  // else the grey half is a copy of the coloured one
     const PictureLook& colour = halves.colour_half;
-    if (halves.code == DepthCode::hue) return colour.lit >= 0.02 && colour.pure <= 0.3;
-    return colour.coloured >= 0.05 && halves.brightness_alike <= kMostAlike &&
-           colour.brightness.texture >= kRougher * halves.depth_half.brightness.texture;
+    const PictureLook& depth = halves.depth_half;
+    if (looks_hue_depth(depth)) {
+        halves.code = DepthCode::hue;
+        return colour.lit >= 0.02 && colour.pure <= 0.3;
+    }
+    return looks_grey_depth(depth, kGreyHalf) && colour.coloured >= 0.05 &&
+           colour.brightness.texture >= kRougher * depth.brightness.texture;
 }
 
-/// Whether the halves are colour and depth of the same; then of which code.
-bool told_packed(PictureGuess& halves) {
+bool belong_together(const PictureGuess& halves) {
     constexpr double kLeastAgreement = 0.2;
     constexpr double kMoreThanChance = 0.05;
-    halves.code = looks_hue_depth(halves.depth_half) ? DepthCode::hue : DepthCode::grey;
-    if (halves.code == DepthCode::grey && !looks_grey_depth(halves.depth_half, kGreyHalf))
-        return false;
-    const double more_than_chance = halves.edges_agree - halves.edges_by_chance;
-    if (!is_photo_of(halves) || halves.edges_agree < kLeastAgreement ||
-        more_than_chance < kMoreThanChance)
-        return false;
-    halves.kind = PictureKind::packed;
-    return true;
+    constexpr double kMostAlike = 0.9;  // else the grey half is a copy of the coloured one
+    return halves.edges_agree >= kLeastAgreement &&
+           halves.edges_agree - halves.edges_by_chance >= kMoreThanChance &&
+           (halves.code == DepthCode::hue || halves.brightness_alike <= kMostAlike);
+}
+
+/// The packing whose halves agree most; a photograph where none could be.
+PictureGuess guess_packing(std::span<const cv::Mat> pictures) {
+    // Each beside the one that has the halves the other way round.
+    static constexpr std::array kPackings{DepthPacking::left_right, DepthPacking::right_left,
+                                          DepthPacking::top_bottom, DepthPacking::bottom_top};
+    std::array<PictureLook, kPackings.size()> looks;
+    std::transform(kPackings.begin(), kPackings.end(), looks.begin(),
+                   [pictures](DepthPacking packing) { return mean_look(pictures, packing); });
+    PictureGuess best;
+    for (std::size_t k = 0; k < kPackings.size(); ++k) {
+        PictureGuess halves;
+        halves.packing = kPackings[k];
+        halves.depth_half = looks[k];
+        halves.colour_half = looks[k ^ 1U];
+        if (!could_be_packed(halves)) continue;
+        compare_halves(pictures, halves);
+        if (!belong_together(halves) || halves.edges_agree < best.edges_agree) continue;
+        best = halves;
+        best.kind = PictureKind::packed;
+    }
+    return best;
 }
 
 bool is_large_enough(const cv::Mat& picture) {
@@ -289,7 +321,7 @@ PictureLook look_of(const cv::Mat& picture) {
     look.pure = share(pure, lit);
     look.ramp = share_on_ramp(small);
     look.brightness = brightness_look(small);
-    look.hue = hue_look(picture);
+    if (look.pure >= kMostlyPure) look.hue = hue_look(picture);
     return look;
 }
 
@@ -297,22 +329,14 @@ PictureGuess guess_kind(std::span<const cv::Mat> pictures) {
     pictures = pictures.first(std::min(pictures.size(), kMostLooked));
     if (pictures.empty() || !std::all_of(pictures.begin(), pictures.end(), is_large_enough))
         return {};
-    PictureGuess best;
-    const double weight = 1.0 / static_cast<double>(pictures.size());
-    PictureLook whole;
-    for (const cv::Mat& picture : pictures) add(whole, look_of(picture), weight);
-    for (const DepthPacking packing : kDepthPackings) {
-        if (!is_of_halves(packing)) continue;
-        PictureGuess halves = look_at_halves(pictures, packing);
-        if (!told_packed(halves)) continue;
-        if (best.kind == PictureKind::photo || halves.edges_agree > best.edges_agree) best = halves;
-    }
-    best.whole = whole;
-    if (best.kind == PictureKind::packed) return best;
-    if (looks_grey_depth(whole, kGreyDepth)) best.kind = PictureKind::grey_depth;
-    if (looks_hue_depth(whole)) best.kind = PictureKind::hue_depth;
-    if (looks_ramp_depth(whole)) best.kind = PictureKind::ramp_depth;  // blue hues are on it
-    return best;
+    PictureGuess guess = guess_packing(pictures);
+    guess.whole = mean_look(pictures);
+    if (guess.kind == PictureKind::packed) return guess;
+    if (looks_grey_depth(guess.whole, kGreyDepth)) guess.kind = PictureKind::grey_depth;
+    if (looks_hue_depth(guess.whole)) guess.kind = PictureKind::hue_depth;
+    // Blue hues are on it.
+    if (looks_ramp_depth(guess.whole)) guess.kind = PictureKind::ramp_depth;
+    return guess;
 }
 
 }  // namespace dibhr

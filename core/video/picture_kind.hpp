@@ -34,7 +34,7 @@ struct PictureLook {
     double pure{0.0};      ///< of nearly pure hues
     double ramp{0.0};      ///< on the ramp, of those with a colour
     SurfaceLook brightness{};
-    SurfaceLook hue{};
+    SurfaceLook hue{};  ///< where at least half is pure
 };
 
 /// What pictures are, and the numbers that say so: means over the pictures. `packing`, `code` and

@@ -132,7 +132,7 @@ TEST_CASE("a packed file keeps every level of its depth", "[packed]") {
     REQUIRE(depth.levels.size() == truth.total());
     double found = 0.0;
     for (std::size_t k = 0; k < depth.levels.size(); ++k) {
-        const cv::Vec3b was = truth.at<cv::Vec3b>(static_cast<int>(k));
+        const cv::Vec3b& was = truth.at<cv::Vec3b>(static_cast<int>(k));
         found = std::max(found, std::abs(static_cast<double>(depth.levels[k]) - was[0]));
     }
     CHECK(found <= worst);

@@ -122,7 +122,7 @@ cv::Mat white_noise(bool coloured) {
 cv::Mat landscape(bool coloured) {
     cv::Mat view = scene_photo();
     for (int j = 0; j < kSceneRows / 2; ++j)  // a bare sky over a rough ground
-        view.row(j).setTo(cv::Scalar(250 - j / 4, 225 - j / 3, 200 - j / 2));
+        view.row(j).setTo(cv::Scalar(250.0 - j / 4.0, 225.0 - j / 3.0, 200.0 - j / 2.0));
     return coloured ? view : grey_of(view);
 }
 

@@ -10,11 +10,13 @@
 
 using namespace dibhr;
 using namespace dibhr::test;
-using Catch::Matchers::WithinAbs;
 
 namespace {
 
-const cv::Size kPicture(512, 848);
+/// The size of the pictures that the asset speaks of.
+cv::Size asset_size() {
+    return {512, 848};
+}
 
 /// As Depthkit's plug-in for Unity writes it.
 std::string asset(const std::string& more = {}) {
@@ -47,7 +49,7 @@ TEST_CASE("Depthkit's asset beside a video says clips, camera and that hue below
           "[recorder]") {
     const TemporaryFolder folder;
     write_text(folder / "Take.Metadata.asset", asset());
-    const auto form = form_by_recorder(folder / "Dk_Take.mov", kPicture);
+    const auto form = form_by_recorder(folder / "Dk_Take.mov", asset_size());
     REQUIRE(form);
     CHECK(form->packing == DepthPacking::top_bottom);
     CHECK(form->hue == HueCode{{{0.5, 1.25}}});
@@ -126,7 +128,7 @@ TEST_CASE("several cameras in one video are not taken for one", "[recorder]") {
     write_text(folder / "a.metadata.asset",
                asset("    - depthImageSize: {x: 512, y: 424}\n      nearClip: 0.5\n"));
     write_text(folder / "b_meta.txt", R"({"perspectives": [)" + json() + "," + json() + "]}");
-    CHECK_FALSE(form_by_recorder(folder / "a.mov", kPicture));
+    CHECK_FALSE(form_by_recorder(folder / "a.mov", asset_size()));
     CHECK_FALSE(form_by_recorder(folder / "b.mov", {320, 960}));
 }
 
@@ -134,8 +136,8 @@ TEST_CASE("a video without metadata, or that is not there, has no form", "[recor
     const TemporaryFolder folder;
     write_text(folder / "a.mp4", "{\"intrinsic");
     write_text(folder / "b.mp4", "{\"intrinsicMatrix\":[1}");
-    CHECK_FALSE(form_by_recorder(folder / "a.mp4", kPicture));
-    CHECK_FALSE(form_by_recorder(folder / "b.mp4", kPicture));
-    CHECK_FALSE(form_by_recorder(folder / "absent.mp4", kPicture));
+    CHECK_FALSE(form_by_recorder(folder / "a.mp4", asset_size()));
+    CHECK_FALSE(form_by_recorder(folder / "b.mp4", asset_size()));
+    CHECK_FALSE(form_by_recorder(folder / "absent.mp4", asset_size()));
     CHECK_FALSE(form_by_recorder(folder.path() / "no" / "absent.mp4", {0, 0}));
 }
