@@ -1,6 +1,4 @@
 // A surface as triangles, split as it is for touch: a coloured mesh, and a solid plate.
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/geometric.hpp>
@@ -66,6 +64,7 @@ std::vector<GridPlace> border_of(const DepthSurface& surface) {
     const int right = surface.columns() - 1;
     const int lowest = surface.rows() - 1;
     std::vector<GridPlace> border;
+    border.reserve(2 * static_cast<std::size_t>(right + lowest));
     for (int i = 0; i < right; ++i) border.emplace_back(i, lowest);
     for (int j = lowest; j > 0; --j) border.emplace_back(right, j);
     for (int i = right; i > 0; --i) border.emplace_back(i, 0);

@@ -2,14 +2,11 @@
 #include <png.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <csetjmp>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
+#include <new>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/error.hpp"
