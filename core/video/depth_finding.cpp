@@ -114,13 +114,14 @@ DepthScale find_scale(const Sources& sources, const DepthRequest& request) {
     if (request.find_out) {
         std::vector<fs::path> places{facts.file};
         if (sources.colour) places.push_back(sources.colour->facts().file);
-        voices.insert(voices.end(), {{Origin::panel, request.panel},
-                                     {Origin::sidecar, sidecars_of(places)},
-                                     {Origin::assumed, sources.assumed},
-                                     {Origin::found, facts.known},
-                                     {Origin::found, said_by_name(facts.file)},
-                                     {Origin::found, sources.found},
-                                     {Origin::found, kPlain}});
+        voices.insert(voices.end(),
+                      {{Origin::panel, request.panel},
+                       {Origin::sidecar, sidecars_of(places)},
+                       {Origin::assumed, sources.assumed},
+                       {sources.by_look ? Origin::assumed : Origin::found, facts.known},
+                       {Origin::found, said_by_name(facts.file)},
+                       {Origin::found, sources.found},
+                       {Origin::found, kPlain}});
     } else {
         voices.emplace_back(Origin::assumed, as_in_file(request, facts.bits));
     }

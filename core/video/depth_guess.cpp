@@ -35,7 +35,6 @@ constexpr double kTail = 0.005;
 constexpr double kVeryTail = 1e-4;
 constexpr double kBeyondTail = 0.05;  ///< of the span
 constexpr double kBeyondVeryTail = 0.02;
-constexpr double kNearestDisparity = 0.5;  ///< of the nearest distance
 constexpr double kNearest = 0.9;
 constexpr double kOutlier = 1.0;  ///< of the span of the nearest so many, beyond them
 
@@ -202,19 +201,15 @@ double farthest_of(const std::vector<double>& nearness, double nearest, bool has
     return quantile(std::vector<double>(first, nearness.end()), kTail);
 }
 
-/// Integers have a lowest and a highest one; and the ends differ.
-DepthRange within_levels(DepthRange range, const DepthMeaning& meaning, int bits) {
-    if (bits != kRealBits && meaning.unit.value != DepthUnit::disparity) {
-        const double highest = highest_level(bits) * meaning.scale.value;
-        range = {std::clamp(range.near, 0.0, highest), std::clamp(range.far, 0.0, highest)};
-    }
+/// The ends of a plane's range differ, too.
+DepthRange not_empty(DepthRange range, const DepthMeaning& meaning) {
     if (range.near != range.far) return range;
-    const double some = std::max(std::fabs(range.far), meaning.scale.value);  // of a plane
+    const double some = std::max(std::fabs(range.far), meaning.scale.value);
     (meaning.near.value == NearLevels::bright ? range.near : range.far) += some;
     return range;
 }
 
-DepthRange guess_range(const std::vector<float>& levels, const DepthMeaning& meaning, int bits) {
+DepthRange guess_range(const std::vector<float>& levels, const DepthMeaning& meaning) {
     const double sign = meaning.near.value == NearLevels::bright ? 1.0 : -1.0;
     const bool disparity = meaning.unit.value == DepthUnit::disparity;
     const std::vector<double> nearness = nearness_of(levels, meaning);
@@ -226,13 +221,13 @@ DepthRange guess_range(const std::vector<float>& levels, const DepthMeaning& mea
     // What little there is beyond the tails may be a fingertip.
     double near = std::max(most + kBeyondTail * span,
                            quantile(nearness, 1.0 - kVeryTail) + kBeyondVeryTail * span);
-    double far = least - kBeyondTail * span;
+    near = std::min(near, nearness.back());
+    double far = std::max(least - kBeyondTail * span, nearness.front());
     if (near == far) {  // a plane, or very little beside one
         near = nearness.back();
         far = nearness.front();
     }
-    if (disparity) near = std::min(near, most * kNearestDisparity);
-    return within_levels({value(near), value(far)}, meaning, bits);
+    return not_empty({value(near), value(far)}, meaning);
 }
 
 }  // namespace
@@ -268,7 +263,7 @@ void guess(const std::vector<cv::Mat>& pictures, int bits, DepthMeaning& meaning
         }
     }
     if (!says(&DepthStatement::range))
-        meaning.range = {guess_range(levels, meaning, bits), Origin::found};
+        meaning.range = {guess_range(levels, meaning), Origin::found};
 }
 
 double holes_share(const std::vector<cv::Mat>& pictures, const DepthMeaning& meaning) {

@@ -20,8 +20,9 @@ namespace dibhr {
 ///   near      dark for distances, bright for disparities; for levels what the middle and the floor
 ///             of the picture are, where they are that clearly, else bright
 ///   scale     1
-///   range     the half percent at either end and a twentieth beyond it, nearer also the last
-///             ten-thousandth; of distances nothing beyond twice what the nearest nine tenths span
+///   range     the half percent at either end and at most a twentieth beyond it, nearer also
+///             the last ten-thousandth; of distances nothing beyond twice what the nearest nine
+///             tenths span
 ///
 /// The range is then found, the rest assumed.
 void guess(const std::vector<cv::Mat>& pictures, int bits, DepthMeaning& meaning,

@@ -168,6 +168,7 @@ std::optional<Sources> halves_by_look(const fs::path& place, const PictureGuess&
     if (look.code == DepthCode::hue) form.hue.emplace();
     Sources sources = halves_of(place, form);
     sources.assumed = std::exchange(sources.found, {});
+    sources.by_look = true;
     return sources;
 }
 
@@ -177,6 +178,7 @@ Sources decoded(const fs::path& place, Sources sources, const DepthStatement& sa
                               !names_pictures(place) && !is_array_file(place);
     PictureKind kind = PictureKind::grey_depth;
     if (may_be_coded) kind = guess_kind(looks_of(place, kLookedAt)).kind;
+    sources.by_look = kind == PictureKind::hue_depth || kind == PictureKind::ramp_depth;
     const bool is_hue = said.code == DepthCode::hue || kind == PictureKind::hue_depth;
     if (is_hue) {
         sources.depth =

@@ -16,6 +16,7 @@ struct Sources {
     std::unique_ptr<PictureSource> colour{};  ///< null: depth alone
     DepthStatement found{};                   ///< by files, names and metadata
     DepthStatement assumed{};                 ///< by how the pictures look
+    bool by_look{false};                      ///< what the depth says of itself is so, too
     std::string notice{};                     ///< see MediaDescription
 };
 

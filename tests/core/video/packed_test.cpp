@@ -128,7 +128,8 @@ TEST_CASE("a packed file keeps every level of its depth", "[packed]") {
     CAPTURE(name);
     const UnpackedSources sources =
         open_packed(clip_of(folder, both, name, encoding), form_of(DepthPacking::left_right));
-    const DepthImage depth = depth_of(sources.depth->next()->picture, sources.depth->facts().bits);
+    const DepthImage depth = DepthScale::as_recorded(sources.depth->facts().bits)
+                                 .image_of(sources.depth->next()->picture);
     REQUIRE(depth.levels.size() == truth.total());
     double found = 0.0;
     for (std::size_t k = 0; k < depth.levels.size(); ++k) {
@@ -177,7 +178,8 @@ TEST_CASE("the halves of a packed video go together in time, also after a seek",
     // Frame n has level 5 n in both halves.
     make_flat_clip(folder / "both.mkv", 24, 12, kLossless);
     UnpackedSources sources = open_packed(folder / "both.mkv", form_of(DepthPacking::left_right));
-    PairedMedia media(std::move(sources.depth), std::move(sources.colour));
+    PairedMedia media(std::move(sources.depth), std::move(sources.colour),
+                      DepthScale::as_recorded(8));
     media.seek(1.0);
     int frames = 0;
     while (const auto frame = media.next()) {
