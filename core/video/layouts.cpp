@@ -48,10 +48,10 @@ bool all_match(const PictureRow& row, const std::regex& pattern) {
 /// 7-Scenes, and tsdf-fusion, whose pictures of colour are JPEG and whose camera is in a file:
 /// microsoft.com/en-us/research/project/rgb-d-dataset-7-scenes, github.com/andyzeng/tsdf-fusion.
 std::optional<LayoutFacts> facts_of_7_scenes(const fs::path& folder, const PictureSet& set) {
-    static const std::regex kDepth("frame-[0-9]{6}\\.depth\\.png");
-    static const std::regex kColour("frame-[0-9]{6}\\.color\\.png");
-    if (!all_match(set.depth, kDepth)) return std::nullopt;
-    const bool is_7_scenes = all_match(set.colour, kColour);
+    static const std::regex depth_name("frame-[0-9]{6}\\.depth\\.png");
+    static const std::regex colour_name("frame-[0-9]{6}\\.color\\.png");
+    if (!all_match(set.depth, depth_name)) return std::nullopt;
+    const bool is_7_scenes = all_match(set.colour, colour_name);
     LayoutFacts facts =
         millimetres({0.0, 65535.0}, is_7_scenes ? "7-Scenes names" : "tsdf-fusion names");
     for (const fs::path& place : {folder, folder.parent_path()}) {

@@ -58,7 +58,7 @@ constexpr std::array kForeign{
             "OpenNI's tools"},
     Foreign{"\x28\xb5\x2f\xfd"sv, {}, " is packed with zstd: unpack it with zstd -d"}};
 
-constexpr std::streamoff kLookedAt_bytes = 64 * 1024;
+constexpr std::streamoff kLookedAt_bytes = 1 << 16;
 
 /// From there on.
 std::string some_of(std::ifstream& in, std::streamoff from) {

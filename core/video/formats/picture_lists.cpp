@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kLookedAt_bytes = 64 * 1024;  ///< for a first line after comments
+constexpr std::size_t kLookedAt_bytes = 1 << 16;  ///< for a first line after comments
 constexpr std::uintmax_t kLongest_bytes = 256 << 20;
 constexpr double kLargestNumber = 1e20;  ///< more than nanoseconds since 1970
 

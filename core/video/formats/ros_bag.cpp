@@ -1,18 +1,22 @@
-// Reads a bag as what it is: a file that anybody may have made.
+// Chooses the topics of a bag, puts their messages in order, and plays them.
 #include "core/video/formats/ros_bag.hpp"
-
-#include <sqlite3.h>
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <fstream>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <system_error>
-#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/formats/bag_file.hpp"
+#include "core/video/formats/ros_messages.hpp"
 #include "core/video/media.hpp"
 #include "core/video/media_names.hpp"
 #include "core/video/picture_folder.hpp"
@@ -23,172 +27,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kLongestText_bytes = 1 << 20;        ///< of names of topics
-constexpr int kLargestMessage_bytes = 512 << 20;   ///< a 100-megapixel picture of floats
 constexpr std::size_t kMostMessages = 10'000'000;  ///< of one topic: four days at 30 Hz
 constexpr std::int64_t kLongestBag_ns = 1'000'000'000'000'000;  ///< a million seconds
 
 // When a message can have been recorded: sums and differences of such times are numbers, too.
 constexpr std::int64_t kFirst_ns = 0;
 constexpr std::int64_t kLast_ns = 4'000'000'000'000'000'000;
-
-struct Topic {
-    std::int64_t id{0};
-    std::string name{};
-    std::string type{};
-};
-
-struct Closer {
-    void operator()(sqlite3* database) const noexcept { sqlite3_close_v2(database); }
-    void operator()(sqlite3_stmt* statement) const noexcept { sqlite3_finalize(statement); }
-    void operator()(sqlite3_blob* blob) const noexcept { sqlite3_blob_close(blob); }
-};
-
-/// One file of a bag. Every method throws InputError when the file turns out to be damaged.
-class BagFile {
-  public:
-    explicit BagFile(const fs::path& file) : file_(file) {
-        require_readable(file);
-        open();
-        set_bounds();
-        check_tables();
-    }
-
-    [[nodiscard]] std::vector<Topic> topics() {
-        std::vector<Topic> topics;
-        const auto statement = prepared("SELECT id, name, type FROM topics ORDER BY id");
-        while (next(statement.get())) {
-            topics.push_back({sqlite3_column_int64(statement.get(), 0), text(statement.get(), 1),
-                              text(statement.get(), 2)});
-        }
-        return topics;
-    }
-
-    struct Message {
-        std::int64_t row;
-        std::int64_t recorded_ns;
-    };
-
-    /// In the order of recording, at most `most`.
-    [[nodiscard]] std::vector<Message> messages(std::int64_t topic, std::size_t most) {
-        std::vector<Message> found;
-        const auto statement = prepared(
-            "SELECT rowid, timestamp FROM messages WHERE topic_id = ? ORDER BY rowid LIMIT ?");
-        sqlite3_bind_int64(statement.get(), 1, topic);
-        sqlite3_bind_int64(statement.get(), 2, static_cast<std::int64_t>(most));
-        while (next(statement.get())) {
-            found.push_back({sqlite3_column_int64(statement.get(), 0),
-                             sqlite3_column_int64(statement.get(), 1)});
-        }
-        return found;
-    }
-
-    /// The beginning of a message's data, or all of it.
-    [[nodiscard]] std::vector<std::uint8_t> data(std::int64_t row,
-                                                 int most = kLargestMessage_bytes) {
-        sqlite3_blob* opened = blob_.release();
-        const int result =
-            opened == nullptr
-                ? sqlite3_blob_open(database_.get(), "main", "messages", "data", row, 0, &opened)
-                : sqlite3_blob_reopen(opened, row);
-        blob_.reset(opened);
-        if (result != SQLITE_OK) refuse();
-        const int bytes = sqlite3_blob_bytes(blob_.get());
-        if (bytes > kLargestMessage_bytes) refuse("a message is larger than any picture");
-        std::vector<std::uint8_t> data(static_cast<std::size_t>(std::min(bytes, most)));
-        if (sqlite3_blob_read(blob_.get(), data.data(), static_cast<int>(data.size()), 0) !=
-            SQLITE_OK)
-            refuse();
-        return data;
-    }
-
-  private:
-    using Statement = std::unique_ptr<sqlite3_stmt, Closer>;
-
-    void open() {
-        // Without a log beside it the file is complete: as immutable, SQLite makes no files there.
-        std::error_code failed;
-        const bool complete = !fs::exists(file_.string() + "-wal", failed);
-        const std::string uri = "file:" + percent_encoded(fs::absolute(file_, failed).string()) +
-                                "?mode=ro" + (complete ? "&immutable=1" : "");
-        sqlite3* opened = nullptr;
-        const int result =
-            sqlite3_open_v2(uri.c_str(), &opened, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
-        database_.reset(opened);
-        if (result != SQLITE_OK) refuse();
-    }
-
-    void set_bounds() {
-        sqlite3* const database = database_.get();
-        sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
-        sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
-        sqlite3_exec(database, "PRAGMA cell_size_check = ON", nullptr, nullptr, nullptr);
-        sqlite3_limit(database, SQLITE_LIMIT_LENGTH, kLongestText_bytes);
-        // Ten steps a row, and a row is of more than a byte.
-        std::error_code failed;
-        const std::uintmax_t bytes = fs::file_size(file_, failed);
-        looks_ = 2'000 + (failed ? 0 : bytes / 100);
-        constexpr int kStepsPerLook = 10'000;
-        sqlite3_progress_handler(database, kStepsPerLook, &BagFile::is_work_over, this);
-    }
-
-    static int is_work_over(void* file) noexcept {
-        std::uint64_t& left = static_cast<BagFile*>(file)->looks_left_;
-        if (left == 0) return 1;
-        --left;
-        return 0;
-    }
-
-    /// Tables with pages of their own, whose columns are not computed.
-    void check_tables() {
-        const auto count = [this](const char* question) {
-            const auto statement = prepared(question);
-            return next(statement.get()) ? sqlite3_column_int64(statement.get(), 0) : 0;
-        };
-        const bool there = count(
-                               "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND "
-                               "rootpage > 0 AND name IN ('topics', 'messages')") == 2;
-        const bool plain = count(
-                               "SELECT count(*) FROM sqlite_master m, pragma_table_xinfo(m.name) "
-                               "x WHERE m.name IN ('topics', 'messages') AND x.hidden != 0") == 0;
-        if (!there || !plain)
-            throw InputError(shown(file_) +
-                             " is a database, and not one of ROS 2: give the .db3 file of a bag");
-    }
-
-    [[nodiscard]] Statement prepared(const char* sql) {
-        looks_left_ = looks_;
-        sqlite3_stmt* statement = nullptr;
-        if (sqlite3_prepare_v2(database_.get(), sql, -1, &statement, nullptr) != SQLITE_OK)
-            refuse();
-        return Statement(statement);
-    }
-
-    [[nodiscard]] bool next(sqlite3_stmt* statement) const {
-        const int result = sqlite3_step(statement);
-        if (result != SQLITE_ROW && result != SQLITE_DONE) refuse();
-        return result == SQLITE_ROW;
-    }
-
-    [[nodiscard]] static std::string text(sqlite3_stmt* statement, int column) {
-        const unsigned char* const text = sqlite3_column_text(statement, column);
-        const int bytes = sqlite3_column_bytes(statement, column);
-        return text == nullptr ? std::string{} : std::string(text, text + bytes);
-    }
-
-    [[noreturn]] void refuse() const { refuse(sqlite3_errmsg(database_.get())); }
-    [[noreturn]] void refuse(std::string_view why) const {
-        constexpr std::size_t kMostLetters = 200;
-        throw InputError(shown(file_) + " cannot be read as a bag of ROS 2 (" +
-                         one_line(why, kMostLetters) + "): copy or record it again");
-    }
-
-    fs::path file_;
-    std::uint64_t looks_{0};
-    std::uint64_t looks_left_{0};
-    std::unique_ptr<sqlite3, Closer> database_{};
-    std::unique_ptr<sqlite3_blob, Closer> blob_{};
-};
 
 using BagFiles = std::vector<std::unique_ptr<BagFile>>;
 

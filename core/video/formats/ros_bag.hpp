@@ -2,18 +2,10 @@
 // the room.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <optional>
-#include <string>
-#include <vector>
 
-#include "core/video/formats/ros_messages.hpp"
 #include "core/video/pictures.hpp"
-
-struct sqlite3;
 
 namespace dibhr {
 

@@ -1,0 +1,73 @@
+// One SQLite file of a ROS 2 bag: its topics and the bytes of its messages; inside the room.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+struct sqlite3;
+struct sqlite3_blob;
+struct sqlite3_stmt;
+
+namespace dibhr {
+
+struct Topic {
+    std::int64_t id{0};
+    std::string name{};
+    std::string type{};
+};
+
+/// A message's row in its file, and when it was recorded.
+struct BagMessage {
+    std::int64_t row{0};
+    std::int64_t recorded_ns{0};
+};
+
+/// Read as what it is: a file that anybody may have made. It runs nothing, every cell is checked,
+/// and no question goes on for ever. Every method throws InputError when the file is damaged.
+class BagFile {
+  public:
+    /// Throws InputError when it is no bag.
+    explicit BagFile(const std::filesystem::path& file);
+    BagFile(const BagFile&) = delete;
+    BagFile& operator=(const BagFile&) = delete;
+
+    [[nodiscard]] std::vector<Topic> topics();
+
+    /// In the order of recording, at most `most`.
+    [[nodiscard]] std::vector<BagMessage> messages(std::int64_t topic, std::size_t most);
+
+    /// The first `most` bytes of a message, or all of it.
+    [[nodiscard]] std::vector<std::uint8_t> data(
+        std::int64_t row, std::size_t most = std::numeric_limits<std::size_t>::max());
+
+  private:
+    struct Closer {
+        void operator()(sqlite3* database) const noexcept;
+        void operator()(sqlite3_stmt* statement) const noexcept;
+        void operator()(sqlite3_blob* blob) const noexcept;
+    };
+    using Statement = std::unique_ptr<sqlite3_stmt, Closer>;
+
+    void open();
+    void set_bounds();
+    void check_tables();
+    [[nodiscard]] Statement prepared(const char* sql);
+    [[nodiscard]] bool next(sqlite3_stmt* statement) const;
+    static int is_work_over(void* file) noexcept;
+    [[noreturn]] void refuse() const;  ///< in SQLite's words
+    [[noreturn]] void refuse(std::string_view why) const;
+
+    std::filesystem::path file_;
+    std::uint64_t looks_{0};  ///< of the progress handler, that one question may take
+    std::uint64_t looks_left_{0};
+    std::unique_ptr<sqlite3, Closer> database_{};
+    std::unique_ptr<sqlite3_blob, Closer> blob_{};
+};
+
+}  // namespace dibhr
