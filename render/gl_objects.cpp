@@ -229,6 +229,30 @@ GLuint DepthTextures::upload(Slot& slot, const std::shared_ptr<const DepthImage>
     return slot.texture.name();
 }
 
+GLuint UnseenTexture::show(const std::shared_ptr<const std::vector<std::uint8_t>>& mask,
+                           const ReliefGrid& grid) {
+    if (mask == mask_ && grid == grid_) return texture_.get();
+    constexpr std::uint8_t kWhite = 255;
+    staged_.clear();
+    for (int j = 0; j < grid.rows(); ++j) {
+        const auto row = static_cast<std::size_t>(grid.image_j(j)) *
+                         static_cast<std::size_t>(grid.image_columns);
+        for (int i = 0; i < grid.columns(); ++i) {
+            const bool none = (*mask)[row + static_cast<std::size_t>(grid.image_i(i))] != 0;
+            staged_.push_back(none ? kWhite : 0);
+        }
+    }
+    glBindTexture(GL_TEXTURE_2D, texture_.get());
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, grid.columns(), grid.rows(), 0, GL_RED, GL_UNSIGNED_BYTE,
+                 staged_.data());
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    filter(GL_LINEAR, GL_LINEAR);
+    mask_ = mask;
+    grid_ = grid;
+    return texture_.get();
+}
+
 GLuint BumpTexture::show(const BumpMap& bump, const DepthImage& depth, const ReliefGrid& grid) {
     const std::uint64_t print = fingerprint(bump);
     if (print == fingerprint_ && grid == grid_) return texture_.name();

@@ -152,6 +152,20 @@ class DepthTextures {
     std::vector<float> staged_{};
 };
 
+/// Where no surface was ever seen, as 0 and 1, filtered.
+class UnseenTexture {
+  public:
+    /// Uploads when it is another mask than last time, or another grid. Of the grid's image.
+    GLuint show(const std::shared_ptr<const std::vector<std::uint8_t>>& mask,
+                const ReliefGrid& grid);
+
+  private:
+    GlTexture texture_{};
+    std::shared_ptr<const std::vector<std::uint8_t>> mask_{};  ///< kept alive, as above
+    ReliefGrid grid_{};
+    std::vector<std::uint8_t> staged_{};
+};
+
 /// The bump map's height at every drawn vertex, exactly as the hand feels it.
 class BumpTexture {
   public:

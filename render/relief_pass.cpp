@@ -24,6 +24,7 @@ enum Unit : GLint {
     kDetailFromUnit,
     kDetailToUnit,
     kLooseUnit,
+    kUnseenUnit,
     kBumpUnit,
     kColourUnit
 };
@@ -31,6 +32,10 @@ enum Unit : GLint {
 void bind(GLint unit, GLuint texture) {
     glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
     glBindTexture(GL_TEXTURE_2D, texture);
+}
+
+const Frame& nearest_of(const DepthBlend& depth) {
+    return depth.blend < 0.5 ? *depth.from : *depth.to;
 }
 
 void fill_vertices(const GlVertexArray& array, const GlBuffer& buffer,
@@ -59,6 +64,7 @@ void ReliefPass::draw(const SceneContent& content, const glm::mat4& clip_from_wo
     variant.textured = content.look.textured && content.colour && content.colour->colour &&
                        !content.colour->colour->rgb.empty();
     variant.silhouettes = content.look.discard_silhouettes;
+    variant.unseen = nearest_of(content.depth).unseen != nullptr;
     if (variant.silhouettes) tear(content);
     bind_textures(content, variant);
 
@@ -75,7 +81,10 @@ void ReliefPass::draw(const SceneContent& content, const glm::mat4& clip_from_wo
         glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(torn_.layers.size()));
     }
 
-    prepared({true, false, variant.rough, false, false}, content, clip_from_world);
+    Variant wall;
+    wall.wall = true;
+    wall.rough = variant.rough;
+    prepared(wall, content, clip_from_world);
     glBindVertexArray(wall_.get());
     glDrawArrays(GL_TRIANGLE_STRIP, 0, wall_count_);
     glActiveTexture(GL_TEXTURE0);
@@ -125,6 +134,8 @@ void ReliefPass::bind_textures(const SceneContent& content, const Variant& varia
     if (variant.silhouettes && detail_grid_ != grid_) {
         detail = detail_.show(content.depth.from->depth, content.depth.to->depth, detail_grid_);
     }
+    const GLuint unseen =
+        variant.unseen ? unseen_.show(nearest_of(content.depth).unseen, detail_grid_) : 0;
     const GLuint bump =
         variant.rough ? bump_.show(*content.bump, *content.depth.from->depth, grid_) : 0;
     const int most_side = limits_.software ? std::min(kMostColourSideSoftware, limits_.texture_side)
@@ -136,6 +147,7 @@ void ReliefPass::bind_textures(const SceneContent& content, const Variant& varia
     bind(kDepthFromUnit, depth.from);
     bind(kDepthToUnit, depth.to);
     bind(kLooseUnit, loose_.name());
+    bind(kUnseenUnit, unseen);
     bind(kBumpUnit, bump);
     bind(kColourUnit, colour);
 }
@@ -149,6 +161,7 @@ const ShaderProgram& ReliefPass::prepared(const Variant& variant, const SceneCon
         if (variant.rim) defines += "#define RIM\n";
         if (variant.rough) defines += "#define ROUGH\n";
         if (variant.textured) defines += "#define TEXTURED\n";
+        if (variant.unseen) defines += "#define UNSEEN\n";
         if (variant.silhouettes) defines += "#define SILHOUETTES\n";
         program =
             std::make_unique<ShaderProgram>(shaders::kReliefVert, shaders::kReliefFrag, defines);
@@ -161,6 +174,7 @@ const ShaderProgram& ReliefPass::prepared(const Variant& variant, const SceneCon
     program->set("detail_from", kDetailFromUnit);
     program->set("detail_to", kDetailToUnit);
     program->set("loose", kLooseUnit);
+    program->set("unseen", kUnseenUnit);
     program->set("bump", kBumpUnit);
     program->set("colour", kColourUnit);
     program->set("blend", static_cast<float>(std::clamp(content.depth.blend, 0.0, 1.0)));

@@ -28,6 +28,7 @@ class ReliefPass {
         bool rough{false};
         bool textured{false};
         bool silhouettes{false};
+        bool unseen{false};
         auto operator<=>(const Variant&) const = default;  // NOLINT(modernize-use-nullptr)
     };
 
@@ -41,6 +42,7 @@ class ReliefPass {
     std::map<Variant, std::unique_ptr<ShaderProgram>> programs_{};
     DepthTextures depth_{};
     DepthTextures detail_{};  ///< as fine as can be, for the outlines
+    UnseenTexture unseen_{};
     BumpTexture bump_{};
     ColourTexture colour_{};
     ReliefGrid grid_{};

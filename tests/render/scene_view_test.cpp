@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
 #include <initializer_list>
+#include <memory>
 #include <random>
 #include <vector>
 
@@ -105,6 +107,39 @@ TEST_CASE("a cell with two high corners on its diagonal is a ridge, not a valley
     for (const Vec3& p : visible_points(camera, size, {2, 2})) {
         CHECK_THAT(p.z, WithinAbs(1.0 - std::abs(p.x + p.y - 1.0), 1e-3));
     }
+}
+
+TEST_CASE("where no surface was ever seen the relief is dimmed and hatched, and only there") {
+    const bool textured = GENERATE(true, false);
+    HiddenWindow window;
+    const auto depth = depth_image(64, 48, [](int, int) { return 100.0; });
+    const auto white = colour_image(64, 48, [](int, int) { return Rgb{230, 230, 230}; });
+    const Frame whole = frame(depth, white);
+    Frame holed = whole;
+    std::vector<std::uint8_t> unseen(64 * 48, 0);
+    for (std::size_t k = 0; k < unseen.size(); ++k) unseen[k] = k % 64 < 32 ? 1 : 0;
+    holed.unseen = std::make_shared<const std::vector<std::uint8_t>>(unseen);
+    const auto picture_of = [&, textured = textured](const Frame& shown) {
+        SceneContent content = still(shown);
+        content.look.textured = textured;
+        return SceneView().capture(content, straight(64, 48), {640, 480});
+    };
+    const ColourImage plain = picture_of(whole);
+    const ColourImage told_apart = picture_of(holed);
+    const Camera camera = straight(64, 48);
+    const auto at = [&](double x, double y) { return pixel_of(camera, {x, y, 100.0}, {640, 480}); };
+    int darkest = 255;
+    int lightest = 0;
+    for (int step = 0; step < 120; ++step) {
+        const int level = pixel(told_apart, at(4.0 + 0.2 * step, 20.0))[1];
+        darkest = std::min(darkest, level);
+        lightest = std::max(lightest, level);
+    }
+    CHECK(5 * lightest < 3 * pixel(plain, at(16.0, 20.0))[1]);  // dimmed
+    CHECK(lightest - darkest > 10);                             // in lines
+    for (double x = 34.0; x < 62.0; x += 0.2)
+        CHECK(pixel(told_apart, at(x, 20.0)) == pixel(plain, at(x, 20.0)));
+    CHECK(window.errors().empty());
 }
 
 TEST_CASE("the picture lies the right way round on the relief, in its own colours") {
