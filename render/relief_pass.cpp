@@ -34,10 +34,6 @@ void bind(GLint unit, GLuint texture) {
     glBindTexture(GL_TEXTURE_2D, texture);
 }
 
-const Frame& nearest_of(const DepthBlend& depth) {
-    return depth.blend < 0.5 ? *depth.from : *depth.to;
-}
-
 void fill_vertices(const GlVertexArray& array, const GlBuffer& buffer,
                    const std::vector<GridVertex>& vertices) {
     glBindVertexArray(array.get());
@@ -64,7 +60,7 @@ void ReliefPass::draw(const SceneContent& content, const glm::mat4& clip_from_wo
     variant.textured = content.look.textured && content.colour && content.colour->colour &&
                        !content.colour->colour->rgb.empty();
     variant.silhouettes = content.look.discard_silhouettes;
-    variant.unseen = nearest_of(content.depth).unseen != nullptr;
+    variant.unseen = content.depth.nearest().unseen != nullptr;
     if (variant.silhouettes) tear(content);
     bind_textures(content, variant);
 
@@ -135,7 +131,7 @@ void ReliefPass::bind_textures(const SceneContent& content, const Variant& varia
         detail = detail_.show(content.depth.from->depth, content.depth.to->depth, detail_grid_);
     }
     const GLuint unseen =
-        variant.unseen ? unseen_.show(nearest_of(content.depth).unseen, detail_grid_) : 0;
+        variant.unseen ? unseen_.show(content.depth.nearest().unseen, detail_grid_) : 0;
     const GLuint bump =
         variant.rough ? bump_.show(*content.bump, *content.depth.from->depth, grid_) : 0;
     const int most_side = limits_.software ? std::min(kMostColourSideSoftware, limits_.texture_side)

@@ -56,6 +56,10 @@ constexpr std::array kTouchNumbers{
     TouchNumber{"pixel-pitch", "Pixel pitch", "pixel_pitch_mm", "mm", TouchTopic::shape, 0.001,
                 10.0, "Size of a pixel under the hand",
                 [](P& p) -> double& { return p.coupling.pixel_pitch_mm; }},
+    TouchNumber{"unseen", "Unseen", "unseen_share", "", TouchTopic::shape, 0.0, 1.0,
+                "Share of the force where no surface was ever seen; 1: a wall at the back, 0: "
+                "nothing is touched there",
+                [](P& p) -> double& { return p.coupling.unseen_share; }, "not touched"},
 };
 
 }  // namespace

@@ -45,12 +45,16 @@ struct Friction {
     bool operator==(const Friction&) const = default;
 };
 
-/// The spring and damper between proxy and goal, and the size of a pixel under the hand.
+/// The spring and damper between proxy and goal, the size of a pixel under the hand, and what is
+/// felt of no data.
 struct Coupling {
     double stiffness_newton_per_mm{0.5};
     double damping_newton_s_per_m{0.0};
     double damping_cutoff_hz{0.0};  ///< of the low-pass on the velocity that is damped; 0: none
     double pixel_pitch_mm{kPaperPitch_mm};
+    /// Of the force, where no surface was ever seen: 1: a wall at the back as any other, 0:
+    /// nothing.
+    double unseen_share{1.0};
 
     bool operator==(const Coupling&) const = default;
 };

@@ -45,7 +45,8 @@ double height_between(const BumpMap& bump, const Between& x, const Between& y) n
 }  // namespace
 
 DepthSurface::DepthSurface(const DepthImage& from, const DepthImage& to, double blend,
-                           SurfaceShape shape, const BumpMap* bump) noexcept
+                           SurfaceShape shape, const BumpMap* bump,
+                           const std::vector<std::uint8_t>* unseen) noexcept
     : from_(from.levels.data()),
       to_(to.levels.data()),
       columns_(from.columns),
@@ -54,7 +55,9 @@ DepthSurface::DepthSurface(const DepthImage& from, const DepthImage& to, double 
       relief_px_(shape.relief_px),
       highest_level_(from.highest_level),
       roughness_px_(shape.roughness_px),
-      bump_(shape.roughness_px == 0.0 ? nullptr : bump) {
+      bump_(shape.roughness_px == 0.0 ? nullptr : bump),
+      unseen_(unseen == nullptr ? nullptr : unseen->data()) {
+    assert(unseen == nullptr || unseen->size() == from.levels.size());
     if (bump_ != nullptr && is_stretched(*bump_, columns_, rows_)) {
         stretched_ = bump_->at_vertices.heights.data();
         assert(bump_->at_vertices.heights.size() == from.levels.size());
@@ -66,6 +69,14 @@ DepthSurface::DepthSurface(const DepthImage& from, const DepthImage& to, double 
 double DepthSurface::elevation_at(double x, double y) const noexcept {
     const Vec3 p = clamped_to_frame({x, y, 0.0});
     return Facet(*this, triangle_at(p.x, p.y)).elevation_at(p.x, p.y);
+}
+
+bool DepthSurface::seen_at(double x, double y) const noexcept {
+    if (unseen_ == nullptr) return true;
+    const Vec3 p = clamped_to_frame({x, y, 0.0});
+    const auto i = static_cast<std::size_t>(p.x + 0.5);
+    const auto j = static_cast<std::size_t>(p.y + 0.5);
+    return unseen_[j * static_cast<std::size_t>(columns_) + i] == 0;
 }
 
 double DepthSurface::bump_height(int i, int j) const noexcept {

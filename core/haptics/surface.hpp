@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "core/haptics/depth_image.hpp"
 #include "core/haptics/parameters.hpp"
@@ -72,8 +74,10 @@ struct Primitive {
 class DepthSurface {
   public:
     /// `blend` in [0, 1] (clamped): 0 is `from`, 1 is `to`. `bump` may be null.
+    /// `unseen`: 1 for every vertex where no surface was ever seen, row-major; null: seen all over.
     DepthSurface(const DepthImage& from, const DepthImage& to, double blend, SurfaceShape shape,
-                 const BumpMap* bump = nullptr) noexcept;
+                 const BumpMap* bump = nullptr,
+                 const std::vector<std::uint8_t>* unseen = nullptr) noexcept;
 
     [[nodiscard]] int columns() const noexcept { return columns_; }
     [[nodiscard]] int rows() const noexcept { return rows_; }
@@ -96,6 +100,10 @@ class DepthSurface {
         return static_cast<unsigned>(i) < static_cast<unsigned>(columns_) &&
                static_cast<unsigned>(j) < static_cast<unsigned>(rows_);
     }
+
+    /// Whether there was ever a surface at the vertex nearest to (x, y), clamped to the image
+    /// rectangle.
+    [[nodiscard]] bool seen_at(double x, double y) const noexcept;
 
     /// The place of vertex (i, j).
     [[nodiscard]] Vec3 vertex_at(int i, int j) const noexcept { return {i, j, elevation(i, j)}; }
@@ -151,6 +159,7 @@ class DepthSurface {
     double highest_level_{255.0};
     double roughness_px_{0.0};
     const BumpMap* bump_{nullptr};
+    const std::uint8_t* unseen_{nullptr};
     const double* stretched_{nullptr};  ///< the bump map's heights at the vertices, if known
 };
 

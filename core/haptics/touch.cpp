@@ -1,6 +1,7 @@
 // Goal -> proxy -> spring force -> safe force, and the low-pass of the goal's velocity.
 #include "core/haptics/touch.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
@@ -48,6 +49,7 @@ void TouchRenderer::reset() noexcept {
     passivity_ = {};
     safety_ = {};
     last_ = {};
+    felt_share_ = 1.0;
     started_ = false;
 }
 
@@ -92,14 +94,24 @@ const Touch& TouchRenderer::update(const DepthSurface& surface, Vec3 hand,
     last_.goal = goal;
     last_.proxy =
         algorithms_[static_cast<std::size_t>(running_)]->update(surface, goal, parameters.friction);
+    fade_unseen(surface, parameters.coupling.unseen_share, input.dt_s);
+    if (felt_share_ == 0.0) last_.proxy.contact = false;
     last_.spring_force_newton =
-        rendered_force(goal_step, rise_px, parameters.coupling, input, limits);
+        felt_share_ * rendered_force(goal_step, rise_px, parameters.coupling, input, limits);
     last_.sent_force_newton =
         safety_.limit(last_.spring_force_newton + input.device_force_newton, input, limits);
     passivity_.sent(last_.sent_force_newton - input.device_force_newton);
     last_.cut = safety_.last_cut();
     last_.energy = passivity_.flow();
     return last_;
+}
+
+void TouchRenderer::fade_unseen(const DepthSurface& surface, double unseen_share,
+                                double dt_s) noexcept {
+    const Vec3& goal = last_.goal;
+    const double wanted = surface.seen_at(goal.x, goal.y) ? 1.0 : unseen_share;
+    const double step = dt_s > 0.0 ? dt_s / SafetyStage::kFade_s : 0.0;
+    felt_share_ += std::clamp(wanted - felt_share_, -step, step);
 }
 
 double TouchRenderer::rise_under_proxy(const DepthSurface& surface) const noexcept {

@@ -85,6 +85,8 @@ class TouchRenderer {
     [[nodiscard]] Vec3 rendered_force(Vec3 goal_step, double rise_px, const Coupling& coupling,
                                       const SafetyInput& input,
                                       const SafetyLimits& limits) noexcept;
+    /// Moves the share of the force that is felt to what it is at the goal, within a fade.
+    void fade_unseen(const DepthSurface& surface, double unseen_share, double dt_s) noexcept;
     /// Makes the algorithm the running one; true when it was not.
     bool run_with(Algorithm algorithm) noexcept;
 
@@ -95,6 +97,7 @@ class TouchRenderer {
     PassivityControl passivity_{};
     SafetyStage safety_{};
     Touch last_{};
+    double felt_share_{1.0};  ///< of the force: less where no surface was ever seen
     bool started_{false};
 };
 

@@ -63,10 +63,13 @@ struct DepthBlend {
     /// more.
     [[nodiscard]] bool makes_surface() const noexcept;
 
+    /// The one that the moment is nearer to.
+    [[nodiscard]] const Frame& nearest() const noexcept { return blend < 0.5 ? *from : *to; }
+
     /// Of frames that make one. Valid as long as they are.
     [[nodiscard]] DepthSurface surface(const SurfaceShape& shape,
                                        const BumpMap* bump = nullptr) const noexcept {
-        return {*from->depth, *to->depth, blend, shape, bump};
+        return {*from->depth, *to->depth, blend, shape, bump, nearest().unseen.get()};
     }
 };
 
