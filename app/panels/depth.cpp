@@ -6,7 +6,7 @@
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/sidecar.hpp"
+#include "core/video/depth/sidecar.hpp"
 
 namespace dibhr {
 

@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "core/files/plain_text.hpp"
-#include "core/video/sidecar.hpp"
+#include "core/video/depth/sidecar.hpp"
 
 namespace dibhr {
 namespace {

@@ -11,7 +11,7 @@
 #include "app/settings/falcon_settings.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/safety.hpp"
-#include "core/video/depth_cleaning.hpp"
+#include "core/video/depth/depth_cleaning.hpp"
 #include "render/scene_view.hpp"
 
 namespace dibhr {

@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "core/haptics/facet.hpp"
 #include "core/haptics/surface.hpp"
-#include "core/video/sidecar.hpp"
+#include "core/video/depth/sidecar.hpp"
 
 namespace dibhr {
 

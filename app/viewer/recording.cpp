@@ -7,8 +7,8 @@
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/parameters.hpp"
+#include "core/video/depth/sidecar.hpp"
 #include "core/video/libraries.hpp"
-#include "core/video/sidecar.hpp"
 
 namespace dibhr {
 

@@ -13,9 +13,9 @@
 #include "core/error.hpp"
 #include "core/files/content_hash.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/depth/remembering_media.hpp"
+#include "core/video/depth/sidecar.hpp"
 #include "core/video/picture_pattern.hpp"
-#include "core/video/remembering_media.hpp"
-#include "core/video/sidecar.hpp"
 
 namespace dibhr {
 

@@ -20,7 +20,7 @@
 #include "core/haptics/depth_image.hpp"
 #include "core/replay/session_replay.hpp"
 #include "core/session/session.hpp"
-#include "core/video/depth_cleaning.hpp"
+#include "core/video/depth/depth_cleaning.hpp"
 #include "core/video/media.hpp"
 
 namespace dibhr {

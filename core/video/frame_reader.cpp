@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/video/remembering_media.hpp"
+#include "core/video/depth/remembering_media.hpp"
 
 namespace dibhr {
 

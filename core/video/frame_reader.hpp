@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/haptics/surface.hpp"
-#include "core/video/depth_cleaning.hpp"
+#include "core/video/depth/depth_cleaning.hpp"
 #include "core/video/frame_window.hpp"
 #include "core/video/media.hpp"
 

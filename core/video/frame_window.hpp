@@ -13,7 +13,7 @@
 
 #include "core/haptics/depth_image.hpp"
 #include "core/haptics/surface.hpp"
-#include "core/video/depth_cleaning.hpp"
+#include "core/video/depth/depth_cleaning.hpp"
 
 namespace dibhr {
 

@@ -12,8 +12,8 @@
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/depth_finding.hpp"
-#include "core/video/depth_guess.hpp"
+#include "core/video/depth/depth_finding.hpp"
+#include "core/video/depth/depth_guess.hpp"
 #include "core/video/formats/foreign.hpp"
 #include "core/video/media_names.hpp"
 #include "core/video/paired_media.hpp"

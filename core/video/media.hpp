@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "core/video/depth_meaning.hpp"
-#include "core/video/depth_memory.hpp"
+#include "core/video/depth/depth_meaning.hpp"
+#include "core/video/depth/depth_memory.hpp"
 #include "core/video/frame_window.hpp"
 
 namespace dibhr {

@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "core/video/depth_meaning.hpp"
-#include "core/video/hue_code.hpp"
+#include "core/video/depth/depth_meaning.hpp"
+#include "core/video/depth/hue_code.hpp"
 #include "core/video/pictures.hpp"
 
 namespace dibhr {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/video/depth_finding.hpp"
+#include "core/video/depth/depth_finding.hpp"
 
 namespace dibhr {
 

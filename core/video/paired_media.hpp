@@ -6,10 +6,10 @@
 #include <optional>
 #include <string>
 
-#include "core/video/depth_scale.hpp"
+#include "core/video/depth/depth_scale.hpp"
+#include "core/video/depth/true_shape.hpp"
 #include "core/video/media.hpp"
 #include "core/video/pictures.hpp"
-#include "core/video/true_shape.hpp"
 
 namespace dibhr {
 

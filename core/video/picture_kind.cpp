@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/video/hue_code.hpp"
+#include "core/video/depth/hue_code.hpp"
 #include "core/video/packed.hpp"
 
 namespace dibhr {

@@ -5,7 +5,7 @@
 #include <opencv2/core/mat.hpp>
 #include <span>
 
-#include "core/video/depth_meaning.hpp"
+#include "core/video/depth/depth_meaning.hpp"
 
 namespace dibhr {
 

@@ -7,7 +7,7 @@
 
 #include "core/realtime/heartbeat.hpp"
 #include "core/realtime/triple_buffer.hpp"
-#include "core/video/depth_cleaning.hpp"
+#include "core/video/depth/depth_cleaning.hpp"
 #include "core/video/frame_window.hpp"
 #include "core/video/media.hpp"
 

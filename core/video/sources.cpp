@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/video/depth/hue_code.hpp"
 #include "core/video/formats/array_file.hpp"
 #include "core/video/formats/ros_bag.hpp"
 #include "core/video/formats/still_picture.hpp"
-#include "core/video/hue_code.hpp"
 #include "core/video/layouts.hpp"
 #include "core/video/libraries.hpp"
 #include "core/video/media.hpp"

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "core/video/depth_meaning.hpp"
+#include "core/video/depth/depth_meaning.hpp"
 #include "core/video/pictures.hpp"
 
 namespace dibhr {

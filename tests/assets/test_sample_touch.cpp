@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/haptics/surface.hpp"
-#include "core/video/depth_cleaning.hpp"
+#include "core/video/depth/depth_cleaning.hpp"
 #include "tests/assets/sample_files.hpp"
 #include "tests/core/haptics/fine_walk.hpp"
 #include "tests/support/catch.hpp"

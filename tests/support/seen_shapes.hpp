@@ -11,7 +11,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "core/video/depth_meaning.hpp"
+#include "core/video/depth/depth_meaning.hpp"
 
 namespace dibhr::test {
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-#include "core/video/depth_meaning.hpp"
+#include "core/video/depth/depth_meaning.hpp"
 #include "core/video/pictures.hpp"
 
 namespace dibhr {

@@ -1,5 +1,5 @@
 // The true shape of what a camera saw, written as a relief and touched by `dibhr touch`.
-#include "core/video/true_shape.hpp"
+#include "core/video/depth/true_shape.hpp"
 
 #include <cmath>
 #include <cstddef>

@@ -1,5 +1,5 @@
 // Cleaning: holes, spikes and 8-bit steps, and what cleaning must never do.
-#include "core/video/depth_cleaning.hpp"
+#include "core/video/depth/depth_cleaning.hpp"
 
 #include <algorithm>
 #include <cmath>

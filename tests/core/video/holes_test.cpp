@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/video/depth_cleaning.hpp"
+#include "core/video/depth/depth_cleaning.hpp"
 #include "core/video/frame_reader.hpp"
 #include "core/video/media.hpp"
 #include "tests/core/video/pits.hpp"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/video/hue_code.hpp"
+#include "core/video/depth/hue_code.hpp"
 #include "core/video/pictures.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/core/video/coded_scene.hpp"

@@ -1,5 +1,5 @@
 // What a pinhole camera sees of known shapes, seen straight on and touched.
-#include "core/video/true_shape.hpp"
+#include "core/video/depth/true_shape.hpp"
 
 #include <cmath>
 #include <cstddef>

@@ -1,5 +1,5 @@
 // The voices on a source's depth, the strongest first, and what they leave open.
-#include "core/video/depth_finding.hpp"
+#include "core/video/depth/depth_finding.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/video/depth_guess.hpp"
+#include "core/video/depth/depth_guess.hpp"
+#include "core/video/depth/sidecar.hpp"
 #include "core/video/media_names.hpp"
-#include "core/video/sidecar.hpp"
 
 namespace dibhr {
 

@@ -1,5 +1,5 @@
 // What a pixel without data was a moment before.
-#include "core/video/depth_memory.hpp"
+#include "core/video/depth/depth_memory.hpp"
 
 #include <algorithm>
 #include <cmath>

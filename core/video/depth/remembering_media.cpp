@@ -1,5 +1,5 @@
 // Reads a second more where it matters.
-#include "core/video/remembering_media.hpp"
+#include "core/video/depth/remembering_media.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/video/depth_scale.hpp"
+#include "core/video/depth/depth_scale.hpp"
 #include "core/video/media.hpp"
 #include "core/video/pictures.hpp"
 #include "core/video/sources.hpp"

@@ -1,5 +1,5 @@
 // Hues, the seam at red, and the ramp.
-#include "core/video/hue_code.hpp"
+#include "core/video/depth/hue_code.hpp"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "core/video/depth_meaning.hpp"
+#include "core/video/depth/depth_meaning.hpp"
 
 namespace dibhr {
 

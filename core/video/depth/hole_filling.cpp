@@ -1,5 +1,5 @@
 // What stands where a depth image has no data.
-#include "core/video/hole_filling.hpp"
+#include "core/video/depth/hole_filling.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // Measures pictures on a lattice of pixels and weighs what it sees.
-#include "core/video/depth_guess.hpp"
+#include "core/video/depth/depth_guess.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <optional>
 #include <set>
 
-#include "core/video/depth_scale.hpp"
+#include "core/video/depth/depth_scale.hpp"
 #include "core/video/pictures.hpp"
 
 namespace dibhr {

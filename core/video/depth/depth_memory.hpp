@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
-#include "core/video/hole_filling.hpp"
+#include "core/video/depth/hole_filling.hpp"
 
 namespace dibhr {
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "core/video/depth_meaning.hpp"
+#include "core/video/depth/depth_meaning.hpp"
 #include "core/video/pictures.hpp"
 
 namespace dibhr {

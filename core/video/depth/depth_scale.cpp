@@ -1,5 +1,5 @@
 // Levels to elevations, by table where there are few enough levels.
-#include "core/video/depth_scale.hpp"
+#include "core/video/depth/depth_scale.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Reads and writes the table of what depth means.
-#include "core/video/sidecar.hpp"
+#include "core/video/depth/sidecar.hpp"
 
 #include <toml++/toml.h>
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
-#include "core/video/depth_memory.hpp"
-#include "core/video/hole_filling.hpp"
+#include "core/video/depth/depth_memory.hpp"
+#include "core/video/depth/hole_filling.hpp"
 
 namespace dibhr {
 

@@ -1,5 +1,5 @@
 // Names, and one voice over another.
-#include "core/video/depth_meaning.hpp"
+#include "core/video/depth/depth_meaning.hpp"
 
 #include "core/files/plain_text.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
-#include "core/video/depth_meaning.hpp"
+#include "core/video/depth/depth_meaning.hpp"
 
 namespace dibhr {
 

@@ -1,5 +1,5 @@
 // Makes recorded depth pleasant and safe to touch: holes, spikes and 8-bit steps.
-#include "core/video/depth_cleaning.hpp"
+#include "core/video/depth/depth_cleaning.hpp"
 
 #include <algorithm>
 #include <array>

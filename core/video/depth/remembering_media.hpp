@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "core/video/depth_memory.hpp"
+#include "core/video/depth/depth_memory.hpp"
 #include "core/video/media.hpp"
 
 namespace dibhr {

@@ -1,5 +1,5 @@
 // Draws the camera's surface into an orthographic grid, row by row.
-#include "core/video/true_shape.hpp"
+#include "core/video/depth/true_shape.hpp"
 
 #include <algorithm>
 #include <cassert>
