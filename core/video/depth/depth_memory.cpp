@@ -98,19 +98,28 @@ void HeldFiller::find_farthest(const DepthImage& image) {
                static_cast<std::size_t>(i);
     };
     lowest_.assign(at(0, rows), kInfinity);
-    for (int j = 0; j < image.rows; ++j) {
-        const float* row = image.levels.data() + image.index(0, j);
-        float* lowest = lowest_.data() + at(0, j / kSquare_px);
-        for (int i = 0; i < image.columns; ++i)
-            if (row[i] < lowest[i / kSquare_px]) lowest[i / kSquare_px] = row[i];
+    for (int j = 0; j < rows; ++j) {
+        in_row_.assign(static_cast<std::size_t>(columns) * kSquare_px, kInfinity);
+        for (int y = j * kSquare_px; y < std::min((j + 1) * kSquare_px, image.rows); ++y) {
+            const float* row = image.levels.data() + image.index(0, y);
+            for (std::size_t i = 0; i < static_cast<std::size_t>(image.columns); ++i)
+                in_row_[i] = std::min(in_row_[i], row[i]);  // NaN is passed over
+        }
+        for (int i = 0; i < columns; ++i) {
+            const auto first = in_row_.begin() + std::ptrdiff_t{i} * kSquare_px;
+            lowest_[at(i, j)] = *std::min_element(first, first + kSquare_px);
+        }
     }
+    in_column_.assign(at(0, rows), kInfinity);
+    for (int j = 0; j < rows; ++j)
+        for (int y = std::max(j - kSquares, 0); y <= std::min(j + kSquares, rows - 1); ++y)
+            for (int i = 0; i < columns; ++i)
+                in_column_[at(i, j)] = std::min(in_column_[at(i, j)], lowest_[at(i, y)]);
     farthest_.assign(at(0, rows), kInfinity);
     for (int j = 0; j < rows; ++j)
         for (int i = 0; i < columns; ++i)
-            for (int y = std::max(j - kSquares, 0); y <= std::min(j + kSquares, rows - 1); ++y)
-                for (int x = std::max(i - kSquares, 0); x <= std::min(i + kSquares, columns - 1);
-                     ++x)
-                    farthest_[at(i, j)] = std::min(farthest_[at(i, j)], lowest_[at(x, y)]);
+            for (int x = std::max(i - kSquares, 0); x <= std::min(i + kSquares, columns - 1); ++x)
+                farthest_[at(i, j)] = std::min(farthest_[at(i, j)], in_column_[at(x, j)]);
 }
 
 void HeldFiller::find_seen_patches(const DepthImage& image, std::span<const HeldLevel> held) {

@@ -50,9 +50,11 @@ class HeldFiller {
     [[nodiscard]] bool was_seen(std::size_t k) const;
 
     HolePatches patches_{};
-    std::vector<std::int32_t> patch_of_{};      ///< each held level
-    std::vector<std::size_t> held_in_{};        ///< pixels of each patch
-    std::vector<float> lowest_{}, farthest_{};  ///< level in a square, around it; infinity: no data
+    std::vector<std::int32_t> patch_of_{};  ///< each held level
+    std::vector<std::size_t> held_in_{};    ///< pixels of each patch
+    // The lowest levels of pixels in a column, a square, squares in a column and all around;
+    // infinity: no data.
+    std::vector<float> in_row_{}, lowest_{}, in_column_{}, farthest_{};
     std::vector<HeldLevel> used_{};
 };
 

@@ -29,12 +29,11 @@ constexpr double kOpenInWidth = 16.0;
 
 constexpr float kToTheRim = 2.0F;  ///< squares: so far a wide hole goes beyond its discs
 
+constexpr std::size_t kChunk = 64;  ///< pixels of a row that are looked at together
 constexpr std::size_t kDiscRows = 2 * kReach_px + 1;
 constexpr std::size_t kReaches = kReach_px + 1;
 /// How far a disc's rows reach to both sides, from its middle one on.
 constexpr std::array<int, kReaches> kReachOfRow{10, 9, 9, 9, 9, 8, 8, 7, 6, 4, 0};
-constexpr std::array<bool, kReaches> kHasReach{true, false, false, false, true, false,
-                                               true, true,  true,  true,  true};
 
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 constexpr float kAbove = std::numeric_limits<float>::infinity();
@@ -91,24 +90,30 @@ struct Place {
     float share{0.0F};
 };
 
-/// Between the four squares around.
-float between(const DepthImage& grid, const std::vector<float>& values, const Place& x,
-              const Place& y) {
-    const auto in_row = [&](int j) {
-        const float before = values[grid.index(x.first, j)];
-        return before + x.share * (values[grid.index(x.second, j)] - before);
-    };
-    const float above = in_row(y.first);
-    return above + y.share * (in_row(y.second) - above);
+/// Values of the grid's squares, between two of its rows.
+void mix_rows(const DepthImage& grid, const std::vector<float>& values, const Place& y,
+              std::vector<float>& mixed) {
+    mixed.resize(static_cast<std::size_t>(grid.columns));
+    const float* above = values.data() + grid.index(0, y.first);
+    const float* below = values.data() + grid.index(0, y.second);
+    for (std::size_t i = 0; i < mixed.size(); ++i)
+        mixed[i] = above[i] + y.share * (below[i] - above[i]);
+}
+
+float between(const std::vector<float>& row, const Place& x) {
+    const float before = row[static_cast<std::size_t>(x.first)];
+    return before + x.share * (row[static_cast<std::size_t>(x.second)] - before);
 }
 
 /// What has no data becomes as high as the coarser squares around.
 void fill_from(const DepthImage& coarse, DepthImage& fine) {
-    for (int j = 0; j < fine.rows; ++j)
+    std::vector<float> row;
+    for (int j = 0; j < fine.rows; ++j) {
+        mix_rows(coarse, coarse.levels, Place(j, 2, coarse.rows), row);
         for (int i = 0; i < fine.columns; ++i)
             if (float& level = fine.at(i, j); !is_data(level))
-                level = between(coarse, coarse.levels, Place(i, 2, coarse.columns),
-                                Place(j, 2, coarse.rows));
+                level = between(row, Place(i, 2, coarse.columns));
+    }
 }
 
 /// Above 0 where discs of this radius find room that hold no data, and `more` around; between two
@@ -122,6 +127,11 @@ void room_for_discs(const cv::Mat1f& to_data, float radius, float more, std::vec
     cv::Mat1f to_centre(to_data.rows, to_data.cols, room.data());
     cv::distanceTransform(no_centre, to_centre, cv::DIST_L2, cv::DIST_MASK_5);
     to_centre = radius + more - to_centre;
+}
+
+void lowest_of(const float* a, const float* b, const float* c, float* __restrict lowest,
+               std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) lowest[i] = std::min(a[i], std::min(b[i], c[i]));
 }
 
 void lower(float* __restrict level, const float* other, std::size_t count) {
@@ -355,19 +365,17 @@ void LargeHoleFiller::widen(const DepthImage& seen, int row) {
     const auto columns = static_cast<std::size_t>(seen.columns);
     spans_.resize(kDiscRows * kReaches * columns);
     padded_.assign(columns + 2 * kReach_px, kAbove);
-    span_.resize(columns);
     widened_ = std::max(widened_, row - kReach_px);
     for (; widened_ < std::min(row + kReach_px + 1, seen.rows); ++widened_) {
         const float* levels = seen.levels.data() + seen.index(0, widened_);
         for (std::size_t i = 0; i < columns; ++i)
             padded_[kReach_px + i] = is_data(levels[i]) ? levels[i] : kAbove;
         const float* centre = padded_.data() + kReach_px;
-        std::copy_n(centre, columns, span_.begin());
+        const float* inner = centre;
         for (int reach = 0; reach <= kReach_px; ++reach) {
-            lower(span_.data(), centre - reach, columns);
-            lower(span_.data(), centre + reach, columns);
-            if (kHasReach[static_cast<std::size_t>(reach)])
-                std::copy_n(span_.begin(), columns, span_of(widened_, reach, columns));
+            float* span = span_of(widened_, reach, columns);
+            lowest_of(inner, centre - reach, centre + reach, span, columns);
+            inner = span;
         }
     }
 }
@@ -384,9 +392,14 @@ void LargeHoleFiller::find_farthest(const DepthImage& seen, int row) {
     farthest_.assign(columns, kAbove);
     const int first = std::max(row - kReach_px, 0);
     const int last = std::min(row + kReach_px, seen.rows - 1);
-    for (int j = first; j <= last; ++j) {
-        const int reach = kReachOfRow[static_cast<std::size_t>(std::abs(j - row))];
-        lower(farthest_.data(), span_of(j, reach, columns), columns);
+    const float* levels = seen.levels.data() + seen.index(0, row);
+    for (std::size_t begin = 0; begin < columns; begin += kChunk) {
+        const std::size_t count = std::min(kChunk, columns - begin);
+        if (std::all_of(levels + begin, levels + begin + count, is_data)) continue;
+        for (int j = first; j <= last; ++j) {
+            const int reach = kReachOfRow[static_cast<std::size_t>(std::abs(j - row))];
+            lower(farthest_.data() + begin, span_of(j, reach, columns) + begin, count);
+        }
     }
 }
 
@@ -394,12 +407,15 @@ void LargeHoleFiller::fill_row(DepthImage& image, int row, std::vector<std::uint
     const float outline = outline_levels(image);
     const DepthImage& grid = grids_.front();
     const Place y(row, kSquare_px, grid.rows);
+    mix_rows(grid, grid.levels, y, level_row_);
+    mix_rows(grid, wide_, y, wide_row_);
+    mix_rows(grid, open_, y, open_row_);
     for (int i = 0; i < image.columns; ++i) {
         float& level = image.at(i, row);
         if (is_data(level)) continue;
         const Place x(i, kSquare_px, grid.columns);
-        unseen[image.index(i, row)] = between(grid, wide_, x, y) > 0.0F ? 1 : 0;
-        level = between(grid, open_, x, y) > 0.0F ? 0.0F : between(grid, grid.levels, x, y);
+        unseen[image.index(i, row)] = between(wide_row_, x) > 0.0F ? 1 : 0;
+        level = between(open_row_, x) > 0.0F ? 0.0F : between(level_row_, x);
         level = std::min(level, farthest_[static_cast<std::size_t>(i)] + outline);
     }
 }

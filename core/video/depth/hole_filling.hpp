@@ -105,8 +105,9 @@ class LargeHoleFiller {
     /// as many columns and rows as the one before.
     std::vector<DepthImage> grids_{};
     std::vector<float> wide_{}, open_{};  ///< of the first one's squares: above 0 inside
-    std::vector<float> spans_{};          ///< by row and reach, of as many rows as a disc has
-    std::vector<float> padded_{}, span_{};
+    std::vector<float> level_row_{}, wide_row_{}, open_row_{};  ///< of the grid, at an image's row
+    std::vector<float> spans_{};  ///< by row and reach, of as many rows as a disc has
+    std::vector<float> padded_{};
     std::vector<float> farthest_{};  ///< of one row: the lowest level in reach; infinity: none
     int widened_{0};                 ///< rows whose spans are known
 };
