@@ -16,7 +16,8 @@ namespace {
 // which 100 are far beyond a sensor's noise (up to 65 at 4 m).
 constexpr double kSpike_share = 8.0 / 255.0;
 constexpr double kSpike_levels = 100.0;
-constexpr float kSmoothing = 0.2F;  ///< of the second difference, per axis; stable below 0.25
+constexpr int kIslandsInWidth = 80;  ///< squares side by side
+constexpr float kSmoothing = 0.2F;   ///< of the second difference, per axis; stable below 0.25
 
 /// One pass of smoothing between pixels `px` apart; a larger difference than `edge_levels` is an
 /// edge or a curve, not a terrace. Chosen on planes, on a waved surface and on real 8-bit
@@ -126,7 +127,24 @@ void DepthCleaner::remove_spikes(DepthImage& image) {
             if (outlying_[static_cast<std::size_t>(i)] != 0)
                 spikes_.push_back({image.index(i, j), median_of_neighbours(image, i, j)});
     }
-    for (const Spike& spike : spikes_) image.levels[spike.index] = spike.level;
+    for (const Spike& spike : spikes_) {
+        image.levels[spike.index] = spike.level;
+        if (std::isnan(spike.level)) refused_.push_back(spike.index);
+    }
+}
+
+void DepthCleaner::remove_islands(DepthImage& image) {
+    const auto has_data = [](float level) { return !std::isnan(level); };
+    if (std::all_of(image.levels.begin(), image.levels.end(), has_data)) return;
+    const auto side = static_cast<std::size_t>(image.columns / kIslandsInWidth);
+    patches_.find_data(image);
+    for (const Patches::Run& run : patches_.runs()) {
+        if (patches_.patch(run.patch).pixels >= side * side) continue;
+        for (int i = run.begin; i < run.end; ++i) {
+            image.at(i, run.row) = std::numeric_limits<float>::quiet_NaN();
+            refused_.push_back(image.index(i, run.row));
+        }
+    }
 }
 
 void DepthCleaner::smooth_steps(DepthImage& image) {
@@ -158,12 +176,16 @@ std::vector<std::uint8_t> DepthCleaner::clean(DepthImage& image, const CleaningO
                                               std::span<const HeldLevel> held) {
     std::vector<std::uint8_t> unseen(image.levels.size(), 0);
     const bool touchable = image.columns >= 2 && image.rows >= 2;
-    if (touchable && options.remove_spikes) remove_spikes(image);
+    refused_.clear();
+    if (touchable && options.remove_spikes) {
+        remove_spikes(image);
+        remove_islands(image);
+    }
     if (touchable && options.fill_holes) {
         seen_ = image;
         held_.fill(image, held);
         small_holes_.fill(image);
-        large_holes_.fill(image, seen_, unseen);
+        large_holes_.fill(image, seen_, refused_, unseen);
     }
     for (std::size_t k = 0; k < image.levels.size(); ++k) {
         if (!std::isnan(image.levels[k])) continue;

@@ -15,7 +15,7 @@ namespace dibhr {
 
 struct CleaningOptions {
     bool fill_holes{true};     ///< where there is no data, take what was there, or is around
-    bool remove_spikes{true};  ///< single pixels that stand out of all their neighbours
+    bool remove_spikes{true};  ///< single pixels that stand out, and small patches alone in holes
     bool smooth_steps{true};   ///< 8-bit terraces, within half a level of the data
 
     bool operator==(const CleaningOptions&) const = default;
@@ -52,12 +52,18 @@ class DepthCleaner {
     /// that has no such neighbour is no data.
     void remove_spikes(DepthImage& image);
 
+    /// Data alone in a hole, on fewer pixels than a square of an eightieth of the image's width:
+    /// what sensors make up at outlines.
+    void remove_islands(DepthImage& image);
+
     /// 8-bit images only. Every pixel is drawn towards the line between its neighbours at growing
     /// and then falling distances, not across edges, and kept within half a level of where it was:
     /// a slope that was cut into terraces becomes a slope again, and whatever the data says stays
     /// said.
     void smooth_steps(DepthImage& image);
 
+    std::vector<std::size_t> refused_{};  ///< pixels that lost their data to spikes and islands
+    Patches patches_{};
     DepthImage seen_{};  ///< without anything filled
     HeldFiller held_{};
     SmallHoleFiller small_holes_{};

@@ -123,8 +123,8 @@ void HeldFiller::find_farthest(const DepthImage& image) {
 }
 
 void HeldFiller::find_seen_patches(const DepthImage& image, std::span<const HeldLevel> held) {
-    patches_.find(image);
-    const std::vector<HolePatches::Run>& runs = patches_.runs();
+    patches_.find_holes(image);
+    const std::vector<Patches::Run>& runs = patches_.runs();
     held_in_.assign(runs.size(), 0);
     patch_of_.clear();
     auto run = runs.begin();

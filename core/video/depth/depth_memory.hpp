@@ -49,7 +49,7 @@ class HeldFiller {
     void find_seen_patches(const DepthImage& image, std::span<const HeldLevel> held);
     [[nodiscard]] bool was_seen(std::size_t k) const;
 
-    HolePatches patches_{};
+    Patches patches_{};
     std::vector<std::int32_t> patch_of_{};  ///< each held level
     std::vector<std::size_t> held_in_{};    ///< pixels of each patch
     // The lowest levels of pixels in a column, a square, squares in a column and all around;

@@ -129,6 +129,12 @@ void room_for_discs(const cv::Mat1f& to_data, float radius, float more, std::vec
     to_centre = radius + more - to_centre;
 }
 
+/// Everywhere in the row.
+bool has_data(const DepthImage& image, int row) {
+    const float* levels = image.levels.data() + image.index(0, row);
+    return std::all_of(levels, levels + image.columns, is_data);
+}
+
 void lowest_of(const float* a, const float* b, const float* c, float* __restrict lowest,
                std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) lowest[i] = std::min(a[i], std::min(b[i], c[i]));
@@ -144,28 +150,29 @@ float outline_levels(const DepthImage& image) noexcept {
     return kOutline * static_cast<float>(image.highest_level);
 }
 
-void HolePatches::find(const DepthImage& image) {
-    find_runs(image);
+void Patches::find(const DepthImage& image, bool with_data) {
+    find_runs(image, with_data);
     join_runs();
     for (Run& run : runs_) run.patch = root(run.patch);
 }
 
-void HolePatches::find_runs(const DepthImage& image) {
+void Patches::find_runs(const DepthImage& image, bool with_data) {
+    const auto is_in = [with_data](float level) { return is_data(level) == with_data; };
     runs_.clear();
     for (int j = 0; j < image.rows; ++j) {
         const float* row = image.levels.data() + image.index(0, j);
         const float* const end = row + image.columns;
-        for (const float* at = std::find_if_not(row, end, is_data); at != end;) {
-            const float* const stop = std::find_if(at, end, is_data);
+        for (const float* at = std::find_if(row, end, is_in); at != end;) {
+            const float* const stop = std::find_if_not(at, end, is_in);
             const auto patch = static_cast<std::int32_t>(runs_.size());
             runs_.push_back({j, static_cast<int>(at - row), static_cast<int>(stop - row), patch});
-            at = std::find_if_not(stop, end, is_data);
+            at = std::find_if(stop, end, is_in);
         }
     }
 }
 
 /// Each run begins as its own patch and joins those of the row above that it touches.
-void HolePatches::join_runs() {
+void Patches::join_runs() {
     patches_.clear();
     parents_.clear();
     std::size_t above = 0;
@@ -183,7 +190,7 @@ void HolePatches::join_runs() {
     }
 }
 
-std::int32_t HolePatches::root(std::int32_t patch) {
+std::int32_t Patches::root(std::int32_t patch) {
     const auto parent = [this](std::int32_t p) -> std::int32_t& {
         return parents_[static_cast<std::size_t>(p)];
     };
@@ -194,7 +201,7 @@ std::int32_t HolePatches::root(std::int32_t patch) {
     return patch;
 }
 
-void HolePatches::join(std::int32_t a, std::int32_t b) {
+void Patches::join(std::int32_t a, std::int32_t b) {
     a = root(a);
     b = root(b);
     if (a == b) return;
@@ -220,11 +227,11 @@ void SmallHoleFiller::fill(DepthImage& image) {
 }
 
 void SmallHoleFiller::keep_small(const DepthImage& image) {
-    patches_.find(image);
+    patches_.find_holes(image);
     runs_.clear();
     const int most = std::max(2, image.columns / kSmallInWidth);
     for (const Run& run : patches_.runs()) {
-        const HolePatches::Patch& patch = patches_.patch(run.patch);
+        const Patches::Patch& patch = patches_.patch(run.patch);
         if (patch.right - patch.left <= most && patch.bottom - patch.top <= most)
             runs_.push_back(run);
     }
@@ -316,11 +323,9 @@ SmallHoleFiller::Estimate SmallHoleFiller::behind(const Estimate& one,
 }
 
 void LargeHoleFiller::fill(DepthImage& image, const DepthImage& seen,
+                           std::span<const std::size_t> refused,
                            std::vector<std::uint8_t>& unseen) {
-    const auto has_data = [](const float* row, int columns) {
-        return std::all_of(row, row + columns, is_data);
-    };
-    if (has_data(seen.levels.data(), static_cast<int>(seen.levels.size()))) return;
+    if (std::all_of(seen.levels.begin(), seen.levels.end(), is_data)) return;
     grids_.clear();
     grids_.push_back(thinned(image, kSquare_px));
     while (grids_.back().levels.size() > 1) grids_.push_back(thinned(grids_.back(), 2));
@@ -333,11 +338,12 @@ void LargeHoleFiller::fill(DepthImage& image, const DepthImage& seen,
     for (std::size_t k = grids_.size() - 1; k > 0; --k) fill_from(grids_[k], grids_[k - 1]);
     widened_ = 0;
     for (int j = 0; j < image.rows; ++j) {
-        if (has_data(seen.levels.data() + seen.index(0, j), seen.columns)) continue;
+        if (has_data(seen, j)) continue;
         find_farthest(seen, j);
         fill_row(image, j, unseen);
         lift_row(image, seen, j);
     }
+    lift_beside(image, seen, refused);
 }
 
 /// Where discs that hold no data find room, in squares and a little more, so that it can be told
@@ -426,6 +432,21 @@ void LargeHoleFiller::lift_row(DepthImage& image, const DepthImage& seen, int ro
         const float farthest = farthest_[static_cast<std::size_t>(i)];
         float& level = image.at(i, row);
         if (!is_data(seen.at(i, row)) && farthest < kAbove) level = std::max(level, farthest - pit);
+    }
+}
+
+/// Pixels whose data was refused stand as high as was found for them; beside them, too, nothing
+/// falls away.
+void LargeHoleFiller::lift_beside(DepthImage& image, const DepthImage& seen,
+                                  std::span<const std::size_t> refused) {
+    if (refused.empty()) return;
+    given_ = seen;
+    for (const std::size_t pixel : refused) given_.levels[pixel] = image.levels[pixel];
+    widened_ = 0;
+    for (int j = 0; j < image.rows; ++j) {
+        if (has_data(seen, j)) continue;
+        find_farthest(given_, j);
+        lift_row(image, seen, j);
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
@@ -13,8 +14,8 @@ namespace dibhr {
 /// object's outline.
 [[nodiscard]] float outline_levels(const DepthImage& image) noexcept;
 
-/// Patches of pixels without data (NaN), joined over edges and corners, row by row.
-class HolePatches {
+/// Patches of pixels with data or without (NaN), joined over edges and corners, row by row.
+class Patches {
   public:
     /// Pixels [begin, end) of one row.
     struct Run {
@@ -27,7 +28,8 @@ class HolePatches {
         std::size_t pixels;
     };
 
-    void find(const DepthImage& image);
+    void find_holes(const DepthImage& image) { find(image, false); }
+    void find_data(const DepthImage& image) { find(image, true); }
 
     [[nodiscard]] const std::vector<Run>& runs() const noexcept { return runs_; }
     [[nodiscard]] const Patch& patch(std::int32_t number) const noexcept {
@@ -35,7 +37,8 @@ class HolePatches {
     }
 
   private:
-    void find_runs(const DepthImage& image);
+    void find(const DepthImage& image, bool with_data);
+    void find_runs(const DepthImage& image, bool with_data);
     void join_runs();
     std::int32_t root(std::int32_t patch);
     void join(std::int32_t a, std::int32_t b);
@@ -54,7 +57,7 @@ class SmallHoleFiller {
     void fill(DepthImage& image);
 
   private:
-    using Run = HolePatches::Run;
+    using Run = Patches::Run;
 
     /// The nearest level in one direction.
     struct Side {
@@ -76,7 +79,7 @@ class SmallHoleFiller {
     [[nodiscard]] static Estimate mean(const Estimate& one, const Estimate& other) noexcept;
     [[nodiscard]] Estimate behind(const Estimate& one, const Estimate& other) const noexcept;
 
-    HolePatches patches_{};
+    Patches patches_{};
     std::vector<Run> runs_{};         ///< of small patches
     std::vector<Side> above_{};       ///< of the pixels of all runs, one after the other
     std::vector<Side> in_column_{};   ///< the nearest level above, or below, by column
@@ -90,8 +93,10 @@ class LargeHoleFiller {
   public:
     /// `seen` is the image before any hole was filled: no pixel that has no data in it stays lower
     /// than all that it has within a fingertip's reach. Puts 1 into `unseen` (columns x rows, all
-    /// 0) where a hole is wider than a twentieth of the image's width.
-    void fill(DepthImage& image, const DepthImage& seen, std::vector<std::uint8_t>& unseen);
+    /// 0) where a hole is wider than a twentieth of the image's width. `refused` are pixels whose
+    /// data was not believed: what stands there instead does not end beside them either.
+    void fill(DepthImage& image, const DepthImage& seen, std::span<const std::size_t> refused,
+              std::vector<std::uint8_t>& unseen);
 
   private:
     void find_wide_and_open(int columns);
@@ -100,12 +105,15 @@ class LargeHoleFiller {
     void find_farthest(const DepthImage& seen, int row);
     void fill_row(DepthImage& image, int row, std::vector<std::uint8_t>& unseen);
     void lift_row(DepthImage& image, const DepthImage& seen, int row) const;
+    void lift_beside(DepthImage& image, const DepthImage& seen,
+                     std::span<const std::size_t> refused);
 
     /// Levels of squares of pixels, of the farther surface where there are two: each image of half
     /// as many columns and rows as the one before.
     std::vector<DepthImage> grids_{};
     std::vector<float> wide_{}, open_{};  ///< of the first one's squares: above 0 inside
     std::vector<float> level_row_{}, wide_row_{}, open_row_{};  ///< of the grid, at an image's row
+    DepthImage given_{};                                        ///< with what refused pixels became
     std::vector<float> spans_{};  ///< by row and reach, of as many rows as a disc has
     std::vector<float> padded_{};
     std::vector<float> farthest_{};  ///< of one row: the lowest level in reach; infinity: none
