@@ -81,10 +81,12 @@ PlacedRow row_of(const fs::path& place, PictureRole role) {
     const bool is_depth = role == PictureRole::depth;
     PictureRow& named = is_depth ? found.depth : found.colour;
     PictureRow& row = named.empty() ? found.unnamed : named;
+    const bool has_others = !found.colour.empty() || !found.depth.empty();
+    const std::string kind = !has_others ? "" : is_depth ? "depth " : "colour ";
     if (row.empty())
         throw InputError(shown(place) + (is_folder(place) ? " is a folder" : " is a list") +
-                         " without " + (is_depth ? "depth" : "colour") +
-                         " pictures: give the folder or the file that holds them");
+                         " without " + kind +
+                         "pictures: give the folder or the file that holds them");
     return {place, std::move(row), std::move(found.facts)};
 }
 
@@ -250,6 +252,14 @@ Sources as_it_looks(const fs::path& place, const DepthStatement& said) {
     return {nullptr, open_picture_source(place, PictureRole::colour)};
 }
 
+/// Given as both: a place of both, or else one whose pictures are colour and depth at once.
+Sources of_the_same_place(const fs::path& place, const DepthStatement& said) {
+    if (Sources both = both_as_said(place, said); both.depth) return both;
+    const PictureGuess look = guess_kind(looks_of(place, kLookedAt));
+    if (auto halves = halves_by_look(place, look)) return std::move(*halves);
+    return of_two_places(place, place, said);
+}
+
 /// Both in one place, the depth beside it, or depth alone.
 Sources of_one_place(const fs::path& place, const DepthStatement& said) {
     if (Sources both = both_as_said(place, said); both.depth) return both;
@@ -276,9 +286,13 @@ std::unique_ptr<PictureSource> open_picture_source(const fs::path& file, Picture
 Sources find_sources(const fs::path& colour, const fs::path& depth, const DepthStatement& said) {
     set_up_libraries();
     const MediaPlaces places = places_for(colour, depth);
-    Sources sources = places.depth.empty() || places.depth == places.colour
-                          ? of_one_place(places.colour, said)
-                          : of_two_places(places.colour, places.depth, said);
+    Sources sources;
+    if (places.depth.empty())
+        sources = of_one_place(places.colour, said);
+    else if (places.depth == places.colour)
+        sources = of_the_same_place(places.colour, said);
+    else
+        sources = of_two_places(places.colour, places.depth, said);
     sources.notice = places.notice;
     return sources;
 }

@@ -41,7 +41,7 @@ TEST_CASE("a file of before a parameter gives its default, and the others as the
     SessionParameters recorded{.version = 5, .touch = {}, .limits = {}, .bump = {}};
     double unusual = 0.3;
     visit_numbers(recorded,
-                  [&unusual](std::string_view, double& number) { number = unusual += 0.1; });
+                  [&unusual](std::string_view, double& number) { number = unusual += 0.01; });
     {
         const auto ring = std::make_unique<TickRing>();
         Recorder recorder(folder.file(), *ring, {});

@@ -146,14 +146,20 @@ TEST_CASE("colour alone says that a depth file is needed and where it looked", "
     CHECK(holds(refusal([&] { (void)open_media(folder / "clip.mkv"); }), "needs a depth file"));
 }
 
-TEST_CASE("depth without colour says which file is alone", "[refusal]") {
+TEST_CASE("depth alone is shown in colours of its own, light where it is near", "[refusal]") {
     const TemporaryFolder folder;
-    make_flat_clip(folder / "depth_a.mkv", 3, 25, kLossless);
-    const std::string alone = refusal([&] { (void)open_media(folder / "depth_a.mkv"); });
-    CHECK(holds(alone, "depth_a.mkv"));
-    CHECK(holds(alone, "alone"));
-    CHECK(holds(alone, "colour"));
-    CHECK(holds(refusal([&] { (void)open_media({}, folder / "depth_a.mkv"); }), "colour"));
+    make_flat_clip(folder / "depth_a.mkv", 3, 25, kLossless);  // frame n has level 5 n
+    const bool as_depth = GENERATE(true, false);
+    const auto media = as_depth ? open_media({}, folder / "depth_a.mkv")
+                                : open_media(folder / "depth_a.mkv");
+    const auto brightness = [](const RawFrame& frame) {
+        return frame.colour.rgb[0] + frame.colour.rgb[1] + frame.colour.rgb[2];
+    };
+    const auto far = media->next();
+    CHECK(far->colour.columns == far->depth.columns);
+    CHECK(media->next().has_value());
+    CHECK(brightness(*media->next()) > brightness(*far));
+    CHECK(media->description().colour_path.empty());
 }
 
 TEST_CASE("reading good and bad files leaves the standard error stream to the program",
