@@ -54,7 +54,7 @@ void centred_label(const ViewerState& state, const std::string& text, float line
                    float alpha) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float line = ImGui::GetFrameHeight();
-    const float bar = line + 2.0F * ImGui::GetStyle().WindowPadding.y;
+    const float bar = bottom_bar_height(state);
     const float width = display.x - panel_column_width(state);
     label(text,
           {(width - ImGui::CalcTextSize(text.c_str()).x) * 0.5F,

@@ -32,6 +32,8 @@ void draw_replay_panel(ViewerState& state, SessionPlayer& replay);
 void draw_panel_column(ViewerState& state, Player& player, SessionPlayer* replay);
 [[nodiscard]] float panel_column_width(const ViewerState& state);
 
+/// Of the bar under the relief [px].
+[[nodiscard]] float bottom_bar_height(const ViewerState& state);
 /// The bar under the relief: play, time line, time and frame, force switch.
 void draw_transport_bar(ViewerState& state, Player& player);
 /// The same for a replay: with the contacts and marks on the time line.

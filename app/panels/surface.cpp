@@ -1,6 +1,7 @@
 // The Surface panel: the shape of the relief, how it is drawn, and from where.
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
+#include "core/files/plain_text.hpp"
 
 namespace dibhr {
 
@@ -21,6 +22,30 @@ void draw_shape(ViewerState& state) {
              "The hand's reach is the picture's width (--pixel-pitch auto)");
 }
 
+/// The pixel under the hand, in the depth's own words and as it stands.
+void draw_under_hand(const ViewerState& state) {
+    if (!state.under_hand) {
+        fact_row("Under the hand", "beside the picture");
+        return;
+    }
+    const UnderHand& here = *state.under_hand;
+    const double pitch_mm = state.settings.touch.coupling.pixel_pitch_mm;
+    fact_row("Under the hand", formatted("pixel %d, %d", here.column, here.row));
+    fact_row("Stands",
+             formatted("%.1f px, %.2f mm", here.elevation_px, here.elevation_px * pitch_mm));
+    if (here.unseen) {
+        fact_row("Depth", "no data");
+    } else if (state.media.meaning) {
+        const DepthMeaning& meaning = *state.media.meaning;
+        const double value = value_at(meaning, here.nearness);
+        const std::string unit(meaning.unit.value == DepthUnit::levels
+                                   ? std::string_view{}
+                                   : name_of(meaning.unit.value));
+        fact_row("Depth", short_text(value, 5) + " " + unit +
+                              formatted(" (level %.1f)", value / meaning.scale.value));
+    }
+}
+
 }  // namespace
 
 void draw_surface_panel(ViewerState& state) {
@@ -29,6 +54,7 @@ void draw_surface_panel(ViewerState& state) {
     Settings& settings = state.settings;
     const ReliefLook standard;
     draw_shape(state);
+    draw_under_hand(state);
     number_row({"Shading", "%.2f", 0.0, 1.0, standard.light, "0: flat colour, 1: strong"},
                settings.look.light);
     flag_row("Colour of the video", settings.look.textured, standard.textured,

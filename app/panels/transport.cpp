@@ -119,9 +119,7 @@ std::optional<double> draw_line_and_time(const TimeLineContents& line, float rig
 /// As wide as the relief; to be ended with ImGui::End().
 void begin_bottom_bar(const ViewerState& state, const char* name) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
-    const ImGuiStyle& style = ImGui::GetStyle();
-    const float line = state.replay ? 0.0F : ImGui::GetTextLineHeight() + style.ItemSpacing.y;
-    const float height = ImGui::GetFrameHeight() + line + 2.0F * style.WindowPadding.y;
+    const float height = bottom_bar_height(state);
     ImGui::SetNextWindowPos({0.0F, display.y - height});
     ImGui::SetNextWindowSize({display.x - panel_column_width(state), height});
     ImGui::SetNextWindowBgAlpha(0.85F);
@@ -156,6 +154,13 @@ TimeLineContents line_of(const ReplayNews& news) {
 }
 
 }  // namespace
+
+float bottom_bar_height(const ViewerState& state) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const bool has_line = !state.replay && state.media.meaning;
+    const float line = has_line ? ImGui::GetTextLineHeight() + style.ItemSpacing.y : 0.0F;
+    return ImGui::GetFrameHeight() + line + 2.0F * style.WindowPadding.y;
+}
 
 void draw_transport_bar(ViewerState& state, Player& player) {
     const ImGuiStyle& style = ImGui::GetStyle();

@@ -99,6 +99,14 @@ struct ReplayNews {
     const ContactBand* contacts{nullptr};  ///< null: not yet summed up
 };
 
+/// What is shown where the hand is: a pixel of the depth, and what it holds.
+struct UnderHand {
+    int column{0}, row{0};
+    double nearness{0.0};      ///< 0: the farthest, 1: the nearest
+    double elevation_px{0.0};  ///< of the surface, with its roughness
+    bool unseen{false};        ///< no surface was ever seen there
+};
+
 /// What the window shows of the Falcon.
 struct FalconNews {
     falcon::Status status{};
@@ -121,6 +129,7 @@ struct ViewerState {
     OpenRequest opened{};  ///< how it was opened
     PlaybackStatus playback{};
     HapticState haptic{};
+    std::optional<UnderHand> under_hand{};  ///< nothing: the hand is beside the picture
     bool catching_up{false};  ///< the proxy is, or was a moment ago: long enough to be read
     std::optional<FalconNews> falcon{};  ///< nothing: no Falcon is looked for
     std::optional<RealtimeGrants> grants{};

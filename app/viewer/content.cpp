@@ -1,5 +1,6 @@
 // What the viewer shows: a video to touch or a session to replay, the files that go with it, and
 // the scene made of them.
+#include <cmath>
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <memory>
@@ -52,6 +53,19 @@ SceneContent scene_content(const ViewerState& state, const DepthBlend& shown) {
     const DepthSurface surface = shown.surface(content.shape, content.bump);
     content.markers = markers_of(state, surface);
     return content;
+}
+
+std::optional<UnderHand> under_hand(const ViewerState& state, const DepthBlend& shown) {
+    if (!shown.makes_surface()) return {};
+    const Vec3 goal = state.haptic.touch.goal;
+    const DepthImage& depth = *shown.from->depth;
+    const int i = static_cast<int>(std::lround(goal.x));
+    const int j = static_cast<int>(std::lround(goal.y));
+    if (i < 0 || j < 0 || i >= depth.columns || j >= depth.rows) return {};
+    const DepthSurface surface = shown.surface(state.shape(), state.bump.get());
+    const auto& unseen = shown.nearest().unseen;
+    return UnderHand{i, j, depth.at(i, j) / depth.highest_level, surface.elevation_at(i, j),
+                     unseen && (*unseen)[depth.index(i, j)] != 0};
 }
 
 }  // namespace
@@ -172,6 +186,7 @@ void Viewer::start_loop() {
 void Viewer::draw_scene(glm::ivec2 viewport) {
     camera_.set_projection(state_.settings.straight_view ? Camera::Projection::straight
                                                          : Camera::Projection::perspective);
+    state_.under_hand = under_hand(state_, shown_);
     scene_.draw(scene_content(state_, shown_), camera_, viewport);
 }
 

@@ -112,6 +112,17 @@ void hear(const Voices& voices, DepthMeaning& meaning) {
     if (intrinsics.value != before) meaning.intrinsics = intrinsics;
 }
 
+double on_the_line(DepthUnit unit, double value) {
+    return unit == DepthUnit::disparity ? 1.0 / value : value;
+}
+
+double value_at(const DepthMeaning& meaning, double nearness) {
+    const DepthUnit unit = meaning.unit.value;
+    const double far = on_the_line(unit, meaning.range.value.far);
+    const double near = on_the_line(unit, meaning.range.value.near);
+    return on_the_line(unit, far + nearness * (near - far));  // its own inverse
+}
+
 std::string in_words(const DepthMeaning& meaning) {
     std::string words;
     const DepthRange& range = meaning.range.value;

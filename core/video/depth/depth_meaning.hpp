@@ -119,6 +119,13 @@ using Voices = std::vector<std::pair<Origin, DepthStatement>>;
 /// What the strongest voice says of each thing; where none says anything it stays as it is.
 void hear(const Voices& voices, DepthMeaning& meaning);
 
+/// The value on the line on which elevation is linear: the value itself, or one over it.
+[[nodiscard]] double on_the_line(DepthUnit unit, double value);
+
+/// The value in the unit that stands there, `nearness` in [0, 1] of the way from the farthest to
+/// the nearest.
+[[nodiscard]] double value_at(const DepthMeaning& meaning, double nearness);
+
 /// In one line, for a person: "16-bit millimetres, near is dark, 480 to 4210 mm, 0 is no data".
 [[nodiscard]] std::string in_words(const DepthMeaning& meaning);
 

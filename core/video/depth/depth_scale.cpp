@@ -43,10 +43,6 @@ void map_levels(const cv::Mat& grey, const std::vector<float>& of_level, std::ve
 
 }  // namespace
 
-double on_the_line(DepthUnit unit, double value) {
-    return unit == DepthUnit::disparity ? 1.0 / value : value;
-}
-
 DepthScale::DepthScale(const DepthMeaning& meaning, int bits)
     : meaning_(meaning), highest_(highest_of(meaning, bits)) {
     const DepthRange& range = meaning_.range.value;

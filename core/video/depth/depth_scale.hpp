@@ -52,7 +52,4 @@ class DepthScale {
     std::vector<float> of_level_{};  ///< of every integer level; empty: of real numbers
 };
 
-/// The value on the line on which elevation is linear: the value itself, or one over it.
-[[nodiscard]] double on_the_line(DepthUnit unit, double value);
-
 }  // namespace dibhr
