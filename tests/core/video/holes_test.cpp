@@ -216,6 +216,26 @@ TEST_CASE("what was never seen is the farthest, and told apart", "[holes]") {
     CHECK(unseen[raw.index(40, 60)] == 0);
 }
 
+TEST_CASE("a small patch of data alone in a hole is refused", "[holes]") {
+    const auto scene = [](int i, int j) {
+        return in_rectangle(i, j, 10, 10, 1, 3) ? 2900.0 : far_and_near_box(i, j);
+    };
+    CHECK(same(cleaned(image_with(scene)), cleaned(image_with(far_and_near_box))));
+}
+
+TEST_CASE("nothing falls away beside data that was refused", "[holes]") {
+    std::mt19937 random(3);
+    const Level sparkling = [&](int i, int j) {
+        const double level = far_and_near_box(i, j);
+        const bool sparkles = std::isnan(level) && random() % 100 == 0;
+        return sparkles ? static_cast<double>(random() % 3000) : level;
+    };
+    const std::vector<DepthImage> raw = Recording{sparkling, 0.013}.frames(6);
+    const std::vector<DepthImage> done = cleaned(raw);
+    for (std::size_t k = 0; k < raw.size(); ++k)
+        CHECK(count_pits(raw[k], done[k], Pits::in_holes) == 0);
+}
+
 TEST_CASE("small holes and whole images have nothing unseen", "[holes]") {
     CHECK(unseen_of(image_with(plane)).empty());
     CHECK(unseen_of(image_with(plane, [](int i, int j) {

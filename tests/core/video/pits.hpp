@@ -16,8 +16,11 @@ inline double elevation_px(const DepthImage& image, std::size_t pixel) {
     return kRelief_px * static_cast<double>(image.levels[pixel]) / image.highest_level;
 }
 
-/// Pixels more than 5 px below every neighbour within 10 px that has data in `raw`.
-inline int count_pits(const DepthImage& raw, const DepthImage& cleaned) {
+enum class Pits { all, in_holes };
+
+/// Pixels more than 5 px below every neighbour within 10 px that has data in `raw`: all, or those
+/// that have none themselves. A camera may measure what looks like a pit.
+inline int count_pits(const DepthImage& raw, const DepthImage& cleaned, Pits which = Pits::all) {
     constexpr int kReach = 10;
     constexpr double kDeep_px = 5.0;
     const auto is_pit = [&](int i, int j) {
@@ -33,7 +36,10 @@ inline int count_pits(const DepthImage& raw, const DepthImage& cleaned) {
     };
     int pits = 0;
     for (int j = 0; j < raw.rows; ++j)
-        for (int i = 0; i < raw.columns; ++i) pits += is_pit(i, j) ? 1 : 0;
+        for (int i = 0; i < raw.columns; ++i) {
+            const bool counts = which == Pits::all || std::isnan(raw.at(i, j));
+            pits += counts && is_pit(i, j) ? 1 : 0;
+        }
     return pits;
 }
 
