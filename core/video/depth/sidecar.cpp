@@ -52,19 +52,20 @@ std::optional<Intrinsics> intrinsics_of(const std::vector<double>& numbers) {
     return Intrinsics{numbers[0], numbers[1], numbers[2], numbers[3]};
 }
 
-/// The numbers of an array, or of a text as the command line has it.
+/// The finite number, those of an array, or of a text as the command line has it.
 std::optional<std::vector<double>> numbers_of(const toml::node& node, char separator) {
     if (const auto text = node.value_exact<std::string>()) return numbers_in(*text, separator);
-    if (node.is_number()) return std::vector{*node.value<double>()};
-    const toml::array* const array = node.as_array();
-    if (array == nullptr) return std::nullopt;
     std::vector<double> numbers;
-    for (const toml::node& entry : *array) {
+    const auto take = [&numbers](const toml::node& entry) {
         const auto number = entry.is_number() ? entry.value<double>() : std::nullopt;
-        if (!number || !std::isfinite(*number)) return std::nullopt;
+        if (!number || !std::isfinite(*number)) return false;
         numbers.push_back(*number);
-    }
-    return numbers;
+        return true;
+    };
+    const toml::array* const array = node.as_array();
+    const bool all =
+        array == nullptr ? take(node) : std::all_of(array->begin(), array->end(), take);
+    return all ? std::optional(numbers) : std::nullopt;
 }
 
 template <typename Values>

@@ -1,0 +1,172 @@
+// How high a level stands, by the rule of its unit.
+#include "core/video/depth/depth_scale.hpp"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <opencv2/core.hpp>
+#include <string>
+
+#include "core/video/pictures.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace dibhr;
+
+namespace {
+
+constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+
+DepthMeaning meaning_of(DepthUnit unit, DepthRange range, double scale = 1.0) {
+    DepthMeaning meaning;
+    meaning.unit.value = unit;
+    meaning.range.value = range;
+    meaning.scale.value = scale;
+    meaning.near.value = range.near > range.far ? NearLevels::bright : NearLevels::dark;
+    return meaning;
+}
+
+/// From 0, the farthest, to 1, the nearest.
+double nearness(const DepthScale& scale, double level) {
+    return static_cast<double>(scale(level)) / scale.highest_level();
+}
+
+/// A picture of one row: 0 and on to the last level.
+template <typename Level>
+cv::Mat all_levels() {
+    cv::Mat picture(1, std::numeric_limits<Level>::max() + 1, cv::DataType<Level>::type);
+    for (int i = 0; i < picture.cols; ++i) picture.at<Level>(0, i) = static_cast<Level>(i);
+    return picture;
+}
+
+std::uint32_t bits_of(float number) {
+    return std::bit_cast<std::uint32_t>(number);
+}
+
+}  // namespace
+
+TEST_CASE("a level stands where the rule of its unit puts it", "[scale]") {
+    struct Case {
+        DepthUnit unit;
+        DepthRange range;
+        double scale;
+        double level;
+        double nearness;
+    };
+    const Case a = GENERATE(
+        // (v - far) / (near - far)
+        Case{DepthUnit::levels, {200.0, 100.0}, 1.0, 125.0, 0.25},
+        Case{DepthUnit::levels, {100.0, 200.0}, 1.0, 125.0, 0.75},
+        Case{DepthUnit::levels, {20.0, 10.0}, 0.1, 125.0, 0.25},
+        // (far - v) / (far - near)
+        Case{DepthUnit::mm, {500.0, 4500.0}, 1.0, 1500.0, 0.75},
+        Case{DepthUnit::mm, {500.0, 4500.0}, 0.2, 7500.0, 0.75},
+        Case{DepthUnit::m, {0.5, 4.5}, 0.0002, 7500.0, 0.75},
+        Case{DepthUnit::m, {4.5, 0.5}, 1.0, 1.5, 0.25},  // near is bright
+        // (1/far - 1/v) / (1/far - 1/near)
+        Case{DepthUnit::disparity, {100.0, 20.0}, 1.0, 50.0, (0.05 - 0.02) / (0.05 - 0.01)},
+        Case{DepthUnit::disparity, {10.0, 2.0}, 0.1, 50.0, (0.5 - 0.2) / (0.5 - 0.1)},
+        Case{DepthUnit::disparity, {20.0, 100.0}, 1.0, 50.0, (0.02 - 0.01) / (0.05 - 0.01)});
+    CAPTURE(name_of(a.unit), a.range.near, a.range.far, a.scale, a.level);
+    for (const int bits : {16, kRealBits}) {
+        const DepthScale scale(meaning_of(a.unit, a.range, a.scale), bits);
+        CHECK(std::abs(nearness(scale, a.level) - a.nearness) < 1e-6);
+        CHECK(std::abs(nearness(scale, a.range.near / a.scale) - 1.0) < 1e-6);
+        CHECK(std::abs(nearness(scale, a.range.far / a.scale)) < 1e-6);
+    }
+}
+
+TEST_CASE("what lies beyond an end of the range stands at that end", "[scale]") {
+    const auto unit =
+        GENERATE(DepthUnit::levels, DepthUnit::disparity, DepthUnit::mm, DepthUnit::m);
+    const bool bright = GENERATE(true, false);
+    CAPTURE(name_of(unit), bright);
+    const DepthRange range = bright ? DepthRange{300.0, 100.0} : DepthRange{100.0, 300.0};
+    for (const int bits : {16, kRealBits}) {
+        const DepthScale scale(meaning_of(unit, range), bits);
+        CHECK(nearness(scale, 10.0) == (bright ? 0.0 : 1.0));
+        CHECK(nearness(scale, 60000.0) == (bright ? 1.0 : 0.0));
+    }
+}
+
+TEST_CASE("a disparity of 0 is at infinity, and none below it is nearer", "[scale]") {
+    const DepthScale scale(meaning_of(DepthUnit::disparity, {50.0, 2.0}), kRealBits);
+    for (const double level : {0.0, -0.0, -1e-300, -5.0}) CHECK(scale(level) == 0.0F);
+}
+
+TEST_CASE("levels that are no data, and what is not finite, are NaN", "[scale]") {
+    DepthMeaning meaning = meaning_of(DepthUnit::mm, {500.0, 4500.0});
+    meaning.no_data.value = {0.0, 2047.0, 65535.0};
+    for (const int bits : {16, kRealBits}) {
+        const DepthScale scale(meaning, bits);
+        for (const double level : {0.0, 2047.0, 65535.0}) CHECK(std::isnan(scale(level)));
+        for (const double level : {1.0, 2046.0, 2048.0, 65534.0})
+            CHECK(std::isfinite(scale(level)));
+        const double infinity = std::numeric_limits<double>::infinity();
+        for (const double level : {infinity, -infinity, std::nan("")})
+            CHECK(std::isnan(scale(level)));
+    }
+}
+
+TEST_CASE("a step of integer levels is a step of 1, and a millimetre one where there are enough",
+          "[scale]") {
+    CHECK(DepthScale(meaning_of(DepthUnit::levels, {200.0, 100.0}), 8).highest_level() == 100.0);
+    CHECK(DepthScale(meaning_of(DepthUnit::levels, {1.0, 0.0}, 1.0 / 4095), 12).highest_level() ==
+          4095.0);
+    CHECK(DepthScale(meaning_of(DepthUnit::mm, {500.0, 4500.0}), 16).highest_level() == 4000.0);
+    CHECK(DepthScale(meaning_of(DepthUnit::m, {0.5, 4.5}), kRealBits).highest_level() == 4000.0);
+    CHECK(DepthScale(meaning_of(DepthUnit::mm, {500.0, 600.0}), 16).highest_level() == 65535.0);
+    CHECK(DepthScale(meaning_of(DepthUnit::levels, {1.0, 0.0}), kRealBits).highest_level() ==
+          65535.0);
+}
+
+TEST_CASE("tables of 8 and 16 bits say what the rule says", "[scale]") {
+    const auto unit =
+        GENERATE(DepthUnit::levels, DepthUnit::disparity, DepthUnit::mm, DepthUnit::m);
+    DepthMeaning meaning = meaning_of(unit, {200.0, 20.0});
+    meaning.no_data.value = {0.0, 77.0};
+    CAPTURE(name_of(unit));
+    const auto differing = [&](const cv::Mat& picture, int bits) {
+        const DepthScale scale(meaning, bits);
+        const DepthImage depth = scale.image_of(picture);
+        cv::Mat real;
+        picture.convertTo(real, CV_32F);
+        const DepthImage of_real = scale.image_of(real);
+        int count = 0;
+        for (std::size_t k = 0; k < depth.levels.size(); ++k) {
+            const float by_rule = scale(static_cast<double>(k));
+            count += static_cast<int>(bits_of(depth.levels[k]) != bits_of(by_rule) ||
+                                      bits_of(of_real.levels[k]) != bits_of(by_rule));
+        }
+        return count;
+    };
+    CHECK(differing(all_levels<std::uint8_t>(), 8) == 0);
+    CHECK(differing(all_levels<std::uint16_t>(), 16) == 0);
+}
+
+TEST_CASE("levels as recorded are those of the file, bit for bit", "[scale]") {
+    const auto differing = [](const cv::Mat& picture, int bits) {
+        const DepthScale scale = DepthScale::as_recorded(bits);
+        CHECK(scale.highest_level() == highest_level(bits));
+        CHECK_FALSE(scale.meaning());
+        const DepthImage depth = scale.image_of(picture);
+        int count = 0;
+        for (std::size_t k = 0; k < depth.levels.size(); ++k)
+            count += static_cast<int>(bits_of(depth.levels[k]) != bits_of(static_cast<float>(k)));
+        return count;
+    };
+    CHECK(differing(all_levels<std::uint8_t>(), 8) == 0);
+    CHECK(differing(all_levels<std::uint16_t>(), 16) == 0);
+}
+
+TEST_CASE("real numbers as recorded stay as they are, however high", "[scale]") {
+    const cv::Mat picture =
+        (cv::Mat_<float>(1, 8) << 0.0F, 1.0F, 0.1F, 254.9F, 255.0F, 4321.0F, -3.0F, kNone);
+    const DepthImage depth = DepthScale::as_recorded(kRealBits).image_of(picture);
+    CHECK(depth.highest_level == 255.0);
+    for (int i = 0; i < 7; ++i) {
+        CAPTURE(i);
+        CHECK(depth.at(i, 0) == picture.at<float>(0, i));
+    }
+    CHECK(std::isnan(depth.at(7, 0)));
+}
