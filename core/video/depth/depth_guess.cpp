@@ -98,11 +98,11 @@ std::vector<double> guess_no_data(const std::vector<Lattice>& lattices, int bits
     const std::vector<float> others = sorted_levels(lattices, {0.0, highest});
     if (others.empty()) return zeros > 0.0 ? std::vector{0.0} : std::vector<double>{};
     const double nearest = quantile(others, kTail);
-    const double farthest = quantile(others, kNearest);
     std::vector<double> none;
-    if (zeros > kLeastNone && nearest > kGap * farthest) none.push_back(0.0);
+    if (zeros > kLeastNone && nearest > kGap * quantile(others, kNearest)) none.push_back(0.0);
     const double tops = share_between(levels, highest, highest);
-    if (tops > 0.0 && highest - farthest > kGap * highest) none.push_back(highest);
+    if (tops > 0.0 && highest - quantile(others, 1.0 - kTail) > kGap * highest)
+        none.push_back(highest);
     return none;
 }
 

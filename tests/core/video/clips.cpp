@@ -23,6 +23,16 @@ void make_flat_clip(const std::filesystem::path& file, int frames, int frames_pe
            " -fps_mode passthrough " + encoding + " '" + file.string() + "'");
 }
 
+void turn(const std::filesystem::path& file, const std::filesystem::path& turned, int degrees) {
+    const std::string from = "-i '" + file.string() + "' -c copy ";
+    const std::string to = "'" + turned.string() + "'";
+    try {
+        ffmpeg("-display_rotation:v:0 " + std::to_string(-degrees) + " " + from + to);
+    } catch (const std::runtime_error&) {  // before ffmpeg 6, which turned the other way
+        ffmpeg(from + "-metadata:s:v:0 rotate=" + std::to_string((360 - degrees) % 360) + " " + to);
+    }
+}
+
 void write_picture(const std::filesystem::path& file, int columns, int rows, int bits, int channels,
                    const std::function<int(int, int, int)>& level) {
     cv::Mat picture(rows, columns, CV_MAKETYPE(bits == 16 ? CV_16U : CV_8U, channels));

@@ -25,6 +25,9 @@ inline const std::string kH264 = "-c:v libx264 -crf 8 -bf 2 -g 12 -pix_fmt yuv42
 inline const std::string kVp9 =
     "-c:v libvpx-vp9 -crf 8 -b:v 0 -deadline realtime -g 12 -pix_fmt yuv420p";
 
+/// The same video, to be shown turned clockwise.
+void turn(const std::filesystem::path& file, const std::filesystem::path& turned, int degrees);
+
 /// A PNG of the given bits and channels, level(column, row, channel).
 void write_picture(const std::filesystem::path& file, int columns, int rows, int bits, int channels,
                    const std::function<int(int, int, int)>& level);

@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
+#include "tests/core/video/coded_scene.hpp"
+
 namespace dibhr::test {
 
-inline constexpr int kSceneColumns = 320;
-inline constexpr int kSceneRows = 240;
 inline constexpr int kSceneLevels = 4096;
 
 /// Which of the 4096 levels a pixel of the scene has; each occurs.

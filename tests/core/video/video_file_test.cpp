@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <stdexcept>
 #include <string>
 
 #include "core/video/media.hpp"
@@ -64,17 +63,6 @@ double worst_of(const DepthImage& depth, const Form& form) {
     return worst;
 }
 
-/// The same video, to be shown turned clockwise.
-void turn(const std::filesystem::path& file, const std::filesystem::path& turned, int degrees) {
-    const std::string from = "-i '" + file.string() + "' -c copy ";
-    const std::string to = "'" + turned.string() + "'";
-    try {
-        ffmpeg("-display_rotation:v:0 " + std::to_string(-degrees) + " " + from + to);
-    } catch (const std::runtime_error&) {  // before ffmpeg 6
-        ffmpeg(from + "-metadata:s:v:0 rotate=" + std::to_string(degrees) + " " + to);
-    }
-}
-
 }  // namespace
 
 TEST_CASE("every level of a video arrives, in 8 to 16 bits, whatever the range and the byte order",
@@ -120,7 +108,7 @@ TEST_CASE("a video that was recorded with the camera turned is turned back, dept
           "[media]") {
     const TemporaryFolder folder;
     const auto [degrees, level] =
-        GENERATE(table<int, double>({{0, 10.0}, {90, 60.0}, {180, 210.0}, {270, 160.0}}));
+        GENERATE(table<int, double>({{0, 10.0}, {90, 160.0}, {180, 210.0}, {270, 60.0}}));
     // Corners of 10, 60, 210 and 160, clockwise from the upper left.
     ffmpeg(
         "-f lavfi -i color=black:s=80x60:r=10:d=0.3,format=gray,"
