@@ -96,32 +96,6 @@ Sources pair_of(PlacedRow colour, const PlacedRow& depth) {
             sequence(colour, depth.pictures, PictureRole::colour)};
 }
 
-/// The colour and the depth of one still picture, of one file's tracks, of one bag or folder;
-/// nothing when it does not hold both.
-Sources both_in(const fs::path& place) {
-    if (is_ros_bag(place)) {
-        if (!ros_bag_holds(place, PictureRole::colour)) return {};
-        return {open_ros_topic(place, PictureRole::depth),
-                open_ros_topic(place, PictureRole::colour)};
-    }
-    if (names_pictures(place)) {
-        PictureSet found = pictures_at(place);
-        if (found.colour.empty() || found.depth.empty()) return {};
-        return pair_of({place, std::move(found.colour), {}},
-                       {place, std::move(found.depth), std::move(found.facts)});
-    }
-    require_readable(place);
-    if (holds_colour_and_depth(place))
-        return {open_picture_source(place, PictureRole::depth),
-                open_picture_source(place, PictureRole::colour)};
-    const auto tracks = colour_and_depth_tracks(place);
-    if (!tracks) return {};
-    Sources both{std::make_unique<VideoFile>(place, PictureRole::depth, tracks->depth),
-                 std::make_unique<VideoFile>(place, PictureRole::colour, tracks->colour)};
-    both.found.packing = DepthPacking::tracks;
-    return both;
-}
-
 Sources halves_of(const fs::path& place, const PackedForm& form) {
     UnpackedSources halves = open_packed(place, form);
     Sources sources{std::move(halves.depth), std::move(halves.colour)};
@@ -136,10 +110,16 @@ cv::Size picture_size(const fs::path& place) {
     return {source->facts().columns, source->facts().rows};
 }
 
+/// A place as it looks; of a video that track.
+std::unique_ptr<PictureSource> open_look(const fs::path& place, int track = 0) {
+    if (track > 0) return std::make_unique<VideoFile>(place, PictureRole::colour, track);
+    return open_picture_source(place, PictureRole::colour);
+}
+
 /// Pictures of a place as they look; none of what does not look like anything (real numbers).
-std::vector<cv::Mat> looks_of(const fs::path& place, int most) {
+std::vector<cv::Mat> looks_of(const fs::path& place, int most, int track = 0) {
     try {
-        return open_picture_source(place, PictureRole::colour)->samples(most);
+        return open_look(place, track)->samples(most);
     } catch (const InputError&) {
         return {};  // it is depth of a form that has no colours
     }
@@ -175,22 +155,46 @@ std::optional<Sources> halves_by_look(const fs::path& place, const PictureGuess&
 }
 
 /// A source of colours is decoded where they are a code, as somebody says or as they look.
-Sources decoded(const fs::path& place, Sources sources, const DepthStatement& said) {
+Sources decoded(const fs::path& place, Sources sources, const DepthStatement& said, int track = 0) {
     const bool may_be_coded = !said.code && sources.depth->facts().channels != 1 &&
                               !names_pictures(place) && !is_array_file(place);
     PictureKind kind = PictureKind::grey_depth;
-    if (may_be_coded) kind = guess_kind(looks_of(place, kLookedAt)).kind;
+    if (may_be_coded) kind = guess_kind(looks_of(place, kLookedAt, track)).kind;
     sources.by_look = kind == PictureKind::hue_depth || kind == PictureKind::ramp_depth;
     const bool is_hue = said.code == DepthCode::hue || kind == PictureKind::hue_depth;
     if (is_hue) {
-        sources.depth =
-            hue_decoded(open_picture_source(place, PictureRole::colour), HueCode{}, "its hues");
+        sources.depth = hue_decoded(open_look(place, track), HueCode{}, "its hues");
         sources.assumed.code = DepthCode::hue;
     } else if (kind == PictureKind::ramp_depth) {
-        sources.depth =
-            ramp_decoded(open_picture_source(place, PictureRole::colour), "its colours");
+        sources.depth = ramp_decoded(open_look(place, track), "its colours");
     }
     return sources;
+}
+
+/// The colour and the depth of one still picture, of one file's tracks, of one bag or folder;
+/// nothing when it does not hold both.
+Sources both_in(const fs::path& place, const DepthStatement& said) {
+    if (is_ros_bag(place)) {
+        if (!ros_bag_holds(place, PictureRole::colour)) return {};
+        return {open_ros_topic(place, PictureRole::depth),
+                open_ros_topic(place, PictureRole::colour)};
+    }
+    if (names_pictures(place)) {
+        PictureSet found = pictures_at(place);
+        if (found.colour.empty() || found.depth.empty()) return {};
+        return pair_of({place, std::move(found.colour), {}},
+                       {place, std::move(found.depth), std::move(found.facts)});
+    }
+    require_readable(place);
+    if (holds_colour_and_depth(place))
+        return {open_picture_source(place, PictureRole::depth),
+                open_picture_source(place, PictureRole::colour)};
+    const auto tracks = colour_and_depth_tracks(place);
+    if (!tracks) return {};
+    Sources both{std::make_unique<VideoFile>(place, PictureRole::depth, tracks->depth),
+                 std::make_unique<VideoFile>(place, PictureRole::colour, tracks->colour)};
+    both.found.packing = DepthPacking::tracks;
+    return decoded(place, std::move(both), said, tracks->depth);
 }
 
 /// The depth of a place that holds no colour.
@@ -236,7 +240,7 @@ Sources of_two_places(const fs::path& colour, const fs::path& depth, const Depth
 /// nothing where they do not.
 Sources both_as_said(const fs::path& place, const DepthStatement& said) {
     if (!said.packing || !is_of_halves(*said.packing)) {
-        if (Sources both = both_in(place); both.depth) return both;
+        if (Sources both = both_in(place, said); both.depth) return both;
     }
     if (is_ros_bag(place)) return {};
     const auto form = packed_form(place, said);
