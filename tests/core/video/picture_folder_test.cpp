@@ -159,8 +159,8 @@ TEST_CASE("pictures of other sizes and bits on the way become as the first", "[f
 
 TEST_CASE("a folder without pictures, or with one kind only, says what to do", "[folder]") {
     const TemporaryFolder folder;
-    CHECK(contains(refusal([&] { (void)open_media(folder.path()); }), "folder without colour"));
-    CHECK(contains(refusal([&] { (void)open_depth(folder.path()); }), "folder without depth"));
+    CHECK(contains(refusal([&] { (void)open_media(folder.path()); }), "folder without pictures"));
+    CHECK(contains(refusal([&] { (void)open_depth(folder.path()); }), "folder without pictures"));
     write_colour(folder / "rgb/1.png", 1);
     CHECK(contains(refusal([&] { (void)open_media(folder.path()); }), "depth"));
 }
