@@ -10,12 +10,14 @@
 #include <utility>
 #include <vector>
 
+#include "core/video/media.hpp"
 #include "core/video/picture_kind.hpp"
 #include "core/video/pictures.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/core/video/coded_scene.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/text.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -183,6 +185,27 @@ TEST_CASE("photographs, stereo pairs, text and drawings are not taken for depth"
         CHECK(guessed.kind == PictureKind::photo);
     }
     CHECK(no_depth().size() >= 20);
+}
+
+TEST_CASE("what is no depth is not opened alone, and the line says what is missing", "[kind]") {
+    const std::string ending = GENERATE("png", "jpg", "tiff", "mp4");
+    const std::vector<Named> all = no_depth();
+    for (const Named& no : all) {
+        const TemporaryFolder folder;
+        const auto still = folder / ("IMG_0001." + (ending == "mp4" ? "png" : ending));
+        const auto file = folder / ("IMG_0001." + ending);
+        REQUIRE(cv::imwrite(still.string(), no.picture));
+        if (ending == "mp4") {
+            ffmpeg("-i '" + still.string() + "' -c:v libx264 -crf 20 -pix_fmt yuv420p '" +
+                   file.string() + "'");
+            std::filesystem::remove(still);
+        }
+        CAPTURE(no.name, ending);
+        const std::string line = refusal([&] { (void)open_media(file, {}, {.find_out = true}); });
+        CHECK(contains(line, "needs a depth file"));
+        CHECK(contains(line, file.string()));
+        CHECK(line.find('\n') == std::string::npos);
+    }
 }
 
 TEST_CASE("test pictures are not taken for depth, also compressed", "[kind]") {
