@@ -188,19 +188,22 @@ TEST_CASE("photographs, stereo pairs, text and drawings are not taken for depth"
 }
 
 TEST_CASE("what is no depth is not opened alone, and the line says what is missing", "[kind]") {
-    const std::string ending = GENERATE("png", "jpg", "tiff", "mp4");
+    const auto [ending, bits] = GENERATE(
+        table<std::string, int>({{"png", 8}, {"png", 16}, {"jpg", 8}, {"tiff", 8}, {"mp4", 8}}));
     const std::vector<Named> all = no_depth();
     for (const Named& no : all) {
         const TemporaryFolder folder;
         const auto still = folder / ("IMG_0001." + (ending == "mp4" ? "png" : ending));
         const auto file = folder / ("IMG_0001." + ending);
-        REQUIRE(cv::imwrite(still.string(), no.picture));
+        cv::Mat picture;
+        no.picture.convertTo(picture, bits == 16 ? CV_16U : CV_8U, bits == 16 ? 257.0 : 1.0);
+        REQUIRE(cv::imwrite(still.string(), picture));
         if (ending == "mp4") {
             ffmpeg("-i '" + still.string() + "' -c:v libx264 -crf 20 -pix_fmt yuv420p '" +
                    file.string() + "'");
             std::filesystem::remove(still);
         }
-        CAPTURE(no.name, ending);
+        CAPTURE(no.name, ending, bits);
         const std::string line = refusal([&] { (void)open_media(file, {}, {.find_out = true}); });
         CHECK(contains(line, "needs a depth file"));
         CHECK(contains(line, file.string()));
