@@ -250,9 +250,11 @@ Sources both_as_said(const fs::path& place, const DepthStatement& said) {
 /// What a place holds where nothing says it: halves, depth alone, or colour alone.
 Sources as_it_looks(const fs::path& place, const DepthStatement& said) {
     PictureGuess look;
-    if (!said.packing && !is_ros_bag(place)) look = guess_kind(looks_of(place, kLookedAt));
-    if (auto halves = halves_by_look(place, look)) return std::move(*halves);
-    if (is_depth(place, look)) return depth_in(place, said);
+    if (!is_ros_bag(place)) look = guess_kind(looks_of(place, kLookedAt));
+    if (!said.packing) {
+        if (auto halves = halves_by_look(place, look)) return std::move(*halves);
+    }
+    if (is_depth(place, look) || said.code == DepthCode::hue) return depth_in(place, said);
     return {nullptr, open_picture_source(place, PictureRole::colour)};
 }
 
