@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/video/media.hpp"
@@ -26,6 +27,11 @@ DepthStatement everything() {
             .code = DepthCode::hue,
             .geometry = Geometry::true_shape,
             .intrinsics = Intrinsics{525.0, 525.12345678901234, 319.5, -0.1}};
+}
+
+template <typename Value>
+Known<Value> known(Value value, Origin origin) {
+    return {std::move(value), origin};
 }
 
 /// A table of one fact.
@@ -184,27 +190,27 @@ TEST_CASE("the command line beats the panel, that the sidecar, and that what is 
     DepthRequest request{.find_out = true};
     const auto meaning = [&] { return open_depth(file, request)->description().meaning.value(); };
 
-    CHECK(meaning().unit == Known{DepthUnit::disparity, Origin::found});
+    CHECK(meaning().unit == known(DepthUnit::disparity, Origin::found));
     CHECK(meaning().range.origin == Origin::found);
     CHECK(meaning().no_data.origin == Origin::assumed);
 
     write_sidecar(file, {.unit = DepthUnit::m, .scale = 0.001, .no_data = std::vector{1001.0}});
-    CHECK(meaning().unit == Known{DepthUnit::m, Origin::sidecar});
-    CHECK(meaning().scale == Known{0.001, Origin::sidecar});
-    CHECK(meaning().near == Known{NearLevels::dark, Origin::sidecar});  // for that is what m means
+    CHECK(meaning().unit == known(DepthUnit::m, Origin::sidecar));
+    CHECK(meaning().scale == known(0.001, Origin::sidecar));
+    CHECK(meaning().near == known(NearLevels::dark, Origin::sidecar));  // for that is what m means
 
     request.panel = {.unit = DepthUnit::mm, .scale = 2.0};
-    CHECK(meaning().unit == Known{DepthUnit::mm, Origin::panel});
-    CHECK(meaning().scale == Known{2.0, Origin::panel});
-    CHECK(meaning().no_data == Known{std::vector{1001.0}, Origin::sidecar});
+    CHECK(meaning().unit == known(DepthUnit::mm, Origin::panel));
+    CHECK(meaning().scale == known(2.0, Origin::panel));
+    CHECK(meaning().no_data == known(std::vector{1001.0}, Origin::sidecar));
 
     request.command_line = {.unit = DepthUnit::levels, .range = DepthRange{2100.0, 2000.0}};
-    CHECK(meaning().unit == Known{DepthUnit::levels, Origin::command_line});
-    CHECK(meaning().range == Known{DepthRange{2100.0, 2000.0}, Origin::command_line});
-    CHECK(meaning().scale == Known{2.0, Origin::panel});
+    CHECK(meaning().unit == known(DepthUnit::levels, Origin::command_line));
+    CHECK(meaning().range == known(DepthRange{2100.0, 2000.0}, Origin::command_line));
+    CHECK(meaning().scale == known(2.0, Origin::panel));
 
     request.recorded = {.unit = DepthUnit::mm, .range = DepthRange{2000.0, 2100.0}};
-    CHECK(meaning().unit == Known{DepthUnit::mm, Origin::recorded});
+    CHECK(meaning().unit == known(DepthUnit::mm, Origin::recorded));
 }
 
 TEST_CASE("where nothing is to be found out, sidecars and the panel do not count", "[sidecar]") {
