@@ -36,7 +36,9 @@ struct SurfaceOptions {
 
 /// A colour and a depth file, or depth alone.
 std::unique_ptr<Media> open_given(const SurfaceOptions& options, TouchParameters& parameters) {
-    auto media = open_media(options.colour, options.depth, options.touch.depth_request());
+    DepthRequest request = options.touch.depth_request();
+    request.paints = false;
+    auto media = open_media(options.colour, options.depth, request);
     options.touch.given.fit(media->description(), options.touch.raw_depth, parameters);
     return media;
 }

@@ -134,6 +134,14 @@ std::string Viewer::save_sidecar() {
     return "Saved " + sidecar_of(file).string();
 }
 
+Settings Viewer::lasting_settings() const {
+    Settings settings = replay_.lasting(state_);
+    const TouchParameters& before = options_.settings.touch;
+    if (settings.fit_relief) settings.touch.shape.relief_px = before.shape.relief_px;
+    if (settings.fit_pitch) settings.touch.coupling.pixel_pitch_mm = before.coupling.pixel_pitch_mm;
+    return settings;
+}
+
 void Viewer::fit_to_media() {
     Settings& settings = state_.settings;
     const Fit fit = fit_of(state_.media);

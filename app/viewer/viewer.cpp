@@ -117,7 +117,7 @@ void Viewer::close_without_display() {
     ending_.words().doing("closing without a display");
     state_.message.clear();
     loop_.reset();
-    attempt([this] { keeper_.finish(replay_.lasting(state_)); });
+    attempt([this] { keeper_.finish(lasting_settings()); });
     attempt([this] { screenshots_.finish(); });
     attempt([this] { recording_.finish(kPatienceAtAnEnd); });
     hand_.device.reset();
@@ -139,7 +139,7 @@ void Viewer::finish() {
     now("writing the last picture");
     try_to([this] { write_last_picture(); });
     now("saving the settings");
-    try_to([this] { keeper_.finish(replay_.lasting(state_)); });
+    try_to([this] { keeper_.finish(lasting_settings()); });
     now("writing pictures");
     try_to([this] { screenshots_.finish(); });
     now("closing the recording");
@@ -317,7 +317,7 @@ void Viewer::keep_settings() {
     const glm::ivec2 size = window_.window_size();
     state_.settings.width = size.x;
     state_.settings.height = size.y;
-    attempt([this] { keeper_.look(replay_.lasting(state_), now_s()); });
+    attempt([this] { keeper_.look(lasting_settings(), now_s()); });
 }
 
 void Viewer::start_or_stop_recording() {

@@ -82,6 +82,8 @@ class Viewer {
     void replay_session(std::unique_ptr<OpenedSession> session);
     void show_title(const std::filesystem::path& file);
     void start_loop();
+    /// What a person chose, not what a media or a replay did.
+    [[nodiscard]] Settings lasting_settings() const;
     void fit_to_media();
     void open_again(const DepthStatement& panel);
     std::string save_sidecar();

@@ -42,10 +42,9 @@ bool begins_like_text(std::ifstream& in) {
     });
 }
 
-/// Depth alone is shown in colours of its own where it is to be seen.
 std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthRequest& request, bool seen) {
     DepthScale scale = find_scale(sources, request);
-    const bool painted = seen && sources.colour == nullptr;
+    const bool painted = seen && request.paints && sources.colour == nullptr;
     auto media = std::make_unique<PairedMedia>(std::move(sources.depth), std::move(sources.colour),
                                                std::move(scale), painted);
     media->add_notice(sources.notice);

@@ -43,6 +43,7 @@ struct DepthRequest {
     DepthStatement command_line{};
     DepthStatement panel{};
     DepthStatement recorded{};  ///< a session's, which beats all others
+    bool paints{true};          ///< depth alone is shown in colours of its own
 };
 
 /// The relief and the pitch that fit a media.

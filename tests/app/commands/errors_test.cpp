@@ -66,7 +66,6 @@ std::vector<BadInput> bad_inputs() {
          "/dev/full"},
         {"a missing file to view", {"none.mp4"}, "none.mp4"},
         {"text to view", {"view", "text.mp4", "depth.png"}, "text.mp4"},
-        {"depth without colour, or the other way round", {"depth.png"}, "depth.png"},
         {"one-pixel images to view", {"one.png", "one.png"}, "one.png"},
         {"missing goals for the viewer",
          {"depth.png", "depth.png", "--device", "goals:none.csv"},

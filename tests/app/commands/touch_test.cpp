@@ -368,8 +368,9 @@ TEST_CASE("a jump too long for one update is caught up with in the next ones, an
     goals[0] = {5, 10, 120};
     goals[1] = {5, 10, 80};
     write_text(folder / "goals.csv", goals_csv(goals));
-    const ProgramResult result = run_dibhr(
-        folder, {"touch", "--friction", "0", "--depth", "depth.png", "--goals", "goals.csv"});
+    const ProgramResult result =
+        run_dibhr(folder, {"touch", "--raw-depth", "--friction", "0", "--depth", "depth.png",
+                           "--goals", "goals.csv"});
     REQUIRE(result.exit_code == 0);
     CAPTURE(result.errors);
     CHECK(std::stoi(split(result.errors, ' ').at(1)) >= 2);

@@ -147,7 +147,9 @@ TEST_CASE("--friction sets both coefficients, and one given by itself wins", "[u
     const TemporaryFolder folder;
     write_inputs(folder);
     const auto proxy_x = [&folder](const std::vector<std::string>& options) {
-        const ProgramResult result = run_dibhr(folder, touch_with(options));
+        std::vector<std::string> raw{"--raw-depth"};
+        raw.insert(raw.end(), options.begin(), options.end());
+        const ProgramResult result = run_dibhr(folder, touch_with(raw));
         REQUIRE(result.exit_code == 0);
         return std::stod(last_column(result, 4));
     };
