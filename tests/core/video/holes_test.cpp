@@ -174,8 +174,10 @@ TEST_CASE("a small hole between an object and what is behind it takes what is be
     const auto [left, top, width, height] = GENERATE(table<int, int, int, int>(
         {{100, 50, 6, 6}, {98, 50, 6, 6}, {44, 50, 6, 8}, {70, 24, 8, 6}, {97, 87, 6, 6}}));
     CAPTURE(left, top);
-    const DepthImage filled = cleaned(image_with(
-        box, [&](int i, int j) { return in_rectangle(i, j, left, top, width, height); }));
+    const DepthImage filled = cleaned(
+        image_with(box, [&, left = left, top = top, width = width, height = height](int i, int j) {
+            return in_rectangle(i, j, left, top, width, height);
+        }));
     double farthest_off = 0.0;
     for (int j = top; j < top + height; ++j)
         for (int i = left; i < left + width; ++i)
