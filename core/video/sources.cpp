@@ -154,12 +154,21 @@ std::optional<Sources> halves_by_look(const fs::path& place, const PictureGuess&
     return sources;
 }
 
+/// Whether it is worth while to look at more pictures.
+bool begins_in_colours(const fs::path& place, int track) {
+    constexpr double kGrey = 0.01;  // share of pixels that compression colours
+    const std::vector<cv::Mat> first = looks_of(place, 1, track);
+    return !first.empty() && look_of(first.front()).coloured > kGrey;
+}
+
 /// A source of colours is decoded where they are a code, as somebody says or as they look.
 Sources decoded(const fs::path& place, Sources sources, const DepthStatement& said, int track = 0) {
-    const bool may_be_coded = !said.code && sources.depth->facts().channels != 1 &&
-                              !names_pictures(place) && !is_array_file(place);
+    const bool may_be_coded = said.code != DepthCode::hue && sources.depth->facts().channels != 1 &&
+                              !names_pictures(place) && !is_array_file(place) &&
+                              begins_in_colours(place, track);
     PictureKind kind = PictureKind::grey_depth;
     if (may_be_coded) kind = guess_kind(looks_of(place, kLookedAt, track)).kind;
+    if (said.code && kind == PictureKind::hue_depth) kind = PictureKind::grey_depth;
     sources.by_look = kind == PictureKind::hue_depth || kind == PictureKind::ramp_depth;
     const bool is_hue = said.code == DepthCode::hue || kind == PictureKind::hue_depth;
     if (is_hue) {

@@ -236,6 +236,7 @@ std::vector<cv::Mat> VideoFile::samples(int most) {
     const double pixels = static_cast<double>(facts_.columns) * facts_.rows;
     const double frames = kMostSampled / pixels;
     if (!ahead_.empty()) pictures.push_back(ahead_.front().picture);
+    if (most <= static_cast<int>(pictures.size())) return pictures;
     if (static_cast<double>(facts_.frames) <= frames)
         sample_evenly(most, pictures);
     else if (timed_)
