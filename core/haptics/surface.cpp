@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -74,8 +75,8 @@ double DepthSurface::elevation_at(double x, double y) const noexcept {
 bool DepthSurface::seen_at(double x, double y) const noexcept {
     if (unseen_ == nullptr) return true;
     const Vec3 p = clamped_to_frame({x, y, 0.0});
-    const auto i = static_cast<std::size_t>(p.x + 0.5);
-    const auto j = static_cast<std::size_t>(p.y + 0.5);
+    const auto i = static_cast<std::size_t>(std::lround(p.x));
+    const auto j = static_cast<std::size_t>(std::lround(p.y));
     return unseen_[j * static_cast<std::size_t>(columns_) + i] == 0;
 }
 

@@ -143,8 +143,9 @@ void PairedMedia::take_true_shape() {
     const double unit_mm = meaning->unit.value == DepthUnit::m ? 1000.0 : 1.0;
     range_mm_ = {meaning->range.value.near * unit_mm, meaning->range.value.far * unit_mm};
     std::vector<cv::Mat> samples_mm;
-    for (const cv::Mat& picture : some_pictures(*depth_))
-        samples_mm.push_back(in_mm(scale_.image_of(picture)));
+    const std::vector<cv::Mat> pictures = some_pictures(*depth_);
+    samples_mm.reserve(pictures.size());
+    for (const cv::Mat& picture : pictures) samples_mm.push_back(in_mm(scale_.image_of(picture)));
     const Intrinsics& camera = meaning->intrinsics->value;
     shape_.emplace(size_, camera, range_mm_, straight_grid(size_, camera, range_mm_, samples_mm));
     description_.depth_columns = shape_->grid().columns;

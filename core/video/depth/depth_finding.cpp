@@ -66,8 +66,10 @@ DepthStatement as_in_file(const DepthRequest& request, int bits) {
 }
 
 /// Files of their own, grey and as a relief, as nobody needs to say.
-const DepthStatement kPlain{
-    .packing = DepthPacking::separate, .code = DepthCode::grey, .geometry = Geometry::relief};
+DepthStatement plain() {
+    return {
+        .packing = DepthPacking::separate, .code = DepthCode::grey, .geometry = Geometry::relief};
+}
 
 /// A range that a unit cannot have is told, whoever said it.
 void require_range(const DepthMeaning& meaning, const fs::path& file) {
@@ -121,7 +123,7 @@ DepthScale find_scale(const Sources& sources, const DepthRequest& request) {
                        {sources.by_look ? Origin::assumed : Origin::found, facts.known},
                        {Origin::found, said_by_name(facts.file)},
                        {Origin::found, sources.found},
-                       {Origin::found, kPlain}});
+                       {Origin::found, plain()}});
     } else {
         voices.emplace_back(Origin::assumed, as_in_file(request, facts.bits));
     }

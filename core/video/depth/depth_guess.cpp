@@ -235,6 +235,7 @@ DepthRange guess_range(const std::vector<float>& levels, const DepthMeaning& mea
 void guess(const std::vector<cv::Mat>& pictures, int bits, DepthMeaning& meaning,
            const Voices& voices) {
     std::vector<Lattice> lattices;
+    lattices.reserve(pictures.size());
     for (const cv::Mat& picture : pictures) lattices.push_back(lattice_of(picture));
     const auto says = [&voices](auto fact) {
         return std::any_of(voices.begin(), voices.end(),

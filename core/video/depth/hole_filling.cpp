@@ -370,7 +370,7 @@ void LargeHoleFiller::find_wide_and_open(int columns) {
 void LargeHoleFiller::widen(const DepthImage& seen, int row) {
     const auto columns = static_cast<std::size_t>(seen.columns);
     spans_.resize(kDiscRows * kReaches * columns);
-    padded_.assign(columns + 2 * kReach_px, kAbove);
+    padded_.assign(columns + 2 * std::size_t{kReach_px}, kAbove);
     widened_ = std::max(widened_, row - kReach_px);
     for (; widened_ < std::min(row + kReach_px + 1, seen.rows); ++widened_) {
         const float* levels = seen.levels.data() + seen.index(0, widened_);
