@@ -24,7 +24,7 @@ constexpr int kReach_px = 10;
 /// Of the highest level: what lies so much lower than all around is felt as a pit (4 of 255 px).
 constexpr float kPit = 0.015F;
 constexpr float kReach_squares = 3.25F;  ///< no less between the centres of two squares
-/// A disc of this part of the width finds room only where nothing is to be bridged.
+/// A disc whose radius is this part of the width finds room only where nothing is to be bridged.
 constexpr double kOpenInWidth = 16.0;
 
 constexpr float kToTheRim = 2.0F;  ///< squares: so far a wide hole goes beyond its discs
