@@ -336,7 +336,8 @@ TEST_CASE("cleaning fills a hole that raw depth keeps", "[touch]") {
     write_text(folder / "goals.csv", goals_csv({{31, 31, 120}, {31, 31, 0}}));
     CHECK(touch_rows(folder, {}).back().number("pz") < 60.0);
     const ProgramResult result =
-        run_dibhr(folder, {"touch", "--depth", "depth.png", "--goals", "goals.csv"});
+        run_dibhr(folder, {"touch", "--depth-range", "255:0", "--relief", "255", "--depth",
+                           "depth.png", "--goals", "goals.csv"});
     REQUIRE(result.exit_code == 0);
     CHECK_THAT(rows_of(result.output).back().number("pz"), WithinAbs(100.0, 1.0));
 }
