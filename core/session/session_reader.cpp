@@ -20,8 +20,7 @@ namespace {
 // The recorder may hold the file for a moment.
 constexpr int kPatience_ms = 2000;
 
-constexpr int kLongestValue_bytes = 1 << 20;
-constexpr int kStepsPerLook = 10'000;
+constexpr int kLongestValue_bytes = 1 << 20;  ///< longer than anybody would write
 
 /// SQLite's words, which may quote what the file holds.
 std::string brief(std::string_view words) {
@@ -55,19 +54,9 @@ SessionReader::SessionReader(const std::filesystem::path& file) : file_(file) {
     database_.reset(opened);
     if (result != SQLITE_OK) refuse();
     sqlite3_busy_timeout(opened, kPatience_ms);
-    set_bounds();
+    bounds_.hold(opened, kLongestValue_bytes);
     check_kind();
     check_tables();
-}
-
-void SessionReader::set_bounds() {
-    sqlite3* const database = database_.get();
-    // Anybody may have made the file: its tables run nothing, every cell is checked, and no value
-    // is longer than anybody would write.
-    sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
-    sqlite3_exec(database, "PRAGMA cell_size_check = ON", nullptr, nullptr, nullptr);
-    sqlite3_limit(database, SQLITE_LIMIT_LENGTH, kLongestValue_bytes);
-    sqlite3_progress_handler(database, kStepsPerLook, &SessionReader::is_work_over, this);
 }
 
 void SessionReader::allow_work() const {
@@ -79,14 +68,7 @@ void SessionReader::allow_work() const {
         const std::uint64_t there = std::filesystem::file_size(file_.string() + ending, failed);
         if (!failed) bytes += there;
     }
-    looks_left_ = (kStepsAnyway + kStepsPerByte * bytes) / kStepsPerLook;
-}
-
-int SessionReader::is_work_over(void* reader) noexcept {
-    std::uint64_t& left = static_cast<SessionReader*>(reader)->looks_left_;
-    if (left == 0) return 1;
-    --left;
-    return 0;
+    bounds_.allow(kStepsAnyway + kStepsPerByte * bytes);
 }
 
 /// What is read are the tables of a recording and the view that dibhr makes of them: no other that

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 
+#include "core/files/sqlite_bounds.hpp"
 #include "core/session/database.hpp"
 
 namespace dibhr {
@@ -31,13 +32,10 @@ class SessionReader {
 
   private:
     void read_head();
-    /// So that nothing of the file decides what is done with it, or for how long.
-    void set_bounds();
     void check_kind() const;
     void check_tables() const;
     /// For one question: as many steps as all that the file can hold are worth.
     void allow_work() const;
-    static int is_work_over(void* reader) noexcept;
     /// Foreign, or damaged: by what SQLite said last.
     [[noreturn]] void refuse() const;
     [[noreturn]] void refuse(const std::string& reason) const;
@@ -45,8 +43,9 @@ class SessionReader {
 
     std::filesystem::path file_;
     bool lacks_log_{false};
+    /// So that nothing of the file decides what is done with it, or for how long.
+    mutable SqliteBounds bounds_{};
     SqliteDatabase database_{};
-    mutable std::uint64_t looks_left_{0};  ///< at the work of the question being answered
 };
 
 /// The rows of a question, one after the other; must not outlive its reader. Columns count from 0.

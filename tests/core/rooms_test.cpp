@@ -80,7 +80,7 @@ const std::vector<Ownership> kOwnerships{
     {"epoxy/", {"render/"}},
     {"GL/", {"render/"}},
     {"libusb", {"device/"}},
-    {"sqlite3", {"core/session/", "core/video/formats/"}},
+    {"sqlite3", {"core/files/sqlite_bounds", "core/session/", "core/video/formats/"}},
     {"imgui", {"app/window/", "app/panels/", "app/viewer/"}},
     {"X11/", {"app/window/"}},
     {"GLFW/", {"app/window/", "app/settings/keys.cpp"}},

@@ -18,7 +18,6 @@ namespace {
 
 constexpr int kLongestText_bytes = 1 << 20;       ///< of a topic's name
 constexpr int kLargestMessage_bytes = 512 << 20;  ///< a 100-megapixel picture of floats
-constexpr int kStepsPerLook = 10'000;
 
 std::string text_in(sqlite3_stmt* statement, int column) {
     const unsigned char* const text = sqlite3_column_text(statement, column);
@@ -43,7 +42,13 @@ void BagFile::Closer::operator()(sqlite3_blob* blob) const noexcept {
 BagFile::BagFile(const fs::path& file) : file_(file) {
     require_readable(file);
     open();
-    set_bounds();
+    bounds_.hold(database_.get(), kLongestText_bytes);
+    // A row takes about ten steps and more than a byte.
+    constexpr std::uint64_t kStepsAnyway = 20'000'000;
+    constexpr std::uint64_t kStepsPerByte = 100;
+    std::error_code failed;
+    const std::uintmax_t bytes = fs::file_size(file_, failed);
+    most_steps_ = kStepsAnyway + (failed ? 0 : kStepsPerByte * bytes);
     check_tables();
 }
 
@@ -102,21 +107,6 @@ void BagFile::open() {
     if (result != SQLITE_OK) refuse();
 }
 
-void BagFile::set_bounds() {
-    sqlite3* const database = database_.get();
-    sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
-    sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
-    sqlite3_exec(database, "PRAGMA cell_size_check = ON", nullptr, nullptr, nullptr);
-    sqlite3_limit(database, SQLITE_LIMIT_LENGTH, kLongestText_bytes);
-    // A row takes about ten steps and more than a byte.
-    constexpr std::uint64_t kLooksAnyway = 2'000;
-    constexpr std::uint64_t kBytesPerLook = 100;
-    std::error_code failed;
-    const std::uintmax_t bytes = fs::file_size(file_, failed);
-    looks_ = kLooksAnyway + (failed ? 0 : bytes / kBytesPerLook);
-    sqlite3_progress_handler(database, kStepsPerLook, &BagFile::is_work_over, this);
-}
-
 /// Tables with pages of their own, whose columns are not computed.
 void BagFile::check_tables() {
     const auto count = [this](const char* question) {
@@ -137,7 +127,7 @@ void BagFile::check_tables() {
 }
 
 BagFile::Statement BagFile::prepared(const char* sql) {
-    looks_left_ = looks_;
+    bounds_.allow(most_steps_);
     sqlite3_stmt* statement = nullptr;
     if (sqlite3_prepare_v2(database_.get(), sql, -1, &statement, nullptr) != SQLITE_OK) refuse();
     return Statement(statement);
@@ -147,13 +137,6 @@ bool BagFile::next(sqlite3_stmt* statement) const {
     const int result = sqlite3_step(statement);
     if (result != SQLITE_ROW && result != SQLITE_DONE) refuse();
     return result == SQLITE_ROW;
-}
-
-int BagFile::is_work_over(void* file) noexcept {
-    std::uint64_t& left = static_cast<BagFile*>(file)->looks_left_;
-    if (left == 0) return 1;
-    --left;
-    return 0;
 }
 
 void BagFile::refuse() const {

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/files/sqlite_bounds.hpp"
+
 struct sqlite3;
 struct sqlite3_blob;
 struct sqlite3_stmt;
@@ -55,17 +57,15 @@ class BagFile {
     using Statement = std::unique_ptr<sqlite3_stmt, Closer>;
 
     void open();
-    void set_bounds();
     void check_tables();
     [[nodiscard]] Statement prepared(const char* sql);
     [[nodiscard]] bool next(sqlite3_stmt* statement) const;
-    static int is_work_over(void* file) noexcept;
     [[noreturn]] void refuse() const;  ///< in SQLite's words
     [[noreturn]] void refuse(std::string_view why) const;
 
     std::filesystem::path file_;
-    std::uint64_t looks_{0};  ///< of the progress handler, that one question may take
-    std::uint64_t looks_left_{0};
+    std::uint64_t most_steps_{0};  ///< that one question may take
+    SqliteBounds bounds_{};
     std::unique_ptr<sqlite3, Closer> database_{};
     std::unique_ptr<sqlite3_blob, Closer> blob_{};
 };
