@@ -7,46 +7,13 @@
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
+#include "core/video/depth/patches.hpp"
 
 namespace dibhr {
 
 /// Levels that differ by no more are of one surface, as noise allows; others are on two sides of an
 /// object's outline.
 [[nodiscard]] float outline_levels(const DepthImage& image) noexcept;
-
-/// Patches of pixels with data or without (NaN), joined over edges and corners, row by row.
-class Patches {
-  public:
-    /// Pixels [begin, end) of one row.
-    struct Run {
-        int row, begin, end;
-        std::int32_t patch;
-    };
-    /// Around a patch: columns [left, right), rows [top, bottom), and how many pixels are in it.
-    struct Patch {
-        int left, right, top, bottom;
-        std::size_t pixels;
-    };
-
-    void find_holes(const DepthImage& image) { find(image, false); }
-    void find_data(const DepthImage& image) { find(image, true); }
-
-    [[nodiscard]] const std::vector<Run>& runs() const noexcept { return runs_; }
-    [[nodiscard]] const Patch& patch(std::int32_t number) const noexcept {
-        return patches_[static_cast<std::size_t>(number)];
-    }
-
-  private:
-    void find(const DepthImage& image, bool with_data);
-    void find_runs(const DepthImage& image, bool with_data);
-    void join_runs();
-    std::int32_t root(std::int32_t patch);
-    void join(std::int32_t a, std::int32_t b);
-
-    std::vector<Run> runs_{};
-    std::vector<Patch> patches_{};
-    std::vector<std::int32_t> parents_{};  ///< of each patch the one that it was joined to
-};
 
 /// Fills patches that are no wider and no higher than a twentieth of the image's width. Each pixel
 /// takes the mean of the nearest levels to its left, right, above and below, weighted by
