@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +11,7 @@
 #include "app/commands/command_line.hpp"
 #include "app/settings/command_options.hpp"
 #include "core/error.hpp"
+#include "core/files/json.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/replay/frames.hpp"
 #include "core/report/report_words.hpp"
@@ -128,53 +128,55 @@ void describe_pictures(const fs::path& file, const DepthRequest& request) {
     if (is_colour && !has_depth) describe_partner(file);
 }
 
-using Json = nlohmann::ordered_json;
+template <typename Word>
+Json json_of(Word word) {
+    return name_of(word);
+}
+Json json_of(double number) {
+    return number;
+}
+Json json_of(const std::vector<double>& numbers) {
+    return numbers;
+}
+Json json_of(const DepthRange& range) {
+    return {range.near, range.far};
+}
+Json json_of(const Intrinsics& camera) {
+    return {camera.fx, camera.fy, camera.cx, camera.cy};
+}
 
-/// What is not known of a file is null.
+/// Each fact, and whose word it is; what is not known is null.
+void add_meaning(Json& json, const std::optional<DepthMeaning>& meaning) {
+    const DepthStatement known = meaning ? meaning->statement() : DepthStatement{};
+    const DepthMeaning facts = meaning.value_or(DepthMeaning{});
+    Json origins = Json::object();
+    visit_facts(known, facts, [&](const char* name, const auto& value, const auto& fact) {
+        json[name] = value ? json_of(*value) : Json();
+        if (value) origins[name] = name_of(fact.origin);
+    });
+    json["found_in"] = facts.found_in;
+    json["assumed"] = meaning ? assumed_facts(facts) : std::vector<std::string>{};
+    json["origin"] = origins;
+}
+
+/// What is not known of a place is null.
 Json json_of(const fs::path& file, const MediaDescription& media) {
+    const bool has_colour = media.colour_columns > 0;
     const bool has_depth = media.depth_columns > 0;
+    const auto known = [](bool is_known, auto value) { return is_known ? Json(value) : Json(); };
     Json json{{"path", file.string()},
               {"form", form_of(media)},
-              {"columns", has_depth ? Json(media.depth_columns) : Json()},
-              {"rows", has_depth ? Json(media.depth_rows) : Json()},
-              {"colour_columns", media.colour_columns > 0 ? Json(media.colour_columns) : Json()},
-              {"colour_rows", media.colour_rows > 0 ? Json(media.colour_rows) : Json()},
-              {"bits", has_depth ? Json(media.depth_bits) : Json()},
-              {"levels_used", has_depth ? Json(media.levels_used) : Json()}};
-    for (const char* const name : {"near", "unit", "scale", "range", "no_data"}) json[name] = {};
-    json["holes_share"] = has_depth ? Json(media.holes_share) : Json();
-    json["frames"] = media.frames;
-    json["duration_s"] = media.duration_s;
-    for (const char* const name : {"packing", "code", "geometry", "intrinsics"}) json[name] = {};
-    json["found_in"] = "";
-    json["assumed"] = Json::array();
-    json["origin"] = Json::object();
+              {"columns", known(has_depth, media.depth_columns)},
+              {"rows", known(has_depth, media.depth_rows)},
+              {"colour_columns", known(has_colour, media.colour_columns)},
+              {"colour_rows", known(has_colour, media.colour_rows)},
+              {"bits", known(has_depth, media.depth_bits)},
+              {"levels_used", known(has_depth, media.levels_used)},
+              {"holes_share", known(has_depth, media.holes_share)},
+              {"frames", media.frames},
+              {"duration_s", media.duration_s}};
+    add_meaning(json, media.meaning);
     json["notice"] = media.notice;
-    if (!media.meaning) return json;
-    const DepthMeaning& meaning = *media.meaning;
-    json["range"] = {meaning.range.value.near, meaning.range.value.far};
-    json["scale"] = meaning.scale.value;
-    json["no_data"] = meaning.no_data.value;
-    json["near"] = name_of(meaning.near.value);
-    json["unit"] = name_of(meaning.unit.value);
-    json["packing"] = name_of(meaning.packing.value);
-    json["code"] = name_of(meaning.code.value);
-    json["geometry"] = name_of(meaning.geometry.value);
-    if (meaning.intrinsics) {
-        const Intrinsics& camera = meaning.intrinsics->value;
-        json["intrinsics"] = {camera.fx, camera.fy, camera.cx, camera.cy};
-        json["origin"]["intrinsics"] = name_of(meaning.intrinsics->origin);
-    }
-    json["found_in"] = meaning.found_in;
-    json["assumed"] = assumed_facts(meaning);
-    json["origin"]["near"] = name_of(meaning.near.origin);
-    json["origin"]["unit"] = name_of(meaning.unit.origin);
-    json["origin"]["scale"] = name_of(meaning.scale.origin);
-    json["origin"]["range"] = name_of(meaning.range.origin);
-    json["origin"]["no_data"] = name_of(meaning.no_data.origin);
-    json["origin"]["packing"] = name_of(meaning.packing.origin);
-    json["origin"]["code"] = name_of(meaning.code.origin);
-    json["origin"]["geometry"] = name_of(meaning.geometry.origin);
     return json;
 }
 

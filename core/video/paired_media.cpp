@@ -136,7 +136,7 @@ void PairedMedia::take_true_shape() {
         throw InputError(file +
                          " has no distances, so its true shape is not known: give --depth-unit mm "
                          "or m with the scale, or leave --geometry true away");
-    if (!meaning->intrinsics)
+    if (!meaning->intrinsics.value)
         throw InputError(file +
                          " does not say through which camera it was seen: give --intrinsics "
                          "FX,FY,CX,CY, or leave --geometry true away");
@@ -146,7 +146,7 @@ void PairedMedia::take_true_shape() {
     const std::vector<cv::Mat> pictures = some_pictures(*depth_);
     samples_mm.reserve(pictures.size());
     for (const cv::Mat& picture : pictures) samples_mm.push_back(in_mm(scale_.image_of(picture)));
-    const Intrinsics& camera = meaning->intrinsics->value;
+    const Intrinsics& camera = *meaning->intrinsics.value;
     shape_.emplace(size_, camera, range_mm_, straight_grid(size_, camera, range_mm_, samples_mm));
     description_.depth_columns = shape_->grid().columns;
     description_.depth_rows = shape_->grid().rows;

@@ -178,9 +178,7 @@ std::optional<Intrinsics> matrix_of(const Json& metadata) {
         k[at] = (*found)[at].get<double>();
     }
     const Intrinsics camera{k[0], k[4], k[2] + k[6], k[5] + k[7]};
-    const bool finite = std::isfinite(camera.cx) && std::isfinite(camera.cy);
-    if (!finite || !(camera.fx > 0.0) || !(camera.fy > 0.0)) return std::nullopt;
-    return camera;
+    return is_camera(camera) ? std::optional(camera) : std::nullopt;
 }
 
 /// Whether the camera looks through about the middle of half of the picture.

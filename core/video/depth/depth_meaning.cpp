@@ -1,6 +1,8 @@
 // Names, and one voice over another.
 #include "core/video/depth/depth_meaning.hpp"
 
+#include <cmath>
+
 #include "core/files/plain_text.hpp"
 
 namespace dibhr {
@@ -49,19 +51,18 @@ std::string_view name_of(Geometry value) noexcept {
     return value == Geometry::relief ? "relief" : "true";
 }
 
+bool is_camera(const Intrinsics& intrinsics) {
+    constexpr double kMost = 1e7;  // pixels; no picture is as large
+    const auto is_length = [](double value) { return value > 0.0 && value < kMost; };
+    return is_length(intrinsics.fx) && is_length(intrinsics.fy) &&
+           std::abs(intrinsics.cx) < kMost && std::abs(intrinsics.cy) < kMost;
+}
+
 void DepthStatement::fill_in(const DepthStatement& other) {
-    const auto take = [](auto& mine, const auto& theirs) {
+    const auto take = [](const char* /*name*/, auto& mine, const auto& theirs) {
         if (!mine) mine = theirs;
     };
-    take(near, other.near);
-    take(unit, other.unit);
-    take(scale, other.scale);
-    take(range, other.range);
-    take(no_data, other.no_data);
-    take(packing, other.packing);
-    take(code, other.code);
-    take(geometry, other.geometry);
-    take(intrinsics, other.intrinsics);
+    visit_facts(*this, other, take);
 }
 
 std::string_view name_of(Origin value) noexcept {
@@ -83,33 +84,20 @@ std::string_view name_of(Origin value) noexcept {
 }
 
 DepthStatement DepthMeaning::statement() const {
-    DepthStatement all{near.value,    unit.value, scale.value,    range.value, no_data.value,
-                       packing.value, code.value, geometry.value, {}};
-    if (intrinsics) all.intrinsics = intrinsics->value;
+    DepthStatement all;
+    visit_facts(all, *this,
+                [](const char* /*name*/, auto& said, const auto& fact) { said = fact.value; });
     return all;
 }
 
 void hear(const Voices& voices, DepthMeaning& meaning) {
-    const auto take = [&voices](auto& fact, auto said) {
-        for (const auto& [origin, statement] : voices) {
-            const auto& value = statement.*said;
-            if (!value) continue;
-            fact = {*value, origin};
-            return;
-        }
-    };
-    take(meaning.near, &DepthStatement::near);
-    take(meaning.unit, &DepthStatement::unit);
-    take(meaning.scale, &DepthStatement::scale);
-    take(meaning.range, &DepthStatement::range);
-    take(meaning.no_data, &DepthStatement::no_data);
-    take(meaning.packing, &DepthStatement::packing);
-    take(meaning.code, &DepthStatement::code);
-    take(meaning.geometry, &DepthStatement::geometry);
-    Known<Intrinsics> intrinsics{meaning.intrinsics.value_or(Known<Intrinsics>{})};
-    const Intrinsics before = intrinsics.value;
-    take(intrinsics, &DepthStatement::intrinsics);
-    if (intrinsics.value != before) meaning.intrinsics = intrinsics;
+    for (auto voice = voices.rbegin(); voice != voices.rend(); ++voice) {
+        const Origin origin = voice->first;
+        visit_facts(voice->second, meaning,
+                    [origin](const char* /*name*/, const auto& said, auto& fact) {
+                        if (said) fact = {*said, origin};
+                    });
+    }
 }
 
 double on_the_line(DepthUnit unit, double value) {
@@ -150,16 +138,10 @@ std::string in_words(const DepthMeaning& meaning) {
 
 std::vector<std::string> assumed_facts(const DepthMeaning& meaning) {
     std::vector<std::string> names;
-    const auto add = [&names](const char* name, const auto& fact) {
-        if (fact.origin == Origin::assumed) names.emplace_back(name);
-    };
-    add("near", meaning.near);
-    add("unit", meaning.unit);
-    add("scale", meaning.scale);
-    add("range", meaning.range);
-    add("no_data", meaning.no_data);
-    add("packing", meaning.packing);
-    add("code", meaning.code);
+    const DepthStatement known = meaning.statement();
+    visit_facts(known, meaning, [&names](const char* name, const auto& value, const auto& fact) {
+        if (value && fact.origin == Origin::assumed) names.emplace_back(name);
+    });
     return names;
 }
 

@@ -60,6 +60,9 @@ struct Intrinsics {
     bool operator==(const Intrinsics&) const = default;
 };
 
+/// Whether it is a camera at all: of finite numbers, and focal lengths above zero.
+[[nodiscard]] bool is_camera(const Intrinsics& intrinsics);
+
 /// What one voice says of a depth source: a file's own metadata, a sidecar, the panel, the command
 /// line. What it does not say is empty.
 struct DepthStatement {
@@ -103,7 +106,7 @@ struct DepthMeaning {
     Known<DepthPacking> packing{DepthPacking::separate};
     Known<DepthCode> code{DepthCode::grey};
     Known<Geometry> geometry{Geometry::relief};
-    std::optional<Known<Intrinsics>> intrinsics{};
+    Known<std::optional<Intrinsics>> intrinsics{};  ///< nothing: not known
     std::string found_in{};  ///< where what was found was found: "TUM lists"; empty: nowhere
 
     [[nodiscard]] bool is_metric() const {
@@ -112,6 +115,21 @@ struct DepthMeaning {
     /// All of it, as one voice: a recording's, or a sidecar's.
     [[nodiscard]] DepthStatement statement() const;
 };
+
+/// Each fact of depth with its name, out of a statement and a meaning, or out of two statements:
+/// visit(name, fact of one, fact of other).
+template <typename One, typename Other, typename Visit>
+void visit_facts(One& one, Other& other, const Visit& visit) {
+    visit("near", one.near, other.near);
+    visit("unit", one.unit, other.unit);
+    visit("scale", one.scale, other.scale);
+    visit("range", one.range, other.range);
+    visit("no_data", one.no_data, other.no_data);
+    visit("packing", one.packing, other.packing);
+    visit("code", one.code, other.code);
+    visit("geometry", one.geometry, other.geometry);
+    visit("intrinsics", one.intrinsics, other.intrinsics);
+}
 
 /// Statements by whose word they are, the strongest first.
 using Voices = std::vector<std::pair<Origin, DepthStatement>>;

@@ -48,8 +48,9 @@ std::optional<DepthRange> range_of(const std::vector<double>& ends) {
 }
 
 std::optional<Intrinsics> intrinsics_of(const std::vector<double>& numbers) {
-    if (numbers.size() != 4 || !(numbers[0] > 0.0) || !(numbers[1] > 0.0)) return std::nullopt;
-    return Intrinsics{numbers[0], numbers[1], numbers[2], numbers[3]};
+    if (numbers.size() != 4) return std::nullopt;
+    const Intrinsics camera{numbers[0], numbers[1], numbers[2], numbers[3]};
+    return is_camera(camera) ? std::optional(camera) : std::nullopt;
 }
 
 /// The finite number, those of an array, or of a text as the command line has it.

@@ -86,13 +86,6 @@ Json depth_camera_in(const Json& calibration) {
 
 }  // namespace
 
-bool is_camera(const Intrinsics& camera) {
-    constexpr double kMost = 1e7;
-    const auto is_length = [](double value) { return value > 0.0 && value < kMost; };
-    return is_length(camera.fx) && is_length(camera.fy) && std::abs(camera.cx) < kMost &&
-           std::abs(camera.cy) < kMost;
-}
-
 std::optional<CameraFile> read_camera_matrix(const fs::path& file) {
     std::istringstream text(text_of(file));
     std::vector<double> m;

@@ -24,9 +24,6 @@ struct CameraFile {
 /// Nothing as above.
 [[nodiscard]] std::optional<CameraFile> read_camera_json(const std::filesystem::path& file);
 
-/// Whether it is a camera at all: finite, and focal lengths above zero.
-[[nodiscard]] bool is_camera(const Intrinsics& intrinsics);
-
 /// Microsoft's calibration of an Azure Kinect, as it is attached to its recordings: of the depth
 /// camera, for pictures of that size, which says the mode. Nothing when the text is none, or there
 /// is no such mode.
