@@ -59,14 +59,17 @@ Lattice lattice_of(const cv::Mat& picture) {
     return lattice;
 }
 
+bool holds(const std::vector<double>& levels, double level) {
+    return std::find(levels.begin(), levels.end(), level) != levels.end();
+}
+
 /// The levels of all lattices that are not no data, rising.
 std::vector<float> sorted_levels(const std::vector<Lattice>& lattices,
                                  const std::vector<double>& no_data) {
     std::vector<float> levels;
     for (const Lattice& lattice : lattices) {
         for (const float level : lattice.levels) {
-            const bool none = std::find(no_data.begin(), no_data.end(), level) != no_data.end();
-            if (std::isfinite(level) && !none) levels.push_back(level);
+            if (std::isfinite(level) && !holds(no_data, level)) levels.push_back(level);
         }
     }
     std::sort(levels.begin(), levels.end());
@@ -106,49 +109,57 @@ std::vector<double> guess_no_data(const std::vector<Lattice>& lattices, int bits
     return none;
 }
 
+struct Mean {
+    double sum{0.0};
+    double squares{0.0};
+    double count{0.0};
+
+    void add(double level) {
+        sum += level;
+        squares += level * level;
+        count += 1.0;
+    }
+    [[nodiscard]] double value() const { return sum / count; }
+    [[nodiscard]] double deviation() const {
+        return std::sqrt(std::max(squares / count - value() * value(), 0.0));
+    }
+};
+
+/// Levels by where they are in the picture.
+struct Places {
+    Mean all{}, middle{}, border{}, floor{}, top{};
+
+    /// `x` and `y`: from the middle, -0.5 to 0.5.
+    void add(double x, double y, double level) {
+        all.add(level);
+        if (std::fabs(x) < 0.25 && std::fabs(y) < 0.25) middle.add(level);
+        if (std::fabs(x) > 0.4 || y < -0.4) border.add(level);
+        if (y > 0.3) floor.add(level);
+        if (y < -0.3) top.add(level);
+    }
+};
+
 /// How many standard deviations brighter the picture's middle is than its border, and its floor
 /// than its top, together; negative: darker. Things stand in the middle, and on a floor.
 double brighter_where_near(const std::vector<Lattice>& lattices,
                            const std::vector<double>& no_data) {
-    double sums[4]{};  // middle, border, floor, top
-    double counts[4]{};
-    double sum = 0.0;
-    double squares = 0.0;
-    double count = 0.0;
+    Places places;
     for (const Lattice& lattice : lattices) {
+        auto level = lattice.levels.begin();
         for (int j = 0; j < lattice.rows; ++j) {
-            for (int i = 0; i < lattice.columns; ++i) {
-                const double level = lattice.levels[static_cast<std::size_t>(j) *
-                                                        static_cast<std::size_t>(lattice.columns) +
-                                                    static_cast<std::size_t>(i)];
-                if (!std::isfinite(level) ||
-                    std::find(no_data.begin(), no_data.end(), level) != no_data.end())
-                    continue;
-                const double x = std::fabs((i + 0.5) / lattice.columns - 0.5);
-                const double y = (j + 0.5) / lattice.rows - 0.5;
-                const auto add = [&](int part) {
-                    sums[part] += level;
-                    counts[part] += 1.0;
-                };
-                if (x < 0.25 && std::fabs(y) < 0.25) add(0);
-                if (x > 0.4 || y < -0.4) add(1);
-                if (y > 0.3) add(2);
-                if (y < -0.3) add(3);
-                sum += level;
-                squares += level * level;
-                count += 1.0;
+            for (int i = 0; i < lattice.columns; ++i, ++level) {
+                if (!std::isfinite(*level) || holds(no_data, *level)) continue;
+                places.add((i + 0.5) / lattice.columns - 0.5, (j + 0.5) / lattice.rows - 0.5,
+                           *level);
             }
         }
     }
-    if (!(count > 0.0)) return 0.0;
-    const double deviation =
-        std::sqrt(std::max(squares / count - sum * sum / (count * count), 0.0));
-    if (!(deviation > 0.0)) return 0.0;
-    const auto brighter = [&](int a, int b) {
-        if (!(counts[a] > 0.0 && counts[b] > 0.0)) return 0.0;
-        return (sums[a] / counts[a] - sums[b] / counts[b]) / deviation;
+    const double deviation = places.all.count > 0.0 ? places.all.deviation() : 0.0;
+    const auto brighter = [deviation](const Mean& here, const Mean& there) {
+        const bool both = here.count > 0.0 && there.count > 0.0 && deviation > 0.0;
+        return both ? (here.value() - there.value()) / deviation : 0.0;
     };
-    return brighter(0, 1) + brighter(2, 3);
+    return brighter(places.middle, places.border) + brighter(places.floor, places.top);
 }
 
 /// The unit, and what a level is of it.
@@ -161,7 +172,7 @@ Scaled guess_integers(const std::vector<float>& levels, const std::vector<double
                       int bits) {
     if (bits == 8 || levels.empty()) return {DepthUnit::levels, 1.0};
     const double farthest = quantile(levels, kNearest);
-    const bool has_holes = std::find(no_data.begin(), no_data.end(), 0.0) != no_data.end();
+    const bool has_holes = holds(no_data, 0.0);
     if (bits == 16 && farthest <= kUsualFarthest_mm) return {DepthUnit::mm, 1.0};
     if (!has_holes) return {DepthUnit::levels, 1.0};
     if (farthest > kFarthest_mm) return {DepthUnit::mm, kFifthsOfMillimetre};
