@@ -45,14 +45,6 @@ std::string half_data_of(const cv::Mat& values, bool little) {
     return bytes;
 }
 
-cv::Mat scene_levels() {
-    cv::Mat levels(kSceneRows, kSceneColumns, CV_32FC1);
-    for (int j = 0; j < kSceneRows; ++j)
-        for (int i = 0; i < kSceneColumns; ++i)
-            levels.at<float>(j, i) = static_cast<float>(scene_level(i, j));
-    return levels;
-}
-
 int different(cv::Mat a, const cv::Mat& b) {
     REQUIRE(a.size() == b.size());
     a.convertTo(a, CV_32F);

@@ -64,4 +64,24 @@ std::string refusal(const std::function<void()>& call) {
     return {};
 }
 
+void write_depth(const std::filesystem::path& file, int number, int columns, int rows) {
+    std::filesystem::create_directories(file.parent_path());
+    write_picture(file, columns, rows, 16, 1, [=](int, int, int) { return 100 * number; });
+}
+
+void write_colour(const std::filesystem::path& file, int number) {
+    std::filesystem::create_directories(file.parent_path());
+    write_picture(file, 20, 12, 8, 3, [=](int, int, int) { return number; });
+}
+
+std::vector<Shown> all_of(Media& media) {
+    std::vector<Shown> shown;
+    while (const auto frame = media.next()) {
+        shown.push_back({static_cast<int>(frame->depth.at(3, 3)) / 100,
+                         frame->colour.rgb.empty() ? -1 : frame->colour.rgb.front(),
+                         frame->media_s});
+    }
+    return shown;
+}
+
 }  // namespace dibhr::test

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/video/media.hpp"
 #include "tests/support/text.hpp"
 
 namespace dibhr::test {
@@ -38,5 +39,18 @@ void cut(const std::filesystem::path& file, const std::filesystem::path& cut_fil
 
 /// What the call throws as an InputError; empty when it throws none.
 std::string refusal(const std::function<void()>& call);
+
+/// A flat 16-bit depth picture and an 8-bit colour picture that tell their number, in a folder that
+/// is made for them.
+void write_depth(const std::filesystem::path& file, int number, int columns = 16, int rows = 12);
+void write_colour(const std::filesystem::path& file, int number);
+
+/// The numbers of such pictures as a media gives them, colour -1 where it has none.
+struct Shown {
+    int depth;
+    int colour;
+    double time_s;
+};
+[[nodiscard]] std::vector<Shown> all_of(Media& media);
 
 }  // namespace dibhr::test

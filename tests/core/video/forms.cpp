@@ -20,6 +20,14 @@ float scene_depth(int level) {
     return std::ldexp(1.0F + static_cast<float>(level % 1024) / 1024.0F, level / 1024);
 }
 
+cv::Mat scene_levels() {
+    cv::Mat levels(kSceneRows, kSceneColumns, CV_32FC1);
+    for (int j = 0; j < kSceneRows; ++j)
+        for (int i = 0; i < kSceneColumns; ++i)
+            levels.at<float>(j, i) = static_cast<float>(scene_level(i, j));
+    return levels;
+}
+
 cv::Mat scene() {
     cv::Mat depth(kSceneRows, kSceneColumns, CV_32FC1);
     for (int j = 0; j < kSceneRows; ++j)

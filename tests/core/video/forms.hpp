@@ -24,7 +24,8 @@ inline constexpr int kSceneLevels = 4096;
 /// The depth of a level, 1 to 16, every one exact also in half precision.
 [[nodiscard]] float scene_depth(int level);
 
-/// The scene's depths as 32-bit floats.
+/// The scene's levels, and its depths, as 32-bit floats.
+[[nodiscard]] cv::Mat scene_levels();
 [[nodiscard]] cv::Mat scene();
 
 /// The bytes of a number, the least first or the greatest.

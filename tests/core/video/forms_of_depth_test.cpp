@@ -1,9 +1,5 @@
 // One scene of known depth in the forms that people bring it in: each gives the same surface, as
 // near as it can hold it, and says what was guessed.
-#include <ImfChannelList.h>
-#include <ImfFrameBuffer.h>
-#include <ImfHeader.h>
-#include <ImfOutputFile.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +21,7 @@
 #include "core/video/media.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/core/video/coded_scene.hpp"
+#include "tests/core/video/form_writers.hpp"
 #include "tests/core/video/forms.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -153,56 +150,6 @@ cv::Mat narrow(const cv::Mat& picture) {
     return half;
 }
 
-std::string bytes_of(const cv::Mat& picture) {
-    return {reinterpret_cast<const char*>(picture.data), picture.total() * picture.elemSize()};
-}
-
-// Writers.
-
-using Write = std::function<void(const fs::path&)>;
-
-Write picture(const cv::Mat& content) {
-    return [=](const fs::path& file) { REQUIRE(cv::imwrite(file.string(), content)); };
-}
-
-Write text(const std::string& bytes) {
-    return [=](const fs::path& file) { write_text(file, bytes); };
-}
-
-Write zip_of(const std::string& entry, const std::string& bytes) {
-    return [=](const fs::path& file) { write_zip(file, {{entry, bytes}}, true); };
-}
-
-Write exr(const std::string& channel, const cv::Mat& content) {
-    return [=](const fs::path& file) {
-        Imf::Header header(content.cols, content.rows);
-        header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
-        Imf::FrameBuffer buffer;
-        cv::Mat own = content.clone();
-        buffer.insert(channel,
-                      Imf::Slice::Make(Imf::FLOAT, own.data, header.dataWindow(), 4, own.step));
-        Imf::OutputFile out(file.c_str(), header);
-        out.setFrameBuffer(buffer);
-        out.writePixels(content.rows);
-    };
-}
-
-/// ffmpeg's input of three raw pictures; the format is ffmpeg's word for them.
-std::string raw_input(const cv::Mat& content, const std::string& format, const fs::path& file) {
-    std::ofstream out(file, std::ios::binary);
-    for (int k = 0; k < 3; ++k) out << bytes_of(content);
-    return "-f rawvideo -r 10 -pix_fmt " + format + " -s " + std::to_string(content.cols) + "x" +
-           std::to_string(content.rows) + " -i '" + file.string() + "' ";
-}
-
-Write video(const cv::Mat& content, const std::string& format, const std::string& encoding) {
-    return [=](const fs::path& file) {
-        const fs::path raw = file.string() + ".raw";
-        ffmpeg(raw_input(content, format, raw) + encoding + " '" + file.string() + "'");
-        fs::remove(raw);
-    };
-}
-
 Write turned_video(const cv::Mat& content, const std::string& format, const std::string& encoding) {
     return [=](const fs::path& file) {
         const fs::path plain = file.parent_path() / ("plain" + file.extension().string());
@@ -235,7 +182,6 @@ Write tracks(const cv::Mat& content, const std::string& format, const std::strin
     };
 }
 
-const std::string kFfv1_16 = "-c:v ffv1 -pix_fmt gray16le";
 const std::string kHevc = "-c:v libx265 -x265-params lossless=1:log-level=none -pix_fmt ";
 const std::string kCrf4 = "-c:v libx264 -crf 4 -pix_fmt yuv420p";
 
@@ -589,117 +535,4 @@ TEST_CASE("one scene is the same surface in every form, as near as the form can 
         check(found.meaning, "");  // and where somebody says all of it
     }
     WARN(table);
-}
-
-namespace {
-
-/// Opened as by `dibhr view FILE`: the first frame, or the line that says why not.
-struct Opened {
-    std::string line{};
-    DepthImage depth{};
-};
-
-Opened opened(const std::function<std::unique_ptr<Media>()>& open) {
-    Opened result;
-    result.line = refusal([&] {
-        if (const auto frame = open()->next()) result.depth = frame->depth;
-    });
-    return result;
-}
-
-/// One line, or levels from 0 to the highest, or no data.
-void check_sensible(const Opened& result) {
-    if (!result.line.empty()) {
-        CAPTURE(result.line);
-        CHECK(result.line.find('\n') == std::string::npos);
-        CHECK(contains(result.line, ": "));  // what to do next
-        return;
-    }
-    REQUIRE_FALSE(result.depth.levels.empty());
-    CHECK(std::isfinite(result.depth.highest_level));
-    CHECK(result.depth.highest_level > 0.0);
-    const auto highest = static_cast<float>(result.depth.highest_level);
-    const auto senseless = std::count_if(
-        result.depth.levels.begin(), result.depth.levels.end(), [highest](float level) {
-            return !std::isnan(level) && !(level >= 0.0F && level <= highest);
-        });
-    CHECK(senseless == 0);
-}
-
-cv::Mat flat(int type, double level, int columns = 64, int rows = 48) {
-    return {rows, columns, type, cv::Scalar(level)};
-}
-
-cv::Mat with_one(cv::Mat picture, double level) {
-    picture.at<std::uint16_t>(picture.rows / 2, picture.cols / 2) =
-        static_cast<std::uint16_t>(level);
-    return picture;
-}
-
-cv::Mat with_one_real(cv::Mat picture, float number) {
-    picture.at<float>(picture.rows / 2, picture.cols / 2) = number;
-    return picture;
-}
-
-std::string pfm_of(const cv::Mat& numbers) {
-    return pfm(numbers, "-1", true);
-}
-
-}  // namespace
-
-TEST_CASE("depth that says hardly anything is a plain line or a sensible surface", "[forms]") {
-    struct Case {
-        const char* name;
-        const char* file;
-        Write write;
-    };
-    const float none = std::numeric_limits<float>::quiet_NaN();
-    const float infinity = std::numeric_limits<float>::infinity();
-    const float most = std::numeric_limits<float>::max();
-    const auto real = [](double number) { return flat(CV_32F, number); };
-    const std::vector<Case> cases{
-        {"all 0", "a.png", picture(flat(CV_16U, 0.0))},
-        {"all 65535", "a.png", picture(flat(CV_16U, 65535.0))},
-        {"all equal", "a.png", picture(flat(CV_16U, 1500.0))},
-        {"all equal, 8 bit", "a_depth.png", picture(flat(CV_8U, 77.0))},
-        {"all 0, 8 bit", "a_depth.png", picture(flat(CV_8U, 0.0))},
-        {"one pixel differs", "a.png", picture(with_one(flat(CV_16U, 1500.0), 1501.0))},
-        {"one pixel has data", "a.png", picture(with_one(flat(CV_16U, 0.0), 1500.0))},
-        {"one pixel has no data", "a.png", picture(with_one(flat(CV_16U, 1500.0), 0.0))},
-        {"nothing but NaN", "a.pfm", text(pfm_of(real(none)))},
-        {"nothing but infinity", "a.pfm", text(pfm_of(real(infinity)))},
-        {"nothing but minus infinity", "a.pfm", text(pfm_of(real(-infinity)))},
-        {"one number among NaN", "a.pfm", text(pfm_of(with_one_real(real(none), 2.0F)))},
-        {"one infinity", "a.pfm", text(pfm_of(with_one_real(real(2.0), infinity)))},
-        {"largest and smallest numbers", "a.pfm", text(pfm_of(with_one_real(real(most), -most)))},
-        {"denormal numbers", "a.pfm", text(pfm_of(with_one_real(real(0.0), 1e-44F)))},
-        {"numbers below 0", "a.pfm", text(pfm_of(with_one_real(real(-5.0), -7.0F)))},
-        {"disparities of 0", "a_disp.pfm", text(pfm_of(real(0.0)))},
-        {"disparities below 0", "a_disp.pfm", text(pfm_of(with_one_real(real(-5.0), -7.0F)))},
-        {"disparities of which one is above 0", "a_disp.pfm",
-         text(pfm_of(with_one_real(real(0.0), 3.0F)))},
-        {"2 x 2", "a.png", picture(with_one(flat(CV_16U, 1500.0, 2, 2), 1600.0))},
-        {"2 x 2, all 0", "a.png", picture(flat(CV_16U, 0.0, 2, 2))},
-        {"2 x 1", "a.png", picture(flat(CV_16U, 1500.0, 2, 1))},
-        {"1 x 1 of real numbers", "a.pfm", text(pfm_of(flat(CV_32F, 1.0, 1, 1)))},
-        {"2 x 2 of real numbers", "a.npy",
-         text(npy("<f4", "(2, 2)", bytes_of(flat(CV_32F, 1.0, 2, 2))))},
-        {"a video of one frame, all 0", "a.mkv",
-         video(flat(CV_16U, 0.0), "gray16le", "-frames:v 1 " + kFfv1_16)},
-        {"a video of one frame, all equal", "a.mkv",
-         video(flat(CV_16U, 900.0), "gray16le", "-frames:v 1 " + kFfv1_16)}};
-    for (const Case& a : cases) {
-        CAPTURE(a.name);
-        const TemporaryFolder folder;
-        const fs::path file = folder / a.file;
-        a.write(file);
-        const DepthRequest guessed{.find_out = true};
-        check_sensible(opened([&] { return open_media(file, {}, guessed); }));
-        check_sensible(opened([&] { return open_depth(file, guessed); }));
-        for (const DepthUnit unit : kDepthUnits) {
-            CAPTURE(name_of(unit));
-            const DepthRequest told{.find_out = true, .command_line = {.unit = unit}};
-            check_sensible(opened([&] { return open_depth(file, told); }));
-        }
-    }
 }

@@ -25,31 +25,13 @@ namespace {
 
 using Write = std::function<void(const fs::path&, int)>;
 
-void write_depth(const fs::path& file, int number) {
-    fs::create_directories(file.parent_path());
-    write_picture(file, 640, 480, 16, 1, [=](int, int, int) { return 100 * number; });
-}
-void write_colour(const fs::path& file, int number) {
-    fs::create_directories(file.parent_path());
-    write_picture(file, 20, 12, 8, 3, [=](int, int, int) { return number; });
+/// Of the size for which datasets' cameras are known.
+void write_vga_depth(const fs::path& file, int number) {
+    write_depth(file, number, 640, 480);
 }
 
 SourceFacts depth_facts(const fs::path& place) {
     return open_picture_source(place, PictureRole::depth)->facts();
-}
-
-/// The depth of each frame, in hundreds, and the blue of its colour; -1 for none.
-struct Shown {
-    int depth;
-    int colour;
-};
-std::vector<Shown> all_of(Media& media) {
-    std::vector<Shown> shown;
-    while (const auto frame = media.next()) {
-        shown.push_back({static_cast<int>(frame->depth.at(3, 3)) / 100,
-                         frame->colour.rgb.empty() ? -1 : frame->colour.rgb.front()});
-    }
-    return shown;
 }
 
 void write_clip(const fs::path& file) {
@@ -65,7 +47,7 @@ TEST_CASE("7-Scenes' names say millimetres, two levels of no data, and its camer
     const TemporaryFolder folder;
     for (int number = 0; number < 2; ++number) {
         const std::string name = "frame-00000" + std::to_string(number);
-        write_depth(folder / (name + ".depth.png"), number);
+        write_vga_depth(folder / (name + ".depth.png"), number);
         write_colour(folder / (name + ".color.png"), number);
         write_text(folder / (name + ".pose.txt"), "1 0 0 0\n");
     }
@@ -80,7 +62,7 @@ TEST_CASE("7-Scenes' names say millimetres, two levels of no data, and its camer
 
 TEST_CASE("tsdf-fusion's names say millimetres, and a file beside them the camera", "[layouts]") {
     const TemporaryFolder folder;
-    write_depth(folder / "frame-000000.depth.png", 1);
+    write_vga_depth(folder / "frame-000000.depth.png", 1);
     write_colour(folder / "frame-000000.color.jpg", 1);
     CHECK(depth_facts(folder.path()).known.unit == DepthUnit::mm);
     CHECK_FALSE(depth_facts(folder.path()).known.intrinsics);
@@ -92,7 +74,7 @@ TEST_CASE("tsdf-fusion's names say millimetres, and a file beside them the camer
 TEST_CASE("ScanNet's folders say millimetres and the depth camera", "[layouts]") {
     const TemporaryFolder folder;
     for (const int number : {0, 1, 10}) {
-        write_depth(folder / "depth" / (std::to_string(number) + ".png"), number);
+        write_vga_depth(folder / "depth" / (std::to_string(number) + ".png"), number);
         write_colour(folder / "color" / (std::to_string(number) + ".jpg"), 20 * number);
     }
     fs::create_directories(folder / "intrinsic");
@@ -112,7 +94,7 @@ TEST_CASE("ScanNet's folders say millimetres and the depth camera", "[layouts]")
 TEST_CASE("Open3D's camera file says the scale and the intrinsics, column by column", "[layouts]") {
     const TemporaryFolder folder;
     const std::string colour = GENERATE("color", "image", "rgb");
-    write_depth(folder / "depth/000001.png", 1);
+    write_vga_depth(folder / "depth/000001.png", 1);
     write_colour(folder / colour / "000001.png", 1);
     const auto said = depth_facts(folder.path());
     CHECK((said.known.unit == DepthUnit::mm) == (colour != "rgb"));  // TUM's folders are so, too
@@ -127,7 +109,7 @@ TEST_CASE("Open3D's camera file says the scale and the intrinsics, column by col
 
 TEST_CASE("a camera file that is broken or of other pictures says nothing", "[layouts]") {
     const TemporaryFolder folder;
-    write_depth(folder / "depth/000001.png", 1);
+    write_vga_depth(folder / "depth/000001.png", 1);
     write_colour(folder / "color/000001.png", 1);
     const std::string json = GENERATE("", "{", "[]", R"({"intrinsic_matrix": [1, 2]})",
                                       R"({"intrinsic_matrix": ["a", 0, 0, 0, 5, 0, 3, 2, 1]})",
@@ -144,7 +126,7 @@ TEST_CASE("a camera file that is broken or of other pictures says nothing", "[la
 TEST_CASE("a plain folder of 16-bit pictures says nothing, nor do 8 bits in a dataset's layout",
           "[layouts]") {
     const TemporaryFolder folder;
-    write_depth(folder / "walker/frame_00001.png", 1);
+    write_vga_depth(folder / "walker/frame_00001.png", 1);
     CHECK(depth_facts(folder / "walker").known == DepthStatement{});
     CHECK(depth_facts(folder / "walker").known_from.empty());
     fs::create_directories(folder / "set/depth");
@@ -165,7 +147,7 @@ TEST_CASE("names of colour and depth beside each other are told apart in many wo
                                          {"img_7.png", "disp_7.png"}}));
     CAPTURE(colour, depth);
     write_colour(folder / colour, 7);
-    write_depth(folder / depth, 3);
+    write_vga_depth(folder / depth, 3);
     const auto shown = all_of(*open_media(folder.path()));
     REQUIRE(shown.size() == 1);
     CHECK(shown[0].depth == 3);
@@ -187,8 +169,8 @@ TEST_CASE("a stereo pair, and words inside other words, are not taken for colour
 
 TEST_CASE("16-bit pictures called images are depth where nothing else is", "[layouts]") {
     const TemporaryFolder folder;
-    write_depth(folder / "image_0001.png", 1);
-    write_depth(folder / "image_0002.png", 2);
+    write_vga_depth(folder / "image_0001.png", 1);
+    write_vga_depth(folder / "image_0002.png", 2);
     CHECK(all_of(*open_depth(folder.path())).size() == 2);
 }
 
@@ -196,13 +178,13 @@ TEST_CASE("a printf pattern names pictures from any number on, with gaps, in ord
     const TemporaryFolder folder;
     for (const int number : {9, 10, 100}) {
         const std::string text = std::to_string(number);
-        write_depth(
+        write_vga_depth(
             folder / "d" / ("depth_" + std::string(4 - text.size(), '0') + text + "_16.png"),
             number);
         write_colour(folder / "c" / (text + ".jpg"), 2 * number);
     }
     write_colour(folder / "c/cover.jpg", 1);
-    write_depth(folder / "d/other_0001_16.png", 1);
+    write_vga_depth(folder / "d/other_0001_16.png", 1);
     const auto media = open_media(folder / "c/%d.jpg", folder / "d/depth_%04d_16.png");
     const auto shown = all_of(*media);
     REQUIRE(shown.size() == 3);
@@ -218,8 +200,8 @@ TEST_CASE("a printf pattern names pictures from any number on, with gaps, in ord
 
 TEST_CASE("a file whose name looks like a pattern is that file", "[layouts]") {
     const TemporaryFolder folder;
-    write_depth(folder / "100%d.png", 5);
-    write_depth(folder / "1001.png", 6);
+    write_vga_depth(folder / "100%d.png", 5);
+    write_vga_depth(folder / "1001.png", 6);
     CHECK(all_of(*open_depth(folder / "100%d.png")).front().depth == 5);
 }
 
@@ -234,7 +216,7 @@ TEST_CASE("a folder that holds a colour and a depth video opens them, whatever e
     CAPTURE(colour, depth);
     write_clip(folder / colour);
     write_clip(folder / depth);
-    write_depth(folder / "derived/depth/1.png", 1);
+    write_vga_depth(folder / "derived/depth/1.png", 1);
     write_colour(folder / "derived/rgb/1.png", 1);
     const auto media = open_media(folder.path());
     CHECK(media->description().colour_path == folder / colour);
@@ -276,7 +258,7 @@ TEST_CASE("colour and depth that are given the other way round by their names ar
     CHECK(contains(swapped->description().notice, "'my_color.mkv' as colour"));
     const auto right = open_media(folder / "my_color.mkv", folder / "my_depth.mkv");
     CHECK(right->description().notice.empty());
-    write_depth(folder / "depth/1.png", 4);
+    write_vga_depth(folder / "depth/1.png", 4);
     write_colour(folder / "rgb/1.png", 9);
     const auto patterns = all_of(*open_media(folder / "depth/%d.png", folder / "rgb/%d.png"));
     REQUIRE(patterns.size() == 1);

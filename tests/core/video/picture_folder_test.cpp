@@ -15,36 +15,6 @@ using namespace dibhr;
 using namespace dibhr::test;
 namespace fs = std::filesystem;
 
-namespace {
-
-/// A flat 16-bit depth picture and an 8-bit colour picture that tell their number.
-void write_depth(const fs::path& file, int number) {
-    fs::create_directories(file.parent_path());
-    write_picture(file, 16, 12, 16, 1, [=](int, int, int) { return 100 * number; });
-}
-void write_colour(const fs::path& file, int number) {
-    fs::create_directories(file.parent_path());
-    write_picture(file, 20, 12, 8, 3, [=](int, int, int) { return number; });
-}
-
-struct Shown {
-    int depth;
-    int colour;
-    double time_s;
-};
-
-std::vector<Shown> all_of(Media& media) {
-    std::vector<Shown> shown;
-    while (const auto frame = media.next()) {
-        shown.push_back({static_cast<int>(frame->depth.at(3, 3)) / 100,
-                         frame->colour.rgb.empty() ? -1 : frame->colour.rgb.front(),
-                         frame->media_s});
-    }
-    return shown;
-}
-
-}  // namespace
-
 TEST_CASE("colour and depth of a folder are told apart by name and go together by number",
           "[folder]") {
     const TemporaryFolder folder;

@@ -20,15 +20,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void write_depth(const fs::path& file, int number, int columns = 16, int rows = 12) {
-    fs::create_directories(file.parent_path());
-    write_picture(file, columns, rows, 16, 1, [=](int, int, int) { return 100 * number; });
-}
-void write_colour(const fs::path& file, int number) {
-    fs::create_directories(file.parent_path());
-    write_picture(file, 20, 12, 8, 3, [=](int, int, int) { return number; });
-}
-
 /// Colour 1 to 4 every 33 ms, depth 1 to 4 a little later, as TUM's folders have them.
 void write_tum(const fs::path& folder) {
     for (int number = 1; number <= 4; ++number) {
@@ -43,22 +34,6 @@ void write_tum(const fs::path& folder) {
                "# depth maps\n"
                "1305031102.160407 depth/1.png\n1305031102.194330 depth/2.png\n"
                "1305031102.226738 depth/3.png\n1305031102.262886 depth/4.png\n");
-}
-
-struct Shown {
-    int depth;
-    int colour;
-    double time_s;
-};
-
-std::vector<Shown> all_of(Media& media) {
-    std::vector<Shown> shown;
-    while (const auto frame = media.next()) {
-        shown.push_back({static_cast<int>(frame->depth.at(3, 3)) / 100,
-                         frame->colour.rgb.empty() ? -1 : frame->colour.rgb.front(),
-                         frame->media_s});
-    }
-    return shown;
 }
 
 SourceFacts depth_facts(const fs::path& place) {

@@ -40,14 +40,6 @@ std::string scene_as(bool levels, bool little) {
     return bytes;
 }
 
-cv::Mat scene_levels() {
-    cv::Mat levels(kSceneRows, kSceneColumns, CV_32FC1);
-    for (int j = 0; j < kSceneRows; ++j)
-        for (int i = 0; i < kSceneColumns; ++i)
-            levels.at<float>(j, i) = static_cast<float>(scene_level(i, j));
-    return levels;
-}
-
 StillPicture written_and_read(const TemporaryFolder& folder, const std::string& name,
                               const std::string& bytes) {
     write_text(folder / name, bytes);
