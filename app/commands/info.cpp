@@ -94,6 +94,16 @@ std::string list_text(const std::vector<std::string>& words) {
     return list.empty() ? "nothing" : list;
 }
 
+/// Empty: the colour lies over the depth as it is.
+std::string registration_text(const MediaDescription& media) {
+    const Registration& moved = media.meaning->registration.value;
+    std::string text;
+    if (!media.registered_by.empty()) text = "by the " + media.registered_by;
+    if (moved == Registration{}) return text;
+    return text + (text.empty() ? "" : ", then ") + short_text(moved.right_px) + " px right, " +
+           short_text(moved.down_px) + " px down, " + short_text(moved.scale) + " times as large";
+}
+
 void print_depth(const MediaDescription& media) {
     print_fact("depth", size_text(media.depth_columns, media.depth_rows) + ", " +
                             media.depth_codec + ", " + levels_text(media));
@@ -104,6 +114,8 @@ void print_depth(const MediaDescription& media) {
     print_fact("assumed", list_text(assumed_facts(meaning)));
     print_fact("packing", name_of(meaning.packing.value));
     print_fact("code", name_of(meaning.code.value));
+    if (const std::string colour = registration_text(media); !colour.empty())
+        print_fact("registered", colour);
     print_fact("holes", number_text(100.0 * media.holes_share, 1) + " %");
 }
 
@@ -144,6 +156,9 @@ Json json_of(const DepthRange& range) {
 Json json_of(const Intrinsics& camera) {
     return {camera.fx, camera.fy, camera.cx, camera.cy};
 }
+Json json_of(const Registration& registration) {
+    return {registration.right_px, registration.down_px, registration.scale};
+}
 
 /// Each fact, and whose word it is; what is not known is null.
 void add_meaning(Json& json, const std::optional<DepthMeaning>& meaning) {
@@ -176,6 +191,7 @@ Json json_of(const fs::path& file, const MediaDescription& media) {
               {"frames", media.frames},
               {"duration_s", media.duration_s}};
     add_meaning(json, media.meaning);
+    json["registered_by"] = media.registered_by;
     json["notice"] = media.notice;
     return json;
 }

@@ -287,6 +287,10 @@ void add_depth_options(CLI::App& app, DepthStatement& depth) {
     add_fact_option(app, "--intrinsics", depth.intrinsics, intrinsics_in, "FX,FY,CX,CY",
                     "is not FX,FY,CX,CY with focal lengths above 0",
                     "Of the camera, in depth pixels");
+    add_fact_option(app, "--registration", depth.registration, registration_in, "RIGHT,DOWN,SCALE",
+                    "is not RIGHT,DOWN,SCALE in depth pixels, the scale 0.01 to 100",
+                    "Where the colour lies over the depth: moved by depth pixels, and so many "
+                    "times as large");
 }
 
 void add_shape_options(CLI::App& app, TouchRequest& request) {

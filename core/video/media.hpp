@@ -64,6 +64,8 @@ struct MediaDescription {
     double holes_share{0.0};  ///< of their pixels that are no data, in [0, 1] (`dibhr info`)
     std::optional<Fit> true_fit{};          ///< of a true shape, whose pixels are millimetres
     std::optional<DepthMeaning> meaning{};  ///< nothing: levels are as the file has them
+    std::string
+        registered_by{};  ///< the calibration that puts the colour over the depth; empty: none
     double duration_s{0.0};
     double frames_per_s{0.0};  ///< average of the real intervals as far as known; 0 for a still
     std::int64_t frames{0};    ///< an estimate until the end was reached

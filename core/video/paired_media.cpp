@@ -94,6 +94,7 @@ PairedMedia::PairedMedia(std::unique_ptr<PictureSource> depth,
     describe_time(depth_->facts(), description_);
     description_.meaning = scale_.meaning();
     if (colour != nullptr) describe_colour(colour->facts(), description_);
+    take_range();
     take_true_shape();
     if (painted_ || shape_) {
         description_.colour_columns = description_.depth_columns;
@@ -103,6 +104,7 @@ PairedMedia::PairedMedia(std::unique_ptr<PictureSource> depth,
     if (colour == nullptr) return;
     add_notice(colour->facts().notice);
     colour_.emplace(std::move(colour), depth_->facts());
+    take_registration();
 }
 
 std::optional<RawFrame> PairedMedia::next() {
@@ -116,10 +118,7 @@ std::optional<RawFrame> PairedMedia::next() {
     frame.media_s = taken->time_s;
     frame.index = taken->index;
     cv::Mat colour;
-    if (colour_) {
-        colour = colour_->shown_at(frame.media_s, interval_of(depth_->facts()));
-        tell_trouble(colour_->facts());
-    }
+    if (colour_) colour = colour_for(frame);
     if (shape_)
         put_straight(frame, colour);
     else if (colour_)
@@ -128,8 +127,33 @@ std::optional<RawFrame> PairedMedia::next() {
     return frame;
 }
 
+/// The colour picture as the depth camera would see it.
+cv::Mat PairedMedia::colour_for(const RawFrame& frame) {
+    cv::Mat colour = colour_->shown_at(frame.media_s, interval_of(depth_->facts()));
+    tell_trouble(colour_->facts());
+    if (cameras_ && !colour.empty()) colour = cameras_->seen_from_depth(in_mm(frame.depth), colour);
+    return moved(colour, registration_, size_);
+}
+
+void PairedMedia::take_range() {
+    const auto& meaning = description_.meaning;
+    if (!meaning || !meaning->is_metric()) return;
+    const double unit_mm = meaning->unit.value == DepthUnit::m ? 1000.0 : 1.0;
+    range_mm_ = {meaning->range.value.near * unit_mm, meaning->range.value.far * unit_mm};
+}
+
+void PairedMedia::take_registration() {
+    const auto& meaning = description_.meaning;
+    if (!meaning) return;
+    registration_ = meaning->registration.value;
+    const SourceFacts& facts = depth_->facts();
+    if (!facts.cameras || !meaning->is_metric()) return;
+    cameras_.emplace(size_, *facts.cameras);
+    description_.registered_by = facts.known_from;
+}
+
 void PairedMedia::take_true_shape() {
-    const auto meaning = scale_.meaning();
+    const auto& meaning = description_.meaning;
     if (!meaning || meaning->geometry.value != Geometry::true_shape) return;
     const std::string file = shown(description_.depth_path);
     if (!meaning->is_metric())
@@ -140,13 +164,13 @@ void PairedMedia::take_true_shape() {
         throw InputError(file +
                          " does not say through which camera it was seen: give --intrinsics "
                          "FX,FY,CX,CY, or leave --geometry true away");
-    const double unit_mm = meaning->unit.value == DepthUnit::m ? 1000.0 : 1.0;
-    range_mm_ = {meaning->range.value.near * unit_mm, meaning->range.value.far * unit_mm};
     std::vector<cv::Mat> samples_mm;
     const std::vector<cv::Mat> pictures = some_pictures(*depth_);
     samples_mm.reserve(pictures.size());
     for (const cv::Mat& picture : pictures) samples_mm.push_back(in_mm(scale_.image_of(picture)));
-    const Intrinsics& camera = *meaning->intrinsics.value;
+    const SourceFacts& facts = depth_->facts();
+    const bool is_its_own = meaning->intrinsics.value == facts.known.intrinsics;
+    const Camera camera(*meaning->intrinsics.value, is_its_own ? facts.lens : Lens{});
     shape_.emplace(size_, camera, range_mm_, straight_grid(size_, camera, range_mm_, samples_mm));
     description_.depth_columns = shape_->grid().columns;
     description_.depth_rows = shape_->grid().rows;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "core/video/colour_registration.hpp"
 #include "core/video/depth/depth_scale.hpp"
 #include "core/video/depth/true_shape.hpp"
 #include "core/video/media.hpp"
@@ -53,7 +54,10 @@ class PairedMedia : public Media {
     void add_notice(const std::string& sentence);
 
   private:
+    void take_range();
     void take_true_shape();
+    void take_registration();
+    [[nodiscard]] cv::Mat colour_for(const RawFrame& frame);
     [[nodiscard]] cv::Mat in_mm(const DepthImage& depth) const;
     void put_straight(RawFrame& frame, const cv::Mat& colour);
     void tell_trouble(const SourceFacts& facts);
@@ -62,9 +66,11 @@ class PairedMedia : public Media {
     std::unique_ptr<PictureSource> depth_;
     std::optional<ColourTrack> colour_{};
     DepthScale scale_;
-    cv::Size size_{};                   ///< of the depth's pictures
-    std::optional<TrueShape> shape_{};  ///< for `--geometry true`
-    DepthRange range_mm_{};             ///< of that
+    cv::Size size_{};                              ///< of the depth's pictures
+    DepthRange range_mm_{};                        ///< of distances; zeros: they are none
+    std::optional<ColourRegistration> cameras_{};  ///< where the two are calibrated
+    Registration registration_{};                  ///< beyond that
+    std::optional<TrueShape> shape_{};             ///< for `--geometry true`
     bool painted_;
     MediaDescription description_{};
 };

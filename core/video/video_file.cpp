@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -88,8 +89,14 @@ void VideoFile::know_azure_kinect() {
     facts_.known.unit = DepthUnit::mm;
     facts_.known.scale = 1.0;
     facts_.known.no_data = std::vector<double>{0.0};
-    facts_.known.intrinsics = azure_kinect_intrinsics(packets.attachment("calibration.json"),
-                                                      facts_.columns, facts_.rows);
+    const std::string calibration = packets.attachment("calibration.json");
+    const cv::Size size(facts_.columns, facts_.rows);
+    if (const auto camera = azure_kinect_depth_camera(calibration, size)) {
+        facts_.known.intrinsics = camera->intrinsics();
+        facts_.lens = camera->lens();
+    }
+    if (auto cameras = azure_kinect_cameras(calibration, size))
+        facts_.cameras = std::make_shared<const CameraPair>(std::move(*cameras));
     facts_.known_from =
         facts_.known.intrinsics ? "Azure Kinect calibration" : "Azure Kinect recording";
 }

@@ -65,10 +65,12 @@ DepthStatement as_in_file(const DepthRequest& request, int bits) {
     return file;
 }
 
-/// Files of their own, grey and as a relief, as nobody needs to say.
+/// Files of their own, grey, as a relief and over each other, as nobody needs to say.
 DepthStatement plain() {
-    return {
-        .packing = DepthPacking::separate, .code = DepthCode::grey, .geometry = Geometry::relief};
+    return {.packing = DepthPacking::separate,
+            .code = DepthCode::grey,
+            .geometry = Geometry::relief,
+            .registration = Registration{}};
 }
 
 /// A range that a unit cannot have is told, whoever said it.

@@ -60,6 +60,15 @@ struct Intrinsics {
     bool operator==(const Intrinsics&) const = default;
 };
 
+/// Where the colour picture lies over the depth picture: so many depth pixels to the right and
+/// down, and so many times as large, about its middle.
+struct Registration {
+    double right_px{0.0}, down_px{0.0};
+    double scale{1.0};
+
+    bool operator==(const Registration&) const = default;
+};
+
 /// Whether it is a camera at all: of finite numbers, and focal lengths above zero.
 [[nodiscard]] bool is_camera(const Intrinsics& intrinsics);
 
@@ -75,6 +84,7 @@ struct DepthStatement {
     std::optional<DepthCode> code{};
     std::optional<Geometry> geometry{};
     std::optional<Intrinsics> intrinsics{};
+    std::optional<Registration> registration{};
 
     bool operator==(const DepthStatement&) const = default;
     /// What `other` says, where this says nothing.
@@ -107,6 +117,7 @@ struct DepthMeaning {
     Known<DepthCode> code{DepthCode::grey};
     Known<Geometry> geometry{Geometry::relief};
     Known<std::optional<Intrinsics>> intrinsics{};  ///< nothing: not known
+    Known<Registration> registration{};  ///< beyond what the file's calibration says of it
     std::string found_in{};  ///< where what was found was found: "TUM lists"; empty: nowhere
 
     [[nodiscard]] bool is_metric() const {
@@ -129,6 +140,7 @@ void visit_facts(One& one, Other& other, const Visit& visit) {
     visit("code", one.code, other.code);
     visit("geometry", one.geometry, other.geometry);
     visit("intrinsics", one.intrinsics, other.intrinsics);
+    visit("registration", one.registration, other.registration);
 }
 
 /// Statements by whose word they are, the strongest first.

@@ -53,6 +53,17 @@ std::optional<Intrinsics> intrinsics_of(const std::vector<double>& numbers) {
     return is_camera(camera) ? std::optional(camera) : std::nullopt;
 }
 
+std::optional<Registration> registration_of(const std::vector<double>& numbers) {
+    constexpr double kMost_px = 1e5;
+    constexpr double kMostScale = 100.0;
+    if (numbers.size() != 3) return std::nullopt;
+    const Registration registration{numbers[0], numbers[1], numbers[2]};
+    const bool fits = std::fabs(registration.right_px) <= kMost_px &&
+                      std::fabs(registration.down_px) <= kMost_px &&
+                      registration.scale >= 1.0 / kMostScale && registration.scale <= kMostScale;
+    return fits ? std::optional(registration) : std::nullopt;
+}
+
 /// The finite number, those of an array, or of a text as the command line has it.
 std::optional<std::vector<double>> numbers_of(const toml::node& node, char separator) {
     if (const auto text = node.value_exact<std::string>()) return numbers_in(*text, separator);
@@ -117,6 +128,9 @@ std::string take(const std::string& name, const toml::node& node, DepthStatement
     if (name == "intrinsics")
         return keep(said.intrinsics, numbers ? intrinsics_of(*numbers) : std::nullopt,
                     "is not [fx, fy, cx, cy] with fx and fy above 0");
+    if (name == "registration")
+        return keep(said.registration, numbers ? registration_of(*numbers) : std::nullopt,
+                    "is not [right, down, scale] in depth pixels, the scale 0.01 to 100");
     if (name == "no-data")
         return keep(said.no_data,
                     numbers && numbers->size() <= kMostNoData ? numbers : std::nullopt,
@@ -210,6 +224,9 @@ std::string toml_of(const DepthStatement& said) {
     if (said.intrinsics)
         line("intrinsics", list_of({said.intrinsics->fx, said.intrinsics->fy, said.intrinsics->cx,
                                     said.intrinsics->cy}));
+    if (said.registration)
+        line("registration", list_of({said.registration->right_px, said.registration->down_px,
+                                      said.registration->scale}));
     return toml;
 }
 
@@ -242,6 +259,11 @@ std::optional<DepthRange> range_in(const std::string& text) {
 std::optional<Intrinsics> intrinsics_in(const std::string& text) {
     const auto numbers = numbers_in(text, ',');
     return numbers ? intrinsics_of(*numbers) : std::nullopt;
+}
+
+std::optional<Registration> registration_in(const std::string& text) {
+    const auto numbers = numbers_in(text, ',');
+    return numbers ? registration_of(*numbers) : std::nullopt;
 }
 
 }  // namespace dibhr

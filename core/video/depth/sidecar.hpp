@@ -34,5 +34,7 @@ void write_sidecar(const std::filesystem::path& media, const DepthStatement& sta
 [[nodiscard]] std::optional<DepthRange> range_in(const std::string& text);
 /// "FX,FY,CX,CY": the focal lengths above 0.
 [[nodiscard]] std::optional<Intrinsics> intrinsics_in(const std::string& text);
+/// "RIGHT,DOWN,SCALE": depth pixels, and 0.01 to 100.
+[[nodiscard]] std::optional<Registration> registration_in(const std::string& text);
 
 }  // namespace dibhr

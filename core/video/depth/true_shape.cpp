@@ -33,23 +33,28 @@ constexpr double kMostStep = 0.05;
 /// So far outside its border a triangle still counts, so that between two there is no gap [share].
 constexpr float kOverlap = 1e-4F;
 
-/// The picture's first and last ray along one side: sideways over forwards.
-struct Rays {
+/// The outermost rays along one side: sideways over forwards.
+struct Span {
     double first;
     double last;
 };
 
-Rays rays_of(int pixels, double focal, double centre) {
-    return {(0.0 - centre) / focal, (pixels - 1.0 - centre) / focal};
+Span span_of(const cv::Mat& rays) {
+    Span span{0.0, 0.0};
+    cv::minMaxLoc(rays, &span.first, &span.last, nullptr, nullptr, rays == rays);
+    return span;
 }
 
-void require_view(const Rays& rays, double focal) {
-    const bool is_camera = focal > 0.0 && rays.last - rays.first >= kNarrowestView &&
-                           rays.first >= -kWidestRay && rays.last <= kWidestRay;
+void require_camera(bool is_camera) {
     if (!is_camera)
         throw InputError(
             "the intrinsics are not of a camera that took this picture: give its focal lengths and "
             "its centre in depth pixels, FX,FY,CX,CY");
+}
+
+void require_view(const Span& rays) {
+    require_camera(rays.last - rays.first >= kNarrowestView && rays.first >= -kWidestRay &&
+                   rays.last <= kWidestRay);
 }
 
 void require_range(const DepthRange& range_mm) {
@@ -68,7 +73,7 @@ struct Extent {
     [[nodiscard]] double length() const { return end - begin; }
 };
 
-Extent extent_of(const Rays& rays, const DepthRange& range_mm) {
+Extent extent_of(const Span& rays, const DepthRange& range_mm) {
     return {std::min(rays.first * range_mm.near, rays.first * range_mm.far),
             std::max(rays.last * range_mm.near, rays.last * range_mm.far)};
 }
@@ -80,7 +85,7 @@ struct Places {
 };
 
 /// One pixel of 4 x 4 says enough.
-Places places_in(const std::vector<cv::Mat>& samples_mm, const Intrinsics& camera,
+Places places_in(const std::vector<cv::Mat>& samples_mm, const Rays& rays,
                  const DepthRange& range_mm) {
     constexpr int kStep = 4;
     Places places;
@@ -88,9 +93,12 @@ Places places_in(const std::vector<cv::Mat>& samples_mm, const Intrinsics& camer
         for (int j = 0; j < sample.rows; j += kStep) {
             for (int i = 0; i < sample.cols; i += kStep) {
                 const double distance = double{sample.at<float>(j, i)};
+                const double right = double{rays.right.at<float>(j, i)};
                 if (!(distance >= range_mm.near && distance <= range_mm.far)) continue;
-                places.x.push_back(static_cast<float>(distance * (i - camera.cx) / camera.fx));
-                places.y.push_back(static_cast<float>(distance * (j - camera.cy) / camera.fy));
+                if (std::isnan(right)) continue;
+                places.x.push_back(static_cast<float>(distance * right));
+                places.y.push_back(
+                    static_cast<float>(distance * double{rays.down.at<float>(j, i)}));
             }
         }
     }
@@ -112,6 +120,11 @@ Extent around(std::vector<float>& places, const Extent& all) {
     const double end = quantile(1.0 - kLeftOut);
     const double more = kMore * (end - begin);
     return {std::max(all.begin, begin - more), std::min(all.end, end + more)};
+}
+
+/// Of a pixel that is as large as the camera's.
+double focal_length(const Camera& camera) {
+    return std::sqrt(camera.intrinsics().fx * camera.intrinsics().fy);
 }
 
 /// The points of the grid along one side, in the middle of the extent.
@@ -141,17 +154,19 @@ cv::Mat of_possible_size(const cv::Mat& colour) {
 
 }  // namespace
 
-StraightGrid straight_grid(cv::Size depth_size, const Intrinsics& camera,
-                           const DepthRange& range_mm, const std::vector<cv::Mat>& samples_mm) {
+StraightGrid straight_grid(cv::Size depth_size, const Camera& camera, const DepthRange& range_mm,
+                           const std::vector<cv::Mat>& samples_mm) {
     require_range(range_mm);
-    const Rays across = rays_of(depth_size.width, camera.fx, camera.cx);
-    const Rays down = rays_of(depth_size.height, camera.fy, camera.cy);
-    require_view(across, camera.fx);
-    require_view(down, camera.fy);
-    Places places = places_in(samples_mm, camera, range_mm);
+    require_camera(is_camera(camera.intrinsics()));
+    const Rays rays = rays_of(depth_size, camera);
+    const Span across = span_of(rays.right);
+    const Span down = span_of(rays.down);
+    require_view(across);
+    require_view(down);
+    Places places = places_in(samples_mm, rays, range_mm);
     const Extent width = around(places.x, extent_of(across, range_mm));
     const Extent height = around(places.y, extent_of(down, range_mm));
-    const double nearest_pixel_mm = range_mm.near / std::sqrt(camera.fx * camera.fy);
+    const double nearest_pixel_mm = range_mm.near / focal_length(camera);
     const double most_points = std::max(kUsualPoints, 1.0 * depth_size.width * depth_size.height);
     StraightGrid grid;
     grid.pitch_mm =
@@ -162,14 +177,14 @@ StraightGrid straight_grid(cv::Size depth_size, const Intrinsics& camera,
     return grid;
 }
 
-TrueShape::TrueShape(cv::Size depth_size, const Intrinsics& camera, const DepthRange& range_mm,
+TrueShape::TrueShape(cv::Size depth_size, const Camera& camera, const DepthRange& range_mm,
                      const StraightGrid& grid)
     : depth_size_(depth_size),
       camera_(camera),
+      rays_(rays_of(depth_size, camera)),
       range_mm_(range_mm),
       grid_(grid),
-      steepest_(
-          static_cast<float>(std::min(kSteepest / std::sqrt(camera.fx * camera.fy), kMostStep))) {}
+      steepest_(static_cast<float>(std::min(kSteepest / focal_length(camera), kMostStep))) {}
 
 StraightPicture TrueShape::seen_straight_on(const cv::Mat& depth_mm, const cv::Mat& colour) {
     assert(depth_mm.type() == CV_32FC1 && depth_mm.size() == depth_size_);
@@ -201,16 +216,16 @@ void TrueShape::place_row(const cv::Mat& depth_mm, int row, std::vector<Corner>&
     const auto far = static_cast<float>(range_mm_.far);
     const auto left = static_cast<float>(grid_.left_mm / grid_.pitch_mm);
     const auto top = static_cast<float>(grid_.top_mm / grid_.pitch_mm);
-    const auto ray_y = static_cast<float>((row - camera_.cy) / (camera_.fy * grid_.pitch_mm));
-    const auto step_x = static_cast<float>(1.0 / (camera_.fx * grid_.pitch_mm));
-    const auto centre_x = static_cast<float>(camera_.cx);
+    const auto per_mm = static_cast<float>(1.0 / grid_.pitch_mm);
+    const float* const right = rays_.right.ptr<float>(row);
+    const float* const down = rays_.down.ptr<float>(row);
     corners.resize(static_cast<std::size_t>(depth_mm.cols));
     for (int i = 0; i < depth_mm.cols; ++i) {
         const float distance = distances_mm[i];
         const bool has_data = distance > 0.0F && std::isfinite(distance);
         const float held = has_data ? std::clamp(distance, near, far) : kNothing;
-        const float ray_x = (static_cast<float>(i) - centre_x) * step_x;
-        corners[static_cast<std::size_t>(i)] = {ray_x * held - left, ray_y * held - top,
+        const float held_px = held * per_mm;
+        corners[static_cast<std::size_t>(i)] = {right[i] * held_px - left, down[i] * held_px - top,
                                                 far - held};
     }
 }
@@ -254,28 +269,34 @@ void TrueShape::draw(const Corner& a, const Corner& b, const Corner& c, DepthIma
 /// Where in the colour picture the surface at every point of the grid was seen.
 void TrueShape::find_pixels(const DepthImage& image, cv::Size colour_size) {
     constexpr float kOutside = -2.0F;
+    const LensInFloats lens(camera_.lens());
+    const Intrinsics& pinhole = camera_.intrinsics();
     const double across = 1.0 * colour_size.width / depth_size_.width;
     const double down = 1.0 * colour_size.height / depth_size_.height;
-    const auto centre_x = static_cast<float>((camera_.cx + 0.5) * across - 0.5);
-    const auto centre_y = static_cast<float>((camera_.cy + 0.5) * down - 0.5);
-    const auto far = static_cast<float>(range_mm_.far);
+    const auto focal_x = static_cast<float>(pinhole.fx * across);
+    const auto focal_y = static_cast<float>(pinhole.fy * down);
+    const auto centre_x = static_cast<float>((pinhole.cx + 0.5) * across - 0.5);
+    const auto centre_y = static_cast<float>((pinhole.cy + 0.5) * down - 0.5);
     const auto last_x = static_cast<float>(colour_size.width - 1);
     const auto last_y = static_cast<float>(colour_size.height - 1);
+    const auto far = static_cast<float>(range_mm_.far);
+    const auto left_mm = static_cast<float>(grid_.left_mm);
+    const auto pitch_mm = static_cast<float>(grid_.pitch_mm);
     pixel_x_.create(image.rows, image.columns, CV_32FC1);
     pixel_y_.create(image.rows, image.columns, CV_32FC1);
     for (int j = 0; j < image.rows; ++j) {
         const float* const levels = &image.levels[image.index(0, j)];
         float* const xs = pixel_x_.ptr<float>(j);
         float* const ys = pixel_y_.ptr<float>(j);
-        const auto y = static_cast<float>((grid_.top_mm + j * grid_.pitch_mm) * camera_.fy * down);
-        const auto left = static_cast<float>(grid_.left_mm * camera_.fx * across);
-        const auto step = static_cast<float>(grid_.pitch_mm * camera_.fx * across);
+        const auto y_mm = static_cast<float>(grid_.top_mm + j * grid_.pitch_mm);
         for (int i = 0; i < image.columns; ++i) {
-            const bool is_seen = levels[i] == levels[i];
             const float nearness = 1.0F / (far - levels[i]);
-            const float x = centre_x + (left + static_cast<float>(i) * step) * nearness;
-            xs[i] = is_seen ? std::clamp(x, 0.0F, last_x) : kOutside;
-            ys[i] = is_seen ? std::clamp(centre_y + y * nearness, 0.0F, last_y) : kOutside;
+            const float x_mm = left_mm + static_cast<float>(i) * pitch_mm;
+            const LensInFloats::Bent seen = lens.bent(x_mm * nearness, y_mm * nearness);
+            const float x = centre_x + focal_x * seen.x;
+            const float y = centre_y + focal_y * seen.y;
+            xs[i] = seen.known ? std::clamp(x, 0.0F, last_x) : kOutside;
+            ys[i] = seen.known ? std::clamp(y, 0.0F, last_y) : kOutside;
         }
     }
 }

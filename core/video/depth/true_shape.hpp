@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
+#include "core/video/depth/camera.hpp"
 #include "core/video/depth/depth_meaning.hpp"
 #include "core/video/frame_window.hpp"
 
@@ -32,7 +33,7 @@ struct StraightGrid {
 /// is lost, but of no more points than half a million, or than the pictures have pixels if they
 /// have more: else a room behind the hand would make it grow with the square of far / near.
 /// Throws InputError when the intrinsics are no camera's, or the range is none.
-[[nodiscard]] StraightGrid straight_grid(cv::Size depth_size, const Intrinsics& camera,
+[[nodiscard]] StraightGrid straight_grid(cv::Size depth_size, const Camera& camera,
                                          const DepthRange& range_mm,
                                          const std::vector<cv::Mat>& samples_mm = {});
 
@@ -50,7 +51,7 @@ struct StraightPicture {
 class TrueShape {
   public:
     /// For depth pictures of this size, with a grid that was made for the same camera and range.
-    TrueShape(cv::Size depth_size, const Intrinsics& camera, const DepthRange& range_mm,
+    TrueShape(cv::Size depth_size, const Camera& camera, const DepthRange& range_mm,
               const StraightGrid& grid);
 
     [[nodiscard]] const StraightGrid& grid() const noexcept { return grid_; }
@@ -77,7 +78,8 @@ class TrueShape {
     [[nodiscard]] ColourImage colour_on(const DepthImage& image, const cv::Mat& colour);
 
     cv::Size depth_size_;
-    Intrinsics camera_;
+    Camera camera_;
+    Rays rays_;
     DepthRange range_mm_;
     StraightGrid grid_;
     float steepest_;  ///< of a triangle: its height over the distance of its nearest corner

@@ -71,17 +71,61 @@ constexpr std::array kKinectModes{
     KinectMode{320, 288, 512, 96, 90}, KinectMode{640, 576, 1024, 192, 180},
     KinectMode{512, 512, 512, 0, 0}, KinectMode{1024, 1024, 1024, 0, 0}};
 
-/// The depth camera's; a discarded value when there is none.
-Json depth_camera_in(const Json& calibration) {
+/// Of the camera at that place; a discarded value when there is none.
+Json camera_in(const Json& calibration, const char* location) {
     const Json::json_pointer place("/CalibrationInformation/Cameras");
     if (!calibration.is_object() || !calibration.contains(place)) return Json::value_t::discarded;
     for (const Json& camera : calibration.at(place)) {
-        const bool is_depth = camera.is_object() && camera.contains("Location") &&
-                              camera["Location"] == "CALIBRATION_CameraLocationD0";
-        if (is_depth && camera.contains("Intrinsics") && camera["Intrinsics"].is_object())
+        const bool is_it =
+            camera.is_object() && camera.contains("Location") && camera["Location"] == location;
+        if (is_it && camera.contains("Intrinsics") && camera["Intrinsics"].is_object())
             return camera;
     }
     return Json::value_t::discarded;
+}
+
+/// As it is written down: for a sensor of size 1, whose corner is 0, 0, in
+/// k4a_calibration_intrinsic_parameters_t's order: cx, cy, fx, fy, k1 to k6, two zeros, p2, p1.
+std::optional<Camera> unit_camera(const Json& camera) {
+    constexpr std::size_t kParameters = 14;
+    constexpr double kUsualRadius = 1.7;  // where the calibration did not find one
+    if (!camera.is_object()) return std::nullopt;
+    const std::vector<double> p = numbers_in(camera["Intrinsics"], "ModelParameters");
+    if (p.size() < 4) return std::nullopt;
+    Lens lens;
+    if (p.size() >= kParameters) {
+        lens = {{p[4], p[5], p[6], p[7], p[8], p[9]}, p[13], p[12], kUsualRadius};
+        const double radius = number_in(camera, "MetricRadius").value_or(0.0);
+        if (radius > 0.0001) lens.widest = radius;
+    }
+    const bool finite =
+        std::all_of(p.begin(), p.end(), [](double number) { return std::abs(number) < 1e6; });
+    return finite ? std::optional(Camera({p[2], p[3], p[0], p[1]}, lens)) : std::nullopt;
+}
+
+/// Of a sensor of so many pixels, of which a picture begins at `left`, `top`; ours is the centre of
+/// the first pixel.
+Camera cut_out(const Camera& unit, cv::Size sensor, int left, int top) {
+    const Intrinsics& i = unit.intrinsics();
+    return {Intrinsics{i.fx * sensor.width, i.fy * sensor.height, i.cx * sensor.width - left - 0.5,
+                       i.cy * sensor.height - top - 0.5},
+            unit.lens()};
+}
+
+/// From the depth camera's axes, at which both are written down, to the colour camera's. Whether
+/// there is such a rotation.
+bool take_place(const Json& camera, CameraPair& pair) {
+    if (!camera.contains("Rt") || !camera["Rt"].is_object()) return false;
+    const std::vector<double> rotation = numbers_in(camera["Rt"], "Rotation");
+    const std::vector<double> shift_m = numbers_in(camera["Rt"], "Translation");
+    if (rotation.size() != 9 || shift_m.size() != 3) return false;
+    std::copy(rotation.begin(), rotation.end(), std::begin(pair.rotation.val));
+    for (int axis = 0; axis < 3; ++axis)
+        pair.shift_mm[axis] = 1000.0 * shift_m[static_cast<std::size_t>(axis)];
+    constexpr double kRound = 1e-3;
+    constexpr double kFarthest_mm = 1e4;
+    const double off = cv::norm(pair.rotation * pair.rotation.t() - cv::Matx33d::eye());
+    return off < kRound && cv::norm(pair.shift_mm) < kFarthest_mm;
 }
 
 }  // namespace
@@ -111,24 +155,33 @@ std::optional<CameraFile> read_camera_json(const fs::path& file) {
     return is_camera(camera.intrinsics) ? std::optional(camera) : std::nullopt;
 }
 
-std::optional<Intrinsics> azure_kinect_intrinsics(const std::string& json, int columns, int rows) {
+std::optional<Camera> azure_kinect_depth_camera(const std::string& json, cv::Size depth) {
     constexpr int kSensor = 1024;
     const auto mode =
         std::find_if(kKinectModes.begin(), kKinectModes.end(), [=](const KinectMode& candidate) {
-            return candidate.columns == columns && candidate.rows == rows;
+            return cv::Size(candidate.columns, candidate.rows) == depth;
         });
     if (mode == kKinectModes.end()) return std::nullopt;
-    const Json camera = depth_camera_in(json_of(json));
+    const Json camera = camera_in(json_of(json), "CALIBRATION_CameraLocationD0");
     if (!camera.is_object() || whole_in(camera, "SensorWidth") != kSensor ||
         whole_in(camera, "SensorHeight") != kSensor)
         return std::nullopt;
-    const std::vector<double> p = numbers_in(camera["Intrinsics"], "ModelParameters");
-    if (p.size() < 4) return std::nullopt;
-    // Of a sensor of size 1, whose corner is 0, 0; ours is the centre of its first pixel.
-    const double size = mode->sensor;
-    const Intrinsics found{p[2] * size, p[3] * size, p[0] * size - mode->left - 0.5,
-                           p[1] * size - mode->top - 0.5};
-    return is_camera(found) ? std::optional(found) : std::nullopt;
+    const auto unit = unit_camera(camera);
+    if (!unit) return std::nullopt;
+    const Camera found = cut_out(*unit, {mode->sensor, mode->sensor}, mode->left, mode->top);
+    return is_camera(found.intrinsics()) ? std::optional(found) : std::nullopt;
+}
+
+std::optional<CameraPair> azure_kinect_cameras(const std::string& json, cv::Size depth) {
+    const auto depth_camera = azure_kinect_depth_camera(json, depth);
+    const Json camera = camera_in(json_of(json), "CALIBRATION_CameraLocationPV0");
+    const auto unit = unit_camera(camera);
+    if (!depth_camera || !unit) return std::nullopt;
+    CameraPair pair{.depth = *depth_camera};
+    pair.colour_size = {whole_in(camera, "SensorWidth"), whole_in(camera, "SensorHeight")};
+    pair.colour = cut_out(*unit, pair.colour_size, 0, 0);
+    const bool whole = is_camera(pair.colour.intrinsics()) && take_place(camera, pair);
+    return whole ? std::optional(pair) : std::nullopt;
 }
 
 }  // namespace dibhr

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "core/video/depth/camera.hpp"
 #include "core/video/depth/depth_meaning.hpp"
 
 namespace dibhr {
@@ -24,10 +25,13 @@ struct CameraFile {
 /// Nothing as above.
 [[nodiscard]] std::optional<CameraFile> read_camera_json(const std::filesystem::path& file);
 
-/// Microsoft's calibration of an Azure Kinect, as it is attached to its recordings: of the depth
-/// camera, for pictures of that size, which says the mode. Nothing when the text is none, or there
-/// is no such mode.
-[[nodiscard]] std::optional<Intrinsics> azure_kinect_intrinsics(const std::string& json,
-                                                                int columns, int rows);
+/// Microsoft's calibration of an Azure Kinect, as it is attached to its recordings, for depth
+/// pictures of that size, which says the mode. Nothing when the text is none, or there is no such
+/// mode.
+[[nodiscard]] std::optional<Camera> azure_kinect_depth_camera(const std::string& json,
+                                                              cv::Size depth);
+/// The same, and its colour camera; nothing as above, or when that is not in it.
+[[nodiscard]] std::optional<CameraPair> azure_kinect_cameras(const std::string& json,
+                                                             cv::Size depth);
 
 }  // namespace dibhr

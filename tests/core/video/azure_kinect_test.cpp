@@ -48,7 +48,7 @@ TEST_CASE(
     "[azure]") {
     // Sensor: f = 504, 505 and c = 516, 510 of 1024 pixels, from the corner.
     const auto camera = [](int columns, int rows) {
-        return azure_kinect_intrinsics(calibration(), columns, rows).value();
+        return azure_kinect_depth_camera(calibration(), {columns, rows}).value().intrinsics();
     };
     CHECK(camera(1024, 1024) == Intrinsics{504.0, 505.0, 515.5, 509.5});
     CHECK(camera(640, 576) == Intrinsics{504.0, 505.0, 515.5 - 192.0, 509.5 - 180.0});
@@ -57,8 +57,8 @@ TEST_CASE(
 }
 
 TEST_CASE("a calibration that is broken, or not for these pictures, says nothing", "[azure]") {
-    CHECK_FALSE(azure_kinect_intrinsics(calibration(), 640, 480));
-    CHECK_FALSE(azure_kinect_intrinsics(calibration("512"), 640, 576));
+    CHECK_FALSE(azure_kinect_depth_camera(calibration(), {640, 480}));
+    CHECK_FALSE(azure_kinect_depth_camera(calibration("512"), {640, 576}));
     const std::string text = calibration();
     for (const std::string& broken :
          {std::string(), text.substr(0, text.size() - 5), std::string("[]"), std::string("null"),
@@ -67,9 +67,9 @@ TEST_CASE("a calibration that is broken, or not for these pictures, says nothing
           std::string(R"({"CalibrationInformation": {"Cameras": [3, {}, {"Location": 4}]}})"),
           std::string(100'000, '[')}) {
         CAPTURE(broken.substr(0, 80));
-        CHECK_FALSE(azure_kinect_intrinsics(broken, 640, 576));
+        CHECK_FALSE(azure_kinect_depth_camera(broken, {640, 576}));
     }
-    CHECK(azure_kinect_intrinsics(text + std::string(3, '\0'), 640, 576));
+    CHECK(azure_kinect_depth_camera(text + std::string(3, '\0'), {640, 576}));
 }
 
 TEST_CASE("a recording opens as colour and depth, in millimetres, with its depth camera",

@@ -26,7 +26,8 @@ DepthStatement everything() {
             .packing = DepthPacking::bottom_top,
             .code = DepthCode::hue,
             .geometry = Geometry::true_shape,
-            .intrinsics = Intrinsics{525.0, 525.12345678901234, 319.5, -0.1}};
+            .intrinsics = Intrinsics{525.0, 525.12345678901234, 319.5, -0.1},
+            .registration = Registration{-3.25, 0.1, 1.01}};
 }
 
 template <typename Value>

@@ -238,8 +238,8 @@ TEST_CASE("the grid is as fine as the nearest pixels, unless it were too large",
     CHECK(shallow.columns == 639 * 5 / 4 + 1);
     const StraightGrid deep = straight_grid(size, camera, {400.0, 4000.0});
     CHECK_THAT(1.0 * deep.columns * deep.rows, WithinRel(524288.0, 0.005));
-    const StraightGrid large =
-        straight_grid(cv::Size(3840, 2160), {3000, 3000, 1919.5, 1079.5}, {400.0, 4000.0});
+    const StraightGrid large = straight_grid(
+        cv::Size(3840, 2160), Intrinsics{3000, 3000, 1919.5, 1079.5}, {400.0, 4000.0});
     CHECK_THAT(1.0 * large.columns * large.rows, WithinRel(3840.0 * 2160.0, 0.005));
     CHECK_THAT(deep.left_mm + deep.pitch_mm * (deep.columns - 1), WithinAbs(-deep.left_mm, 1e-9));
 }

@@ -1,0 +1,87 @@
+// Cameras as calibrations describe them; inside the room.
+#pragma once
+
+#include <array>
+#include <opencv2/core/mat.hpp>
+#include <opencv2/core/matx.hpp>
+#include <opencv2/core/types.hpp>
+
+#include "core/video/depth/depth_meaning.hpp"
+
+namespace dibhr {
+
+/// How a lens bends what is not on its axis: Brown and Conrady's model with a rational radial part,
+/// as OpenCV and Microsoft have it.
+struct Lens {
+    std::array<double, 6> k{};  ///< radial: (1 + k1 r2 + k2 r4 + k3 r6) / (1 + k4 r2 + k5 r4 + ...)
+    double p1{0.0}, p2{0.0};    ///< tangential
+    double widest{20.0};        ///< sideways over forwards, beyond which it is not known
+
+    bool operator==(const Lens&) const = default;
+};
+
+/// A lens for what is done with every pixel of every frame, without branches: right to a
+/// thousandth of a pixel.
+class LensInFloats {
+  public:
+    explicit LensInFloats(const Lens& lens);
+
+    struct Bent {
+        float x, y;
+        bool known;  ///< the lens is, for that ray; no number is not
+    };
+    [[nodiscard]] Bent bent(float x, float y) const {
+        const float r2 = x * x + y * y;
+        const float stretch = (1.0F + r2 * (k_[0] + r2 * (k_[1] + r2 * k_[2]))) /
+                              (1.0F + r2 * (k_[3] + r2 * (k_[4] + r2 * k_[5])));
+        const float twice_xy = 2.0F * x * y;
+        return {x * stretch + p1_ * twice_xy + p2_ * (r2 + 2.0F * x * x),
+                y * stretch + p1_ * (r2 + 2.0F * y * y) + p2_ * twice_xy, r2 <= widest2_};
+    }
+
+  private:
+    std::array<float, 6> k_{};
+    float p1_, p2_, widest2_;
+};
+
+/// A ray is how far it goes to the right and down while it goes 1 forwards.
+class Camera {
+  public:
+    Camera() = default;
+    /// Without a lens: a pinhole, as which intrinsics stand for a camera.
+    Camera(const Intrinsics& intrinsics, const Lens& lens = {});  // NOLINT(*explicit*)
+
+    [[nodiscard]] const Intrinsics& intrinsics() const noexcept { return intrinsics_; }
+    [[nodiscard]] const Lens& lens() const noexcept { return lens_; }
+
+    /// Where a ray meets the picture [px]; NaN beyond what the lens is known for.
+    [[nodiscard]] cv::Point2d pixel_of(cv::Point2d ray) const;
+    /// What a place in the picture sees; NaN where the lens sees nothing.
+    [[nodiscard]] cv::Point2d ray_of(cv::Point2d pixel) const;
+
+  private:
+    Intrinsics intrinsics_{};
+    Lens lens_{};
+    bool bends_{false};
+};
+
+/// The ray of the middle of every pixel.
+struct Rays {
+    cv::Mat right{};  ///< CV_32FC1, NaN where the lens sees nothing
+    cv::Mat down{};
+};
+[[nodiscard]] Rays rays_of(cv::Size picture, const Camera& camera);
+
+/// The two cameras of a device that sees depth and colour.
+struct CameraPair {
+    Camera depth{};
+    Camera colour{};
+    cv::Size colour_size{};  ///< of the pictures that `colour` is for
+    cv::Matx33d rotation{};  ///< from the depth camera's axes (right, down, forwards) to the
+    cv::Vec3d shift_mm{};    ///< colour camera's: rotation * point + shift
+};
+
+/// The same camera for pictures of another size, that are as wide, and cut above and below alike.
+[[nodiscard]] Camera camera_for(cv::Size picture, const Camera& camera, cv::Size calibrated);
+
+}  // namespace dibhr
