@@ -99,8 +99,8 @@ void ColourRegistration::project(const Camera& colour) {
     constexpr float kFar = 1e5F;  // px; outside of the picture is outside, however far
     const cv::Size size = depth_mm_.size();
     for (cv::Mat* const map : {&x_, &y_, &distance_mm_}) map->create(size, CV_32FC1);
-    const cv::Matx33f rotation = cameras_.rotation;
-    const cv::Vec3f shift = cameras_.shift_mm;
+    const cv::Matx33f rotation = cameras_.to_colour.rotation;
+    const cv::Vec3f shift = cameras_.to_colour.shift_mm;
     const Intrinsics& pinhole = colour.intrinsics();
     const auto fx = static_cast<float>(pinhole.fx), fy = static_cast<float>(pinhole.fy);
     const auto cx = static_cast<float>(pinhole.cx), cy = static_cast<float>(pinhole.cy);

@@ -149,7 +149,7 @@ void PairedMedia::take_registration() {
     const SourceFacts& facts = depth_->facts();
     if (!facts.cameras || !meaning->is_metric()) return;
     cameras_.emplace(size_, *facts.cameras);
-    description_.registered_by = facts.known_from;
+    description_.registered_by = facts.cameras->known_from;
 }
 
 void PairedMedia::take_true_shape() {

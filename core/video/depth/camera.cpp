@@ -84,6 +84,14 @@ Rays rays_of(cv::Size picture, const Camera& camera) {
     return rays;
 }
 
+bool is_placement(const Placement& placement) {
+    constexpr double kRound = 1e-3;
+    constexpr double kFarthest_mm = 1e4;
+    const cv::Matx33d& rotation = placement.rotation;
+    const double off = cv::norm(rotation * rotation.t() - cv::Matx33d::eye());
+    return off < kRound && cv::norm(placement.shift_mm) < kFarthest_mm;
+}
+
 Camera camera_for(cv::Size picture, const Camera& camera, cv::Size calibrated) {
     const double scale = 1.0 * picture.width / calibrated.width;
     const double cut = 0.5 * (calibrated.height * scale - picture.height);

@@ -5,6 +5,7 @@
 #include <opencv2/core/mat.hpp>
 #include <opencv2/core/matx.hpp>
 #include <opencv2/core/types.hpp>
+#include <string>
 
 #include "core/video/depth/depth_meaning.hpp"
 
@@ -72,13 +73,21 @@ struct Rays {
 };
 [[nodiscard]] Rays rays_of(cv::Size picture, const Camera& camera);
 
+/// From one camera's axes (right, down, forwards) to another's: rotation * point + shift.
+struct Placement {
+    cv::Matx33d rotation{};
+    cv::Vec3d shift_mm{};
+};
+/// Whether it is one of two cameras of a device: a rotation, and less than ten metres.
+[[nodiscard]] bool is_placement(const Placement& placement);
+
 /// The two cameras of a device that sees depth and colour.
 struct CameraPair {
     Camera depth{};
     Camera colour{};
-    cv::Size colour_size{};  ///< of the pictures that `colour` is for
-    cv::Matx33d rotation{};  ///< from the depth camera's axes (right, down, forwards) to the
-    cv::Vec3d shift_mm{};    ///< colour camera's: rotation * point + shift
+    cv::Size colour_size{};    ///< of the pictures that `colour` is for
+    Placement to_colour{};     ///< from the depth camera's axes to the colour camera's
+    std::string known_from{};  ///< who calibrated them: "Azure Kinect calibration"
 };
 
 /// The same camera for pictures of another size, that are as wide, and cut above and below alike.

@@ -112,20 +112,14 @@ Camera cut_out(const Camera& unit, cv::Size sensor, int left, int top) {
             unit.lens()};
 }
 
-/// From the depth camera's axes, at which both are written down, to the colour camera's. Whether
-/// there is such a rotation.
-bool take_place(const Json& camera, CameraPair& pair) {
-    if (!camera.contains("Rt") || !camera["Rt"].is_object()) return false;
+/// From the axes at which all cameras are written down, the depth camera's.
+std::optional<Placement> placement_of(const Json& camera) {
+    if (!camera.contains("Rt") || !camera["Rt"].is_object()) return std::nullopt;
     const std::vector<double> rotation = numbers_in(camera["Rt"], "Rotation");
     const std::vector<double> shift_m = numbers_in(camera["Rt"], "Translation");
-    if (rotation.size() != 9 || shift_m.size() != 3) return false;
-    std::copy(rotation.begin(), rotation.end(), std::begin(pair.rotation.val));
-    for (int axis = 0; axis < 3; ++axis)
-        pair.shift_mm[axis] = 1000.0 * shift_m[static_cast<std::size_t>(axis)];
-    constexpr double kRound = 1e-3;
-    constexpr double kFarthest_mm = 1e4;
-    const double off = cv::norm(pair.rotation * pair.rotation.t() - cv::Matx33d::eye());
-    return off < kRound && cv::norm(pair.shift_mm) < kFarthest_mm;
+    if (rotation.size() != 9 || shift_m.size() != 3) return std::nullopt;
+    const Placement placement{cv::Matx33d(rotation.data()), 1000.0 * cv::Vec3d(shift_m.data())};
+    return is_placement(placement) ? std::optional(placement) : std::nullopt;
 }
 
 }  // namespace
@@ -177,11 +171,12 @@ std::optional<CameraPair> azure_kinect_cameras(const std::string& json, cv::Size
     const Json camera = camera_in(json_of(json), "CALIBRATION_CameraLocationPV0");
     const auto unit = unit_camera(camera);
     if (!depth_camera || !unit) return std::nullopt;
-    CameraPair pair{.depth = *depth_camera};
-    pair.colour_size = {whole_in(camera, "SensorWidth"), whole_in(camera, "SensorHeight")};
-    pair.colour = cut_out(*unit, pair.colour_size, 0, 0);
-    const bool whole = is_camera(pair.colour.intrinsics()) && take_place(camera, pair);
-    return whole ? std::optional(pair) : std::nullopt;
+    const auto placement = placement_of(camera);
+    const cv::Size size(whole_in(camera, "SensorWidth"), whole_in(camera, "SensorHeight"));
+    const CameraPair pair{*depth_camera, cut_out(*unit, size, 0, 0), size,
+                          placement.value_or(Placement{}), "Azure Kinect calibration"};
+    const bool is_whole = placement && is_camera(pair.colour.intrinsics());
+    return is_whole ? std::optional(pair) : std::nullopt;
 }
 
 }  // namespace dibhr

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -259,9 +260,38 @@ class RosTopic : public PictureSource {
         facts_.known.scale = 1.0;
         facts_.known.no_data = std::vector<double>{0.0};
         facts_.known_from = "ROS topic " + one_line(topic_.name, 100);
-        const auto camera =
-            first_message(files_, {0, camera_info_of(topic_.name), "sensor_msgs/msg/CameraInfo"});
-        if (camera) facts_.known.intrinsics = ros_intrinsics(*camera, facts_.columns, facts_.rows);
+        know_cameras();
+    }
+
+    /// Of the pictures of that topic; nothing when the bag does not tell.
+    [[nodiscard]] std::optional<RosCamera> camera_of(const std::string& topic) {
+        const auto info =
+            first_message(files_, {0, camera_info_of(topic), "sensor_msgs/msg/CameraInfo"});
+        return info ? ros_camera(*info) : std::nullopt;
+    }
+
+    void know_cameras() {
+        const auto depth = camera_of(topic_.name);
+        if (!depth || depth->size != cv::Size(facts_.columns, facts_.rows)) return;
+        facts_.known.intrinsics = depth->camera.intrinsics();
+        facts_.lens = depth->camera.lens();
+        const std::string colour_topic = chosen(files_, PictureRole::colour).topic.name;
+        const auto colour = camera_of(colour_topic);
+        if (!colour || colour->frame == depth->frame || colour->size.empty()) return;
+        // As RealSense's node tells it, beside its pictures.
+        const std::string told_in =
+            colour_topic.substr(0, colour_topic.rfind("/color/")) + "/extrinsics/depth_to_color";
+        const auto message =
+            first_message(files_, {0, told_in, "realsense2_camera_msgs/msg/Extrinsics"});
+        if (const auto placement = message ? ros_placement(*message) : std::nullopt)
+            facts_.cameras = std::make_shared<const CameraPair>(
+                CameraPair{depth->camera, colour->camera, colour->size, *placement,
+                           "ROS topic " + one_line(told_in, 100)});
+        else
+            facts_.notice =
+                "colour and depth are of two cameras, and the bag does not tell how they stand: "
+                "record depth that is aligned to the colour, or shift the colour "
+                "(--registration)";
     }
 
     BagFiles files_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <opencv2/core.hpp>
@@ -18,6 +19,7 @@ namespace dibhr {
 
 namespace {
 
+constexpr std::uint32_t kMostAlong = 1U << 20;
 constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 30;  ///< OpenCV's own limit
 
 /// Reads a message from its beginning; beyond its end there is nothing but zeros, and it is told.
@@ -215,21 +217,43 @@ cv::Mat picture_of(const RosImage& image) {
     return image.compressed ? decoded(image.data, cv::IMREAD_COLOR) : plain_picture(image);
 }
 
-std::optional<Intrinsics> ros_intrinsics(Bytes message, int columns, int rows) {
+std::optional<RosCamera> ros_camera(Bytes message) {
     CdrReader reader(message);
     (void)header_of(reader);
-    (void)reader.text();
-    const bool of_rows = reader.number<std::uint32_t>() == static_cast<std::uint32_t>(rows);
-    const bool of_columns = reader.number<std::uint32_t>() == static_cast<std::uint32_t>(columns);
-    (void)reader.text();  // the model of distortion
+    RosCamera found;
+    found.frame = reader.text();
+    const auto rows = reader.number<std::uint32_t>();
+    const auto columns = reader.number<std::uint32_t>();
+    if (rows > kMostAlong || columns > kMostAlong) return std::nullopt;
+    found.size = {static_cast<int>(columns), static_cast<int>(rows)};
+    const std::string model = reader.text();
+    std::array<double, 8> bends{};  // k1, k2, p1, p2, k3 to k6, as OpenCV has them
     const auto coefficients = reader.number<std::uint32_t>();
-    for (std::uint32_t k = 0; k < coefficients && reader.whole(); ++k)
-        (void)reader.number<double>();
+    for (std::uint32_t k = 0; k < coefficients && reader.whole(); ++k) {
+        const auto bend = reader.number<double>();
+        if (k < bends.size()) bends[k] = bend;
+    }
     std::array<double, 9> matrix{};  // row by row
     for (double& value : matrix) value = reader.number<double>();
-    const Intrinsics camera{matrix[0], matrix[4], matrix[2], matrix[5]};
-    if (!reader.whole() || !of_rows || !of_columns || !is_camera(camera)) return std::nullopt;
-    return camera;
+    const Intrinsics intrinsics{matrix[0], matrix[4], matrix[2], matrix[5]};
+    if (!reader.whole() || !is_camera(intrinsics)) return std::nullopt;
+    const bool is_known = model == "plumb_bob" || model == "rational_polynomial";
+    const bool is_sane =
+        std::all_of(bends.begin(), bends.end(), [](double bend) { return std::fabs(bend) < 1e6; });
+    Lens lens;
+    if (is_known && is_sane)
+        lens = {{bends[0], bends[1], bends[4], bends[5], bends[6], bends[7]}, bends[2], bends[3]};
+    found.camera = Camera(intrinsics, lens);
+    return found;
+}
+
+std::optional<Placement> ros_placement(Bytes message) {
+    CdrReader reader(message);
+    cv::Matx33d columns;  // column by column
+    for (double& value : columns.val) value = reader.number<double>();
+    Placement placement{columns.t(), {}};
+    for (double& metres : placement.shift_mm.val) metres = 1000.0 * reader.number<double>();
+    return reader.whole() && is_placement(placement) ? std::optional(placement) : std::nullopt;
 }
 
 }  // namespace dibhr

@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-#include "core/video/depth/depth_meaning.hpp"
+#include "core/video/depth/camera.hpp"
 #include "core/video/pictures.hpp"
 
 namespace dibhr {
@@ -43,8 +43,16 @@ enum class RosPicture { depth, grey, colour, unknown };
 /// when it is broken or of an unknown encoding.
 [[nodiscard]] cv::Mat picture_of(const RosImage& image);
 
-/// Of a sensor_msgs/msg/CameraInfo, when it is for pictures of that size; nothing when it is not,
-/// is broken, or has no camera.
-[[nodiscard]] std::optional<Intrinsics> ros_intrinsics(Bytes message, int columns, int rows);
+/// Of a sensor_msgs/msg/CameraInfo.
+struct RosCamera {
+    Camera camera{};
+    cv::Size size{};      ///< of the pictures that it is for
+    std::string frame{};  ///< the name of its axes
+};
+/// Nothing when the message is broken, or has no camera.
+[[nodiscard]] std::optional<RosCamera> ros_camera(Bytes message);
+
+/// Of a realsense2_camera_msgs/msg/Extrinsics; nothing when it is broken, or none.
+[[nodiscard]] std::optional<Placement> ros_placement(Bytes message);
 
 }  // namespace dibhr

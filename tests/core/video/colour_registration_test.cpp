@@ -77,7 +77,7 @@ cv::Vec3b paint(cv::Vec3d place_mm) {
 }
 
 cv::Vec3d colour_camera_mm(const CameraPair& pair) {
-    return -(pair.rotation.t() * pair.shift_mm);
+    return -(pair.to_colour.rotation.t() * pair.to_colour.shift_mm);
 }
 
 cv::Mat colour_seen(const CameraPair& pair) {
@@ -87,7 +87,7 @@ cv::Mat colour_seen(const CameraPair& pair) {
     for (int j = 0; j < picture.rows; ++j) {
         for (int i = 0; i < picture.cols; ++i) {
             const cv::Point2d ray = camera.ray_of({1.0 * i, 1.0 * j});
-            const cv::Vec3d along = pair.rotation.t() * cv::Vec3d(ray.x, ray.y, 1.0);
+            const cv::Vec3d along = pair.to_colour.rotation.t() * cv::Vec3d(ray.x, ray.y, 1.0);
             picture.at<cv::Vec3b>(j, i) = paint(met(there, along));
         }
     }
@@ -130,7 +130,7 @@ Fitness fitness_of(const cv::Mat& registered, const CameraPair& pair) {
             const cv::Vec3b colour =
                 registered.at<cv::Vec3b>(finer * j + static_cast<int>(0.5 * finer),
                                          finer * i + static_cast<int>(0.5 * finer));
-            const cv::Vec3d from_colour = pair.rotation * seen + pair.shift_mm;
+            const cv::Vec3d from_colour = pair.to_colour.rotation * seen + pair.to_colour.shift_mm;
             const cv::Point2d pixel =
                 camera.pixel_of({from_colour[0] / from_colour[2], from_colour[1] / from_colour[2]});
             if (!cv::Rect2d(2, 2, kColourSize.width - 4, kColourSize.height - 4).contains(pixel))

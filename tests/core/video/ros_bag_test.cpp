@@ -3,6 +3,7 @@
 
 #include <sqlite3.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -47,11 +48,11 @@ class CdrWriter {
         bytes_ += data;
         return *this;
     }
-    CdrWriter& header(double stamp_s) {
+    CdrWriter& header(double stamp_s, const std::string& frame = "camera_optical_frame") {
         const double whole_s = std::floor(stamp_s);
         number(static_cast<std::int32_t>(whole_s));
         number(static_cast<std::uint32_t>(std::llround((stamp_s - whole_s) * 1e9)));
-        return text("camera_optical_frame");
+        return text(frame);
     }
     [[nodiscard]] const std::string& bytes() const { return bytes_; }
 
@@ -104,9 +105,9 @@ std::string encoded(const std::string& ending, const cv::Mat& picture) {
     return {bytes.begin(), bytes.end()};
 }
 
-std::string camera_info(int columns, int rows) {
+std::string camera_info(int columns, int rows, const std::string& frame = "camera_optical_frame") {
     CdrWriter info;
-    info.header(1.0)
+    info.header(1.0, frame)
         .number(static_cast<std::uint32_t>(rows))
         .number(static_cast<std::uint32_t>(columns))
         .text("plumb_bob")
@@ -136,9 +137,10 @@ class Bag {
     Bag(const Bag&) = delete;
     Bag& operator=(const Bag&) = delete;
 
-    int topic(const std::string& name, const std::string& type) {
+    int topic(const std::string& name, const std::string& type,
+              const std::string& package = "sensor_msgs") {
         run("INSERT INTO topics(name, type, serialization_format, offered_qos_profiles) VALUES('" +
-            name + "', 'sensor_msgs/msg/" + type + "', 'cdr', '')");
+            name + "', '" + package + "/msg/" + type + "', 'cdr', '')");
         return static_cast<int>(sqlite3_last_insert_rowid(database_));
     }
     void add(int topic, const std::string& data, std::int64_t recorded_ns = 7) {
@@ -159,6 +161,14 @@ class Bag {
   private:
     sqlite3* database_{nullptr};
 };
+
+/// Column by column, and in metres.
+std::string extrinsics(const std::vector<double>& rotation, const std::vector<double>& shift_m) {
+    CdrWriter message;
+    for (const double value : rotation) message.number(value);
+    for (const double value : shift_m) message.number(value);
+    return message.bytes();
+}
 
 std::vector<float> depths_of(Media& media) {
     std::vector<float> depths;
@@ -239,6 +249,39 @@ TEST_CASE("depth that is registered to the colour camera comes before other dept
         bag.add(bag.topic("/aligned_depth_to_color/image_raw", "Image"), depth_image(1.0, 2));
     }
     CHECK(depths_of(*open_depth(folder / "a.db3")) == std::vector<float>{2.0F});
+}
+
+TEST_CASE("a bag of two cameras tells how they stand, or it is said that it does not", "[bag]") {
+    const TemporaryFolder folder;
+    const std::string told = GENERATE(as<std::string>{}, "well", "broken", "not", "one camera");
+    CAPTURE(told);
+    const double tilt = told == "broken" ? 0.9 : 1.0;
+    {
+        Bag bag(folder / "two.db3");
+        bag.add(bag.topic("/cam/depth/image_rect_raw", "Image"), depth_image(1.0, 1000));
+        bag.add(bag.topic("/cam/depth/camera_info", "CameraInfo"), camera_info(8, 6, "depth"));
+        bag.add(bag.topic("/cam/color/image_raw", "Image"), colour_image(1.0, "rgb8", "abc"));
+        bag.add(bag.topic("/cam/color/camera_info", "CameraInfo"),
+                camera_info(10, 6, told == "one camera" ? "depth" : "colour"));
+        if (told == "well" || told == "broken")
+            bag.add(
+                bag.topic("/cam/extrinsics/depth_to_color", "Extrinsics", "realsense2_camera_msgs"),
+                extrinsics({0, tilt, 0, -1, 0, 0, 0, 0, 1}, {0.015, 0.0, -0.001}));
+    }
+    const auto source = open_picture_source(folder / "two.db3", PictureRole::depth);
+    const SourceFacts& facts = source->facts();
+    CHECK(facts.known.intrinsics);
+    REQUIRE((facts.cameras != nullptr) == (told == "well"));
+    CHECK(facts.notice.empty() == (told == "well" || told == "one camera"));
+    if (told != "well") return;
+    CHECK(facts.cameras->to_colour.rotation * cv::Vec3d(1, 2, 3) == cv::Vec3d(-2, 1, 3));
+    CHECK(facts.cameras->to_colour.shift_mm == cv::Vec3d(15, 0, -1));
+    CHECK(facts.cameras->colour_size == cv::Size(10, 6));
+    const Lens& lens = facts.cameras->colour.lens();  // plumb_bob 0, 0.1 .. 0.4
+    CHECK(lens.k == std::array<double, 6>{0.0, 0.1, 0.4, 0.0, 0.0, 0.0});
+    CHECK(lens.p1 == 0.1 * 2);
+    CHECK(open_media(folder / "two.db3", {}, {.find_out = true})->description().registered_by ==
+          "ROS topic /cam/extrinsics/depth_to_color");
 }
 
 TEST_CASE("compressed topics of a bag are read: JPEG colour, PNG depth of both kinds", "[bag]") {
