@@ -39,6 +39,10 @@ std::string codec_by_name(const fs::path& file) {
     return codec;
 }
 
+bool is_tiff(const std::string& head) {
+    return head.starts_with("II") || head.starts_with("MM");
+}
+
 cv::Mat decoded(const fs::path& file, int flags) {
     cv::Mat picture;
     try {
@@ -49,7 +53,8 @@ cv::Mat decoded(const fs::path& file, int flags) {
     }
     if (picture.empty())
         throw InputError(shown(file) +
-                         " cannot be decoded as a picture: it may be damaged, export it again");
+                         " cannot be decoded as a picture: it may be damaged, export it again" +
+                         (is_tiff(head_of(file)) ? " (with 8 or 16 bits, or 32-bit reals)" : ""));
     return picture;
 }
 

@@ -103,6 +103,14 @@ TEST_CASE("every level of a TIFF file is kept, whatever its numbers are", "[tiff
     CHECK(whole.picture.depth() == CV_16U);
 }
 
+TEST_CASE("a TIFF file of numbers that are not read says which are", "[tiff]") {
+    const TemporaryFolder folder;
+    const std::string data = scene_as<std::uint32_t>(true, true);
+    write_text(folder / "a.tiff", tiff(kSceneColumns, kSceneRows, 32, 1, true, data));
+    CHECK(contains(refusal([&] { (void)read_still(folder / "a.tiff", PictureRole::depth); }),
+                   "export it again (with 8 or 16 bits, or 32-bit reals)"));
+}
+
 TEST_CASE("a folder of real pictures is a video of real levels", "[pfm]") {
     const TemporaryFolder folder;
     write_text(folder / "depth_1.pfm", pfm(scene(), "-1", true));
