@@ -48,7 +48,8 @@ cv::Mat moved(const cv::Mat& colour, const Registration& registration, cv::Size 
                             registration.scale,
                             registration.down_px * down + stays * 0.5 * (colour.rows - 1)};
     cv::Mat result;
-    cv::warpAffine(colour, result, place, colour.size(), cv::INTER_LINEAR, cv::BORDER_CONSTANT);
+    cv::warpAffine(colour, result, place, colour.size(), cv::INTER_LINEAR, cv::BORDER_CONSTANT,
+                   kNoColour);
     return result;
 }
 
@@ -70,7 +71,7 @@ cv::Mat ColourRegistration::seen_from_depth(const cv::Mat& depth_mm, const cv::M
     }
     cv::Mat result;
     cv::remap(colour, result, is_finer ? finer_x_ : x_, is_finer ? finer_y_ : y_, cv::INTER_LINEAR,
-              cv::BORDER_CONSTANT);
+              cv::BORDER_CONSTANT, kNoColour);
     return result;
 }
 

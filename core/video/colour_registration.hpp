@@ -7,8 +7,11 @@
 
 namespace dibhr {
 
-/// The colour picture moved and stretched over the depth, black where it ends. As it is for a
-/// registration that changes nothing.
+/// Of what no colour is known of: its shape still shows in its shading.
+inline const cv::Scalar kNoColour = cv::Scalar::all(96);
+
+/// The colour picture moved and stretched over the depth, without colour where it ends. As it is
+/// for a registration that changes nothing.
 [[nodiscard]] cv::Mat moved(const cv::Mat& colour, const Registration& registration,
                             cv::Size depth_size);
 
