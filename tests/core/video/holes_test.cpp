@@ -16,6 +16,7 @@
 #include "core/video/media.hpp"
 #include "tests/core/video/pits.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/listed_media.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -98,37 +99,6 @@ DepthImage cleaned(const DepthImage& image) {
 std::vector<std::uint8_t> unseen_of(DepthImage image) {
     return DepthCleaner().clean(image, {});
 }
-
-/// Frames at kFrame_s, which counts what is read.
-class ListedMedia : public Media {
-  public:
-    explicit ListedMedia(std::vector<DepthImage> frames, int* read = nullptr)
-        : frames_(std::move(frames)), read_(read) {
-        description_.frames = static_cast<std::int64_t>(frames_.size());
-        description_.frames_per_s = 1.0 / kFrame_s;
-    }
-    [[nodiscard]] const MediaDescription& description() const override { return description_; }
-    std::optional<RawFrame> next() override {
-        if (position_ == frames_.size()) return std::nullopt;
-        if (read_ != nullptr) ++*read_;
-        RawFrame frame;
-        frame.depth = frames_[position_];
-        frame.media_s = static_cast<double>(position_) * kFrame_s;
-        frame.index = static_cast<std::int64_t>(position_++);
-        return frame;
-    }
-    void seek(double media_s) override {
-        const double frame = std::floor((media_s + kTimeTolerance_s) / kFrame_s);
-        const auto last = static_cast<double>(frames_.size() - 1);
-        position_ = static_cast<std::size_t>(std::clamp(frame, 0.0, last));
-    }
-
-  private:
-    std::vector<DepthImage> frames_;
-    int* read_;
-    std::size_t position_{0};
-    MediaDescription description_{};
-};
 
 bool same(const DepthImage& a, const DepthImage& b) {
     return a.levels == b.levels;
@@ -309,7 +279,7 @@ TEST_CASE("a frame has the same bits whichever way it was come to", "[holes]") {
         return frame && frame->index == k &&
                frame->depth->levels == in_order[static_cast<std::size_t>(k)].levels;
     };
-    FrameReader reader(std::make_unique<ListedMedia>(frames));
+    FrameReader reader(std::make_unique<ListedMedia>(frames, kFrame_s));
     SECTION("sought") {
         for (const int k : {50, 3, 74, 31, 0, 60, 29}) CHECK(is_frame(reader.at(frame_s(k)), k));
     }
@@ -331,15 +301,15 @@ TEST_CASE("a seek reads a second back only to a frame with holes", "[holes]") {
     const bool holed = GENERATE(false, true);
     const auto lost = [holed](int i, int j) { return holed && i == 70 && j == 50; };
     int read = 0;
-    FrameReader reader(
-        std::make_unique<ListedMedia>(std::vector<DepthImage>(75, image_with(plane, lost)), &read));
+    FrameReader reader(std::make_unique<ListedMedia>(
+        std::vector<DepthImage>(75, image_with(plane, lost)), kFrame_s, &read));
     REQUIRE(reader.at(60 * kFrame_s));
     CHECK((holed ? read >= 31 && read <= 34 : read == 1));
 }
 
 TEST_CASE("where nothing was ever seen is told with the frame", "[holes]") {
     FrameReader reader(std::make_unique<ListedMedia>(
-        std::vector<DepthImage>{image_with(far_and_near_box), image_with(plane)}));
+        std::vector<DepthImage>{image_with(far_and_near_box), image_with(plane)}, kFrame_s));
     const auto first = reader.at(0.0);
     REQUIRE((first && first->unseen));
     CHECK(first->unseen->size() == first->depth->levels.size());

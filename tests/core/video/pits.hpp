@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
+#include "tests/support/pressing_finger.hpp"
 
 namespace dibhr::test {
 
@@ -43,23 +44,19 @@ inline int count_pits(const DepthImage& raw, const DepthImage& cleaned, Pits whi
     return pits;
 }
 
-/// The share of the time in which a finger 12 px below the surface, which follows it within 250 ms,
-/// is below it: at `pixel`, over frames `frame_s` apart.
+/// The share of the time in which a finger at rest is below the surface: at `pixel`, over frames
+/// `frame_s` apart.
 inline double contact_share(const std::vector<DepthImage>& frames, std::size_t pixel,
                             double frame_s) {
-    constexpr double kStep_s = 0.001;
-    constexpr double kFollows_s = 0.25;
-    constexpr double kPressed_px = 12.0;
-    double smooth_px = elevation_px(frames.front(), pixel);
+    PressingFinger finger(elevation_px(frames.front(), pixel), kRestFollows_s);
     int in_contact = 0;
     int steps = 0;
     for (std::size_t k = 0; k + 1 < frames.size(); ++k)
-        for (double t_s = 0.0; t_s < frame_s; t_s += kStep_s, ++steps) {
+        for (double t_s = 0.0; t_s < frame_s; t_s += kFingerTick_s, ++steps) {
             const double from_px = elevation_px(frames[k], pixel);
             const double to_px = elevation_px(frames[k + 1], pixel);
             const double z_px = from_px + t_s / frame_s * (to_px - from_px);
-            smooth_px += kStep_s / kFollows_s * (z_px - smooth_px);
-            in_contact += z_px > smooth_px - kPressed_px ? 1 : 0;
+            in_contact += z_px > finger.follow(z_px) ? 1 : 0;
         }
     return static_cast<double>(in_contact) / steps;
 }
