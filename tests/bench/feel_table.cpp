@@ -1,0 +1,128 @@
+// Prints how recordings feel (feel.hpp): feel [--raw] [--fitted] [--spots N] [--json FILE] PLACE...
+// A place is what `dibhr view` takes, in one word; of two files the depth alone is as good.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/files/json.hpp"
+#include "core/files/output_file.hpp"
+#include "core/files/plain_text.hpp"
+#include "tests/bench/feel.hpp"
+
+namespace {
+
+using namespace dibhr;
+using namespace dibhr::bench;
+
+double seconds(std::size_t milliseconds) {
+    return 1e-3 * static_cast<double>(milliseconds);
+}
+
+/// The last words of a place that tell it from others.
+std::string short_name(const std::filesystem::path& place) {
+    const std::filesystem::path file = place.has_filename() ? place : place.parent_path();
+    return (file.parent_path().filename() / file.filename()).string();
+}
+
+void print_head() {
+    std::printf("%-36s %-13s %9s %9s %9s %7s %8s %8s |", "recording", "way", "buzz N", "p99 N/ms",
+                "p99.9", "stuck", "contact", "of s");
+    for (const Cause cause : kCauses) std::printf(" %12s", name_of(cause));
+    std::printf("  [%% of the time lost to it]\n");
+}
+
+void print_way(const std::string& name, Way way, const FeelNumbers& feel) {
+    std::printf("%-36s %-13s %9.4f %9.4f %9.4f", name.c_str(), name_of(way), feel.buzz_newton,
+                feel.step_p99, feel.step_p999);
+    const bool slides = way == Way::slide;
+    if (slides)
+        std::printf(" %6.1f%%", 100.0 * feel.stuck);
+    else
+        std::printf(" %7s", "");
+    std::printf(" %7.2f%% %8.1f |", 100.0 * feel.contact, feel.seconds);
+    for (const Cause cause : kCauses)
+        if (!slides && feel.seconds > 0.0)
+            std::printf(" %12.2f", 100.0 * seconds(feel.lost[cause]) / feel.seconds);
+    std::printf("\n");
+    std::fflush(stdout);
+}
+
+Json json_of(Way way, const FeelNumbers& feel) {
+    Json json{{"seconds", feel.seconds},
+              {"buzz_newton", feel.buzz_newton},
+              {"step_p99_newton_per_ms", feel.step_p99},
+              {"step_p999_newton_per_ms", feel.step_p999},
+              {"contact", feel.contact}};
+    if (way == Way::slide) {
+        json["stuck"] = feel.stuck;
+        return json;
+    }
+    for (const Cause cause : kCauses) json["lost_ms"][name_of(cause)] = feel.lost[cause];
+    return json;
+}
+
+Json json_of(const std::string& place, const Feel& feel) {
+    Json json{{"recording", place},
+              {"columns", feel.columns},
+              {"rows", feel.rows},
+              {"frames", feel.frames},
+              {"seconds", feel.seconds}};
+    for (const Way way : kWays) json[name_of(way)] = json_of(way, feel[way]);
+    return json;
+}
+
+/// False when one of them could not be read, which is said.
+bool measure(const std::vector<std::string>& places, const FeelOptions& options, Json& json) {
+    bool all = true;
+    print_head();
+    for (const std::string& place : places) {
+        try {
+            const Feel feel = feel_of(open_media(place, {}, {.find_out = true}), options);
+            for (const Way way : kWays) print_way(short_name(place), way, feel[way]);
+            json.push_back(json_of(place, feel));
+        } catch (const std::exception& error) {
+            print_error_line(place + ": " + error.what());
+            all = false;
+        }
+    }
+    return all;
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+    std::vector<std::string> places;
+    FeelOptions options;
+    bool raw = false;
+    std::string json_file;
+    CLI::App app{"How recordings feel, in numbers."};
+    app.add_option("PLACE", places, "Recordings, each as `dibhr view` takes it")->required();
+    app.add_flag("--raw", raw, "Without cleaning; what levels mean is found out all the same");
+    app.add_flag("--fitted", options.fitted, "Relief and pitch as the viewer fits them");
+    app.add_option("--spots", options.spots, "Fingers of each way to touch")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
+    app.add_option("--seed", options.seed, "Of the places")->capture_default_str();
+    app.add_option("--json", json_file, "Writes the numbers as JSON; - is standard output");
+    CLI11_PARSE(app, count, words);
+    if (raw) options.cleaning = {false, false, false};
+    try {
+        std::optional<OutputFile> out;
+        if (!json_file.empty()) out.emplace(json_file);
+        Json json = Json::array();
+        const bool all = measure(places, options, json);
+        if (out) {
+            out->write(json_text(json));
+            out->commit();
+        }
+        return all ? 0 : 1;
+    } catch (const std::exception& error) {
+        print_error_line(error.what());
+        return 1;
+    }
+}
