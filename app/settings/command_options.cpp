@@ -284,9 +284,11 @@ void add_depth_options(CLI::App& app, DepthStatement& depth) {
     add_word_option(app, "--depth-code", kDepthCodes, depth.code, "How a picture holds depth");
     add_word_option(app, "--geometry", kGeometries, depth.geometry,
                     "relief: the picture plane plus elevation; true: the shape in mm");
-    add_fact_option(app, "--intrinsics", depth.intrinsics, intrinsics_in, "FX,FY,CX,CY",
-                    "is not FX,FY,CX,CY with focal lengths above 0",
-                    "Of the camera, in depth pixels");
+    add_fact_option(app, "--intrinsics", depth.intrinsics, intrinsics_in, "FX,FY,CX,CY|DEG",
+                    "is neither FX,FY,CX,CY with focal lengths above 0 nor a field of view like "
+                    "60deg",
+                    "Of the camera, in depth pixels; or its horizontal field of view, as in "
+                    "60deg");
     add_fact_option(app, "--registration", depth.registration, registration_in, "RIGHT,DOWN,SCALE",
                     "is not RIGHT,DOWN,SCALE in depth pixels, the scale 0.01 to 100",
                     "Where the colour lies over the depth: moved by depth pixels, and so many "

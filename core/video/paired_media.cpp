@@ -158,12 +158,13 @@ void PairedMedia::take_true_shape() {
     const std::string file = shown(description_.depth_path);
     if (!meaning->is_metric())
         throw InputError(file +
-                         " has no distances, so its true shape is not known: give --depth-unit mm "
-                         "or m with the scale, or leave --geometry true away");
+                         " has no distances, so its true shape is not known: give its unit, mm or "
+                         "m, with the scale (--depth-unit), or the relief (--geometry relief)");
     if (!meaning->intrinsics.value)
         throw InputError(file +
-                         " does not say through which camera it was seen: give --intrinsics "
-                         "FX,FY,CX,CY, or leave --geometry true away");
+                         " does not say through which camera it was seen: give the intrinsics "
+                         "FX,FY,CX,CY or a field of view, as in 60deg (--intrinsics), or the "
+                         "relief (--geometry relief)");
     std::vector<cv::Mat> samples_mm;
     const std::vector<cv::Mat> pictures = some_pictures(*depth_);
     samples_mm.reserve(pictures.size());

@@ -132,6 +132,8 @@ DepthScale find_scale(const Sources& sources, const DepthRequest& request) {
     DepthMeaning meaning;
     meaning.found_in = facts.known_from;
     hear(voices, meaning);
+    if (auto& camera = meaning.intrinsics.value)
+        camera = in_pixels(*camera, facts.columns, facts.rows);
     guess(some_pictures(depth), facts.bits, meaning, voices);
     require_range(meaning, facts.file);
     return {meaning, facts.bits};

@@ -2,6 +2,7 @@
 #include "core/video/depth/depth_meaning.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "core/files/plain_text.hpp"
 
@@ -56,6 +57,13 @@ bool is_camera(const Intrinsics& intrinsics) {
     const auto is_length = [](double value) { return value > 0.0 && value < kMost; };
     return is_length(intrinsics.fx) && is_length(intrinsics.fy) &&
            std::abs(intrinsics.cx) < kMost && std::abs(intrinsics.cy) < kMost;
+}
+
+Intrinsics in_pixels(const Intrinsics& said, int columns, int rows) {
+    if (!(said.field_of_view_deg > 0.0)) return said;
+    const double half_view = 0.5 * said.field_of_view_deg * std::numbers::pi / 180.0;
+    const double focal = 0.5 * columns / std::tan(half_view);
+    return {focal, focal, 0.5 * (columns - 1), 0.5 * (rows - 1)};
 }
 
 void DepthStatement::fill_in(const DepthStatement& other) {

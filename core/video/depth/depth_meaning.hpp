@@ -56,6 +56,9 @@ struct DepthRange {
 /// (0, 0: the centre of the first pixel).
 struct Intrinsics {
     double fx{0.0}, fy{0.0}, cx{0.0}, cy{0.0};
+    /// Said in place of those while the picture's size is not known: what it shows from its left to
+    /// its right edge [degrees]; 0: the others are said.
+    double field_of_view_deg{0.0};
 
     bool operator==(const Intrinsics&) const = default;
 };
@@ -71,6 +74,10 @@ struct Registration {
 
 /// Whether it is a camera at all: of finite numbers, and focal lengths above zero.
 [[nodiscard]] bool is_camera(const Intrinsics& intrinsics);
+
+/// The same for a picture of that size: of a field of view, with square pixels and the axis through
+/// the middle.
+[[nodiscard]] Intrinsics in_pixels(const Intrinsics& said, int columns, int rows);
 
 /// What one voice says of a depth source: a file's own metadata, a sidecar, the panel, the command
 /// line. What it does not say is empty.

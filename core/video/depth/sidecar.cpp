@@ -47,7 +47,13 @@ std::optional<DepthRange> range_of(const std::vector<double>& ends) {
     return DepthRange{ends[0], ends[1]};
 }
 
+std::optional<Intrinsics> field_of_view(double degrees) {
+    if (!(degrees >= 1.0 && degrees < 179.0)) return std::nullopt;
+    return Intrinsics{.field_of_view_deg = degrees};
+}
+
 std::optional<Intrinsics> intrinsics_of(const std::vector<double>& numbers) {
+    if (numbers.size() == 1) return field_of_view(numbers.front());
     if (numbers.size() != 4) return std::nullopt;
     const Intrinsics camera{numbers[0], numbers[1], numbers[2], numbers[3]};
     return is_camera(camera) ? std::optional(camera) : std::nullopt;
@@ -78,6 +84,12 @@ std::optional<std::vector<double>> numbers_of(const toml::node& node, char separ
     const bool all =
         array == nullptr ? take(node) : std::all_of(array->begin(), array->end(), take);
     return all ? std::optional(numbers) : std::nullopt;
+}
+
+std::optional<Intrinsics> intrinsics_of(const toml::node& node) {
+    if (const auto text = node.value_exact<std::string>()) return intrinsics_in(*text);
+    const auto numbers = numbers_of(node, ',');
+    return numbers ? intrinsics_of(*numbers) : std::nullopt;
 }
 
 template <typename Values>
@@ -116,6 +128,10 @@ std::string take(const std::string& name, const toml::node& node, DepthStatement
         return keep(said.code, word_of(node, kDepthCodes), "is neither grey nor hue");
     if (name == "geometry")
         return keep(said.geometry, word_of(node, kGeometries), "is neither relief nor true");
+    if (name == "intrinsics")
+        return keep(said.intrinsics, intrinsics_of(node),
+                    "is neither [fx, fy, cx, cy] with fx and fy above 0 nor a field of view like "
+                    "\"60deg\"");
     const auto numbers = numbers_of(node, name == "range" ? ':' : ',');
     if (name == "scale") {
         const bool fits = numbers && numbers->size() == 1 && numbers->front() > 0.0;
@@ -125,9 +141,6 @@ std::string take(const std::string& name, const toml::node& node, DepthStatement
     if (name == "range")
         return keep(said.range, numbers ? range_of(*numbers) : std::nullopt,
                     "is not two numbers that differ, [near, far]");
-    if (name == "intrinsics")
-        return keep(said.intrinsics, numbers ? intrinsics_of(*numbers) : std::nullopt,
-                    "is not [fx, fy, cx, cy] with fx and fy above 0");
     if (name == "registration")
         return keep(said.registration, numbers ? registration_of(*numbers) : std::nullopt,
                     "is not [right, down, scale] in depth pixels, the scale 0.01 to 100");
@@ -221,9 +234,7 @@ std::string toml_of(const DepthStatement& said) {
     word("packing", said.packing);
     word("code", said.code);
     word("geometry", said.geometry);
-    if (said.intrinsics)
-        line("intrinsics", list_of({said.intrinsics->fx, said.intrinsics->fy, said.intrinsics->cx,
-                                    said.intrinsics->cy}));
+    if (said.intrinsics) line("intrinsics", '"' + text_of(*said.intrinsics) + '"');
     if (said.registration)
         line("registration", list_of({said.registration->right_px, said.registration->down_px,
                                       said.registration->scale}));
@@ -257,8 +268,23 @@ std::optional<DepthRange> range_in(const std::string& text) {
 }
 
 std::optional<Intrinsics> intrinsics_in(const std::string& text) {
-    const auto numbers = numbers_in(text, ',');
-    return numbers ? intrinsics_of(*numbers) : std::nullopt;
+    std::string_view number = text;
+    bool is_angle = false;
+    for (const std::string_view unit : {"deg", "\u00b0"}) {
+        if (is_angle || !number.ends_with(unit)) continue;
+        number.remove_suffix(unit.size());
+        is_angle = true;
+    }
+    while (is_angle && number.ends_with(' ')) number.remove_suffix(1);
+    const auto numbers = numbers_in(std::string(number), ',');
+    if (!numbers || (is_angle && numbers->size() != 1)) return std::nullopt;
+    return intrinsics_of(*numbers);
+}
+
+std::string text_of(const Intrinsics& said) {
+    if (said.field_of_view_deg > 0.0) return number_text(said.field_of_view_deg) + "deg";
+    return number_text(said.fx) + ',' + number_text(said.fy) + ',' + number_text(said.cx) + ',' +
+           number_text(said.cy);
 }
 
 std::optional<Registration> registration_in(const std::string& text) {

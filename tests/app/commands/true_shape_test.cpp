@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <glm/geometric.hpp>
 #include <iomanip>
 #include <opencv2/core.hpp>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "core/surface_files/surface_file.hpp"
+#include "core/video/depth/sidecar.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/seen_shapes.hpp"
@@ -88,6 +90,16 @@ std::vector<glm::dvec3> touched(const TemporaryFolder& folder, const StraightGri
     return points;
 }
 
+/// Rows from the lowest to the highest.
+void write_pfm(const std::filesystem::path& file, const std::vector<float>& values) {
+    std::string bytes =
+        "Pf\n" + std::to_string(kSeenColumns) + " " + std::to_string(kSeenRows) + "\n-1\n";
+    constexpr std::size_t kRow = kSeenColumns;
+    for (auto end = values.size(); end > 0; end -= kRow)
+        bytes.append(reinterpret_cast<const char*>(&values[end - kRow]), kRow * sizeof(float));
+    write_text(file, bytes);
+}
+
 }  // namespace
 
 TEST_CASE("a sphere that a camera saw is touched as a sphere of its radius", "[surface]") {
@@ -114,4 +126,21 @@ TEST_CASE("a tilted table that a camera saw is touched as a plane", "[surface]")
     const std::vector<glm::dvec3> points = touched(folder, grid);
     REQUIRE(points.size() > 300);
     CHECK(rms_off_plane(points) < 0.5);
+}
+
+TEST_CASE("a field of view is all that a camera of square pixels needs to be known by",
+          "[surface]") {
+    const TemporaryFolder folder;
+    write_pfm(folder / "ball.pfm", in_whole_mm(seen_sphere({0.0, 0.0, 1000.0})));
+    const auto surface = [&](const std::string& intrinsics) {
+        const ProgramResult result =
+            run_dibhr(folder, {"surface", "ball.pfm", "--depth-unit", "mm", "--geometry", "true",
+                               "--intrinsics", intrinsics, "--out", "ball.stl"});
+        INFO(result.errors);
+        REQUIRE(result.exit_code == 0);
+        return read_text(folder / "ball.stl");
+    };
+    const Intrinsics camera = in_pixels({.field_of_view_deg = 60.0}, kSeenColumns, kSeenRows);
+    CHECK_THAT(camera.fx, WithinRel(kSeenBy.fx, 1e-12));
+    CHECK(surface("60deg") == surface(text_of(camera)));
 }

@@ -71,6 +71,8 @@ TEST_CASE("bad usage is refused in one line before anything is done", "[usage]")
         touch_with({"--damping-cutoff", "nan"}),
         touch_with({"--damping-cutoff", "50Hz"}),
         touch_with({"--damping-cutoff"}),
+        touch_with({"--intrinsics", "200deg"}),
+        touch_with({"--intrinsics", "60degrees"}),
         touch_with({"--static-friction", "0.2", "--dynamic-friction", "0.3"}),
         touch_with({"--friction", "0.2", "--dynamic-friction", "0.3"}),
     };

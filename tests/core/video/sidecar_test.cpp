@@ -14,6 +14,7 @@
 
 using namespace dibhr;
 using namespace dibhr::test;
+using Catch::Matchers::WithinRel;
 
 namespace {
 
@@ -114,9 +115,41 @@ TEST_CASE("numbers may be a list, or a text as the command line has it", "[sidec
           Intrinsics{525.0, 524.0, 320.0, 240.0});
 }
 
+TEST_CASE("intrinsics may be said as a horizontal field of view, in degrees", "[sidecar]") {
+    const Intrinsics view{.field_of_view_deg = 60.5};
+    for (const std::string text : {"60.5deg", "60.5 deg", "60.5", "60.5\u00b0", "60.5 \u00b0"}) {
+        CAPTURE(text);
+        CHECK(intrinsics_in(text) == view);
+        CHECK(said_by("intrinsics = \"" + text + "\"").intrinsics == view);
+    }
+    CHECK(said_by("intrinsics = 60.5").intrinsics == view);
+    CHECK(statement_in(toml_of({.intrinsics = view}), "a").intrinsics == view);
+    for (const std::string text :
+         {"0.99", "179", "-60", "nan", "deg", "60degrees", "60,60", "60 "}) {
+        CAPTURE(text);
+        CHECK_FALSE(intrinsics_in(text));
+    }
+}
+
+TEST_CASE("a field of view is that of the picture's whole width, with square pixels", "[sidecar]") {
+    const TemporaryFolder folder;
+    const auto file = folder / "ramp.png";
+    write_ramp(file);  // 64 x 48
+    DepthRequest request{.find_out = true};
+    request.command_line.intrinsics = Intrinsics{.field_of_view_deg = 90.0};
+    const auto camera = open_depth(file, request)->description().meaning->intrinsics;
+    REQUIRE(camera.value);
+    CHECK(camera.origin == Origin::command_line);
+    CHECK_THAT(camera.value->fx, WithinRel(32.0, 1e-12));  // half of it at 45 degrees
+    CHECK_THAT(camera.value->fy, WithinRel(32.0, 1e-12));
+    CHECK(camera.value->cx == 31.5);
+    CHECK(camera.value->cy == 23.5);
+    CHECK(camera.value->field_of_view_deg == 0.0);
+}
+
 TEST_CASE("auto says nothing", "[sidecar]") {
-    for (const std::string name :
-         {"near", "unit", "scale", "range", "no-data", "packing", "code", "geometry"}) {
+    for (const std::string name : {"near", "unit", "scale", "range", "no-data", "packing", "code",
+                                   "geometry", "intrinsics"}) {
         CAPTURE(name);
         CHECK(said_by(name + " = \"auto\"") == DepthStatement{});
     }
@@ -133,8 +166,9 @@ TEST_CASE("a fact that cannot be understood is told in one line, with the file a
         "range = [1, inf]", "range = \"1:nan\"", "no-data = [\"a\"]", "no-data = [[0]]",
         "no-data = \"0;1\"", "no-data = nan", "packing = \"up-down\"", "code = \"red\"",
         "geometry = \"flat\"", "intrinsics = [1, 1, 0]", "intrinsics = [0, 1, 0, 0]",
-        "intrinsics = [1, -1, 0, 0]", "colour = \"red\"", "unit = true", "range = 2020-01-01",
-        "scale = {}", "no-data = ", "unit = \"mm", "[depth]");
+        "intrinsics = [1, -1, 0, 0]", "intrinsics = \"0.5deg\"", "intrinsics = 179",
+        "intrinsics = \"60rad\"", "intrinsics = \"1,1,0,0deg\"", "colour = \"red\"", "unit = true",
+        "range = 2020-01-01", "scale = {}", "no-data = ", "unit = \"mm", "[depth]");
     CAPTURE(fact);
     const auto file = folder / "clip.toml";
     write_text(file, "# said by hand\n[depth]\n" + fact + "\n");
