@@ -96,7 +96,7 @@ PairedMedia::PairedMedia(std::unique_ptr<PictureSource> depth,
     if (colour != nullptr) describe_colour(colour->facts(), description_);
     take_range();
     take_true_shape();
-    if (painted_ || shape_) {
+    if (painted_ || (shape_ && colour != nullptr)) {
         description_.colour_columns = description_.depth_columns;
         description_.colour_rows = description_.depth_rows;
     }

@@ -144,3 +144,14 @@ TEST_CASE("a field of view is all that a camera of square pixels needs to be kno
     CHECK_THAT(camera.fx, WithinRel(kSeenBy.fx, 1e-12));
     CHECK(surface("60deg") == surface(text_of(camera)));
 }
+
+TEST_CASE("depth alone has no colour, in its true shape either", "[surface]") {
+    const TemporaryFolder folder;
+    write_pfm(folder / "ball.pfm", in_whole_mm(seen_sphere({0.0, 0.0, 1000.0})));
+    const ProgramResult result =
+        run_dibhr(folder, {"info", "ball.pfm", "--json", "--depth-unit", "mm", "--geometry", "true",
+                           "--intrinsics", "60deg"});
+    CHECK(result.exit_code == 0);
+    CHECK(contains(result.output, "\"colour_columns\":null"));
+    CHECK(contains(result.output, "\"form\":\"image, PFM\""));
+}
