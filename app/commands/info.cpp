@@ -10,6 +10,7 @@
 
 #include "app/commands/command_line.hpp"
 #include "app/settings/command_options.hpp"
+#include "app/settings/settings.hpp"
 #include "core/error.hpp"
 #include "core/files/json.hpp"
 #include "core/files/plain_text.hpp"
@@ -231,7 +232,7 @@ int run_info(CLI::App& app, const Arguments& arguments) {
     std::vector<std::string> files;
     app.add_option("FILE", files, "Videos, images and session files")->type_name("")->required();
     bool json = false;
-    DepthRequest request{.find_out = true};
+    DepthRequest request = usual_depth_request();
     app.add_flag("--json", json, "One JSON object a file and line; what is not known is null");
     add_depth_options(app, request.command_line);
     app.footer(

@@ -36,6 +36,7 @@ void draw_files(const MediaDescription& media) {
              formatted("%d x %d, %s", media.depth_columns, media.depth_rows,
                        media.has_real_numbers() ? "real numbers"
                                                 : formatted("%d bit", media.depth_bits).c_str()));
+    if (!media.notice.empty()) quiet_text(capitalised(media.notice));
 }
 
 void draw_playback(const ViewerState& state, Player& player) {

@@ -41,8 +41,9 @@ struct OpenRequest {
     std::filesystem::path colour{};
     std::filesystem::path depth{};
     bool in_any_order{false};  ///< dropped together: which is which is found out
-    DepthRequest request{.find_out = true};
-    double at_s{0.0};  ///< where to go on [s]
+    DepthRequest request{usual_depth_request()};
+    bool chosen{false};  ///< other words on the panel, to be kept once they have opened it
+    double at_s{0.0};    ///< where to go on [s]
 };
 
 /// Text fields of the panels.

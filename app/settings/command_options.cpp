@@ -7,6 +7,7 @@
 #include <cmath>
 #include <system_error>
 
+#include "app/settings/settings.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/sidecar.hpp"
 
@@ -192,8 +193,7 @@ void GivenParameters::fit(const MediaDescription& media, bool raw,
 }
 
 DepthRequest TouchRequest::depth_request() const {
-    DepthRequest request;
-    request.find_out = !raw_depth;
+    DepthRequest request = raw_depth ? DepthRequest{} : usual_depth_request();
     request.command_line = depth;
     return request;
 }

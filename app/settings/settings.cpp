@@ -228,6 +228,14 @@ fs::path settings_path() {
     return fs::path(home != nullptr ? home : "/") / ".config" / "dibhr" / "settings.toml";
 }
 
+fs::path depth_choices_path() {
+    return settings_path().parent_path() / "depth";
+}
+
+DepthRequest usual_depth_request() {
+    return {.find_out = true, .kept_in = depth_choices_path()};
+}
+
 Settings load_settings(const fs::path& file, std::vector<std::string>& warnings) {
     std::error_code failed;
     if (fs::status(file, failed).type() == fs::file_type::not_found) return {};

@@ -12,6 +12,7 @@
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/safety.hpp"
 #include "core/video/depth/depth_cleaning.hpp"
+#include "core/video/media.hpp"
 #include "render/scene_view.hpp"
 
 namespace dibhr {
@@ -53,6 +54,12 @@ struct Settings {
 
 /// $XDG_CONFIG_HOME/dibhr/settings.toml, or ~/.config/dibhr/settings.toml.
 [[nodiscard]] std::filesystem::path settings_path();
+
+/// The folder depth/ beside it, of what was chosen on the panel of each file's depth.
+[[nodiscard]] std::filesystem::path depth_choices_path();
+
+/// What nobody says of depth is found out, and what was chosen on the panel before is heard.
+[[nodiscard]] DepthRequest usual_depth_request();
 
 /// The defaults when the file does not exist. An unknown or out-of-range setting keeps its default
 /// and is told once on stderr with file and line; a file that cannot be read or understood throws

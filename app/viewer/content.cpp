@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/haptics/facet.hpp"
 #include "core/haptics/surface.hpp"
+#include "core/video/depth/kept_choices.hpp"
 #include "core/video/depth/sidecar.hpp"
 
 namespace dibhr {
@@ -55,6 +56,11 @@ SceneContent scene_content(const ViewerState& state, const DepthBlend& shown) {
     return content;
 }
 
+/// Whose levels are meant.
+const std::filesystem::path& depth_file(const MediaDescription& media) {
+    return media.depth_path.empty() ? media.colour_path : media.depth_path;
+}
+
 std::optional<UnderHand> under_hand(const ViewerState& state, const DepthBlend& shown) {
     if (!shown.makes_surface()) return {};
     const Vec3 goal = state.haptic.touch.goal;
@@ -91,8 +97,11 @@ void Viewer::take_dropped(const std::vector<std::filesystem::path>& files) {
 
 void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request) {
     replay_.end(state_);
+    const std::filesystem::path depth_before = depth_file(state_.media);
     state_.media = media->description();
     state_.opened = request;
+    state_.opened.request.panel = state_.media.panel;
+    if (request.chosen) keep_panel(depth_before);
     fit_to_media();
     stretch_bump();
     frame_relief();
@@ -117,20 +126,38 @@ void Viewer::show_title(const std::filesystem::path& file) {
     window_.set_title(file.filename().string() + " - dibhr");
 }
 
-/// The same files, with what the panel says of the depth, at the same moment.
+/// What the panel says stays with the file that it made the depth.
+void Viewer::keep_panel(const std::filesystem::path& depth_before) {
+    attempt([&] {
+        const std::filesystem::path folder = depth_choices_path();
+        const std::filesystem::path& depth = depth_file(state_.media);
+        if (depth != depth_before) keep_choice(folder, depth_before, {});
+        keep_choice(folder, depth, state_.opened.request.panel);
+    });
+}
+
+/// The same files, with what the panel says of the depth and nothing that it said before, at the
+/// same moment.
 void Viewer::open_again(const DepthStatement& panel) {
     OpenRequest request = state_.opened;
     request.request.find_out = true;
     request.request.panel = panel;
+    request.request.kept_in.clear();
+    request.chosen = true;
     request.at_s = state_.playback.media_s;
     if (!opening_.start(request)) tell("Still opening the last files");
 }
 
 std::string Viewer::save_sidecar() {
     if (!state_.media.meaning) throw InputError("nothing is known of this depth: it is shown raw");
-    const std::filesystem::path file =
-        state_.media.depth_path.empty() ? state_.media.colour_path : state_.media.depth_path;
-    write_sidecar(file, state_.media.meaning->statement());
+    const std::filesystem::path& file = depth_file(state_.media);
+    const DepthStatement all = state_.media.meaning->statement();
+    DepthRequest& request = state_.opened.request;
+    write_sidecar(file, all);
+    request.panel = {};  // the sidecar says it now
+    hear({{Origin::command_line, request.command_line}, {Origin::sidecar, all}},
+         *state_.media.meaning);
+    keep_choice(depth_choices_path(), file, {});
     return "Saved " + sidecar_of(file).string();
 }
 

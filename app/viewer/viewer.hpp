@@ -85,6 +85,7 @@ class Viewer {
     /// What a person chose, not what a media or a replay did.
     [[nodiscard]] Settings lasting_settings() const;
     void fit_to_media();
+    void keep_panel(const std::filesystem::path& depth_before);
     void open_again(const DepthStatement& panel);
     std::string save_sidecar();
     void frame_relief();

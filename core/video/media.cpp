@@ -14,6 +14,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/depth_finding.hpp"
 #include "core/video/depth/depth_guess.hpp"
+#include "core/video/depth/kept_choices.hpp"
 #include "core/video/formats/foreign.hpp"
 #include "core/video/media_names.hpp"
 #include "core/video/paired_media.hpp"
@@ -42,13 +43,62 @@ bool begins_like_text(std::ifstream& in) {
     });
 }
 
-std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthRequest& request, bool seen) {
+/// Opens with what was chosen before; where that cannot be understood or does not fit what is there
+/// now, without it, and with a sentence that says so. `open(request, sentence)`.
+template <typename Open>
+auto opened(const DepthRequest& request, const Open& open) {
+    try {
+        return open(request, std::string());
+    } catch (const InputError& error) {
+        if (!is_folder(request.kept_in)) throw;
+        DepthRequest without = request;
+        without.kept_in.clear();
+        return open(without,
+                    std::string("what was chosen for it before is passed over: ") + error.what());
+    }
+}
+
+std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthRequest& asked, bool seen,
+                                      const std::string& notice) {
+    const DepthRequest request = with_kept_choices(asked, {sources.depth->facts().file});
     DepthScale scale = find_scale(sources, request);
     const bool painted = seen && request.paints && sources.colour == nullptr;
     auto media = std::make_unique<PairedMedia>(std::move(sources.depth), std::move(sources.colour),
                                                std::move(scale), painted);
     media->add_notice(sources.notice);
+    media->add_notice(notice);
+    media->panel_said(request.panel);
     return media;
+}
+
+/// How a depth that is found beside its colour is coded may be said of itself.
+DepthStatement said_of_pair(const fs::path& colour, const fs::path& depth,
+                            const DepthRequest& request) {
+    DepthStatement said = said_of({depth, colour}, request);
+    std::string ignored;
+    const auto beside = depth.empty() ? find_depth_beside(colour, ignored) : std::nullopt;
+    if (beside && !said.code) said.code = said_of({*beside}, request).code;
+    return said;
+}
+
+MediaDescription described(const fs::path& place, const DepthRequest& request,
+                           const std::string& notice) {
+    Sources sources = find_content(place, said_of({place}, request));
+    if (sources.depth == nullptr) {
+        sources.colour->count_frames(kMostCounted);
+        MediaDescription description;
+        describe_colour(sources.colour->facts(), description);
+        describe_time(sources.colour->facts(), description);
+        description.notice = sources.colour->facts().notice;
+        return description;
+    }
+    const std::vector<cv::Mat> pictures = some_pictures(*sources.depth);
+    const auto media = media_of(std::move(sources), request, false, notice);
+    media->count_frames(kMostCounted);
+    MediaDescription description = media->description();
+    description.levels_used = levels_used(pictures);
+    if (description.meaning) description.holes_share = holes_share(pictures, *description.meaning);
+    return description;
 }
 
 }  // namespace
@@ -92,33 +142,26 @@ void require_size(const fs::path& file, int columns, int rows) {
 }
 
 std::unique_ptr<Media> open_media(const fs::path& colour, const fs::path& depth,
-                                  const DepthRequest& request) {
-    const DepthStatement said = said_of({depth, colour}, request);
-    if (colour.empty()) return media_of(find_depth(depth, said), request, true);
-    return media_of(find_sources(colour, depth, said), request, true);
+                                  const DepthRequest& asked) {
+    return opened(asked, [&](const DepthRequest& request, const std::string& notice) {
+        const DepthStatement said = said_of_pair(colour, depth, request);
+        Sources sources =
+            colour.empty() ? find_depth(depth, said) : find_sources(colour, depth, said);
+        return media_of(std::move(sources), request, true, notice);
+    });
 }
 
-std::unique_ptr<Media> open_depth(const fs::path& place, const DepthRequest& request) {
-    return media_of(find_depth(place, said_of({place}, request)), request, false);
+std::unique_ptr<Media> open_depth(const fs::path& place, const DepthRequest& asked) {
+    return opened(asked, [&](const DepthRequest& request, const std::string& notice) {
+        Sources sources = find_depth(place, said_of({place}, request));
+        return media_of(std::move(sources), request, false, notice);
+    });
 }
 
-MediaDescription describe_media(const fs::path& place, const DepthRequest& request) {
-    Sources sources = find_content(place, said_of({place}, request));
-    if (sources.depth == nullptr) {
-        sources.colour->count_frames(kMostCounted);
-        MediaDescription description;
-        describe_colour(sources.colour->facts(), description);
-        describe_time(sources.colour->facts(), description);
-        description.notice = sources.colour->facts().notice;
-        return description;
-    }
-    const std::vector<cv::Mat> pictures = some_pictures(*sources.depth);
-    const auto media = media_of(std::move(sources), request, false);
-    media->count_frames(kMostCounted);
-    MediaDescription description = media->description();
-    description.levels_used = levels_used(pictures);
-    if (description.meaning) description.holes_share = holes_share(pictures, *description.meaning);
-    return description;
+MediaDescription describe_media(const fs::path& place, const DepthRequest& asked) {
+    return opened(asked, [&](const DepthRequest& request, const std::string& notice) {
+        return described(place, request, notice);
+    });
 }
 
 }  // namespace dibhr

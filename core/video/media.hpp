@@ -42,6 +42,9 @@ struct DepthRequest {
     bool find_out{false};
     DepthStatement command_line{};
     DepthStatement panel{};
+    /// The folder of what was chosen on the panel before, a file a media: that is its word, too.
+    /// Empty: none is heard.
+    std::filesystem::path kept_in{};
     DepthStatement recorded{};  ///< a session's, which beats all others
     bool paints{true};          ///< depth alone is shown in colours of its own
 };
@@ -64,8 +67,8 @@ struct MediaDescription {
     double holes_share{0.0};  ///< of their pixels that are no data, in [0, 1] (`dibhr info`)
     std::optional<Fit> true_fit{};          ///< of a true shape, whose pixels are millimetres
     std::optional<DepthMeaning> meaning{};  ///< nothing: levels are as the file has them
-    std::string
-        registered_by{};  ///< the calibration that puts the colour over the depth; empty: none
+    DepthStatement panel{};                 ///< what the panel says of it, now or kept
+    std::string registered_by{};  ///< the calibration that puts colour over depth; empty: none
     double duration_s{0.0};
     double frames_per_s{0.0};  ///< average of the real intervals as far as known; 0 for a still
     std::int64_t frames{0};    ///< an estimate until the end was reached
@@ -103,7 +106,8 @@ class Media {
 /// Opens a pair, each of them a file, a folder, a list or a pattern of pictures. An empty colour
 /// path: the depth alone, shown in colours of its own. An empty depth path, or the colour's: the
 /// depth is in the same place, another track of the colour's file where that says so, or else a
-/// file beside it. Throws InputError: what, which file, what to do next.
+/// file beside it. What was chosen before and does not fit the files any more is passed over, which
+/// the notice says. Throws InputError: what, which file, what to do next.
 [[nodiscard]] std::unique_ptr<Media> open_media(const std::filesystem::path& colour,
                                                 const std::filesystem::path& depth = {},
                                                 const DepthRequest& request = {});

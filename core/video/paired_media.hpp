@@ -52,6 +52,8 @@ class PairedMedia : public Media {
 
     /// Adds to the description's notice what that does not say yet.
     void add_notice(const std::string& sentence);
+    /// For the description.
+    void panel_said(const DepthStatement& panel) { description_.panel = panel; }
 
   private:
     void take_range();

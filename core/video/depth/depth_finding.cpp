@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/video/depth/depth_guess.hpp"
+#include "core/video/depth/kept_choices.hpp"
 #include "core/video/depth/sidecar.hpp"
 #include "core/video/media_names.hpp"
 
@@ -102,7 +103,7 @@ DepthStatement said_of(const std::vector<fs::path>& places, const DepthRequest& 
     DepthStatement said = request.recorded;
     said.fill_in(request.command_line);
     if (!request.find_out) return said;
-    said.fill_in(request.panel);
+    said.fill_in(with_kept_choices(request, places).panel);
     said.fill_in(sidecars_of(places));
     return said;
 }

@@ -12,8 +12,8 @@
 namespace dibhr {
 
 /// What is said of depth before anything is opened, the strongest word on each thing: by the
-/// request and by the sidecars of those places, the first before the second. Throws InputError for
-/// a sidecar that cannot be understood.
+/// request and what was chosen before, and by the sidecars of those places, the first before the
+/// second. Throws InputError for a file of these that cannot be understood.
 [[nodiscard]] DepthStatement said_of(const std::vector<std::filesystem::path>& places,
                                      const DepthRequest& request);
 

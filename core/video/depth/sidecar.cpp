@@ -201,8 +201,13 @@ fs::path sidecar_of(const fs::path& media) {
 std::optional<DepthStatement> read_sidecar(const fs::path& media) {
     if (media.empty()) return std::nullopt;
     const auto file = find_sidecar(media);
-    if (!file) return std::nullopt;
-    return statement_in(content_of(*file), shown(*file));
+    return file ? read_statement(*file) : std::nullopt;
+}
+
+std::optional<DepthStatement> read_statement(const fs::path& file) {
+    std::error_code ignored;
+    if (!fs::exists(file, ignored)) return std::nullopt;
+    return statement_in(content_of(file), shown(file));
 }
 
 void write_sidecar(const fs::path& media, const DepthStatement& statement) {

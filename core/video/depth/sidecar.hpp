@@ -17,6 +17,9 @@ namespace dibhr {
 /// understood: which file, which line.
 [[nodiscard]] std::optional<DepthStatement> read_sidecar(const std::filesystem::path& media);
 
+/// The `[depth]` table of a file, likewise; nothing where there is none.
+[[nodiscard]] std::optional<DepthStatement> read_statement(const std::filesystem::path& file);
+
 /// Writes the sidecar of `media`, whole or not at all; what else a sidecar that is there holds is
 /// kept. Throws InputError.
 void write_sidecar(const std::filesystem::path& media, const DepthStatement& statement);

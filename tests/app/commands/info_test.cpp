@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "core/files/json.hpp"
 #include "core/session/recorder.hpp"
+#include "core/video/depth/kept_choices.hpp"
 #include "core/video/libraries.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/recorded_session.hpp"
@@ -34,6 +36,42 @@ TEST_CASE("info describes an image and the depth file beside it", "[info]") {
     CHECK(says(result, "image"));
     CHECK(says(result, "30x20"));
     CHECK(says(result, "my_depth.png"));
+}
+
+TEST_CASE("info, touch and surface hear what was chosen in the window before", "[info]") {
+    const TemporaryFolder folder;
+    write_depth_png(folder / "my_depth.png", 16, 12, 100, 2);
+    keep_choice(folder / "dibhr/depth", folder / "my_depth.png", {.near = NearLevels::dark});
+    const ProgramResult info = run_dibhr(folder, {"info", "my_depth.png", "--json"});
+    INFO(info.output << info.errors);
+    CHECK(info.exit_code == 0);
+    const Json json = Json::parse(info.output);
+    CHECK(json["near"] == "dark");
+    CHECK(json["origin"]["near"] == "panel");
+    const ProgramResult given =
+        run_dibhr(folder, {"info", "my_depth.png", "--json", "--near", "bright"});
+    CHECK(Json::parse(given.output)["origin"]["near"] == "command line");
+
+    const auto surface = [&](const std::vector<std::string>& options) {
+        std::vector<std::string> arguments{"surface", "my_depth.png", "--out", "a.pfm"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        CHECK(run_dibhr(folder, arguments).exit_code == 0);
+        return read_text(folder / "a.pfm");
+    };
+    CHECK(surface({}) == surface({"--near", "dark"}));
+    CHECK(surface({}) != surface({"--near", "bright"}));
+    const auto touch = [&](const std::vector<std::string>& options) {
+        write_text(folder / "goals.csv", "t,x,y,z\n0,2,5,3\n0.001,3,5,3\n");
+        std::vector<std::string> arguments{"touch", "--depth", "my_depth.png", "--goals",
+                                           "goals.csv"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const ProgramResult result = run_dibhr(folder, arguments);
+        CHECK(result.exit_code == 0);
+        const std::string row = split(result.output, '\n').at(2);
+        return row.substr(0, row.rfind(','));  // but for the time it took
+    };
+    CHECK(touch({}) == touch({"--near", "dark"}));
+    CHECK(touch({}) != touch({"--near", "bright"}));
 }
 
 TEST_CASE("info describes a video", "[info]") {
