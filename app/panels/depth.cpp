@@ -14,17 +14,30 @@ namespace {
 
 constexpr const char* kRowsPopup = "Depth##rows";
 
+/// Asks for other words than the panel's.
+void say(const DepthStatement& said, ViewerState& state) {
+    if (!(said == state.opened.request.panel)) state.requests.meaning = said;
+}
+
+std::string with_origin(const std::string& text, Origin origin) {
+    return text + " (" + std::string(name_of(origin)) + ")";
+}
+
+/// The command line's word beats the panel's: its row only tells it.
+template <typename Fact>
+bool is_given(std::optional<Fact> DepthStatement::*fact, const ViewerState& state) {
+    return (state.opened.request.command_line.*fact).has_value();
+}
+
 /// A list that begins with what was found out; the first entry takes a person's word back.
 template <typename Values, typename Value>
 void word_row(const char* label, const char* help, const Values& values, const Known<Value>& known,
-              const std::optional<Value>& panel, std::optional<Value> DepthStatement::*fact,
-              ViewerState& state) {
-    const std::string automatic =
-        panel ? std::string("auto")
-              : std::string(name_of(known.value)) + " (" + std::string(name_of(known.origin)) + ")";
+              std::optional<Value> DepthStatement::*fact, ViewerState& state) {
+    const bool given = is_given(fact, state);
+    const std::optional<Value> panel = given ? std::nullopt : state.opened.request.panel.*fact;
     std::array<std::string, Values().size() + 1> names;
     std::array<const char*, Values().size() + 1> shown{};
-    names[0] = automatic;
+    names[0] = panel ? "auto" : with_origin(std::string(name_of(known.value)), known.origin);
     int chosen = 0;
     for (std::size_t k = 0; k < values.size(); ++k) {
         names[k + 1] = name_of(values[k]);
@@ -32,37 +45,80 @@ void word_row(const char* label, const char* help, const Values& values, const K
     }
     std::transform(names.begin(), names.end(), shown.begin(),
                    [](const std::string& name) { return name.c_str(); });
-    if (!index_row(label, shown, chosen, help, 0)) return;
+    ImGui::BeginDisabled(given);
+    const bool changed = index_row(label, shown, chosen, help, 0);
+    ImGui::EndDisabled();
+    if (!changed) return;
     DepthStatement said = state.opened.request.panel;
     said.*fact =
         chosen == 0 ? std::nullopt : std::optional(values[static_cast<std::size_t>(chosen) - 1]);
-    state.requests.meaning = said;
+    say(said, state);
 }
+
+/// What a typed row is called, and what is known.
+struct TypedRow {
+    const char* label;
+    const char* help;
+    std::string known;  ///< and by whose word
+};
 
 /// A line to type into, which shows what is known while it is empty.
 template <typename Fact, typename Read>
-void typed_row(const char* id, const char* help, const std::string& known, const Read& read,
-               std::optional<Fact> DepthStatement::*fact, std::span<char> text,
-               ViewerState& state) {
-    if (!text_field(id, known.c_str(), text, help)) return;
+void typed_row(const TypedRow& row, const Read& read, std::optional<Fact> DepthStatement::*fact,
+               std::span<char> text, ViewerState& state) {
+    const std::string help = capitalised(row.help) + "\nNow: " + row.known;
+    ImGui::BeginDisabled(is_given(fact, state));
+    const bool done = text_row(row.label, row.known, text, help.c_str());
+    ImGui::EndDisabled();
+    if (!done) return;
     DepthStatement said = state.opened.request.panel;
     const std::string typed = text.data();
     said.*fact = typed.empty() ? std::nullopt : read(typed);
     if (!typed.empty() && !(said.*fact)) {
-        state.message = capitalised(in_quotes(typed) + " is not understood: " + help);
+        state.message = capitalised(in_quotes(typed) + " is not understood: " + row.help);
         return;
     }
-    state.requests.meaning = said;
+    say(said, state);
 }
 
-std::string with_origin(const std::string& text, Origin origin) {
-    return text + " (" + std::string(name_of(origin)) + ")";
+constexpr const char* kNone = "none";
+
+std::optional<std::vector<double>> levels_or_none_in(const std::string& text) {
+    return levels_in(text == kNone ? "" : text);
 }
 
-std::string levels_text(const std::vector<double>& levels) {
+std::string text_of(const std::vector<double>& levels) {
     std::string text;
-    for (const double level : levels) text += (text.empty() ? "" : ",") + short_text(level);
-    return text.empty() ? "none" : text;
+    for (const double level : levels) text += (text.empty() ? "" : ",") + number_text(level);
+    return text.empty() ? kNone : text;
+}
+
+std::string text_of(const DepthRange& range) {
+    return number_text(range.near) + ":" + number_text(range.far);
+}
+
+std::string text_of(double number) {
+    return number_text(number);
+}
+
+/// As much as fits; nothing where the command line says else.
+template <typename Fact>
+void show_word(std::optional<Fact> DepthStatement::*fact, const ViewerState& state,
+               std::span<char> field) {
+    const std::optional<Fact>& panel = state.opened.request.panel.*fact;
+    const std::string text = panel && !is_given(fact, state) ? text_of(*panel) : "";
+    const std::size_t shown = std::min(text.size(), field.size() - 1);
+    std::copy_n(text.begin(), shown, field.begin());
+    field[shown] = '\0';
+}
+
+std::string camera_text(const Known<std::optional<Intrinsics>>& camera) {
+    if (!camera.value) return "not known";
+    const Intrinsics& known = *camera.value;
+    std::string text;
+    for (const double number : {known.fx, known.fy, known.cx, known.cy})
+        text += (text.empty() ? "" : ",") + short_text(number, 4);
+    return with_origin(text, camera.origin);
 }
 
 bool has_assumed(const DepthMeaning& meaning) {
@@ -79,26 +135,46 @@ void draw_depth_rows(ViewerState& state) {
     }
     ImGui::PushID("depth");
     const DepthMeaning& known = *state.media.meaning;
-    const DepthStatement& panel = state.opened.request.panel;
-    word_row("Near is", "Which levels are near (--near)", kNearLevels, known.near, panel.near,
+    TextFields& fields = state.fields;
+    word_row("Near is", "Which levels are near (--near)", kNearLevels, known.near,
              &DepthStatement::near, state);
     word_row("Unit", "What a level times its scale is (--depth-unit)", kDepthUnits, known.unit,
-             panel.unit, &DepthStatement::unit, state);
-    word_row("Packing", "Where colour and depth are, colour first (--packing)", kDepthPackings,
-             known.packing, panel.packing, &DepthStatement::packing, state);
-    word_row("Code", "How a picture holds depth (--depth-code)", kDepthCodes, known.code,
-             panel.code, &DepthStatement::code, state);
+             &DepthStatement::unit, state);
+    typed_row({"Scale", "one level in that unit, as in 0.001 (--depth-scale)",
+               with_origin(short_text(known.scale.value), known.scale.origin)},
+              scale_in, &DepthStatement::scale, fields.depth_scale, state);
     const DepthRange& range = known.range.value;
-    typed_row("##range", "NEAR:FAR in that unit, as in 480:4210 (--depth-range)",
-              with_origin("Range " + short_text(range.near, 4) + ":" + short_text(range.far, 4),
-                          known.range.origin),
-              range_in, &DepthStatement::range, state.fields.depth_range, state);
-    typed_row("##none", "levels that mean nothing, as in 0,65535 (--no-data)",
-              with_origin("No data " + levels_text(known.no_data.value), known.no_data.origin),
-              levels_in, &DepthStatement::no_data, state.fields.no_data, state);
+    typed_row({"Range", "NEAR:FAR in that unit, as in 480:4210 (--depth-range)",
+               with_origin(short_text(range.near, 4) + ":" + short_text(range.far, 4),
+                           known.range.origin)},
+              range_in, &DepthStatement::range, fields.depth_range, state);
+    typed_row({"No data", "levels that mean nothing, as in 0,65535, or none (--no-data)",
+               with_origin(text_of(known.no_data.value), known.no_data.origin)},
+              levels_or_none_in, &DepthStatement::no_data, fields.no_data, state);
+    word_row("Packing", "Where colour and depth are, colour first (--packing)", kDepthPackings,
+             known.packing, &DepthStatement::packing, state);
+    word_row("Code", "How a picture holds depth (--depth-code)", kDepthCodes, known.code,
+             &DepthStatement::code, state);
+    word_row("Geometry",
+             "relief: the picture plane plus elevation; true: the shape in mm, which needs "
+             "distances and intrinsics (--geometry)",
+             kGeometries, known.geometry, &DepthStatement::geometry, state);
+    typed_row({"Intrinsics",
+               "FX,FY,CX,CY of the camera in depth pixels, or its horizontal field of view, as in "
+               "60deg (--intrinsics)",
+               camera_text(known.intrinsics)},
+              intrinsics_in, &DepthStatement::intrinsics, fields.intrinsics, state);
     if (ImGui::Button("Save as sidecar")) state.requests.save_sidecar = true;
     explain("Writes what the depth means beside its file, for whoever opens it next");
     ImGui::PopID();
+}
+
+void show_depth_words(ViewerState& state) {
+    TextFields& fields = state.fields;
+    show_word(&DepthStatement::scale, state, fields.depth_scale);
+    show_word(&DepthStatement::range, state, fields.depth_range);
+    show_word(&DepthStatement::no_data, state, fields.no_data);
+    show_word(&DepthStatement::intrinsics, state, fields.intrinsics);
 }
 
 void draw_depth_line(ViewerState& state) {

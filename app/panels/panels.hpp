@@ -9,6 +9,8 @@ namespace dibhr {
 void draw_video_panel(ViewerState& state, Player* player);
 /// What the depth's levels mean, to be changed; part of the Video panel.
 void draw_depth_rows(ViewerState& state);
+/// Puts what the panel says of the file that is open now into the rows that are typed.
+void show_depth_words(ViewerState& state);
 /// The same in one line, which opens them when it is clicked.
 void draw_depth_line(ViewerState& state);
 void draw_surface_panel(ViewerState& state);

@@ -55,8 +55,10 @@ struct TextFields {
     Field depth{};
     Field bump{};
     Field firmware{};
+    Field depth_scale{};  ///< "0.001"
     Field depth_range{};  ///< "480:4210"
     Field no_data{};      ///< "0,65535"
+    Field intrinsics{};   ///< "525,525,319.5,239.5" or "60deg"
     Field participant{};  ///< kept with a recording
     Field note{};
     Field tag{};              ///< of the next mark

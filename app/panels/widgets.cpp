@@ -35,6 +35,11 @@ float arrow_width() {
     return ImGui::GetFrameHeight();
 }
 
+/// What is left of a row beside that.
+float value_width() {
+    return ImGui::GetContentRegionAvail().x - arrow_width() - ImGui::GetStyle().ItemInnerSpacing.x;
+}
+
 bool put_back_arrow(bool changed) {
     ImGui::SameLine(0.0F, ImGui::GetStyle().ItemInnerSpacing.x);
     if (!changed) {
@@ -152,8 +157,7 @@ bool number_row(const NumberRow& row, double& value) {
     const bool named = row.zero != nullptr && !(std::abs(value) > 0.0);
     ImGui::PushID(row.label);
     row_label(row.label, row.help);
-    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - arrow_width() -
-                            ImGui::GetStyle().ItemInnerSpacing.x);
+    ImGui::SetNextItemWidth(value_width());
     ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &row.lowest, &row.highest,
                         named ? row.zero : row.format,
                         row.logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
@@ -185,8 +189,7 @@ bool index_row(const char* label, std::span<const char* const> names, int& chose
     const int before = chosen;
     ImGui::PushID(label);
     row_label(label, help);
-    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - arrow_width() -
-                            ImGui::GetStyle().ItemInnerSpacing.x);
+    ImGui::SetNextItemWidth(value_width());
     ImGui::Combo("##choice", &chosen, names.data(), static_cast<int>(names.size()));
     explain(help);
     if (put_back_arrow(chosen != standard)) chosen = standard;
@@ -200,6 +203,18 @@ bool text_field(const char* id, const char* hint, std::span<char> text, const ch
     const bool done = ImGui::InputTextWithHint(id, hint, text.data(), text.size(),
                                                enter ? ImGuiInputTextFlags_EnterReturnsTrue : 0);
     explain(help);
+    return done;
+}
+
+bool text_row(const char* label, const std::string& hint, std::span<char> text, const char* help) {
+    ImGui::PushID(label);
+    row_label(label, help);
+    bool done = text_field("##text", hint.c_str(), text, help, true, value_width());
+    if (put_back_arrow(text.front() != '\0')) {
+        text.front() = '\0';
+        done = true;
+    }
+    ImGui::PopID();
     return done;
 }
 

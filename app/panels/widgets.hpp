@@ -57,6 +57,10 @@ bool choice_row(const char* label, const Table& words, Enum& chosen, const char*
 bool text_field(const char* id, const char* hint, std::span<char> text, const char* help,
                 bool enter = true, float width = -1.0F);
 
+/// Label, a line to type into with `hint` while it is empty, and an arrow that empties it. True
+/// when Enter or the arrow was pressed.
+bool text_row(const char* label, const std::string& hint, std::span<char> text, const char* help);
+
 /// A button for what was typed, and that it can be dropped instead. True when it was pressed.
 bool button_or_drop(const char* label, bool enabled, const char* dropped);
 

@@ -264,15 +264,9 @@ void add_depth_options(CLI::App& app, DepthStatement& depth) {
     add_word_option(app, "--near", kNearLevels, depth.near, "Which levels are near");
     add_word_option(app, "--depth-unit", kDepthUnits, depth.unit,
                     "What a level times its scale is");
-    add_fact_option(
-        app, "--depth-scale", depth.scale,
-        [](const std::string& text) -> std::optional<double> {
-            const auto numbers = levels_in(text);
-            if (!numbers || numbers->size() != 1 || !(numbers->front() > 0.0)) return std::nullopt;
-            return numbers->front();
-        },
-        "NUMBER", "is not a number above 0",
-        "One level in that unit (TUM: --depth-unit m --depth-scale 0.0002)");
+    add_fact_option(app, "--depth-scale", depth.scale, scale_in, "NUMBER",
+                    "is not a number above 0",
+                    "One level in that unit (TUM: --depth-unit m --depth-scale 0.0002)");
     add_fact_option(app, "--depth-range", depth.range, range_in, "NEAR:FAR",
                     "is not two numbers that differ, NEAR:FAR",
                     "The nearest and the farthest, in that unit; auto: as far as most of the clip "

@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 #include "app/viewer/viewer.hpp"
 #include "core/error.hpp"
@@ -101,6 +102,7 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
     state_.media = media->description();
     state_.opened = request;
     state_.opened.request.panel = state_.media.panel;
+    show_depth_words(state_);
     if (request.chosen) keep_panel(depth_before);
     fit_to_media();
     stretch_bump();
@@ -157,6 +159,7 @@ std::string Viewer::save_sidecar() {
     request.panel = {};  // the sidecar says it now
     hear({{Origin::command_line, request.command_line}, {Origin::sidecar, all}},
          *state_.media.meaning);
+    show_depth_words(state_);
     keep_choice(depth_choices_path(), file, {});
     return "Saved " + sidecar_of(file).string();
 }

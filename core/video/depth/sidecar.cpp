@@ -42,6 +42,11 @@ std::optional<std::vector<double>> numbers_in(const std::string& text, char sepa
     }
 }
 
+std::optional<double> scale_of(const std::vector<double>& numbers) {
+    const bool fits = numbers.size() == 1 && numbers.front() > 0.0;
+    return fits ? std::optional(numbers.front()) : std::nullopt;
+}
+
 std::optional<DepthRange> range_of(const std::vector<double>& ends) {
     if (ends.size() != 2 || ends[0] == ends[1]) return std::nullopt;
     return DepthRange{ends[0], ends[1]};
@@ -133,11 +138,9 @@ std::string take(const std::string& name, const toml::node& node, DepthStatement
                     "is neither [fx, fy, cx, cy] with fx and fy above 0 nor a field of view like "
                     "\"60deg\"");
     const auto numbers = numbers_of(node, name == "range" ? ':' : ',');
-    if (name == "scale") {
-        const bool fits = numbers && numbers->size() == 1 && numbers->front() > 0.0;
-        return keep(said.scale, fits ? std::optional(numbers->front()) : std::nullopt,
+    if (name == "scale")
+        return keep(said.scale, numbers ? scale_of(*numbers) : std::nullopt,
                     "is not a number above 0");
-    }
     if (name == "range")
         return keep(said.range, numbers ? range_of(*numbers) : std::nullopt,
                     "is not two numbers that differ, [near, far]");
@@ -265,6 +268,11 @@ DepthStatement statement_in(const std::string& toml, const std::string& name) {
 std::optional<std::vector<double>> levels_in(const std::string& text) {
     auto levels = numbers_in(text, ',');
     return levels && levels->size() <= kMostNoData ? levels : std::nullopt;
+}
+
+std::optional<double> scale_in(const std::string& text) {
+    const auto numbers = numbers_in(text, ',');
+    return numbers ? scale_of(*numbers) : std::nullopt;
 }
 
 std::optional<DepthRange> range_in(const std::string& text) {

@@ -33,6 +33,8 @@ void write_sidecar(const std::filesystem::path& media, const DepthStatement& sta
 
 /// "0,65535": finite numbers between commas; empty: none.
 [[nodiscard]] std::optional<std::vector<double>> levels_in(const std::string& text);
+/// "0.001": a number above 0.
+[[nodiscard]] std::optional<double> scale_in(const std::string& text);
 /// "480:4210": two finite numbers that differ.
 [[nodiscard]] std::optional<DepthRange> range_in(const std::string& text);
 /// "FX,FY,CX,CY": the focal lengths above 0; or a horizontal field of view of 1 to less than 179
