@@ -13,6 +13,8 @@ namespace dibhr {
 namespace {
 
 constexpr const char* kRowsPopup = "Depth##rows";
+constexpr double kMostShift_px = 10'000.0;
+constexpr double kMostScale = 10.0;
 
 /// Asks for other words than the panel's.
 void say(const DepthStatement& said, ViewerState& state) {
@@ -121,6 +123,32 @@ std::string camera_text(const Known<std::optional<Intrinsics>>& camera) {
     return with_origin(text, camera.origin);
 }
 
+/// Where the colour lies over the depth, to be dragged until they fit.
+void registration_rows(ViewerState& state) {
+    TextFields& fields = state.fields;
+    auto& [right, down] = fields.colour_shift_px;
+    auto& [scale] = fields.colour_size;
+    const auto fact = &DepthStatement::registration;
+    const bool changed = state.opened.request.panel.registration.has_value();
+    ImGui::BeginDisabled(is_given(fact, state));
+    const Dragged shift = dragged_row(
+        {"Colour shift", "%.1f px", -kMostShift_px, kMostShift_px, 0.25F,
+         "How far the colour lies to the right and down, in depth pixels (--registration)",
+         changed},
+        fields.colour_shift_px);
+    const Dragged size = dragged_row(
+        {"Colour size", "x %.3f", 1.0 / kMostScale, kMostScale, 0.002F,
+         "How many times as large the colour is, about its middle (--registration)", changed},
+        fields.colour_size);
+    ImGui::EndDisabled();
+    if (shift == Dragged::nothing && size == Dragged::nothing) return;
+    DepthStatement said = state.opened.request.panel;
+    said.registration.reset();
+    if (shift != Dragged::put_back && size != Dragged::put_back)
+        said.registration = Registration{right, down, scale};
+    say(said, state);
+}
+
 bool has_assumed(const DepthMeaning& meaning) {
     return meaning.near.origin == Origin::assumed || meaning.unit.origin == Origin::assumed ||
            meaning.packing.origin == Origin::assumed || meaning.code.origin == Origin::assumed;
@@ -164,6 +192,7 @@ void draw_depth_rows(ViewerState& state) {
                "60deg (--intrinsics)",
                camera_text(known.intrinsics)},
               intrinsics_in, &DepthStatement::intrinsics, fields.intrinsics, state);
+    if (!state.media.colour_path.empty()) registration_rows(state);
     if (ImGui::Button("Save as sidecar")) state.requests.save_sidecar = true;
     explain("Writes what the depth means beside its file, for whoever opens it next");
     ImGui::PopID();
@@ -175,6 +204,10 @@ void show_depth_words(ViewerState& state) {
     show_word(&DepthStatement::range, state, fields.depth_range);
     show_word(&DepthStatement::no_data, state, fields.no_data);
     show_word(&DepthStatement::intrinsics, state, fields.intrinsics);
+    const Registration registration =
+        state.media.meaning ? state.media.meaning->registration.value : Registration{};
+    fields.colour_shift_px = {registration.right_px, registration.down_px};
+    fields.colour_size = {registration.scale};
 }
 
 void draw_depth_line(ViewerState& state) {

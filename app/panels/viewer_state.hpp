@@ -55,11 +55,13 @@ struct TextFields {
     Field depth{};
     Field bump{};
     Field firmware{};
-    Field depth_scale{};  ///< "0.001"
-    Field depth_range{};  ///< "480:4210"
-    Field no_data{};      ///< "0,65535"
-    Field intrinsics{};   ///< "525,525,319.5,239.5" or "60deg"
-    Field participant{};  ///< kept with a recording
+    Field depth_scale{};                      ///< "0.001"
+    Field depth_range{};                      ///< "480:4210"
+    Field no_data{};                          ///< "0,65535"
+    Field intrinsics{};                       ///< "525,525,319.5,239.5" or "60deg"
+    std::array<double, 2> colour_shift_px{};  ///< right and down, in depth pixels
+    std::array<double, 1> colour_size{1.0};   ///< times
+    Field participant{};                      ///< kept with a recording
     Field note{};
     Field tag{};              ///< of the next mark
     int ask_for_keyboard{0};  ///< Ctrl+O: pictures left in which the colour field asks for it

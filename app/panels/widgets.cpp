@@ -170,6 +170,22 @@ bool number_row(const NumberRow& row, double& value) {
     return std::abs(value - before) > 0.0;
 }
 
+Dragged dragged_row(const DraggedRow& row, std::span<double> values) {
+    ImGui::PushID(row.label);
+    row_label(row.label, row.help);
+    ImGui::SetNextItemWidth(value_width());
+    ImGui::DragScalarN("##values", ImGuiDataType_Double, values.data(),
+                       static_cast<int>(values.size()), row.speed, &row.lowest, &row.highest,
+                       row.format, ImGuiSliderFlags_AlwaysClamp);
+    const bool done = ImGui::IsItemDeactivatedAfterEdit();
+    for (double& value : values)
+        if (std::isnan(value)) value = row.lowest;  // typed
+    explain("Drag, or Ctrl+click to type a number");
+    const bool put_back = put_back_arrow(row.changed);
+    ImGui::PopID();
+    return put_back ? Dragged::put_back : done ? Dragged::done : Dragged::nothing;
+}
+
 bool flag_row(const char* label, bool& value, bool standard, const char* help) {
     const bool before = value;
     const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;

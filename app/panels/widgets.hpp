@@ -32,6 +32,21 @@ struct NumberRow {
 /// Label, slider, and a small arrow when the value is not the standard one. True when it changed.
 bool number_row(const NumberRow& row, double& value);
 
+struct DraggedRow {
+    const char* label;
+    const char* format;
+    double lowest, highest;
+    float speed;  ///< of a value, for a pixel of the mouse
+    const char* help;
+    bool changed;  ///< whether the small arrow shows
+};
+
+/// What a person does with a row of values that take effect when they let go.
+enum class Dragged { nothing, done, put_back };
+
+/// Label, values to drag side by side, and the arrow.
+[[nodiscard]] Dragged dragged_row(const DraggedRow& row, std::span<double> values);
+
 /// Label and tick box, and the arrow. True when it changed.
 bool flag_row(const char* label, bool& value, bool standard, const char* help);
 

@@ -12,10 +12,13 @@ namespace dibhr {
 
 namespace {
 
-// 8 levels of 255 stand out of a curved surface seen in 8 bits; 16 bits are mostly millimetres, of
-// which 100 are far beyond a sensor's noise (up to 65 at 4 m).
+// 8 levels of 255 stand out of a curved surface seen in 8 bits. 5 below it are a pit in which a
+// point is caught: 4, of which smoothing makes 5 at most. 16 bits are mostly millimetres, of which
+// 100 are far beyond a sensor's noise (up to 65 at 4 m).
 constexpr double kSpike_share = 8.0 / 255.0;
+constexpr double kPit_share = 4.0 / 255.0;
 constexpr double kSpike_levels = 100.0;
+constexpr int kSpikeRounds = 16;     ///< one that is gone may leave another beside it
 constexpr int kIslandsInWidth = 80;  ///< squares side by side
 constexpr float kSmoothing = 0.2F;   ///< of the second difference, per axis; stable below 0.25
 
@@ -40,19 +43,47 @@ bool is_eight_bit(const DepthImage& image) {
     return image.highest_level < 256.0;
 }
 
-/// Of those with data; NaN: there is none.
-float median_of_neighbours(const DepthImage& image, int i, int j) {
-    std::array<float, 8> around{image.at(i - 1, j - 1), image.at(i, j - 1),
-                                image.at(i + 1, j - 1), image.at(i - 1, j),
-                                image.at(i + 1, j),     image.at(i - 1, j + 1),
-                                image.at(i, j + 1),     image.at(i + 1, j + 1)};
-    auto* const end =
-        std::remove_if(around.begin(), around.end(), [](float level) { return std::isnan(level); });
-    if (end == around.begin()) return std::numeric_limits<float>::quiet_NaN();
-    auto* const median = around.begin() + (end - around.begin()) / 2;
-    std::nth_element(around.begin(), median, end);
-    return *median;
-}
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// The levels of the pixels around one that have data, rising.
+class Neighbours {
+  public:
+    Neighbours(const DepthImage& image, int i, int j) {
+        for (int y = std::max(j - 1, 0); y <= std::min(j + 1, image.rows - 1); ++y) {
+            for (int x = std::max(i - 1, 0); x <= std::min(i + 1, image.columns - 1); ++x) {
+                const float level = image.at(x, y);
+                if ((x != i || y != j) && !std::isnan(level)) levels_[count_++] = level;
+            }
+        }
+        std::sort(levels_.begin(), levels_.begin() + static_cast<std::ptrdiff_t>(count_));
+    }
+
+    /// Infinite without neighbours.
+    [[nodiscard]] float lowest() const { return count_ > 0 ? levels_[0] : kInfinity; }
+    [[nodiscard]] float highest() const { return count_ > 0 ? levels_[count_ - 1] : -kInfinity; }
+    /// NaN: there is none.
+    [[nodiscard]] float median() const {
+        return count_ > 0 ? levels_[count_ / 2] : std::numeric_limits<float>::quiet_NaN();
+    }
+
+  private:
+    std::array<float, 8> levels_{};
+    std::size_t count_{0};
+};
+
+/// How far beyond all its neighbours a pixel stands out of them.
+struct Outstanding {
+    explicit Outstanding(double highest_level)
+        : above(static_cast<float>(std::min(kSpike_share * highest_level, kSpike_levels))),
+          below(static_cast<float>(std::min(kPit_share * highest_level, kSpike_levels))) {}
+
+    /// `least` and `most`: of the neighbours. Not of a `level` that is NaN.
+    [[nodiscard]] bool operator()(float level, float least, float most) const {
+        return level > most + above || level < least - below;
+    }
+
+    float above, below;
+};
 
 /// As std::max and std::min, of a `level` that may be NaN: then it is passed over.
 float higher(float level, float most) {
@@ -93,15 +124,13 @@ void smooth_row(const float* up, const float* row, const float* down, const floa
 
 }  // namespace
 
-void DepthCleaner::remove_spikes(DepthImage& image) {
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    const auto threshold =
-        static_cast<float>(std::min(kSpike_share * image.highest_level, kSpike_levels));
+/// All rows at once but for the picture's border.
+void DepthCleaner::find_spikes(const DepthImage& image) {
+    const Outstanding stands_out(image.highest_level);
     const int columns = image.columns;
     highest_.resize(static_cast<std::size_t>(columns));
     lowest_.resize(static_cast<std::size_t>(columns));
     outlying_.assign(static_cast<std::size_t>(columns), 0);
-    spikes_.clear();
     for (int j = 1; j + 1 < image.rows; ++j) {
         const float* up = image.levels.data() + image.index(0, j - 1);
         const float* row = up + columns;
@@ -119,17 +148,45 @@ void DepthCleaner::remove_spikes(DepthImage& image) {
                        higher(row[i + 1], std::max(std::max(high[i - 1], high[i]), high[i + 1])));
             const float least = lower(
                 row[i - 1], lower(row[i + 1], std::min(std::min(low[i - 1], low[i]), low[i + 1])));
-            const int outlies = (row[i] > most + threshold) | (row[i] < least - threshold);
+            const int outlies =
+                (row[i] > most + stands_out.above) | (row[i] < least - stands_out.below);
             outlying_[static_cast<std::size_t>(i)] = outlies;
             found |= outlies;
         }
         for (int i = 1; found != 0 && i + 1 < columns; ++i)
-            if (outlying_[static_cast<std::size_t>(i)] != 0)
-                spikes_.push_back({image.index(i, j), median_of_neighbours(image, i, j)});
+            if (outlying_[static_cast<std::size_t>(i)] != 0) look_for_spike(image, i, j);
     }
-    for (const Spike& spike : spikes_) {
-        image.levels[spike.index] = spike.level;
-        if (std::isnan(spike.level)) refused_.push_back(spike.index);
+    for (int i = 0; i < columns; ++i)
+        for (const int j : {0, image.rows - 1}) look_for_spike(image, i, j);
+    for (int j = 1; j + 1 < image.rows; ++j)
+        for (const int i : {0, columns - 1}) look_for_spike(image, i, j);
+}
+
+void DepthCleaner::look_for_spike(const DepthImage& image, int i, int j) {
+    const Neighbours around(image, i, j);
+    const float level = image.at(i, j);
+    if (Outstanding(image.highest_level)(level, around.lowest(), around.highest()))
+        spikes_.push_back({i, j, around.median()});
+}
+
+void DepthCleaner::remove_spikes(DepthImage& image) {
+    spikes_.clear();
+    find_spikes(image);
+    for (int round = 0; round < kSpikeRounds && !spikes_.empty(); ++round) {
+        for (const Spike& spike : spikes_) {
+            image.at(spike.column, spike.row) = spike.level;
+            if (std::isnan(spike.level)) refused_.push_back(image.index(spike.column, spike.row));
+        }
+        removed_.swap(spikes_);
+        spikes_.clear();
+        std::sort(removed_.begin(), removed_.end());
+        removed_.erase(std::unique(removed_.begin(), removed_.end()), removed_.end());
+        for (const Spike& spike : removed_)
+            for (int j = std::max(spike.row - 1, 0); j <= std::min(spike.row + 1, image.rows - 1);
+                 ++j)
+                for (int i = std::max(spike.column - 1, 0);
+                     i <= std::min(spike.column + 1, image.columns - 1); ++i)
+                    look_for_spike(image, i, j);
     }
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
@@ -44,13 +45,19 @@ class DepthCleaner {
 
   private:
     struct Spike {
-        std::size_t index;
-        float level;
+        int column, row;
+        float level;  ///< that it takes
+
+        [[nodiscard]] std::pair<int, int> place() const { return {row, column}; }
+        bool operator<(const Spike& other) const { return place() < other.place(); }
+        bool operator==(const Spike& other) const { return place() == other.place(); }
     };
 
-    /// A pixel beyond all its neighbours with data by more than a threshold takes their median; one
-    /// that has no such neighbour is no data.
+    /// A pixel beyond all its neighbours with data by more than a threshold takes their median, and
+    /// then maybe one beside it; one that has no such neighbour is no data.
     void remove_spikes(DepthImage& image);
+    void find_spikes(const DepthImage& image);
+    void look_for_spike(const DepthImage& image, int i, int j);
 
     /// Data alone in a hole, on fewer pixels than a square of an eightieth of the image's width:
     /// what sensors make up at outlines.
@@ -68,7 +75,7 @@ class DepthCleaner {
     HeldFiller held_{};
     SmallHoleFiller small_holes_{};
     LargeHoleFiller large_holes_{};
-    std::vector<Spike> spikes_{};
+    std::vector<Spike> spikes_{}, removed_{};
     std::vector<int> outlying_{};
     std::vector<float> highest_{}, lowest_{};      ///< of the rows above and below, by column
     std::vector<float> low_{}, high_{}, other_{};  ///< bounds of every level; the pass's output

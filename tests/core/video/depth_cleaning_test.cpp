@@ -217,6 +217,18 @@ TEST_CASE("two pixels side by side are a shape, not a spike", "[cleaning]") {
     CHECK(cleaned(image, kSpikesOnly).levels == image.levels);
 }
 
+TEST_CASE("no pixel is left in a pit, at the border or beside a deeper one either", "[cleaning]") {
+    const DepthImage flat = image_of(20, 20, [](int, int) { return 100.0; });
+    DepthImage image = flat;
+    image.at(0, 5) = image.at(10, 0) = image.at(19, 19) = 95.0F;
+    image.at(7, 9) = 60.0F;
+    image.at(8, 9) = 90.0F;
+    image.at(15, 15) = 95.0F;
+    CHECK(cleaned(image, kSpikesOnly).levels == flat.levels);
+    image.at(15, 15) = 96.0F;  // that is no pit
+    CHECK(cleaned(image, kSpikesOnly).at(15, 15) == 96.0F);
+}
+
 TEST_CASE("a speck of depth in empty background is removed, not spread", "[cleaning]") {
     DepthImage image = image_of(100, 100, [](int, int) { return kNone; });
     image.at(50, 50) = 200.0F;
