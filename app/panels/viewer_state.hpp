@@ -44,6 +44,7 @@ struct OpenRequest {
     DepthRequest request{usual_depth_request()};
     bool chosen{false};  ///< other words on the panel, to be kept once they have opened it
     double at_s{0.0};    ///< where to go on [s]
+    bool paused{false};  ///< and to stand still there
 };
 
 /// Text fields of the panels.

@@ -99,6 +99,7 @@ void Viewer::take_dropped(const std::vector<std::filesystem::path>& files) {
 void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request) {
     replay_.end(state_);
     const std::filesystem::path depth_before = depth_file(state_.media);
+    const int columns_before = state_.media.depth_columns;
     state_.media = media->description();
     state_.opened = request;
     state_.opened.request.panel = state_.media.panel;
@@ -106,11 +107,13 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
     if (request.chosen) keep_panel(depth_before);
     fit_to_media();
     stretch_bump();
-    frame_relief();
+    // A person who says else looks on from where they are.
+    if (!request.chosen || state_.media.depth_columns != columns_before) frame_relief();
     show_title(state_.media.colour_path.empty() ? state_.media.depth_path
                                                 : state_.media.colour_path);
     player_.play_media(std::move(media), recording_.opened(state_.media));
     if (request.at_s > 0.0) player_.seek(request.at_s);
+    if (request.paused) player_.pause();
     if (!loop_) start_loop();
 }
 
@@ -147,6 +150,7 @@ void Viewer::open_again(const DepthStatement& panel) {
     request.request.kept_in.clear();
     request.chosen = true;
     request.at_s = state_.playback.media_s;
+    request.paused = !state_.playback.playing;
     if (!opening_.start(request)) tell("Still opening the last files");
 }
 

@@ -56,6 +56,9 @@ const std::string kOpenRows = click(998, 185);
 const std::string kChooseTrueShape = click(1160, 366) + click(1100, 426) + "sleep 1 ";
 const std::string kTypeView =
     click(1160, 389) + "key --delay 60 6 0 d e g sleep 0.2 keydown Return sleep 0.2 keyup Return ";
+const std::string kDragColour =
+    "mousemove 1110 412 sleep 0.2 mousedown 1 sleep 0.2 mousemove 1130 412 sleep 0.2 mousemove "
+    "1150 412 sleep 0.3 mouseup 1 sleep 0.4 ";
 const std::string kTakeViewBack = click(1258, 389);
 const std::string kSaveSidecar = click(1005, 412);
 
@@ -104,4 +107,17 @@ TEST_CASE("a choice that cannot be is not kept, and a sidecar takes the place of
     REQUIRE(sidecar);
     CHECK(sidecar->geometry == Geometry::true_shape);
     CHECK(sidecar->intrinsics == in_pixels(*chosen.intrinsics, 64, 48));
+}
+
+TEST_CASE("colour is dragged over the depth, and lies there for that file", "[depth_rows]") {
+    const Desk desk;
+    const Home home;
+    write_depth_png(home.folder / "slope_color.png", 64, 48, 100, 2);
+    Process viewer = desk.start_viewer(
+        home.folder, {"slope_color.png", "slope_depth.png", "--depth-unit", "mm", "--device",
+                      "mouse", "--size", "1280x800", "--seconds", "60"});
+    desk.act(kMeet + kOpenRows + kDragColour);
+    CHECK(home.comes_to_keep({.registration = Registration{10.0, 0.0, 1.0}}));
+    desk.act("key ctrl+q");
+    REQUIRE(viewer.wait() == 0);
 }
