@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/video/depth/depth_guess.hpp"
 #include "core/video/depth/kept_choices.hpp"
 #include "core/video/depth/sidecar.hpp"
@@ -74,8 +75,9 @@ DepthStatement plain() {
             .registration = Registration{}};
 }
 
-/// A range that a unit cannot have is told, whoever said it.
-void require_range(const DepthMeaning& meaning, const fs::path& file) {
+/// A range that a unit cannot have, or that numbers cannot count, is told, whoever said it.
+void require_range(const DepthMeaning& meaning, int bits, const fs::path& file) {
+    constexpr double kMostSteps = 1e12;  // sums and products of them stay numbers in floats
     const DepthRange& range = meaning.range.value;
     const bool falls = range.near > range.far;
     const bool bright = meaning.near.value == NearLevels::bright;
@@ -84,6 +86,11 @@ void require_range(const DepthMeaning& meaning, const fs::path& file) {
         throw InputError(shown(file) +
                          ": a range of disparities lies above 0, near to far; give "
                          "another --depth-range");
+    const double steps = highest_level_of(meaning, bits);
+    if (!(steps >= 1.0 / kMostSteps && steps <= kMostSteps))
+        throw InputError(shown(file) + ": its range, " + short_text(range.near) + " to " +
+                         short_text(range.far) +
+                         ", is no depth of a scene; give another --depth-range or --depth-scale");
     if (falls != bright)
         throw InputError(shown(file) + ": its range, near to far, " + (falls ? "falls" : "rises") +
                          ", but near is " + std::string(name_of(meaning.near.value)) +
@@ -136,7 +143,7 @@ DepthScale find_scale(const Sources& sources, const DepthRequest& request) {
     if (auto& camera = meaning.intrinsics.value)
         camera = in_pixels(*camera, facts.columns, facts.rows);
     guess(some_pictures(depth), facts.bits, meaning, voices);
-    require_range(meaning, facts.file);
+    require_range(meaning, facts.bits, facts.file);
     return {meaning, facts.bits};
 }
 

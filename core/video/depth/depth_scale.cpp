@@ -22,14 +22,6 @@ double in_mm(DepthUnit unit, double distance) {
     return unit == DepthUnit::m ? 1000.0 * distance : distance;
 }
 
-double highest_of(const DepthMeaning& meaning, int bits) {
-    const DepthRange& range = meaning.range.value;
-    if (meaning.unit.value == DepthUnit::levels && bits != kRealBits)
-        return std::fabs(range.near - range.far) / meaning.scale.value;
-    const double span_mm = in_mm(meaning.unit.value, std::fabs(range.far - range.near));
-    return meaning.is_metric() && span_mm >= kLeastMillimetres ? span_mm : kFineSteps;
-}
-
 template <typename Level>
 void map_levels(const cv::Mat& grey, const std::vector<float>& of_level, std::vector<float>& out) {
     std::size_t k = 0;
@@ -43,8 +35,16 @@ void map_levels(const cv::Mat& grey, const std::vector<float>& of_level, std::ve
 
 }  // namespace
 
+double highest_level_of(const DepthMeaning& meaning, int bits) {
+    const DepthRange& range = meaning.range.value;
+    if (meaning.unit.value == DepthUnit::levels && bits != kRealBits)
+        return std::fabs(range.near - range.far) / meaning.scale.value;
+    const double span_mm = in_mm(meaning.unit.value, std::fabs(range.far - range.near));
+    return meaning.is_metric() && span_mm >= kLeastMillimetres ? span_mm : kFineSteps;
+}
+
 DepthScale::DepthScale(const DepthMeaning& meaning, int bits)
-    : meaning_(meaning), highest_(highest_of(meaning, bits)) {
+    : meaning_(meaning), highest_(highest_level_of(meaning, bits)) {
     const DepthRange& range = meaning_.range.value;
     far_ = on_the_line(meaning_.unit.value, range.far);
     per_one_ = 1.0 / (on_the_line(meaning_.unit.value, range.near) - far_);

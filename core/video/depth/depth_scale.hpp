@@ -10,6 +10,9 @@
 
 namespace dibhr {
 
+/// The highest level of depth images by that meaning, of a source whose levels have so many bits.
+[[nodiscard]] double highest_level_of(const DepthMeaning& meaning, int bits);
+
 /// Where a level stands between the farthest (0) and the nearest (1) of the range, linear in the
 /// distance from the camera:
 ///   levels     (v - far) / (near - far)

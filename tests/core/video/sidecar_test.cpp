@@ -1,6 +1,7 @@
 // Sidecars, and whose word counts on what depth means.
 #include "core/video/depth/sidecar.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -258,4 +259,23 @@ TEST_CASE("where nothing is to be found out, sidecars and the panel do not count
     const auto media = open_depth(file, request);
     CHECK_FALSE(media->description().meaning);
     CHECK(media->next()->depth.at(5, 5) == 1005.0F);
+}
+
+TEST_CASE("a range of more levels than a surface can stand on is refused, or of none",
+          "[sidecar]") {
+    const TemporaryFolder folder;
+    const auto file = folder / "ramp.png";
+    write_ramp(file);
+    const DepthStatement said = GENERATE(
+        DepthStatement{.unit = DepthUnit::mm, .range = DepthRange{1.0, 1e300}},
+        DepthStatement{.unit = DepthUnit::m, .range = DepthRange{1.0, 1e306}},
+        DepthStatement{.unit = DepthUnit::levels, .scale = 1e-300, .range = DepthRange{255.0, 0.0}},
+        DepthStatement{
+            .unit = DepthUnit::levels, .scale = 1e300, .range = DepthRange{1e-300, 0.0}});
+    write_sidecar(file, said);
+    const std::string told = refusal([&] { (void)open_depth(file, {.find_out = true}); });
+    CAPTURE(told);
+    CHECK(contains(told, "ramp.png"));
+    CHECK(contains(told, "is no depth of a scene; give another --depth-range"));
+    CHECK(std::count(told.begin(), told.end(), '\n') == 0);
 }
