@@ -279,8 +279,8 @@ void add_depth_options(CLI::App& app, DepthStatement& depth) {
     add_word_option(app, "--geometry", kGeometries, depth.geometry,
                     "relief: the picture plane plus elevation; true: the shape in mm");
     add_fact_option(app, "--intrinsics", depth.intrinsics, intrinsics_in, "FX,FY,CX,CY|DEG",
-                    "is neither FX,FY,CX,CY with focal lengths above 0 nor a field of view like "
-                    "60deg",
+                    "is neither FX,FY,CX,CY with focal lengths of 0.001 or more nor a field of "
+                    "view like 60deg",
                     "Of the camera, in depth pixels; or its horizontal field of view, as in "
                     "60deg");
     add_fact_option(app, "--registration", depth.registration, registration_in, "RIGHT,DOWN,SCALE",

@@ -123,13 +123,21 @@ struct Crop {
     Pair size{};
 };
 
+bool has_pixels(const Crop& crop) {
+    constexpr double kMostAlong = 1e6;
+    return std::min(crop.size.x, crop.size.y) >= 1.0 &&
+           std::max(crop.size.x, crop.size.y) <= kMostAlong;
+}
+
 std::optional<Crop> crop_of(const Json& camera) {
     const auto whole = pair_in(camera, "depthImageSize");
     if (!whole || !(whole->x >= 2.0) || !(whole->y >= 2.0)) return std::nullopt;
     const Pair corner = pair_in(camera, "crop").value_or(Pair{0.0, 0.0});
     const Pair part = pair_in(camera, "crop", "z", "w").value_or(Pair{1.0, 1.0});
     if (!(part.x > 0.0) || !(part.y > 0.0) || part.x > 1.0 || part.y > 1.0) return std::nullopt;
-    return Crop{{corner.x * whole->x, corner.y * whole->y}, {part.x * whole->x, part.y * whole->y}};
+    const Crop crop{{corner.x * whole->x, corner.y * whole->y},
+                    {part.x * whole->x, part.y * whole->y}};
+    return has_pixels(crop) ? std::optional(crop) : std::nullopt;
 }
 
 /// The lower half of such a picture shows the crop with square pixels.
@@ -142,9 +150,11 @@ bool has_proportions(cv::Size picture, const Crop& crop) {
 void tell_camera(const Json& camera, const Crop& crop, PackedForm& form) {
     const auto focal = pair_in(camera, "depthFocalLength");
     const auto centre = pair_in(camera, "depthPrincipalPoint");
-    if (!focal || !centre || !(focal->x > 0.0) || !(focal->y > 0.0)) return;
-    form.known.intrinsics =
-        Intrinsics{focal->x, focal->y, centre->x - crop.corner.x, centre->y - crop.corner.y};
+    if (!focal || !centre) return;
+    const Intrinsics intrinsics{focal->x, focal->y, centre->x - crop.corner.x,
+                                centre->y - crop.corner.y};
+    if (!is_camera(intrinsics)) return;
+    form.known.intrinsics = intrinsics;
     form.intrinsics_size = {static_cast<int>(std::lround(crop.size.x)),
                             static_cast<int>(std::lround(crop.size.y))};
 }

@@ -53,8 +53,9 @@ std::string_view name_of(Geometry value) noexcept {
 }
 
 bool is_camera(const Intrinsics& intrinsics) {
-    constexpr double kMost = 1e7;  // pixels; no picture is as large
-    const auto is_length = [](double value) { return value > 0.0 && value < kMost; };
+    constexpr double kMost = 1e7;    // pixels; no picture is as large
+    constexpr double kLeast = 1e-3;  // below, a pixel sees all that is in front of the camera
+    const auto is_length = [](double value) { return value >= kLeast && value < kMost; };
     return is_length(intrinsics.fx) && is_length(intrinsics.fy) &&
            std::abs(intrinsics.cx) < kMost && std::abs(intrinsics.cy) < kMost;
 }

@@ -72,7 +72,8 @@ struct Registration {
     bool operator==(const Registration&) const = default;
 };
 
-/// Whether it is a camera at all: of finite numbers, and focal lengths above zero.
+/// Whether it is a camera at all: of finite numbers, and focal lengths of a thousandth of a pixel
+/// or more.
 [[nodiscard]] bool is_camera(const Intrinsics& intrinsics);
 
 /// The same for a picture of that size: of a field of view, with square pixels and the axis through

@@ -134,9 +134,10 @@ std::string take(const std::string& name, const toml::node& node, DepthStatement
     if (name == "geometry")
         return keep(said.geometry, word_of(node, kGeometries), "is neither relief nor true");
     if (name == "intrinsics")
-        return keep(said.intrinsics, intrinsics_of(node),
-                    "is neither [fx, fy, cx, cy] with fx and fy above 0 nor a field of view like "
-                    "\"60deg\"");
+        return keep(
+            said.intrinsics, intrinsics_of(node),
+            "is neither [fx, fy, cx, cy] with fx and fy of 0.001 or more nor a field of view like "
+            "\"60deg\"");
     const auto numbers = numbers_of(node, name == "range" ? ':' : ',');
     if (name == "scale")
         return keep(said.scale, numbers ? scale_of(*numbers) : std::nullopt,

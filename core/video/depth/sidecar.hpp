@@ -37,8 +37,8 @@ void write_sidecar(const std::filesystem::path& media, const DepthStatement& sta
 [[nodiscard]] std::optional<double> scale_in(const std::string& text);
 /// "480:4210": two finite numbers that differ.
 [[nodiscard]] std::optional<DepthRange> range_in(const std::string& text);
-/// "FX,FY,CX,CY": the focal lengths above 0; or a horizontal field of view of 1 to less than 179
-/// degrees: "60deg", "60 deg", "60°", "60".
+/// "FX,FY,CX,CY": the focal lengths 0.001 or more; or a horizontal field of view of 1 to less than
+/// 179 degrees: "60deg", "60 deg", "60°", "60".
 [[nodiscard]] std::optional<Intrinsics> intrinsics_in(const std::string& text);
 /// "60deg", or the four numbers; reads back to the same bits.
 [[nodiscard]] std::string text_of(const Intrinsics& said);

@@ -19,14 +19,16 @@ namespace fs = std::filesystem;
 namespace {
 
 /// As the device writes it: of a sensor of size 1, whose corner is 0, 0.
-std::string calibration(const std::string& sensor = "1024") {
+std::string calibration(const std::string& sensor = "1024",
+                        const std::string& focal_length = "0.4921875") {
     return R"({"CalibrationInformation": {"Cameras": [
         {"Location": "CALIBRATION_CameraLocationPV0", "SensorWidth": 4096, "SensorHeight": 3072,
          "Intrinsics": {"ModelParameters": [0.5, 0.5, 0.45, 0.6, 0, 0]}},
         {"Location": "CALIBRATION_CameraLocationD0", "SensorWidth": )" +
            sensor + R"(, "SensorHeight": )" + sensor + R"(,
          "Intrinsics": {"ModelParameterCount": 14, "ModelParameters":
-             [0.50390625, 0.498046875, 0.4921875, 0.4931640625, 0.5, 0.25]}}]}})";
+             [0.50390625, 0.498046875, )" +
+           focal_length + R"(, 0.4931640625, 0.5, 0.25]}}]}})";
 }
 
 /// FFV1, because ffmpeg does not write the raw big-endian pictures of the device so that it could
@@ -59,6 +61,8 @@ TEST_CASE(
 TEST_CASE("a calibration that is broken, or not for these pictures, says nothing", "[azure]") {
     CHECK_FALSE(azure_kinect_depth_camera(calibration(), {640, 480}));
     CHECK_FALSE(azure_kinect_depth_camera(calibration("512"), {640, 576}));
+    for (const char* const no_length : {"0", "1e-300", "-0.5", "1e5"})
+        CHECK_FALSE(azure_kinect_depth_camera(calibration("1024", no_length), {640, 576}));
     const std::string text = calibration();
     for (const std::string& broken :
          {std::string(), text.substr(0, text.size() - 5), std::string("[]"), std::string("null"),

@@ -123,6 +123,33 @@ TEST_CASE("metadata that cannot be understood says nothing", "[recorder]") {
     CHECK_FALSE(form_by_recorder(folder / "b.mp4", {320, 960}));
 }
 
+TEST_CASE("metadata of a camera without pixels, or of endless ones, says nothing", "[recorder]") {
+    const TemporaryFolder folder;
+    const std::string side = GENERATE(std::string("2e-300"), std::string("1e-9"),
+                                      std::string("2e7"), std::string("1e300"));
+    CAPTURE(side);
+    std::string text = asset();
+    for (const std::string length : {"x: 512", "y: 424"})
+        text.replace(text.find(length) + 3, 3, side);
+    write_text(folder / "a.metadata.asset", text);
+    CHECK_FALSE(form_by_recorder(folder / "a.mov", {512, 1024}));
+}
+
+TEST_CASE("lengths that no camera has are passed over, the rest of the metadata is not",
+          "[recorder]") {
+    const TemporaryFolder folder;
+    const std::string length = GENERATE(std::string("0"), std::string("-366"),
+                                        std::string("1e-300"), std::string("1e300"));
+    CAPTURE(length);
+    std::string text = asset();
+    text.replace(text.find("366.5"), 5, length);
+    write_text(folder / "a.metadata.asset", text);
+    const auto form = form_by_recorder(folder / "a.mov", asset_size());
+    REQUIRE(form);
+    CHECK(form->hue == HueCode{{{0.5, 1.25}}});
+    CHECK_FALSE(form->known.intrinsics);
+}
+
 TEST_CASE("several cameras in one video are not taken for one", "[recorder]") {
     const TemporaryFolder folder;
     write_text(folder / "a.metadata.asset",
