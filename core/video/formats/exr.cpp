@@ -152,14 +152,15 @@ cv::Mat in_display(const cv::Mat& values, const Box2i& data, const Box2i& displa
 
 cv::Mat read_channels(Imf::MultiPartInputFile& input, const Channels& channels,
                       const fs::path& file, float nothing) {
-    Imf::InputPart part(input, channels.part);
-    const Box2i data = part.header().dataWindow();
-    const Box2i display = part.header().displayWindow();
+    const Imf::Header& header = input.header(channels.part);
+    const Box2i data = header.dataWindow();
+    const Box2i display = header.displayWindow();
     const auto count = channels.names.size();
     const std::size_t pixel_bytes = count * sizeof(float);
     for (const Box2i& window : {data, display})
         require_plausible_size(file, columns_of(window), rows_of(window),
                                static_cast<int>(pixel_bytes));
+    Imf::InputPart part(input, channels.part);  // takes memory for rows of such a size
     cv::Mat values(static_cast<int>(rows_of(data)), static_cast<int>(columns_of(data)),
                    CV_32FC(static_cast<int>(count)));
     Imf::FrameBuffer buffer;
