@@ -1,11 +1,11 @@
 // What people open as a picture or a video, and the names that belong together: a picture of a size
 // that can be touched, or one line.
-#include <cmath>
 #include <string>
 
 #include "core/video/media.hpp"
 #include "core/video/media_names.hpp"
 #include "tests/fuzz/entry.hpp"
+#include "tests/fuzz/frames.hpp"
 
 using namespace dibhr;
 
@@ -21,23 +21,6 @@ void look_at_name(const std::filesystem::path& folder, const std::string& name) 
     (void)named_depth(file);
 }
 
-void require_sound(const RawFrame& frame, const MediaDescription& description) {
-    const DepthImage& depth = frame.depth;
-    test::require_rule(depth.columns >= 2 && depth.rows >= 2 &&
-                           depth.columns == description.depth_columns &&
-                           depth.rows == description.depth_rows &&
-                           depth.levels.size() == static_cast<std::size_t>(depth.columns) *
-                                                      static_cast<std::size_t>(depth.rows),
-                       "a frame has the size that was told, and can be touched");
-    test::require_rule(std::isfinite(frame.media_s), "a frame has a time");
-    constexpr int kRealBits = 32;  // numbers as they are, and what is none
-    if (description.depth_bits == kRealBits) return;
-    for (const float level : depth.levels) {
-        test::require_rule(level >= 0.0F && level <= static_cast<float>(depth.highest_level),
-                           "a level is between 0 and the highest");
-    }
-}
-
 /// A depth picture that colours go with.
 const std::filesystem::path& other_picture() {
     static const test::InputFile file("depth.pgm");
@@ -50,13 +33,10 @@ const std::filesystem::path& other_picture() {
 void look_into(const std::filesystem::path& file) {
     (void)test::is_taken([&file] { (void)describe_media(file); });
     (void)test::is_taken([&file] { (void)read_bump_map(file); });
-    (void)test::is_taken([&file] {
-        const auto media = open_depth(file);
-        for (int k = 0; k < 6; ++k) {
-            if (k == 3) media->seek(0.5 * media->description().duration_s);
-            if (const auto frame = media->next()) require_sound(*frame, media->description());
-        }
-    });
+    for (const bool find_out : {false, true}) {
+        (void)test::is_taken(
+            [&] { test::require_frames(open_depth(file, {.find_out = find_out})); });
+    }
     (void)test::is_taken([&file] {
         const auto frame = open_media(file, other_picture())->next();
         test::require_rule(frame && frame->colour.columns >= 2 && frame->colour.rows >= 2,
