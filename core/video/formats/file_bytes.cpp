@@ -42,13 +42,18 @@ std::uint64_t size_of(const std::filesystem::path& file) {
     return failed ? 0 : size;
 }
 
+bool can_hold(std::uint64_t bytes, std::int64_t columns, std::int64_t rows, int bytes_per_pixel) {
+    if (columns < 1 || rows < 1 || columns > kMostPixels / rows) return false;
+    const auto decoded = static_cast<std::uint64_t>(columns * rows * bytes_per_pixel);
+    return decoded / kMostCompressed <= bytes;
+}
+
 void require_plausible_size(const std::filesystem::path& file, std::int64_t columns,
                             std::int64_t rows, int bytes_per_pixel) {
     if (columns < 1 || rows < 1 || columns > kMostPixels / rows)
         throw InputError(shown(file) + " says that it is " + std::to_string(columns) + " x " +
                          std::to_string(rows) + " pixels: give a smaller one");
-    const auto bytes = static_cast<std::uint64_t>(columns * rows * bytes_per_pixel);
-    if (bytes / kMostCompressed > size_of(file))
+    if (!can_hold(size_of(file), columns, rows, bytes_per_pixel))
         throw InputError(shown(file) + " says that it is " + std::to_string(columns) + " x " +
                          std::to_string(rows) +
                          " pixels and is too short for them: it is damaged, export it again");

@@ -15,6 +15,11 @@ namespace dibhr {
 /// In bytes; 0 when it cannot be told.
 [[nodiscard]] std::uint64_t size_of(const std::filesystem::path& file);
 
+/// Whether so many bytes can hold such a picture, however well it is compressed: 2^30 pixels at
+/// most.
+[[nodiscard]] bool can_hold(std::uint64_t bytes, std::int64_t columns, std::int64_t rows,
+                            int bytes_per_pixel);
+
 /// Throws InputError when a header's picture is larger than any (2^30 pixels), or than what a file
 /// of that size can hold however well it is compressed: before memory is taken for it.
 void require_plausible_size(const std::filesystem::path& file, std::int64_t columns,

@@ -10,9 +10,12 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <sstream>
 #include <string_view>
 
 #include "core/video/formats/camera_files.hpp"
+#include "core/video/formats/claimed_size.hpp"
+#include "core/video/formats/file_bytes.hpp"
 #include "core/video/libraries.hpp"
 
 namespace dibhr {
@@ -142,8 +145,18 @@ cv::Mat plain_picture(const RosImage& image) {
     return picture;
 }
 
+/// OpenCV takes memory for whatever a header says, which is at the beginning.
+bool is_plausible_picture(Bytes data) {
+    constexpr std::size_t kHeaderBytes = 1U << 16U;
+    const Bytes begin = data.first(std::min(data.size(), kHeaderBytes));
+    std::istringstream in(std::string(begin.begin(), begin.end()));
+    const auto claimed = claimed_size(in);
+    return !claimed || can_hold(data.size(), claimed->columns, claimed->rows, 1);
+}
+
 cv::Mat decoded(Bytes data, int flags) {
-    if (data.empty() || data.size() > std::size_t{std::numeric_limits<int>::max()}) return {};
+    const bool is_too_large = data.size() > std::size_t{std::numeric_limits<int>::max()};
+    if (data.empty() || is_too_large || !is_plausible_picture(data)) return {};
     const cv::Mat bytes(1, static_cast<int>(data.size()), CV_8UC1,
                         const_cast<std::uint8_t*>(data.data()));  // only read
     try {

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fstream>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/error.hpp"
 #include "core/video/formats/array_file.hpp"
+#include "core/video/formats/claimed_size.hpp"
 #include "core/video/formats/exr.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/heif.hpp"
@@ -43,7 +45,15 @@ bool is_tiff(const std::string& head) {
     return head.starts_with("II") || head.starts_with("MM");
 }
 
+/// OpenCV takes memory for whatever a header says.
+void require_plausible_claim(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    if (const auto claimed = claimed_size(in))
+        require_plausible_size(file, claimed->columns, claimed->rows, 1);
+}
+
 cv::Mat decoded(const fs::path& file, int flags) {
+    require_plausible_claim(file);
     cv::Mat picture;
     try {
         const QuietErrors quiet;
