@@ -49,13 +49,15 @@ float mean_behind(const DepthImage& image, int left, int right, int top, int bot
     const float most = lowest + outline_levels(image);
     float sum = 0.0F;
     float count = 0.0F;
+    float highest = lowest;
     for (int j = top; j < bottom; ++j)
         for (int i = left; i < right; ++i)
             if (const float level = image.at(i, j); level <= most) {
                 sum += level;
                 count += 1.0F;
+                highest = std::max(highest, level);
             }
-    return sum / count;
+    return std::clamp(sum / count, lowest, highest);  // rounding leads out of them
 }
 
 /// One level a square of `side` pixels, the farther where there are two.
@@ -240,9 +242,12 @@ SmallHoleFiller::Estimate SmallHoleFiller::between(const Side& one,
 
 SmallHoleFiller::Estimate SmallHoleFiller::mean(const Estimate& one,
                                                 const Estimate& other) noexcept {
+    if (!(one.weight > 0.0F)) return other;
+    if (!(other.weight > 0.0F)) return one;
     const float weight = one.weight + other.weight;
-    if (!(weight > 0.0F)) return {};
-    return {(one.level * one.weight + other.level * other.weight) / weight, weight};
+    const float level = (one.level * one.weight + other.level * other.weight) / weight;
+    const auto [lowest, highest] = std::minmax(one.level, other.level);
+    return {std::clamp(level, lowest, highest), weight};  // rounding leads out of them
 }
 
 SmallHoleFiller::Estimate SmallHoleFiller::behind(const Estimate& one,

@@ -196,6 +196,26 @@ TEST_CASE("small holes are filled from within the levels around them, at the bor
     CHECK(*high <= 149.0F);
 }
 
+TEST_CASE("holes in the highest level are no higher, whatever number that is", "[cleaning]") {
+    for (int k = 1; k < 400; ++k) {
+        const double highest = 13625.0 * k / 7.0;
+        const DepthImage image = cleaned(
+            image_of(
+                90, 60,
+                [&](int i, int j) {
+                    const bool small = i % 9 < 3 && j % 7 < 1 + i / 30;
+                    const bool large = i > 60 && j > 20;
+                    return small || large ? kNone
+                                          : static_cast<double>(static_cast<float>(highest));
+                },
+                highest),
+            {});
+        const auto [lowest, most] = std::minmax_element(image.levels.begin(), image.levels.end());
+        REQUIRE(*lowest >= 0.0F);
+        REQUIRE(*most == static_cast<float>(highest));
+    }
+}
+
 TEST_CASE("a single pixel that stands out of all its neighbours takes their median", "[cleaning]") {
     const auto [highest, level, spike] =
         GENERATE(table<double, double, double>({{255.0, 100.0, 130.0},
