@@ -42,7 +42,7 @@ inline void require_sound(const RawFrame& frame, const MediaDescription& descrip
 
 /// As it is touched. Pictures that take the fuzzer's time to clean are left out.
 inline void require_touchable(const RawFrame& frame, const MediaDescription& description) {
-    constexpr std::size_t kMostPixels = std::size_t{1} << 18U;
+    constexpr std::size_t kMostPixels = std::size_t{1} << 14U;
     if (frame.depth.levels.size() > kMostPixels) return;
     DepthCleaner cleaner;
     const CleanedDepth cleaned = cleaner.cleaned(frame.depth, {}, frame.held);
