@@ -68,29 +68,35 @@ std::string colour_picture() {
     return bytes;
 }
 
-/// A sidecar beside a pair of files, and beside depth of real numbers.
-void look_at_sidecar(const std::string& text) {
-    static const test::TemporaryFolder folder;
-    static const bool written = [] {
-        write(folder / "whole.pgm", depth_picture());
-        write(folder / "whole.ppm", colour_picture());
-        write(folder / "real.pfm", real_picture());
-        return true;
+/// A pair of files, depth of real numbers, and names for patterns.
+const test::TemporaryFolder& pictures() {
+    static const auto folder = [] {
+        auto made = std::make_unique<test::TemporaryFolder>();
+        for (const char* const name : {"whole.pgm", "depth_01.pgm", "depth_2.pgm", "depth/1.pgm"})
+            write(*made / name, depth_picture());
+        write(*made / "whole.ppm", colour_picture());
+        write(*made / "real.pfm", real_picture());
+        return made;
     }();
-    (void)written;
+    return *folder;
+}
+
+/// Beside a pair of files, and beside depth of real numbers.
+void look_at_sidecar(const std::string& text) {
     const bool is_taken = test::is_taken([&text] {
         const DepthStatement said = statement_in(text, "a sidecar");
         test::require_rule(statement_in(toml_of(said), "its own") == said,
                            "what was understood comes back the same");
     });
     if (!is_taken) return;
+    const test::TemporaryFolder& folder = pictures();
     write(folder / "whole.toml", text);
     write(folder / "real.toml", text);
-    (void)test::is_taken([] {
+    (void)test::is_taken([&folder] {
         test::require_frames(open_media(folder / "whole.ppm", folder / "whole.pgm", kAsFound));
     });
     (void)test::is_taken(
-        [] { test::require_frames(open_media({}, folder / "real.pfm", kAsFound)); });
+        [&folder] { test::require_frames(open_media({}, folder / "real.pfm", kAsFound)); });
 }
 
 /// Pictures as datasets lay them out, and that file with them.
@@ -131,14 +137,7 @@ void look_at_list(const std::string& text) {
 }
 
 void look_at_pattern(const std::string& text) {
-    static const test::TemporaryFolder folder;
-    static const bool written = [] {
-        for (const char* const name : {"depth_01.pgm", "depth_2.pgm", "depth/1.pgm"})
-            write(folder / name, depth_picture());
-        return true;
-    }();
-    (void)written;
-    const fs::path place = folder / text;
+    const fs::path place = pictures() / text;
     if (!names_pictures(place) || is_folder(place)) return;
     (void)test::is_taken([&place] { test::require_frames(open_depth(place, kAsFound)); });
 }

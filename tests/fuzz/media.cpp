@@ -53,7 +53,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string text(data, data + size);
     constexpr std::string_view kName = "name:";
     if (text.starts_with(kName)) {
-        look_at_name(nothing.path(), text.substr(kName.size()));
+        const std::string name = text.substr(kName.size());
+        look_at_name(nothing.path(), name.substr(0, name.find('\0')));  // as the system takes one
     } else {
         look_into(file.with({data, size}));
     }
