@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
 #include <fstream>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <string_view>
 
 #include "core/error.hpp"
 #include "core/video/formats/array_file.hpp"
@@ -52,6 +54,13 @@ void require_plausible_claim(const fs::path& file) {
         require_plausible_size(file, claimed->columns, claimed->rows, 1);
 }
 
+/// Also a damaged one, which OpenCV does not know any more: libav takes it for a video, and ends
+/// the program.
+bool is_webp(std::string_view head) {
+    return head.starts_with("RIFF") &&
+           head.substr(std::min<std::size_t>(8, head.size())).starts_with("WEBP");
+}
+
 cv::Mat decoded(const fs::path& file, int flags) {
     require_plausible_claim(file);
     cv::Mat picture;
@@ -90,7 +99,7 @@ Reader own_reader_of(const fs::path& file) {
 }  // namespace
 
 bool is_still(const fs::path& file) {
-    return own_reader_of(file) != nullptr || opencv_reads(file);
+    return own_reader_of(file) != nullptr || opencv_reads(file) || is_webp(head_of(file));
 }
 
 bool holds_colour_and_depth(const fs::path& file) {
