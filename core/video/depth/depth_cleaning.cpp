@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -13,14 +14,14 @@ namespace dibhr {
 namespace {
 
 // 8 levels of 255 stand out of a curved surface seen in 8 bits. 5 below it are a pit in which a
-// point is caught: 4, of which smoothing makes 5 at most. 16 bits are mostly millimetres, of which
-// 100 are far beyond a sensor's noise (up to 65 at 4 m).
+// point is caught; smoothing may deepen one by a level, so 4 are one too many. 16 bits are mostly
+// millimetres, of which 100 are far beyond a sensor's noise (up to 65 at 4 m).
 constexpr double kSpike_share = 8.0 / 255.0;
 constexpr double kPit_share = 4.0 / 255.0;
 constexpr double kSpike_levels = 100.0;
-constexpr int kSpikeRounds = 16;     ///< one that is gone may leave another beside it
-constexpr int kIslandsInWidth = 80;  ///< squares side by side
-constexpr float kSmoothing = 0.2F;   ///< of the second difference, per axis; stable below 0.25
+constexpr std::uint8_t kSpikeRounds = 16;  ///< one that is gone may leave another beside it
+constexpr int kIslandsInWidth = 80;        ///< squares side by side
+constexpr float kSmoothing = 0.2F;  ///< of the second difference, per axis; stable below 0.25
 
 /// One pass of smoothing between pixels `px` apart; a larger difference than `edge_levels` is an
 /// edge or a curve, not a terrace. Chosen on planes, on a waved surface and on real 8-bit
@@ -45,30 +46,36 @@ bool is_eight_bit(const DepthImage& image) {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// The levels of the pixels around one that have data, rising.
+/// The levels of the pixels around one that have data.
 class Neighbours {
   public:
     Neighbours(const DepthImage& image, int i, int j) {
         for (int y = std::max(j - 1, 0); y <= std::min(j + 1, image.rows - 1); ++y) {
             for (int x = std::max(i - 1, 0); x <= std::min(i + 1, image.columns - 1); ++x) {
                 const float level = image.at(x, y);
-                if ((x != i || y != j) && !std::isnan(level)) levels_[count_++] = level;
+                if ((x == i && y == j) || std::isnan(level)) continue;
+                levels_[count_++] = level;
+                lowest_ = std::min(lowest_, level);
+                highest_ = std::max(highest_, level);
             }
         }
-        std::sort(levels_.begin(), levels_.begin() + static_cast<std::ptrdiff_t>(count_));
     }
 
     /// Infinite without neighbours.
-    [[nodiscard]] float lowest() const { return count_ > 0 ? levels_[0] : kInfinity; }
-    [[nodiscard]] float highest() const { return count_ > 0 ? levels_[count_ - 1] : -kInfinity; }
+    [[nodiscard]] float lowest() const { return lowest_; }
+    [[nodiscard]] float highest() const { return highest_; }
     /// NaN: there is none.
-    [[nodiscard]] float median() const {
-        return count_ > 0 ? levels_[count_ / 2] : std::numeric_limits<float>::quiet_NaN();
+    [[nodiscard]] float median() {
+        if (count_ == 0) return std::numeric_limits<float>::quiet_NaN();
+        auto* const median = levels_.data() + count_ / 2;
+        std::nth_element(levels_.data(), median, levels_.data() + count_);
+        return *median;
     }
 
   private:
     std::array<float, 8> levels_{};
     std::size_t count_{0};
+    float lowest_{kInfinity}, highest_{-kInfinity};
 };
 
 /// How far beyond all its neighbours a pixel stands out of them.
@@ -163,7 +170,7 @@ void DepthCleaner::find_spikes(const DepthImage& image) {
 }
 
 void DepthCleaner::look_for_spike(const DepthImage& image, int i, int j) {
-    const Neighbours around(image, i, j);
+    Neighbours around(image, i, j);
     const float level = image.at(i, j);
     if (Outstanding(image.highest_level)(level, around.lowest(), around.highest()))
         spikes_.push_back({i, j, around.median()});
@@ -172,21 +179,26 @@ void DepthCleaner::look_for_spike(const DepthImage& image, int i, int j) {
 void DepthCleaner::remove_spikes(DepthImage& image) {
     spikes_.clear();
     find_spikes(image);
-    for (int round = 0; round < kSpikeRounds && !spikes_.empty(); ++round) {
+    looked_at_.assign(image.levels.size(), 0);
+    for (std::uint8_t round = 1; round <= kSpikeRounds && !spikes_.empty(); ++round) {
         for (const Spike& spike : spikes_) {
             image.at(spike.column, spike.row) = spike.level;
             if (std::isnan(spike.level)) refused_.push_back(image.index(spike.column, spike.row));
         }
         removed_.swap(spikes_);
         spikes_.clear();
-        std::sort(removed_.begin(), removed_.end());
-        removed_.erase(std::unique(removed_.begin(), removed_.end()), removed_.end());
-        for (const Spike& spike : removed_)
-            for (int j = std::max(spike.row - 1, 0); j <= std::min(spike.row + 1, image.rows - 1);
-                 ++j)
-                for (int i = std::max(spike.column - 1, 0);
-                     i <= std::min(spike.column + 1, image.columns - 1); ++i)
-                    look_for_spike(image, i, j);
+        for (const Spike& spike : removed_) look_around(image, spike, round);
+    }
+}
+
+/// At each pixel once a round.
+void DepthCleaner::look_around(const DepthImage& image, const Spike& spike, std::uint8_t round) {
+    for (int j = std::max(spike.row - 1, 0); j <= std::min(spike.row + 1, image.rows - 1); ++j) {
+        for (int i = std::max(spike.column - 1, 0);
+             i <= std::min(spike.column + 1, image.columns - 1); ++i) {
+            if (std::exchange(looked_at_[image.index(i, j)], round) != round)
+                look_for_spike(image, i, j);
+        }
     }
 }
 

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
@@ -47,10 +46,6 @@ class DepthCleaner {
     struct Spike {
         int column, row;
         float level;  ///< that it takes
-
-        [[nodiscard]] std::pair<int, int> place() const { return {row, column}; }
-        bool operator<(const Spike& other) const { return place() < other.place(); }
-        bool operator==(const Spike& other) const { return place() == other.place(); }
     };
 
     /// A pixel beyond all its neighbours with data by more than a threshold takes their median, and
@@ -58,6 +53,7 @@ class DepthCleaner {
     void remove_spikes(DepthImage& image);
     void find_spikes(const DepthImage& image);
     void look_for_spike(const DepthImage& image, int i, int j);
+    void look_around(const DepthImage& image, const Spike& spike, std::uint8_t round);
 
     /// Data alone in a hole, on fewer pixels than a square of an eightieth of the image's width:
     /// what sensors make up at outlines.
@@ -76,6 +72,7 @@ class DepthCleaner {
     SmallHoleFiller small_holes_{};
     LargeHoleFiller large_holes_{};
     std::vector<Spike> spikes_{}, removed_{};
+    std::vector<std::uint8_t> looked_at_{};  ///< of every pixel, in which round
     std::vector<int> outlying_{};
     std::vector<float> highest_{}, lowest_{};      ///< of the rows above and below, by column
     std::vector<float> low_{}, high_{}, other_{};  ///< bounds of every level; the pass's output
