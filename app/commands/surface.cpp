@@ -39,6 +39,7 @@ std::unique_ptr<Media> open_given(const SurfaceOptions& options, TouchParameters
     DepthRequest request = options.touch.depth_request();
     request.paints = false;
     auto media = open_media(options.colour, options.depth, request);
+    print_warning(media->description().notice);
     options.touch.given.fit(media->description(), options.touch.raw_depth, parameters);
     return media;
 }

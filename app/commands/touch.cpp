@@ -58,6 +58,7 @@ class TouchRun {
   private:
     static std::unique_ptr<Media> opened(const TouchOptions& options, TouchParameters& parameters) {
         auto media = open_depth(options.depth, options.touch.depth_request());
+        print_warning(media->description().notice);
         options.touch.given.fit(media->description(), options.touch.raw_depth, parameters);
         return media;
     }

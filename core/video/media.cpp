@@ -16,6 +16,7 @@
 #include "core/video/depth/depth_guess.hpp"
 #include "core/video/depth/kept_choices.hpp"
 #include "core/video/formats/foreign.hpp"
+#include "core/video/layouts.hpp"
 #include "core/video/media_names.hpp"
 #include "core/video/paired_media.hpp"
 #include "core/video/sources.hpp"
@@ -71,19 +72,20 @@ std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthRequest& asked
     return media;
 }
 
-/// How a depth that is found beside its colour is coded may be said of itself.
-DepthStatement said_of_pair(const fs::path& colour, const fs::path& depth,
-                            const DepthRequest& request) {
-    DepthStatement said = said_of({depth, colour}, request);
+/// Where names say that the depth of a pair is: what is said of it counts from the opening on.
+fs::path depth_of_pair(const fs::path& colour, const fs::path& depth) {
+    if (colour.empty()) return depth_place_for(depth);
+    const MediaPlaces places = places_for(colour, depth);
+    if (!places.depth.empty()) return places.depth;
     std::string ignored;
-    const auto beside = depth.empty() ? find_depth_beside(colour, ignored) : std::nullopt;
-    if (beside && !said.code) said.code = said_of({*beside}, request).code;
-    return said;
+    return find_depth_beside(places.colour, ignored).value_or(places.colour);
 }
 
 MediaDescription described(const fs::path& place, const DepthRequest& request,
                            const std::string& notice) {
-    Sources sources = find_content(place, said_of({place}, request));
+    const MediaPlaces places = places_for(place, {});
+    const fs::path& depth = places.depth.empty() ? places.colour : places.depth;
+    Sources sources = find_content(place, said_of(depth, place, request));
     if (sources.depth == nullptr) {
         sources.colour->count_frames(kMostCounted);
         MediaDescription description;
@@ -144,7 +146,7 @@ void require_size(const fs::path& file, int columns, int rows) {
 std::unique_ptr<Media> open_media(const fs::path& colour, const fs::path& depth,
                                   const DepthRequest& asked) {
     return opened(asked, [&](const DepthRequest& request, const std::string& notice) {
-        const DepthStatement said = said_of_pair(colour, depth, request);
+        const DepthStatement said = said_of(depth_of_pair(colour, depth), colour, request);
         Sources sources =
             colour.empty() ? find_depth(depth, said) : find_sources(colour, depth, said);
         return media_of(std::move(sources), request, true, notice);
@@ -153,7 +155,7 @@ std::unique_ptr<Media> open_media(const fs::path& colour, const fs::path& depth,
 
 std::unique_ptr<Media> open_depth(const fs::path& place, const DepthRequest& asked) {
     return opened(asked, [&](const DepthRequest& request, const std::string& notice) {
-        Sources sources = find_depth(place, said_of({place}, request));
+        Sources sources = find_depth(place, said_of(depth_place_for(place), place, request));
         return media_of(std::move(sources), request, false, notice);
     });
 }

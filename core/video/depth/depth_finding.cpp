@@ -106,12 +106,12 @@ std::vector<cv::Mat> some_pictures(PictureSource& source) {
     return source.samples(static_cast<int>(most));
 }
 
-DepthStatement said_of(const std::vector<fs::path>& places, const DepthRequest& request) {
+DepthStatement said_of(const fs::path& depth, const fs::path& colour, const DepthRequest& request) {
     DepthStatement said = request.recorded;
     said.fill_in(request.command_line);
     if (!request.find_out) return said;
-    said.fill_in(with_kept_choices(request, places).panel);
-    said.fill_in(sidecars_of(places));
+    said.fill_in(with_kept_choices(request, {depth}).panel);
+    said.fill_in(sidecars_of({depth, colour}));
     return said;
 }
 

@@ -12,9 +12,10 @@
 namespace dibhr {
 
 /// What is said of depth before anything is opened, the strongest word on each thing: by the
-/// request and what was chosen before, and by the sidecars of those places, the first before the
-/// second. Throws InputError for a file of these that cannot be understood.
-[[nodiscard]] DepthStatement said_of(const std::vector<std::filesystem::path>& places,
+/// request, by what is kept of the place of the depth, and by the sidecars of it and of the
+/// colour's place, which may be empty. Throws InputError for what cannot be understood.
+[[nodiscard]] DepthStatement said_of(const std::filesystem::path& depth,
+                                     const std::filesystem::path& colour,
                                      const DepthRequest& request);
 
 /// What is to be known of the depth before its first frame is shown. It is read here and there, and

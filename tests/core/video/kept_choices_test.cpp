@@ -132,6 +132,11 @@ TEST_CASE("so is how a depth is coded that is found beside its colour", "[kept]"
     const int grey = bits();
     keep_choice(home.choices, depth, {.code = DepthCode::hue});
     CHECK(bits() > grey);
+    write_text(home.folder / "a_color.toml", "[depth]\ncode = \"grey\"\n");
+    CHECK(bits() > grey);  // the panel beats the sidecar, whichever file that is beside
+    keep_choice(home.choices, depth, {});
+    keep_choice(home.choices, colour, {.code = DepthCode::hue});
+    CHECK(bits() == grey);  // that was chosen for another file
 }
 
 TEST_CASE("a choice that is taken back leaves nothing", "[kept]") {
