@@ -162,6 +162,7 @@ void draw_depth_rows(ViewerState& state) {
         return;
     }
     ImGui::PushID("depth");
+    ImGui::BeginDisabled(state.opening);  // with the last word
     const DepthMeaning& known = *state.media.meaning;
     TextFields& fields = state.fields;
     word_row("Near is", "Which levels are near (--near)", kNearLevels, known.near,
@@ -195,6 +196,7 @@ void draw_depth_rows(ViewerState& state) {
     if (!state.media.colour_path.empty()) registration_rows(state);
     if (ImGui::Button("Save as sidecar")) state.requests.save_sidecar = true;
     explain("Writes what the depth means beside its file, for whoever opens it next");
+    ImGui::EndDisabled();
     ImGui::PopID();
 }
 

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "app/panels/panels.hpp"
 
@@ -171,6 +172,7 @@ bool number_row(const NumberRow& row, double& value) {
 }
 
 Dragged dragged_row(const DraggedRow& row, std::span<double> values) {
+    const std::vector<double> before(values.begin(), values.end());
     ImGui::PushID(row.label);
     row_label(row.label, row.help);
     ImGui::SetNextItemWidth(value_width());
@@ -178,8 +180,9 @@ Dragged dragged_row(const DraggedRow& row, std::span<double> values) {
                        static_cast<int>(values.size()), row.speed, &row.lowest, &row.highest,
                        row.format, ImGuiSliderFlags_AlwaysClamp);
     const bool done = ImGui::IsItemDeactivatedAfterEdit();
-    for (double& value : values)
-        if (std::isnan(value)) value = row.lowest;  // typed
+    const auto is_number = [](double value) { return std::isfinite(value); };
+    if (!std::all_of(values.begin(), values.end(), is_number))  // what is typed may be none
+        std::copy(before.begin(), before.end(), values.begin());
     explain("Drag, or Ctrl+click to type a number");
     const bool put_back = put_back_arrow(row.changed);
     ImGui::PopID();

@@ -81,7 +81,10 @@ void Viewer::take_opened() {
     if (auto opened = opening_.take()) {
         if (opened->media) show_media(std::move(opened->media), opened->request);
         if (opened->session) replay_session(std::move(opened->session));
-        if (!opened->failure.empty()) state_.message = opened->failure;
+        if (!opened->failure.empty()) {
+            state_.message = opened->failure;
+            show_depth_words(state_);  // those that are in force
+        }
     }
     state_.opening = opening_.under_way();
 }
@@ -98,17 +101,18 @@ void Viewer::take_dropped(const std::vector<std::filesystem::path>& files) {
 
 void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request) {
     replay_.end(state_);
-    const std::filesystem::path depth_before = depth_file(state_.media);
-    const int columns_before = state_.media.depth_columns;
+    const MediaDescription before = state_.media;
     state_.media = media->description();
     state_.opened = request;
     state_.opened.request.panel = state_.media.panel;
     show_depth_words(state_);
-    if (request.chosen) keep_panel(depth_before);
+    if (request.chosen) keep_panel(depth_file(before));
     fit_to_media();
     stretch_bump();
     // A person who says else looks on from where they are.
-    if (!request.chosen || state_.media.depth_columns != columns_before) frame_relief();
+    const bool same_size = state_.media.depth_columns == before.depth_columns &&
+                           state_.media.depth_rows == before.depth_rows;
+    if (!request.chosen || !same_size) frame_relief();
     show_title(state_.media.colour_path.empty() ? state_.media.depth_path
                                                 : state_.media.colour_path);
     player_.play_media(std::move(media), recording_.opened(state_.media));
