@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
+
 #include <vector>
+#include "core/video/pictures.hpp"
 
 namespace dibhr {
 
@@ -36,8 +38,9 @@ void visit_runs(int columns, const IsMarked& is_marked, const Visit& visit) {
 
 }  // namespace
 
-cv::Mat moved(const cv::Mat& colour, const Registration& registration, cv::Size depth_size) {
-    if (colour.empty() || registration == Registration{}) return colour;
+cv::Mat moved(const cv::Mat& picture, const Registration& registration, cv::Size depth_size) {
+    if (picture.empty() || registration == Registration{}) return picture;
+    const cv::Mat colour = resampleable(picture);
     const double across = 1.0 * colour.cols / depth_size.width;
     const double down = 1.0 * colour.rows / depth_size.height;
     const double stays = 1.0 - registration.scale;
@@ -53,10 +56,14 @@ cv::Mat moved(const cv::Mat& colour, const Registration& registration, cv::Size 
     return result;
 }
 
-ColourRegistration::ColourRegistration(cv::Size depth_size, const CameraPair& cameras)
-    : cameras_(cameras), rays_(rays_of(depth_size, cameras.depth)) {}
+ColourRegistration::ColourRegistration(cv::Size depth_size, const CameraPair& cameras,
+                                       double far_mm)
+    : cameras_(cameras),
+      far_mm_(static_cast<float>(far_mm)),
+      rays_(rays_of(depth_size, cameras.depth)) {}
 
-cv::Mat ColourRegistration::seen_from_depth(const cv::Mat& depth_mm, const cv::Mat& colour) {
+cv::Mat ColourRegistration::seen_from_depth(const cv::Mat& depth_mm, const cv::Mat& picture) {
+    const cv::Mat colour = resampleable(picture);
     assert(depth_mm.type() == CV_32FC1 && depth_mm.size() == rays_.right.size());
     const Camera camera = camera_for(colour.size(), cameras_.colour, cameras_.colour_size);
     const double pixels_apart = camera.intrinsics().fx / cameras_.depth.intrinsics().fx;
@@ -64,7 +71,8 @@ cv::Mat ColourRegistration::seen_from_depth(const cv::Mat& depth_mm, const cv::M
     project(camera);
     find_hidden(colour.size(), pixels_apart);
     uncover();
-    const bool is_finer = pixels_apart > 1.5;
+    const bool is_finer =
+        pixels_apart > 1.5 && 2 * std::max(depth_mm.cols, depth_mm.rows) < kMostAlong;
     if (is_finer) {
         make_finer(x_, pixels_apart, finer_x_);
         make_finer(y_, pixels_apart, finer_y_);
@@ -80,6 +88,7 @@ void ColourRegistration::close_holes(const cv::Mat& depth_mm) {
     depth_mm.copyTo(depth_mm_);
     double farthest = 0.0;
     cv::minMaxLoc(depth_mm, nullptr, &farthest, nullptr, nullptr, depth_mm == depth_mm);
+    const float all_mm = farthest > 0.0 ? static_cast<float>(farthest) : far_mm_;
     for (int j = 0; j < depth_mm_.rows; ++j) {
         float* const row = depth_mm_.ptr<float>(j);
         visit_runs(
@@ -88,7 +97,7 @@ void ColourRegistration::close_holes(const cv::Mat& depth_mm) {
                 float behind = 0.0F;
                 if (begin > 0) behind = row[begin - 1];
                 if (end < depth_mm_.cols) behind = std::max(behind, row[end]);
-                if (!(behind > 0.0F)) behind = static_cast<float>(farthest);
+                if (!(behind > 0.0F)) behind = all_mm;
                 std::fill(row + begin, row + end, behind);
             });
     }

@@ -20,13 +20,14 @@ inline const cv::Scalar kNoColour = cv::Scalar::all(96);
 /// picture.
 class ColourRegistration {
   public:
-    ColourRegistration(cv::Size depth_size, const CameraPair& cameras);
+    /// `far_mm`: how far a picture is of which nothing is known.
+    ColourRegistration(cv::Size depth_size, const CameraPair& cameras, double far_mm);
 
     /// `depth_mm`: CV_32FC1 of that size, distances from the depth camera's plane, NaN without
     /// data: there it is as far as what is behind the hole. `colour`: 8-bit BGR. Returns a picture
     /// of the depth's size, or of twice its columns and rows where the colour is that fine; what
-    /// the colour camera does not see, because it is outside its picture, is black; what is hidden
-    /// from it behind something nearer takes the colour beside it.
+    /// the colour camera does not see, because it is outside its picture, has no colour; what is
+    /// hidden from it behind something nearer takes the colour beside it.
     [[nodiscard]] cv::Mat seen_from_depth(const cv::Mat& depth_mm, const cv::Mat& colour);
 
   private:
@@ -37,6 +38,7 @@ class ColourRegistration {
     static void make_finer(const cv::Mat& map, double pixels_apart, cv::Mat& finer);
 
     CameraPair cameras_;
+    float far_mm_;
     Rays rays_;
     cv::Mat depth_mm_{};  ///< without holes
     cv::Mat x_{}, y_{};   ///< of each depth pixel: where the colour picture shows it

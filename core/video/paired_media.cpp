@@ -103,8 +103,8 @@ PairedMedia::PairedMedia(std::unique_ptr<PictureSource> depth,
     add_notice(depth_->facts().notice);
     if (colour == nullptr) return;
     add_notice(colour->facts().notice);
+    take_registration(colour->facts());
     colour_.emplace(std::move(colour), depth_->facts());
-    take_registration();
 }
 
 std::optional<RawFrame> PairedMedia::next() {
@@ -118,7 +118,7 @@ std::optional<RawFrame> PairedMedia::next() {
     frame.media_s = taken->time_s;
     frame.index = taken->index;
     cv::Mat colour;
-    if (colour_) colour = colour_for(frame);
+    if (colour_) colour = colour_for(*taken);
     if (shape_)
         put_straight(frame, colour);
     else if (colour_)
@@ -128,10 +128,11 @@ std::optional<RawFrame> PairedMedia::next() {
 }
 
 /// The colour picture as the depth camera would see it.
-cv::Mat PairedMedia::colour_for(const RawFrame& frame) {
-    cv::Mat colour = colour_->shown_at(frame.media_s, interval_of(depth_->facts()));
+cv::Mat PairedMedia::colour_for(const TimedPicture& depth) {
+    cv::Mat colour = colour_->shown_at(depth.time_s, interval_of(depth_->facts()));
     tell_trouble(colour_->facts());
-    if (cameras_ && !colour.empty()) colour = cameras_->seen_from_depth(in_mm(frame.depth), colour);
+    if (cameras_ && !colour.empty())
+        colour = cameras_->seen_from_depth(scale_.distances_mm(depth.picture), colour);
     return moved(colour, registration_, size_);
 }
 
@@ -142,14 +143,21 @@ void PairedMedia::take_range() {
     range_mm_ = {meaning->range.value.near * unit_mm, meaning->range.value.far * unit_mm};
 }
 
-void PairedMedia::take_registration() {
+/// The calibration of a recording is of its own pictures only.
+void PairedMedia::take_registration(const SourceFacts& colour) {
     const auto& meaning = description_.meaning;
     if (!meaning) return;
     registration_ = meaning->registration.value;
     const SourceFacts& facts = depth_->facts();
-    if (!facts.cameras || !meaning->is_metric()) return;
-    cameras_.emplace(size_, *facts.cameras);
-    description_.registered_by = facts.cameras->known_from;
+    if (colour.file != facts.file) return;
+    if (facts.cameras && meaning->is_metric()) {
+        cameras_.emplace(size_, *facts.cameras, range_mm_.far);
+        description_.registered_by = facts.cameras->known_from;
+    } else if (facts.other_camera && meaning->registration.origin == Origin::found) {
+        add_notice(shown(facts.file) +
+                   " has colour and depth of two cameras, and does not tell how they stand: record "
+                   "depth that is aligned to the colour, or shift the colour (--registration)");
+    }
 }
 
 void PairedMedia::take_true_shape() {

@@ -58,8 +58,8 @@ class PairedMedia : public Media {
   private:
     void take_range();
     void take_true_shape();
-    void take_registration();
-    [[nodiscard]] cv::Mat colour_for(const RawFrame& frame);
+    void take_registration(const SourceFacts& colour);
+    [[nodiscard]] cv::Mat colour_for(const TimedPicture& depth);
     [[nodiscard]] cv::Mat in_mm(const DepthImage& depth) const;
     void put_straight(RawFrame& frame, const cv::Mat& colour);
     void tell_trouble(const SourceFacts& facts);

@@ -108,6 +108,14 @@ cv::Mat with_bits(const cv::Mat& picture, int bits_now, int bits) {
     return scaled;
 }
 
+cv::Mat resampleable(const cv::Mat& picture) {
+    const double shrink = 1.0 * kMostAlong / std::max(picture.cols, picture.rows);
+    if (shrink >= 1.0) return picture;
+    cv::Mat smaller;
+    cv::resize(picture, smaller, {}, shrink, shrink, cv::INTER_AREA);
+    return smaller;
+}
+
 cv::Mat with_square_pixels(const cv::Mat& picture, double aspect, PictureRole role) {
     if (aspect == 1.0 || picture.empty()) return picture;
     const cv::Size size(static_cast<int>(std::lround(picture.cols * std::max(aspect, 1.0))),

@@ -59,6 +59,7 @@ struct SourceFacts {
     DepthStatement known{};    ///< what the file's own metadata or its format says of its depth
     std::string known_from{};  ///< where it says so: "EXR channel Z"; empty: nowhere
     Lens lens{};               ///< of the camera that `known.intrinsics` are of
+    bool other_camera{false};  ///< the colour beside it is of another one, which stands elsewhere
     std::shared_ptr<const CameraPair> cameras{};  ///< calibrated together; none: not known
 };
 
@@ -67,6 +68,10 @@ struct SourceFacts {
 [[nodiscard]] cv::Mat with_bits(const cv::Mat& picture, int bits_now, int bits);
 
 enum class PictureRole { colour, depth };
+
+/// OpenCV resamples pictures of less than 2^15 pixels along a side: the same, or as large as that.
+inline constexpr int kMostAlong = 32000;
+[[nodiscard]] cv::Mat resampleable(const cv::Mat& picture);
 
 /// The picture as it is to be seen: stretched along one side until its pixels, `aspect` times as
 /// wide as high, are square. A level of depth is never mixed with no data, which is level 0.

@@ -147,7 +147,7 @@ void require_registered(const CameraPair& cameras) {
     depth_mm.at<float>(2, 3) = NAN;
     depth_mm.at<float>(4, 4) = 400.0F;
     const cv::Mat colour(9, 16, CV_8UC3, cv::Scalar(10, 20, 30));
-    ColourRegistration registration(depth_mm.size(), cameras);
+    ColourRegistration registration(depth_mm.size(), cameras, 2000.0);
     const cv::Mat seen = registration.seen_from_depth(depth_mm, colour);
     test::require_rule(seen.type() == CV_8UC3 &&
                            (seen.size() == depth_mm.size() || seen.size() == depth_mm.size() * 2),

@@ -11,13 +11,6 @@ namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
-/// What the radial part multiplies a ray with, whose length is the root of `r2`.
-double stretch_of(const Lens& lens, double r2) {
-    const auto& k = lens.k;
-    return (1.0 + r2 * (k[0] + r2 * (k[1] + r2 * k[2]))) /
-           (1.0 + r2 * (k[3] + r2 * (k[4] + r2 * k[5])));
-}
-
 cv::Point2d aside(const Lens& lens, cv::Point2d ray) {
     const double r2 = ray.dot(ray);
     return {2.0 * lens.p1 * ray.x * ray.y + lens.p2 * (r2 + 2.0 * ray.x * ray.x),
@@ -25,19 +18,23 @@ cv::Point2d aside(const Lens& lens, cv::Point2d ray) {
 }
 
 cv::Point2d bent(const Lens& lens, cv::Point2d ray) {
-    return ray * stretch_of(lens, ray.dot(ray)) + aside(lens, ray);
+    return ray * radial_stretch(lens.k, ray.dot(ray)) + aside(lens, ray);
 }
 
 /// The ray that is bent to that: what bends it is taken off again and again, until nothing changes.
 cv::Point2d straightened(const Lens& lens, cv::Point2d seen) {
     constexpr int kMostRounds = 100;  // real lenses take 10 in the middle, 40 at 120 degrees
+    constexpr int kFirstRounds = 5;
     constexpr double kSame = 1e-10;
     cv::Point2d ray = seen;
+    double last_step = std::numeric_limits<double>::infinity();
     for (int round = 0; round < kMostRounds; ++round) {
-        const cv::Point2d next = (seen - aside(lens, ray)) / stretch_of(lens, ray.dot(ray));
-        const bool is_same = cv::norm(next - ray) < kSame;
+        const cv::Point2d next = (seen - aside(lens, ray)) / radial_stretch(lens.k, ray.dot(ray));
+        const double step = cv::norm(next - ray);
+        const bool is_lost = !(step < last_step) && round >= kFirstRounds;
         ray = next;
-        if (is_same) break;
+        if (step < kSame || is_lost) break;
+        last_step = step;
     }
     constexpr double kHit = 1e-6;  // of a ray: a thousandth of a pixel
     const bool hit = cv::norm(bent(lens, ray) - seen) < kHit && cv::norm(ray) <= lens.widest;

@@ -21,6 +21,13 @@ struct Lens {
     bool operator==(const Lens&) const = default;
 };
 
+/// What the radial part multiplies a ray with, the square of whose length is `r2`.
+template <typename Number>
+[[nodiscard]] Number radial_stretch(const std::array<Number, 6>& k, Number r2) {
+    return (Number{1} + r2 * (k[0] + r2 * (k[1] + r2 * k[2]))) /
+           (Number{1} + r2 * (k[3] + r2 * (k[4] + r2 * k[5])));
+}
+
 /// A lens for what is done with every pixel of every frame, without branches: right to a
 /// thousandth of a pixel.
 class LensInFloats {
@@ -33,8 +40,7 @@ class LensInFloats {
     };
     [[nodiscard]] Bent bent(float x, float y) const {
         const float r2 = x * x + y * y;
-        const float stretch = (1.0F + r2 * (k_[0] + r2 * (k_[1] + r2 * k_[2]))) /
-                              (1.0F + r2 * (k_[3] + r2 * (k_[4] + r2 * k_[5])));
+        const float stretch = radial_stretch(k_, r2);
         const float twice_xy = 2.0F * x * y;
         return {x * stretch + p1_ * twice_xy + p2_ * (r2 + 2.0F * x * x),
                 y * stretch + p1_ * (r2 + 2.0F * y * y) + p2_ * twice_xy, r2 <= widest2_};

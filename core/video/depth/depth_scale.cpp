@@ -96,4 +96,17 @@ DepthImage DepthScale::image_of(const cv::Mat& picture) const {
     return depth;
 }
 
+cv::Mat DepthScale::distances_mm(const cv::Mat& picture) const {
+    cv::Mat distances;
+    grey_of(picture).convertTo(distances, CV_32F);
+    const double one_mm = in_mm(meaning_.unit.value, meaning_.scale.value);
+    for (int j = 0; j < distances.rows; ++j) {
+        float* const row = distances.ptr<float>(j);
+        for (int i = 0; i < distances.cols; ++i)
+            row[i] = row[i] > 0.0F && !is_no_data(row[i]) ? static_cast<float>(one_mm * row[i])
+                                                          : std::nanf("");
+    }
+    return distances;
+}
+
 }  // namespace dibhr

@@ -43,6 +43,9 @@ class DepthScale {
 
     /// Of a picture of 1 to 4 channels of 8 or 16 bits, or real numbers.
     [[nodiscard]] DepthImage image_of(const cv::Mat& picture) const;
+    /// The same picture's distances from the camera [mm], CV_32FC1, also beyond the range; NaN for
+    /// no data. Of a meaning that is metric.
+    [[nodiscard]] cv::Mat distances_mm(const cv::Mat& picture) const;
 
   private:
     [[nodiscard]] bool is_no_data(double level) const;

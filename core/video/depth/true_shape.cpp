@@ -19,7 +19,6 @@ namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 constexpr double kUsualPoints = 1 << 19;  ///< of a grid, at most; large pictures may have more
-constexpr double kMostAlong = 32000.0;    ///< points of a side: cv::remap takes less than 2^15
 constexpr double kWidestRay = 20.0;       ///< sideways over forwards: 87 degrees
 constexpr double kNarrowestView = 0.005;  ///< of a picture, likewise: 0.3 degrees
 
@@ -141,15 +140,6 @@ int first_from(float coordinate) {
 }
 int last_to(float coordinate) {
     return static_cast<int>(coordinate + kOverlap);
-}
-
-/// cv::remap() takes no larger ones.
-cv::Mat of_possible_size(const cv::Mat& colour) {
-    const double shrink = kMostAlong / std::max(colour.cols, colour.rows);
-    if (shrink >= 1.0) return colour;
-    cv::Mat smaller;
-    cv::resize(colour, smaller, {}, shrink, shrink, cv::INTER_AREA);
-    return smaller;
 }
 
 }  // namespace
@@ -302,7 +292,7 @@ void TrueShape::find_pixels(const DepthImage& image, cv::Size colour_size) {
 }
 
 ColourImage TrueShape::colour_on(const DepthImage& image, const cv::Mat& colour) {
-    const cv::Mat source = of_possible_size(colour);
+    const cv::Mat source = resampleable(colour);
     find_pixels(image, source.size());
     cv::Mat resampled;
     cv::remap(source, resampled, pixel_x_, pixel_y_, cv::INTER_LINEAR, cv::BORDER_CONSTANT);

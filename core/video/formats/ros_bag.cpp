@@ -278,6 +278,7 @@ class RosTopic : public PictureSource {
         const std::string colour_topic = chosen(files_, PictureRole::colour).topic.name;
         const auto colour = camera_of(colour_topic);
         if (!colour || colour->frame == depth->frame || colour->size.empty()) return;
+        facts_.other_camera = true;
         // As RealSense's node tells it, beside its pictures.
         const std::string told_in =
             colour_topic.substr(0, colour_topic.rfind("/color/")) + "/extrinsics/depth_to_color";
@@ -287,11 +288,6 @@ class RosTopic : public PictureSource {
             facts_.cameras = std::make_shared<const CameraPair>(
                 CameraPair{depth->camera, colour->camera, colour->size, *placement,
                            "ROS topic " + one_line(told_in, 100)});
-        else
-            facts_.notice =
-                "colour and depth are of two cameras, and the bag does not tell how they stand: "
-                "record depth that is aligned to the colour, or shift the colour "
-                "(--registration)";
     }
 
     BagFiles files_;

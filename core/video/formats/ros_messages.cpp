@@ -22,7 +22,7 @@ namespace dibhr {
 
 namespace {
 
-constexpr std::uint32_t kMostAlong = 1U << 20;
+constexpr std::uint32_t kLongestSide = 1U << 20;
 constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 30;  ///< OpenCV's own limit
 
 /// Reads a message from its beginning; beyond its end there is nothing but zeros, and it is told.
@@ -237,7 +237,7 @@ std::optional<RosCamera> ros_camera(Bytes message) {
     found.frame = reader.text();
     const auto rows = reader.number<std::uint32_t>();
     const auto columns = reader.number<std::uint32_t>();
-    if (rows > kMostAlong || columns > kMostAlong) return std::nullopt;
+    if (rows > kLongestSide || columns > kLongestSide) return std::nullopt;
     found.size = {static_cast<int>(columns), static_cast<int>(rows)};
     const std::string model = reader.text();
     std::array<double, 8> bends{};  // k1, k2, p1, p2, k3 to k6, as OpenCV has them

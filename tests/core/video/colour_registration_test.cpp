@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <string>
 
 #include "core/video/depth/camera.hpp"
@@ -80,10 +81,10 @@ cv::Vec3d colour_camera_mm(const CameraPair& pair) {
     return -(pair.to_colour.rotation.t() * pair.to_colour.shift_mm);
 }
 
-cv::Mat colour_seen(const CameraPair& pair) {
-    const Camera camera = camera_for(kColourSize, pair.colour, pair.colour_size);
+cv::Mat colour_seen(const CameraPair& pair, cv::Size size = kColourSize) {
+    const Camera camera = camera_for(size, pair.colour, pair.colour_size);
     const cv::Vec3d there = colour_camera_mm(pair);
-    cv::Mat picture(kColourSize, CV_8UC3);
+    cv::Mat picture(size, CV_8UC3);
     for (int j = 0; j < picture.rows; ++j) {
         for (int i = 0; i < picture.cols; ++i) {
             const cv::Point2d ray = camera.ray_of({1.0 * i, 1.0 * j});
@@ -113,8 +114,8 @@ struct Fitness {
     int ghosts{0};         ///< of them, those in the board's colour
 };
 
-Fitness fitness_of(const cv::Mat& registered, const CameraPair& pair) {
-    const Camera camera = camera_for(kColourSize, pair.colour, pair.colour_size);
+Fitness fitness_of(const cv::Mat& registered, const CameraPair& pair, cv::Size size = kColourSize) {
+    const Camera camera = camera_for(size, pair.colour, pair.colour_size);
     const cv::Vec3d there = colour_camera_mm(pair);
     const int finer = registered.cols / kDepthSize.width;
     Fitness fitness;
@@ -133,8 +134,7 @@ Fitness fitness_of(const cv::Mat& registered, const CameraPair& pair) {
             const cv::Vec3d from_colour = pair.to_colour.rotation * seen + pair.to_colour.shift_mm;
             const cv::Point2d pixel =
                 camera.pixel_of({from_colour[0] / from_colour[2], from_colour[1] / from_colour[2]});
-            if (!cv::Rect2d(2, 2, kColourSize.width - 4, kColourSize.height - 4).contains(pixel))
-                continue;
+            if (!cv::Rect2d(2, 2, size.width - 4, size.height - 4).contains(pixel)) continue;
             const bool is_hidden = cv::norm(met(there, seen - there) - seen) > 1.0;
             const bool is_red = colour[2] > 100;
             fitness.hidden += is_hidden ? 1 : 0;
@@ -169,7 +169,21 @@ TEST_CASE("a lens bends rays to pixels and back", "[registration]") {
     CHECK(cv::norm(wide.pixel_of(wide.ray_of({512.0, 100.0})) - cv::Point2d(512.0, 100.0)) < 0.001);
     CHECK(std::isnan(wide.ray_of({0.0, 0.0}).x));  // beyond its radius nothing is seen
     CHECK(std::isnan(wide.pixel_of({1.8, 0.0}).x));
+    const LensInFloats fast(wide.lens());
+    for (const cv::Point2d ray : {cv::Point2d(0.3, -0.2), cv::Point2d(-1.2, 1.1)}) {
+        const auto seen = fast.bent(static_cast<float>(ray.x), static_cast<float>(ray.y));
+        const Intrinsics& i = wide.intrinsics();
+        const cv::Point2d pixel(i.cx + i.fx * double{seen.x}, i.cy + i.fy * double{seen.y});
+        CHECK(cv::norm(pixel - wide.pixel_of(ray)) < 0.001);
+    }
+    CHECK_FALSE(fast.bent(1.8F, 0.0F).known);
     CHECK(wide.pixel_of({0.0, 0.0}).x == wide.intrinsics().cx);
+}
+
+TEST_CASE("a lens that no glass has sees nothing, and that is found out soon", "[registration]") {
+    const Lens mad{{1e5, -1e5, 1e5, -1e4, 0.0, 0.0}, 9.0, -9.0};
+    const Camera camera(Intrinsics{500.0, 500.0, 320.0, 240.0}, mad);
+    CHECK(std::isnan(camera.ray_of({600.0, 400.0}).x));
 }
 
 TEST_CASE("a camera's other pictures are cut out of the same sensor", "[registration]") {
@@ -185,33 +199,40 @@ TEST_CASE("a camera's other pictures are cut out of the same sensor", "[registra
 TEST_CASE("each pixel of the depth is in the colour that the other camera sees there",
           "[registration]") {
     const CameraPair pair = cameras();
-    ColourRegistration registration(kDepthSize, pair);
-    const cv::Mat colour = colour_seen(pair);
+    const cv::Size size = GENERATE(cv::Size(1280, 720), cv::Size(1600, 900));
+    CAPTURE(size.width);
+    ColourRegistration registration(kDepthSize, pair, kWall_mm);
+    const cv::Mat colour = colour_seen(pair, size);
     const cv::Mat registered = registration.seen_from_depth(depth_seen(pair), colour);
     CHECK(registered.cols * kDepthSize.height == registered.rows * kDepthSize.width);
-    const Fitness fitness = fitness_of(registered, pair);
+    CHECK(registered.cols == (size.width > 1500 ? 2 : 1) * kDepthSize.width);
+    const Fitness fitness = fitness_of(registered, pair, size);
     CAPTURE(fitness.compared, fitness.hidden);
     REQUIRE(fitness.compared > 200'000);
     CHECK(fitness.most_off <= 4.0);
     REQUIRE(fitness.hidden > 1000);
     CHECK(fitness.ghosts < fitness.hidden / 20);
-    // Stretched over each other, they are apart by tens of pixels.
-    cv::Mat stretched;
-    cv::Mat once = registration.seen_from_depth(depth_seen(pair), colour);
-    CHECK(cv::norm(once, registered, cv::NORM_INF) == 0.0);
+    cv::Mat stretched;  // as of one camera
+    cv::resize(colour, stretched, registered.size());
+    CHECK(fitness_of(stretched, pair, size).most_off > 50.0);
+    const cv::Mat again = registration.seen_from_depth(depth_seen(pair), colour);
+    CHECK(cv::norm(again, registered, cv::NORM_INF) == 0.0);
 }
 
 TEST_CASE("where there is no depth the colour is that of what is behind", "[registration]") {
     const CameraPair pair = cameras();
-    ColourRegistration registration(kDepthSize, pair);
+    ColourRegistration registration(kDepthSize, pair, kWall_mm);
     cv::Mat depth_mm = depth_seen(pair);
     const cv::Rect hole(20, 250, 30, 40);  // in the wall
     depth_mm(hole).setTo(std::nanf(""));
     const cv::Mat registered = registration.seen_from_depth(depth_mm, colour_seen(pair));
     const Fitness fitness = fitness_of(registered, pair);
+    REQUIRE(fitness.compared > 200'000);
     CHECK(fitness.most_off <= 4.0);
-    depth_mm.setTo(std::nanf(""));
-    CHECK_FALSE(registration.seen_from_depth(depth_mm, colour_seen(pair)).empty());
+    depth_mm.setTo(std::nanf(""));  // as far as the wall, then
+    const cv::Mat all = registration.seen_from_depth(depth_mm, colour_seen(pair));
+    const cv::Rect wall(20, 470, 200, 100);
+    CHECK(cv::norm(all(wall), registered(wall), cv::NORM_INF) <= 4.0);
 }
 
 TEST_CASE("a recording with a calibration is registered by it, and says so", "[registration]") {

@@ -272,7 +272,13 @@ TEST_CASE("a bag of two cameras tells how they stand, or it is said that it does
     const SourceFacts& facts = source->facts();
     CHECK(facts.known.intrinsics);
     REQUIRE((facts.cameras != nullptr) == (told == "well"));
-    CHECK(facts.notice.empty() == (told == "well" || told == "one camera"));
+    const auto notice = [&](const DepthRequest& request) {
+        return open_media(folder / "two.db3", {}, request)->description().notice;
+    };
+    const bool is_told = told == "well" || told == "one camera";
+    CHECK(contains(notice({.find_out = true}), "shift the colour (--registration)") != is_told);
+    CHECK(notice({.find_out = true, .command_line = {.registration = Registration{1, 0, 1}}})
+              .empty());
     if (told != "well") return;
     CHECK(facts.cameras->to_colour.rotation * cv::Vec3d(1, 2, 3) == cv::Vec3d(-2, 1, 3));
     CHECK(facts.cameras->to_colour.shift_mm == cv::Vec3d(15, 0, -1));
