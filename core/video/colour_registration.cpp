@@ -52,7 +52,7 @@ cv::Mat moved(const cv::Mat& picture, const Registration& registration, cv::Size
                             registration.down_px * down + stays * 0.5 * (colour.rows - 1)};
     cv::Mat result;
     cv::warpAffine(colour, result, place, colour.size(), cv::INTER_LINEAR, cv::BORDER_CONSTANT,
-                   kNoColour);
+                   cv::Scalar::all(kNoColour));
     return result;
 }
 
@@ -79,7 +79,7 @@ cv::Mat ColourRegistration::seen_from_depth(const cv::Mat& depth_mm, const cv::M
     }
     cv::Mat result;
     cv::remap(colour, result, is_finer ? finer_x_ : x_, is_finer ? finer_y_ : y_, cv::INTER_LINEAR,
-              cv::BORDER_CONSTANT, kNoColour);
+              cv::BORDER_CONSTANT, cv::Scalar::all(kNoColour));
     return result;
 }
 
@@ -182,17 +182,17 @@ void ColourRegistration::make_finer(const cv::Mat& map, double pixels_apart, cv:
         const float* const row = map.ptr<float>(j);
         const float* const above = map.ptr<float>(std::max(j - 1, 0));
         const float* const below = map.ptr<float>(std::min(j + 1, map.rows - 1));
-        float* const upper = finer.ptr<float>(2 * j);
-        float* const lower = finer.ptr<float>(2 * j + 1);
+        float* upper = finer.ptr<float>(2 * j);
+        float* lower = finer.ptr<float>(2 * j + 1);
         for (int i = 0; i < map.cols; ++i) {
             const float left = row[i] + towards(row[i], row[std::max(i - 1, 0)]);
             const float right = row[i] + towards(row[i], row[std::min(i + 1, map.cols - 1)]);
             const float up = towards(row[i], above[i]);
             const float down = towards(row[i], below[i]);
-            upper[2 * i] = left + up;
-            upper[2 * i + 1] = right + up;
-            lower[2 * i] = left + down;
-            lower[2 * i + 1] = right + down;
+            *upper++ = left + up;
+            *upper++ = right + up;
+            *lower++ = left + down;
+            *lower++ = right + down;
         }
     }
 }

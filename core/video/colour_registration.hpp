@@ -7,8 +7,8 @@
 
 namespace dibhr {
 
-/// Of what no colour is known of: its shape still shows in its shading.
-inline const cv::Scalar kNoColour = cv::Scalar::all(96);
+/// The level of all channels of what no colour is known of: its shape still shows in its shading.
+inline constexpr double kNoColour = 96.0;
 
 /// The colour picture moved and stretched over the depth, without colour where it ends. As it is
 /// for a registration that changes nothing.

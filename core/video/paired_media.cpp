@@ -34,7 +34,7 @@ ColourImage painted(const DepthImage& depth) {
     levels.convertTo(shades, CV_8U, 255.0 / depth.highest_level);
     cv::Mat colours;
     cv::applyColorMap(shades, colours, cv::COLORMAP_CIVIDIS);
-    colours.setTo(kNoColour, levels != levels);
+    colours.setTo(cv::Scalar::all(kNoColour), levels != levels);
     return colour_of(colours);
 }
 

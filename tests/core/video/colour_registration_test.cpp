@@ -278,7 +278,7 @@ TEST_CASE("colour is moved by depth pixels and stretched about its middle", "[re
     CHECK(moved(colour, {}, depth).data == colour.data);
     const cv::Mat right = moved(colour, {3.0, -2.0, 1.0}, depth);
     CHECK(right.at<cv::Vec3b>(16, 36)[0] == 255);
-    CHECK(right.at<cv::Vec3b>(40, 2)[0] == kNoColour[0]);  // six columns and four rows came in
+    CHECK(right.at<cv::Vec3b>(40, 2)[0] == kNoColour);  // six columns and four rows came in
     CHECK(cv::countNonZero(right.reshape(1) != 0) == 3 * (1 + 6 * 48 + 4 * (64 - 6)));
     const cv::Mat large = moved(colour, {0.0, 0.0, 3.0}, depth);
     CHECK(large.size() == colour.size());
