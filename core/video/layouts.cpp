@@ -60,6 +60,7 @@ std::optional<LayoutFacts> facts_of_7_scenes(const fs::path& folder, const Pictu
     }
     if (is_7_scenes && !facts.known.intrinsics)
         take_camera({{585.0, 585.0, 320.0, 240.0}, 640, 480, {}}, facts);
+    facts.other_camera = is_7_scenes;  // "the RGB and depth camera have not been calibrated"
     return facts;
 }
 

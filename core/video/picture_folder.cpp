@@ -230,6 +230,7 @@ void PictureSequence::take_in(const LayoutFacts& said) {
     if (!is_size) known.intrinsics.reset();
     if (facts_.known_from.empty() && known != DepthStatement{}) facts_.known_from = said.known_from;
     facts_.known.fill_in(known);
+    facts_.other_camera = said.other_camera;
 }
 
 std::optional<TimedPicture> PictureSequence::next() {

@@ -27,8 +27,9 @@ using PictureRow = std::vector<NumberedPicture>;
 struct LayoutFacts {
     DepthStatement known{};
     std::string known_from{};
-    int columns{0}, rows{0};  ///< of the pictures that the intrinsics are for; 0: of any
-    std::string notice{};     ///< a sentence on what was passed over
+    int columns{0}, rows{0};   ///< of the pictures that the intrinsics are for; 0: of any
+    std::string notice{};      ///< a sentence on what was passed over
+    bool other_camera{false};  ///< of colour, which stands elsewhere, nobody knows where
 };
 
 /// Pictures that are kept together, told apart by words in names (media_names.hpp).

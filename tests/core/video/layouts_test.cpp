@@ -57,6 +57,8 @@ TEST_CASE("7-Scenes' names say millimetres, two levels of no data, and its camer
     CHECK(facts.known.no_data == std::vector<double>{0.0, 65535.0});
     CHECK(facts.known.intrinsics == Intrinsics{585.0, 585.0, 320.0, 240.0});
     CHECK(facts.known_from == "7-Scenes names");
+    CHECK(contains(open_media(folder.path(), {}, {.find_out = true})->description().notice,
+                   "does not tell how they stand"));
     CHECK(all_of(*open_media(folder.path())).size() == 2);
 }
 
