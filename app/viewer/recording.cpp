@@ -8,6 +8,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/video/depth/sidecar.hpp"
+#include "core/video/depth/surface_version.hpp"
 #include "core/video/libraries.hpp"
 
 namespace dibhr {
@@ -46,6 +47,7 @@ std::map<std::string, std::string> session_facts(const ViewerState& state) {
     facts.emplace("fill-holes", cleaning.fill_holes ? "yes" : "no");
     facts.emplace("remove-spikes", cleaning.remove_spikes ? "yes" : "no");
     facts.emplace("smooth-steps", cleaning.smooth_steps ? "yes" : "no");
+    facts.emplace("surface-version", std::to_string(kSurfaceVersion));
     if (state.falcon) {
         FalconSettings falcon = state.settings.falcon;
         facts.emplace("falcon-serial", state.falcon->status.serial);

@@ -15,6 +15,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/remembering_media.hpp"
 #include "core/video/depth/sidecar.hpp"
+#include "core/video/depth/surface_version.hpp"
 #include "core/video/picture_pattern.hpp"
 
 namespace dibhr {
@@ -28,6 +29,18 @@ bool is_media(const fs::path& file) {
     std::error_code failed;
     return fs::is_regular_file(file, failed) || fs::is_directory(file, failed) ||
            is_picture_pattern(file);
+}
+
+/// Cleaning has changed since they were recorded.
+bool is_of_other_surfaces(const SessionFacts& facts) {
+    const auto is_on = [&facts](const char* name) {
+        const auto fact = facts.find(name);
+        return fact != facts.end() && fact->second == "yes";
+    };
+    const auto version = facts.find("surface-version");
+    const bool is_same =
+        version != facts.end() && version->second == std::to_string(kSurfaceVersion);
+    return (is_on("fill-holes") || is_on("remove-spikes") || is_on("smooth-steps")) && !is_same;
 }
 
 bool has_content(const fs::path& file, const SessionMedia& media) {
@@ -148,6 +161,10 @@ void CleaningWorkers::run() {
 SessionFrames::SessionFrames(const Session& session, const SessionFramesOptions& options)
     : options_(options), finder_(session.file(), options.any_media) {
     find_videos(session);
+    if (!options.raw_depth && is_of_other_surfaces(session.facts()))
+        finder_.warn(
+            "its surfaces were made by an earlier dibhr, which treated holes and spikes otherwise: "
+            "proxies may differ from those recorded");
     if (!session.sources().empty()) {
         Video& first = videos_[session.sources().front().source.media];
         description_ = media_of(first).description();

@@ -40,10 +40,9 @@ class SessionMediaFinder {
 
     /// What was taken although it is not known to be the same, one sentence a file.
     [[nodiscard]] const std::string& warning() const noexcept { return warning_; }
-
-  private:
     void warn(const std::string& sentence);
 
+  private:
     std::filesystem::path session_;
     bool any_content_;
     std::string warning_{};

@@ -3,16 +3,20 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/replay/frames.hpp"
 #include "core/session/recorder.hpp"
+#include "core/video/depth/surface_version.hpp"
 #include "tests/core/session/exploration.hpp"
 #include "tests/core/session/session_folder.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/text.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -100,6 +104,25 @@ TEST_CASE("a run with another friction gives other proxies, beside one that is a
         if (!same_bits(replay.touch(1), replay.recorded())) ++other;
     }
     CHECK(other > 3000);
+}
+
+TEST_CASE("who replays a session whose surfaces were cleaned otherwise is told", "[replay]") {
+    const SessionFolder folder;
+    const auto warning = [&](SessionFacts facts, bool raw_depth) {
+        std::filesystem::remove(folder.file());
+        {
+            const auto ring = std::make_unique<TickRing>();
+            const Recorder recorder(folder.file(), *ring, facts);
+        }
+        const SessionFrames frames(Session(folder.file()), {.raw_depth = raw_depth});
+        return frames.warning();
+    };
+    const std::string now = std::to_string(kSurfaceVersion);
+    CHECK(contains(warning({{"remove-spikes", "yes"}}, false), "earlier dibhr"));
+    CHECK(contains(warning({{"fill-holes", "yes"}, {"surface-version", "1"}}, false), "earlier"));
+    CHECK(warning({{"fill-holes", "yes"}, {"surface-version", now}}, false).empty());
+    CHECK(warning({{"fill-holes", "no"}, {"remove-spikes", "no"}}, false).empty());
+    CHECK(warning({{"remove-spikes", "yes"}}, true).empty());
 }
 
 TEST_CASE("a session without its parameters can be read, but says why it is not replayed",

@@ -1,0 +1,11 @@
+// Which way of making surfaces of files this is.
+#pragma once
+
+namespace dibhr {
+
+/// One more whenever the same file gives another surface than before, because holes, spikes, steps
+/// or the true shape are treated otherwise: who replays an older session is told.
+/// 1: version 0.1 and before this was recorded. 2: pits, holes that keep their level, lenses.
+inline constexpr int kSurfaceVersion = 2;
+
+}  // namespace dibhr
