@@ -103,16 +103,27 @@ ClaimedSize size_of_tiff(Header& header) {
     return size;
 }
 
+/// The next segment's; what stands between two of them is passed over, as decoders do. Nothing when
+/// there is none near by.
+std::optional<std::int64_t> jpeg_marker(Header& header, std::int64_t at) {
+    constexpr std::int64_t kMostBetween = 1 << 14;
+    for (const std::int64_t end = at + kMostBetween; at < end; ++at) {
+        const std::int64_t kind = header.number(at + 1, 1);
+        if (header.number(at, 1) == 0xff && kind != 0xff && kind != 0) return at;
+    }
+    return std::nullopt;
+}
+
 /// In the segment that begins the picture, behind those of what is said of it.
 ClaimedSize size_of_jpeg(Header& header) {
     constexpr int kMostSegments = 1000;
-    std::int64_t at = 2;
-    for (int k = 0; k < kMostSegments && header.number(at, 1) == 0xff; ++k) {
-        const std::int64_t kind = header.number(at + 1, 1);
+    auto at = jpeg_marker(header, 2);
+    for (int k = 0; k < kMostSegments && at; ++k) {
+        const std::int64_t kind = header.number(*at + 1, 1);
         const bool begins_picture =
             kind >= 0xc0 && kind <= 0xcf && kind != 0xc4 && kind != 0xc8 && kind != 0xcc;
-        if (begins_picture) return {header.number(at + 7, 2), header.number(at + 5, 2)};
-        at += 2 + header.number(at + 2, 2);
+        if (begins_picture) return {header.number(*at + 7, 2), header.number(*at + 5, 2)};
+        at = jpeg_marker(header, *at + 2 + header.number(*at + 2, 2));
     }
     return {};
 }

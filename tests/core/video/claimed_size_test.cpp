@@ -53,6 +53,9 @@ TEST_CASE("a picture's header says its size before it is decoded", "[claimed]") 
     }
     check_claim("P5 # a comment\n# and 3 more\n640\t480\n255\n", 640, 480);
     check_claim(tiff(37, 23, 32, 3, false, std::string(37 * 23 * 4, 'a')), 37, 23);
+    std::string jpeg = encoded(".jpg", CV_8UC1);
+    jpeg.insert(jpeg.find("\xff\xdb"), "\xb0\xff");  // between two segments
+    check_claim(jpeg, 37, 23);
     check_claim({"BM            \x0c\0\0\0\x25\0\x17\0", 22}, 37, 23);
 }
 
