@@ -7,7 +7,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
-#include <vector>
+#include "core/video/depth/patches.hpp"
 #include "core/video/pictures.hpp"
 
 namespace dibhr {
@@ -24,34 +24,22 @@ constexpr float kBehind = 1.03F;
 /// surface, or along its edge.
 constexpr double kCellWidth = 2.5;
 
-/// Where a row's runs of pixels begin and end that are marked.
-template <typename IsMarked, typename Visit>
-void visit_runs(int columns, const IsMarked& is_marked, const Visit& visit) {
-    for (int i = 0; i < columns; ++i) {
-        if (!is_marked(i)) continue;
-        int end = i + 1;
-        while (end < columns && is_marked(end)) ++end;
-        visit(i, end);
-        i = end;
-    }
-}
-
 }  // namespace
 
-cv::Mat moved(const cv::Mat& picture, const Registration& registration, cv::Size depth_size) {
-    if (picture.empty() || registration == Registration{}) return picture;
-    const cv::Mat colour = resampleable(picture);
-    const double across = 1.0 * colour.cols / depth_size.width;
-    const double down = 1.0 * colour.rows / depth_size.height;
+cv::Mat moved(const cv::Mat& colour, const Registration& registration, cv::Size depth_size) {
+    if (colour.empty() || registration == Registration{}) return colour;
+    const cv::Mat source = resampleable(colour);
+    const double across = 1.0 * source.cols / depth_size.width;
+    const double down = 1.0 * source.rows / depth_size.height;
     const double stays = 1.0 - registration.scale;
     const cv::Matx23d place{registration.scale,
                             0.0,
-                            registration.right_px * across + stays * 0.5 * (colour.cols - 1),
+                            registration.right_px * across + stays * 0.5 * (source.cols - 1),
                             0.0,
                             registration.scale,
-                            registration.down_px * down + stays * 0.5 * (colour.rows - 1)};
+                            registration.down_px * down + stays * 0.5 * (source.rows - 1)};
     cv::Mat result;
-    cv::warpAffine(colour, result, place, colour.size(), cv::INTER_LINEAR, cv::BORDER_CONSTANT,
+    cv::warpAffine(source, result, place, source.size(), cv::INTER_LINEAR, cv::BORDER_CONSTANT,
                    cv::Scalar::all(kNoColour));
     return result;
 }
@@ -62,14 +50,14 @@ ColourRegistration::ColourRegistration(cv::Size depth_size, const CameraPair& ca
       far_mm_(static_cast<float>(far_mm)),
       rays_(rays_of(depth_size, cameras.depth)) {}
 
-cv::Mat ColourRegistration::seen_from_depth(const cv::Mat& depth_mm, const cv::Mat& picture) {
-    const cv::Mat colour = resampleable(picture);
+cv::Mat ColourRegistration::seen_from_depth(const cv::Mat& depth_mm, const cv::Mat& colour) {
     assert(depth_mm.type() == CV_32FC1 && depth_mm.size() == rays_.right.size());
-    const Camera camera = camera_for(colour.size(), cameras_.colour, cameras_.colour_size);
+    const cv::Mat source = resampleable(colour);
+    const Camera camera = camera_for(source.size(), cameras_.colour, cameras_.colour_size);
     const double pixels_apart = camera.intrinsics().fx / cameras_.depth.intrinsics().fx;
     close_holes(depth_mm);
     project(camera);
-    find_hidden(colour.size(), pixels_apart);
+    find_hidden(source.size(), pixels_apart);
     uncover();
     const bool is_finer =
         pixels_apart > 1.5 && 2 * std::max(depth_mm.cols, depth_mm.rows) < kMostAlong;
@@ -78,7 +66,7 @@ cv::Mat ColourRegistration::seen_from_depth(const cv::Mat& depth_mm, const cv::M
         make_finer(y_, pixels_apart, finer_y_);
     }
     cv::Mat result;
-    cv::remap(colour, result, is_finer ? finer_x_ : x_, is_finer ? finer_y_ : y_, cv::INTER_LINEAR,
+    cv::remap(source, result, is_finer ? finer_x_ : x_, is_finer ? finer_y_ : y_, cv::INTER_LINEAR,
               cv::BORDER_CONSTANT, cv::Scalar::all(kNoColour));
     return result;
 }
@@ -92,7 +80,7 @@ void ColourRegistration::close_holes(const cv::Mat& depth_mm) {
     for (int j = 0; j < depth_mm_.rows; ++j) {
         float* const row = depth_mm_.ptr<float>(j);
         visit_runs(
-            depth_mm_.cols, [row](int i) { return std::isnan(row[i]); },
+            row, depth_mm_.cols, [](float distance) { return !is_data(distance); },
             [&](int begin, int end) {
                 float behind = 0.0F;
                 if (begin > 0) behind = row[begin - 1];
@@ -205,7 +193,7 @@ void ColourRegistration::uncover() {
         float* const x = x_.ptr<float>(j);
         float* const y = y_.ptr<float>(j);
         visit_runs(
-            x_.cols, [hidden](int i) { return hidden[i] != 0; },
+            hidden, x_.cols, [](unsigned char is_hidden) { return is_hidden != 0; },
             [&](int begin, int end) {
                 const bool has_left = begin > 0;
                 const bool has_right = end < x_.cols;

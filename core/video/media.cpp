@@ -61,7 +61,7 @@ auto opened(const DepthRequest& request, const Open& open) {
 
 std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthRequest& asked, bool seen,
                                       const std::string& notice) {
-    const DepthRequest request = with_kept_choices(asked, {sources.depth->facts().file});
+    const DepthRequest request = with_kept_choice(asked, sources.depth->facts().file);
     DepthScale scale = find_scale(sources, request);
     const bool painted = seen && request.paints && sources.colour == nullptr;
     auto media = std::make_unique<PairedMedia>(std::move(sources.depth), std::move(sources.colour),

@@ -203,8 +203,7 @@ void DepthCleaner::look_around(const DepthImage& image, const Spike& spike, std:
 }
 
 void DepthCleaner::remove_islands(DepthImage& image) {
-    const auto has_data = [](float level) { return !std::isnan(level); };
-    if (std::all_of(image.levels.begin(), image.levels.end(), has_data)) return;
+    if (std::all_of(image.levels.begin(), image.levels.end(), is_data)) return;
     const auto side = static_cast<std::size_t>(image.columns / kIslandsInWidth);
     patches_.find_data(image);
     for (const Patches::Run& run : patches_.runs()) {

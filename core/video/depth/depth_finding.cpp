@@ -110,7 +110,7 @@ DepthStatement said_of(const fs::path& depth, const fs::path& colour, const Dept
     DepthStatement said = request.recorded;
     said.fill_in(request.command_line);
     if (!request.find_out) return said;
-    said.fill_in(with_kept_choices(request, {depth}).panel);
+    said.fill_in(with_kept_choice(request, depth).panel);
     said.fill_in(sidecars_of({depth, colour}));
     return said;
 }

@@ -68,13 +68,10 @@ void keep_choice(const fs::path& folder, const fs::path& media, const DepthState
                          " cannot be removed (" + failed.message() + "); delete it");
 }
 
-DepthRequest with_kept_choices(DepthRequest request, const std::vector<fs::path>& places) {
-    if (!request.find_out || request.kept_in.empty()) return request;
-    for (const fs::path& place : places) {
-        if (place.empty()) continue;
-        if (const auto kept = read_statement(kept_choice_of(request.kept_in, place)))
-            request.panel.fill_in(*kept);
-    }
+DepthRequest with_kept_choice(DepthRequest request, const fs::path& media) {
+    if (!request.find_out || request.kept_in.empty() || media.empty()) return request;
+    if (const auto kept = read_statement(kept_choice_of(request.kept_in, media)))
+        request.panel.fill_in(*kept);
     return request;
 }
 

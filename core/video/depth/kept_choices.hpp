@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
 
 #include "core/video/depth/depth_meaning.hpp"
 #include "core/video/media.hpp"
@@ -20,9 +19,9 @@ namespace dibhr {
 void keep_choice(const std::filesystem::path& folder, const std::filesystem::path& media,
                  const DepthStatement& choice);
 
-/// The request, with what is kept of those places as the panel's word on what the panel does not
-/// say, the first place before the second. Throws InputError for what cannot be understood.
-[[nodiscard]] DepthRequest with_kept_choices(DepthRequest request,
-                                             const std::vector<std::filesystem::path>& places);
+/// The request, with what is kept of that media as the panel's word on what the panel does not say.
+/// Throws InputError for what cannot be understood.
+[[nodiscard]] DepthRequest with_kept_choice(DepthRequest request,
+                                            const std::filesystem::path& media);
 
 }  // namespace dibhr

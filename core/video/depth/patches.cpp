@@ -15,14 +15,10 @@ void Patches::find_runs(const DepthImage& image, bool with_data) {
     const auto is_in = [with_data](float level) { return is_data(level) == with_data; };
     runs_.clear();
     for (int j = 0; j < image.rows; ++j) {
-        const float* row = image.levels.data() + image.index(0, j);
-        const float* const end = row + image.columns;
-        for (const float* at = std::find_if(row, end, is_in); at != end;) {
-            const float* const stop = std::find_if_not(at, end, is_in);
-            const auto patch = static_cast<std::int32_t>(runs_.size());
-            runs_.push_back({j, static_cast<int>(at - row), static_cast<int>(stop - row), patch});
-            at = std::find_if(stop, end, is_in);
-        }
+        visit_runs(image.levels.data() + image.index(0, j), image.columns, is_in,
+                   [this, j](int begin, int end) {
+                       runs_.push_back({j, begin, end, static_cast<std::int32_t>(runs_.size())});
+                   });
     }
 }
 

@@ -1,6 +1,7 @@
 // Connected pixels of a depth image: holes, and data that stands alone.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -13,6 +14,17 @@ namespace dibhr {
 /// No data is no number.
 [[nodiscard]] inline bool is_data(float level) noexcept {
     return !std::isnan(level);
+}
+
+/// visit(begin, end) for each run of values of a row, [begin, end), of which `is_in` says yes.
+template <typename Value, typename IsIn, typename Visit>
+void visit_runs(const Value* row, int columns, const IsIn& is_in, const Visit& visit) {
+    const Value* const end = row + columns;
+    for (const Value* at = std::find_if(row, end, is_in); at != end;) {
+        const Value* const stop = std::find_if_not(at, end, is_in);
+        visit(static_cast<int>(at - row), static_cast<int>(stop - row));
+        at = std::find_if(stop, end, is_in);
+    }
 }
 
 /// Patches of pixels with data or without (NaN), joined over edges and corners, row by row.

@@ -30,8 +30,7 @@ struct Home {
                    "[panels]\nvideo = true\ntouch = false\ndevice = false\n");
     }
     [[nodiscard]] DepthStatement kept() const {
-        return with_kept_choices({.find_out = true, .kept_in = folder / "config/dibhr/depth"},
-                                 {file})
+        return with_kept_choice({.find_out = true, .kept_in = folder / "config/dibhr/depth"}, file)
             .panel;
     }
     /// Once that is kept, which takes as long as opening the file again.
