@@ -201,7 +201,7 @@ DepthTextures::Names DepthTextures::show(const std::shared_ptr<const DepthImage>
                                          const std::shared_ptr<const DepthImage>& to,
                                          const ReliefGrid& grid) {
     const auto holds = [&grid](const Slot& slot, const std::shared_ptr<const DepthImage>& image) {
-        return slot.image == image && slot.grid == grid;
+        return slot.image.is(image) && slot.grid == grid;
     };
     const std::size_t from_slot =
         holds(slots_[0], from) || (!holds(slots_[1], from) && !holds(slots_[0], to)) ? 0 : 1;
@@ -213,7 +213,7 @@ DepthTextures::Names DepthTextures::show(const std::shared_ptr<const DepthImage>
 
 GLuint DepthTextures::upload(Slot& slot, const std::shared_ptr<const DepthImage>& image,
                              const ReliefGrid& grid) {
-    if (slot.image == image && slot.grid == grid) return slot.texture.name();
+    if (slot.image.is(image) && slot.grid == grid) return slot.texture.name();
     const float* values = image->levels.data();
     if (grid.step > 1) {
         staged_.clear();
@@ -224,14 +224,14 @@ GLuint DepthTextures::upload(Slot& slot, const std::shared_ptr<const DepthImage>
         values = staged_.data();
     }
     slot.texture.upload(grid.columns(), grid.rows(), values);
-    slot.image = image;
+    slot.image.set(image);
     slot.grid = grid;
     return slot.texture.name();
 }
 
 GLuint UnseenTexture::show(const std::shared_ptr<const std::vector<std::uint8_t>>& mask,
                            const ReliefGrid& grid) {
-    if (mask == mask_ && grid == grid_) return texture_.get();
+    if (mask_.is(mask) && grid == grid_) return texture_.get();
     constexpr std::uint8_t kWhite = 255;
     staged_.clear();
     for (int j = 0; j < grid.rows(); ++j) {
@@ -248,7 +248,7 @@ GLuint UnseenTexture::show(const std::shared_ptr<const std::vector<std::uint8_t>
                  staged_.data());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
     filter(GL_LINEAR, GL_LINEAR);
-    mask_ = mask;
+    mask_.set(mask);
     grid_ = grid;
     return texture_.get();
 }
@@ -272,9 +272,9 @@ GLuint BumpTexture::show(const BumpMap& bump, const DepthImage& depth, const Rel
 
 GLuint ColourTexture::show(const std::shared_ptr<const ColourImage>& image, int most_side,
                            bool mipmaps) {
-    if (image != image_) {
+    if (!image_.is(image)) {
         upload(*image, most_side, mipmaps);
-        image_ = image;
+        image_.set(image);
     }
     return texture_.get();
 }

@@ -114,6 +114,24 @@ class Offscreen {
     GlRenderbuffer merged_colour_{};
 };
 
+/// Which shared object a texture was filled from: it names the object for good, as no other has its
+/// control block, and keeps nothing alive. Of a large video each frame kept is tens of megabytes.
+template <typename T>
+class UploadedFrom {
+  public:
+    [[nodiscard]] bool is(const std::shared_ptr<const T>& object) const noexcept {
+        return filled_ && !object_.owner_before(object) && !object.owner_before(object_);
+    }
+    void set(const std::shared_ptr<const T>& object) noexcept {
+        object_ = object;
+        filled_ = true;
+    }
+
+  private:
+    std::weak_ptr<const T> object_{};
+    bool filled_{false};
+};
+
 /// A texture of one float a vertex of the grid.
 class GridTexture {
   public:
@@ -142,7 +160,7 @@ class DepthTextures {
   private:
     struct Slot {
         GridTexture texture{};
-        std::shared_ptr<const DepthImage> image{};  ///< kept alive, so that its address names it
+        UploadedFrom<DepthImage> image{};
         ReliefGrid grid{};
     };
     GLuint upload(Slot& slot, const std::shared_ptr<const DepthImage>& image,
@@ -161,7 +179,7 @@ class UnseenTexture {
 
   private:
     GlTexture texture_{};
-    std::shared_ptr<const std::vector<std::uint8_t>> mask_{};  ///< kept alive, as above
+    UploadedFrom<std::vector<std::uint8_t>> mask_{};
     ReliefGrid grid_{};
     std::vector<std::uint8_t> staged_{};
 };
@@ -188,7 +206,7 @@ class ColourTexture {
     void upload(const ColourImage& image, int most_side, bool mipmaps);
 
     GlTexture texture_{};
-    std::shared_ptr<const ColourImage> image_{};
+    UploadedFrom<ColourImage> image_{};
     int columns_{0};
     int rows_{0};
     std::vector<std::uint8_t> staged_{};

@@ -2,9 +2,11 @@
 #include "render/marker_pass.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <utility>
 
 #include "shader_sources.hpp"
@@ -16,6 +18,7 @@ namespace {
 // After Okabe and Ito's palette, told apart by colour-blind people too; shapes differ besides.
 constexpr glm::vec4 kProxyTint{0.16F, 0.56F, 0.95F, 1.0F};
 constexpr glm::vec4 kRecordedTint{0.88F, 0.92F, 0.98F, 0.85F};
+constexpr glm::vec4 kFingerTint{0.16F, 0.56F, 0.95F, 0.9F};
 constexpr glm::vec4 kGoalTint{0.95F, 0.55F, 0.05F, 1.0F};
 constexpr glm::vec4 kSpringTint{0.86F, 0.86F, 0.86F, 1.0F};
 constexpr glm::vec4 kNormalTint{0.10F, 0.78F, 0.60F, 1.0F};
@@ -23,6 +26,8 @@ constexpr glm::vec4 kForceTint{0.98F, 0.90F, 0.25F, 1.0F};
 
 // Radii on the screen [px] in a picture 800 pixels high.
 constexpr double kProxyRadius = 7.0;
+constexpr double kFingerRadius = 1.2;
+constexpr double kFingerContactRadius = 4.5;
 constexpr double kGoalRadius = 11.0;
 constexpr float kGoalHollow = 0.66F;
 constexpr double kCatchingUpRadius = 15.0;  // clear of the goal's ring when the proxy is there
@@ -69,6 +74,23 @@ void add_force_arrow(std::vector<MarkerStroke>& strokes, const TouchMarkers& tou
                        ball(camera, tip, 0.8 * scale), kForceTint});
 }
 
+/// The ball's three great circles, dashed.
+void add_finger(std::vector<MarkerStroke>& strokes, const TouchMarkers& touch, const Camera& camera,
+                double scale) {
+    constexpr int kSegments = 72;  // of which every second is drawn: two that meet would be a bead
+    const Vec3 centre = touch.proxy + Vec3(0.0, 0.0, touch.finger_px);
+    const std::array<Vec3, 3> axes{Vec3(1.0, 0.0, 0.0), Vec3(0.0, 1.0, 0.0), Vec3(0.0, 0.0, 1.0)};
+    for (std::size_t n = 0; n < axes.size(); ++n) {
+        const auto at = [&](int k) {
+            const double angle = 2.0 * std::numbers::pi * k / kSegments;
+            const Vec3 outwards =
+                std::cos(angle) * axes[n] + std::sin(angle) * axes[(n + 1) % axes.size()];
+            return ball(camera, centre + touch.finger_px * outwards, kFingerRadius * scale);
+        };
+        for (int k = 0; k < kSegments; k += 2) strokes.push_back({at(k), at(k + 1), kFingerTint});
+    }
+}
+
 constexpr int kConeSegments = 64;
 constexpr float kHiddenOpacity = 0.55F;  // of what lies behind the relief
 constexpr double kScaleHeight_px = 800.0;
@@ -104,6 +126,11 @@ std::vector<MarkerStroke> touch_strokes(const TouchMarkers& touch, const Camera&
     if (touch.recorded_proxy && is_finite(*touch.recorded_proxy)) {
         const glm::vec4 recorded = ball(camera, *touch.recorded_proxy, kProxyRadius * scale);
         strokes.push_back({recorded, recorded, kRecordedTint});
+    }
+    if (touch.finger_px > 0.0) add_finger(strokes, touch, camera, scale);
+    if (touch.finger_contact && is_finite(*touch.finger_contact)) {
+        const glm::vec4 at = ball(camera, *touch.finger_contact, kFingerContactRadius * scale);
+        strokes.push_back({at, at, kNormalTint});
     }
     strokes.push_back({goal, goal, kGoalTint, kGoalHollow});
     if (touch.catching_up) {

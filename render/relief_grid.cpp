@@ -30,20 +30,37 @@ void add_tile(GridMesh& mesh, int left, int top, int right, int bottom) {
                               static_cast<std::uint32_t>(i - left);
             const auto below = here + width;
             mesh.indices.insert(mesh.indices.end(),
-                                {here, below, here + 1, here + 1, below, below + 1});
+                                {below, here + 1, here, here + 1, below, below + 1});
         }
     }
 }
 
 // Parts of the step between two faces. A vertex so near the higher (lower) end is on the near (far)
-// face. A fragment so near its layer belongs to it; the blur of an outline has the near face's
-// colours, so it goes to the near layer, and what is left between is a gap.
+// face. A fragment so near its layer belongs to it: seen straight on, there is no gap between them.
 constexpr float kOnFace = 0.3F;
 constexpr float kGoesOn = 0.2F;  // so near the slope of a face a vertex is on it
-constexpr float kShownNear = 0.48F;
-constexpr float kShownFar = 0.2F;
+constexpr float kShown = 0.5F;
 // A relief that is steep almost everywhere has no outlines worth the work.
 constexpr std::size_t kMostLayerVertices = 120'000;
+
+/// Of a pixel of the whole image [px].
+class PixelElevation {
+  public:
+    explicit PixelElevation(const BlendedDepth& depth)
+        : from_(depth.from.levels.data()),
+          to_(depth.to.levels.data()),
+          from_part_(static_cast<float>(depth.px_per_level * (1.0 - depth.blend))),
+          to_part_(static_cast<float>(depth.px_per_level * depth.blend)) {}
+
+    [[nodiscard]] float operator()(std::size_t pixel) const {
+        return from_[pixel] * from_part_ + to_[pixel] * to_part_;
+    }
+
+  private:
+    const float* from_;
+    const float* to_;
+    float from_part_, to_part_;  // of a level [px]
+};
 
 struct Corner {
     int i{0};
@@ -58,24 +75,26 @@ float distance(float a, float b) {
 
 class Tearing {
   public:
-    Tearing(const ReliefGrid& grid, const std::vector<float>& elevations, double slope_limit,
-            Rims& rims)
-        : grid_(grid),
+    Tearing(const BlendedDepth& depth, const ReliefGrid& grid, const std::vector<float>& elevations,
+            double slope_limit, Rims& rims)
+        : image_(depth.from),
+          elevation_(depth),
+          grid_(grid),
           columns_(grid.columns()),
           rows_(grid.rows()),
-          square_limit_(static_cast<float>(slope_limit * slope_limit)),
-          step_px_(static_cast<float>(slope_limit * grid.step)),
+          limit_px_(static_cast<float>(slope_limit)),
           elevations_(elevations),
+          loose_(elevations.size(), false),
           rims_(rims) {}
 
     void run() {
         rims_.layers.clear();
-        rims_.loose.assign(elevations_.size(), 0.0F);
-        each_triangle([this](const Triangle& triangle, bool steep) {
-            if (steep) loosen(triangle);
+        rims_.torn.assign(elevations_.size(), 0.0F);
+        each_cell([this](int i, int j) {
+            if (is_steep(i, j)) loosen_and_mark(i, j);
         });
-        each_triangle([this](const Triangle& triangle, bool steep) {
-            if (steep || loose(triangle)) tear(triangle);
+        each_cell([this](int i, int j) {
+            if (is_torn(i, j) || hangs_loose(i, j)) tear(i, j);
         });
     }
 
@@ -95,32 +114,47 @@ class Tearing {
     [[nodiscard]] float at(int i, int j) const { return elevations_[index(i, j)]; }
 
     template <class Visit>
-    void each_triangle(const Visit& visit) const {
-        for (int j = 0; j + 1 < rows_; ++j) {
-            const float down = 1.0F / static_cast<float>(grid_.image_j(j + 1) - grid_.image_j(j));
-            for (int i = 0; i + 1 < columns_; ++i) {
-                const float across =
-                    1.0F / static_cast<float>(grid_.image_i(i + 1) - grid_.image_i(i));
-                const auto steep = [&](float right, float below) {
-                    const float x = right * across;
-                    const float y = below * down;
-                    return x * x + y * y > square_limit_;
-                };
-                const float here = at(i, j);
-                const float right = at(i + 1, j);
-                const float below = at(i, j + 1);
-                const float beyond = at(i + 1, j + 1);
-                visit({{{i, j}, {i, j + 1}, {i + 1, j}}}, steep(right - here, below - here));
-                visit({{{i + 1, j}, {i, j + 1}, {i + 1, j + 1}}},
-                      steep(beyond - below, beyond - right));
-            }
-        }
+    void each_cell(const Visit& visit) const {
+        for (int j = 0; j + 1 < rows_; ++j)
+            for (int i = 0; i + 1 < columns_; ++i) visit(i, j);
     }
 
-    [[nodiscard]] bool loose(Corner c) const { return rims_.loose[index(c.i, c.j)] > 0.0F; }
-    [[nodiscard]] bool loose(const Triangle& triangle) const {
-        return std::any_of(triangle.begin(), triangle.end(),
+    static std::array<Corner, 4> corners(int i, int j) {
+        return {{{i, j}, {i + 1, j}, {i, j + 1}, {i + 1, j + 1}}};
+    }
+
+    [[nodiscard]] bool loose(Corner c) const { return loose_[index(c.i, c.j)]; }
+    [[nodiscard]] bool is_torn(int i, int j) const { return rims_.torn[index(i, j)] > 0.0F; }
+    [[nodiscard]] bool hangs_loose(int i, int j) const {
+        const auto around = corners(i, j);
+        return std::any_of(around.begin(), around.end(),
                            [this](Corner corner) { return loose(corner); });
+    }
+
+    [[nodiscard]] bool is_steep(int i, int j) const {
+        const auto [low, high] =
+            std::minmax({at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)});
+        const float range = high - low;
+        if (!(2.0F * range * range > limit_px_ * limit_px_)) return false;
+        for (int y = grid_.image_j(j); y < grid_.image_j(j + 1); ++y) {
+            const std::size_t row = image_.index(0, y);
+            const std::size_t below = image_.index(0, y + 1);
+            for (int x = grid_.image_i(i); x < grid_.image_i(i + 1); ++x) {
+                const auto at_x = static_cast<std::size_t>(x);
+                if (is_steep(elevation_(row + at_x), elevation_(row + at_x + 1),
+                             elevation_(below + at_x), elevation_(below + at_x + 1)))
+                    return true;
+            }
+        }
+        return false;
+    }
+
+    /// One of the two triangles of these four neighbours is.
+    [[nodiscard]] bool is_steep(float here, float right, float below, float beyond) const {
+        const auto steep = [this](float x, float y) {
+            return x * x + y * y > limit_px_ * limit_px_;
+        };
+        return steep(right - here, below - here) || steep(beyond - below, beyond - right);
     }
 
     [[nodiscard]] Around around(const Triangle& triangle) const {
@@ -137,16 +171,17 @@ class Tearing {
             found.high = std::max(found.high, at(c.i, c.j));
         };
         for (const Corner& corner : triangle) include(corner);
-        if (found.high - found.low > step_px_) return found;
+        if (found.high - found.low > limit_px_ * static_cast<float>(grid_.step)) return found;
         for (int y = found.first.j; y <= found.last.j; ++y) {
             for (int x = found.first.i; x <= found.last.i; ++x) include({x, y});
         }
         return found;
     }
 
-    /// Marks the corners that go on neither with the slope of the face above nor of the one below.
-    void loosen(const Triangle& triangle) {
-        for (const Corner& corner : triangle) {
+    /// Loose are corners that go on neither with the slope of the face above nor of the one below.
+    void loosen_and_mark(int i, int j) {
+        rims_.torn[index(i, j)] = 1.0F;
+        for (const Corner& corner : corners(i, j)) {
             const float z = at(corner.i, corner.j);
             Corner up = corner;
             Corner down = corner;
@@ -160,7 +195,7 @@ class Tearing {
             const float near = kGoesOn * (at(up.i, up.j) - at(down.i, down.j));
             if (distance(z, gone_on(corner, up)) > near &&
                 distance(z, gone_on(corner, down)) > near) {
-                rims_.loose[index(corner.i, corner.j)] = 1.0F;
+                loose_[index(corner.i, corner.j)] = true;
             }
         }
     }
@@ -174,13 +209,21 @@ class Tearing {
         return 2.0F * z - at(i, j);
     }
 
+    /// What there is no room for stays whole.
+    void tear(int i, int j) {
+        const bool has_room = rims_.layers.size() < kMostLayerVertices;
+        rims_.torn[index(i, j)] = has_room ? 1.0F : 0.0F;
+        if (!has_room) return;
+        tear(Triangle{{{i, j}, {i, j + 1}, {i + 1, j}}});
+        tear(Triangle{{{i + 1, j}, {i, j + 1}, {i + 1, j + 1}}});
+    }
+
     void tear(const Triangle& triangle) {
-        if (rims_.layers.size() >= kMostLayerVertices) return;
         const Around faces = around(triangle);
         const float range = faces.high - faces.low;
         if (!(range > 0.0F)) return;  // no face around
-        add_layer(triangle, faces, faces.high, kShownNear * range);
-        add_layer(triangle, faces, faces.low, kShownFar * range);
+        add_layer(triangle, faces, faces.high, kShown * range);
+        add_layer(triangle, faces, faces.low, kShown * range);
     }
 
     void add_layer(const Triangle& triangle, const Around& faces, float face, float tolerance) {
@@ -214,12 +257,14 @@ class Tearing {
         return best;
     }
 
+    const DepthImage& image_;  // as wide as both are
+    PixelElevation elevation_;
     const ReliefGrid& grid_;
     int columns_;
     int rows_;
-    float square_limit_;
-    float step_px_;  // the least steep change of elevation between neighbours
+    float limit_px_;  // steeper from pixel to pixel is a silhouette
     const std::vector<float>& elevations_;
+    std::vector<bool> loose_;  // in the blur between two faces
     Rims& rims_;
 };
 
@@ -277,27 +322,21 @@ std::vector<GridVertex> border_strip(const ReliefGrid& grid) {
     return strip;
 }
 
-void drawn_elevations(const DepthImage& from, const DepthImage& to, double blend,
-                      double px_per_level, const ReliefGrid& grid, std::vector<float>& elevations) {
-    const auto columns = static_cast<std::size_t>(grid.columns());
-    const auto to_part = static_cast<float>(px_per_level * blend);
-    const auto from_part = static_cast<float>(px_per_level * (1.0 - blend));
-    elevations.resize(columns * static_cast<std::size_t>(grid.rows()));
+void drawn_elevations(const BlendedDepth& depth, const ReliefGrid& grid,
+                      std::vector<float>& elevations) {
+    const PixelElevation elevation(depth);
+    elevations.resize(static_cast<std::size_t>(grid.columns()) *
+                      static_cast<std::size_t>(grid.rows()));
     float* next = elevations.data();
     for (int j = 0; j < grid.rows(); ++j) {
-        const std::size_t row = from.index(0, grid.image_j(j));
-        const float* a = from.levels.data() + row;
-        const float* b = to.levels.data() + row;
-        for (int i = 0; i < grid.columns(); ++i) {
-            const int at = grid.image_i(i);
-            *next++ = a[at] * from_part + b[at] * to_part;
-        }
+        for (int i = 0; i < grid.columns(); ++i)
+            *next++ = elevation(depth.from.index(grid.image_i(i), grid.image_j(j)));
     }
 }
 
-void tear_rims(const ReliefGrid& grid, const std::vector<float>& elevations, double slope_limit,
-               Rims& rims) {
-    Tearing(grid, elevations, slope_limit, rims).run();
+void tear_rims(const BlendedDepth& depth, const ReliefGrid& grid,
+               const std::vector<float>& elevations, double slope_limit, Rims& rims) {
+    Tearing(depth, grid, elevations, slope_limit, rims).run();
 }
 
 }  // namespace dibhr

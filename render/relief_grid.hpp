@@ -1,6 +1,6 @@
 // Which vertices of the depth image are drawn, in what order, and where the relief is torn at
-// silhouettes: each steep triangle becomes a near and a far layer, which the fragment shader cuts
-// along the outline in the whole depth image. Numbers only, no OpenGL.
+// silhouettes: the triangles there become a near and a far layer each, which the fragment shader
+// cuts along the outline in the whole depth image. Numbers only, no OpenGL.
 #pragma once
 
 #include <cstddef>
@@ -40,7 +40,9 @@ struct GridVertex {
 /// Triangles in tiles small enough for a vertex cache; each tile has its own vertices in a row.
 struct GridMesh {
     std::vector<GridVertex> vertices{};
-    std::vector<std::uint32_t> indices{};  ///< three a triangle, counter-clockwise seen from above
+    /// Three a triangle, counter-clockwise seen from above. The last one tells the fragments their
+    /// cell: of the two triangles of cell (i, j) it is (i, j), and (i+1, j+1).
+    std::vector<std::uint32_t> indices{};
 };
 
 /// Two triangles a cell; the diagonal of cell (i, j) joins (i+1, j) and (i, j+1).
@@ -58,19 +60,28 @@ struct RimVertex {
     float tolerance_px{0.0F};
 };
 
-/// The elevation [px] of every drawn vertex without the bump map, row-major. `from` and `to` have
-/// the grid's size.
-void drawn_elevations(const DepthImage& from, const DepthImage& to, double blend,
-                      double px_per_level, const ReliefGrid& grid, std::vector<float>& elevations);
-
-/// What is torn: all triangles steeper than the limit, and those that hang on a loose vertex.
-struct Rims {
-    std::vector<RimVertex> layers{};  ///< three vertices a triangle; 120'000 at most
-    std::vector<float> loose{};  ///< 1: the drawn vertex is in the blur between two faces; else 0
+/// The surface between two depth images of one size, without the bump map.
+struct BlendedDepth {
+    const DepthImage& from;
+    const DepthImage& to;
+    double blend{0.0};  ///< 0: from, 1: to
+    double px_per_level{1.0};
 };
 
-/// Tears the drawn grid where it is steeper than `slope_limit` [px/px].
-void tear_rims(const ReliefGrid& grid, const std::vector<float>& elevations, double slope_limit,
-               Rims& rims);
+/// The elevation [px] of every drawn vertex, row-major. The images have the grid's size.
+void drawn_elevations(const BlendedDepth& depth, const ReliefGrid& grid,
+                      std::vector<float>& elevations);
+
+struct Rims {
+    std::vector<RimVertex> layers{};  ///< three vertices a triangle; 120'000 at most
+    std::vector<float> torn{};  ///< of each drawn vertex; 1: the cell to its lower right is torn
+};
+
+/// Tears the cells of the drawn grid in which the image is steeper than `slope_limit` [px/px] from
+/// pixel to pixel, and those that hang on the blur beside one: so what is a silhouette does not
+/// depend on how coarse the drawn grid is. What is too thin to reach a drawn vertex is not drawn,
+/// and not torn. `elevations` are those drawn.
+void tear_rims(const BlendedDepth& depth, const ReliefGrid& grid,
+               const std::vector<float>& elevations, double slope_limit, Rims& rims);
 
 }  // namespace dibhr

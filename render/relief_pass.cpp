@@ -23,7 +23,7 @@ enum Unit : GLint {
     kDepthToUnit,
     kDetailFromUnit,
     kDetailToUnit,
-    kLooseUnit,
+    kTornUnit,
     kUnseenUnit,
     kBumpUnit,
     kColourUnit
@@ -47,7 +47,7 @@ void fill_vertices(const GlVertexArray& array, const GlBuffer& buffer,
 }  // namespace
 
 void ReliefPass::draw(const SceneContent& content, const glm::mat4& clip_from_world) {
-    const DepthImage& image = *content.depth.from->depth;
+    const DepthImage& image = *content.depth.from->drawn();
     ReliefGrid grid = plan_grid(image.columns, image.rows,
                                 limits_.software ? kMostVerticesSoftware : kMostVerticesHardware,
                                 limits_.texture_side);
@@ -74,7 +74,7 @@ void ReliefPass::draw(const SceneContent& content, const glm::mat4& clip_from_wo
         rim.silhouettes = false;
         prepared(rim, content, clip_from_world);
         glBindVertexArray(rim_.get());
-        glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(torn_.layers.size()));
+        glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(rims_.layers.size()));
     }
 
     Variant wall;
@@ -105,15 +105,17 @@ void ReliefPass::build(const ReliefGrid& grid) {
 }
 
 void ReliefPass::tear(const SceneContent& content) {
-    const DepthImage& from = *content.depth.from->depth;
-    drawn_elevations(from, *content.depth.to->depth, std::clamp(content.depth.blend, 0.0, 1.0),
-                     content.shape.relief_px / from.highest_level, grid_, elevations_);
-    tear_rims(grid_, elevations_, content.look.silhouette_slope, torn_);
-    loose_.upload(grid_.columns(), grid_.rows(), torn_.loose.data());
+    const DepthImage& from = *content.depth.from->drawn();
+    const BlendedDepth depth{from, *content.depth.to->drawn(),
+                             std::clamp(content.depth.blend, 0.0, 1.0),
+                             content.shape.relief_px / from.highest_level};
+    drawn_elevations(depth, grid_, elevations_);
+    tear_rims(depth, grid_, elevations_, content.look.silhouette_slope, rims_);
+    torn_.upload(grid_.columns(), grid_.rows(), rims_.torn.data());
     glBindVertexArray(rim_.get());
     glBindBuffer(GL_ARRAY_BUFFER, rim_vertices_.get());
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(torn_.layers.size() * sizeof(RimVertex)),
-                 torn_.layers.data(), GL_STREAM_DRAW);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rims_.layers.size() * sizeof(RimVertex)),
+                 rims_.layers.data(), GL_STREAM_DRAW);
     for (GLuint attribute = 0; attribute < 3; ++attribute) glEnableVertexAttribArray(attribute);
     glVertexAttribIPointer(0, 2, GL_UNSIGNED_SHORT, sizeof(RimVertex),
                            attribute_offset(offsetof(RimVertex, corner)));
@@ -125,15 +127,15 @@ void ReliefPass::tear(const SceneContent& content) {
 
 void ReliefPass::bind_textures(const SceneContent& content, const Variant& variant) {
     // Uploads bind to the active unit, so all come before the units are set.
-    const auto depth = depth_.show(content.depth.from->depth, content.depth.to->depth, grid_);
+    const auto depth = depth_.show(content.depth.from->drawn(), content.depth.to->drawn(), grid_);
     auto detail = depth;
     if (variant.silhouettes && detail_grid_ != grid_) {
-        detail = detail_.show(content.depth.from->depth, content.depth.to->depth, detail_grid_);
+        detail = detail_.show(content.depth.from->drawn(), content.depth.to->drawn(), detail_grid_);
     }
     const GLuint unseen =
         variant.unseen ? unseen_.show(content.depth.nearest().unseen, detail_grid_) : 0;
     const GLuint bump =
-        variant.rough ? bump_.show(*content.bump, *content.depth.from->depth, grid_) : 0;
+        variant.rough ? bump_.show(*content.bump, *content.depth.from->drawn(), grid_) : 0;
     const int most_side = limits_.software ? std::min(kMostColourSideSoftware, limits_.texture_side)
                                            : limits_.texture_side;
     const GLuint colour =
@@ -142,7 +144,7 @@ void ReliefPass::bind_textures(const SceneContent& content, const Variant& varia
     bind(kDetailToUnit, detail.to);
     bind(kDepthFromUnit, depth.from);
     bind(kDepthToUnit, depth.to);
-    bind(kLooseUnit, loose_.name());
+    bind(kTornUnit, torn_.name());
     bind(kUnseenUnit, unseen);
     bind(kBumpUnit, bump);
     bind(kColourUnit, colour);
@@ -162,14 +164,14 @@ const ShaderProgram& ReliefPass::prepared(const Variant& variant, const SceneCon
         program =
             std::make_unique<ShaderProgram>(shaders::kReliefVert, shaders::kReliefFrag, defines);
     }
-    const DepthImage& image = *content.depth.from->depth;
+    const DepthImage& image = *content.depth.from->drawn();
     const double limit = content.look.silhouette_slope;
     program->use();
     program->set("depth_from", kDepthFromUnit);
     program->set("depth_to", kDepthToUnit);
     program->set("detail_from", kDetailFromUnit);
     program->set("detail_to", kDetailToUnit);
-    program->set("loose", kLooseUnit);
+    program->set("torn", kTornUnit);
     program->set("unseen", kUnseenUnit);
     program->set("bump", kBumpUnit);
     program->set("colour", kColourUnit);

@@ -55,8 +55,8 @@ class ReliefPass {
     GlVertexArray rim_{};
     GlBuffer rim_vertices_{};
     std::vector<float> elevations_{};
-    Rims torn_{};
-    GridTexture loose_{};
+    Rims rims_{};
+    GridTexture torn_{};
     GLsizei index_count_{0};
     GLsizei wall_count_{0};
 };

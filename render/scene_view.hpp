@@ -14,8 +14,8 @@ namespace dibhr {
 
 /// How the relief is drawn.
 struct ReliefLook {
-    bool discard_silhouettes{true};  ///< leave out triangles steeper than `silhouette_slope`
-    double silhouette_slope{12.0};   ///< elevation change per pixel [px/px]
+    bool discard_silhouettes{true};  ///< tear the relief where it is steeper than this:
+    double silhouette_slope{12.0};   ///< elevation change from pixel to pixel [px/px]
     bool textured{true};             ///< false: plain clay, which shows the shape
     double light{0.6};               ///< 0: flat colour, 1: strong shading
     bool coarse{false};  ///< half as many columns and rows as this machine would draw otherwise
@@ -32,6 +32,8 @@ struct TouchMarkers {
     Vec3 force_newton{0.0};                ///< as sent
     double newton_per_px{0.02};            ///< length of the force arrow
     std::optional<Vec3> recorded_proxy{};  ///< of a session, when `proxy` is computed anew
+    double finger_px{0.0};                 ///< radius of the ball whose lowest point is `proxy`
+    std::optional<Vec3> finger_contact{};  ///< where the ball touches what is drawn
 };
 
 /// Everything one picture needs; a view that owns nothing.

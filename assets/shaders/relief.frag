@@ -1,10 +1,15 @@
 #version 330 core
-// The relief's colour. Defines: TEXTURED (else clay), SILHOUETTES (leave out what is too steep), WALL,
+// The relief's colour. Defines: TEXTURED (else clay), SILHOUETTES (leave out the torn cells), WALL,
 // RIM (a layer that goes on beyond a silhouette: only what agrees with the depth image is shown),
 // UNSEEN (somewhere no surface was ever seen: dimmed and hatched).
 
 in vec3 lifted;
 in float shade;
+#ifdef SILHOUETTES
+flat in ivec2 vertex;    // the upper left or the lower right one of this cell
+uniform sampler2D torn;  // of each drawn vertex; 1: the cell to its lower right
+uniform int grid_step;
+#endif
 #ifdef RIM
 in vec2 layer;
 uniform sampler2D detail_from;  // levels, as fine as can be
@@ -17,7 +22,6 @@ uniform sampler2D unseen;  // 1: no surface was ever seen, as fine as can be
 #endif
 
 uniform sampler2D colour;
-uniform float slope_limit;
 uniform int detail_step;
 uniform ivec2 image;
 
@@ -64,9 +68,9 @@ void main() {
     if (abs(there - layer.x) > layer.y) discard;
 #endif
 #ifdef SILHOUETTES
-    vec3 in_grid = vec3(lifted.xy * vec2(image), lifted.z);
-    vec3 across = cross(dFdx(in_grid), dFdy(in_grid));  // normal of this triangle
-    if (dot(across.xy, across.xy) > slope_limit * slope_limit * across.z * across.z) discard;
+    vec2 from_vertex = lifted.xy * vec2(image) - 0.5 - vec2(vertex * grid_step);
+    ivec2 cell = from_vertex.x + from_vertex.y < 0.0 ? vertex - 1 : vertex;
+    if (texelFetch(torn, cell, 0).r > 0.5) discard;
 #endif
 #ifdef TEXTURED
     vec3 body = texture(colour, lifted.xy).rgb;

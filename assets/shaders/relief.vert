@@ -1,8 +1,7 @@
 #version 330 core
 // The relief: one corner of the drawn grid, lifted by the two depth images, the blend and the bump map.
 // Defines: ROUGH (there is a bump map), WALL (the sides that close the relief; every second vertex is
-// on the ground), SILHOUETTES (loose vertices are torn off),
-// RIM (a layer at a silhouette: a corner as high and bright as another vertex).
+// on the ground), RIM (a layer at a silhouette: a corner as high and bright as another vertex).
 
 layout(location = 0) in uvec2 corner;  // column and row in the drawn grid
 #ifdef RIM
@@ -13,12 +12,11 @@ out vec2 layer;  // elevation without bumps, tolerance
 
 uniform sampler2D depth_from;  // levels
 uniform sampler2D depth_to;
-uniform sampler2D loose;  // 1: between two faces, all triangles there are torn
 uniform sampler2D bump;  // height in [0, 1]
 uniform float blend;
 uniform float px_per_level;
 uniform float roughness_px;
-uniform float slope_limit;  // steeper is a silhouette, and no guide to the light
+uniform float slope_limit;  // steeper from pixel to pixel is a silhouette, and no guide to the light
 uniform float ground_px;
 uniform int grid_step;
 uniform ivec2 drawn;  // columns and rows of the drawn grid
@@ -26,10 +24,10 @@ uniform ivec2 image;  // columns and rows of the depth image
 uniform float light;
 uniform mat4 clip_from_world;
 
+flat out ivec2 vertex;  // of the fragments of a triangle: its last one, in the drawn grid
 out vec3 lifted;  // normalised place in the picture, elevation
 out float shade;  // factor on the colour; on walls, height over the ground in [0, 1]
 
-const float kTorn_px = 1e6;  // steeper than any limit
 const vec3 kKey = vec3(-0.46, 0.55, 0.70);  // from the upper left, towards the viewer
 const vec3 kFill = vec3(0.64, -0.10, 0.76);
 const vec3 kGloss = vec3(-0.25, 0.30, 0.92);  // half way between key and eye
@@ -53,8 +51,9 @@ float slope(float before, float here, float after, vec2 reach) {
     float left = (here - before) / max(reach.x, 1.0);
     float right = (after - here) / max(reach.y, 1.0);
     float both = (after - before) / (reach.x + reach.y);
-    if (abs(left) > slope_limit && reach.y > 0.0) return right;
-    if (abs(right) > slope_limit && reach.x > 0.0) return left;
+    float limit = slope_limit / float(grid_step);
+    if (abs(left) > limit && reach.y > 0.0) return right;
+    if (abs(right) > limit && reach.x > 0.0) return left;
     return both;
 }
 
@@ -89,11 +88,9 @@ void main() {
                      vec2(to_low.y, to_high.y));
     shade = brightness(normalize(vec3(-dx, dy, 1.0)));
 #endif
-    here = in_image(ivec2(corner));
+    vertex = ivec2(corner);
+    here = in_image(vertex);
     lifted = vec3((here + 0.5) / vec2(image), z);
-#ifdef SILHOUETTES
-    lifted.z += kTorn_px * texelFetch(loose, at, 0).r;
-#endif
     vec3 world = vec3(here.x - 0.5 * float(image.x - 1), 0.5 * float(image.y - 1) - here.y, z);
     gl_Position = clip_from_world * vec4(world, 1.0);
 }

@@ -56,6 +56,32 @@ TEST_CASE("out of contact only proxy and goal are shown, a ball and a ring") {
     CHECK_FALSE(friction_cone(touch, camera_640x480()).has_value());
 }
 
+TEST_CASE("a fingertip is a ball that stands on the proxy, with a mark where it touches") {
+    TouchMarkers touch = pressed();
+    const Camera camera = camera_640x480();
+    const std::size_t without = touch_strokes(touch, camera, 1.0).size();
+    touch.finger_px = 12.0;
+    touch.finger_contact = touch.proxy + Vec3(5.0, 0.0, 3.0);
+    const std::vector<MarkerStroke> strokes = touch_strokes(touch, camera, 1.0);
+    const Vec3 centre = camera.world_from_grid(touch.proxy + Vec3(0.0, 0.0, touch.finger_px));
+    const auto on_ball = [&](const MarkerStroke& s) {
+        const auto away = [&](const glm::vec4& end) {
+            return std::abs(glm::length(Vec3(end) - centre) - touch.finger_px);
+        };
+        return s.ball_a != s.ball_b && away(s.ball_a) < 1e-3 && away(s.ball_b) < 1e-3;
+    };
+    const auto circles =
+        static_cast<std::size_t>(std::count_if(strokes.begin(), strokes.end(), on_ball));
+    CHECK(circles > 60);
+    CHECK(strokes.size() == without + circles + 1);
+    const auto touches = camera.world_from_grid(*touch.finger_contact);
+    CHECK(std::count_if(strokes.begin(), strokes.end(), [&](const MarkerStroke& s) {
+              return s.ball_a == s.ball_b && glm::length(Vec3(s.ball_a) - touches) < 1e-3;
+          }) == 1);
+    touch.visible = false;
+    CHECK(touch_strokes(touch, camera, 1.0).empty());
+}
+
 TEST_CASE("while the proxy catches up a ring is around it, and the line to the goal is dashed") {
     TouchMarkers touch = pressed();
     touch.contact = GENERATE(true, false);  // the line in the air too

@@ -56,7 +56,9 @@ TEST_CASE("each cell has its two triangles once, split from upper right to lower
     std::set<Triangle> drawn;
     for (std::size_t k = 0; k < mesh.indices.size(); k += 3) {
         Triangle corners = triangle(mesh, k);
+        const Corner last = corners.back();  // by which the fragments know their cell
         std::sort(corners.begin(), corners.end());
+        CHECK((last == corners.front() || last == corners.back()));
         drawn.insert(corners);
     }
     CHECK(drawn.size() == mesh.indices.size() / 3);

@@ -1,0 +1,40 @@
+// The threads that software OpenGL draws with, and their share of the processor.
+#include "render/drawing_threads.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <system_error>
+
+namespace dibhr {
+
+namespace {
+
+constexpr int kLowestNiceness = 19;
+
+/// As the driver names them; others' drivers share nothing.
+bool draws(const std::filesystem::path& thread) {
+    std::ifstream file(thread / "comm");
+    std::string name;
+    return std::getline(file, name) && name.starts_with("llvmpipe-");
+}
+
+}  // namespace
+
+void let_drawing_give_way() {
+    const int own = getpriority(PRIO_PROCESS, 0);
+    const int niceness = std::min(own + kDrawingNiceness, kLowestNiceness);
+    std::error_code none;  // where threads are not listed, they keep their share
+    std::filesystem::directory_iterator thread("/proc/self/task", none);
+    for (; !none && thread != std::filesystem::directory_iterator(); thread.increment(none)) {
+        if (!draws(thread->path())) continue;
+        const auto id = std::strtoul(thread->path().filename().c_str(), nullptr, 10);
+        setpriority(PRIO_PROCESS, static_cast<id_t>(id), niceness);
+    }
+}
+
+}  // namespace dibhr

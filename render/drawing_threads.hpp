@@ -1,0 +1,16 @@
+// The threads that software OpenGL draws with, and their share of the processor.
+#pragma once
+
+namespace dibhr {
+
+/// How much less urgent drawing is than decoding and cleaning, as `nice` counts: a quarter of the
+/// time of a core that both want. A late picture is seen less than a late video is, and felt not at
+/// all.
+inline constexpr int kDrawingNiceness = 5;
+
+/// Lets the driver's own threads give way to the rest of the program, once there is a context:
+/// each core has one, and together they would take half of a busy machine. Does nothing where a
+/// graphics card draws.
+void let_drawing_give_way();
+
+}  // namespace dibhr

@@ -1,0 +1,40 @@
+// What software OpenGL takes of the processor.
+#include "render/drawing_threads.hpp"
+
+#include <pthread.h>
+#include <sys/resource.h>
+
+#include <future>
+#include <string>
+#include <thread>
+
+#include "tests/support/catch.hpp"
+
+namespace dibhr {
+namespace {
+
+/// How nice a thread of this name is after drawing gave way, against the one that asked for it.
+int niceness_of(const std::string& name) {
+    std::promise<void> named;
+    std::promise<void> asked;
+    int nice{0};
+    std::thread thread([&] {
+        pthread_setname_np(pthread_self(), name.c_str());
+        named.set_value();
+        asked.get_future().wait();
+        nice = getpriority(PRIO_PROCESS, 0);
+    });
+    named.get_future().wait();
+    let_drawing_give_way();
+    asked.set_value();
+    thread.join();
+    return nice - getpriority(PRIO_PROCESS, 0);
+}
+
+TEST_CASE("the threads that software draws with give way, and no others") {
+    CHECK(niceness_of("llvmpipe-7") == kDrawingNiceness);
+    CHECK(niceness_of("dibhr-decode") == 0);
+}
+
+}  // namespace
+}  // namespace dibhr
