@@ -116,8 +116,8 @@ HandInput read_hand(const HumanOptions& options) {
 
 SampleClip read_sample(const HumanOptions& options, const Progress& progress) {
     const SampleFiles files = sample_files();
-    const CleaningOptions cleaning =
-        options.raw_depth ? CleaningOptions{false, false, false} : CleaningOptions{};
+    const CleaningOptions cleaning{.preset = options.raw_depth ? CleaningPreset::raw
+                                                               : CleaningPreset::gentle};
     return {read_depth_clip(open_depth(files.depth), cleaning, options.shape, progress),
             first_colour(files)};
 }

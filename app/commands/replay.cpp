@@ -42,6 +42,18 @@ struct Run {
     RunComparison comparison{};
 };
 
+/// What was recorded names these, and numbers of a touch go with them.
+void refuse_meanings(const TouchRequest& touch) {
+    if (touch.depth != DepthStatement{})
+        throw UsageError(
+            "a session is replayed over depth as it was meant when it was recorded: leave away "
+            "--near, --depth-unit and the others that say what depth means");
+    if (touch.given.fit_relief || touch.given.fit_pitch)
+        throw UsageError(
+            "a session has its relief and its pitch: give --relief or --pixel-pitch a number "
+            "instead of auto, or leave it away");
+}
+
 Run make_run(const Session& session, const ReplayOptions& options,
              std::optional<Algorithm> algorithm) {
     Run run;
@@ -49,7 +61,7 @@ Run make_run(const Session& session, const ReplayOptions& options,
     given.algorithm = algorithm;
     run.change = [given](TouchParameters& parameters) { given.apply(parameters); };
     run.name = algorithm ? name_of(*algorithm) : "";
-    run.as_recorded = options.touch.bump.empty() && !options.touch.raw_depth;
+    run.as_recorded = !options.touch.asks_for_another_surface();
     for (const SessionParameters& recorded : session.parameters()) {
         TouchParameters changed = recorded.touch;
         run.change(changed);
@@ -79,6 +91,19 @@ bool has_bump(const Session& session, const ReplayOptions& options) {
            std::any_of(all.begin(), all.end(), [](const SessionParameters& parameters) {
                return !parameters.bump.file.empty();
            });
+}
+
+SessionFramesOptions frames_options(const Session& session, const ReplayOptions& options) {
+    const TouchRequest& touch = options.touch;
+    // A ball has one size in a run: that of the pitch and the relief it begins with.
+    TouchParameters parameters;
+    if (!session.parameters().empty()) parameters = session.parameters().front().touch;
+    touch.given.apply(parameters);
+    const CleaningOptions asked = touch.cleaning(parameters);
+    SessionFramesOptions frames{.any_media = options.any_media, .bump = touch.bump};
+    if (touch.raw_depth || touch.preset) frames.cleaning = asked.preset;
+    if (touch.finger_mm) frames.finger = asked.finger;
+    return frames;
 }
 
 void replay(const Session& session, SessionFrames& video, std::vector<Run>& runs,
@@ -166,6 +191,7 @@ int replay_all(const ReplayOptions& options) {
     if (!options.csv.empty() && options.algorithms.size() > 1) {
         throw UsageError("--csv writes the rows of one run: give one --algorithm with it");
     }
+    refuse_meanings(options.touch);
     const Session session(options.session);
     session.check();
     if (session.rows() == 0) {
@@ -173,9 +199,7 @@ int replay_all(const ReplayOptions& options) {
                          ": holds no tick to replay; record a longer one");
     }
     std::vector<Run> runs = make_runs(session, options);
-    SessionFrames video(session, {.any_media = options.any_media,
-                                  .raw_depth = options.touch.raw_depth,
-                                  .bump = options.touch.bump});
+    SessionFrames video(session, frames_options(session, options));
     print_warning(session.warning());
     print_warning(video.warning());
     print_warning(roughness_warning(options.touch.given, has_bump(session, options)));

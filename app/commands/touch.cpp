@@ -15,7 +15,7 @@
 #include "app/settings/command_options.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/touch.hpp"
-#include "core/video/frame_reader.hpp"
+#include "core/video/depth_in_time.hpp"
 #include "device/goal_stream.hpp"
 
 namespace dibhr {
@@ -37,8 +37,7 @@ struct TouchOptions {
 class TouchRun {
   public:
     explicit TouchRun(const TouchOptions& options)
-        : parameters_(options.parameters),
-          depth_(opened(options, parameters_), options.video, options.touch.cleaning()) {
+        : parameters_(options.parameters), depth_(opened(options, parameters_)) {
         if (!options.touch.bump.empty()) {
             bump_ = read_bump_map(options.touch.bump);
             const DepthImage& depth = *depth_.now().from->depth;
@@ -56,11 +55,11 @@ class TouchRun {
     [[nodiscard]] std::size_t bounds_met() const noexcept { return bounds_met_; }
 
   private:
-    static std::unique_ptr<Media> opened(const TouchOptions& options, TouchParameters& parameters) {
+    static DepthInTime opened(const TouchOptions& options, TouchParameters& parameters) {
         auto media = open_depth(options.depth, options.touch.depth_request());
         print_warning(media->description().notice);
         options.touch.given.fit(media->description(), options.touch.raw_depth, parameters);
-        return media;
+        return {std::move(media), options.video, options.touch.cleaning(parameters)};
     }
 
     OutputRow update(const TimedGoal& goal) {

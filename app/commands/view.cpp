@@ -90,11 +90,12 @@ void check_device(const std::string& device) {
 /// A replay is what was recorded: there is nothing to record, and its surface is given.
 void require_replay_options(const ViewOptions& options, const TouchRequest& touch) {
     const bool wrong = !options.open.depth.empty() || !options.record.empty() ||
-                       !touch.bump.empty() || touch.raw_depth;
+                       touch.asks_for_another_surface() || touch.depth != DepthStatement{};
     if (!wrong) return;
-    throw UsageError(options.open.colour.string() +
-                     " is a session, which is replayed as it was recorded: leave away a depth "
-                     "file, --record, --bump and --raw-depth");
+    throw UsageError(
+        options.open.colour.string() +
+        " is a session, which is replayed as it was recorded: leave away a depth "
+        "file, --record, --bump, --raw-depth, --cleaning, --finger and what depth means");
 }
 
 void require_writable_folder(const fs::path& file, const char* option) {
@@ -227,7 +228,9 @@ int run_view(CLI::App& app, const Arguments& arguments) {
     if (stability) settings.stability = *stability;
     if (gives_damping(touch.given)) settings.damping_as_needed = false;
     if (size) std::tie(settings.width, settings.height) = *size;
-    if (touch.raw_depth) settings.cleaning = {false, false, false};
+    if (touch.preset) settings.cleaning.preset = *touch.preset;
+    if (touch.raw_depth) settings.cleaning.preset = CleaningPreset::raw;
+    if (touch.finger_mm) settings.finger_mm = *touch.finger_mm;
     take_fitting(touch, settings);
     options.touch = touch;
     options.open.request = touch.depth_request();

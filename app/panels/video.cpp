@@ -39,6 +39,16 @@ void draw_files(const MediaDescription& media) {
     if (!media.notice.empty()) quiet_text(capitalised(media.notice));
 }
 
+/// Frames that this machine is too slow for are passed over, and that is told.
+void tell_pace(const PlaybackStatus& playback) {
+    constexpr double kAll = 0.97;
+    if (!playback.playing || !(playback.shown_per_s < kAll * playback.frames_per_s)) return;
+    quiet_text(
+        formatted("This machine is too slow for it: %.0f of %.0f frames a second are shown%s",
+                  playback.shown_per_s, playback.frames_per_s,
+                  playback.waits ? ", and later than they should be" : ", in their time"));
+}
+
 void draw_playback(const ViewerState& state, Player& player) {
     const PlaybackStatus& playback = state.playback;
     play_and_step_buttons(playback.playing, player, "frame");
@@ -49,6 +59,42 @@ void draw_playback(const ViewerState& state, Player& player) {
     fact_row("Frame", std::to_string(playback.frame + 1) + " of " +
                           std::to_string(std::max(playback.frames, playback.frame + 1)));
     speed_row(playback.speed, player);
+    tell_pace(playback);
+}
+
+/// A step switched by hand makes all of them one's own choice, beginning with what is done now.
+void draw_cleaning(ViewerState& state) {
+    CleaningOptions& cleaning = state.settings.cleaning;
+    choice_row("Cleaning", kCleaningWords, cleaning.preset,
+               "What is done to the depth before it is drawn and touched (--cleaning); hold B to "
+               "see and feel it as recorded",
+               CleaningPreset::automatic);
+    if (!state.replay && !state.playback.cleaning.empty())
+        quiet_text(capitalised(state.playback.cleaning));
+    number_row({"Fingertip", "%.1f mm", 0.0, 10.0, 0.0,
+                "Radius of the ball that touches; 0: a point (--finger)", false, "a point"},
+               state.settings.finger_mm);
+    if (!part("Cleaning steps")) return;
+    const bool own = cleaning.preset == CleaningPreset::own;
+    CleaningSteps steps = own ? cleaning.own : state.playback.steps;
+    const CleaningSteps standard = own ? kSensorSteps : steps;
+    bool changed = false;
+    const auto row = [&changed](const char* label, bool& step, bool usual, const char* help) {
+        changed = flag_row(label, step, usual, help) || changed;
+    };
+    row("Remove spikes", steps.remove_spikes, standard.remove_spikes,
+        "Single pixels that stand out of all their neighbours");
+    row("Fill holes", steps.fill_holes, standard.fill_holes,
+        "Where the camera saw no depth, take the depth around it");
+    row("Sharpen silhouettes", steps.sharpen_silhouettes, standard.sharpen_silhouettes,
+        "Ramps between near and far become steps");
+    row("Steady in time", steps.steady, standard.steady,
+        "What does not move keeps its level from frame to frame");
+    row("Smooth depth steps", steps.smooth_steps, standard.smooth_steps,
+        "Rounds the terraces of 8-bit depth, by half a level at most");
+    row("Smooth noise", steps.smooth_noise, standard.smooth_noise,
+        "Within the noise of the recording; what is beyond it stays");
+    if (changed) cleaning = {CleaningPreset::own, steps, cleaning.finger};
 }
 
 }  // namespace
@@ -61,14 +107,7 @@ void draw_video_panel(ViewerState& state, Player* player) {
     if (player != nullptr && !state.media.still) draw_playback(state, *player);
     if (player != nullptr && part("Depth")) draw_depth_rows(state);
     ImGui::BeginDisabled(player == nullptr);  // a replay shows what was touched
-    CleaningOptions& cleaning = state.settings.cleaning;
-    const CleaningOptions standard;
-    flag_row("Fill holes", cleaning.fill_holes, standard.fill_holes,
-             "Where the camera saw no depth, take the depth around it");
-    flag_row("Remove spikes", cleaning.remove_spikes, standard.remove_spikes,
-             "Single pixels that stand out of all their neighbours");
-    flag_row("Smooth depth steps", cleaning.smooth_steps, standard.smooth_steps,
-             "Rounds the terraces of 8-bit depth, by half a level at most");
+    draw_cleaning(state);
     ImGui::EndDisabled();
     if (player != nullptr && !state.playback.failure.empty()) quiet_text(state.playback.failure);
     ImGui::PopID();

@@ -147,6 +147,7 @@ struct ViewerState {
     double pictures_per_s{0.0};
     bool in_front{true};  ///< the window; false: people work in another one
     bool opening{false};
+    bool as_recorded{false};  ///< the depth, while its key is held
     bool touched{false};  ///< there has been a contact: the first hint has done its work
 
     bool show_device{false};   ///< the Falcon needs its person: the Device panel comes into sight

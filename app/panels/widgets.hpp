@@ -60,6 +60,7 @@ template <typename Table, typename Enum>
 bool choice_row(const char* label, const Table& words, Enum& chosen, const char* help,
                 Enum standard = {}) {
     std::vector<const char*> names;
+    names.reserve(std::size(words));
     for (const auto& word : words) names.push_back(word.label);
     int index = static_cast<int>(chosen);
     const bool changed = index_row(label, names, index, help, static_cast<int>(standard));

@@ -124,12 +124,13 @@ py::list parameters_of(const Session& session) {
 py::list sources_of(const Session& session) {
     py::list all;
     for (const SessionSource& source : session.sources()) {
-        all.append(py::dict(py::arg("first_tick") = source.first_tick,
-                            py::arg("colour") = path_of(source.colour),
-                            py::arg("depth") = path_of(source.depth),
-                            py::arg("fill_holes") = source.source.fill_holes,
-                            py::arg("remove_spikes") = source.source.remove_spikes,
-                            py::arg("smooth_steps") = source.source.smooth_steps));
+        py::dict one(py::arg("first_tick") = source.first_tick,
+                     py::arg("colour") = path_of(source.colour),
+                     py::arg("depth") = path_of(source.depth));
+        visit_cleaning(source.source, [&one](std::string_view name, const auto& fact) {
+            one[std::string(name).c_str()] = fact;
+        });
+        all.append(std::move(one));
     }
     return all;
 }

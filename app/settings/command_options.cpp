@@ -1,6 +1,7 @@
 // Command line options that several commands share: made from the one table of numbers.
 #include "app/settings/command_options.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -154,10 +155,43 @@ void add_surface_options(CLI::App& app, TouchRequest& request) {
         "--raw-depth", request.raw_depth,
         "Depth as it is in the file: nothing cleaned or found out, relief 255 px and pitch "
         "101.6/720 mm unless given");
+    app.add_option_function<std::string>(
+           "--cleaning",
+           [&request](const std::string& name) {
+               request.preset = cleaning_named(name);
+               if (!request.preset || request.preset == CleaningPreset::own)
+                   throw CLI::ValidationError(
+                       "--cleaning", "'" + name + "' is none of auto, raw, gentle, sensor");
+               if (request.preset == CleaningPreset::raw) request.raw_depth = true;
+           },
+           "What is done to the depth: raw (as --raw-depth), gentle (holes, spikes, 8-bit steps), "
+           "sensor (also silhouettes and noise), auto (as the clip's noise asks)")
+        ->type_name("NAME")
+        ->default_str("auto");
+    add_number_option(app, "--finger", 0.0, kThickestFinger_mm,
+                      "Radius of the fingertip [mm]; 0: the paper's point",
+                      [&request](double radius_mm) { request.finger_mm = radius_mm; })
+        ->type_name("MM")
+        ->default_str("0");
     add_depth_options(app, request.depth);
 }
 
 }  // namespace
+
+Fingertip fingertip_of(double radius_mm, const TouchParameters& parameters) {
+    return {radius_mm / parameters.coupling.pixel_pitch_mm, parameters.shape.relief_px};
+}
+
+bool TouchRequest::asks_for_another_surface() const {
+    return !bump.empty() || raw_depth || preset || finger_mm;
+}
+
+CleaningOptions TouchRequest::cleaning(const TouchParameters& parameters) const {
+    CleaningOptions options{.preset = preset.value_or(CleaningPreset::automatic)};
+    if (raw_depth) options.preset = CleaningPreset::raw;
+    if (finger_mm.value_or(0.0) > 0.0) options.finger = fingertip_of(*finger_mm, parameters);
+    return options;
+}
 
 const double* GivenParameters::value_of(const TouchNumber& number) const {
     const auto last = std::find_if(numbers.rbegin(), numbers.rend(),

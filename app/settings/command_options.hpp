@@ -1,7 +1,6 @@
 // Command line options that several commands share, and the error of a wrong command line.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <optional>
 #include <string>
@@ -12,6 +11,11 @@
 #include "core/haptics/parameters.hpp"
 #include "core/plot/canvas.hpp"
 #include "core/video/media.hpp"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
 
 namespace dibhr {
 
@@ -42,15 +46,21 @@ struct GivenParameters {
 /// What all commands that compute forces take.
 struct TouchRequest {
     GivenParameters given{};
-    std::string bump{};      ///< --bump IMAGE; empty: none
-    bool raw_depth{false};   ///< --raw-depth
-    DepthStatement depth{};  ///< --near, --depth-unit and so on
+    std::string bump{};                      ///< --bump IMAGE; empty: none
+    bool raw_depth{false};                   ///< --raw-depth, or --cleaning raw
+    std::optional<CleaningPreset> preset{};  ///< --cleaning
+    std::optional<double> finger_mm{};       ///< --finger
+    DepthStatement depth{};                  ///< --near, --depth-unit and so on
 
     [[nodiscard]] DepthRequest depth_request() const;
-    [[nodiscard]] CleaningOptions cleaning() const {
-        return raw_depth ? CleaningOptions{false, false, false} : CleaningOptions{};
-    }
+    /// By what is no number of the touch: another bump map, cleaning or fingertip.
+    [[nodiscard]] bool asks_for_another_surface() const;
+    /// For a surface of these parameters, in which a finger has its size.
+    [[nodiscard]] CleaningOptions cleaning(const TouchParameters& parameters) const;
 };
+
+/// A finger of that radius on a surface of these parameters.
+[[nodiscard]] Fingertip fingertip_of(double radius_mm, const TouchParameters& parameters);
 
 /// That a roughness is given, but no bump map that it could scale, as a sentence; or empty.
 [[nodiscard]] std::string roughness_warning(const GivenParameters& given, bool has_bump);
@@ -79,8 +89,8 @@ CLI::Option* add_plot_format_option(CLI::App& app, std::vector<PlotFormat>& form
 /// --geometry and --intrinsics. `depth` must outlive the parsing of `app`.
 void add_depth_options(CLI::App& app, DepthStatement& depth);
 
-/// --bump, --raw-depth, those of add_depth_options and the entries of touch_numbers() that shape a
-/// surface. `request` must outlive the parsing of `app`.
+/// --bump, --raw-depth, --cleaning, --finger, those of add_depth_options and the entries of
+/// touch_numbers() that shape a surface. `request` must outlive the parsing of `app`.
 void add_shape_options(CLI::App& app, TouchRequest& request);
 
 /// The same, --friction and the other entries of touch_numbers().

@@ -52,6 +52,12 @@ constexpr KeyBinding kBindings[] = {
     {Action::toggle_loop, kPlayback, "L", "Loop on, off", "l"},
     {Action::reset_view, kView, "R", "Reset the view", "r"},
     {Action::toggle_straight_view, kView, "V", "Straight view, perspective", "v"},
+    {Action::show_as_recorded,
+     kView,
+     "B, held",
+     "Depth as recorded, before cleaning",
+     "",
+     {GLFW_KEY_B}},
     {Action::toggle_panels, kView, "Tab", "Hide the panels, show them", "", {GLFW_KEY_TAB}},
     while_typing(
         {Action::toggle_full_screen, kView, "F11", "Full screen on, off", "", {GLFW_KEY_F11}}),
@@ -81,6 +87,13 @@ unsigned lower_case(unsigned c) {
 
 std::span<const KeyBinding> key_bindings() {
     return kBindings;
+}
+
+int held_key(Action action) {
+    const auto* const found =
+        std::find_if(std::begin(kBindings), std::end(kBindings),
+                     [action](const KeyBinding& binding) { return binding.action == action; });
+    return found->keys[0];
 }
 
 std::optional<Action> action_of_character(unsigned character, bool repeated) {

@@ -25,6 +25,7 @@ enum class Action {
     mark,
     reset_view,
     toggle_straight_view,
+    show_as_recorded,
     toggle_panels,
     toggle_full_screen,
     take_screenshot,
@@ -49,6 +50,9 @@ struct KeyBinding {
 };
 
 [[nodiscard]] std::span<const KeyBinding> key_bindings();
+
+/// The GLFW key of an action that lasts while it is held.
+[[nodiscard]] int held_key(Action action);
 
 /// The action of a typed character, a Unicode code point; `repeated`: its key is being held down.
 [[nodiscard]] std::optional<Action> action_of_character(unsigned character, bool repeated = false);

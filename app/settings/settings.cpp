@@ -79,6 +79,11 @@ std::string take(const toml::node& node, const Setting&, Algorithm& value) {
     return take_word(algorithm_named(word), value, "is not the name of an algorithm");
 }
 
+std::string take(const toml::node& node, const Setting&, CleaningPreset& value) {
+    const auto word = node.value<std::string_view>().value_or("");
+    return take_word(cleaning_named(word), value, "is not the name of a way to clean");
+}
+
 std::string take(const toml::node& node, const Setting&, ButtonAction& value) {
     const auto word = node.value<std::string_view>().value_or("");
     return take_word(button_action_named(word), value, "is not what a button can do");
@@ -298,10 +303,12 @@ std::vector<Setting> list_of(Settings& s) {
     list.push_back(
         {"device", "max-force", &s.max_force_newton, 0.0, DeviceLimits{}.max_force_newton});
     add_falcon(list, s.falcon);
-    list.insert(list.end(), {{"cleaning", "fill-holes", &s.cleaning.fill_holes},
-                             {"cleaning", "remove-spikes", &s.cleaning.remove_spikes},
-                             {"cleaning", "smooth-steps", &s.cleaning.smooth_steps},
-                             {"look", "discard-silhouettes", &s.look.discard_silhouettes},
+    list.insert(list.end(), {{"cleaning", "preset", &s.cleaning.preset},
+                             {"cleaning", "finger", &s.finger_mm, 0.0, kThickestFinger_mm}});
+    visit_steps(s.cleaning.own, [&list](std::string_view name, bool& step) {
+        list.push_back({"cleaning", name, &step});
+    });
+    list.insert(list.end(), {{"look", "discard-silhouettes", &s.look.discard_silhouettes},
                              {"look", "silhouette-slope", &s.look.silhouette_slope, 1.0, 100.0},
                              {"look", "textured", &s.look.textured},
                              {"look", "light", &s.look.light, 0.0, 1.0},

@@ -11,7 +11,7 @@
 #include "app/settings/falcon_settings.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/safety.hpp"
-#include "core/video/depth/depth_cleaning.hpp"
+#include "core/video/cleaning/cleaning_options.hpp"
 #include "core/video/media.hpp"
 #include "render/scene_view.hpp"
 
@@ -43,7 +43,8 @@ struct Settings {
     TouchParameters touch{};
     bool stability{true};          ///< energy that rendering creates is taken out
     bool damping_as_needed{true};  ///< with stability: not that of `touch`, but what the hand needs
-    CleaningOptions cleaning{};
+    CleaningOptions cleaning{};    ///< but for the finger
+    double finger_mm{0.0};         ///< radius of the fingertip
     ReliefLook look{};
     bool straight_view{false};
     bool fit_relief{true};  ///< to the media, whenever one is opened
@@ -73,11 +74,15 @@ struct Settings {
 /// Writes the file whole or not at all. Throws InputError.
 void save_settings(const Settings& settings, const std::filesystem::path& file);
 
+/// A thicker finger than anybody's [mm].
+inline constexpr double kThickestFinger_mm = 25.0;
+
 /// One value of the settings file, and where it is held.
 struct Setting {
     std::string_view table;
     std::string_view name;
-    std::variant<bool*, int*, double*, std::string*, Algorithm*, ButtonAction*> value;
+    std::variant<bool*, int*, double*, std::string*, Algorithm*, CleaningPreset*, ButtonAction*>
+        value;
     double lowest{0.0};  ///< of a number
     double highest{0.0};
 };

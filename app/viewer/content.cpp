@@ -1,5 +1,6 @@
 // What the viewer shows: a video to touch or a session to replay, the files that go with it, and
 // the scene made of them.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <glm/geometric.hpp>
@@ -12,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/haptics/facet.hpp"
 #include "core/haptics/surface.hpp"
+#include "core/video/cleaning/fingertip.hpp"
 #include "core/video/depth/kept_choices.hpp"
 #include "core/video/depth/sidecar.hpp"
 
@@ -23,6 +25,15 @@ Vec3 normal_at(const DepthSurface& surface, Vec3 p) {
     const Vec3 inside = surface.clamped_to_frame(p);
     const Facet facet(surface, surface.triangle_at(inside.x, inside.y));
     return glm::normalize(Vec3{-facet.slope_x(), -facet.slope_y(), 1.0});
+}
+
+/// Of a fingertip, whose ball rests on what is drawn.
+void add_finger(const DepthBlend& shown, const SurfaceShape& shape, TouchMarkers& markers) {
+    const Fingertip& finger = shown.nearest().cleaning.finger;
+    if (!markers.visible || shown.nearest().beneath == nullptr) return;
+    markers.finger_px = std::min(finger.radius_px, kWidestFinger_px);
+    if (markers.contact && is_finite(markers.proxy))
+        markers.finger_contact = contact_point(shown.drawn_surface(shape), finger, markers.proxy);
 }
 
 TouchMarkers markers_of(const ViewerState& state, const DepthSurface& surface) {
@@ -54,6 +65,7 @@ SceneContent scene_content(const ViewerState& state, const DepthBlend& shown) {
     content.colour = shown.from;
     const DepthSurface surface = shown.surface(content.shape, content.bump);
     content.markers = markers_of(state, surface);
+    add_finger(shown, content.shape, content.markers);
     return content;
 }
 
@@ -65,11 +77,11 @@ const std::filesystem::path& depth_file(const MediaDescription& media) {
 std::optional<UnderHand> under_hand(const ViewerState& state, const DepthBlend& shown) {
     if (!shown.makes_surface()) return {};
     const Vec3 goal = state.haptic.touch.goal;
-    const DepthImage& depth = *shown.from->depth;
+    const DepthImage& depth = *shown.from->drawn();
     const int i = static_cast<int>(std::lround(goal.x));
     const int j = static_cast<int>(std::lround(goal.y));
     if (i < 0 || j < 0 || i >= depth.columns || j >= depth.rows) return {};
-    const DepthSurface surface = shown.surface(state.shape(), state.bump.get());
+    const DepthSurface surface = shown.drawn_surface(state.shape(), state.bump.get());
     const auto& unseen = shown.nearest().unseen;
     return UnderHand{i, j, depth.at(i, j) / depth.highest_level, surface.elevation_at(i, j),
                      unseen && (*unseen)[depth.index(i, j)] != 0};
@@ -225,7 +237,10 @@ void Viewer::start_loop() {
                           haptic_state_,
                           *forces_,
                           *ticks_,
-                          {&heart_, &player_.heart(), &recording_.heart()},
+                          {.window = &heart_,
+                           .video = &player_.heart(),
+                           .recorder = &recording_.heart(),
+                           .decoder = &player_.decoder_heart()},
                           &ending_.asked()});
 }
 

@@ -7,8 +7,8 @@
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/parameters.hpp"
+#include "core/video/cleaning/surface_version.hpp"
 #include "core/video/depth/sidecar.hpp"
-#include "core/video/depth/surface_version.hpp"
 #include "core/video/libraries.hpp"
 
 namespace dibhr {
@@ -43,10 +43,8 @@ std::map<std::string, std::string> session_facts(const ViewerState& state) {
     for (const TouchNumber& number : touch_numbers()) {
         facts.emplace(std::string(number.name), number_text(number.of(state.settings.touch)));
     }
-    const CleaningOptions& cleaning = state.settings.cleaning;
-    facts.emplace("fill-holes", cleaning.fill_holes ? "yes" : "no");
-    facts.emplace("remove-spikes", cleaning.remove_spikes ? "yes" : "no");
-    facts.emplace("smooth-steps", cleaning.smooth_steps ? "yes" : "no");
+    facts.emplace("cleaning", name_of(state.settings.cleaning.preset));
+    facts.emplace("finger", number_text(state.settings.finger_mm));
     facts.emplace("surface-version", std::to_string(kSurfaceVersion));
     if (state.falcon) {
         FalconSettings falcon = state.settings.falcon;

@@ -104,7 +104,8 @@ void ViewerReplay::show(const SessionMoment& moment, ViewerState& state) {
     state.haptic.shape = state.settings.touch.shape;
     const FrameSource& source = tick.frames.source;
     if (tick.surface) {
-        state.settings.cleaning = {source.fill_holes, source.remove_spikes, source.smooth_steps};
+        const FrameCleaning cleaning = cleaning_of(source);
+        state.settings.cleaning = {CleaningPreset::own, cleaning.steps, cleaning.finger};
     }
 }
 

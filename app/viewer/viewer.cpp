@@ -9,6 +9,7 @@
 #include "app/panels/panels.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/surface.hpp"
+#include "render/drawing_threads.hpp"
 #include "render/gl_objects.hpp"
 
 namespace dibhr {
@@ -70,6 +71,7 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending)
       forces_(std::make_unique<ForceRing>()),
       ticks_(std::make_unique<TickRing>()),
       recording_(*ticks_, ending.words()) {
+    if (software_) let_drawing_give_way();
     window_.on_display_loss([this] { close_without_display(); });
     state_.device = hand_.device->specification();
     state_.bump = std::move(parts.bump);
@@ -217,6 +219,7 @@ void Viewer::take_keys(const WindowInput& input) {
     if (gui_.wants_keyboard()) state_.fields.ask_for_keyboard = 0;
     // A name typed right after Ctrl+O is no key, even before the field has the keyboard.
     const bool typing = gui_.wants_keyboard() || state_.fields.ask_for_keyboard > 0;
+    state_.as_recorded = !typing && window_.holds(held_key(Action::show_as_recorded));
     for (const KeyPress& press : input.keys) {
         if (const auto action = action_of_key(press.key, press.control, typing, press.repeated))
             perform(*action);
@@ -307,10 +310,20 @@ void Viewer::hand_over_settings() {
     }
     // After the above, so that the force is already rising from zero when the goal moves elsewhere.
     if (falcon_.tuning_changed(state_)) falcon_.hand_over(state_);
-    if (!(cleaning_handed_ == state_.settings.cleaning)) {
-        cleaning_handed_ = state_.settings.cleaning;
+    const CleaningOptions cleaning = wanted_cleaning();
+    if (!(cleaning_handed_ == cleaning)) {
+        cleaning_handed_ = cleaning;
         player_.set_cleaning(cleaning_handed_);
     }
+}
+
+/// As the panel says; as recorded while the key for it is held.
+CleaningOptions Viewer::wanted_cleaning() const {
+    CleaningOptions cleaning = state_.settings.cleaning;
+    if (state_.as_recorded) return {.preset = CleaningPreset::raw};
+    if (state_.settings.finger_mm > 0.0)
+        cleaning.finger = fingertip_of(state_.settings.finger_mm, state_.settings.touch);
+    return cleaning;
 }
 
 void Viewer::keep_settings() {

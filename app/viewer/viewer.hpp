@@ -77,6 +77,7 @@ class Viewer {
     void draw_panels();
     void carry_out_requests();
     void hand_over_settings();
+    [[nodiscard]] CleaningOptions wanted_cleaning() const;
     void keep_settings();
     void show_media(std::unique_ptr<Media> media, const OpenRequest& request);
     void replay_session(std::unique_ptr<OpenedSession> session);

@@ -225,6 +225,10 @@ Pointer Window::pointer() const {
             key_down(window_, GLFW_KEY_LEFT_SHIFT) || key_down(window_, GLFW_KEY_RIGHT_SHIFT)};
 }
 
+bool Window::holds(int key) const {
+    return key_down(window_, key);
+}
+
 glm::ivec2 Window::framebuffer_size() const {
     glm::ivec2 size{0};
     glfwGetFramebufferSize(window_, &size.x, &size.y);

@@ -74,6 +74,8 @@ class Window {
     /// Looks for events, without waiting.
     WindowInput take_input();
     [[nodiscard]] Pointer pointer() const;
+    /// Whether a GLFW key is down now.
+    [[nodiscard]] bool holds(int key) const;
     [[nodiscard]] glm::ivec2 framebuffer_size() const;
     [[nodiscard]] glm::ivec2 window_size() const;  ///< when not on the full screen [screen units]
     [[nodiscard]] float content_scale() const;     ///< 1 on an ordinary display

@@ -9,7 +9,7 @@
 
 #include "core/experiment/experiment.hpp"
 #include "core/haptics/vec.hpp"
-#include "core/video/frame_reader.hpp"
+#include "core/video/depth_in_time.hpp"
 
 namespace dibhr {
 

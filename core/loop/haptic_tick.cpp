@@ -20,8 +20,16 @@ double seconds(std::chrono::steady_clock::duration span) {
 FramePair frames_of(const DepthBlend& pair) {
     const Frame& from = *pair.from;
     const Frame& to = *pair.to;
-    const CleaningOptions& cleaning = from.cleaning;
-    return {{from.media, cleaning.fill_holes, cleaning.remove_spikes, cleaning.smooth_steps},
+    const CleaningSteps& steps = from.cleaning.steps;
+    return {{.media = from.media,
+             .fill_holes = steps.fill_holes,
+             .remove_spikes = steps.remove_spikes,
+             .smooth_steps = steps.smooth_steps,
+             .sharpen_silhouettes = steps.sharpen_silhouettes,
+             .steady = steps.steady,
+             .smooth_noise = steps.smooth_noise,
+             .finger_px = from.cleaning.finger.radius_px,
+             .finger_relief_px = from.cleaning.finger.relief_px},
             from.index,
             to.index,
             from.media_s,

@@ -14,8 +14,9 @@ namespace dibhr {
 /// Null: nobody is missed there.
 struct Heartbeats {
     const Heartbeat* window{nullptr};    ///< keys, signals' orderly end, the display
-    const Heartbeat* video{nullptr};     ///< reading what is touched
+    const Heartbeat* video{nullptr};     ///< making surfaces of what was read
     const Heartbeat* recorder{nullptr};  ///< writing the session
+    const Heartbeat* decoder{nullptr};   ///< reading it
 };
 
 /// So long nothing may be heard of one of them. Then the force goes to zero within
@@ -36,15 +37,15 @@ class StandstillWatch {
   public:
     explicit StandstillWatch(const Heartbeats& hearts) noexcept
         : listeners_{HeartbeatListener(hearts.window), HeartbeatListener(hearts.video),
-                     HeartbeatListener(hearts.recorder)} {}
+                     HeartbeatListener(hearts.recorder), HeartbeatListener(hearts.decoder)} {}
 
     /// Once a tick: whether one of them stands still. `contact`: there is a force to miss.
     [[nodiscard]] bool look(std::chrono::steady_clock::time_point now, bool contact) noexcept {
-        std::array<std::chrono::steady_clock::duration, 3> silence{};
+        std::array<std::chrono::steady_clock::duration, kListeners> silence{};
         for (std::size_t k = 0; k < silence.size(); ++k) silence[k] = listeners_[k].silence(now);
         const auto longest = std::max_element(silence.begin(), silence.end());
         if (*longest >= kLongestSilence) {
-            running_.of = static_cast<Standstill::Of>(longest - silence.begin());
+            running_.of = kOf[static_cast<std::size_t>(longest - silence.begin())];
             running_.seconds = std::chrono::duration<double>(*longest).count();
             felt_ = felt_ || contact;
             return true;
@@ -57,7 +58,12 @@ class StandstillWatch {
     [[nodiscard]] const Standstill& last() const noexcept { return last_; }
 
   private:
-    std::array<HeartbeatListener, 3> listeners_;
+    static constexpr std::size_t kListeners = 4;
+    static constexpr std::array<Standstill::Of, kListeners> kOf{
+        Standstill::Of::window, Standstill::Of::video, Standstill::Of::recorder,
+        Standstill::Of::video};
+
+    std::array<HeartbeatListener, kListeners> listeners_;
     Standstill running_{};
     Standstill last_{};
     bool felt_{false};

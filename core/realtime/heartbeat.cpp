@@ -31,7 +31,7 @@ void Heartbeat::also_computes() noexcept {
 /// The file (proc_pid_syscall(5)) says "running", or begins with the number of the call in which
 /// the thread waits: in futex() it waits for another thread.
 Heartbeat::Doing Heartbeat::doing() const noexcept {
-    const int file = system_call_.load(std::memory_order_relaxed);
+    const int file = system_call_.load(std::memory_order_acquire);  // it was opened before
     std::array<char, 16> text{};
     if (file < 0 || pread(file, text.data(), text.size() - 1, 0) <= 0) return Doing::waits;
     if (std::string_view(text.data()).starts_with("running")) return Doing::computes;

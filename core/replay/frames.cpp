@@ -13,9 +13,8 @@
 #include "core/error.hpp"
 #include "core/files/content_hash.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/depth/remembering_media.hpp"
+#include "core/video/cleaning/surface_version.hpp"
 #include "core/video/depth/sidecar.hpp"
-#include "core/video/depth/surface_version.hpp"
 #include "core/video/picture_pattern.hpp"
 
 namespace dibhr {
@@ -32,15 +31,13 @@ bool is_media(const fs::path& file) {
 }
 
 /// Cleaning has changed since they were recorded.
-bool is_of_other_surfaces(const SessionFacts& facts) {
-    const auto is_on = [&facts](const char* name) {
-        const auto fact = facts.find(name);
-        return fact != facts.end() && fact->second == "yes";
-    };
-    const auto version = facts.find("surface-version");
-    const bool is_same =
-        version != facts.end() && version->second == std::to_string(kSurfaceVersion);
-    return (is_on("fill-holes") || is_on("remove-spikes") || is_on("smooth-steps")) && !is_same;
+bool is_of_other_surfaces(const Session& session) {
+    if (session.fact("surface-version") == std::to_string(kSurfaceVersion)) return false;
+    const bool is_cleaned = session.fact("fill-holes") == "yes" ||
+                            session.fact("remove-spikes") == "yes" ||
+                            session.fact("smooth-steps") == "yes";  // before there were presets
+    const std::string preset = session.fact("cleaning");
+    return is_cleaned || (!preset.empty() && preset != name_of(CleaningPreset::raw));
 }
 
 bool has_content(const fs::path& file, const SessionMedia& media) {
@@ -51,14 +48,9 @@ bool has_content(const fs::path& file, const SessionMedia& media) {
     }
 }
 
-/// How far to read ahead and how much to keep: of a run as quick as it can be, and of a window,
-/// which first wants to show the two frames where a person went.
-struct Reach {
-    int frames_ahead;
-    std::size_t most_bytes;
-};
-constexpr Reach kRun{8, std::size_t{512} << 20};
-constexpr Reach kWindow{2, std::size_t{256} << 20};
+// Kept of a run as quick as it can be, and of a window.
+constexpr std::size_t kMostOfRun = std::size_t{512} << 20;
+constexpr std::size_t kMostOfWindow = std::size_t{256} << 20;
 constexpr double kNearAhead_s = 0.5;  // nearer than this, reading on is quicker than a jump
 constexpr std::size_t kLeastKept = 16;
 
@@ -114,60 +106,26 @@ void SessionMediaFinder::warn(const std::string& sentence) {
     warning_ += (warning_.empty() ? "" : "; ") + sentence;
 }
 
-CleaningWorkers::CleaningWorkers() {
-    for (std::thread& thread : threads_) thread = std::thread([this] { run(); });
-}
-
-CleaningWorkers::~CleaningWorkers() {
-    {
-        const std::lock_guard lock(mutex_);
-        leaving_ = true;
-    }
-    asked_.notify_all();
-    for (std::thread& thread : threads_) thread.join();
-}
-
-std::shared_future<CleanedDepth> CleaningWorkers::clean(DepthImage depth,
-                                                        const CleaningOptions& options,
-                                                        std::vector<HeldLevel> held) {
-    Job job{std::move(depth), options, std::move(held), {}};
-    auto cleaned = job.done.get_future().share();
-    {
-        const std::lock_guard lock(mutex_);
-        waiting_.push_back(std::move(job));
-    }
-    asked_.notify_one();
-    return cleaned;
-}
-
-void CleaningWorkers::run() {
-    DepthCleaner cleaner;  // with the scratch memory it gathers
-    std::unique_lock lock(mutex_);
-    while (true) {
-        asked_.wait(lock, [this] { return leaving_ || !waiting_.empty(); });
-        if (leaving_) return;
-        Job job = std::move(waiting_.front());
-        waiting_.pop_front();
-        lock.unlock();
-        try {
-            job.done.set_value(cleaner.cleaned(std::move(job.depth), job.options, job.held));
-        } catch (...) {
-            job.done.set_exception(std::current_exception());
-        }
-        lock.lock();
-    }
+FrameCleaning cleaning_of(const FrameSource& source) {
+    return {{.remove_spikes = source.remove_spikes,
+             .fill_holes = source.fill_holes,
+             .sharpen_silhouettes = source.sharpen_silhouettes,
+             .steady = source.steady,
+             .smooth_steps = source.smooth_steps,
+             .smooth_noise = source.smooth_noise},
+            {source.finger_px, source.finger_relief_px}};
 }
 
 SessionFrames::SessionFrames(const Session& session, const SessionFramesOptions& options)
     : options_(options), finder_(session.file(), options.any_media) {
     find_videos(session);
-    if (!options.raw_depth && is_of_other_surfaces(session.facts()))
+    if (!options.cleaning && is_of_other_surfaces(session))
         finder_.warn(
             "its surfaces were made by an earlier dibhr, which treated holes and spikes otherwise: "
             "proxies may differ from those recorded");
     if (!session.sources().empty()) {
         Video& first = videos_[session.sources().front().source.media];
-        description_ = media_of(first).description();
+        description_ = reader_of(first).description();
     }
     read_bumps(session);
 }
@@ -211,29 +169,42 @@ std::shared_ptr<const BumpMap> SessionFrames::bump(const SessionParameters& para
 }
 
 Frame SessionFrames::frame(const FrameSource& source, double media_s) {
-    const Kept* kept = find(source, media_s);
-    if (kept == nullptr) {
-        read_on(source, media_s);
-        kept = find(source, media_s);
-    }
-    if (kept == nullptr) {
-        throw InputError(videos_[source.media].depth.string() + ": has no frame at " +
-                         short_text(media_s) +
+    if (const Kept* kept = find(source, media_s)) return kept->frame;
+    Video& video = videos_[source.media];
+    FrameReader& reader = reader_of(video);
+    reader.set_cleaning(cleaning_for(source));
+    const bool near_ahead =
+        video.last_s && *video.last_s < media_s && media_s < *video.last_s + kNearAhead_s;
+    std::optional<Frame> frame = near_ahead ? reader.after(*video.last_s) : reader.at(media_s);
+    while (near_ahead && frame && frame->media_s < media_s) frame = reader.after(frame->media_s);
+    video.last_s.reset();
+    if (frame) video.last_s = frame->media_s;
+    if (!frame || frame->media_s != media_s) {
+        throw InputError(video.depth.string() + ": has no frame at " + short_text(media_s) +
                          " s, which was touched; put the video back that was recorded over");
     }
-    Frame frame = kept->frame;
-    frame.depth = kept->depth.get().depth;
-    frame.unseen = kept->depth.get().unseen;
-    return frame;
+    frame->media = source.media;
+    keep(source, *frame);
+    return *frame;
 }
 
-Media& SessionFrames::media_of(Video& video) const {
-    if (!video.media) {
-        video.media = std::make_unique<RememberingMedia>(
+CleaningOptions SessionFrames::cleaning_for(const FrameSource& source) const {
+    const FrameCleaning recorded = cleaning_of(source);
+    CleaningOptions cleaning{
+        .preset = CleaningPreset::own, .own = recorded.steps, .finger = recorded.finger};
+    if (options_.cleaning) cleaning.preset = *options_.cleaning;
+    if (options_.cleaning == CleaningPreset::raw) cleaning.finger = {};
+    if (options_.finger) cleaning.finger = *options_.finger;
+    return cleaning;
+}
+
+FrameReader& SessionFrames::reader_of(Video& video) const {
+    if (!video.reader) {
+        video.reader = std::make_unique<FrameReader>(
             options_.colour ? open_media(video.colour, video.depth, video.request)
                             : open_depth(video.depth, video.request));
     }
-    return *video.media;
+    return *video.reader;
 }
 
 const SessionFrames::Kept* SessionFrames::find(const FrameSource& source, double media_s) const {
@@ -243,41 +214,14 @@ const SessionFrames::Kept* SessionFrames::find(const FrameSource& source, double
     return found == kept_.rend() ? nullptr : &*found;
 }
 
-/// Decodes the frame at `media_s` and a few more.
-void SessionFrames::read_on(const FrameSource& source, double media_s) {
-    Video& video = videos_[source.media];
-    Media& media = media_of(video);
-    const bool near_ahead =
-        video.last_s && *video.last_s < media_s && media_s < *video.last_s + kNearAhead_s;
-    if (!near_ahead) media.seek(media_s);
-    const int wanted = (options_.colour ? kWindow : kRun).frames_ahead;
-    for (int ahead = 0; ahead < wanted;) {
-        std::optional<RawFrame> raw = media.next();
-        if (!raw) {
-            video.last_s.reset();
-            return;
-        }
-        video.last_s = raw->media_s;
-        if (raw->media_s < media_s) continue;
-        keep(source, std::move(*raw));
-        ++ahead;
-    }
-}
-
-void SessionFrames::keep(const FrameSource& source, RawFrame raw) {
-    const std::size_t bytes = raw.depth.levels.size() * sizeof(float) + raw.colour.rgb.size();
-    const Reach& reach = options_.colour ? kWindow : kRun;
-    const std::size_t most =
-        std::max(reach.most_bytes / std::max<std::size_t>(bytes, 1), kLeastKept);
+void SessionFrames::keep(const FrameSource& source, const Frame& frame) {
+    std::size_t bytes = frame.depth->levels.size() * sizeof(float) + frame.colour->rgb.size();
+    if (frame.beneath) bytes += frame.beneath->levels.size() * sizeof(float);
+    if (frame.unseen) bytes += frame.unseen->size();
+    const std::size_t room = options_.colour ? kMostOfWindow : kMostOfRun;
+    const std::size_t most = std::max(room / std::max<std::size_t>(bytes, 1), kLeastKept);
     while (kept_.size() >= most) kept_.pop_front();
-    Frame frame{.colour = std::make_shared<const ColourImage>(std::move(raw.colour)),
-                .media_s = raw.media_s,
-                .index = raw.index,
-                .media = source.media,
-                .cleaning = {source.fill_holes, source.remove_spikes, source.smooth_steps}};
-    if (options_.raw_depth) frame.cleaning = {false, false, false};
-    auto depth = cleaning_.clean(std::move(raw.depth), frame.cleaning, std::move(raw.held));
-    kept_.push_back({source, std::move(frame), std::move(depth)});
+    kept_.push_back({source, frame});
 }
 
 }  // namespace dibhr

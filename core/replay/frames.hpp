@@ -2,25 +2,19 @@
 // they were, and its bump maps.
 #pragma once
 
-#include <array>
-#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
-#include <future>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
-#include "core/haptics/depth_image.hpp"
 #include "core/replay/session_replay.hpp"
 #include "core/session/session.hpp"
-#include "core/video/depth/depth_cleaning.hpp"
+#include "core/video/frame_reader.hpp"
 #include "core/video/media.hpp"
 
 namespace dibhr {
@@ -48,47 +42,20 @@ class SessionMediaFinder {
     std::string warning_{};
 };
 
-/// However many images wait, so many threads are at work; in the order in which they were given.
-class CleaningWorkers {
-  public:
-    static constexpr std::size_t kWorkers = 2;
-
-    CleaningWorkers();
-    ~CleaningWorkers();  ///< what is not begun is given up
-    CleaningWorkers(const CleaningWorkers&) = delete;
-    CleaningWorkers& operator=(const CleaningWorkers&) = delete;
-
-    [[nodiscard]] std::shared_future<CleanedDepth> clean(DepthImage depth,
-                                                         const CleaningOptions& options,
-                                                         std::vector<HeldLevel> held = {});
-
-  private:
-    struct Job {
-        DepthImage depth{};
-        CleaningOptions options{};
-        std::vector<HeldLevel> held{};
-        std::promise<CleanedDepth> done{};
-    };
-
-    void run();
-
-    std::mutex mutex_{};
-    std::condition_variable asked_{};
-    std::deque<Job> waiting_{};  // under the mutex
-    bool leaving_{false};        // under the mutex
-    std::array<std::thread, kWorkers> threads_{};
-};
+/// How a source's frames were cleaned.
+[[nodiscard]] FrameCleaning cleaning_of(const FrameSource& source);
 
 struct SessionFramesOptions {
-    bool any_media{false};         ///< files that have changed are taken too
-    bool colour{false};            ///< for a window: with the colour, and no frame too many
-    bool raw_depth{false};         ///< no cleaning, whatever was recorded
+    bool any_media{false};  ///< files that have changed are taken too
+    bool colour{false};     ///< for a window: with the colour, and no frame too many
+    // Instead of what was recorded; nothing: as it was.
+    std::optional<CleaningPreset> cleaning{};  ///< raw: without the recorded fingertip, too
+    std::optional<Fingertip> finger{};
     std::filesystem::path bump{};  ///< instead of the recorded bump map; empty: the recorded one
 };
 
-/// Decodes a few frames ahead, which are cleaned side by side meanwhile, and keeps all of them as
-/// long as there is room: a video that repeats is decoded once, and going back a little is
-/// immediate. One thread at a time.
+/// Cleans frames as they were and keeps all of them as long as there is room: a video that repeats
+/// is decoded once, and going back a little is immediate. One thread at a time.
 class SessionFrames final : public RecordedFrames {
   public:
     /// Finds all files the session names, checks that they are the same and opens the first video.
@@ -108,21 +75,20 @@ class SessionFrames final : public RecordedFrames {
     struct Video {
         std::filesystem::path colour{}, depth{};
         DepthRequest request{};  ///< what its depth meant
-        std::unique_ptr<Media> media{};
-        std::optional<double> last_s{};  ///< of the last frame decoded
+        std::unique_ptr<FrameReader> reader{};
+        std::optional<double> last_s{};  ///< of the frame last read
     };
     struct Kept {
         FrameSource source{};
-        Frame frame{};  ///< its depth is still to come
-        std::shared_future<CleanedDepth> depth{};
+        Frame frame{};
     };
 
     void find_videos(const Session& session);
     void read_bumps(const Session& session);
-    [[nodiscard]] Media& media_of(Video& video) const;
+    [[nodiscard]] FrameReader& reader_of(Video& video) const;
+    [[nodiscard]] CleaningOptions cleaning_for(const FrameSource& source) const;
     [[nodiscard]] const Kept* find(const FrameSource& source, double media_s) const;
-    void read_on(const FrameSource& source, double media_s);
-    void keep(const FrameSource& source, RawFrame raw);
+    void keep(const FrameSource& source, const Frame& frame);
 
     SessionFramesOptions options_;
     SessionMediaFinder finder_;
@@ -130,7 +96,6 @@ class SessionFrames final : public RecordedFrames {
     std::map<std::filesystem::path, std::shared_ptr<const BumpMap>> bumps_{};  // by recorded names
     std::shared_ptr<const BumpMap> other_bump_{};
     MediaDescription description_{};
-    CleaningWorkers cleaning_{};
     std::deque<Kept> kept_{};  // the oldest first
 };
 

@@ -88,13 +88,14 @@ Json media_json(const SessionMedia& media) {
 }
 
 Json source_json(const SessionSource& source) {
-    return {{"media", source.source.media},
-            {"first_tick", source.first_tick},
-            {"colour", media_json(source.colour)},
-            {"depth", media_json(source.depth)},
-            {"fill_holes", source.source.fill_holes},
-            {"remove_spikes", source.source.remove_spikes},
-            {"smooth_steps", source.source.smooth_steps}};
+    Json json{{"media", source.source.media},
+              {"first_tick", source.first_tick},
+              {"colour", media_json(source.colour)},
+              {"depth", media_json(source.depth)}};
+    visit_cleaning(source.source, [&json](std::string_view name, const auto& fact) {
+        json[std::string(name)] = fact;
+    });
+    return json;
 }
 
 Json parameters_json(SessionParameters parameters) {

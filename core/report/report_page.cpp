@@ -219,9 +219,13 @@ std::string cleaning_text(const FrameSource& source) {
     const auto add = [&text](bool on, const char* name) {
         if (on) text += (text.empty() ? "" : ", ") + std::string(name);
     };
-    add(source.fill_holes, "holes filled");
     add(source.remove_spikes, "spikes removed");
+    add(source.fill_holes, "holes filled");
+    add(source.sharpen_silhouettes, "silhouettes sharpened");
+    add(source.steady, "steadied in time");
     add(source.smooth_steps, "steps smoothed");
+    add(source.smooth_noise, "noise smoothed");
+    add(source.finger_px > 0.0, "touched with a fingertip");
     return text.empty() ? "as it is in the file" : text;
 }
 

@@ -81,7 +81,8 @@ class Row {
     void take_one(std::string& value) { value = text(); }
     void take_one(Vec3& value) { take(value.x, value.y, value.z); }
     void take_one(FrameSource& source) {
-        take(source.media, source.fill_holes, source.remove_spikes, source.smooth_steps);
+        take(source.media);
+        visit_cleaning(source, [this](std::string_view, auto& fact) { take(fact); });
     }
     void take_one(SessionMedia& media) {
         media.file = text();
@@ -92,11 +93,22 @@ class Row {
     int column_{0};
 };
 
-// In the order in which Ticks::next takes them.
+/// The columns of a FrameSource; `s` is the table `source`.
+std::string source_columns(const SessionReader& reader) {
+    const std::set<std::string> columns = columns_of(reader, "source");
+    std::string text = "s.media";
+    FrameSource source;
+    visit_cleaning(source, [&](std::string_view name, const auto&) {
+        text += columns.contains(std::string(name)) ? ", s." + std::string(name) : ", 0";
+    });
+    return text;
+}
+
+// In the order in which Ticks::next takes them; after them the columns of the source, and then:
 constexpr const char* kTickQuestion =
-    "SELECT t.tick, t.t, t.dt_s, t.lateness_us, t.ns, t.settings, "
-    "s.media, s.fill_holes, s.remove_spikes, s.smooth_steps, "
-    "t.frame, t.to_frame, q.from_s, q.to_s, q.span_s, t.blend, t.utc_s, t.video_s, "
+    "SELECT t.tick, t.t, t.dt_s, t.lateness_us, t.ns, t.settings, ";
+constexpr const char* kTickQuestionOn =
+    ", t.frame, t.to_frame, q.from_s, q.to_s, q.span_s, t.blend, t.utc_s, t.video_s, "
     "t.gx, t.gy, t.gz, t.px, t.py, t.pz, t.fx, t.fy, t.fz, t.cx, t.cy, t.cz, t.ox, t.oy, t.oz, "
     "t.moves, t.i, t.j, t.contact, t.primitive, t.buttons, t.cut, "
     "t.surface, t.ready, t.stand_in, t.restart, t.lets_go, t.refused, "
@@ -105,7 +117,11 @@ constexpr const char* kTickQuestion =
     "t.tick >= ";
 static_assert(tick_state::kCatchingUp == 20 && tick_state::kGliding == 21 &&
               tick_state::kStandstill == 22);
-constexpr const char* kInOrder = " ORDER BY t.tick";
+
+std::string ticks_from(const SessionReader& reader, std::int64_t tick) {
+    return kTickQuestion + source_columns(reader) + kTickQuestionOn + std::to_string(tick) +
+           " ORDER BY t.tick";
+}
 
 }  // namespace
 
@@ -193,12 +209,11 @@ void Session::read_parameters() {
 void Session::read_sources() {
     const bool has_meaning = columns_of(reader_, "source").contains("depth_meaning");
     SessionReader::Query query(
-        reader_,
-        "SELECT s.media, fill_holes, remove_spikes, smooth_steps, c.file, c.bytes, c.sha256, "
-        "d.file, d.bytes, d.sha256, first_tick, " +
-            std::string(has_meaning ? "depth_meaning" : "''") +
-            " FROM source s LEFT JOIN media c ON c.id = s.colour "
-            "LEFT JOIN media d ON d.id = s.depth ORDER BY first_tick");
+        reader_, "SELECT " + source_columns(reader_) +
+                     ", c.file, c.bytes, c.sha256, d.file, d.bytes, d.sha256, first_tick, " +
+                     std::string(has_meaning ? "depth_meaning" : "''") +
+                     " FROM source s LEFT JOIN media c ON c.id = s.colour "
+                     "LEFT JOIN media d ON d.id = s.depth ORDER BY first_tick");
     while (query.next()) {
         SessionSource& source = sources_.emplace_back();
         Row(query).take(source.source, source.colour, source.depth, source.first_tick,
@@ -275,10 +290,10 @@ HandTicks hand_ticks(const SessionReader& reader) {
 }
 
 Session::Ticks::Ticks(const Session& session)
-    : query_(session.reader_, kTickQuestion + std::to_string(session.first_tick_) + kInOrder) {}
+    : query_(session.reader_, ticks_from(session.reader_, session.first_tick_)) {}
 
 Session::Ticks::Ticks(const Session& session, double from_s)
-    : query_(session.reader_, kTickQuestion + std::to_string(session.tick_at(from_s)) + kInOrder) {}
+    : query_(session.reader_, ticks_from(session.reader_, session.tick_at(from_s))) {}
 
 bool Session::Ticks::next(TickRecord& tick) {
     if (!query_.next()) return false;

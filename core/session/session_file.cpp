@@ -335,9 +335,15 @@ std::int64_t SessionFile::source_row(const FrameSource& source, std::int64_t tic
     const auto id = static_cast<std::int64_t>(sources_.size());
     const MediaFiles files = known_media_[source.media];
     const auto colour = media_row(files.colour), depth = media_row(files.depth);
-    Statement insert(database_, "INSERT INTO source VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
-    insert.run(id, tick, source.media, colour, depth, source.fill_holes, source.remove_spikes,
-               source.smooth_steps, files.depth_meaning);
+    int columns = 6;  // id, first_tick, media, colour, depth, depth_meaning
+    visit_cleaning(source, [&columns](std::string_view, const auto&) { ++columns; });
+    Statement insert(database_, insertion("INTO source", columns));
+    for (const std::int64_t number : {id, tick, std::int64_t{source.media}}) insert.cell(number);
+    insert.cell(colour);
+    insert.cell(depth);
+    insert.cell(files.depth_meaning);
+    visit_cleaning(source, [&insert](std::string_view, const auto& fact) { insert.cell(fact); });
+    insert.run();
     return id;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string_view>
+#include <type_traits>
 
 #include "core/haptics/safety.hpp"
 #include "core/haptics/surface.hpp"
@@ -16,9 +17,6 @@ namespace {
 constexpr std::string_view kTables = R"(
 CREATE TABLE session(key TEXT PRIMARY KEY, value TEXT);
 CREATE TABLE media(id INTEGER PRIMARY KEY, file TEXT UNIQUE, bytes INTEGER, sha256 TEXT);
-CREATE TABLE source(id INTEGER PRIMARY KEY, first_tick INTEGER, media INTEGER, colour INTEGER,
-  depth INTEGER, fill_holes INTEGER, remove_spikes INTEGER, smooth_steps INTEGER,
-  depth_meaning TEXT);
 CREATE TABLE pair(id INTEGER PRIMARY KEY, source INTEGER, from_frame INTEGER, to_frame INTEGER,
   from_s, to_s, span_s);
 CREATE TABLE clock(t_ns INTEGER PRIMARY KEY, utc_s REAL, dropped INTEGER, high_water INTEGER);
@@ -26,6 +24,18 @@ CREATE TABLE mark(id INTEGER PRIMARY KEY, t REAL, tag TEXT, text TEXT);
 CREATE TABLE cut(code INTEGER PRIMARY KEY, name TEXT);
 CREATE TABLE tick_column(name TEXT, unit TEXT, meaning TEXT);
 )";
+
+std::string source_table() {
+    std::string table =
+        "CREATE TABLE source(id INTEGER PRIMARY KEY, first_tick INTEGER, media INTEGER, "
+        "colour INTEGER, depth INTEGER, depth_meaning TEXT";
+    FrameSource source;
+    visit_cleaning(source, [&table](std::string_view column, const auto& fact) {
+        const bool is_real = std::is_floating_point_v<std::remove_cvref_t<decltype(fact)>>;
+        table += ", " + std::string(column) + (is_real ? " REAL" : " INTEGER");
+    });
+    return table + ");\n";
+}
 
 std::string parameters_table() {
     std::string table =
@@ -230,8 +240,8 @@ std::string session_schema() {
     std::string typed = tick_data_columns();
     typed.replace(typed.find("tick,"), 4, "tick INTEGER PRIMARY KEY");
     typed.replace(typed.find("settings"), 8, "settings INTEGER");
-    return std::string(kTables) + parameters_table() + "CREATE TABLE tick_data(" + typed + ");\n" +
-           tick_view() + ";\n" + explanations() +
+    return std::string(kTables) + source_table() + parameters_table() + "CREATE TABLE tick_data(" +
+           typed + ");\n" + tick_view() + ";\n" + explanations() +
            "PRAGMA application_id = " + std::to_string(kSessionApplicationId) +
            ";\nPRAGMA user_version = " + std::to_string(kSessionSchemaVersion) + ";\n";
 }

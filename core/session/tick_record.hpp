@@ -22,9 +22,27 @@ struct FrameSource {
     bool fill_holes{false};
     bool remove_spikes{false};
     bool smooth_steps{false};
+    bool sharpen_silhouettes{false};
+    bool steady{false};
+    bool smooth_noise{false};
+    double finger_px{0.0};         ///< the fingertip's radius; 0: a point
+    double finger_relief_px{0.0};  ///< for which elevation of the highest level
 
     bool operator==(const FrameSource&) const = default;
 };
+
+/// How they were cleaned, in the order of the columns of table `source`: visit(name, fact).
+template <typename Source, typename Visit>
+void visit_cleaning(Source& source, const Visit& visit) {
+    visit("fill_holes", source.fill_holes);
+    visit("remove_spikes", source.remove_spikes);
+    visit("smooth_steps", source.smooth_steps);
+    visit("sharpen_silhouettes", source.sharpen_silhouettes);
+    visit("steady", source.steady);
+    visit("smooth_noise", source.smooth_noise);
+    visit("finger_px", source.finger_px);
+    visit("finger_relief_px", source.finger_relief_px);
+}
 
 /// Two depth frames that a surface blends: named by their presentation times, which are exact; the
 /// numbers are for people.

@@ -7,7 +7,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
-#include "core/video/depth/patches.hpp"
+#include "core/video/cleaning/patches.hpp"
 #include "core/video/pictures.hpp"
 
 namespace dibhr {

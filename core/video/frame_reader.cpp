@@ -1,145 +1,470 @@
-// Frames of one media in any order, and as a surface at any time.
+// Keeps what was read, and what it was cleaned with.
 #include "core/video/frame_reader.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
+#include <iterator>
 #include <optional>
-#include <string>
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/video/depth/remembering_media.hpp"
+#include "core/video/cleaning/remembering_media.hpp"
 
 namespace dibhr {
 
 namespace {
 
-constexpr std::size_t kKept = 32;
-constexpr std::size_t kLeastKept = 8;                       ///< the window and a few to step back
-constexpr std::size_t kMostBytes = std::size_t{256} << 20;  ///< large frames: fewer of them
-constexpr int kReadBack = 12;                               ///< frames decoded at once to go back
+constexpr std::size_t kMostKept = 48;
+constexpr std::size_t kMostBytes = std::size_t{96} << 20;  ///< beyond what a frame is cleaned with
+constexpr double kMostReadBack = 12.0;                     ///< frames made at once to go back
+constexpr double kReach_s = 0.5;                           ///< what is farther away is another time
 constexpr double kUnknownInterval_s = 1.0 / 25.0;
-constexpr double kShortestLap_s = 1e-4;  ///< a shorter one is taken for a file without time stamps
+/// So many frames in a row fill more than a window: it plays.
+constexpr int kPlaying = static_cast<int>(FrameWindow::kFrames);
+constexpr int kInTime = 30;               ///< so many frames in a row: the machine keeps up
+constexpr double kNewest = 0.1;           ///< the weight of the newest of a moving mean
+constexpr double kSoon_s = 0.1;           ///< what comes sooner needs no preview
+constexpr double kJump_s_a_pixel = 1e-7;  ///< a guess, until one was measured
 
-double milliseconds_since(std::chrono::steady_clock::time_point begin) {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
-        .count();
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
 double interval_s(const MediaDescription& description) {
     return description.frames_per_s > 0.0 ? 1.0 / description.frames_per_s : kUnknownInterval_s;
 }
 
-}  // namespace
-
-FrameReader::FrameReader(std::unique_ptr<Media> media, std::uint32_t number)
-    : media_(std::make_unique<RememberingMedia>(std::move(media))), number_(number) {}
-
-FrameReader::Kept* FrameReader::find(double media_s) {
-    const auto found = std::find_if(kept_.begin(), kept_.end(), [media_s](const Kept& kept) {
-        return kept.raw.media_s == media_s;  // a name: the same frame has the same bits
-    });
-    return found == kept_.end() ? nullptr : &*found;
+/// About as many as are kept then, beside the wanted one and the next.
+double frames_read_back(const MediaDescription& description) {
+    const double depth = 1.0 * description.depth_columns * description.depth_rows;
+    const double colour = 1.0 * description.colour_columns * description.colour_rows;
+    const double bytes = depth * sizeof(float) + 3.0 * colour;
+    return std::clamp(std::floor(kMostBytes / bytes) - 2.0, 1.0, kMostReadBack);
 }
 
-FrameReader::Kept* FrameReader::read() {
-    const auto begin = std::chrono::steady_clock::now();
-    auto raw = media_->next();
-    begun_ = true;
-    if (!raw) return nullptr;
-    cost_.decode_ms = milliseconds_since(begin);
-    Kept* before = position_s_ ? find(*position_s_) : nullptr;
-    if (before != nullptr) before->next_s = raw->media_s;
-    Kept* kept = find(raw->media_s);
-    if (kept == nullptr) {
-        drop_oldest();
-        kept = &kept_.emplace_back();
-        kept->raw.depth = std::make_shared<const DepthImage>(std::move(raw->depth));
-        kept->held = std::move(raw->held);
-        kept->raw.colour = std::make_shared<const ColourImage>(std::move(raw->colour));
-        kept->raw.media_s = raw->media_s;
-        kept->raw.index = raw->index;
-        kept->raw.media = number_;
+std::size_t bytes_of(const DepthImage& depth) {
+    return depth.levels.size() * sizeof(float);
+}
+
+}  // namespace
+
+FrameReader::FrameReader(std::unique_ptr<Media> media, std::uint32_t number, ReadingHearts hearts)
+    : media_(std::make_unique<RememberingMedia>(std::move(media)), hearts),
+      number_(number),
+      jump_s_(kJump_s_a_pixel * description().depth_columns * description().depth_rows),
+      in_time_(kInTime) {}
+
+std::size_t FrameReader::Kept::bytes() const {
+    std::size_t bytes = frame.colour ? frame.colour->rgb.size() : 0;
+    bytes += bytes_of(raw.depth) + raw.held.size() * sizeof(HeldLevel);
+    if (const LoneDepth* lone = raw.lone.get(); lone != nullptr)
+        bytes += bytes_of(lone->depth) + lone->made_up.size() + lone->unseen.size();
+    if (cleaned) bytes += bytes_of(*cleaned->depth);
+    if (cleaned && cleaned->beneath) bytes += bytes_of(*cleaned->beneath);
+    return bytes;
+}
+
+FrameReader::Kept* FrameReader::find(double media_s) {
+    const auto found = kept_.find(media_s);
+    return found == kept_.end() ? nullptr : &found->second;
+}
+
+FrameReader::Kept* FrameReader::find_shown(double media_s) {
+    const auto shown = [](Kept& kept) { return kept.has(Needs::surface) ? &kept : nullptr; };
+    if (Kept* exactly = find(media_s)) return shown(*exactly);
+    const double wanted_s = media_s + kTimeTolerance_s;
+    const auto after = kept_.upper_bound(wanted_s);
+    if (after == kept_.begin()) return nullptr;
+    Kept& before = std::prev(after)->second;
+    return before.next_s && wanted_s < *before.next_s ? shown(before) : nullptr;
+}
+
+FrameReader::Kept* FrameReader::read(const Pace& pace) {
+    const std::optional<Position> last = std::exchange(position_, std::nullopt);
+    heading_.reset();
+    const auto begin = Clock::now();
+    auto raw = media_.next_from(pace.earliest_s, pace.apart_s);
+    const double waited_s = seconds_since(begin);
+    Kept* before = last ? find(last->media_s) : nullptr;
+    if (!raw) {
+        if (before != nullptr) before->last = true;
+        position_ = last;
+        return nullptr;
     }
-    if (position_s_) kept->previous_s = position_s_;
-    position_s_ = raw->media_s;
+    const std::int64_t frames =
+        before != nullptr ? std::max<std::int64_t>(raw->index - before->frame.index, 1) : 1;
+    tell_wait(*raw, frames, waited_s);
+    passed_over_ += frames - 1;
+    const bool follows = last && last->gapless && frames == 1;
+    if (follows && before != nullptr) before->next_s = raw->media_s;
+    Kept* kept = keep(std::move(*raw));
+    if (at_beginning_) kept->first = true;
+    if (follows) kept->previous_s = last->media_s;
+    at_beginning_ = false;
+    // What was passed over ahead of time may be missing anywhere from here on.
+    const bool gapless = !(pace.apart_s > 0.0) && (!last || last->gapless);
+    position_ = {kept->frame.media_s, gapless};
     return kept;
 }
 
-/// Makes room for one more. Re-read frames stay where they are: the oldest decoded goes first.
-void FrameReader::drop_oldest() {
-    if (kept_.empty()) return;
-    const std::size_t by_size = kMostBytes / std::max<std::size_t>(1, bytes_of(kept_.back()));
-    const std::size_t most = std::clamp(by_size, kLeastKept, kKept);
-    while (kept_.size() >= most) kept_.pop_front();
+/// For a frame, and for those that were passed over before it.
+void FrameReader::tell_wait(const RawFrame& raw, std::int64_t frames, double waited_s) {
+    waited_s = std::max(waited_s - 1e-3 * raw.lone_ms, 0.0);
+    waited_s_ += waited_s;
+    cost_.decode_ms = 1000.0 * waited_s;
+    const auto count = static_cast<double>(frames);
+    const bool only_decoded = raw.passing_s > 0.0 && !plan_.steps.steady;
+    const double passing_s = only_decoded ? raw.passing_s : waited_s / count;
+    decoding_s_ += kNewest * (passing_s - decoding_s_);
+    if (!only_decoded)
+        making_s_ = 0.0;
+    else if (const auto making_s = media_.making_s())
+        making_s_ += kNewest * (*making_s - making_s_);
 }
 
-std::size_t FrameReader::bytes_of(const Kept& kept) {
-    return 2 * kept.raw.depth->levels.size() * sizeof(float) +
-           kept.held.size() * sizeof(HeldLevel) + kept.raw.colour->rgb.size();
+FrameReader::Kept* FrameReader::keep(RawFrame raw) {
+    let_go();
+    Kept& kept = kept_[raw.media_s];
+    if (!kept.frame.colour) {  // it is new, or nobody had wanted it any more
+        kept.frame.colour = std::make_shared<const ColourImage>(std::move(raw.colour));
+        kept.frame.media_s = raw.media_s;
+        kept.frame.media = number_;
+    }
+    kept.frame.index = raw.index;  // an estimate after some jumps, which frames in a row share
+    raw.colour = {};
+    if (!kept.can_be_cleaned()) kept.raw = std::move(raw);
+    return &kept;
+}
+
+std::size_t FrameReader::reach() const {
+    return plan_.steps.steady ? kReachInTime : 0;
+}
+
+/// Makes room for one more. What the wanted frame and the next one depend on stays. Of what else
+/// was cleaned only the result does, and what is farthest from the wanted frame goes first.
+void FrameReader::let_go() {
+    const auto stays = static_cast<std::ptrdiff_t>(reach() + 1);
+    const auto wanted = kept_.lower_bound(wanted_s_);
+    auto before = std::distance(kept_.begin(), wanted);
+    auto after = std::distance(wanted, kept_.end());
+    std::ptrdiff_t away = -before;
+    std::size_t bytes = 0;
+    for (auto& [media_s, kept] : kept_) {
+        if (kept.cleaned && std::abs(away) > stays) {
+            kept.raw = {};
+        }
+        ++away;
+        bytes += kept.bytes();
+    }
+    while (bytes > kMostBytes || kept_.size() > kMostKept) {
+        const double before_s = before > stays ? wanted_s_ - kept_.begin()->first : 0.0;
+        const double after_s = after > stays + 1 ? kept_.rbegin()->first - wanted_s_ : 0.0;
+        if (!(std::max(before_s, after_s) > 0.0)) break;
+        const auto farthest = before_s > after_s ? kept_.begin() : std::prev(kept_.end());
+        (before_s > after_s ? before : after) -= 1;
+        bytes -= farthest->second.bytes();
+        kept_.erase(farthest);
+    }
+    // On those before the one before it only others depend.
+    for (auto at = kept_.begin(); at != wanted && std::next(at) != wanted; ++at) {
+        if (bytes <= kMostBytes) return;
+        Kept& kept = at->second;
+        bytes -= kept.bytes();
+        kept.frame.colour.reset();
+        kept.cleaned.reset();
+        bytes += kept.bytes();
+    }
 }
 
 void FrameReader::jump_to(double media_s) {
-    media_->seek(media_s);
-    position_s_.reset();
+    media_.seek(media_s);
+    at_beginning_ = !(media_s > 0.0);
+    position_.reset();
+    heading_.reset();
 }
 
-Frame FrameReader::cleaned(Kept& kept) {
-    Frame frame = kept.raw;
-    if (!kept.cleaned) {
-        const auto begin = std::chrono::steady_clock::now();
-        kept.cleaned = cleaner_.cleaned(*kept.raw.depth, cleaning_, kept.held);
-        cost_.clean_ms = milliseconds_since(begin);
-        cost_.cleaned = std::chrono::steady_clock::now();
+bool FrameReader::heads_for(double media_s) const {
+    return heading_ && heading_->from_s <= media_s && media_s <= heading_->kept_to_s;
+}
+
+bool FrameReader::goes_on_after(double media_s) const {
+    return position_ && position_->media_s == media_s;
+}
+
+/// Where all kept frames that follow this one are cleaned, the decoder jumps to the end of their
+/// row while they are shown, early enough for what the next one is cleaned with.
+void FrameReader::go_on_from_kept(double media_s) {
+    std::vector<const Kept*> row{find(media_s)};
+    while (const Kept* next = kept_after(*row.back(), Needs::surface)) row.push_back(next);
+    const double kept_to_s = row.back()->frame.media_s;
+    if (row.back()->last || goes_on_after(kept_to_s) || heads_for(kept_to_s)) return;
+    const auto is_cleaned = [](const Kept* kept) { return kept->cleaned.has_value(); };
+    if (!std::all_of(row.begin(), row.end(), is_cleaned)) return;
+    const double from_s = row[row.size() - 1 - std::min(reach(), row.size() - 1)]->frame.media_s;
+    media_.decode_from(from_s);
+    at_beginning_ = !(from_s > 0.0);
+    position_.reset();
+    heading_ = {from_s, kept_to_s};
+}
+
+/// Of the frames that follow. Where they break off, of those before: who asks for one is told.
+DepthNoise FrameReader::noise_of(Media& media) {
+    NoiseMeter meter;
+    try {
+        for (std::size_t k = 0; k < NoiseMeter::kEnough; ++k) {
+            const std::optional<RawFrame> raw = media.next();
+            if (!raw) break;
+            meter.add(raw->depth);
+        }
+    } catch (const InputError&) {
     }
-    frame.depth = kept.cleaned->depth;
-    frame.unseen = kept.cleaned->unseen;
-    frame.cleaning = cleaning_;
+    return meter.noise();
+}
+
+/// What the clip's noise asks for is known before its first frame is cleaned.
+void FrameReader::make_plan() {
+    if (planned_) return;
+    if (needs_noise(options_) && !noise_) {
+        media_.prepare_with(nullptr);
+        const auto begin = Clock::now();
+        jump_to(0.0);
+        noise_ = noise_of(media_);
+        jump_to(0.0);
+        waited_s_ += seconds_since(begin);
+    }
+    const std::size_t pixels = static_cast<std::size_t>(description().depth_columns) *
+                               static_cast<std::size_t>(description().depth_rows);
+    const CleaningPlan plan = plan_of(options_, noise_.value_or(DepthNoise{}), pixels);
+    if (!same_alone(plan.steps, plan_.steps)) {
+        kept_.clear();
+        jump_to(0.0);
+    }
+    for (auto& [media_s, kept] : kept_) kept.cleaned.reset();
+    std::erase_if(kept_, [](const auto& kept) { return !kept.second.can_be_cleaned(); });
+    plan_ = plan;
+    planned_ = true;
+    clean_ahead();
+}
+
+void FrameReader::clean_alone(RawFrame& raw, const CleaningPlan& plan) {
+    const std::lock_guard lock(alone_);
+    const auto begin = Clock::now();
+    const std::vector<HeldLevel> held = std::move(raw.held);
+    raw.lone = std::make_shared<const LoneDepth>(chain_.alone(std::move(raw.depth), plan, held));
+    raw.lone_ms = 1000.0 * seconds_since(begin);
+}
+
+/// Unless the machine is too slow for all frames: then who reads cleans, while the next is decoded.
+void FrameReader::clean_ahead() {
+    if (in_time_ < kInTime && !plan_.steps.steady)
+        media_.prepare_with(nullptr);
+    else
+        media_.prepare_with([this, plan = plan_](RawFrame& raw) { clean_alone(raw, plan); });
+}
+
+const std::shared_ptr<const LoneDepth>& FrameReader::lone_of(Kept& kept) {
+    if (!kept.raw.lone) clean_alone(kept.raw, plan_);
+    cost_.clean_ms += std::exchange(kept.raw.lone_ms, 0.0);
+    return kept.raw.lone;
+}
+
+/// The lone frames around one, in order of time, and which of them it is.
+FrameReader::Around FrameReader::around(double media_s) {
+    Around around;
+    const auto is_near = [media_s](const Kept* kept) {
+        return kept != nullptr && std::fabs(kept->frame.media_s - media_s) <= kReach_s;
+    };
+    around.frames.push_back(lone_of(*find(media_s)));
+    double first_s = media_s;
+    for (std::size_t k = 0; k < reach(); ++k) {
+        Kept* before = looked_back(first_s);
+        if (!is_near(before)) break;
+        around.frames.insert(around.frames.begin(), lone_of(*before));
+        ++around.now;
+        first_s = before->frame.media_s;
+    }
+    double last_s = media_s;
+    for (std::size_t k = 0; k < reach(); ++k) {
+        Kept* after = looked_ahead(last_s);
+        if (!is_near(after)) break;
+        around.frames.push_back(lone_of(*after));
+        last_s = after->frame.media_s;
+    }
+    return around;
+}
+
+Frame FrameReader::cleaned(double media_s) {
+    wanted_s_ = media_s;
+    if (!find(media_s)->cleaned) {
+        cost_.clean_ms = 0.0;
+        const Around around = this->around(media_s);
+        const auto begin = Clock::now();
+        std::vector<const LoneDepth*> frames;
+        frames.reserve(around.frames.size());
+        for (const auto& lone : around.frames) frames.push_back(lone.get());
+        find(media_s)->cleaned = chain_.finished(frames, around.now, plan_);
+        cost_.clean_ms += 1000.0 * seconds_since(begin);
+        cost_.cleaned = Clock::now();
+    }
+    const Kept& kept = *find(media_s);
+    return with_depth(kept.frame, *kept.cleaned, plan_.steps);
+}
+
+Frame FrameReader::with_depth(Frame frame, const CleanedDepth& cleaned,
+                              const CleaningSteps& steps) const {
+    frame.depth = cleaned.depth;
+    frame.unseen = cleaned.unseen;
+    frame.beneath = cleaned.beneath;
+    frame.cleaning = {steps, plan_.finger};
     return frame;
 }
 
-std::optional<Frame> FrameReader::at(double media_s) {
-    if (Kept* exact = find(media_s)) return cleaned(*exact);
-    const double wanted_s = media_s + kTimeTolerance_s;
-    for (Kept& kept : kept_)
-        if (kept.raw.media_s <= wanted_s && kept.next_s && wanted_s < *kept.next_s)
-            return cleaned(kept);
-    if (begun_ || media_s > 0.0) jump_to(media_s);
-    Kept* kept = read();
-    if (kept == nullptr) return std::nullopt;
-    return cleaned(*kept);
+FrameReader::Kept* FrameReader::kept_after(const Kept& kept, Needs needs) {
+    Kept* next = kept.next_s ? find(*kept.next_s) : nullptr;
+    return next != nullptr && next->has(needs) ? next : nullptr;
 }
 
-std::optional<Frame> FrameReader::after(double media_s) {
-    if (const Kept* here = find(media_s); here != nullptr && here->next_s)
-        if (Kept* next = find(*here->next_s)) return cleaned(*next);
-    if (position_s_ != media_s) {
-        jump_to(media_s);
-        if (read() == nullptr) return std::nullopt;
+FrameReader::Kept* FrameReader::next_of(double media_s, Needs needs) {
+    if (const Kept* here = find(media_s)) {
+        if (here->last) return nullptr;
+        if (Kept* next = kept_after(*here, needs)) return next;
     }
-    Kept* next = read();
-    if (next == nullptr) return std::nullopt;
-    return cleaned(*next);
+    if (!goes_on_after(media_s) || !position_->gapless) {
+        if (!heads_for(media_s)) jump_to(media_s);
+        do {
+            if (read() == nullptr) return nullptr;
+        } while (position_->media_s < media_s);
+    }
+    return read();
 }
 
-std::optional<Frame> FrameReader::before(double media_s) {
-    if (const Kept* here = find(media_s); here != nullptr && here->previous_s)
-        if (Kept* previous = find(*here->previous_s)) return cleaned(*previous);
-    double back_s = kReadBack * interval_s(description());
+/// Null also where the file breaks off: who asks for that frame itself is told.
+FrameReader::Kept* FrameReader::looked_ahead(double media_s) {
+    if (broken_ && broken_->after_s == media_s) return nullptr;
+    try {
+        return next_of(media_s, Needs::depth);
+    } catch (const InputError&) {
+        broken_ = {media_s, std::current_exception()};
+        return nullptr;
+    }
+}
+
+/// Null also where what is before cannot be read.
+FrameReader::Kept* FrameReader::looked_back(double media_s) {
+    try {
+        return previous_of(media_s, Needs::depth);
+    } catch (const InputError&) {
+        return nullptr;
+    }
+}
+
+FrameReader::Kept* FrameReader::previous_of(double media_s, Needs needs) {
+    if (const Kept* here = find(media_s)) {
+        if (here->first) return nullptr;
+        Kept* previous = here->previous_s ? find(*here->previous_s) : nullptr;
+        if (previous != nullptr && previous->has(needs)) return previous;
+    }
+    double back_s = frames_read_back(description()) * interval_s(description());
     for (;; back_s *= 2.0) {
         const double from_s = std::max(0.0, media_s - back_s);
         jump_to(from_s);
         std::optional<double> previous_s;
         const Kept* kept = read();
-        while (kept != nullptr && kept->raw.media_s < media_s) {
-            previous_s = kept->raw.media_s;
+        while (kept != nullptr && kept->frame.media_s < media_s) {
+            previous_s = kept->frame.media_s;
             kept = read();
         }
         if (previous_s)
-            if (Kept* previous = find(*previous_s)) return cleaned(*previous);
-        if (!(from_s > 0.0)) return std::nullopt;
+            if (Kept* previous = find(*previous_s)) return previous;
+        if (!(from_s > 0.0)) return nullptr;
     }
+}
+
+std::optional<Frame> FrameReader::at(double media_s) {
+    make_plan();
+    in_a_row_ = 0;
+    if (const Kept* kept = find_shown(media_s)) return cleaned(kept->frame.media_s);
+    const auto begin = Clock::now();
+    wanted_s_ = media_s;
+    jump_to(media_s);
+    const Kept* kept = read();
+    if (kept == nullptr) return std::nullopt;
+    const Frame frame = cleaned(kept->frame.media_s);
+    jump_s_ = seconds_since(begin);
+    return frame;
+}
+
+/// What cleans frames with those around them needs them all.
+const FrameReader::Kept* FrameReader::next_wanted(double media_s, const Pace& pace) {
+    if (broken_ && broken_->after_s == media_s) {
+        const std::exception_ptr why = std::exchange(broken_, {})->why;
+        std::rethrow_exception(why);
+    }
+    const bool passes = pace.earliest_s > media_s || pace.apart_s > 0.0;
+    const Kept* const here = find(media_s);
+    const bool is_kept = here != nullptr && kept_after(*here, Needs::surface) != nullptr;
+    if (plan_.steps.steady || !passes || is_kept || !goes_on_after(media_s))
+        return next_of(media_s, Needs::surface);
+    return here != nullptr && here->last ? nullptr : read(pace);
+}
+
+std::optional<Frame> FrameReader::after(double media_s, const Pace& pace) {
+    make_plan();
+    const Kept* next = nullptr;
+    const std::int64_t passed_over = passed_over_;
+    for (double from_s = media_s;; from_s = wanted_s_) {
+        const Kept* further = next_wanted(from_s, pace);
+        if (further == nullptr) break;
+        if (next != nullptr) ++passed_over_;
+        next = further;
+        wanted_s_ = next->frame.media_s;
+        if (!(wanted_s_ < pace.earliest_s)) break;
+    }
+    if (next == nullptr) return std::nullopt;
+    keep_pace(passed_over_ - passed_over);
+    Frame frame = cleaned(next->frame.media_s);
+    if (++in_a_row_ >= kPlaying) go_on_from_kept(frame.media_s);
+    return frame;
+}
+
+void FrameReader::keep_pace(std::int64_t passed_over) {
+    const bool was_in_time = in_time_ >= kInTime;
+    in_time_ = passed_over > 0 ? 0 : std::min(in_time_ + 1, kInTime);
+    if (was_in_time != (in_time_ >= kInTime)) clean_ahead();
+}
+
+std::optional<Frame> FrameReader::before(double media_s) {
+    make_plan();
+    in_a_row_ = 0;
+    wanted_s_ = media_s;
+    const Kept* previous = previous_of(media_s, Needs::surface);
+    if (previous == nullptr) return std::nullopt;
+    return cleaned(previous->frame.media_s);
+}
+
+std::optional<Frame> FrameReader::preview(double media_s) {
+    make_plan();
+    if (jump_s_ < kSoon_s || find_shown(media_s) != nullptr) return std::nullopt;
+    media_.seek_near(media_s);
+    position_.reset();
+    heading_.reset();
+    at_beginning_ = false;
+    std::optional<RawFrame> raw = media_.next();
+    if (!raw) return std::nullopt;
+    Frame frame;
+    frame.colour = std::make_shared<const ColourImage>(std::move(raw->colour));
+    frame.media_s = raw->media_s;
+    frame.index = raw->index;
+    frame.media = number_;
+    CleaningSteps steps = plan_.steps;
+    steps.steady = false;
+    if (!raw->lone) clean_alone(*raw, plan_);
+    const LoneDepth* const lone = raw->lone.get();
+    return with_depth(std::move(frame), chain_.finished({&lone, 1}, 0, plan_), steps);
 }
 
 double FrameReader::last_interval_s(double media_s) {
@@ -149,111 +474,9 @@ double FrameReader::last_interval_s(double media_s) {
 }
 
 void FrameReader::set_cleaning(const CleaningOptions& options) {
-    if (options == cleaning_) return;
-    cleaning_ = options;
-    for (Kept& kept : kept_) kept.cleaned.reset();
-}
-
-DepthInTime::DepthInTime(std::unique_ptr<Media> media, bool moving, const CleaningOptions& cleaning)
-    : reader_(std::move(media)) {
-    const std::string name = reader_.description().depth_path.string();
-    reader_.set_cleaning(cleaning);
-    std::optional<Frame> first = reader_.at(0.0);
-    if (!first) {
-        throw InputError(name + ": holds no picture; choose another depth file");
-    }
-    const DepthImage& depth = *first->depth;
-    if (depth.columns < 2 || depth.rows < 2) {
-        throw InputError(name + ": " + std::to_string(depth.columns) + "x" +
-                         std::to_string(depth.rows) +
-                         " pixels are too few to touch; choose a depth file of at least 2x2");
-    }
-    first_media_s_ = first->media_s;
-    add(std::move(first));
-    if (moving && !reader_.description().still) add(reader_.after(first_media_s_));
-}
-
-bool DepthInTime::advance_to(double playback_s) {
-    bool started_again = false;
-    now_s_ = playback_s;
-    while (frames_.size() > 1 && frames_[1].time_s <= playback_s) {
-        last_interval_s_ = frames_[1].time_s - frames_[0].time_s;
-        frames_.erase(frames_.begin());
-        if (add(reader_.after(frames_[0].media_s))) continue;
-        started_again = start_again(playback_s) || started_again;
-    }
-    return started_again;
-}
-
-bool DepthInTime::add(std::optional<Frame> frame) {
-    if (!frame) return false;
-    frame->time_s = offset_s_ + frame->media_s - first_media_s_;
-    frames_.push_back(std::move(*frame));
-    return true;
-}
-
-bool DepthInTime::start_again(double playback_s) {
-    const double lap_s = frames_[0].time_s + last_interval_s_ - offset_s_;
-    if (!(lap_s > kShortestLap_s)) return false;
-    // Whole laps that nobody asks for are not decoded.
-    const double laps = std::floor((playback_s - offset_s_) / lap_s);
-    offset_s_ += std::fmax(laps, 1.0) * lap_s;
-    return add(reader_.at(first_media_s_));
-}
-
-DepthClip::DepthClip(std::vector<Frame> frames, const SurfaceShape& shape,
-                     std::shared_ptr<const BumpMap> bump)
-    : frames_(std::move(frames)), shape_(shape), bump_(std::move(bump)) {
-    if (frames_.empty()) throw InputError("the depth video holds no picture; choose another one");
-    const Frame& first = frames_.front();
-    if (first.depth->columns < 2 || first.depth->rows < 2) {
-        throw InputError("the depth video is too small to touch; choose one of at least 2x2");
-    }
-    double interval_s = 0.0;
-    for (std::size_t k = 1; k < frames_.size(); ++k) {
-        if (!DepthBlend{&first, &frames_[k]}.makes_surface()) {
-            throw InputError("the depth video's pictures differ in size; choose another one");
-        }
-        interval_s = frames_[k].time_s - frames_[k - 1].time_s;
-        if (!(interval_s > 0.0)) {
-            throw InputError("the depth video's pictures are not in order; choose another one");
-        }
-    }
-    if (frames_.size() == 1) return;
-    Frame again = frames_.front();
-    again.time_s = frames_.back().time_s + interval_s;
-    frames_.push_back(std::move(again));
-}
-
-DepthSurface DepthClip::at(double t_s) const noexcept {
-    const double begin_s = frames_.front().time_s;
-    const double lap_s = frames_.size() > 1 ? std::fmod(std::max(t_s, 0.0), duration_s()) : 0.0;
-    return depth_at(frames_, begin_s + lap_s).surface(shape_, bump_.get());
-}
-
-double DepthClip::time_of(std::int64_t frame, double blend) const noexcept {
-    if (frames_.size() == 1) return 0.0;
-    const auto last = static_cast<std::int64_t>(frames_.size()) - 2;
-    const auto k = static_cast<std::size_t>(std::clamp<std::int64_t>(frame, 0, last));
-    const double begin_s = frames_.front().time_s;
-    const double from_s = frames_[k].time_s - begin_s;
-    const double to_s = frames_[k + 1].time_s - begin_s;
-    return from_s + std::clamp(blend, 0.0, 1.0) * (to_s - from_s);
-}
-
-DepthClip read_depth_clip(std::unique_ptr<Media> media, const CleaningOptions& cleaning,
-                          const SurfaceShape& shape,
-                          const std::function<void(double share)>& progress) {
-    FrameReader reader(std::move(media));
-    reader.set_cleaning(cleaning);
-    const auto count = static_cast<double>(std::max<std::int64_t>(reader.description().frames, 1));
-    std::vector<Frame> frames;
-    for (auto frame = reader.at(0.0); frame; frame = reader.after(frames.back().media_s)) {
-        frame->time_s = frame->media_s;
-        frames.push_back(std::move(*frame));
-        if (progress) progress(static_cast<double>(frames.size()) / count);
-    }
-    return {std::move(frames), shape};
+    if (options == options_) return;
+    options_ = options;
+    planned_ = false;
 }
 
 }  // namespace dibhr

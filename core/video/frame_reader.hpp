@@ -1,17 +1,18 @@
-// Frames of one media, cleaned, in any order; and a depth video as a surface at any time, for runs
-// without a clock: `dibhr touch`, experiments.
+// Frames of one media, cleaned, in any order.
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
-#include <deque>
-#include <functional>
+#include <exception>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
-#include "core/haptics/surface.hpp"
-#include "core/video/depth/depth_cleaning.hpp"
+#include "core/video/cleaning/cleaning_chain.hpp"
+#include "core/video/decoded_ahead.hpp"
 #include "core/video/frame_window.hpp"
 #include "core/video/media.hpp"
 
@@ -19,121 +20,154 @@ namespace dibhr {
 
 /// What the last frame cost.
 struct FrameCost {
-    double decode_ms{0.0};
-    double clean_ms{0.0};
+    double decode_ms{0.0};                            ///< waited for
+    double clean_ms{0.0};                             ///< on whichever thread
     std::chrono::steady_clock::time_point cleaned{};  ///< when it was ready
 };
 
-/// One thread at a time. Frames are named by their presentation time in the file; those
-/// given out have `time_s` 0. Everything that decodes may throw InputError.
+/// Which of the frames that follow one are wanted, while they play; media time [s].
+struct Pace {
+    double earliest_s{0.0};  ///< those before are passed over, up to the last
+    double apart_s{0.0};     ///< so much after the one that is given out the next one is wanted
+};
+
+/// Decodes on a thread of its own, which cleans alone what waits; is called by one thread at a
+/// time. Frames are named by their presentation time in the file; those given out have `time_s` 0.
+/// Everything that decodes may throw InputError.
 class FrameReader {
   public:
     /// Every frame carries `number`, for who needs to know where it came from.
-    explicit FrameReader(std::unique_ptr<Media> media, std::uint32_t number = 0);
+    explicit FrameReader(std::unique_ptr<Media> media, std::uint32_t number = 0,
+                         ReadingHearts hearts = {});
 
     /// The frame shown at `media_s`; the first before the beginning, the last after the end.
     std::optional<Frame> at(double media_s);
-    /// The frame after the one at exactly `media_s`; nothing at the end.
-    std::optional<Frame> after(double media_s);
+    /// The frame after the one at exactly `media_s`, or what the pace wants instead; nothing at the
+    /// end.
+    std::optional<Frame> after(double media_s, const Pace& pace = {});
     /// The frame before the one at exactly `media_s`; nothing at the beginning.
     std::optional<Frame> before(double media_s);
 
-    /// How long the last frame, the one at exactly `media_s`, is shown: as long as the one before
-    /// [s].
+    /// For the eye, while at() would take long: a frame near `media_s` as quickly as one can be
+    /// had, cleaned by itself. Nothing where at() is as quick.
+    std::optional<Frame> preview(double media_s);
+
+    /// How long the last frame, the one at exactly `media_s`, is shown: as long as the one before,
+    /// or, where that was passed over, as long as frames are on average [s].
     [[nodiscard]] double last_interval_s(double media_s);
 
     /// From here on frames come cleaned so; those given out before are asked for again.
     void set_cleaning(const CleaningOptions& options);
 
-    [[nodiscard]] const MediaDescription& description() const { return media_->description(); }
+    [[nodiscard]] const MediaDescription& description() const { return media_.description(); }
     [[nodiscard]] const FrameCost& cost() const { return cost_; }
+    /// How many frames after() has passed over.
+    [[nodiscard]] std::int64_t passed_over() const { return passed_over_; }
+    /// How long a frame takes that is passed over, as of late [s]: where it is only decoded that,
+    /// else how long one is waited for without what is done to it ahead of time.
+    [[nodiscard]] double decoding_s() const { return decoding_s_; }
+
+    /// How long one that is not passed over takes beyond that, on the thread that decodes, as of
+    /// late [s]; 0: nothing, or it is not known.
+    [[nodiscard]] double making_s() const { return making_s_; }
+
+    /// The sum of all waits, and of what measuring a clip's noise took [s].
+    [[nodiscard]] double waited_s() const { return waited_s_; }
+
+    /// What is done to them, once a frame has been given out.
+    [[nodiscard]] const CleaningPlan& plan() const { return plan_; }
 
   private:
-    /// A decoded frame and its neighbours, as far as they were read one after the other.
+    /// Of a kept frame: to give it out, or to clean others with it.
+    enum class Needs { surface, depth };
+    /// A decoded frame and its neighbours, as far as they were read one after the other. Cleaned by
+    /// itself and then with those around it when that is asked for; what was made of it last may be
+    /// all that is left.
     struct Kept {
-        Frame raw{};
-        std::vector<HeldLevel> held{};
+        Frame frame{};   ///< without its depth
+        RawFrame raw{};  ///< without its colour; its lone_ms until they are told
         std::optional<CleanedDepth> cleaned{};
         std::optional<double> previous_s{}, next_s{};
+        bool first{false}, last{false};  ///< of the media
+
+        [[nodiscard]] bool can_be_cleaned() const { return raw.lone || !raw.depth.levels.empty(); }
+        [[nodiscard]] bool has(Needs needs) const {
+            if (needs == Needs::depth) return can_be_cleaned();
+            return frame.colour && (cleaned || can_be_cleaned());
+        }
+        [[nodiscard]] std::size_t bytes() const;
+    };
+    /// Of the last decoded frame. Gapless: those that follow it come one by one.
+    struct Position {
+        double media_s{0.0};
+        bool gapless{true};
+    };
+    /// Where the next decoded frame is, and after which one those begin that are not kept.
+    struct Heading {
+        double from_s{0.0}, kept_to_s{0.0};
+    };
+    struct Around {
+        std::vector<std::shared_ptr<const LoneDepth>> frames{};
+        std::size_t now{0};
     };
 
-    Kept* find(double media_s);
-    Kept* read();  ///< decodes the next frame and keeps it; null at the end
+    // Null: it is not kept. What is found stays where it is until the next frame is read.
+    Kept* find(double media_s);        ///< at exactly that time
+    Kept* find_shown(double media_s);  ///< shown then, and can be given out
+    /// Decodes the next frame that the pace wants and keeps it; null at the end.
+    Kept* read(const Pace& pace = {});
+    void tell_wait(const RawFrame& raw, std::int64_t frames, double waited_s);
+    Kept* keep(RawFrame raw);
+    const std::shared_ptr<const LoneDepth>& lone_of(Kept& kept);
+    void clean_alone(RawFrame& raw, const CleaningPlan& plan);  ///< on either thread
+    Kept* kept_after(const Kept& kept, Needs needs);
+    Kept* next_of(double media_s, Needs needs);  ///< of one at exactly that time; null at the end
+    Kept* looked_ahead(double media_s);
+    Kept* looked_back(double media_s);
+    Kept* previous_of(double media_s, Needs needs);  ///< null at the beginning
     void jump_to(double media_s);
-    void drop_oldest();
-    [[nodiscard]] static std::size_t bytes_of(const Kept& kept);
-    Frame cleaned(Kept& kept);
+    [[nodiscard]] bool heads_for(double media_s) const;
+    [[nodiscard]] bool goes_on_after(double media_s) const;
+    const Kept* next_wanted(double media_s, const Pace& pace);
+    void go_on_from_kept(double media_s);
+    void let_go();
+    [[nodiscard]] std::size_t reach() const;
+    void make_plan();
+    void clean_ahead();
+    void keep_pace(std::int64_t passed_over);
+    [[nodiscard]] static DepthNoise noise_of(Media& media);
+    Around around(double media_s);
+    Frame cleaned(double media_s);  ///< of a kept frame at exactly that time
+    [[nodiscard]] Frame with_depth(Frame frame, const CleanedDepth& cleaned,
+                                   const CleaningSteps& steps) const;
 
-    std::unique_ptr<Media> media_;
+    std::mutex alone_{};  ///< the chain's alone() is in use
+    CleaningChain chain_{};
+    DecodedAhead media_;  // after what its thread uses
     std::uint32_t number_;
-    DepthCleaner cleaner_{};
-    CleaningOptions cleaning_{};
-    std::deque<Kept> kept_{};             ///< in the order of decoding
-    bool begun_{false};                   ///< something has been read
-    std::optional<double> position_s_{};  ///< of the last decoded frame, if the next one follows it
+    CleaningOptions options_{};
+    std::optional<DepthNoise> noise_{};  ///< of the clip, once it is needed
+    /// A file that broke off after a frame, which was noticed ahead of time.
+    struct Broken {
+        double after_s{0.0};
+        std::exception_ptr why{};
+    };
+    std::optional<Broken> broken_{};
+    CleaningPlan plan_{};  ///< what the options mean for it
+    bool planned_{false};
+    std::map<double, Kept> kept_{};       ///< by presentation time
+    double wanted_s_{0.0};                ///< the frame that is, or was last, given out
+    bool at_beginning_{true};             ///< the next frame is the first one
+    std::optional<Position> position_{};  ///< if the next decoded frame comes after it
+    std::optional<Heading> heading_{};    ///< the decoder's, until it is read
+    int in_a_row_{0};                     ///< frames that after() gave out since a jump or a step
+    double decoding_s_{0.0};
+    double making_s_{0.0};
+    double waited_s_{0.0};
+    double jump_s_;  ///< how long the last one took, to a frame that was not kept
+    std::int64_t passed_over_{0};
+    int in_time_{0};  ///< frames since one was passed over
     FrameCost cost_{};
 };
-
-/// Reads forward and holds the two frames around now. Time 0 is the first frame; the video repeats,
-/// its last frame lasting as long as the one before it.
-class DepthInTime {
-  public:
-    /// Reads the first frame, and only that one when not `moving`. Throws InputError when there is
-    /// none or it is smaller than 2 x 2.
-    DepthInTime(std::unique_ptr<Media> media, bool moving, const CleaningOptions& cleaning);
-
-    /// Goes on to `playback_s`, which must not fall from call to call. True when the video started
-    /// again on the way. Throws InputError when the file breaks off.
-    bool advance_to(double playback_s);
-
-    /// At the time advanced to; valid until the next advance.
-    [[nodiscard]] DepthBlend now() const noexcept { return depth_at(frames_, now_s_); }
-
-  private:
-    bool add(std::optional<Frame> frame);
-    bool start_again(double playback_s);
-
-    FrameReader reader_;
-    std::vector<Frame> frames_{};  ///< one or two; one: the depth does not change any more
-    double now_s_{0.0};
-    double first_media_s_{0.0};
-    double offset_s_{0.0};  ///< playback time of this lap's first frame
-    double last_interval_s_{0.0};
-};
-
-/// A whole depth video in memory: one or more frames of one size, the first at 0 s. It repeats:
-/// after the last frame comes the first again, as long after it as the last is after the one
-/// before. The surfaces it gives are views into it.
-class DepthClip {
-  public:
-    /// Throws InputError for no frame, one below 2 x 2, or frames that differ in size or are not
-    /// in order of time.
-    DepthClip(std::vector<Frame> frames, const SurfaceShape& shape,
-              std::shared_ptr<const BumpMap> bump = nullptr);
-
-    /// The surface `t_s` >= 0 after the first frame.
-    [[nodiscard]] DepthSurface at(double t_s) const noexcept;
-
-    /// The time of frame number `frame` (from 0, held at the last), `blend` in [0, 1] of the way to
-    /// the next [s].
-    [[nodiscard]] double time_of(std::int64_t frame, double blend) const noexcept;
-
-    [[nodiscard]] int columns() const noexcept { return frames_.front().depth->columns; }
-    [[nodiscard]] int rows() const noexcept { return frames_.front().depth->rows; }
-    /// Of one lap [s]; 0 for a still.
-    [[nodiscard]] double duration_s() const noexcept {
-        return frames_.back().time_s - frames_.front().time_s;
-    }
-
-  private:
-    std::vector<Frame> frames_;  ///< after a video's last one its first, at the end of the lap
-    SurfaceShape shape_;
-    std::shared_ptr<const BumpMap> bump_;  ///< null: none
-};
-
-/// Decodes all frames of a depth video. Throws InputError.
-[[nodiscard]] DepthClip read_depth_clip(std::unique_ptr<Media> media,
-                                        const CleaningOptions& cleaning, const SurfaceShape& shape,
-                                        const std::function<void(double share)>& progress);
 
 }  // namespace dibhr

@@ -13,7 +13,7 @@
 
 #include "core/haptics/depth_image.hpp"
 #include "core/haptics/surface.hpp"
-#include "core/video/depth/depth_cleaning.hpp"
+#include "core/video/cleaning/cleaning_options.hpp"
 
 namespace dibhr {
 
@@ -31,11 +31,19 @@ struct Frame {
     /// over.
     std::shared_ptr<const std::vector<std::uint8_t>> unseen{};
     std::shared_ptr<const ColourImage> colour{};
-    double time_s{0.0};          ///< on a playback timeline, which goes on across loops
-    double media_s{0.0};         ///< presentation time in the file
-    std::int64_t index{0};       ///< number of the frame in the file, from 0
-    std::uint32_t media{0};      ///< number of the media it is of, as given to the player
-    CleaningOptions cleaning{};  ///< how its depth was cleaned
+    /// What a fingertip touches, of the same size; null: it is a point, and that is `depth`.
+    std::shared_ptr<const DepthImage> beneath{};
+    double time_s{0.0};        ///< on a playback timeline, which goes on across loops
+    double media_s{0.0};       ///< presentation time in the file
+    std::int64_t index{0};     ///< number of the frame in the file, from 0
+    std::uint32_t media{0};    ///< number of the media it is of, as given to the player
+    FrameCleaning cleaning{};  ///< how its depth was cleaned
+
+    /// What is drawn: the surface that the fingertip touches, not the one that its lowest point
+    /// feels.
+    [[nodiscard]] const std::shared_ptr<const DepthImage>& drawn() const noexcept {
+        return beneath ? beneath : depth;
+    }
 };
 
 /// How slowly and how fast a video or a session plays.
@@ -70,6 +78,11 @@ struct DepthBlend {
     [[nodiscard]] DepthSurface surface(const SurfaceShape& shape,
                                        const BumpMap* bump = nullptr) const noexcept {
         return {*from->depth, *to->depth, blend, shape, bump, nearest().unseen.get()};
+    }
+    /// The same of what is drawn.
+    [[nodiscard]] DepthSurface drawn_surface(const SurfaceShape& shape,
+                                             const BumpMap* bump = nullptr) const noexcept {
+        return {*from->drawn(), *to->drawn(), blend, shape, bump, nearest().unseen.get()};
     }
 };
 

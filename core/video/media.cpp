@@ -105,6 +105,10 @@ MediaDescription described(const fs::path& place, const DepthRequest& request,
 
 }  // namespace
 
+std::optional<RawFrame> Media::next_from(double earliest_s) {
+    return first_from(earliest_s, *this, &RawFrame::media_s);
+}
+
 Fit fit_of(const MediaDescription& media) {
     if (media.true_fit) return *media.true_fit;
     const double columns = std::max(media.depth_columns, 2);

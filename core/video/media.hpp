@@ -7,10 +7,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "core/video/cleaning/depth_memory.hpp"
+#include "core/video/cleaning/lone_depth.hpp"
 #include "core/video/depth/depth_meaning.hpp"
-#include "core/video/depth/depth_memory.hpp"
 #include "core/video/frame_window.hpp"
 
 namespace dibhr {
@@ -29,9 +31,14 @@ void require_size(const std::filesystem::path& file, int columns, int rows);
 struct RawFrame {
     DepthImage depth{};
     std::vector<HeldLevel> held{};  ///< what pixels without data were before; of RememberingMedia
+    /// What was made of both ahead of time, which then are empty; of DecodedAhead.
+    std::shared_ptr<const LoneDepth> lone{};
+    double lone_ms{0.0};  ///< which took so long
     ColourImage colour{};
     double media_s{0.0};
     std::int64_t index{0};
+    bool always_whole{false};  ///< no frame of this media has a pixel without data
+    double passing_s{0.0};     ///< so long one takes, as of late, to pass over; 0: as to read it
 };
 
 /// Whose words count on what depth means.
@@ -91,6 +98,18 @@ struct MediaDescription {
 /// Containers round times to milliseconds: a time asked for matches a frame's within half of one.
 inline constexpr double kTimeTolerance_s = 0.0005;
 
+/// Of the items that `source.next()` gives the first that is not before `earliest_s`, or the last.
+template <typename Source, typename Item>
+std::optional<Item> first_from(double earliest_s, Source& source, double Item::*time_s) {
+    std::optional<Item> first = source.next();
+    while (first && (*first).*time_s < earliest_s) {
+        std::optional<Item> later = source.next();
+        if (!later) break;
+        first = std::move(later);
+    }
+    return first;
+}
+
 /// One opened colour + depth pair. Frames come in order; depth drives, colour is the one shown at
 /// its time.
 class Media {
@@ -99,8 +118,14 @@ class Media {
     [[nodiscard]] virtual const MediaDescription& description() const = 0;
     /// The next frame, or nothing at the end. Throws InputError when the file breaks off.
     virtual std::optional<RawFrame> next() = 0;
+    /// The next frame at `earliest_s` or later, or the last one; where those before it need not be
+    /// made they are only decoded.
+    virtual std::optional<RawFrame> next_from(double earliest_s);
     /// The next frame returned is the one shown at `media_s`.
     virtual void seek(double media_s) = 0;
+    /// The next frame returned is one near it, as soon as one can be had; where that is no sooner,
+    /// the one itself.
+    virtual void seek_near(double media_s) { seek(media_s); }
 };
 
 /// Opens a pair, each of them a file, a folder, a list or a pattern of pictures. An empty colour

@@ -18,6 +18,7 @@ namespace {
 /// streams that run together may be a little apart. Less than half, so that halfway the earlier one
 /// is taken.
 constexpr double kNotLater = 0.4;
+constexpr double kFarAhead = 2.5;  ///< intervals; what is between is decoded only
 
 /// How much later than the depth the colour begins [s]: as both files say, when they overlap.
 double colour_start_s(const SourceFacts& colour, const SourceFacts& depth) {
@@ -73,7 +74,12 @@ ColourTrack::ColourTrack(std::unique_ptr<PictureSource> source, const SourceFact
 const cv::Mat& ColourTrack::shown_at(double depth_time_s, double depth_interval_s) {
     const double interval_s = std::min(depth_interval_s, interval_of(source_->facts()));
     const double latest_s = depth_time_s - starts_later_s_ + kNotLater * interval_s;
-    if (!placed_) {
+    if (std::exchange(near_, false)) {
+        source_->seek_near(latest_s);
+        now_ = source_->next().value_or(now_);
+        return now_.picture;
+    }
+    if (!placed_ || (later_ && later_->time_s + kFarAhead * interval_s < latest_s)) {
         source_->seek(latest_s);
         now_ = source_->next().value_or(now_);
         later_ = source_->next();
@@ -108,7 +114,14 @@ PairedMedia::PairedMedia(std::unique_ptr<PictureSource> depth,
 }
 
 std::optional<RawFrame> PairedMedia::next() {
-    auto taken = depth_->next();
+    return frame_of(depth_->next());
+}
+
+std::optional<RawFrame> PairedMedia::next_from(double earliest_s) {
+    return frame_of(depth_->next_from(earliest_s));
+}
+
+std::optional<RawFrame> PairedMedia::frame_of(std::optional<TimedPicture> taken) {
     describe_time(depth_->facts(), description_);
     tell_trouble(depth_->facts());
     if (!taken) return std::nullopt;
@@ -117,8 +130,11 @@ std::optional<RawFrame> PairedMedia::next() {
     frame.depth = scale_.image_of(taken->picture);
     frame.media_s = taken->time_s;
     frame.index = taken->index;
+    frame.always_whole = scale_.is_always_data() && !shape_;
     cv::Mat colour;
     if (colour_) colour = colour_for(*taken);
+    if (frame.always_whole && taken->decoding_s > 0.0)
+        frame.passing_s = taken->decoding_s + (colour_ ? colour_->decoding_s() : 0.0);
     if (shape_)
         put_straight(frame, colour);
     else if (colour_)
@@ -205,6 +221,11 @@ void PairedMedia::put_straight(RawFrame& frame, const cv::Mat& colour) {
 void PairedMedia::seek(double media_s) {
     depth_->seek(media_s);
     if (colour_) colour_->forget();
+}
+
+void PairedMedia::seek_near(double media_s) {
+    depth_->seek_near(media_s);
+    if (colour_) colour_->forget_near();
 }
 
 void PairedMedia::count_frames(std::int64_t most) {

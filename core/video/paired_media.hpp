@@ -25,8 +25,15 @@ class ColourTrack {
     ColourTrack(std::unique_ptr<PictureSource> source, const SourceFacts& depth);
 
     [[nodiscard]] const SourceFacts& facts() const { return source_->facts(); }
-    void forget() { placed_ = false; }
+    void forget() { placed_ = near_ = false; }
+    /// The picture returned next, and no other, is one near the depth's time.
+    void forget_near() {
+        forget();
+        near_ = true;
+    }
     const cv::Mat& shown_at(double depth_time_s, double depth_interval_s);
+    /// So long decoding one picture takes, as of late; 0: not known.
+    [[nodiscard]] double decoding_s() const { return now_.decoding_s; }
 
   private:
     std::unique_ptr<PictureSource> source_;
@@ -34,6 +41,7 @@ class ColourTrack {
     TimedPicture now_{};
     std::optional<TimedPicture> later_{};
     bool placed_{false};
+    bool near_{false};
 };
 
 /// Depth drives.
@@ -45,7 +53,9 @@ class PairedMedia : public Media {
 
     [[nodiscard]] const MediaDescription& description() const override { return description_; }
     std::optional<RawFrame> next() override;
+    std::optional<RawFrame> next_from(double earliest_s) override;
     void seek(double media_s) override;
+    void seek_near(double media_s) override;
 
     /// Reads depth on, at most `most` frames, so that the description becomes exact.
     void count_frames(std::int64_t most);
@@ -56,6 +66,7 @@ class PairedMedia : public Media {
     void panel_said(const DepthStatement& panel) { description_.panel = panel; }
 
   private:
+    std::optional<RawFrame> frame_of(std::optional<TimedPicture> taken);
     void take_range();
     void take_true_shape();
     void take_registration(const SourceFacts& colour);

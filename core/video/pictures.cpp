@@ -132,6 +132,10 @@ cv::Mat with_square_pixels(const cv::Mat& picture, double aspect, PictureRole ro
     return between;
 }
 
+std::optional<TimedPicture> PictureSource::next_from(double earliest_s) {
+    return first_from(earliest_s, *this, &TimedPicture::time_s);
+}
+
 std::vector<cv::Mat> PictureSource::samples(int most) {
     std::vector<cv::Mat> pictures;
     const auto count = std::clamp<std::int64_t>(facts().frames, 1, most);
@@ -145,7 +149,7 @@ std::vector<cv::Mat> PictureSource::samples(int most) {
 
 ChangedPictures::ChangedPictures(std::unique_ptr<PictureSource> source, Change change, Tell tell)
     : source_(std::move(source)), change_(std::move(change)), tell_(std::move(tell)) {
-    first_ = changed_next();
+    first_ = changed(source_->next());
     if (first_) {
         facts_.columns = first_->picture.cols;
         facts_.rows = first_->picture.rows;
@@ -162,15 +166,21 @@ void ChangedPictures::learn() {
     tell_(facts_);
 }
 
-std::optional<TimedPicture> ChangedPictures::changed_next() {
-    std::optional<TimedPicture> taken = source_->next();
+std::optional<TimedPicture> ChangedPictures::changed(std::optional<TimedPicture> taken) const {
     if (taken) taken->picture = change_(taken->picture);
     return taken;
 }
 
 std::optional<TimedPicture> ChangedPictures::next() {
     if (first_) return std::exchange(first_, std::nullopt);
-    std::optional<TimedPicture> taken = changed_next();
+    std::optional<TimedPicture> taken = changed(source_->next());
+    learn();
+    return taken;
+}
+
+std::optional<TimedPicture> ChangedPictures::next_from(double earliest_s) {
+    if (first_) return PictureSource::next_from(earliest_s);
+    std::optional<TimedPicture> taken = changed(source_->next_from(earliest_s));
     learn();
     return taken;
 }
@@ -178,6 +188,12 @@ std::optional<TimedPicture> ChangedPictures::next() {
 void ChangedPictures::seek(double time_s) {
     first_.reset();
     source_->seek(time_s);
+    learn();
+}
+
+void ChangedPictures::seek_near(double time_s) {
+    first_.reset();
+    source_->seek_near(time_s);
     learn();
 }
 

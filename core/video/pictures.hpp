@@ -38,6 +38,7 @@ struct TimedPicture {
     cv::Mat picture{};
     double time_s{0.0};  ///< presentation time, from the file's own beginning
     std::int64_t index{0};
+    double decoding_s{0.0};  ///< so long decoding one takes, as of late; 0: not known
 };
 
 /// What is known of a source so far; it grows as frames are read.
@@ -83,9 +84,13 @@ class PictureSource {
     [[nodiscard]] virtual const SourceFacts& facts() const = 0;
     /// The next picture in order of time; nothing at the end.
     virtual std::optional<TimedPicture> next() = 0;
+    /// The next picture at `earliest_s` or later, or the last one.
+    virtual std::optional<TimedPicture> next_from(double earliest_s);
     /// The next picture returned is the one shown at `time_s`: the first before the beginning, the
     /// last after the end.
     virtual void seek(double time_s) = 0;
+    /// The next picture returned is one near it, as soon as one can be had.
+    virtual void seek_near(double time_s) { seek(time_s); }
     /// Goes through at most `most` pictures, so that the facts become exact; for a source that is
     /// not read otherwise.
     virtual void count_frames(std::int64_t /*most*/) {}
@@ -107,13 +112,15 @@ class ChangedPictures : public PictureSource {
 
     [[nodiscard]] const SourceFacts& facts() const override { return facts_; }
     std::optional<TimedPicture> next() override;
+    std::optional<TimedPicture> next_from(double earliest_s) override;
     void seek(double time_s) override;
+    void seek_near(double time_s) override;
     void count_frames(std::int64_t most) override;
     std::vector<cv::Mat> samples(int most) override;
 
   private:
     void learn();
-    std::optional<TimedPicture> changed_next();
+    std::optional<TimedPicture> changed(std::optional<TimedPicture> taken) const;
 
     std::unique_ptr<PictureSource> source_;
     Change change_;

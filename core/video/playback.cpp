@@ -14,7 +14,12 @@
 namespace dibhr {
 namespace {
 
-constexpr double kJump_s = 0.001;  ///< a jump begins later: no playback time means two frames
+constexpr double kJump_s = 0.001;      ///< a jump begins later: no playback time means two frames
+constexpr double kNewest = 0.2;        ///< the weight of the newest of a moving mean
+constexpr double kMostDecoding = 0.8;  ///< of the time from frame to frame
+constexpr std::chrono::seconds kToldFor{3};
+constexpr double kMuch = 1.5;  ///< intervals: what is made in less comes too late now and then only
+constexpr double kMostBehind_s = 1.0;  ///< beyond this the clock waits
 
 }  // namespace
 
@@ -41,9 +46,11 @@ double Playback::moment(Time now) const {
 
 void Playback::jump_to(Frame frame, Time now) {
     frame.time_s = frames_.empty() ? 0.0 : clock_.playback_s(now) + kJump_s;
+    offset_s_ = frame.time_s - frame.media_s;
     frames_.clear();
     frames_.push_back(std::move(frame));
     complete_ = false;
+    starts_ = true;
     ++discontinuity_;
     anchor(frames_.front().time_s, now);
 }
@@ -71,12 +78,24 @@ void Playback::pause(Time now) {
 
 void Playback::seek(double media_s, Time now) {
     if (!is_open()) return;
-    if (auto frame = reader_->at(std::max(media_s, first_media_s_)))
-        jump_to(std::move(*frame), now);
+    steps_back_ = false;
+    sought_s_ = std::max(media_s, first_media_s_);
+    if (auto preview = reader_->preview(*sought_s_))
+        jump_to(std::move(*preview), now);
+    else
+        read_sought(now);
+}
+
+bool Playback::read_sought(Time now) {
+    const double media_s = *std::exchange(sought_s_, std::nullopt);
+    auto frame = reader_->at(media_s);
+    if (frame) jump_to(std::move(*frame), now);
+    return frame.has_value();
 }
 
 void Playback::step(int frames, Time now) {
     if (!is_open()) return;
+    if (sought_s_) read_sought(now);
     pause(now);
     Frame reached = frames_.front();
     for (int k = 0; k < std::abs(frames); ++k) {
@@ -85,6 +104,7 @@ void Playback::step(int frames, Time now) {
         reached = std::move(*next);
     }
     jump_to(std::move(reached), now);
+    steps_back_ = frames < 0;
 }
 
 void Playback::set_looping(bool looping) {
@@ -93,8 +113,11 @@ void Playback::set_looping(bool looping) {
     complete_ = false;  // asked again by the next reading
     if (looping) return;
     // Frames of the next lap are forgotten, unless the surface is moving towards one already.
-    for (std::size_t k = 2; k < frames_.size(); ++k)
-        if (frames_[k].media_s <= frames_[k - 1].media_s) frames_.resize(k);
+    for (std::size_t k = 2; k < frames_.size(); ++k) {
+        if (frames_[k].media_s > frames_[k - 1].media_s) continue;
+        frames_.resize(k);
+        offset_s_ = frames_.back().time_s - frames_.back().media_s;
+    }
 }
 
 void Playback::set_speed(double speed, Time now) {
@@ -110,8 +133,10 @@ void Playback::set_cleaning(const CleaningOptions& options) {
 
 /// All frames or none: no surface lies between two cleanings.
 void Playback::clean_again(const CleaningOptions& options) {
-    std::deque<Frame> cleaned;
     reader_->set_cleaning(options);
+    ready_before_s_.reset();
+    if (sought_s_) return;  // the frame that will be there comes cleaned so
+    std::deque<Frame> cleaned;
     try {
         for (const Frame& frame : frames_) {
             auto again = reader_->at(frame.media_s);
@@ -148,34 +173,122 @@ bool Playback::advance(Time now) {
 }
 
 bool Playback::needs_frame() const {
-    return is_open() && !complete_ && frames_.size() < FrameWindow::kFrames;
+    if (!is_open()) return false;
+    return sought_s_ || (!complete_ && frames_.size() < FrameWindow::kFrames);
 }
 
-bool Playback::read_ahead() {
+bool Playback::read_ahead(Time now) {
+    reading_since_ = now;
+    waited_before_s_ = reader_->waited_s();
+    return sought_s_ ? read_sought(now) : read_next(now);
+}
+
+bool Playback::read_next(Time now) {
     const Frame& newest = frames_.back();
-    read_to_s_ = newest.time_s;
-    double time_s = 0.0;
-    auto next = reader_->after(newest.media_s);
-    if (next) {
-        time_s = newest.time_s + (next->media_s - newest.media_s);
-    } else if (looping_ && newest.media_s > first_media_s_) {
-        time_s = newest.time_s + reader_->last_interval_s(newest.media_s);
+    const std::int64_t passed_over = reader_->passed_over();
+    auto next = reader_->after(newest.media_s, pace(now));
+    if (!next && looping_ && newest.media_s > first_media_s_) {
+        offset_s_ += newest.media_s + reader_->last_interval_s(newest.media_s) - first_media_s_;
         next = reader_->at(first_media_s_);
     }
     complete_ = !next;
     if (!next) return false;
-    next->time_s = time_s;
+    const auto passed = static_cast<double>(reader_->passed_over() - passed_over);
+    passed_over_ += kNewest * (passed - passed_over_);
+    next->time_s = std::max(next->media_s + offset_s_, newest.time_s + kJump_s);
     frames_.push_back(std::move(*next));
     if (frames_.size() == 2 && at_seam()) ++discontinuity_;
     return true;
 }
 
-bool Playback::at_seam() const {
-    return frames_.size() > 1 && frames_[1].media_s <= frames_[0].media_s;
+double Playback::interval_s() const {
+    const double rate = description().frames_per_s;
+    return rate > 0.0 ? 1.0 / rate : 0.0;
 }
 
-void Playback::hold_if_behind(Time now) {
-    if (playing_ && clock_.playback_s(now) > read_to_s_) anchor(read_to_s_, now);
+/// How far apart on the playback timeline frames are that come one after the other in time, when
+/// those between them are passed over. It does not depend on how many were of late: one that came
+/// late would make the next one come later still. Nothing where decoding is what takes so long:
+/// frames passed over take as long as others.
+std::optional<double> Playback::taken_s() const {
+    const double decoding_s = clock_.speed * reader_->decoding_s();
+    const double making_s = clock_.speed * reader_->making_s();
+    const double cleaning_s = clock_.speed * cleaning_s_;
+    const double part = interval_s() > 0.0 ? decoding_s / interval_s() : 1.0;
+    if (part > kMostDecoding) return std::nullopt;
+    if (making_s > 0.0) {  // side by side
+        const double made_s = making_s / (1.0 - part);
+        return std::max(cleaning_s, made_s > kMuch * interval_s() ? made_s : 0.0);
+    }
+    return std::max(decoding_s + cleaning_s, cleaning_s / (1.0 - part));
+}
+
+/// Whatever comes next, and while frames come too late one that does not; those that follow as far
+/// apart as they take.
+Pace Playback::pace(Time now) const {
+    if (!playing_ || starts_) return {};
+    const double next_s = frames_.back().media_s + kTimeTolerance_s;
+    const std::optional<double> takes_s = taken_s();
+    if (!takes_s) return {.earliest_s = next_s};
+    const double apart_s = *takes_s > interval_s() ? *takes_s : 0.0;
+    return {std::max(earliest_s(now, *takes_s) - offset_s_, next_s), apart_s};
+}
+
+/// Of the next frame, on the playback timeline. One that would come too late is passed over, with
+/// all up to one that is there a frame before its time, so that the surface moves on to it; from
+/// then on frames are as far apart as they take.
+double Playback::earliest_s(Time now, double takes_s) const {
+    const double there_s = clock_.playback_s(now) + takes_s;
+    const double newest_s = frames_.back().time_s;
+    if (newest_s + interval_s() < there_s) return there_s + takes_s;
+    return frames_.size() < 3 && takes_s > interval_s() ? newest_s + takes_s : 0.0;
+}
+
+void Playback::arrived(Time now) {
+    const double took_s = std::chrono::duration<double>(now - reading_since_).count() -
+                          (reader_->waited_s() - waited_before_s_);
+    cleaning_s_ += (cleaning_s_ > 0.0 ? kNewest : 1.0) * (std::max(took_s, 0.0) - cleaning_s_);
+    waits_ = waited_ && now - *waited_ < kToldFor;
+    if (frames_.size() < 2) return;
+    const bool starts = std::exchange(starts_, false);
+    if (!playing_ || frames_.size() > 2) return;
+    const double moment_s = clock_.playback_s(now);
+    Frame& held = frames_.front();
+    Frame& next = frames_.back();
+    const double late_s = moment_s - (next.media_s + offset_s_);
+    const bool waits = late_s > kMostBehind_s;
+    if (starts) offset_s_ += moment_s - held.time_s;
+    if (waits && !starts) offset_s_ += late_s;
+    next.time_s = std::max(next.time_s, next.media_s + offset_s_);
+    if (waits) waited_ = now;
+    held.time_s = std::max(held.time_s, moment_s);
+    next.time_s = std::max(next.time_s, held.time_s + std::max(kJump_s, 0.5 * interval_s()));
+}
+
+double Playback::shown_per_s() const {
+    return description().frames_per_s / (1.0 + passed_over_);
+}
+
+bool Playback::has_time() const {
+    return is_open() && !playing_ && steps_back_ && !needs_frame() &&
+           ready_before_s_ != frames_.front().media_s;
+}
+
+void Playback::make_ready_to_step_back() {
+    ready_before_s_ = frames_.front().media_s;
+    try {
+        static_cast<void>(reader_->before(*ready_before_s_));  // it is kept
+    } catch (const InputError&) {                              // told to who takes the step
+    }
+}
+
+void Playback::end_here() {
+    sought_s_.reset();
+    complete_ = true;
+}
+
+bool Playback::at_seam() const {
+    return frames_.size() > 1 && frames_[1].media_s <= frames_[0].media_s;
 }
 
 Playback::Time Playback::next_due() const {
@@ -183,6 +296,14 @@ Playback::Time Playback::next_due() const {
     if (frames_.size() < 2) return clock_.anchor;
     const double wait_s = (frames_[1].time_s - clock_.anchor_s) / clock_.speed;
     return clock_.anchor + std::chrono::ceil<Time::duration>(std::chrono::duration<double>(wait_s));
+}
+
+FrameWindow Playback::touchable() const {
+    FrameWindow window = this->window();
+    if (!sought_s_) return window;
+    window.frames = {};
+    window.count = 0;
+    return window;
 }
 
 FrameWindow Playback::window() const {

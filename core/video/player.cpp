@@ -1,4 +1,4 @@
-// Plays a colour + depth pair on its own thread: decodes ahead, cleans, pairs by time, publishes.
+// The thread that cleans frames and hands them over; decoding has one of its own.
 #include "core/video/player.hpp"
 
 #include <malloc.h>
@@ -8,6 +8,7 @@
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -21,10 +22,12 @@ namespace {
 
 using Time = Playback::Time;
 
-/// What a method asks of the player's thread. Of seeks in a row only the last one counts.
+/// What a method asks of the player's thread. Of seeks in a row, and of cleanings, only the last
+/// one counts.
+enum class Kind { step, seek, cleaning };
 struct Command {
     std::function<void(Playback&, Time)> action{};
-    bool seek{false};
+    Kind kind{Kind::step};
 };
 
 }  // namespace
@@ -41,7 +44,7 @@ struct Player::Implementation {
 
     TripleBuffer<FrameWindow> haptics{};
     TripleBuffer<FrameWindow> picture{};
-    Heartbeat heart{};
+    Heartbeat heart{}, decoding{};
 
     // The player thread's.
     Playback playback{};
@@ -54,6 +57,7 @@ struct Player::Implementation {
     std::vector<Command> commands{};
     PlaybackStatus status{};
     FrameWindow shown{};  ///< as last published, for the time line
+    std::optional<double> sought_s{};
     bool leaving{false};
 
     std::thread thread{};
@@ -62,7 +66,8 @@ struct Player::Implementation {
 void Player::Implementation::ask(Command command) {
     {
         const std::lock_guard lock(mutex);
-        if (command.seek && !commands.empty() && commands.back().seek) commands.pop_back();
+        if (command.kind != Kind::step && !commands.empty() && commands.back().kind == command.kind)
+            commands.pop_back();
         commands.push_back(std::move(command));
     }
     asked.notify_one();
@@ -70,22 +75,21 @@ void Player::Implementation::ask(Command command) {
 
 /// False when the player is to end.
 bool Player::Implementation::wait_for_work(std::vector<Command>& taken) {
-    const bool needs_frame = playback.needs_frame();
+    const bool busy = playback.needs_frame() || playback.has_time();
     const Time due = playback.next_due();
     std::unique_lock lock(mutex);
     const auto called = [this] { return leaving || !commands.empty(); };
-    if (!needs_frame) heart.rest();
-    if (!needs_frame && due == Time::max())
+    if (!busy) heart.rest();
+    if (!busy && due == Time::max())
         asked.wait(lock, called);
-    else if (!needs_frame)
+    else if (!busy)
         asked.wait_until(lock, due, called);
     taken.swap(commands);
     heart.beat();
     return !leaving;
 }
 
-/// Performs the commands, or, without any, decodes one frame ahead: they wait for one frame at
-/// most.
+/// Performs the commands, or, without any, reads one frame: they wait for one frame at most.
 void Player::Implementation::work(const std::vector<Command>& taken) {
     bool changed = playback.advance(std::chrono::steady_clock::now());
     for (const Command& command : taken) {
@@ -95,10 +99,13 @@ void Player::Implementation::work(const std::vector<Command>& taken) {
     }
     if (!changed && playback.needs_frame()) {
         const bool readable = attempt([&] {
-            if (playback.read_ahead()) playback.hold_if_behind(std::chrono::steady_clock::now());
+            if (playback.read_ahead(std::chrono::steady_clock::now()))
+                playback.arrived(std::chrono::steady_clock::now());
         });
         if (!readable) playback.end_here();
         changed = true;
+    } else if (!changed && playback.has_time()) {
+        playback.make_ready_to_step_back();
     }
     if (changed) publish();
 }
@@ -132,11 +139,12 @@ void Player::Implementation::run() {
 /// Both readers get the same window; what the old ones held is freed here.
 void Player::Implementation::publish() {
     const FrameWindow window = playback.window();
-    haptics.publish(window);
+    haptics.publish(playback.touchable());
     const Time published = std::chrono::steady_clock::now();
     picture.publish(window);
     const std::lock_guard lock(mutex);
     shown = window;
+    sought_s = playback.sought_s();
     status.failure = failure;
     if (!playback.is_open()) return;
     if (failure.empty()) status.failure = playback.description().trouble;
@@ -146,6 +154,11 @@ void Player::Implementation::publish() {
     status.speed = playback.speed();
     status.duration_s = playback.description().duration_s;
     status.frames = playback.description().frames;
+    status.frames_per_s = playback.description().frames_per_s;
+    status.shown_per_s = playback.shown_per_s();
+    status.waits = playback.waits();
+    status.cleaning = playback.cleaning_in_words();
+    status.steps = playback.steps();
     const FrameCost& cost = playback.cost();
     status.decode_ms = cost.decode_ms + cost.clean_ms;
     status.clean_ms = cost.clean_ms;
@@ -170,8 +183,9 @@ Player::~Player() {
 
 void Player::play_media(std::unique_ptr<Media> media, std::uint32_t number) {
     // std::function wants to be copyable, hence shared; the reader moves on when the command runs.
-    auto reader = std::make_shared<std::unique_ptr<FrameReader>>(
-        std::make_unique<FrameReader>(std::move(media), number));
+    auto reader = std::make_shared<std::unique_ptr<FrameReader>>(std::make_unique<FrameReader>(
+        std::move(media), number,
+        ReadingHearts{&implementation_->decoding, &implementation_->heart}));
     implementation_->ask({[reader](Playback& playback, Time now) {
         playback.open(std::move(*reader), now);
         // Else what the media before took stays with the program.
@@ -189,7 +203,7 @@ void Player::pause() {
 
 void Player::seek(double media_s) {
     implementation_->ask(
-        {[media_s](Playback& playback, Time now) { playback.seek(media_s, now); }, true});
+        {[media_s](Playback& playback, Time now) { playback.seek(media_s, now); }, Kind::seek});
 }
 
 void Player::step(int frames) {
@@ -206,7 +220,8 @@ void Player::set_speed(double speed) {
 }
 
 void Player::set_cleaning(const CleaningOptions& options) {
-    implementation_->ask({[options](Playback& playback, Time) { playback.set_cleaning(options); }});
+    implementation_->ask(
+        {[options](Playback& playback, Time) { playback.set_cleaning(options); }, Kind::cleaning});
 }
 
 PlaybackStatus Player::status() const {
@@ -217,14 +232,20 @@ PlaybackStatus Player::status() const {
     const DepthBlend pair = shown.at(moment_s);
     if (pair.from == nullptr) return status;
     // Between two frames the media time moves on, up to the end of the file at the loop's seam.
-    const double passed_s = pair.blend * (pair.to->time_s - pair.from->time_s);
+    const double lasts_s = pair.to->media_s < pair.from->media_s
+                               ? pair.to->time_s - pair.from->time_s
+                               : pair.to->media_s - pair.from->media_s;
+    const double passed_s = pair.blend * lasts_s;
     status.frame = pair.from->index;
-    status.media_s = pair.from->media_s + passed_s;
+    status.media_s = implementation_->sought_s.value_or(pair.from->media_s + passed_s);
     return status;
 }
 
 const Heartbeat& Player::heart() const noexcept {
     return implementation_->heart;
+}
+const Heartbeat& Player::decoder_heart() const noexcept {
+    return implementation_->decoding;
 }
 TripleBuffer<FrameWindow>& Player::haptics() noexcept {
     return implementation_->haptics;

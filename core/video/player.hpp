@@ -1,4 +1,4 @@
-// Plays a colour + depth pair on its own thread: decodes ahead, cleans, pairs by time, publishes.
+// Plays a colour + depth pair on threads of its own: decodes ahead, cleans, publishes.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 #include "core/realtime/heartbeat.hpp"
 #include "core/realtime/triple_buffer.hpp"
-#include "core/video/depth/depth_cleaning.hpp"
+#include "core/video/cleaning/cleaning_options.hpp"
 #include "core/video/frame_window.hpp"
 #include "core/video/media.hpp"
 
@@ -23,9 +23,14 @@ struct PlaybackStatus {
     double duration_s{0.0};
     std::int64_t frame{0};
     std::int64_t frames{0};
-    double decode_ms{0.0};  ///< decoding and cleaning of the last frame
+    double frames_per_s{0.0};  ///< of the video,
+    double shown_per_s{0.0};   ///< and how many of them are shown; fewer: this machine is too slow
+    bool waits{false};         ///< so much so that the video does not keep its time either
+    double decode_ms{0.0};     ///< decoding and cleaning of the last frame
     double clean_ms{0.0};
     double handover_us{0.0};  ///< from the last frame being cleaned to its being published
+    std::string cleaning{};   ///< in words: what is done to its depth
+    CleaningSteps steps{};    ///< the same
     std::string failure{};    ///< a plain sentence when reading broke off or met less; else empty
 };
 
@@ -51,8 +56,10 @@ class Player {
     void set_cleaning(const CleaningOptions& options);
 
     [[nodiscard]] PlaybackStatus status() const;
-    /// Of its thread, for as long as it lives: silent while it waits for a disk.
+    /// Of the thread that cleans and hands over, for as long as it lives.
     [[nodiscard]] const Heartbeat& heart() const noexcept;
+    /// Of the one that decodes: silent while it waits for a disk.
+    [[nodiscard]] const Heartbeat& decoder_heart() const noexcept;
 
     [[nodiscard]] TripleBuffer<FrameWindow>& haptics() noexcept;
     [[nodiscard]] TripleBuffer<FrameWindow>& picture() noexcept;

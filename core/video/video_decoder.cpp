@@ -15,6 +15,9 @@ extern "C" {
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
+#include <new>
+#include <numeric>
 #include <opencv2/core.hpp>
 #include <string_view>
 #include <utility>
@@ -73,6 +76,14 @@ int quarter_turns(const AVStream& stream) {
     const double anticlockwise = av_display_rotation_get(numbers.data());
     if (!std::isfinite(anticlockwise)) return 0;
     return (static_cast<int>(std::lround(-anticlockwise / 90.0)) % 4 + 4) % 4;
+}
+
+/// Others have packets that show nothing, pictures of two fields in two packets, or (HEVC) call
+/// non-reference what a higher temporal layer refers to.
+bool marks_non_reference(const AVCodecParameters& coded) {
+    const bool is_whole =
+        coded.field_order == AV_FIELD_PROGRESSIVE || coded.field_order == AV_FIELD_UNKNOWN;
+    return coded.codec_id == AV_CODEC_ID_H264 && is_whole;
 }
 
 const AVPixFmtDescriptor* kind_of(const AVFrame& frame) {
@@ -142,6 +153,15 @@ cv::Mat stretched(const cv::Mat& levels, int bits) {
     return cv::min(cv::max(whole, 0.0), highest);
 }
 
+/// The same by table, in one pass.
+cv::Mat stretched_bytes(const cv::Mat& levels) {
+    cv::Mat every(1, 256, CV_8UC1);
+    std::iota(every.begin<std::uint8_t>(), every.end<std::uint8_t>(), std::uint8_t{0});
+    cv::Mat whole;
+    cv::LUT(levels, stretched(every, 8), whole);
+    return whole;
+}
+
 }  // namespace
 
 void VideoDecoder::Closer::operator()(AVCodecContext* context) const noexcept {
@@ -157,11 +177,11 @@ void VideoDecoder::Closer::operator()(SwsContext* scaler) const noexcept {
 }
 
 VideoDecoder::VideoDecoder(const std::filesystem::path& file, int track)
-    : packets_(file, track), frame_(av_frame_alloc()) {
+    : packets_(file, track), frame_(av_frame_alloc()), kept_(av_frame_alloc()) {
     const AVCodec* const codec =
         packets_.is_open() ? avcodec_find_decoder(packets_.stream()->codecpar->codec_id) : nullptr;
     if (codec != nullptr) decoder_.reset(avcodec_alloc_context3(codec));
-    bool opened = decoder_ != nullptr && frame_ != nullptr;
+    bool opened = decoder_ != nullptr && frame_ != nullptr && kept_ != nullptr;
     if (opened) {
         opened = avcodec_parameters_to_context(decoder_.get(), packets_.stream()->codecpar) >= 0;
         decoder_->thread_count = 0;  // as many as there are cores
@@ -173,6 +193,7 @@ VideoDecoder::VideoDecoder(const std::filesystem::path& file, int track)
             " cannot be opened as a video: it is cut off, has no video stream or is of "
             "an unknown kind; record or convert it again");
     quarter_turns_ = quarter_turns(*packets_.stream());
+    marks_non_reference_ = marks_non_reference(*packets_.stream()->codecpar);
 }
 
 std::string VideoDecoder::codec() const {
@@ -184,24 +205,60 @@ std::string VideoDecoder::codec() const {
 bool VideoDecoder::decode() {
     for (int failures = 0; failures < kMostFailures;) {
         const int given = avcodec_receive_frame(decoder_.get(), frame_.get());
-        if (given == 0) return true;
-        if (given == AVERROR_EOF || (given == AVERROR(EAGAIN) && drained_)) return false;
+        if (given == 0) {
+            tell_skipped(time_s());
+            return true;
+        }
+        if (given == AVERROR_EOF || (given == AVERROR(EAGAIN) && drained_)) break;
         if (given != AVERROR(EAGAIN)) {
             ++failures;
             continue;
         }
-        const AVPacket* const packet = packets_.next();
-        drained_ = packet == nullptr;
-        if (avcodec_send_packet(decoder_.get(), packet) < 0) ++failures;
+        if (!send(packets_.next())) ++failures;
     }
+    tell_skipped(std::numeric_limits<double>::infinity());
     return false;
+}
+
+/// Which picture was skipped is told by its time, so that it needs one, and to be shown.
+bool VideoDecoder::may_skip(const AVPacket& packet) const noexcept {
+    return packets_.seconds(packet.pts) < skip_before_s_ &&
+           (packet.flags & (AV_PKT_FLAG_CORRUPT | AV_PKT_FLAG_DISCARD)) == 0;
+}
+
+/// Null: nothing follows. False: it cannot be decoded.
+bool VideoDecoder::send(const AVPacket* packet) {
+    drained_ = packet == nullptr;
+    const bool skip = packet != nullptr && may_skip(*packet);
+    decoder_->skip_frame = skip ? AVDISCARD_NONREF : AVDISCARD_DEFAULT;
+    if (avcodec_send_packet(decoder_.get(), packet) < 0) return false;
+    if (skip) may_be_skipped_s_.insert(packets_.seconds(packet->pts));
+    return true;
+}
+
+/// Pictures come in their order: those before the decoded one that did not come were skipped.
+void VideoDecoder::tell_skipped(double until_s) {
+    const auto begin = may_be_skipped_s_.begin();
+    skipped_s_.assign(begin, may_be_skipped_s_.lower_bound(until_s));
+    may_be_skipped_s_.erase(begin, may_be_skipped_s_.upper_bound(until_s));
 }
 
 bool VideoDecoder::jump(double time_s) {
     if (!packets_.jump(time_s)) return false;
     avcodec_flush_buffers(decoder_.get());
     drained_ = false;
+    skip_before_s_ = kNever_s;
+    may_be_skipped_s_.clear();
     return true;
+}
+
+void VideoDecoder::skip_non_reference_before(double time_s) noexcept {
+    if (marks_non_reference_) skip_before_s_ = time_s;
+}
+
+void VideoDecoder::keep() {
+    av_frame_unref(kept_.get());
+    if (av_frame_ref(kept_.get(), frame_.get()) < 0) throw std::bad_alloc();
 }
 
 double VideoDecoder::time_s() const noexcept {
@@ -248,7 +305,9 @@ cv::Mat VideoDecoder::levels() {
     }
     cv::Mat levels = luma_of(*frame_, *kind);
     if (!limited_) limited_ = is_limited(*frame_, *kind, levels);
-    if (*limited_) levels = stretched(levels, kind->comp[0].depth);
+    if (*limited_)
+        levels = levels.depth() == CV_8U ? stretched_bytes(levels)
+                                         : stretched(levels, kind->comp[0].depth);
     return turned(std::move(levels));
 }
 

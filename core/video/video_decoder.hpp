@@ -3,10 +3,14 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/video/video_packets.hpp"
 
@@ -32,6 +36,18 @@ class VideoDecoder {
     /// cannot jump.
     bool jump(double time_s);
 
+    /// Until the next jump, non-reference pictures before that time [s] are skipped, if the codec
+    /// marks them (H.264): a run-up takes less.
+    void skip_non_reference_before(double time_s) noexcept;
+    /// The times [s] of those skipped between the last two decoded pictures, or after the last,
+    /// in their order.
+    [[nodiscard]] const std::vector<double>& skipped_s() const noexcept { return skipped_s_; }
+
+    /// Keeps the decoded picture, which need not be converted before it is known that it is wanted.
+    void keep();
+    /// The one kept last becomes the decoded one, and the other way round.
+    void swap_kept() noexcept { std::swap(frame_, kept_); }
+
     // Of the decoded picture.
 
     /// From the track's beginning [s]; NaN when the file does not say.
@@ -54,21 +70,30 @@ class VideoDecoder {
     [[nodiscard]] bool is_grey() const noexcept;
 
   private:
+    static constexpr double kNever_s = -std::numeric_limits<double>::infinity();
+
     struct Closer {
         void operator()(AVCodecContext* context) const noexcept;
         void operator()(AVFrame* frame) const noexcept;
         void operator()(SwsContext* scaler) const noexcept;
     };
 
+    [[nodiscard]] bool may_skip(const AVPacket& packet) const noexcept;
+    bool send(const AVPacket* packet);
+    void tell_skipped(double until_s);
     [[nodiscard]] cv::Mat converted(int pixel_format, int type);
     [[nodiscard]] cv::Mat turned(cv::Mat picture) const;
 
     VideoPackets packets_;
     std::unique_ptr<AVCodecContext, Closer> decoder_{};
-    std::unique_ptr<AVFrame, Closer> frame_;
+    std::unique_ptr<AVFrame, Closer> frame_, kept_;
     std::unique_ptr<SwsContext, Closer> scaler_{};
     int quarter_turns_{0};  // clockwise
     bool drained_{false};
+    bool marks_non_reference_{false};  // the codec, packet by packet
+    double skip_before_s_{kNever_s};
+    std::set<double> may_be_skipped_s_{};  // given, and not decoded yet
+    std::vector<double> skipped_s_{};
     std::optional<bool> limited_{};  // the range of the track's levels, told by the first picture
 };
 

@@ -2,6 +2,7 @@
 #include "core/video/video_file.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -20,9 +21,11 @@ namespace dibhr {
 namespace {
 
 constexpr double kNearAhead_s = 1.0;   ///< up to here decoding on is as quick as a jump
+constexpr double kFewFrames = 3.0;     ///< before the wanted one none is skipped
 constexpr double kMissing_s = 0.5;     ///< less than this at the end is a container's rounding,
 constexpr double kMissingPart = 0.15;  ///< and less than this part may be a long last frame
 constexpr double kMostSampled = 1e8;   ///< pixels decoded to get samples: a third of a second
+constexpr double kNewest = 0.1;        ///< the weight of the newest of a moving mean
 constexpr double kLongest_s = 1e6;     ///< bounds a seek into a file of unknown length
 
 /// A whole file ends there at the earliest.
@@ -51,7 +54,7 @@ VideoFile::VideoFile(const std::filesystem::path& file, PictureRole role, int tr
         throw InputError(shown(file) + " holds no picture that can be decoded: record it again");
     facts_.bits = decoder_.bits();
     pixel_aspect_ = decoder_.pixel_aspect();
-    ahead_.push_back({retrieve(), time_s_, index_});
+    ahead_.push_back(timed(retrieve()));
     facts_.columns = ahead_.front().picture.cols;
     facts_.rows = ahead_.front().picture.rows;
     facts_.channels = decoder_.is_grey() ? 1 : 3;
@@ -115,7 +118,10 @@ bool VideoFile::grab() {
         grabbed_ = false;
         return true;
     }
+    const auto begin = std::chrono::steady_clock::now();
     ended_ = !decoder_.decode();
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    if (!jumped_) count_skipped();
     if (ended_) {
         notice_early_end();
         if (!jumped_ && counted_ && index_ >= 0 &&
@@ -128,6 +134,9 @@ bool VideoFile::grab() {
     }
     const double last_s = time_s_;
     const bool follows = index_ >= 0 && !jumped_;
+    // The first one fills the decoder's threads.
+    if (follows && decoder_.skipped_s().empty())
+        decoding_s_ += (decoding_s_ > 0.0 ? kNewest : 1.0) * (taken.count() - decoding_s_);
     time_s_ = decoder_.time_s();
     if (index_ < 0 && !(time_s_ >= 0.0)) time_s_ = 0.0;
     if (follows && !(time_s_ > last_s)) {
@@ -139,11 +148,23 @@ bool VideoFile::grab() {
     else
         ++index_;
     jumped_ = false;
-    if (counted_ && index_ == static_cast<std::int64_t>(times_.size())) {
-        times_.push_back(time_s_);
-        learn();
-    }
+    know_time();
     return true;
+}
+
+/// They are frames like others, whose time is known.
+void VideoFile::count_skipped() {
+    for (const double skipped_s : decoder_.skipped_s()) {
+        time_s_ = skipped_s;
+        ++index_;
+        know_time();
+    }
+}
+
+void VideoFile::know_time() {
+    if (!counted_ || index_ != static_cast<std::int64_t>(times_.size())) return;
+    times_.push_back(time_s_);
+    learn();
 }
 
 cv::Mat VideoFile::retrieve() {
@@ -190,23 +211,61 @@ std::optional<TimedPicture> VideoFile::next() {
         return first;
     }
     if (!grab()) return std::nullopt;
-    return TimedPicture{retrieve(), time_s_, index_};
+    return timed(retrieve());
 }
 
-void VideoFile::rewind_before(double time_s) {
+/// What is passed over is decoded and not converted.
+std::optional<TimedPicture> VideoFile::next_from(double earliest_s) {
+    std::optional<TimedPicture> last;  // without a picture: the one that the decoder keeps
+    for (; !ahead_.empty(); ahead_.pop_front()) {
+        last = std::move(ahead_.front());
+        if (last->time_s < earliest_s) continue;
+        ahead_.pop_front();
+        return last;
+    }
+    while (grab()) {
+        if (!(time_s_ < earliest_s)) return timed(retrieve());
+        decoder_.keep();
+        last = timed({});
+    }
+    if (last && last->picture.empty()) last = retrieve_kept(std::move(*last));
+    return last;
+}
+
+TimedPicture VideoFile::timed(cv::Mat picture) const {
+    return {std::move(picture), time_s_, index_, decoding_s_};
+}
+
+TimedPicture VideoFile::retrieve_kept(TimedPicture kept) {
+    decoder_.swap_kept();
+    kept.picture = retrieve();
+    decoder_.swap_kept();
+    return kept;
+}
+
+void VideoFile::rewind_before(double time_s, RunUp run_up) {
+    const auto jump = [&](double to_s) {
+        jumped_ = decoder_.jump(to_s);
+        if (run_up == RunUp::quick) skip_before(time_s);
+        return jumped_;
+    };
     for (double margin_s = 0.25; timed_ && time_s - margin_s > 0.0; margin_s *= 4.0) {
-        if (!decoder_.jump(time_s - margin_s)) break;
-        jumped_ = true;
+        if (!jump(time_s - margin_s)) break;
         if (!grab()) continue;
         grabbed_ = time_s_ <= time_s;
         if (grabbed_) return;
     }
-    if (timed_ && decoder_.jump(0.0)) {
-        jumped_ = true;
+    if (timed_ && jump(0.0)) {
         grabbed_ = grab() && index_ == 0 && time_s_ >= 0.0;
         if (grabbed_) return;
     }
     begin_again();
+}
+
+/// But for a few, as the frame shown then may have begun earlier.
+void VideoFile::skip_before(double time_s) {
+    const double interval_s = std::max(interval_s_, 1.0 / facts_.frames_per_s);
+    if (timed_) decoder_.skip_non_reference_before(time_s - kFewFrames * interval_s);
 }
 
 void VideoFile::seek(double time_s) {
@@ -214,23 +273,55 @@ void VideoFile::seek(double time_s) {
     const double wanted_s = (time_s > 0.0 ? std::min(time_s, latest_s) : 0.0) + kTimeTolerance_s;
     const bool near_ahead =
         !ended_ && ahead_.empty() && time_s_ <= wanted_s && wanted_s < time_s_ + kNearAhead_s;
-    std::optional<TimedPicture> shown_then;
     ahead_.clear();
-    if (near_ahead)
-        shown_then = TimedPicture{retrieve(), time_s_, index_};
-    else
-        rewind_before(wanted_s);
+    if (near_ahead) {
+        decoder_.keep();
+        skip_before(wanted_s);
+        if (run_up_to(wanted_s, timed({}))) return;
+    } else {
+        rewind_before(wanted_s, RunUp::quick);
+        if (run_up_to(wanted_s, {})) return;
+    }
+    rewind_before(wanted_s, RunUp::whole);
+    run_up_to(wanted_s, {});
+}
+
+/// Of what is decoded on the way nothing is converted but what is shown then, the one that the
+/// decoder keeps, and what follows it. False: it was skipped.
+bool VideoFile::run_up_to(double wanted_s, std::optional<TimedPicture> shown_then) {
     while (grab()) {
-        if (time_s_ > wanted_s && shown_then) {
-            ahead_.push_back({retrieve(), time_s_, index_});
+        const bool beyond = time_s_ > wanted_s;
+        if (beyond && skipped_until(wanted_s)) return false;
+        if (beyond && shown_then) {
+            ahead_.push_back(timed(retrieve()));
             break;
         }
         const auto follower = static_cast<std::size_t>(index_) + 1;
         const bool passed = counted_ && follower < times_.size() && times_[follower] <= wanted_s;
-        if (!passed) shown_then = TimedPicture{retrieve(), time_s_, index_};
-        if (time_s_ > wanted_s) break;
+        if (!passed) {
+            decoder_.keep();
+            shown_then = timed({});
+        }
+        if (beyond) break;
     }
-    if (shown_then) ahead_.push_front(std::move(*shown_then));
+    if (ended_ && skipped_until(wanted_s)) return false;
+    if (shown_then) ahead_.push_front(retrieve_kept(std::move(*shown_then)));
+    return true;
+}
+
+/// After the last frame that was not.
+bool VideoFile::skipped_until(double time_s) const {
+    return !decoder_.skipped_s().empty() && decoder_.skipped_s().front() <= time_s;
+}
+
+/// To the key frame before it.
+void VideoFile::seek_near(double time_s) {
+    ahead_.clear();
+    grabbed_ = false;
+    if (!timed_ || !decoder_.jump(std::max(time_s, 0.0))) return seek(time_s);
+    jumped_ = true;
+    if (!grab()) return seek(time_s);
+    ahead_.push_back(timed(retrieve()));
 }
 
 void VideoFile::count_frames(std::int64_t most) {

@@ -23,7 +23,9 @@ class VideoFile : public PictureSource {
 
     [[nodiscard]] const SourceFacts& facts() const override { return facts_; }
     std::optional<TimedPicture> next() override;
+    std::optional<TimedPicture> next_from(double earliest_s) override;
     void seek(double time_s) override;
+    void seek_near(double time_s) override;
 
     /// Decodes on without pictures, at most `most` frames, so that the facts become exact.
     void count_frames(std::int64_t most) override;
@@ -31,6 +33,8 @@ class VideoFile : public PictureSource {
     std::vector<cv::Mat> samples(int most) override;
 
   private:
+    enum class RunUp { quick, whole };
+
     void begin_again();
     void sample_evenly(int most, std::vector<cv::Mat>& pictures);
     void sample_by_jumps(int most, int frames_each, std::vector<cv::Mat>& pictures);
@@ -39,7 +43,14 @@ class VideoFile : public PictureSource {
     void notice_early_end();
     bool grab();         ///< decodes one frame: its time and index; false at the end
     cv::Mat retrieve();  ///< the picture of the grabbed frame
-    void rewind_before(double time_s);
+    [[nodiscard]] TimedPicture timed(cv::Mat picture) const;  ///< of the grabbed frame
+    TimedPicture retrieve_kept(TimedPicture kept);  ///< with its picture, which the decoder keeps
+    void count_skipped();
+    void know_time();  ///< of the frame at index_
+    void rewind_before(double time_s, RunUp run_up);
+    void skip_before(double time_s);
+    bool run_up_to(double wanted_s, std::optional<TimedPicture> shown_then);
+    [[nodiscard]] bool skipped_until(double time_s) const;
     void place_at(double time_s);  ///< index of a frame reached by a jump
     void learn();                  ///< rate and duration from the times read so far
 
@@ -51,8 +62,9 @@ class VideoFile : public PictureSource {
     std::deque<TimedPicture> ahead_{};  ///< decoded already, given out next
     std::vector<double> times_{};       ///< of all frames from the first without a gap
     double promised_s_{0.0};            ///< as the container said at the opening
+    double decoding_s_{0.0};            ///< of a frame, as of late
     double interval_s_{1.0 / 30.0};     ///< as the container says; for frames without a time
-    double time_s_{0.0};                ///< of the grabbed frame
+    double time_s_{0.0};                ///< of the grabbed frame, or one skipped since
     std::int64_t index_{-1};            ///< of the grabbed frame
     bool grabbed_{false};               ///< a jump left a decoded frame that `grab` gives first
     bool jumped_{false};                ///< times before the next frame are unknown

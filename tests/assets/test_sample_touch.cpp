@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/haptics/surface.hpp"
-#include "core/video/depth/depth_cleaning.hpp"
+#include "core/video/cleaning/cleaning_chain.hpp"
 #include "tests/assets/sample_files.hpp"
 #include "tests/core/haptics/fine_walk.hpp"
 #include "tests/support/catch.hpp"
@@ -23,8 +23,7 @@ DepthImage cleaned(const cv::Mat& frame) {
             depth.levels.push_back(static_cast<float>(frame.at<unsigned char>(j, i)));
         }
     }
-    DepthCleaner().clean(depth, {});
-    return depth;
+    return *CleaningChain().cleaned(depth, {kGentleSteps}).depth;
 }
 
 /// Rounds over the body at half a pixel an update, 6 px under the surface there.

@@ -8,8 +8,8 @@
 #include <memory>
 #include <utility>
 
-#include "core/video/depth/depth_cleaning.hpp"
-#include "core/video/depth/remembering_media.hpp"
+#include "core/video/cleaning/cleaning_chain.hpp"
+#include "core/video/cleaning/remembering_media.hpp"
 #include "core/video/media.hpp"
 #include "tests/fuzz/entry.hpp"
 
@@ -44,8 +44,8 @@ inline void require_sound(const RawFrame& frame, const MediaDescription& descrip
 inline void require_touchable(const RawFrame& frame, const MediaDescription& description) {
     constexpr std::size_t kMostPixels = std::size_t{1} << 14U;
     if (frame.depth.levels.size() > kMostPixels) return;
-    DepthCleaner cleaner;
-    const CleanedDepth cleaned = cleaner.cleaned(frame.depth, {}, frame.held);
+    const CleaningPlan plan{kSensorSteps, {}, {.constant = 0.002F, .square = 0.01F}};
+    const CleanedDepth cleaned = CleaningChain().cleaned(frame.depth, plan, frame.held);
     const auto highest = static_cast<float>(cleaned.depth->highest_level);
     const bool has_bounds = description.meaning || !description.has_real_numbers();
     for (const float level : cleaned.depth->levels) {

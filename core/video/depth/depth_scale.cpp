@@ -5,9 +5,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <opencv2/core.hpp>
 
 #include "core/video/pictures.hpp"
+#include "core/video/vector_clones.hpp"
 
 namespace dibhr {
 
@@ -17,6 +19,8 @@ constexpr double kFineSteps = 65535.0;  ///< where the source has no steps of it
 /// Fewer millimetres than this would be taken for an 8-bit image's steps.
 constexpr double kLeastMillimetres = 256.0;
 constexpr int kMostTabled = 16;
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+constexpr float kNoData = std::numeric_limits<float>::quiet_NaN();
 
 double in_mm(DepthUnit unit, double distance) {
     return unit == DepthUnit::m ? 1000.0 * distance : distance;
@@ -33,6 +37,22 @@ void map_levels(const cv::Mat& grey, const std::vector<float>& of_level, std::ve
     }
 }
 
+/// From a number to its level, where that is a straight line between two bounds.
+struct Linear {
+    double scale, far, per_one, highest, lowest_of, highest_of;
+};
+
+DIBHR_VECTOR_CLONES void map_numbers(const float* numbers, const Linear& linear, int count,
+                                     float* __restrict out) {
+    const auto [scale, far, per_one, highest, lowest_of, highest_of] = linear;
+    for (int i = 0; i < count; ++i) {
+        const double nearness = (static_cast<double>(numbers[i]) * scale - far) * per_one;
+        const double bounded = std::min(std::max(nearness, lowest_of), highest_of);
+        const bool finite = std::fabs(numbers[i]) <= std::numeric_limits<float>::max();
+        out[i] = finite ? static_cast<float>(highest * bounded) : kNoData;
+    }
+}
+
 }  // namespace
 
 double highest_level_of(const DepthMeaning& meaning, int bits) {
@@ -44,7 +64,10 @@ double highest_level_of(const DepthMeaning& meaning, int bits) {
 }
 
 DepthScale::DepthScale(const DepthMeaning& meaning, int bits)
-    : meaning_(meaning), highest_(highest_level_of(meaning, bits)) {
+    : meaning_(meaning),
+      highest_(highest_level_of(meaning, bits)),
+      always_data_(meaning.unit.value == DepthUnit::levels && meaning.no_data.value.empty() &&
+                   bits != kRealBits) {
     const DepthRange& range = meaning_.range.value;
     far_ = on_the_line(meaning_.unit.value, range.far);
     per_one_ = 1.0 / (on_the_line(meaning_.unit.value, range.near) - far_);
@@ -89,11 +112,27 @@ DepthImage DepthScale::image_of(const cv::Mat& picture) const {
     } else if (grey.depth() == CV_16U && !of_level_.empty()) {
         map_levels<std::uint16_t>(grey, of_level_, depth.levels);
     } else {
-        cv::Mat levels(grey.rows, grey.cols, CV_32FC1, depth.levels.data());
-        grey.convertTo(levels, CV_32F);
-        for (float& level : depth.levels) level = (*this)(level);
+        cv::Mat numbers = grey;
+        if (grey.type() != CV_32FC1) grey.convertTo(numbers, CV_32F);
+        for (int j = 0; j < grey.rows; ++j) map_row(numbers.ptr<float>(j), depth, j);
     }
     return depth;
+}
+
+/// The same as each number by itself, many at a time where that can be.
+void DepthScale::map_row(const float* numbers, DepthImage& depth, int row) const {
+    float* const out = depth.levels.data() + depth.index(0, row);
+    if (meaning_.unit.value == DepthUnit::disparity) {
+        for (int i = 0; i < depth.columns; ++i) out[i] = (*this)(numbers[i]);
+        return;
+    }
+    const Linear linear{
+        meaning_.scale.value,           far_, per_one_, highest_, as_recorded_ ? -kUnbounded : 0.0,
+        as_recorded_ ? kUnbounded : 1.0};
+    map_numbers(numbers, linear, depth.columns, out);
+    for (const double none : meaning_.no_data.value)
+        for (int i = 0; i < depth.columns; ++i)
+            out[i] = static_cast<double>(numbers[i]) == none ? kNoData : out[i];
 }
 
 cv::Mat DepthScale::distances_mm(const cv::Mat& picture) const {

@@ -36,6 +36,8 @@ class DepthScale {
     [[nodiscard]] float operator()(double level) const;
 
     [[nodiscard]] double highest_level() const noexcept { return highest_; }
+    /// No level of the source is no data.
+    [[nodiscard]] bool is_always_data() const noexcept { return always_data_; }
     /// Nothing where levels are as recorded.
     [[nodiscard]] std::optional<DepthMeaning> meaning() const {
         return as_recorded_ ? std::nullopt : std::optional(meaning_);
@@ -49,11 +51,13 @@ class DepthScale {
 
   private:
     [[nodiscard]] bool is_no_data(double level) const;
+    void map_row(const float* numbers, DepthImage& depth, int row) const;
 
     DepthMeaning meaning_;
     double highest_;
-    double far_;                     ///< on the line on which elevation is linear
-    double per_one_;                 ///< nearness of one on that line
+    double far_;      ///< on the line on which elevation is linear
+    double per_one_;  ///< nearness of one on that line
+    bool always_data_;
     bool as_recorded_{false};        ///< then real numbers may stand beyond the ends of the range
     std::vector<float> of_level_{};  ///< of every integer level; empty: of real numbers
 };

@@ -168,8 +168,9 @@ TEST_CASE("the serial of the settings chooses among several Falcons", "[falcon][
 
 TEST_CASE("falcon_host says how it is used: asked for, or after a wrong command line", "[falcon]") {
     const TemporaryFolder folder;
-    const auto told = [&folder](Words host) {
-        host.insert(host.begin(), FALCON_HOST);
+    const auto told = [&folder](const Words& options) {
+        Words host{FALCON_HOST};
+        host.insert(host.end(), options.begin(), options.end());
         return run_dibhr(folder, {}, host);
     };
     const ProgramResult help = told({"--help"});

@@ -84,7 +84,7 @@ TEST_CASE("a session replays bit for bit, cleaned or raw, with any algorithm and
                                       "god-object", "bump", "filtered");
     CAPTURE(kind);
     session.parameters.algorithm = algorithm_named(kind).value_or(Algorithm::dibhr);
-    if (kind == "raw") session.cleaning = {false, false, false};
+    if (kind == "raw") session.cleaning.preset = CleaningPreset::raw;
     if (kind == "god-object") session.parameters.coupling.damping_newton_s_per_m = 1.5;
     if (kind == "filtered") {
         session.parameters.coupling.damping_newton_s_per_m = 5.0;
@@ -133,6 +133,49 @@ TEST_CASE("other parameters are a comparison, not a failure", "[replay]") {
         CAPTURE(change, result.output, result.errors);
         CHECK(result.exit_code == 0);
         CHECK_FALSE(contains(result.output, "identical"));
+    }
+}
+
+TEST_CASE("a session is felt again over depth that is cleaned otherwise, or with a finger",
+          "[replay]") {
+    const TemporaryFolder folder;
+    make_film(folder);
+    record_session(folder / "mine.dibhr", film_session(folder));
+    const auto rows_with = [&](std::vector<std::string> change) {
+        change.insert(change.begin(), {"replay", "mine.dibhr", "--csv", "again.csv"});
+        const ProgramResult result = run_dibhr(folder, change);
+        CAPTURE(change, result.output, result.errors);
+        REQUIRE(result.exit_code == 0);
+        auto rows = split(read_text(folder / "again.csv"), '\n');
+        for (std::string& row : rows) row = row.substr(0, row.rfind(','));  // without its time
+        return rows;
+    };
+    const auto recorded = rows_with({});
+    const auto raw = rows_with({"--raw-depth"});
+    CHECK((rows_with({"--cleaning", "raw"}) == raw));
+    const auto sensor = rows_with({"--cleaning", "sensor"});
+    CHECK((sensor != raw));
+    const auto finger = rows_with({"--finger", "3"});
+    CHECK((finger != recorded));
+    CHECK((rows_with({"--cleaning", "sensor", "--finger", "3"}) != sensor));
+    const auto gentle = rows_with({"--cleaning", "gentle"});
+    CHECK((gentle != sensor));
+}
+
+TEST_CASE("what a session's depth meant is not changed by a word, nor its relief by none",
+          "[replay]") {
+    const TemporaryFolder folder;
+    make_film(folder);
+    record_session(folder / "mine.dibhr", film_session(folder));
+    for (const std::vector<std::string>& word :
+         {std::vector<std::string>{"--near", "dark"}, {"--relief", "auto"}}) {
+        std::vector<std::string> arguments{"replay", "mine.dibhr"};
+        arguments.insert(arguments.end(), word.begin(), word.end());
+        const ProgramResult result = run_dibhr(folder, arguments);
+        CAPTURE(word, result.errors);
+        CHECK(result.exit_code == 2);
+        CHECK(is_one_line(result.errors));
+        CHECK(contains(result.errors, word.front()));
     }
 }
 
@@ -253,7 +296,7 @@ TEST_CASE("updates that end before the proxy has caught up are told, and replay 
               "geq=lum='100+mod(X*X+7*Y,3)'\" -frames:v 3 -c:v ffv1 film_depth.mkv && "
               "cp film_depth.mkv film_color.mkv");
     RecordedSession session = film_session(folder);
-    session.cleaning = {false, false, false};
+    session.cleaning.preset = CleaningPreset::raw;
     session.parameters.friction = {0.0, 0.0};
     session.jumps = true;
     record_session(folder / "mine.dibhr", session);
@@ -411,17 +454,35 @@ TEST_CASE("files that are no session are refused by every command in one line", 
 }
 
 TEST_CASE("twenty seconds of the sample go through all four algorithms in under two seconds",
-          "[replay]") {
+          "[replay][alone]") {
     const TemporaryFolder folder;
     const SampleFiles sample = sample_files();
     record_session(folder / "mine.dibhr",
                    {.colour = sample.colour, .depth = sample.depth, .seconds = 20.0});
-    // The best of some, for other programs may be busy, also such as share this machine unseen; on
-    // a busier machine the work alone counts.
+    // The best of some, for other programs may be busy; on a busier machine the work alone counts.
+    // Some share this machine unseen: that shows in how long another program takes to decode the
+    // clip meanwhile, from 0.6 to 0.9 s within twenty minutes. Two cores may be halves of one: a
+    // second of either is worth less while both work, as they do here; two that decode show it.
     constexpr double kLongest_s = 2.0;
+    constexpr double kDecoding_s = 0.45;  // where nobody else is
     double wall_s = 1e9;
     double cpu_s = 1e9;
+    double decoding_s = 1e9;
+    double each_of_two_s = 1e9;
+    const auto slowness = [](double taken_s) {
+        return std::clamp(taken_s / kDecoding_s, 1.0, 2.5);
+    };
+    const std::string decode =
+        "ffmpeg -v error -threads 1 -i '" + sample.depth.string() + "' -f null -";
+    const auto decoding_takes = [&](const std::string& command) {
+        const double before_s = cpu_seconds_of_children();
+        run_shell(folder, command);
+        return cpu_seconds_of_children() - before_s;
+    };
     for (int run = 0; run < 12 && std::max(wall_s, cpu_s) >= kLongest_s; ++run) {
+        decoding_s = std::min(decoding_s, decoding_takes(decode));
+        each_of_two_s =
+            std::min(each_of_two_s, decoding_takes(decode + " & " + decode + "; wait") / 2.0);
         const double cpu_before_s = cpu_seconds_of_children();
         const auto begin = std::chrono::steady_clock::now();
         const ProgramResult result =
@@ -434,11 +495,11 @@ TEST_CASE("twenty seconds of the sample go through all four algorithms in under 
         REQUIRE(result.exit_code == 0);
         REQUIRE(contains(result.output, "dibhr, as recorded: all 20000"));
     }
-    CAPTURE(wall_s, cpu_s, processes_at_work());
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    CAPTURE(wall_s, cpu_s, decoding_s, each_of_two_s, processes_at_work());
+#if !DIBHR_SANITIZED
     const bool busy = processes_at_work() > 2.0;
-    CHECK((wall_s < kLongest_s || busy));
-    CHECK(cpu_s < (busy ? 2.0 : 1.0) *
-                      kLongest_s);  // on one core, too; shared caches cost half as much again
+    CHECK((wall_s < slowness(decoding_s) * kLongest_s || busy));
+    // On one core, too; who shares its caches may cost as much again.
+    CHECK(cpu_s < std::max(slowness(each_of_two_s), busy ? 2.0 : 1.0) * kLongest_s);
 #endif
 }

@@ -192,3 +192,62 @@ TEST_CASE("a 4K surface is written in little more memory than it takes to read i
         std::filesystem::remove(folder / name);
     }
 }
+
+TEST_CASE("what is cleaned is what was asked for: nothing, or what the noise of the clip asks for",
+          "[surface]") {
+    const TemporaryFolder folder;
+    run_shell(folder,
+              "ffmpeg -v error -f lavfi -i color=0x808080:s=160x120:r=30 -frames:v 12 "
+              "-vf format=gray,noise=alls=8:allf=t -pix_fmt gray -c:v ffv1 depth.mkv");
+    const auto cleaned = [&](const std::string& word) {
+        return elevations(folder, {"depth.mkv", "--time", "0.2", "--cleaning", word});
+    };
+    const auto roughness_px = [](const Elevations& surface) {
+        double sum = 0.0;
+        double squares = 0.0;
+        for (const float px : surface.px) {
+            sum += static_cast<double>(px);
+            squares += static_cast<double>(px) * static_cast<double>(px);
+        }
+        const auto count = static_cast<double>(surface.px.size());
+        return std::sqrt(squares / count - sum * sum / count / count);
+    };
+    const Elevations automatic = cleaned("auto");
+    const double raw_px = roughness_px(cleaned("raw"));
+    const double gentle_px = roughness_px(cleaned("gentle"));
+    CHECK(roughness_px(automatic) < 0.1 * raw_px);
+    CHECK(gentle_px < raw_px);
+    CHECK(gentle_px > 0.5 * raw_px);
+    CHECK(cleaned("sensor").px == automatic.px);
+    CHECK(elevations(folder, {"depth.mkv", "--time", "0.2"}).px == automatic.px);
+    check_refused(
+        run_dibhr(folder, {"surface", "depth.mkv", "--out", "out.pfm", "--cleaning", "polish"}), 2,
+        "'polish' is none of auto, raw, gentle, sensor");
+}
+
+TEST_CASE("a fingertip of a radius rounds what stands out and cannot enter what is narrower",
+          "[surface]") {
+    const TemporaryFolder folder;
+    std::string pixels = "P5 80 40 255\n";
+    for (int j = 0; j < 40; ++j)
+        for (int i = 0; i < 80; ++i)
+            pixels += static_cast<char>(i >= 20 && i < 23 ? 110 : i == 60 ? 20 : 100);
+    write_text(folder / "depth.pgm", pixels);
+    const auto felt = [&](const std::string& finger_mm) {
+        return elevations(folder, {"depth.pgm", "--cleaning", "raw", "--relief", "255",
+                                   "--pixel-pitch", "2", "--finger", finger_mm});
+    };
+    const Elevations point = felt("0");
+    CHECK_THAT(point.at(60, 20), WithinAbs(20.0, 0.01));
+    CHECK_THAT(point.at(24, 20), WithinAbs(100.0, 0.01));
+    const Elevations ball = felt("10");  // 5 px
+    CHECK_THAT(ball.at(21, 20), WithinAbs(110.0, 0.01));
+    for (const int away_px : {1, 2, 3, 4}) {
+        const double lower_px = 5.0 - std::sqrt(25.0 - away_px * away_px);
+        CHECK_THAT(ball.at(22 + away_px, 20), WithinAbs(110.0 - lower_px, 0.02));
+    }
+    CHECK_THAT(ball.at(30, 20), WithinAbs(100.0, 0.01));
+    CHECK_THAT(ball.at(60, 20), WithinAbs(100.0 - (5.0 - std::sqrt(24.0)), 0.02));
+    check_refused(run_dibhr(folder, {"surface", "depth.pgm", "--out", "out.pfm", "--finger", "-1"}),
+                  2, "--finger");
+}

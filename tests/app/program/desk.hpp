@@ -76,6 +76,7 @@ struct Row {
     bool ready{false};     ///< the hand gives poses
     bool stand_in{false};  ///< it is the mouse, in place of a Falcon
     bool lets_go{false};   ///< a proxy in contact begins anew, above the goal
+    bool in_time{false};   ///< its two frames follow each other in the file, as far apart as there
 };
 
 [[nodiscard]] std::vector<Row> read_session(const std::filesystem::path& file);

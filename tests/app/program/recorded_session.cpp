@@ -93,7 +93,10 @@ void record_session(const std::filesystem::path& file, const RecordedSession& wa
         if (k % (count / 2) == 0) hand_over();
         const auto now = begin + std::chrono::milliseconds(k);
         bool changed = playback.advance(now) || k == 0;
-        while (playback.needs_frame() && playback.read_ahead()) changed = true;
+        while (playback.needs_frame() && playback.read_ahead(now)) {
+            playback.arrived(now);
+            changed = true;
+        }
         const bool surface = k < count - wanted.ticks_without_surface;
         if (changed && surface) frames.publish(playback.window());
         if (k == count - wanted.ticks_without_surface) frames.publish({});

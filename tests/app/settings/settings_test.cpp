@@ -30,7 +30,7 @@ Settings unusual_settings() {
     settings.touch.algorithm = Algorithm::neighborhood;
     settings.touch.friction = {0.7, 0.3};
     settings.touch.coupling.damping_cutoff_hz = 62.5;
-    settings.cleaning.fill_holes = false;
+    settings.cleaning.own.fill_holes = false;
     settings.look.light = 0.125;
     settings.straight_view = true;
     settings.max_force_newton = 2.5;

@@ -44,16 +44,17 @@ bool falcon_touches(const Row& row) {
 }
 
 /// Runs of rows of the Falcon in which the proxy followed from the first row on, as it does when
-/// the goals are all there is: each begins in free space, or where the proxy began anew.
+/// the goals and the file are all there is: each begins in free space, or where the proxy began
+/// anew, and ends where a frame came late or was passed over.
 std::vector<Rows> strokes(const Rows& rows) {
     std::vector<Rows> all(1);
     for (std::size_t k = 1; k < rows.size(); ++k) {
         const bool jumps = rows[k].video_s < rows[k - 1].video_s;
         const bool anew = rows[k].lets_go && rows[k - 1].contact;
-        const bool of_falcon = rows[k].surface && !rows[k].stand_in;
-        if (jumps || anew || !of_falcon) all.emplace_back();
+        const bool as_in_file = rows[k].surface && !rows[k].stand_in && rows[k].in_time;
+        if (jumps || anew || !as_in_file) all.emplace_back();
         const bool begins = anew || !rows[k].contact;
-        if (of_falcon && (begins || !all.back().empty())) all.back().push_back(rows[k]);
+        if (as_in_file && (begins || !all.back().empty())) all.back().push_back(rows[k]);
     }
     constexpr std::size_t kShort = 100;
     std::erase_if(all, [](const Rows& stroke) { return stroke.size() < kShort; });
@@ -118,16 +119,20 @@ bool cut_for(SafetyCut reason, const Row& row) {
     return row.cut == static_cast<int>(reason);
 }
 
-/// The first row of the Falcon in which the goal is so far from the one before [image mm].
-Rows::const_iterator step_of(const Rows& rows, double least_mm, double most_mm) {
-    const auto found = std::adjacent_find(
-        rows.begin(), rows.end(), [least_mm, most_mm](const Row& before, const Row& after) {
-            const double step_mm =
-                glm::distance(before.goal, after.goal) * Coupling{}.pixel_pitch_mm;
-            return before.surface && !before.stand_in && !after.stand_in && step_mm > least_mm &&
-                   step_mm < most_mm;
-        });
-    return found == rows.end() ? found : std::next(found);
+/// The rows of the Falcon in which the goal is so far from the one before [image mm], and which
+/// come a millisecond after it: how far it may be goes by the time, which a busy machine does not
+/// keep.
+Rows steps_of(const Rows& rows, double least_mm, double most_mm) {
+    Rows steps;
+    for (std::size_t k = 1; k < rows.size(); ++k) {
+        const Row& before = rows[k - 1];
+        const Row& after = rows[k];
+        const bool of_falcon = before.surface && !before.stand_in && !after.stand_in;
+        const bool in_time = std::fabs(after.t_s - before.t_s - 1e-3) < 2e-4;
+        const double step_mm = glm::distance(before.goal, after.goal) * Coupling{}.pixel_pitch_mm;
+        if (of_falcon && in_time && step_mm > least_mm && step_mm < most_mm) steps.push_back(after);
+    }
+    return steps;
 }
 
 double strongest(const Rows& rows) {
@@ -147,14 +152,16 @@ TEST_CASE(
     at.falcon.move_hand({0.0, 0.0, 140.0}, 0.3);
     at.desk.act("key Home sleep 0.3");  // ten seconds of video to touch
 
-    at.falcon.move_hand({0.0, 0.0, 118.0}, 0.5);
-    std::this_thread::sleep_for(400ms);
-    at.falcon.move_hand({0.0, 0.0, 108.0}, 0.4);
-    FalconOnUsb::wait_until([&at] { return at.falcon.number("lamp") == 2; });  // green: force
-    at.wait_for_force();
-    std::this_thread::sleep_for(800ms);
-    at.falcon.move_hand({14.0, 0.0, 108.0}, 1.0);
-    at.falcon.move_hand({14.0, 0.0, 140.0}, 0.3);
+    for (int stroke = 0; stroke < 3; ++stroke) {  // a busy machine passes frames over in some
+        at.falcon.move_hand({0.0, 0.0, 118.0}, 0.5);
+        std::this_thread::sleep_for(400ms);
+        at.falcon.move_hand({0.0, 0.0, 108.0}, 0.4);
+        FalconOnUsb::wait_until([&at] { return at.falcon.number("lamp") == 2; });  // green: force
+        at.wait_for_force();
+        std::this_thread::sleep_for(800ms);
+        at.falcon.move_hand({14.0, 0.0, 108.0}, 1.0);
+        at.falcon.move_hand({14.0, 0.0, 140.0}, 0.3);
+    }
     CHECK(at.falcon.number("force_before_homing") == 0);
     const Rows rows = at.finish();
 
@@ -294,10 +301,15 @@ TEST_CASE("the force is off while another window has the keyboard, and rises aga
 
     const auto off = [](const Row& row) { return cut_for(SafetyCut::off, row); };
     const auto lost = std::find_if(rows.begin(), rows.end(), off);
-    REQUIRE(lost != rows.begin());
+    REQUIRE(lost - rows.begin() > 500);
     REQUIRE(lost != rows.end());
-    CHECK(glm::length(std::prev(lost)->sent_newton) > 0.5);
-    const auto back = std::find_if_not(lost, rows.end(), off);
+    // A busy machine takes it off for a moment.
+    CHECK(std::count_if(lost - 500, lost,
+                        [](const Row& row) { return glm::length(row.sent_newton) > 0.5; }) > 250);
+    // A late tick, which a busy machine has, is told before it.
+    const auto back = std::find_if(lost, rows.end(),
+                                   [](const Row& row) { return cut_for(SafetyCut::none, row); });
+    CHECK(std::count_if(lost, back, off) > 100);
     CHECK(std::all_of(lost, back, [](const Row& row) {
         return glm::length(row.spring_newton) > 0.5 && !(glm::length(row.sent_newton) > 0.0);
     }));
@@ -314,30 +326,38 @@ TEST_CASE("the force stays while another window has the keyboard, when it is wis
     at.press_in();
     OtherWindow other(at.desk);
     std::this_thread::sleep_for(700ms);
-    CHECK(at.falcon.vector("motor_newton").z > 0.5);
+    at.wait_for_force();  // which a late tick, as on a busy machine, takes off for a moment
     other.close();
     std::this_thread::sleep_for(300ms);
-    CHECK(at.falcon.vector("motor_newton").z > 0.5);
+    at.wait_for_force();
     at.desk.act(std::string(kMeet) + "windowfocus");
     const Rows rows = at.finish();
     CHECK(std::none_of(rows.begin(), rows.end(),
                        [](const Row& row) { return cut_for(SafetyCut::off, row); }));
+    const auto is_felt = [](const Row& row) { return row.sent_newton.z > 0.5; };
+    const auto felt = std::find_if(rows.begin(), rows.end(), is_felt);
+    CHECK(std::count_if(felt, rows.end(), is_felt) > (rows.end() - felt) / 2);
 }
 
 TEST_CASE("what is a jump is measured in the hand's millimetres, whatever the scale",
           "[falcon][window]") {
     FalconScene at(kHomedFalcon, {"--device", "falcon"}, "[falcon]\nscale = 4.0\n");
     std::this_thread::sleep_for(1500ms);  // the window has seen that it touches
-    at.falcon.tell("place 6 0 140");      // a fast hand, of which a reply was lost
-    std::this_thread::sleep_for(300ms);
-    at.falcon.tell("place -9 0 140");
-    std::this_thread::sleep_for(300ms);
+    // A fast hand, of which a reply was lost, and one that no hand is, often enough.
+    for (int time = 0; time < 5; ++time) {
+        for (const char* const place :
+             {"place 6 0 140", "place 0 0 140", "place 6 0 140", "place -9 0 140"}) {
+            at.falcon.tell(place);
+            std::this_thread::sleep_for(100ms);
+        }
+    }
     const Rows rows = at.finish();
-    const auto fast = step_of(rows, 15.0, 30.0);
-    REQUIRE(fast != rows.end());
-    CHECK_FALSE(cut_for(SafetyCut::goal_jump, *fast));
-    const auto too_fast = step_of(rows, 45.0, 75.0);
-    REQUIRE(too_fast != rows.end());
-    CHECK(cut_for(SafetyCut::goal_jump, *too_fast));
+    const auto is_jump = [](const Row& row) { return cut_for(SafetyCut::goal_jump, row); };
+    const Rows fast = steps_of(rows, 15.0, 30.0);
+    REQUIRE_FALSE(fast.empty());
+    CHECK(std::none_of(fast.begin(), fast.end(), is_jump));
+    const Rows too_fast = steps_of(rows, 45.0, 75.0);
+    REQUIRE_FALSE(too_fast.empty());
+    CHECK(std::all_of(too_fast.begin(), too_fast.end(), is_jump));
     require_same_bits(at.folder, at.folder / "hand.dibhr");
 }

@@ -51,10 +51,13 @@ void check_end_by_signal(Process& viewer, const TemporaryFolder& folder,
     require_same_bits(folder, folder / "hand.dibhr");
 }
 
-std::size_t ticks_of_standstills(const std::vector<Row>& rows) {
-    return static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), [](const Row& row) {
-        return row.cut == static_cast<int>(SafetyCut::standstill);
-    }));
+/// By the clock: on a busy machine ticks are fewer.
+double seconds_of_standstills(const std::vector<Row>& rows) {
+    double total_s = 0.0;
+    for (std::size_t k = 1; k < rows.size(); ++k)
+        if (rows[k - 1].cut == static_cast<int>(SafetyCut::standstill))
+            total_s += rows[k].t_s - rows[k - 1].t_s;
+    return total_s;
 }
 
 /// A disk whose files with `part` in their path stand still, on demand.
@@ -117,7 +120,7 @@ TEST_CASE("a display that goes on gives the force back, and what was recorded re
     CHECK(glm::length(at.falcon.vector("motor_newton")) < 1e-6);
     at.desk.resume();
     at.wait_for_force();
-    CHECK(ticks_of_standstills(at.finish()) > 400);
+    CHECK(seconds_of_standstills(at.finish()) > 0.4);
     require_same_bits(at.folder, at.folder / "hand.dibhr");
 }
 
@@ -126,7 +129,7 @@ TEST_CASE("a window's thread that loops for ever holds no force, nor the program
     at.press_in();
     at.wait_for_lasting_zero();
     check_end_by_signal(at.viewer, at.folder, "drawing");
-    CHECK(ticks_of_standstills(read_session(at.folder / "hand.dibhr")) > 200);
+    CHECK(seconds_of_standstills(read_session(at.folder / "hand.dibhr")) > 0.2);
 }
 
 TEST_CASE("a second signal ends a program that hangs at once", "[ways out]") {
@@ -158,7 +161,7 @@ TEST_CASE("a disk under the recording that stops takes the force off until it go
     CHECK(off_s < kLongest_s + 0.12);  // it writes ten times a second
     stall.end();
     at.wait_for_force();
-    CHECK(ticks_of_standstills(at.finish()) > 20);
+    CHECK(seconds_of_standstills(at.finish()) > 0.02);
     require_same_bits(at.folder, at.folder / "hand.dibhr");
 }
 
@@ -178,15 +181,20 @@ TEST_CASE("a disk under the video that stops takes the force off, and a signal e
     std::this_thread::sleep_for(std::chrono::seconds(2));  // what was read ahead is played first
     check_end_by_signal(viewer, folder, "closing the window");
     const std::vector<Row> rows = read_session(folder / "hand.dibhr");
-    CHECK(ticks_of_standstills(rows) > 500);
+    CHECK(seconds_of_standstills(rows) > 0.5);
     // Up to the signal, which also makes the hand not ready.
     std::size_t at = rows.size();
     while (at > 0 && !rows[at - 1].ready) --at;
     REQUIRE(at > 300);
+    int late = 0;  // which is told first, and happens on a busy machine
     for (std::size_t k = at - 300; k < at; ++k) {
-        CHECK(rows[k].cut == static_cast<int>(SafetyCut::standstill));
+        const bool is_late = rows[k].t_s - rows[k - 1].t_s > SafetyLimits{}.max_tick_s;
+        late += is_late ? 1 : 0;
+        CHECK(rows[k].cut ==
+              static_cast<int>(is_late ? SafetyCut::late_tick : SafetyCut::standstill));
         CHECK(rows[k].contact);
         CHECK(glm::length(rows[k].spring_newton) > 0.01);
         CHECK(glm::length(rows[k].sent_newton) < 1e-12);
     }
+    CHECK(late < 10);
 }

@@ -4,8 +4,11 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
+#include <string>
+#include <vector>
 
 #include "core/haptics/safety.hpp"
+#include "core/session/session.hpp"
 #include "core/video/media.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/support/catch.hpp"
@@ -183,6 +186,25 @@ TEST_CASE(
     CHECK(read_session(folder / "hand.dibhr").size() > 500);
     CHECK(describe_media(folder / "last.png").colour_columns == 640);
     CHECK_FALSE(std::filesystem::exists(folder / "config"));
+}
+
+TEST_CASE("while its key is held the depth is felt as recorded", "[window]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    make_films(folder);
+    Process viewer = desk.start_viewer(folder, {"plane_color.mkv", "--device", "mouse", "--record",
+                                                "hand.dibhr", "--seconds", "30"});
+    desk.act(kMeet + std::string("sleep 2 keydown b sleep 2 keyup b sleep 2 key q"));
+    REQUIRE(viewer.wait() == 0);
+    const Session session(folder / "hand.dibhr");
+    std::vector<bool> cleaned;  // whenever it changed
+    Session::Ticks ticks(session);
+    for (TickRecord tick; ticks.next(tick);) {
+        const bool is_cleaned = tick.frames.source.fill_holes;
+        if (tick.surface && (cleaned.empty() || cleaned.back() != is_cleaned))
+            cleaned.push_back(is_cleaned);
+    }
+    CHECK(cleaned == std::vector{true, false, true});
 }
 
 TEST_CASE("a file that cannot be opened from the window is told there, and the program goes on",

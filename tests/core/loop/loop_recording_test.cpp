@@ -40,7 +40,7 @@ FrameWindow rising_window(int columns, int rows, float step = 1.0F) {
         frame.media_s = 10.0 + static_cast<double>(k);
         frame.index = 300 + static_cast<std::int64_t>(k);
         frame.media = 1;
-        frame.cleaning = {false, true, false};
+        frame.cleaning = {{.remove_spikes = true, .steady = true}, {3.0, 255.0}};
     }
     window.count = 2;
     window.clock = {std::chrono::steady_clock::now(), 0.0, 1.0};
@@ -52,7 +52,11 @@ class WindowFrames final : public RecordedFrames {
   public:
     explicit WindowFrames(const FrameWindow& window) : window_(window) {}
     [[nodiscard]] Frame frame(const FrameSource& source, double media_s) override {
-        CHECK(source == FrameSource{1, false, true, false});
+        CHECK(source == FrameSource{.media = 1,
+                                    .remove_spikes = true,
+                                    .steady = true,
+                                    .finger_px = 3.0,
+                                    .finger_relief_px = 255.0});
         return window_.frames.at(media_s > 10.5 ? 1 : 0);
     }
     [[nodiscard]] std::shared_ptr<const BumpMap> bump(const SessionParameters&) override {

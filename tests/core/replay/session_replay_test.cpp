@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "core/replay/frames.hpp"
 #include "core/session/recorder.hpp"
-#include "core/video/depth/surface_version.hpp"
+#include "core/video/cleaning/surface_version.hpp"
 #include "tests/core/session/exploration.hpp"
 #include "tests/core/session/session_folder.hpp"
 #include "tests/support/catch.hpp"
@@ -108,21 +108,23 @@ TEST_CASE("a run with another friction gives other proxies, beside one that is a
 
 TEST_CASE("who replays a session whose surfaces were cleaned otherwise is told", "[replay]") {
     const SessionFolder folder;
-    const auto warning = [&](SessionFacts facts, bool raw_depth) {
+    const auto warning = [&](SessionFacts facts, std::optional<CleaningPreset> cleaning = {}) {
         std::filesystem::remove(folder.file());
         {
             const auto ring = std::make_unique<TickRing>();
             const Recorder recorder(folder.file(), *ring, facts);
         }
-        const SessionFrames frames(Session(folder.file()), {.raw_depth = raw_depth});
+        const SessionFrames frames(Session(folder.file()), {.cleaning = cleaning});
         return frames.warning();
     };
     const std::string now = std::to_string(kSurfaceVersion);
-    CHECK(contains(warning({{"remove-spikes", "yes"}}, false), "earlier dibhr"));
-    CHECK(contains(warning({{"fill-holes", "yes"}, {"surface-version", "1"}}, false), "earlier"));
-    CHECK(warning({{"fill-holes", "yes"}, {"surface-version", now}}, false).empty());
-    CHECK(warning({{"fill-holes", "no"}, {"remove-spikes", "no"}}, false).empty());
-    CHECK(warning({{"remove-spikes", "yes"}}, true).empty());
+    CHECK(contains(warning({{"remove-spikes", "yes"}}), "earlier dibhr"));
+    CHECK(contains(warning({{"fill-holes", "yes"}, {"surface-version", "1"}}), "earlier"));
+    CHECK(warning({{"fill-holes", "yes"}, {"surface-version", now}}).empty());
+    CHECK(warning({{"fill-holes", "no"}, {"remove-spikes", "no"}}).empty());
+    CHECK(warning({{"remove-spikes", "yes"}}, CleaningPreset::raw).empty());
+    CHECK(contains(warning({{"cleaning", "auto"}, {"surface-version", "1"}}), "earlier"));
+    CHECK(warning({{"cleaning", "raw"}, {"surface-version", "1"}}).empty());
 }
 
 TEST_CASE("a session without its parameters can be read, but says why it is not replayed",

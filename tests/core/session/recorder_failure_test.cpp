@@ -14,6 +14,7 @@
 #include "core/session/session.hpp"
 #include "tests/core/session/session_folder.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/eventually.hpp"
 #include "tests/support/text.hpp"
 
 namespace {

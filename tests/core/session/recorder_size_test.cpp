@@ -98,12 +98,9 @@ void check(const Cost& cost) {
     CHECK(cost.status.dropped == 0);
     CHECK(cost.missing == 0);
     CHECK(cost.bytes_per_hour <= kMostBytesPerHour);
+    if (DIBHR_SANITIZED) return;  // takes its own time, and keeps what was freed
     CHECK(cost.grown_bytes < 32e6);
-#ifndef __SANITIZE_ADDRESS__
-#ifndef __SANITIZE_THREAD__
     CHECK(cost.share_of_core <= kMostShareOfCore);
-#endif
-#endif
 }
 
 }  // namespace

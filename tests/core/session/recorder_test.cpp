@@ -16,6 +16,7 @@
 
 #include "tests/core/session/session_folder.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/eventually.hpp"
 
 namespace {
 

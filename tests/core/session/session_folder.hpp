@@ -87,16 +87,6 @@ inline void record_ticks(const std::filesystem::path& file, std::int64_t count) 
     for (std::int64_t n = 0; n < count; ++n) push(*ring, tick_record(n));
 }
 
-/// Waits until `condition` holds; false after ten seconds.
-template <typename Condition>
-bool eventually(Condition condition) {
-    for (int k = 0; k < 2000; ++k) {
-        if (condition()) return true;
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    return false;
-}
-
 /// What a shell command prints.
 inline std::string output_of(const std::string& command) {
     std::string text;

@@ -12,6 +12,7 @@
 #include "core/session/recorder.hpp"
 #include "tests/core/session/session_folder.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/eventually.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;

@@ -23,6 +23,9 @@ void make_flat_clip(const std::filesystem::path& file, int frames, int frames_pe
 
 inline const std::string kLossless = "-c:v ffv1 -pix_fmt gray";
 inline const std::string kH264 = "-c:v libx264 -crf 8 -bf 2 -g 12 -pix_fmt yuv420p";
+/// Of one key frame; every other picture is a non-reference one.
+inline const std::string kRareKeys =
+    "-c:v libx264 -crf 8 -bf 3 -b_strategy 0 -sc_threshold 0 -g 250 -pix_fmt yuv420p";
 inline const std::string kVp9 =
     "-c:v libvpx-vp9 -crf 8 -b:v 0 -deadline realtime -g 12 -pix_fmt yuv420p";
 

@@ -45,6 +45,19 @@ std::uint32_t bits_of(float number) {
 
 }  // namespace
 
+TEST_CASE("only integer levels that all mean something can have no holes", "[scale]") {
+    const DepthRange bright{255.0, 0.0};
+    DepthMeaning levels = meaning_of(DepthUnit::levels, bright);
+    CHECK(DepthScale(levels, 8).is_always_data());
+    CHECK(DepthScale::as_recorded(16).is_always_data());
+    CHECK_FALSE(DepthScale(levels, kRealBits).is_always_data());
+    CHECK_FALSE(DepthScale::as_recorded(kRealBits).is_always_data());
+    CHECK_FALSE(DepthScale(meaning_of(DepthUnit::mm, {400.0, 4000.0}), 16).is_always_data());
+    CHECK_FALSE(DepthScale(meaning_of(DepthUnit::disparity, bright), 8).is_always_data());
+    levels.no_data.value = {0.0};
+    CHECK_FALSE(DepthScale(levels, 8).is_always_data());
+}
+
 TEST_CASE("a level stands where the rule of its unit puts it", "[scale]") {
     struct Case {
         DepthUnit unit;

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/video/depth/depth_cleaning.hpp"
+#include "core/video/cleaning/cleaning_chain.hpp"
 #include "core/video/frame_reader.hpp"
 #include "core/video/media.hpp"
 #include "tests/core/video/pits.hpp"
@@ -83,11 +83,11 @@ struct Recording {
 /// As the reader does.
 std::vector<DepthImage> cleaned(const std::vector<DepthImage>& frames) {
     DepthMemory memory;
-    DepthCleaner cleaner;
-    std::vector<DepthImage> done = frames;
-    for (std::size_t k = 0; k < done.size(); ++k) {
+    CleaningChain chain;
+    std::vector<DepthImage> done;
+    for (std::size_t k = 0; k < frames.size(); ++k) {
         const auto held = memory.take(frames[k], static_cast<double>(k) * kFrame_s);
-        cleaner.clean(done[k], {}, held);
+        done.push_back(*chain.cleaned(frames[k], {kGentleSteps}, held).depth);
     }
     return done;
 }
@@ -96,8 +96,10 @@ DepthImage cleaned(const DepthImage& image) {
     return cleaned(std::vector<DepthImage>{image}).front();
 }
 
-std::vector<std::uint8_t> unseen_of(DepthImage image) {
-    return DepthCleaner().clean(image, {});
+std::vector<std::uint8_t> unseen_of(const DepthImage& image,
+                                    const CleaningSteps& steps = kGentleSteps) {
+    const auto unseen = CleaningChain().cleaned(image, {steps}).unseen;
+    return unseen ? *unseen : std::vector<std::uint8_t>{};
 }
 
 bool same(const DepthImage& a, const DepthImage& b) {
@@ -225,9 +227,9 @@ TEST_CASE("an image without any data is unseen all over", "[holes]") {
 
 TEST_CASE("without filling, no data is unseen and the farthest", "[holes]") {
     const auto lost = [](int i, int j) { return in_rectangle(i, j, 60, 40, 5, 5); };
-    DepthImage raw = image_with(plane, lost);
-    const std::vector<std::uint8_t> unseen = DepthCleaner().clean(raw, {false, false, false});
+    const std::vector<std::uint8_t> unseen = unseen_of(image_with(plane, lost), kRawSteps);
     CHECK(std::count(unseen.begin(), unseen.end(), 1) == 25);
+    const DepthImage raw = *CleaningChain().cleaned(image_with(plane, lost), {kRawSteps}).depth;
     CHECK(raw.at(62, 42) == 0.0F);
     CHECK(raw.at(59, 42) == static_cast<float>(plane(59, 42)));
 }
@@ -280,6 +282,7 @@ TEST_CASE("a frame has the same bits whichever way it was come to", "[holes]") {
                frame->depth->levels == in_order[static_cast<std::size_t>(k)].levels;
     };
     FrameReader reader(std::make_unique<ListedMedia>(frames, kFrame_s));
+    reader.set_cleaning({.preset = CleaningPreset::gentle});
     SECTION("sought") {
         for (const int k : {50, 3, 74, 31, 0, 60, 29}) CHECK(is_frame(reader.at(frame_s(k)), k));
     }
@@ -290,9 +293,9 @@ TEST_CASE("a frame has the same bits whichever way it was come to", "[holes]") {
     SECTION("played on from a jump, and cleaned anew") {
         CHECK(is_frame(reader.at(frame_s(40)), 40));
         for (int k = 40; k < 74; ++k) CHECK(is_frame(reader.after(frame_s(k)), k + 1));
-        reader.set_cleaning({false, false, false});
+        reader.set_cleaning({.preset = CleaningPreset::raw});
         CHECK_FALSE(is_frame(reader.at(frame_s(70)), 70));
-        reader.set_cleaning({});
+        reader.set_cleaning({.preset = CleaningPreset::gentle});
         CHECK(is_frame(reader.at(frame_s(70)), 70));
     }
 }
@@ -303,6 +306,7 @@ TEST_CASE("a seek reads a second back only to a frame with holes", "[holes]") {
     int read = 0;
     FrameReader reader(std::make_unique<ListedMedia>(
         std::vector<DepthImage>(75, image_with(plane, lost)), kFrame_s, &read));
+    reader.set_cleaning({.preset = CleaningPreset::gentle});
     REQUIRE(reader.at(60 * kFrame_s));
     CHECK((holed ? read >= 31 && read <= 34 : read == 1));
 }
@@ -315,4 +319,25 @@ TEST_CASE("where nothing was ever seen is told with the frame", "[holes]") {
     CHECK(first->unseen->size() == first->depth->levels.size());
     const auto second = reader.after(0.0);
     CHECK((second && !second->unseen));
+}
+
+TEST_CASE("a steadied frame has the same bits whichever way it was come to", "[holes]") {
+    const auto frames = Recording{
+        box, 0.06, [](int i, int j) {
+            return in_rectangle(i, j, 60, 40, 30, 30);
+        }}.frames(60);
+    const auto frame_s = [](int k) { return static_cast<double>(k) * kFrame_s; };
+    std::vector<DepthImage> in_order;
+    FrameReader forward(std::make_unique<ListedMedia>(frames, kFrame_s));
+    forward.set_cleaning({.preset = CleaningPreset::sensor});
+    in_order.push_back(*forward.at(0.0)->depth);
+    for (int k = 0; k < 59; ++k) in_order.push_back(*forward.after(frame_s(k))->depth);
+    FrameReader other(std::make_unique<ListedMedia>(frames, kFrame_s));
+    other.set_cleaning({.preset = CleaningPreset::raw});
+    (void)other.at(frame_s(20));
+    other.set_cleaning({.preset = CleaningPreset::sensor});
+    for (const int k : {50, 3, 59, 31, 0, 29})
+        CHECK(same(*other.at(frame_s(k))->depth, in_order[static_cast<std::size_t>(k)]));
+    for (int k = 40; k > 30; --k)
+        CHECK(same(*other.before(frame_s(k))->depth, in_order[static_cast<std::size_t>(k - 1)]));
 }

@@ -91,6 +91,8 @@ TEST_CASE("a seek gives the frame shown at that time, forwards, backwards and be
         {{"even.mkv", kLossless, ""},
          {"even.mp4", kH264, ""},
          {"even.webm", kVp9, ""},
+         {"rare.mp4", kRareKeys, ""},
+         {"rare_uneven.mkv", kRareKeys, "settb=1/1000,setpts='20*N+7*N*N'"},
          {"uneven.mkv", kH264, "settb=1/1000,setpts='20*N+7*N*N'"},
          {"uneven.webm", kVp9, "settb=1/1000,setpts='20*N+7*N*N'"}}));
     CAPTURE(name);
@@ -103,6 +105,7 @@ TEST_CASE("a seek gives the frame shown at that time, forwards, backwards and be
     REQUIRE(times.size() == 50);
     const bool read_before = GENERATE(false, true);
     CAPTURE(read_before);
+    const bool counts = read_before || name.starts_with("rare");  // from its only key frame on
     const auto media = open_depth(folder / name);
     if (read_before) (void)all_frames(*media);
     std::mt19937 random(7);
@@ -117,7 +120,7 @@ TEST_CASE("a seek gives the frame shown at that time, forwards, backwards and be
         REQUIRE(frame);
         CHECK(frame_of(frame->depth) == expected);
         CHECK_THAT(frame->media_s, WithinAbs(times[static_cast<std::size_t>(expected)], 1e-9));
-        if (read_before) CHECK(frame->index == expected);
+        if (counts) CHECK(frame->index == expected);
         const auto follower = media->next();
         REQUIRE(follower.has_value() == (expected + 1 < 50));
         if (follower) CHECK(frame_of(follower->depth) == expected + 1);

@@ -129,11 +129,11 @@ TEST_CASE("with cleaning off the depth is exactly the file's", "[player]") {
     const auto raw = open_depth(folder / "depth.png")->next();
     REQUIRE(raw);
     Player player;
-    player.set_cleaning({false, false, false});
+    player.set_cleaning({.preset = CleaningPreset::raw});
     player.play_media(open_media(folder / "rgb.png"));
     REQUIRE(rests_on(player, 0));
     CHECK(player.picture().front().frames[0].depth->levels == raw->depth.levels);
-    player.set_cleaning({});
+    player.set_cleaning({.preset = CleaningPreset::gentle});
     CHECK(soon(
         [&] { return player.picture().front().frames[0].depth->levels != raw->depth.levels; }));
     CHECK(player.picture().front().count == 1);
@@ -155,7 +155,8 @@ TEST_CASE("a new file takes over from the one before, and raises the discontinui
 TEST_CASE("reading every kilohertz tick during play, seeks and loops never tears or goes back",
           "[player]") {
     Player player;
-    player.set_cleaning({true, true, false});
+    player.set_cleaning(
+        {.preset = CleaningPreset::own, .own = {.remove_spikes = true, .fill_holes = true}});
     player.set_speed(4.0);
     player.play_media(clip().open());
     std::atomic<bool> ended{false};

@@ -2,12 +2,17 @@
 // when it begins.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/video/media.hpp"
+#include "core/video/video_decoder.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -189,6 +194,127 @@ TEST_CASE("colour that begins later than depth by its file's clock is shown late
         ++told;
     }
     CHECK(told == 20);
+}
+
+TEST_CASE("frames that are passed over change nothing of those after them", "[media]") {
+    const TemporaryFolder folder;
+    const int colours_per_s = GENERATE(30, 60);
+    make_flat_clip(folder / "colour.mp4", colours_per_s, colours_per_s, kH264);
+    make_flat_clip(folder / "depth.mp4", 40, 30, kH264);
+    const auto open = [&] { return open_media(folder / "colour.mp4", folder / "depth.mp4"); };
+    std::vector<RawFrame> all;
+    const auto every = open();
+    while (auto frame = every->next()) all.push_back(std::move(*frame));
+    REQUIRE(all.size() == 40);
+    CHECK(all.back().passing_s > 0.0);
+
+    const auto few = open();
+    std::size_t at = 0;
+    for (const int on : {0, 1, 2, 7, 1, 3, 12, 1, 4, 100}) {
+        at = std::min(at + static_cast<std::size_t>(on), all.size() - 1);
+        CAPTURE(at);
+        const auto frame = few->next_from(on == 100 ? 100.0 : all[at].media_s - 0.01);
+        REQUIRE(frame);
+        CHECK(frame->index == all[at].index);
+        CHECK(frame->media_s == all[at].media_s);
+        CHECK(frame->depth.levels == all[at].depth.levels);
+        CHECK(frame->colour.rgb == all[at].colour.rgb);
+    }
+    CHECK_FALSE(few->next_from(100.0));
+    CHECK_FALSE(few->next());
+    for (const std::size_t to : {4U, 5U, 6U, 20U}) {  // a jump leaves some that are there already
+        few->seek(all[4].media_s);
+        const auto frame = few->next_from(all[to].media_s - 0.01);
+        REQUIRE(frame);
+        CHECK(frame->index == all[to].index);
+        CHECK(frame->depth.levels == all[to].depth.levels);
+        CHECK(frame->colour.rgb == all[to].colour.rgb);
+    }
+}
+
+TEST_CASE("a run-up skips non-reference pictures, and tells their times", "[media]") {
+    const TemporaryFolder folder;
+    make_flat_clip(folder / "clip.mkv", 50, 25, kRareKeys);
+    std::vector<double> all_s;
+    VideoDecoder every(folder / "clip.mkv", 0);
+    while (every.decode()) {
+        CHECK(every.skipped_s().empty());
+        all_s.push_back(every.time_s());
+    }
+    REQUIRE(all_s.size() == 50);
+
+    VideoDecoder few(folder / "clip.mkv", 0);
+    const double from_s = 1.2;
+    few.skip_non_reference_before(from_s);
+    std::vector<double> told_s;
+    std::size_t decoded = 0;
+    const auto tell_skipped = [&] {
+        for (const double time_s : few.skipped_s()) {
+            CHECK(time_s < from_s);
+            told_s.push_back(time_s);
+        }
+    };
+    while (few.decode()) {
+        tell_skipped();
+        told_s.push_back(few.time_s());
+        ++decoded;
+    }
+    tell_skipped();
+    CHECK(told_s == all_s);
+    CHECK(decoded <= 40);  // 20 and half of 30
+    REQUIRE(few.jump(0.0));
+    for (const double time_s : all_s) {
+        REQUIRE(few.decode());
+        CHECK(few.time_s() == time_s);
+    }
+}
+
+TEST_CASE("a seek far beyond a key frame takes less than decoding all that is between", "[media]") {
+    const TemporaryFolder folder;
+    // Eight of nine pictures are non-reference ones, of noise that takes time.
+    make_flat_clip(folder / "clip.mp4", 120, 25,
+                   "-c:v libx264 -crf 18 -bf 8 -b_strategy 0 -x264-params b-pyramid=none "
+                   "-sc_threshold 0 -g 250 -pix_fmt yuv420p",
+                   "noise=alls=30:allf=t", 640, 480);
+    const auto spent = [] { return static_cast<double>(std::clock()); };  // of all threads
+    double best_share = 1.0;
+    for (int time = 0; time < 3; ++time) {
+        const double begin = spent();
+        VideoDecoder every(folder / "clip.mp4", 0);
+        while (every.decode()) {
+        }
+        const double all = spent() - begin;
+        const auto media = open_depth(folder / "clip.mp4");
+        const double before = spent();
+        media->seek(4.6);
+        REQUIRE(media->next());
+        best_share = std::min(best_share, (spent() - before) / all);
+    }
+    CHECK(best_share < 0.7);
+}
+
+TEST_CASE("a film that was cut without coding it again begins at 0, and counts what is shown",
+          "[media]") {
+    const TemporaryFolder folder;
+    make_flat_clip(folder / "whole.mp4", 60, 25, kRareKeys);
+    const auto file = folder / "part.mp4";
+    ffmpeg("-ss 0.36 -i '" + (folder / "whole.mp4").string() + "' -c copy '" + file.string() + "'");
+    const auto media = open_depth(file);
+    std::vector<double> times_s;
+    while (const auto frame = media->next()) {
+        CHECK(frame->index == static_cast<std::int64_t>(times_s.size()));
+        times_s.push_back(frame->media_s);
+    }
+    REQUIRE(times_s.size() >= 45);
+    CHECK(times_s.front() >= 0.0);
+    const auto again = open_depth(file);
+    for (const std::size_t k : {30U, 5U, 38U}) {
+        again->seek(times_s[k]);
+        const auto frame = again->next();
+        REQUIRE(frame);
+        CHECK(frame->media_s == times_s[k]);
+        CHECK(frame->index == static_cast<std::int64_t>(k));
+    }
 }
 
 TEST_CASE("a file of a colour and a depth track is opened as both, whichever comes first",

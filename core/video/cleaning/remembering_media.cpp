@@ -1,20 +1,13 @@
 // Reads a second more where it matters.
-#include "core/video/depth/remembering_media.hpp"
+#include "core/video/cleaning/remembering_media.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "core/video/cleaning/patches.hpp"
+
 namespace dibhr {
-
-namespace {
-
-bool has_holes(const DepthImage& depth) {
-    return std::any_of(depth.levels.begin(), depth.levels.end(),
-                       [](float level) { return std::isnan(level); });
-}
-
-}  // namespace
 
 std::optional<RawFrame> RememberingMedia::next() {
     if (!wanted_s_) return read();
@@ -23,9 +16,22 @@ std::optional<RawFrame> RememberingMedia::next() {
     return read_at(media_s);
 }
 
+std::optional<RawFrame> RememberingMedia::next_from(double earliest_s) {
+    if (wanted_s_ || !always_whole_) return Media::next_from(earliest_s);
+    return media_->next_from(earliest_s);
+}
+
+void RememberingMedia::seek_near(double media_s) {
+    wanted_s_.reset();
+    memory_.forget();
+    media_->seek_near(media_s);
+}
+
 std::optional<RawFrame> RememberingMedia::read() {
     std::optional<RawFrame> frame = media_->next();
-    if (frame) frame->held = memory_.take(frame->depth, frame->media_s);
+    if (!frame) return frame;
+    always_whole_ = frame->always_whole;
+    if (!always_whole_) frame->held = memory_.take(frame->depth, frame->media_s);
     return frame;
 }
 
@@ -33,7 +39,8 @@ std::optional<RawFrame> RememberingMedia::read_at(double media_s) {
     memory_.forget();
     media_->seek(media_s);
     std::optional<RawFrame> frame = read();
-    if (!frame || frame->index == 0 || !has_holes(frame->depth)) return frame;
+    if (!frame || frame->always_whole || frame->index == 0 || !has_holes(frame->depth))
+        return frame;
     const double frame_s = frame->media_s;
     memory_.forget();
     media_->seek(std::max(0.0, frame_s - kHold_s - 2.0 * kTimeTolerance_s));

@@ -1,5 +1,5 @@
 // Cleaning: holes, spikes and 8-bit steps, and what cleaning must never do.
-#include "core/video/depth/depth_cleaning.hpp"
+#include "core/video/cleaning/cleaning_chain.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,9 +14,9 @@ using Catch::Matchers::WithinAbs;
 
 namespace {
 
-constexpr CleaningOptions kHolesOnly{true, false, false};
-constexpr CleaningOptions kSpikesOnly{false, true, false};
-constexpr CleaningOptions kStepsOnly{false, false, true};
+constexpr CleaningSteps kHolesOnly{.fill_holes = true};
+constexpr CleaningSteps kSpikesOnly{.remove_spikes = true};
+constexpr CleaningSteps kStepsOnly{.smooth_steps = true};
 
 const double kNone = std::nan("");
 
@@ -36,10 +36,8 @@ DepthImage with_back_wall(DepthImage image) {
     return image;
 }
 
-DepthImage cleaned(DepthImage image, const CleaningOptions& options) {
-    DepthCleaner cleaner;
-    cleaner.clean(image, options);
-    return image;
+DepthImage cleaned(DepthImage image, const CleaningSteps& steps) {
+    return *CleaningChain().cleaned(std::move(image), {steps}).depth;
 }
 
 double largest_difference(const DepthImage& a, const DepthImage& b) {
@@ -85,17 +83,16 @@ TEST_CASE("cleaning that is off leaves every level as it is, and no data at the 
           "[cleaning]") {
     const double highest = GENERATE(255.0, 65535.0);
     const DepthImage image = hostile(1, highest);
-    CHECK(cleaned(image, {false, false, false}).levels == with_back_wall(image).levels);
+    CHECK(cleaned(image, kRawSteps).levels == with_back_wall(image).levels);
 }
 
 TEST_CASE("the same image always gives the same bits", "[cleaning]") {
     const DepthImage image = hostile(2);
-    DepthCleaner used;
-    DepthImage other = hostile(3);
-    used.clean(other, {});
-    DepthImage again = image;
-    used.clean(again, {});
-    CHECK(again.levels == cleaned(image, {}).levels);
+    const CleaningPlan plan{kSensorSteps, {}, {.constant = 0.01F}};
+    CleaningChain used;
+    (void)used.cleaned(hostile(3), plan);
+    CHECK(used.cleaned(image, plan).depth->levels ==
+          CleaningChain().cleaned(image, plan).depth->levels);
 }
 
 TEST_CASE("smoothing keeps every pixel within half a level, in range, and the farthest farthest",
@@ -116,17 +113,50 @@ TEST_CASE("smoothing keeps every pixel within half a level, in range, and the fa
     CHECK(holes_kept);
 }
 
+TEST_CASE("real numbers beyond the range of levels are smoothed as its ends", "[cleaning]") {
+    DepthImage image = image_of(70, 20, [](int i, int) { return std::floor(100.0 + 0.2 * i); });
+    image.at(20, 10) = -5.0F;
+    image.at(40, 10) = 600.0F;
+    image.at(60, 10) = 1e12F;
+    StepSmoother().smooth(image);
+    for (const float level : image.levels) {
+        REQUIRE(level >= 0.0F);
+        REQUIRE(level <= 255.0F);
+    }
+    CHECK(image.at(20, 10) == 0.0F);
+    CHECK(image.at(60, 10) == 255.0F);
+    CHECK(std::fabs(image.at(20, 13) - 104.0F) <= 0.5F);
+}
+
+TEST_CASE("images of any size are smoothed by a smoother that has seen others as by a new one",
+          "[cleaning]") {
+    StepSmoother used;
+    for (const int columns : {2, 31, 32, 33, 64, 33, 2}) {
+        for (const int rows : {2, 40, 3, 100}) {
+            DepthImage image = image_of(columns, rows, [](int i, int j) {
+                return std::floor(60.0 + 0.3 * i + 0.1 * j) + (i * 7 + j * 5) % 3;
+            });
+            DepthImage other = image;
+            used.smooth(image);
+            StepSmoother().smooth(other);
+            CAPTURE(columns, rows);
+            CHECK(image.levels == other.levels);
+        }
+    }
+}
+
 TEST_CASE("smoothing adds at most half a level to what filling and spike removal gave",
           "[cleaning]") {
     const DepthImage image = hostile(GENERATE(range(30U, 35U)));
     // Filled levels lie between whole ones: half a level from there is as exact as a float is.
-    CHECK(largest_difference(cleaned(image, {true, true, false}), cleaned(image, {})) < 0.50001);
+    CHECK(largest_difference(cleaned(image, {.remove_spikes = true, .fill_holes = true}),
+                             cleaned(image, kGentleSteps)) < 0.50001);
 }
 
 TEST_CASE("a flat image stays flat, however often it is cleaned", "[cleaning]") {
     const double level = GENERATE(0.0, 1.0, 128.0, 255.0);
     const DepthImage flat = image_of(50, 40, [&](int, int) { return level; });
-    CHECK(cleaned(cleaned(flat, {}), {}).levels == flat.levels);
+    CHECK(cleaned(cleaned(flat, kGentleSteps), kGentleSteps).levels == flat.levels);
 }
 
 TEST_CASE("a plane cut into 8-bit terraces becomes a slope again", "[cleaning]") {
@@ -160,7 +190,7 @@ TEST_CASE("a curved surface in 8 bits becomes smoother, too", "[cleaning]") {
 
 TEST_CASE("a real edge keeps its height and its place", "[cleaning]") {
     const DepthImage cliff = image_of(60, 40, [](int i, int) { return i < 30 ? 50.0 : 150.0; });
-    CHECK(cleaned(cliff, {}).levels == cliff.levels);
+    CHECK(cleaned(cliff, kGentleSteps).levels == cliff.levels);
 }
 
 TEST_CASE("16-bit levels are small: they are not smoothed", "[cleaning]") {
@@ -209,7 +239,7 @@ TEST_CASE("holes in the highest level are no higher, whatever number that is", "
                                           : static_cast<double>(static_cast<float>(highest));
                 },
                 highest),
-            {});
+            kGentleSteps);
         const auto [lowest, most] = std::minmax_element(image.levels.begin(), image.levels.end());
         REQUIRE(*lowest >= 0.0F);
         REQUIRE(*most == static_cast<float>(highest));
@@ -252,7 +282,7 @@ TEST_CASE("no pixel is left in a pit, at the border or beside a deeper one eithe
 TEST_CASE("a speck of depth in empty background is removed, not spread", "[cleaning]") {
     DepthImage image = image_of(100, 100, [](int, int) { return kNone; });
     image.at(50, 50) = 200.0F;
-    const DepthImage clean = cleaned(image, {});
+    const DepthImage clean = cleaned(image, kGentleSteps);
     CHECK(std::count(clean.levels.begin(), clean.levels.end(), 0.0F) == 10000);
 }
 
@@ -264,7 +294,9 @@ TEST_CASE("images of any small size are cleaned without reading beside them", "[
     const DepthImage image = image_of(columns, rows, [&](int, int) {
         return random() % 4 == 0 ? kNone : static_cast<double>(random() % 4 * 60);
     });
-    const DepthImage clean = cleaned(image, {});
+    const CleaningPlan plan{
+        GENERATE(kGentleSteps, kSensorSteps), {GENERATE(0.0, 3.0), 255.0}, {.constant = 0.01F}};
+    const DepthImage clean = *CleaningChain().cleaned(image, plan).depth;
     REQUIRE(clean.levels.size() == image.levels.size());
     CHECK(std::all_of(clean.levels.begin(), clean.levels.end(),
                       [](float level) { return level >= 0.0F && level <= 255.0F; }));

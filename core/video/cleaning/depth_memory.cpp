@@ -1,10 +1,13 @@
 // What a pixel without data was a moment before.
-#include "core/video/depth/depth_memory.hpp"
+#include "core/video/cleaning/depth_memory.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <utility>
+
+#include "core/video/vector_clones.hpp"
 
 namespace dibhr {
 
@@ -33,6 +36,19 @@ bool has_its_like(const DepthImage& image, int i, int j, float level, float outl
     return false;
 }
 
+/// NaN is passed over.
+DIBHR_VECTOR_CLONES void lower(float* __restrict levels, const float* other, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) levels[i] = other[i] < levels[i] ? other[i] : levels[i];
+}
+
+DIBHR_VECTOR_CLONES void lowest_of_squares(const float* row, float* __restrict lowest,
+                                           std::size_t squares) {
+    static_assert(kSquare_px == 4);
+    for (std::size_t i = 0; i < squares; ++i)
+        lowest[i] = std::min(std::min(row[4 * i], row[4 * i + 1]),
+                             std::min(row[4 * i + 2], row[4 * i + 3]));
+}
+
 int squares_in(int pixels) {
     return (pixels + kSquare_px - 1) / kSquare_px;
 }
@@ -50,6 +66,13 @@ std::vector<HeldLevel> DepthMemory::take(const DepthImage& depth, double media_s
     }
     const auto now = oldest_ + static_cast<std::uint32_t>(times_.size());
     times_.push_back(media_s);
+    if (!has_holes(depth)) {
+        levels_ = depth.levels;
+        whole_in_ = now;
+        return {};
+    }
+    if (const std::uint32_t whole_in = std::exchange(whole_in_, 0); whole_in != 0)
+        seen_in_.assign(depth.levels.size(), whole_in);
     std::vector<HeldLevel> held;
     for (std::size_t k = 0; k < depth.levels.size(); ++k) {
         if (const float level = depth.levels[k]; !std::isnan(level)) {
@@ -64,6 +87,7 @@ std::vector<HeldLevel> DepthMemory::take(const DepthImage& depth, double media_s
 
 void DepthMemory::forget() noexcept {
     levels_.clear();
+    whole_in_ = 0;
     times_.clear();
     oldest_ = 1;
 }
@@ -97,29 +121,28 @@ void HeldFiller::find_farthest(const DepthImage& image) {
         return static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) +
                static_cast<std::size_t>(i);
     };
+    const auto width = static_cast<std::size_t>(columns);
     lowest_.assign(at(0, rows), kInfinity);
     for (int j = 0; j < rows; ++j) {
-        in_row_.assign(static_cast<std::size_t>(columns) * kSquare_px, kInfinity);
-        for (int y = j * kSquare_px; y < std::min((j + 1) * kSquare_px, image.rows); ++y) {
-            const float* row = image.levels.data() + image.index(0, y);
-            for (std::size_t i = 0; i < static_cast<std::size_t>(image.columns); ++i)
-                in_row_[i] = std::min(in_row_[i], row[i]);  // NaN is passed over
-        }
-        for (int i = 0; i < columns; ++i) {
-            const auto first = in_row_.begin() + std::ptrdiff_t{i} * kSquare_px;
-            lowest_[at(i, j)] = *std::min_element(first, first + kSquare_px);
-        }
+        in_row_.assign(width * kSquare_px, kInfinity);
+        for (int y = j * kSquare_px; y < std::min((j + 1) * kSquare_px, image.rows); ++y)
+            lower(in_row_.data(), image.levels.data() + image.index(0, y),
+                  static_cast<std::size_t>(image.columns));
+        lowest_of_squares(in_row_.data(), lowest_.data() + at(0, j), width);
     }
     in_column_.assign(at(0, rows), kInfinity);
     for (int j = 0; j < rows; ++j)
         for (int y = std::max(j - kSquares, 0); y <= std::min(j + kSquares, rows - 1); ++y)
-            for (int i = 0; i < columns; ++i)
-                in_column_[at(i, j)] = std::min(in_column_[at(i, j)], lowest_[at(i, y)]);
+            lower(in_column_.data() + at(0, j), lowest_.data() + at(0, y), width);
     farthest_.assign(at(0, rows), kInfinity);
     for (int j = 0; j < rows; ++j)
-        for (int i = 0; i < columns; ++i)
-            for (int x = std::max(i - kSquares, 0); x <= std::min(i + kSquares, columns - 1); ++x)
-                farthest_[at(i, j)] = std::min(farthest_[at(i, j)], in_column_[at(x, j)]);
+        for (int x = -kSquares; x <= kSquares; ++x) {
+            const int begin = std::max(-x, 0);
+            const int end = std::min(columns - x, columns);
+            if (begin < end)
+                lower(farthest_.data() + at(begin, j), in_column_.data() + at(begin + x, j),
+                      static_cast<std::size_t>(end - begin));
+        }
 }
 
 void HeldFiller::find_seen_patches(const DepthImage& image, std::span<const HeldLevel> held) {

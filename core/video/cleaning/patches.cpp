@@ -1,9 +1,51 @@
 // Joins runs of pixels, row by row.
-#include "core/video/depth/patches.hpp"
+#include "core/video/cleaning/patches.hpp"
 
 #include <algorithm>
 
+#include "core/video/vector_clones.hpp"
+
 namespace dibhr {
+
+namespace {
+
+/// Of the highest level: beyond the noise of any sensor, below the thickness of a hand.
+constexpr float kOutline = 0.04F;
+
+DIBHR_VECTOR_CLONES int any_hole(const float* levels, std::size_t count) noexcept {
+    int any = 0;
+    for (std::size_t i = 0; i < count; ++i) any |= levels[i] != levels[i] ? 1 : 0;
+    return any;
+}
+
+/// 1 where there is data, changed by `other`: 1 where there is none.
+DIBHR_VECTOR_CLONES int mark(const float* levels, int other, std::uint8_t* __restrict marks,
+                             std::size_t count) noexcept {
+    int any = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const int marked = (levels[i] == levels[i] ? 1 : 0) ^ other;
+        marks[i] = static_cast<std::uint8_t>(marked);
+        any |= marked;
+    }
+    return any;
+}
+
+}  // namespace
+
+bool has_holes(const float* levels, std::size_t count) noexcept {
+    constexpr std::size_t kChunk = 4096;
+    for (std::size_t at = 0; at < count; at += kChunk)
+        if (any_hole(levels + at, std::min(kChunk, count - at)) != 0) return true;
+    return false;
+}
+
+bool mark_holes(const float* levels, std::uint8_t* marks, std::size_t count) noexcept {
+    return mark(levels, 1, marks, count) != 0;
+}
+
+float outline_levels(const DepthImage& image) noexcept {
+    return kOutline * static_cast<float>(image.highest_level);
+}
 
 void Patches::find(const DepthImage& image, bool with_data) {
     find_runs(image, with_data);
@@ -12,13 +54,15 @@ void Patches::find(const DepthImage& image, bool with_data) {
 }
 
 void Patches::find_runs(const DepthImage& image, bool with_data) {
-    const auto is_in = [with_data](float level) { return is_data(level) == with_data; };
+    const auto columns = static_cast<std::size_t>(image.columns);
+    marks_.resize(columns);
     runs_.clear();
     for (int j = 0; j < image.rows; ++j) {
-        visit_runs(image.levels.data() + image.index(0, j), image.columns, is_in,
-                   [this, j](int begin, int end) {
-                       runs_.push_back({j, begin, end, static_cast<std::int32_t>(runs_.size())});
-                   });
+        const float* const row = image.levels.data() + image.index(0, j);
+        if (mark(row, with_data ? 0 : 1, marks_.data(), columns) == 0) continue;
+        visit_marked(marks_.data(), image.columns, [this, j](int begin, int end) {
+            runs_.push_back({j, begin, end, static_cast<std::int32_t>(runs_.size())});
+        });
     }
 }
 

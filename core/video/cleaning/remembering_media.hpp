@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "core/video/depth/depth_memory.hpp"
+#include "core/video/cleaning/depth_memory.hpp"
 #include "core/video/media.hpp"
 
 namespace dibhr {
@@ -20,8 +20,12 @@ class RememberingMedia : public Media {
     }
     /// With its held levels.
     std::optional<RawFrame> next() override;
+    /// Those before it are read, too, where they may have holes.
+    std::optional<RawFrame> next_from(double earliest_s) override;
     /// Nothing is read before the next frame is asked for.
     void seek(double media_s) override { wanted_s_ = media_s; }
+    /// That frame holds nothing.
+    void seek_near(double media_s) override;
 
   private:
     std::optional<RawFrame> read();
@@ -29,6 +33,7 @@ class RememberingMedia : public Media {
 
     std::unique_ptr<Media> media_;
     DepthMemory memory_{};
+    bool always_whole_{false};          ///< as the last frame said
     std::optional<double> wanted_s_{};  ///< where the next frame is; nothing: it follows
 };
 

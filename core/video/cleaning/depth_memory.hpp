@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
-#include "core/video/depth/hole_filling.hpp"
+#include "core/video/cleaning/patches.hpp"
 
 namespace dibhr {
 
@@ -33,6 +33,7 @@ class DepthMemory {
   private:
     std::vector<float> levels_{};           ///< the last of each pixel; empty: nothing was taken
     std::vector<std::uint32_t> seen_in_{};  ///< in which frame, counted from 1; 0: in none
+    std::uint32_t whole_in_{0};             ///< in which all of them were, since when; 0: in none
     std::deque<double> times_{};            ///< of the frames that are young enough
     std::uint32_t oldest_{1};               ///< the first one of them
 };

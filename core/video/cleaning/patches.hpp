@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
@@ -26,6 +27,38 @@ void visit_runs(const Value* row, int columns, const IsIn& is_in, const Visit& v
         at = std::find_if(stop, end, is_in);
     }
 }
+
+/// The same of marks that are not 0.
+template <typename Visit>
+void visit_marked(const std::uint8_t* row, int columns, const Visit& visit) {
+    const auto eight_from = [row](int at) {
+        std::uint64_t eight = 0;
+        std::memcpy(&eight, row + at, sizeof eight);
+        return eight;
+    };
+    int i = 0;
+    while (i < columns) {
+        while (i + 8 <= columns && eight_from(i) == 0) i += 8;
+        while (i < columns && row[i] == 0) ++i;
+        if (i >= columns) return;
+        const int begin = i;
+        while (i < columns && row[i] != 0) ++i;
+        visit(begin, i);
+    }
+}
+
+/// Whether some pixel of the image, or of so many, has no data.
+[[nodiscard]] bool has_holes(const float* levels, std::size_t count) noexcept;
+[[nodiscard]] inline bool has_holes(const DepthImage& image) noexcept {
+    return has_holes(image.levels.data(), image.levels.size());
+}
+
+/// Marks with 1 what has no data. Returns whether there is any.
+bool mark_holes(const float* levels, std::uint8_t* marks, std::size_t count) noexcept;
+
+/// Levels that differ by no more are of one surface, as noise allows; others are on two sides of an
+/// object's outline.
+[[nodiscard]] float outline_levels(const DepthImage& image) noexcept;
 
 /// Patches of pixels with data or without (NaN), joined over edges and corners, row by row.
 class Patches {
@@ -56,6 +89,7 @@ class Patches {
     std::int32_t root(std::int32_t patch);
     void join(std::int32_t a, std::int32_t b);
 
+    std::vector<std::uint8_t> marks_{};  ///< of a row
     std::vector<Run> runs_{};
     std::vector<Patch> patches_{};
     std::vector<std::int32_t> parents_{};  ///< of each patch the one that it was joined to

@@ -1,0 +1,149 @@
+// The steps of cleaning, one after the other.
+#include "core/video/cleaning/cleaning_chain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "core/files/plain_text.hpp"
+#include "core/video/cleaning/patches.hpp"
+#include "core/video/vector_clones.hpp"
+
+namespace dibhr {
+
+namespace {
+
+/// Of the highest level: what shakes less is not felt (0.15 px of 255, 0.005 N at 0.5 N/mm).
+constexpr float kFelt = 0.15F / 255.0F;
+/// What holds still may have ramps all the same.
+constexpr CleaningSteps kQuietSteps{
+    .remove_spikes = true, .fill_holes = true, .sharpen_silhouettes = true, .smooth_steps = true};
+constexpr double kReliefOfWords_px = 255.0;
+
+bool is_touchable(const DepthImage& image) {
+    return image.columns >= 2 && image.rows >= 2;
+}
+
+/// What has no data becomes the farthest, never seen.
+DIBHR_VECTOR_CLONES void make_farthest(float* __restrict levels, std::uint8_t* __restrict unseen,
+                                       std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k) {
+        const bool hole = levels[k] != levels[k];
+        levels[k] = hole ? 0.0F : levels[k];
+        unseen[k] = static_cast<std::uint8_t>(hole ? 1 : unseen[k]);
+    }
+}
+
+CleaningSteps steps_of(const CleaningOptions& options, const DepthNoise& noise,
+                       std::size_t pixels) {
+    switch (options.preset) {
+        case CleaningPreset::raw:
+            return kRawSteps;
+        case CleaningPreset::gentle:
+            return kGentleSteps;
+        case CleaningPreset::sensor:
+            return kSensorSteps;
+        case CleaningPreset::own:
+            return options.own;
+        case CleaningPreset::automatic:
+            break;
+    }
+    const bool shakes = noise.at(0.5F) > kFelt || noise.of_scale;
+    return shakes && pixels <= kMostForSensor ? kSensorSteps : kQuietSteps;
+}
+
+}  // namespace
+
+bool needs_noise(const CleaningOptions& options) {
+    const bool own = options.preset == CleaningPreset::own;
+    return options.preset == CleaningPreset::automatic ||
+           options.preset == CleaningPreset::sensor ||
+           (own &&
+            (options.own.steady || options.own.smooth_noise || options.own.sharpen_silhouettes));
+}
+
+CleaningPlan plan_of(const CleaningOptions& options, const DepthNoise& noise, std::size_t pixels) {
+    return {steps_of(options, noise, pixels), options.finger, noise};
+}
+
+std::string in_words(const CleaningOptions& options, const CleaningPlan& plan) {
+    std::string words(name_of(options.preset));
+    if (options.preset == CleaningPreset::automatic)
+        words += plan.steps == kSensorSteps ? ": sensor" : ": gentle, silhouettes";
+    if (!needs_noise(options)) return words;
+    const auto px = [](float noise) {
+        return short_text(std::round(kReliefOfWords_px * 100.0 * static_cast<double>(noise)) /
+                          100.0);
+    };
+    return words + ", noise " + px(plan.noise.at(1.0F)) + " px near, " + px(plan.noise.at(0.0F)) +
+           " far" + (plan.noise.of_scale ? ", a scale a frame" : "");
+}
+
+void CleaningChain::fill_holes(DepthImage& image, std::span<const HeldLevel> held,
+                               std::vector<std::uint8_t>& unseen) {
+    seen_ = image;
+    held_.fill(image, held);
+    small_holes_.fill(image);
+    large_holes_.fill(image, seen_, spikes_.refused(), unseen);
+}
+
+/// What is left without data becomes the farthest.
+void CleaningChain::close_holes(LoneDepth& lone, bool fill, std::span<const HeldLevel> held) {
+    std::vector<float>& levels = lone.depth.levels;
+    lone.made_up.resize(levels.size());
+    (void)mark_holes(levels.data(), lone.made_up.data(), levels.size());
+    lone.unseen.assign(levels.size(), 0);
+    if (fill) fill_holes(lone.depth, held, lone.unseen);
+    if (has_holes(lone.depth)) make_farthest(levels.data(), lone.unseen.data(), levels.size());
+    if (std::memchr(lone.unseen.data(), 1, lone.unseen.size()) == nullptr) lone.unseen.clear();
+}
+
+LoneDepth CleaningChain::alone(DepthImage image, const CleaningPlan& plan,
+                               std::span<const HeldLevel> held) {
+    LoneDepth lone{std::move(image), {}, {}};
+    const bool touchable = is_touchable(lone.depth);
+    spikes_.forget();
+    if (touchable && plan.steps.remove_spikes) spikes_.remove(lone.depth);
+    if (has_holes(lone.depth)) close_holes(lone, touchable && plan.steps.fill_holes, held);
+    if (touchable && plan.steps.sharpen_silhouettes) {
+        const float noise = plan.noise.at(0.5F) * static_cast<float>(lone.depth.highest_level);
+        silhouettes_.sharpen(lone.depth, nullptr, noise);
+    }
+    return lone;
+}
+
+CleanedDepth CleaningChain::cleaned(DepthImage image, const CleaningPlan& plan,
+                                    std::span<const HeldLevel> held) {
+    const LoneDepth lone = alone(std::move(image), plan, held);
+    const LoneDepth* const frames = &lone;
+    return finished({&frames, 1}, 0, plan);
+}
+
+DepthImage CleaningChain::steadied(std::span<const LoneDepth* const> frames, std::size_t now,
+                                   const DepthNoise& noise) {
+    if (noise.of_scale) frames = scale_.on_one_scale(frames, now);
+    return temporal_.filtered(frames, now, noise);
+}
+
+CleanedDepth CleaningChain::finished(std::span<const LoneDepth* const> frames, std::size_t now,
+                                     const CleaningPlan& plan) {
+    const LoneDepth& here = *frames[now];
+    DepthImage depth =
+        plan.steps.steady && frames.size() > 1 ? steadied(frames, now, plan.noise) : here.depth;
+    if (is_touchable(depth)) {
+        if (plan.steps.smooth_steps && is_eight_bit(depth)) steps_.smooth(depth);
+        if (plan.steps.smooth_noise) noise_.smooth(depth, plan.noise);
+    }
+    CleanedDepth done;
+    if (!here.unseen.empty())
+        done.unseen = std::make_shared<const std::vector<std::uint8_t>>(here.unseen);
+    if (is_touchable(depth) && plan.finger.radius_px > 0.0) {
+        done.beneath = std::make_shared<const DepthImage>(std::move(depth));
+        depth = finger_.dilated(*done.beneath, plan.finger);
+    }
+    done.depth = std::make_shared<const DepthImage>(std::move(depth));
+    return done;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,82 @@
+// What the parts of a dilation share: the ball, images with room around them, and lists.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "core/haptics/depth_image.hpp"
+#include "core/video/cleaning/cleaning_options.hpp"
+
+namespace dibhr::fingertip {
+
+/// So far a piece reaches beyond its rim, lest rounding open a gap between two of them.
+inline constexpr float kOverlap_px = 1e-3F;
+inline constexpr float kNothing = -std::numeric_limits<float>::infinity();
+inline constexpr float kSteepest = 1e18F;  ///< its square is far from a float's highest
+
+/// The whole number not below, and not above; for what an int holds.
+inline int up(float x) {
+    const int cut = static_cast<int>(x);
+    return cut + (static_cast<float>(cut) < x ? 1 : 0);
+}
+inline int down(float x) {
+    const int cut = static_cast<int>(x);
+    return cut - (static_cast<float>(cut) > x ? 1 : 0);
+}
+
+/// Into [-limit, limit], NaN too.
+inline float held(float x, float limit) {
+    const float low = x > -limit ? x : -limit;
+    return low < limit ? low : limit;
+}
+
+struct Ball {
+    Ball() = default;
+    Ball(const Fingertip& finger, double highest_level);
+
+    double radius_px{0.0};
+    float radius{0.0F};         ///< the same
+    float radius_levels{0.0F};  ///< the same [levels]
+    float px_per_level{0.0F};
+    float levels_per_px{0.0F};
+
+    /// Of the ball over a distance from its axis [px]; 0 beyond.
+    [[nodiscard]] double height_px(double away_px) const;
+};
+
+/// An image with room on all sides. What is in the room is not kept.
+class RoomyImage {
+  public:
+    void fit(int columns, int rows, int room, float in_room);
+    void copy(const DepthImage& image);
+
+    [[nodiscard]] float* pixel(int i, int j) { return levels_.data() + at(i, j); }
+    [[nodiscard]] const float* pixel(int i, int j) const { return levels_.data() + at(i, j); }
+    [[nodiscard]] int pitch() const { return pitch_; }
+
+  private:
+    [[nodiscard]] std::ptrdiff_t at(int i, int j) const {
+        return std::ptrdiff_t{j + room_} * pitch_ + i + room_;
+    }
+
+    int columns_{0}, rows_{0}, room_{0}, pitch_{0};
+    std::vector<float> levels_{};
+};
+
+/// Puts the numbers of the flags that are 1, of `count` that are 1 or 0, into `numbers`, which is
+/// as long as the flags; their count.
+[[nodiscard]] inline std::size_t number_flagged(const int* flags, std::size_t count, int* numbers) {
+    std::size_t flagged = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        numbers[flagged] = static_cast<int>(i);
+        flagged += static_cast<std::size_t>(flags[i]);
+    }
+    return flagged;
+}
+
+/// Pixels that are worked out together; of the last ones too many, which are not kept.
+inline constexpr int kAtOnce = 8;
+
+}  // namespace dibhr::fingertip

@@ -1,0 +1,264 @@
+#include "core/video/cleaning/fingertip/edges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "core/video/cleaning/fingertip/narrowing.hpp"
+#include "core/video/vector_clones.hpp"
+
+namespace dibhr::fingertip {
+
+namespace {
+
+constexpr int kWide = 10;  ///< lines more than one
+
+/// The ball touches an EDGE over the lines from where its centre is over the TRIANGLE before to
+/// where it is over the one after: where the EDGE is convex, and a line is there.
+DIBHR_VECTOR_CLONES void flag_touched(const float* __restrict before, const float* __restrict after,
+                                      const float* __restrict begins, const float* __restrict ends,
+                                      const float* __restrict ground, std::size_t count,
+                                      int* __restrict flags) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const int convex = after[i] > before[i] ? 1 : 0;
+        const auto last = static_cast<float>(down(after[i] + kOverlap_px));
+        const int any = last >= before[i] - kOverlap_px ? 1 : 0;
+        const float higher = begins[i] > ends[i] ? begins[i] : ends[i];
+        const int high = higher >= ground[i] ? 1 : 0;
+        flags[i] = convex & any & high;
+    }
+}
+
+struct Leaning {
+    const float* begins;
+    const float* ends;
+    const float* before;
+    const float* after;
+    float slope_per_level;
+    int last_line;
+};
+
+/// How the EDGEs of these numbers lie and lean, and the lines between the TRIANGLEs beside them.
+DIBHR_VECTOR_CLONES void lean(const Leaning& all, const int* __restrict number, std::size_t count,
+                              float* __restrict begin, float* __restrict rise,
+                              float* __restrict sine, float* __restrict cosine,
+                              int* __restrict first, int* __restrict last) {
+    const Leaning of = all;
+    for (std::size_t k = 0; k < count; ++k) {
+        const int i = number[k];
+        begin[k] = of.begins[i];
+        rise[k] = of.ends[i] - of.begins[i];
+        const float slope = rise[k] * of.slope_per_level;
+        const float c = 1.0F / std::sqrt(1.0F + slope * slope);
+        cosine[k] = c;
+        sine[k] = slope * c;
+        const int from = up(of.before[i] - kOverlap_px);
+        const int to = down(of.after[i] + kOverlap_px);
+        first[k] = from > -of.last_line ? from : -of.last_line;
+        last[k] = to < of.last_line ? to : of.last_line;
+    }
+}
+
+/// An EDGE across from each one, nearer to its other neighbours than the ball is wide.
+struct Across {
+    const float* begins;
+    const float* ends;
+    const float* other_begins;
+    const float* other_ends;
+    float px_per_level;
+    float lines_per_px;
+    Neighbour neighbour;
+};
+
+/// How many lines there are at most to the side of the other EDGE, if the ball is not to enter it.
+[[gnu::always_inline]] inline int most_lines(const Across& of, int i, float cosine) {
+    const float rise_begin = of.other_begins[i] - of.begins[i];
+    const float rise_end = of.other_ends[i] - of.ends[i];
+    const float rise = rise_begin < rise_end ? rise_begin : rise_end;
+    const float lean = of.neighbour.most_lean(rise * of.px_per_level, cosine);
+    return down(lean * of.lines_per_px + kOverlap_px);
+}
+
+DIBHR_VECTOR_CLONES void narrow_last(const Across& across, const int* __restrict number,
+                                     const float* __restrict cosine, std::size_t count,
+                                     int* __restrict last) {
+    const Across of = across;
+    for (std::size_t k = 0; k < count; ++k) {
+        const int most = most_lines(of, number[k], cosine[k]);
+        last[k] = last[k] < most ? last[k] : most;
+    }
+}
+
+DIBHR_VECTOR_CLONES void narrow_first(const Across& across, const int* __restrict number,
+                                      const float* __restrict cosine, std::size_t count,
+                                      int* __restrict first) {
+    const Across of = across;
+    for (std::size_t k = 0; k < count; ++k) {
+        const int least = -most_lines(of, number[k], cosine[k]);
+        first[k] = first[k] > least ? first[k] : least;
+    }
+}
+
+struct LineTable {
+    const float* shifts;
+    const float* reach;
+    const float* height;
+    const int* steps;
+    int along_line;
+    float radius_levels;
+};
+
+/// Where the ball touches EDGEs over lines: of each line's pixels one has that on the EDGE.
+DIBHR_VECTOR_CLONES std::size_t touch(const LineTable& table, const TouchedEdges& edges,
+                                      float* __restrict levels, int* __restrict to) {
+    const LineTable lines = table;
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < edges.count; ++k) {
+        const float begin = edges.begin[k];
+        const float rise = edges.rise[k];
+        const float sine = edges.sine[k];
+        const float cosine = edges.cosine[k];
+        const int number = edges.number[k];
+        const int last = edges.last[k];
+        int first = edges.first[k];
+        for (; first <= last; first += kAtOnce) {
+            for (int l = 0; l < kAtOnce; ++l) {
+                const int line = first + l;
+                const float from = lines.shifts[line] - lines.reach[line] * sine;
+                const int along = up(from);
+                const float share = static_cast<float>(along) - from;
+                levels[count + static_cast<std::size_t>(l)] =
+                    begin + rise * share - (lines.radius_levels - lines.height[line] * cosine);
+                to[count + static_cast<std::size_t>(l)] =
+                    number + along * lines.along_line + lines.steps[line];
+            }
+            const int left = last - first + 1;
+            count += static_cast<std::size_t>(left < kAtOnce ? left : kAtOnce);
+        }
+    }
+    return count;
+}
+
+DIBHR_VECTOR_CLONES void raise_pixels(const float* __restrict levels, const int* __restrict to,
+                                      std::size_t count, float* __restrict origin) {
+    for (std::size_t n = 0; n < count; ++n) {
+        float& level = origin[to[n]];
+        level = level > levels[n] ? level : levels[n];
+    }
+}
+
+}  // namespace
+
+EdgeFamily edges_in_rows(int pitch) {
+    return {1.0, 1, pitch, 1.0, 1.0, 0.0, 1, pitch};
+}
+
+EdgeFamily edges_in_columns(int pitch) {
+    return {1.0, pitch, 1, 1.0, 1.0, 0.0, pitch, 1};
+}
+
+EdgeFamily diagonal_edges(int pitch) {
+    const double diagonal_px = std::sqrt(2.0);
+    return {diagonal_px, pitch - 1, pitch + 1, diagonal_px, 0.5 * diagonal_px, 0.5, pitch - 1, 1};
+}
+
+void Lines::lay(const Ball& ball, const EdgeFamily& family) {
+    last = static_cast<int>(ball.radius_px / family.line_px);
+    shifts.clear();
+    reach.clear();
+    height.clear();
+    steps.clear();
+    for (int k = -last; k <= last; ++k) {
+        const double height_px = ball.height_px(k * family.line_px);
+        steps.push_back(k * static_cast<int>(family.to_line));
+        shifts.push_back(static_cast<float>(k * family.line_shift));
+        reach.push_back(static_cast<float>(height_px / family.length_px));
+        height.push_back(static_cast<float>(height_px * double{ball.levels_per_px}));
+    }
+    for (std::vector<float>* of : {&shifts, &reach, &height}) of->insert(of->end(), kAtOnce, 0.0F);
+    steps.insert(steps.end(), kAtOnce, 0);
+}
+
+void TouchedEdges::make_room(std::size_t most) {
+    for (std::vector<float>* of : {&begin, &rise, &sine, &cosine}) of->resize(most);
+    for (std::vector<int>* of : {&number, &first, &last}) of->resize(most);
+}
+
+void EdgePass::prepare(const Ball& ball, const EdgeFamily& family, int most) {
+    ball_ = ball;
+    family_ = family;
+    lines_.lay(ball, family);
+    const auto count = static_cast<std::size_t>(most);
+    flags_.resize(count);
+    edges_.make_room(count);
+    wide_.make_room(count);
+    wide_at_.resize(count);
+    const std::size_t lines = 2 * static_cast<std::size_t>(lines_.last) + 1;
+    levels_.resize(count * lines + kAtOnce);
+    to_.resize(count * lines + kAtOnce);
+}
+
+void EdgePass::raise(const float* before, const float* after, const float* begins,
+                     const float* ground, std::size_t count, float* origin) {
+    find(before, after, begins, ground, count);
+    narrow_wide(begins);
+    const auto middle = static_cast<std::size_t>(lines_.last);
+    const LineTable table{lines_.shifts.data() + middle,        lines_.reach.data() + middle,
+                          lines_.height.data() + middle,        lines_.steps.data() + middle,
+                          static_cast<int>(family_.along_line), ball_.radius_levels};
+    const std::size_t lines = touch(table, edges_, levels_.data(), to_.data());
+    raise_pixels(levels_.data(), to_.data(), lines, origin);
+}
+
+void EdgePass::find(const float* before, const float* after, const float* begins,
+                    const float* ground, std::size_t count) {
+    const float* const ends = begins + family_.to_end;
+    flag_touched(before, after, begins, ends, ground, count, flags_.data());
+    edges_.count = number_flagged(flags_.data(), count, edges_.number.data());
+    const Leaning all{
+        begins,     ends, before, after, ball_.px_per_level / static_cast<float>(family_.length_px),
+        lines_.last};
+    lean(all, edges_.number.data(), edges_.count, edges_.begin.data(), edges_.rise.data(),
+         edges_.sine.data(), edges_.cosine.data(), edges_.first.data(), edges_.last.data());
+}
+
+/// What is over many lines is worth another look.
+void EdgePass::narrow_wide(const float* begins) {
+    wide_.count = 0;
+    for (std::size_t k = 0; k < edges_.count; ++k) {
+        wide_at_[wide_.count] = static_cast<int>(k);
+        wide_.count += edges_.last[k] - edges_.first[k] >= kWide ? 1U : 0U;
+    }
+    if (wide_.count == 0) return;
+    for (std::size_t w = 0; w < wide_.count; ++w) {
+        const auto k = static_cast<std::size_t>(wide_at_[w]);
+        wide_.number[w] = edges_.number[k];
+        wide_.cosine[w] = edges_.cosine[k];
+        wide_.first[w] = edges_.first[k];
+        wide_.last[w] = edges_.last[k];
+    }
+    for (const int distance : kDistances)
+        if (distance <= ball_.radius_px) narrow(begins, distance);
+    for (std::size_t w = 0; w < wide_.count; ++w) {
+        const auto k = static_cast<std::size_t>(wide_at_[w]);
+        edges_.first[k] = wide_.first[w];
+        edges_.last[k] = wide_.last[w];
+    }
+}
+
+void EdgePass::narrow(const float* begins, int distance) {
+    const std::ptrdiff_t aside = distance * family_.aside;
+    Across across{begins,
+                  begins + family_.to_end,
+                  begins + aside,
+                  begins + aside + family_.to_end,
+                  ball_.px_per_level,
+                  static_cast<float>(1.0 / family_.line_px),
+                  Neighbour(distance * family_.aside_px, ball_)};
+    narrow_last(across, wide_.number.data(), wide_.cosine.data(), wide_.count, wide_.last.data());
+    across.other_begins = begins - aside;
+    across.other_ends = begins - aside + family_.to_end;
+    narrow_first(across, wide_.number.data(), wide_.cosine.data(), wide_.count, wide_.first.data());
+}
+
+}  // namespace dibhr::fingertip

@@ -1,0 +1,34 @@
+// How deep a ball can get at all, found out for squares of pixels.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/video/cleaning/fingertip/ball.hpp"
+
+namespace dibhr::fingertip {
+
+/// A lower bound of where the ball rests gives one of what it touches.
+class Squares {
+  public:
+    void find(const RoomyImage& image, int columns, int rows, const Ball& ball);
+
+    /// Of every pixel of a row: nothing below is touched.
+    [[nodiscard]] const float* ground(int row);
+
+  private:
+    void find_highest(const RoomyImage& image, int columns, int rows);
+    void rest(const Ball& narrow);
+    void sink(const Ball& narrow, float slack);
+
+    [[nodiscard]] std::size_t at(int x, int y) const {
+        return static_cast<std::size_t>(std::ptrdiff_t{y + margin_} * pitch_ + x + margin_);
+    }
+
+    bool wide_enough_{false};
+    int columns_{0}, rows_{0}, margin_{0}, pitch_{0};
+    std::vector<float> highest_{}, resting_{}, grounds_{};
+    std::vector<float> ground_{};
+};
+
+}  // namespace dibhr::fingertip

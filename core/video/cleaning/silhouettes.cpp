@@ -1,0 +1,417 @@
+// Makes ramps between near and far steps.
+#include "core/video/cleaning/silhouettes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "core/video/frame_window.hpp"
+#include "core/video/vector_clones.hpp"
+
+namespace dibhr {
+
+namespace {
+
+/// The relief that is drawn unless told otherwise is 255/720 of the picture's width; a ramp is this
+/// steep in it [px/px], or it is a surface that is seen.
+constexpr double kRelief_widths = 255.0 / 720.0;
+constexpr double kSteep = 3.0;
+
+constexpr float kWidest_px = 19.0F;  ///< 13 px of ramp across a corner, from end to end
+/// As wide, on a line that slants, on one that does not, and on one that does not but should.
+constexpr int kSlantingSteps = 14, kStraightSteps = 20, kMostSteps = 28;
+constexpr float kShoulder = 0.12F;    ///< of a ramp's steepest rise: it ends where it rises less
+constexpr float kEven = 2.5F;         ///< of a ramp's slope: what is steeper is a step already
+constexpr float kGoesOn = 0.18F;      ///< of a ramp's slope: no face goes on rising so steeply
+constexpr float kLevel = 0.02F;       ///< of a ramp's height a pixel: a face rises less at its end
+constexpr float kLeastNoises = 8.0F;  ///< the height of a ramp, in standard deviations of the noise
+constexpr float kFlatNoises = 1.5F;   ///< what rises less is flat
+
+constexpr std::uint32_t kBelieved = 3;  ///< one in so many pixels across a ramp sees it
+
+constexpr int kFace_px = 3;        ///< over twice as many a face's slope is taken
+constexpr int kSmooth_px = 2;      ///< to all sides, over which faces are smoothed
+constexpr float kAlike = 0.03F;    ///< of the highest level: so near two pixels are of one face
+constexpr int kWide_px = 5;        ///< in a narrower ramp the colour knows no better
+constexpr float kColours = 48.0F;  ///< the colours of two faces differ by so much [of 255]
+constexpr float kOwnSide = 0.25F;  ///< of that: so near a face's colour a pixel is on it
+constexpr int kSharp_px = 2;       ///< of a sharp edge are on neither side
+
+constexpr int kChunk = 64;  ///< pixels of a row that are looked at together
+
+struct Limits {
+    float slope;  ///< least change of level a pixel
+    float noise;  ///< [levels]
+};
+
+struct Pixel {
+    int x, y;
+};
+
+/// The levels on a straight line of pixels through one of them, which is number 0; held at the
+/// border.
+struct Line {
+    const float* centre;
+    std::ptrdiff_t stride;
+    int first, last;
+
+    [[nodiscard]] float operator()(int k) const {
+        return centre[stride * std::clamp(k, first, last)];
+    }
+};
+
+/// How many steps of -1, 0 or 1 lead from `at` to the last one of `count`.
+int steps_inside(int at, int step, int count) {
+    if (step == 0) return 3 * kMostSteps;  // more than are ever taken
+    return step > 0 ? count - 1 - at : at;
+}
+
+Line line_through(const DepthImage& image, Pixel at, Pixel step) {
+    const int on =
+        std::min(steps_inside(at.x, step.x, image.columns), steps_inside(at.y, step.y, image.rows));
+    const int back = std::min(steps_inside(at.x, -step.x, image.columns),
+                              steps_inside(at.y, -step.y, image.rows));
+    return {image.levels.data() + image.index(at.x, at.y),
+            step.x + std::ptrdiff_t{step.y} * image.columns, -back, on};
+}
+
+/// The way up, and the one of eight neighbours that is most in its direction.
+struct Uphill {
+    float x, y;
+    Pixel step;
+    int most_steps;  ///< across the widest ramp
+
+    [[nodiscard]] float px_per_step() const {
+        return (x * static_cast<float>(step.x) + y * static_cast<float>(step.y)) /
+               std::sqrt(x * x + y * y);
+    }
+};
+
+std::optional<Uphill> uphill(const DepthImage& image, Pixel at) {
+    constexpr float kHalfAngle = 0.41421356F;  // the tangent of 45 / 2 degrees
+    const Line row = line_through(image, at, {1, 0});
+    const Line column = line_through(image, at, {0, 1});
+    const float x = row(1) - row(-1) + row(2) - row(-2);
+    const float y = column(1) - column(-1) + column(2) - column(-2);
+    const float least = std::min(std::fabs(x), std::fabs(y));
+    const float most = std::max(std::fabs(x), std::fabs(y));
+    if (!(most > 0.0F)) return std::nullopt;
+    // A slanting line near the border may end before the ramp does.
+    const bool inside = std::min({-row.first, row.last, -column.first, column.last}) > kMostSteps;
+    const bool slants = inside && least > kHalfAngle * most;
+    const bool more_x = std::fabs(x) >= std::fabs(y);
+    const auto sign = [](float along) { return along > 0.0F ? 1 : -1; };
+    return Uphill{x,
+                  y,
+                  {slants || more_x ? sign(x) : 0, slants || !more_x ? sign(y) : 0},
+                  slants   ? kSlantingSteps
+                  : inside ? kStraightSteps
+                           : kMostSteps};
+}
+
+/// Number of the pixel that the line's rise from 0 ends at, seen over one pixel and two so that a
+/// ripple is no end. `side` 1: onwards; -1: backwards, where it falls. `steepest` of the rises so
+/// far, and `flat`, say what is none. Beyond `most` steps and at the border it has no end.
+std::optional<int> end_of_rise(const Line& line, int side, int most, float flat, float& steepest) {
+    const auto sign = static_cast<float>(side);
+    most = std::min(most, (side > 0 ? line.last : -line.first) - 2);
+    const std::ptrdiff_t stride = side * line.stride;
+    const float* at = line.centre;
+    for (int k = 0; k <= most; ++k, at += stride) {
+        const float rise = std::max(sign * at[stride], sign * at[2 * stride]) - sign * at[0];
+        steepest = std::max(steepest, rise);
+        if (rise <= std::max(kShoulder * steepest, flat)) return side * k;
+    }
+    return std::nullopt;
+}
+
+/// A ramp's end may be rounded: up to two pixels further, as long as the line goes on to rise.
+int settled(const Line& line, int end, int side, float least) {
+    const auto sign = static_cast<float>(side);
+    for (int k = 0; k < 2 && sign * (line(end + side) - line(end)) > least; ++k) end += side;
+    return end;
+}
+
+/// Between neighbours from pixel `low` to pixel `high`.
+float highest_step(const Line& line, int low, int high) {
+    float highest = 0.0F;
+    for (int k = low; k < high; ++k) highest = std::max(highest, line(k + 1) - line(k));
+    return highest;
+}
+
+/// What is on one side of a ramp.
+struct Face {
+    int end;             ///< number of its first pixel
+    float level, slope;  ///< there, and per step of the line
+
+    [[nodiscard]] float at(int k) const { return level + slope * static_cast<float>(k - end); }
+};
+
+/// The level is of three pixels, as far as noise allows. The slope is what two stretches beyond the
+/// end agree on, beyond noise, unless it is another outline.
+Face face_from(const Line& line, int end, int side, float steepest, float noise) {
+    const float level = line(end);
+    const float middle = line(end + kFace_px * side);
+    const float near = middle - level;
+    const float far = line(end + 2 * kFace_px * side) - middle;
+    const float least = std::fabs(near) < std::fabs(far) ? near : far;
+    const float change = std::max(std::fabs(least) - kFlatNoises * noise, 0.0F);
+    const float slope = std::copysign(change, least * static_cast<float>(side)) / kFace_px;
+    const bool goes_on = near * far > 0.0F && std::fabs(slope) <= steepest;
+    const float mean = (level + line(end + side) + line(end + 2 * side)) / 3.0F;
+    return {end, std::clamp(mean, level - noise, level + noise), goes_on ? slope : 0.0F};
+}
+
+struct Ramp {
+    Face low, high;
+};
+
+/// The ramp that pixel 0 of a line uphill is on.
+std::optional<Ramp> find_ramp(const Line& line, const Uphill& up, const Limits& limits) {
+    // The steeper side first: most pixels that are on no ramp are beside a step that is far higher.
+    const int side = line(1) - line(0) > line(0) - line(-1) ? 1 : -1;
+    const float flat = kFlatNoises * limits.noise;
+    float steepest = 0.0F;
+    auto one = end_of_rise(line, side, up.most_steps, flat, steepest);
+    if (!one || *one == 0) return std::nullopt;
+    const float steepest_of_one = steepest;
+    const auto other = end_of_rise(line, -side, up.most_steps, flat, steepest);
+    if (!other || *other == 0) return std::nullopt;
+    if (steepest > steepest_of_one) one = end_of_rise(line, side, up.most_steps, flat, steepest);
+    if (!one || *one == 0) return std::nullopt;
+
+    const int low = std::min(*one, *other);
+    const int high = std::max(*one, *other);
+    const auto steps = static_cast<float>(high - low);
+    const float width_px = steps * up.px_per_step();
+    const float height = line(high) - line(low);
+    const float slope = height / steps;
+    if (width_px > kWidest_px) return std::nullopt;
+    if (height < std::max(width_px * limits.slope, kLeastNoises * limits.noise))
+        return std::nullopt;
+    if (highest_step(line, low, high) > kEven * slope) return std::nullopt;
+
+    const int beyond = std::max(2, (high - low) / 2);
+    const float most = kGoesOn * slope * static_cast<float>(beyond) + 2.0F * limits.noise;
+    if (line(high + beyond) - line(high) > most) return std::nullopt;
+    if (line(low) - line(low - beyond) > most) return std::nullopt;
+    const float least = std::max(kLevel * height, flat);
+    const float steepest_face = kGoesOn * slope;
+    return Ramp{face_from(line, settled(line, low, -1, least), -1, steepest_face, limits.noise),
+                face_from(line, settled(line, high, 1, least), 1, steepest_face, limits.noise)};
+}
+
+/// Number of the first pixel of the high side, if as many are on it as are nearer to it.
+int half_way_up(const Line& line, const Ramp& ramp) {
+    int step = ramp.high.end;
+    for (int k = ramp.low.end + 1; k < ramp.high.end; ++k)
+        if (2.0F * line(k) > ramp.low.at(k) + ramp.high.at(k)) --step;
+    return step;
+}
+
+using Rgb = std::array<float, 3>;
+
+float dot(const Rgb& a, const Rgb& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Rgb difference(const Rgb& a, const Rgb& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+/// Of the place of a pixel of the depth image.
+Rgb colour_at(const ColourImage& colour, const DepthImage& image, Pixel at) {
+    const auto place = [](int pixel, int count, int colour_count) {
+        const std::int64_t middle = 2 * std::int64_t{std::clamp(pixel, 0, count - 1)} + 1;
+        return static_cast<std::size_t>(middle * colour_count / (2 * std::int64_t{count}));
+    };
+    const std::size_t row = place(at.y, image.rows, colour.rows);
+    const std::size_t column = place(at.x, image.columns, colour.columns);
+    const std::uint8_t* const rgb =
+        colour.rgb.data() + 3 * (row * static_cast<std::size_t>(colour.columns) + column);
+    return {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])};
+}
+
+/// Number of the first pixel of the high face's colour, if a sharp edge parts it from a clearly
+/// different one. `colour_of(k)`: of the pixel k of the line.
+template <typename ColourOf>
+std::optional<int> colour_edge(const ColourOf& colour_of, const Ramp& ramp) {
+    const Rgb low = colour_of(ramp.low.end - 1);
+    const Rgb across = difference(colour_of(ramp.high.end + 1), low);
+    const float square = dot(across, across);
+    if (square < kColours * kColours) return std::nullopt;
+    std::optional<int> edge;
+    int on_neither = 0;
+    for (int k = ramp.low.end; k <= ramp.high.end; ++k) {
+        const float part = dot(difference(colour_of(k), low), across) / square;
+        if (part <= 0.5F && edge) return std::nullopt;  // and back again
+        if (part > 0.5F && !edge) edge = k;
+        if (part > kOwnSide && part < 1.0F - kOwnSide) ++on_neither;
+    }
+    return on_neither <= kSharp_px ? edge : std::nullopt;
+}
+
+/// Puts not 0 into `steep` where the image rises, or falls, by more than `least` a pixel to both
+/// sides, over `reach` pixels or twice as many along the row, or over one or two along the column.
+/// `rows`: two above, the pixels' own, two below. Tells whether it does so anywhere.
+DIBHR_VECTOR_CLONES bool find_steep(const std::array<const float*, 5>& rows, int reach, int count,
+                                    float least, int* __restrict steep) {
+    const float* const up2 = rows[0];
+    const float* const up = rows[1];
+    const float* const row = rows[2];
+    const float* const down = rows[3];
+    const float* const down2 = rows[4];
+    const auto to_both = [least](float before, float here, float after) {
+        return static_cast<int>(std::min(here - before, after - here) > least) |
+               static_cast<int>(std::max(here - before, after - here) < -least);
+    };
+    int found = 0;
+    for (int i = 0; i < count; ++i) {
+        steep[i] = to_both(row[i - reach], row[i], row[i + reach]) |
+                   to_both(row[i - 2 * reach], row[i], row[i + 2 * reach]) |
+                   to_both(up[i], row[i], down[i]) | to_both(up2[i], row[i], down2[i]);
+        found |= steep[i];
+    }
+    return found != 0;
+}
+
+}  // namespace
+
+struct SilhouetteSharpener::Scene {
+    const DepthImage& image;
+    const ColourImage* colour;
+    Limits limits;
+};
+
+void SilhouetteSharpener::sharpen(DepthImage& image, const ColourImage* colour,
+                                  float noise_levels) {
+    if (colour != nullptr && colour->rgb.empty()) colour = nullptr;
+    const double least = kSteep * image.highest_level / (kRelief_widths * image.columns);
+    const Scene scene{image, colour, {static_cast<float>(least), noise_levels}};
+    votes_of_.assign(image.levels.size(), 0);
+    votes_.clear();
+    found_.clear();
+    for (int j = 0; j < image.rows; ++j) {
+        const int inside = std::min(2, image.columns);
+        look_along(scene, j, 0, inside, 0);
+        look_along(scene, j, inside, image.columns - 2, 1);
+        look_along(scene, j, std::max(inside, image.columns - 2), image.columns, 0);
+    }
+    for (const Found& found : found_) vote(found);
+    for (Votes& votes : votes_) decide(votes);
+    for (const Votes& votes : votes_)
+        if (votes.side != Side::neither) image.levels[votes.pixel] = smoothed(image, votes);
+}
+
+SilhouetteSharpener::Votes& SilhouetteSharpener::votes_of(std::size_t pixel) {
+    std::uint32_t& number = votes_of_[pixel];
+    if (number == 0) {
+        votes_.push_back({.pixel = pixel});
+        number = static_cast<std::uint32_t>(votes_.size());
+    }
+    return votes_[number - 1];
+}
+
+/// Which side the pixel is on, and at which level.
+void SilhouetteSharpener::decide(Votes& votes) {
+    const std::uint32_t count = votes.lows + votes.highs;
+    if (kBelieved * count * count < votes.steps) return;
+    const bool high = votes.highs > votes.lows;
+    votes.side = high ? Side::high : Side::low;
+    votes.level = high ? votes.high / static_cast<float>(votes.highs)
+                       : votes.low / static_cast<float>(votes.lows);
+}
+
+/// What it and its neighbours on the same side of the outline stand at: each is continued along a
+/// line of its own, and their noise would be seen as a comb.
+float SilhouetteSharpener::smoothed(const DepthImage& image, const Votes& own) const {
+    const int columns = image.columns;
+    const int x = static_cast<int>(own.pixel) % columns;
+    const int y = static_cast<int>(own.pixel) / columns;
+    const float alike = kAlike * static_cast<float>(image.highest_level);
+    float sum = 0.0F;
+    float count = 0.0F;
+    for (int j = std::max(y - kSmooth_px, 0); j <= std::min(y + kSmooth_px, image.rows - 1); ++j) {
+        for (int i = std::max(x - kSmooth_px, 0); i <= std::min(x + kSmooth_px, columns - 1); ++i) {
+            const std::size_t at = image.index(i, j);
+            const std::uint32_t number = votes_of_[at];
+            const Side side = number != 0 ? votes_[number - 1].side : Side::neither;
+            if (side != own.side && side != Side::neither) continue;
+            const float level = side == own.side ? votes_[number - 1].level : image.levels[at];
+            if (std::fabs(level - own.level) > alike) continue;
+            sum += level;
+            count += 1.0F;
+        }
+    }
+    return sum / count;
+}
+
+/// Pixels [begin, end) of a row, `reach` (0 or 1) times two from its ends or more.
+void SilhouetteSharpener::look_along(const Scene& scene, int row, int begin, int end, int reach) {
+    const DepthImage& image = scene.image;
+    const float least = std::max(scene.limits.slope, 2.0F * scene.limits.noise);
+    std::array<int, kChunk> steep{};
+    for (; begin < end; begin += kChunk) {
+        const int count = std::min(kChunk, end - begin);
+        const auto from = [&](int j) {
+            return image.levels.data() + image.index(begin, std::clamp(j, 0, image.rows - 1));
+        };
+        if (!find_steep({from(row - 2), from(row - 1), from(row), from(row + 1), from(row + 2)},
+                        reach, count, least, steep.data()))
+            continue;
+        for (int i = 0; i < count; ++i)
+            if (steep[static_cast<std::size_t>(i)] != 0) look_at(scene, begin + i, row);
+    }
+}
+
+/// Finds the ramp that the pixel is on, unless another pixel across a wide one did.
+void SilhouetteSharpener::look_at(const Scene& scene, int column, int row) {
+    const Pixel at{column, row};
+    const auto up = uphill(scene.image, at);
+    if (!up) return;
+    const Line line = line_through(scene.image, at, up->step);
+    const std::size_t own = scene.image.index(column, row);
+    const std::uint32_t number = votes_of_[own];
+    const std::uint32_t known = number != 0 ? votes_[number - 1].ramp : 0;
+    if (known != 0 && found_[known - 1].stride == line.stride) {
+        ++found_[known - 1].seen;
+        return;
+    }
+    const auto ramp = find_ramp(line, *up, scene.limits);
+    if (!ramp) return;
+    std::optional<int> edge;
+    if (scene.colour != nullptr && ramp->high.end - ramp->low.end > kWide_px) {
+        const auto colour_of = [&](int k) {
+            return colour_at(*scene.colour, scene.image,
+                             {at.x + k * up->step.x, at.y + k * up->step.y});
+        };
+        edge = colour_edge(colour_of, *ramp);
+    }
+    const int begin = ramp->low.end + 1;
+    const int step = std::clamp(edge.value_or(half_way_up(line, *ramp)), begin, ramp->high.end);
+    found_.push_back({static_cast<std::ptrdiff_t>(own), line.stride, begin, step, ramp->high.end,
+                      ramp->low.at(0), ramp->low.slope, ramp->high.at(0), ramp->high.slope, 1});
+    const Found& found = found_.back();
+    if (found.end - found.begin < kWide_px) return;  // cheap to find again, and not always the same
+    for (int k = found.begin; k < found.end; ++k)
+        votes_of(found.pixel(k)).ramp = static_cast<std::uint32_t>(found_.size());
+}
+
+void SilhouetteSharpener::vote(const Found& found) {
+    const auto seen = static_cast<float>(found.seen);
+    for (int k = found.begin; k < found.end; ++k) {
+        Votes& votes = votes_of(found.pixel(k));
+        votes.steps += found.seen * static_cast<std::uint32_t>(found.end - found.begin + 1);
+        const auto away = static_cast<float>(k);
+        if (k >= found.step) {
+            votes.highs += found.seen;
+            votes.high += seen * (found.high + found.high_slope * away);
+        } else {
+            votes.lows += found.seen;
+            votes.low += seen * (found.low + found.low_slope * away);
+        }
+    }
+}
+
+}  // namespace dibhr

@@ -1,0 +1,234 @@
+// Pixels beyond all their neighbours, and patches alone in holes.
+#include "core/video/cleaning/spikes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/video/vector_clones.hpp"
+
+namespace dibhr {
+
+namespace {
+
+// 8 levels of 255 stand out of a curved surface seen in 8 bits. 5 below it are a pit in which a
+// point is caught; smoothing may deepen one by a level, so 4 are one too many. 16 bits are mostly
+// millimetres, of which 100 are far beyond a sensor's noise (up to 65 at 4 m).
+constexpr double kSpike_share = 8.0 / 255.0;
+constexpr double kPit_share = 4.0 / 255.0;
+constexpr double kSpike_levels = 100.0;
+constexpr std::uint8_t kSpikeRounds = 16;  ///< one that is gone may leave another beside it
+constexpr int kIslandsInWidth = 80;        ///< squares side by side
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// In an order of comparisons that is always the same (Batcher's odd-even mergesort).
+void sort_eight(std::array<float, 8>& values) {
+    constexpr std::array<std::array<std::size_t, 2>, 19> kPairs{{{0, 1},
+                                                                 {2, 3},
+                                                                 {4, 5},
+                                                                 {6, 7},
+                                                                 {0, 2},
+                                                                 {1, 3},
+                                                                 {4, 6},
+                                                                 {5, 7},
+                                                                 {1, 2},
+                                                                 {5, 6},
+                                                                 {0, 4},
+                                                                 {1, 5},
+                                                                 {2, 6},
+                                                                 {3, 7},
+                                                                 {2, 4},
+                                                                 {3, 5},
+                                                                 {1, 2},
+                                                                 {3, 4},
+                                                                 {5, 6}}};
+    for (const auto& [one, other] : kPairs) {
+        const float low = std::min(values[one], values[other]);
+        values[other] = std::max(values[one], values[other]);
+        values[one] = low;
+    }
+}
+
+/// The levels of the pixels around one that have data.
+class Neighbours {
+  public:
+    Neighbours(const DepthImage& image, int i, int j) {
+        if (i > 0 && j > 0 && i + 1 < image.columns && j + 1 < image.rows)
+            add_all(image.levels.data() + image.index(i, j), image.columns);
+        else
+            add_inside(image, i, j);
+    }
+
+    /// Infinite without neighbours.
+    [[nodiscard]] float lowest() const { return lowest_; }
+    [[nodiscard]] float highest() const { return highest_; }
+    /// NaN: there is none.
+    [[nodiscard]] float median() {
+        if (count_ == 0) return std::numeric_limits<float>::quiet_NaN();
+        std::fill(levels_.begin() + static_cast<std::ptrdiff_t>(count_), levels_.end(), kInfinity);
+        sort_eight(levels_);
+        return levels_[count_ / 2];
+    }
+
+  private:
+    void add(float level) {
+        levels_[count_] = level;
+        count_ += is_data(level) ? 1U : 0U;
+        lowest_ = std::min(lowest_, level);  // NaN is passed over
+        highest_ = std::max(highest_, level);
+    }
+    void add_all(const float* centre, std::ptrdiff_t columns) {
+        for (const float* const row : {centre - columns, centre + columns})
+            for (const std::ptrdiff_t k : {-1, 0, 1}) add(row[k]);
+        add(centre[-1]);
+        add(centre[1]);
+    }
+    void add_inside(const DepthImage& image, int i, int j) {
+        for (int y = std::max(j - 1, 0); y <= std::min(j + 1, image.rows - 1); ++y)
+            for (int x = std::max(i - 1, 0); x <= std::min(i + 1, image.columns - 1); ++x)
+                if (x != i || y != j) add(image.at(x, y));
+    }
+
+    std::array<float, 8> levels_{};
+    std::size_t count_{0};
+    float lowest_{kInfinity}, highest_{-kInfinity};
+};
+
+/// How far beyond all its neighbours a pixel stands out of them.
+struct Outstanding {
+    explicit Outstanding(double highest_level)
+        : above(static_cast<float>(std::min(kSpike_share * highest_level, kSpike_levels))),
+          below(static_cast<float>(std::min(kPit_share * highest_level, kSpike_levels))) {}
+
+    /// `least` and `most`: of the neighbours. Not of a `level` that is NaN.
+    [[nodiscard]] bool operator()(float level, float least, float most) const {
+        return level > most + above || level < least - below;
+    }
+
+    float above, below;
+};
+
+/// As std::max and std::min, of a `level` that may be NaN: then it is passed over.
+float higher(float level, float most) {
+    return level > most ? level : most;
+}
+float lower(float level, float least) {
+    return level < least ? level : least;
+}
+
+/// Of the rows above and below a row, by column.
+DIBHR_VECTOR_CLONES void find_range(const float* up, const float* down, float* __restrict highest,
+                                    float* __restrict lowest, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+        highest[i] = higher(up[i], higher(down[i], -kInfinity));
+        lowest[i] = lower(up[i], lower(down[i], kInfinity));
+    }
+}
+
+/// Marks the pixels [1, columns - 1) of a row that stand out. Returns whether there is any.
+DIBHR_VECTOR_CLONES int mark_outlying(const float* row, const float* high, const float* low,
+                                      Outstanding stands_out, std::uint8_t* __restrict outlying,
+                                      std::size_t columns) {
+    const float above = stands_out.above;
+    const float below = stands_out.below;
+    int found = 0;
+    for (std::size_t i = 1; i + 1 < columns; ++i) {
+        const float most = higher(
+            row[i - 1], higher(row[i + 1], std::max(std::max(high[i - 1], high[i]), high[i + 1])));
+        const float least = lower(
+            row[i - 1], lower(row[i + 1], std::min(std::min(low[i - 1], low[i]), low[i + 1])));
+        const int outlies = (row[i] > most + above ? 1 : 0) | (row[i] < least - below ? 1 : 0);
+        outlying[i] = static_cast<std::uint8_t>(outlies);
+        found |= outlies;
+    }
+    return found;
+}
+
+}  // namespace
+
+/// All rows at once but for the picture's border.
+void SpikeRemover::find_spikes(const DepthImage& image) {
+    const Outstanding stands_out(image.highest_level);
+    const int columns = image.columns;
+    highest_.resize(static_cast<std::size_t>(columns));
+    lowest_.resize(static_cast<std::size_t>(columns));
+    outlying_.assign(static_cast<std::size_t>(columns), 0);
+    for (int j = 1; j + 1 < image.rows; ++j) {
+        const float* up = image.levels.data() + image.index(0, j - 1);
+        const float* row = up + columns;
+        const float* down = row + columns;
+        find_range(up, down, highest_.data(), lowest_.data(), highest_.size());
+        if (mark_outlying(row, highest_.data(), lowest_.data(), stands_out, outlying_.data(),
+                          outlying_.size()) == 0)
+            continue;
+        visit_marked(outlying_.data(), columns, [&](int begin, int end) {
+            for (int i = begin; i < end; ++i)
+                spikes_.push_back({i, j, Neighbours(image, i, j).median()});
+        });
+    }
+    for (int i = 0; i < columns; ++i)
+        for (const int j : {0, image.rows - 1}) look_for_spike(image, i, j);
+    for (int j = 1; j + 1 < image.rows; ++j)
+        for (const int i : {0, columns - 1}) look_for_spike(image, i, j);
+}
+
+void SpikeRemover::look_for_spike(const DepthImage& image, int i, int j) {
+    Neighbours around(image, i, j);
+    const float level = image.at(i, j);
+    if (Outstanding(image.highest_level)(level, around.lowest(), around.highest()))
+        spikes_.push_back({i, j, around.median()});
+}
+
+void SpikeRemover::remove(DepthImage& image) {
+    forget();
+    remove_spikes(image);
+    remove_islands(image);
+}
+
+void SpikeRemover::remove_spikes(DepthImage& image) {
+    spikes_.clear();
+    find_spikes(image);
+    if (!spikes_.empty()) looked_at_.assign(image.levels.size(), 0);
+    for (std::uint8_t round = 1; round <= kSpikeRounds && !spikes_.empty(); ++round) {
+        for (const Spike& spike : spikes_) {
+            image.at(spike.column, spike.row) = spike.level;
+            if (std::isnan(spike.level)) refused_.push_back(image.index(spike.column, spike.row));
+        }
+        removed_.swap(spikes_);
+        spikes_.clear();
+        for (const Spike& spike : removed_) look_around(image, spike, round);
+    }
+}
+
+/// At each pixel once a round, but for those whose level is so near the spike's new one that they
+/// cannot stand out.
+void SpikeRemover::look_around(const DepthImage& image, const Spike& spike, std::uint8_t round) {
+    const Outstanding stands_out(image.highest_level);
+    for (int j = std::max(spike.row - 1, 0); j <= std::min(spike.row + 1, image.rows - 1); ++j) {
+        for (int i = std::max(spike.column - 1, 0);
+             i <= std::min(spike.column + 1, image.columns - 1); ++i) {
+            const std::size_t at = image.index(i, j);
+            const bool may_stand_out =
+                std::isnan(spike.level) || stands_out(image.levels[at], spike.level, spike.level);
+            if (may_stand_out && std::exchange(looked_at_[at], round) != round)
+                look_for_spike(image, i, j);
+        }
+    }
+}
+
+void SpikeRemover::remove_islands(DepthImage& image) {
+    if (!has_holes(image)) return;
+    const auto side = static_cast<std::size_t>(image.columns / kIslandsInWidth);
+    patches_.find_data(image);
+    for (const Patches::Run& run : patches_.runs()) {
+        if (patches_.patch(run.patch).pixels >= side * side) continue;
+        for (int i = run.begin; i < run.end; ++i) {
+            image.at(i, run.row) = std::numeric_limits<float>::quiet_NaN();
+            refused_.push_back(image.index(i, run.row));
+        }
+    }
+}
+
+}  // namespace dibhr

@@ -1,0 +1,327 @@
+// The frame reader: what it passes over, shows before it has it, and keeps.
+#include "core/video/frame_reader.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "core/video/playback.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/eventually.hpp"
+#include "tests/support/shaken_scene.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+
+namespace {
+
+constexpr double kFrame_s = 0.04;
+constexpr int kKeyFrames = 10;  ///< one in so many
+
+double frame_s(int k) {
+    return k * kFrame_s;
+}
+
+/// Frames that lie in memory; going to one takes `jump`, but for those that stand alone.
+/// `reached` counts the jumps that arrived.
+class KeyedMedia : public Media {
+  public:
+    KeyedMedia(std::vector<DepthImage> frames, std::chrono::milliseconds jump,
+               std::shared_ptr<std::atomic<int>> reached = nullptr)
+        : frames_(std::move(frames)), jump_(jump), reached_(std::move(reached)) {
+        description_.frames_per_s = 1.0 / kFrame_s;
+        description_.depth_columns = frames_.front().columns;
+        description_.depth_rows = frames_.front().rows;
+    }
+    [[nodiscard]] const MediaDescription& description() const override { return description_; }
+    std::optional<RawFrame> next() override {
+        if (position_ >= frames_.size()) return std::nullopt;
+        RawFrame frame;
+        frame.depth = frames_[position_];
+        frame.media_s = frame_s(static_cast<int>(position_));
+        frame.index = static_cast<std::int64_t>(position_++);
+        frame.always_whole = true;
+        frame.passing_s = 1e-6;
+        if (made_) ++*made_;
+        return frame;
+    }
+    std::optional<RawFrame> next_from(double earliest_s) override {
+        while (position_ + 1 < frames_.size() && frame_s(static_cast<int>(position_)) < earliest_s)
+            ++position_;
+        return next();
+    }
+    /// Counts the frames that are given out.
+    void count_made(std::shared_ptr<std::atomic<int>> made) { made_ = std::move(made); }
+    void seek(double media_s) override {
+        std::this_thread::sleep_for(jump_);
+        position_ = std::min(index_at(media_s), frames_.size() - 1);
+        if (reached_) ++*reached_;
+    }
+    void seek_near(double media_s) override {
+        position_ = index_at(media_s) / kKeyFrames * kKeyFrames;
+    }
+
+  private:
+    [[nodiscard]] static std::size_t index_at(double media_s) {
+        return static_cast<std::size_t>((media_s + kTimeTolerance_s) / kFrame_s);
+    }
+    std::vector<DepthImage> frames_;
+    std::chrono::milliseconds jump_;
+    std::shared_ptr<std::atomic<int>> reached_;
+    std::shared_ptr<std::atomic<int>> made_{};
+    std::size_t position_{0};
+    MediaDescription description_{};
+};
+
+std::vector<DepthImage> shaken_frames(int count) {
+    const Shaken shaken{[](int k, int i, int j) { return 80.0 + 0.3 * i + 0.1 * j + 0.05 * k; },
+                        [](double) { return 0.8; }, 64, 48};
+    return shaken.frames(count);
+}
+
+std::unique_ptr<FrameReader> sensor_reader(const std::vector<DepthImage>& frames,
+                                           std::chrono::milliseconds jump = {}) {
+    auto reader = std::make_unique<FrameReader>(std::make_unique<KeyedMedia>(frames, jump));
+    reader->set_cleaning({.preset = CleaningPreset::sensor});
+    return reader;
+}
+
+}  // namespace
+
+TEST_CASE("frames that would come too late are passed over and counted, the last one never",
+          "[reader]") {
+    const auto frames = shaken_frames(30);
+    const auto reader = sensor_reader(frames);
+    REQUIRE(reader->at(0.0));
+    const auto in_time = reader->after(0.0, {.earliest_s = frame_s(7)});
+    REQUIRE(in_time);
+    CHECK(in_time->index == 7);
+    CHECK(reader->passed_over() == 6);
+    const auto next = reader->after(frame_s(7), {.earliest_s = frame_s(3)});
+    REQUIRE(next);
+    CHECK(next->index == 8);
+    const auto last = reader->after(frame_s(8), {.earliest_s = 100.0});
+    REQUIRE(last);
+    CHECK(last->index == 29);
+    CHECK_FALSE(reader->after(frame_s(29), {.earliest_s = 100.0}));
+    CHECK(reader->passed_over() == 6 + 20);
+}
+
+TEST_CASE("a frame is the same bits whether those before it were passed over or not", "[reader]") {
+    const auto frames = shaken_frames(60);
+    const auto every = sensor_reader(frames);
+    std::vector<std::vector<float>> in_order;
+    for (auto frame = every->at(0.0); frame; frame = every->after(frame->media_s))
+        in_order.push_back(frame->depth->levels);
+    REQUIRE(in_order.size() == 60);
+    const double step_s = GENERATE(2, 3, 7, 19) * kFrame_s;
+    const auto few = sensor_reader(frames);
+    for (auto frame = few->at(0.0); frame;
+         frame = few->after(frame->media_s, {.earliest_s = frame->media_s + step_s})) {
+        CAPTURE(frame->index);
+        REQUIRE((frame->depth->levels == in_order[static_cast<std::size_t>(frame->index)]));
+    }
+}
+
+TEST_CASE("what is passed over while it plays is not made, and a step is one frame all the same",
+          "[reader]") {
+    const auto frames = shaken_frames(400);
+    const auto made = std::make_shared<std::atomic<int>>(0);
+    auto media = std::make_unique<KeyedMedia>(frames, std::chrono::milliseconds(0));
+    media->count_made(made);
+    FrameReader reader(std::move(media));
+    reader.set_cleaning({.preset = CleaningPreset::gentle});
+    FrameReader every(std::make_unique<KeyedMedia>(frames, std::chrono::milliseconds(0)));
+    every.set_cleaning({.preset = CleaningPreset::gentle});
+    std::vector<std::vector<float>> in_order;
+    for (auto frame = every.at(0.0); frame; frame = every.after(frame->media_s))
+        in_order.push_back(frame->depth->levels);
+
+    const double apart_s = 6.0 * kFrame_s;
+    auto frame = reader.at(0.0);
+    std::int64_t passed_over = 0;
+    for (int shown = 0; shown < 40; ++shown) {
+        auto next = reader.after(frame->media_s, {frame->media_s + apart_s, apart_s});
+        REQUIRE(next);
+        REQUIRE(next->media_s >= frame->media_s + apart_s);
+        REQUIRE((next->depth->levels == in_order[static_cast<std::size_t>(next->index)]));
+        passed_over += next->index - frame->index - 1;
+        frame = std::move(next);
+    }
+    CHECK(reader.passed_over() == passed_over);
+    CHECK(passed_over >= 5 * 40);
+    CHECK(*made < 5 * 41);
+
+    // Also while the decoder has passed over the next one, or kept frames end.
+    const auto next = reader.after(frame->media_s);
+    REQUIRE(next);
+    CHECK(next->index == frame->index + 1);
+    const auto before = reader.before(frame->media_s);
+    REQUIRE(before);
+    CHECK(before->index == frame->index - 1);
+    const auto again = reader.after(before->media_s, {before->media_s, apart_s});
+    REQUIRE(again);
+    CHECK(again->index == frame->index);
+}
+
+TEST_CASE("where kept frames end while they are played, the decoder has jumped before",
+          "[reader]") {
+    const auto frames = shaken_frames(80);
+    const bool steady = GENERATE(false, true);
+    const auto reached = std::make_shared<std::atomic<int>>(0);
+    FrameReader reader(
+        std::make_unique<KeyedMedia>(frames, std::chrono::milliseconds(20), reached));
+    reader.set_cleaning({.preset = steady ? CleaningPreset::sensor : CleaningPreset::gentle});
+    std::vector<std::vector<float>> played;
+    for (auto frame = reader.at(0.0); frame && played.size() < 60;
+         frame = reader.after(frame->media_s))
+        played.push_back(frame->depth->levels);
+    REQUIRE(played.size() == 60);
+    auto frame = reader.at(0.0);  // long gone: where kept frames begin is found again
+    REQUIRE(frame);
+    const int jumps = *reached;
+    for (int k = 1; k < 30; ++k) {
+        frame = reader.after(frame->media_s);
+        REQUIRE(frame);
+        REQUIRE((frame->depth->levels == played[static_cast<std::size_t>(k)]));
+    }
+    REQUIRE(eventually([&] { return *reached > jumps; }));
+    const int on_its_way = *reached;
+    for (int k = 30; k < 60; ++k) {
+        frame = reader.after(frame->media_s);
+        CAPTURE(k);
+        REQUIRE(frame);
+        REQUIRE(frame->index == k);
+        REQUIRE((frame->depth->levels == played[static_cast<std::size_t>(k)]));
+    }
+    CHECK(*reached == on_its_way);  // no other jump was to be waited for
+}
+
+TEST_CASE("where a jump takes long a frame near it is there at once, and says how it was cleaned",
+          "[reader][alone]") {
+    const auto frames = shaken_frames(60);
+    const auto slow = sensor_reader(frames, std::chrono::milliseconds(150));
+    REQUIRE(slow->at(0.0));
+    CHECK_FALSE(slow->preview(0.0));  // it is kept
+    const auto begin = std::chrono::steady_clock::now();
+    const auto preview = slow->preview(frame_s(37));
+    CHECK(std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(140));
+    REQUIRE(preview);
+    CHECK(preview->index == 30);
+    CleaningSteps alone = kSensorSteps;
+    alone.steady = false;
+    CHECK(preview->cleaning.steps == alone);
+    const auto sought = slow->at(frame_s(37));
+    REQUIRE(sought);
+    CHECK(sought->index == 37);
+    CHECK(sought->depth->levels == sensor_reader(frames)->at(frame_s(37))->depth->levels);
+    CHECK_FALSE(sensor_reader(frames)->preview(frame_s(37)));  // as quick itself
+}
+
+TEST_CASE("a preview is seen and not touched, and the frame that was sought takes its place",
+          "[playback]") {
+    Playback::Time now{std::chrono::hours(1)};
+    Playback playback;
+    playback.set_cleaning({.preset = CleaningPreset::sensor});
+    playback.open(std::make_unique<FrameReader>(std::make_unique<KeyedMedia>(
+                      shaken_frames(60), std::chrono::milliseconds(150))),
+                  now);
+    const bool paused = GENERATE(false, true);
+    if (paused) playback.pause(now);
+    playback.seek(frame_s(25), now);  // the first jump tells how long one takes
+    const auto discontinuity = playback.window().discontinuity;
+    playback.seek(frame_s(48), now);
+    CHECK(playback.sought_s() == frame_s(48));
+    CHECK(playback.window().frames[0].index == 40);
+    CHECK(playback.window().discontinuity == discontinuity + 1);
+    CHECK(playback.touchable().count == 0);
+    CHECK(playback.touchable().discontinuity == discontinuity + 1);
+    REQUIRE(playback.needs_frame());
+    REQUIRE(playback.read_ahead(now));
+    playback.arrived(now);
+    CHECK_FALSE(playback.sought_s());
+    CHECK(playback.window().frames[0].index == 48);
+    CHECK(playback.touchable().count == playback.window().count);
+    CHECK(playback.touchable().discontinuity == discontinuity + 2);
+    CHECK(playback.playing() == !paused);
+}
+
+TEST_CASE("a step from a preview is one from the frame that was sought", "[playback]") {
+    Playback::Time now{std::chrono::hours(1)};
+    Playback playback;
+    playback.open(std::make_unique<FrameReader>(std::make_unique<KeyedMedia>(
+                      shaken_frames(60), std::chrono::milliseconds(150))),
+                  now);
+    playback.seek(frame_s(25), now);
+    playback.seek(frame_s(48), now);
+    REQUIRE(playback.sought_s());
+    playback.step(-1, now);
+    CHECK_FALSE(playback.sought_s());
+    CHECK(playback.window().frames[0].index == 47);
+}
+
+TEST_CASE("while nothing else is to be done the step back is made ready", "[playback][alone]") {
+    Playback::Time now{std::chrono::hours(1)};
+    Playback playback;
+    playback.open(std::make_unique<FrameReader>(std::make_unique<KeyedMedia>(
+                      shaken_frames(60), std::chrono::milliseconds(150))),
+                  now);
+    CHECK_FALSE(playback.has_time());  // it plays
+    playback.seek(frame_s(48), now);
+    playback.pause(now);
+    while (playback.needs_frame())
+        if (playback.read_ahead(now)) playback.arrived(now);
+    CHECK_FALSE(playback.has_time());  // nobody steps back
+    playback.step(-1, now);
+    for (int frame = 46; frame > 40; --frame) {
+        while (playback.needs_frame())
+            if (playback.read_ahead(now)) playback.arrived(now);
+        REQUIRE(playback.has_time());
+        playback.make_ready_to_step_back();
+        CHECK_FALSE(playback.has_time());
+        const auto begin = std::chrono::steady_clock::now();
+        playback.step(-1, now);
+        CHECK(std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(140));
+        CHECK(playback.window().frames[0].index == frame);
+    }
+}
+
+#if !DIBHR_SANITIZED  // which need memory, too
+namespace {
+
+std::size_t resident_bytes() {
+    std::ifstream statm("/proc/self/statm");
+    std::size_t all = 0;
+    std::size_t resident = 0;
+    statm >> all >> resident;
+    return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+}  // namespace
+
+TEST_CASE("a reader of large frames keeps within its memory", "[reader]") {
+    const CleaningPreset preset = GENERATE(CleaningPreset::gentle, CleaningPreset::sensor);
+    const Shaken shaken{[](int, int i, int j) { return 80.0 + 0.05 * i + 0.01 * j; },
+                        [](double) { return 0.8; }, 1280, 720};
+    const std::size_t before = resident_bytes();
+    FrameReader reader(std::make_unique<KeyedMedia>(std::vector<DepthImage>(60, shaken.truth(0)),
+                                                    std::chrono::milliseconds(0)));
+    const std::size_t given = resident_bytes();  // 220 MB of frames
+    reader.set_cleaning({.preset = preset});
+    for (auto frame = reader.at(0.0); frame; frame = reader.after(frame->media_s)) {
+    }
+    CHECK(given > before + (std::size_t{200} << 20));
+    CHECK(resident_bytes() < given + (std::size_t{260} << 20));
+}
+#endif

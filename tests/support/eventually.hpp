@@ -1,0 +1,21 @@
+// Waiting in a test for what another thread or program does.
+#pragma once
+
+#include <chrono>
+#include <thread>
+
+namespace dibhr::test {
+
+/// Asks again every other millisecond until it is so; false when it never was.
+template <typename Condition>
+[[nodiscard]] bool eventually(const Condition& is_so,
+                              std::chrono::milliseconds patience = std::chrono::seconds(20)) {
+    const auto deadline = std::chrono::steady_clock::now() + patience;
+    while (!is_so()) {
+        if (std::chrono::steady_clock::now() > deadline) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return true;
+}
+
+}  // namespace dibhr::test
