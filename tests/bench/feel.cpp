@@ -12,7 +12,8 @@
 
 #include "core/error.hpp"
 #include "core/metrics/force_variation.hpp"
-#include "core/video/depth/remembering_media.hpp"
+#include "core/video/cleaning/cleaning_chain.hpp"
+#include "core/video/cleaning/remembering_media.hpp"
 #include "tests/support/pressing_finger.hpp"
 
 namespace dibhr::bench {
@@ -20,7 +21,8 @@ namespace dibhr::bench {
 namespace {
 
 constexpr double kTouched_s = 3.0;
-constexpr double kAfter_s = 0.5;  ///< more, to know what became of what was lost
+constexpr double kAfter_s = 0.5;    ///< more, to know what became of what was lost
+constexpr double kBefore_s = 0.25;  ///< more, that its first frames are cleaned with
 constexpr std::size_t kMostMoments = 12;
 
 constexpr double kSlide_mm_per_s = 100.0;
@@ -113,21 +115,42 @@ class Survey {
     std::vector<std::uint32_t> pairs_{};  ///< of frames in which both had data
 };
 
-Stretch read_stretch(Media& media, double begin_s, const CleaningOptions& cleaning) {
-    DepthCleaner cleaner;
+/// What is done to a recording, by its first frames.
+CleaningPlan plan_for(Media& media, const CleaningOptions& cleaning) {
+    NoiseMeter meter;
+    media.seek(0.0);
+    for (std::size_t k = 0; k < NoiseMeter::kEnough; ++k)
+        if (const std::optional<RawFrame> frame = media.next()) meter.add(frame->depth);
+    const MediaDescription& description = media.description();
+    return plan_of(cleaning, meter.noise(),
+                   static_cast<std::size_t>(description.depth_columns) *
+                       static_cast<std::size_t>(description.depth_rows));
+}
+
+Stretch read_stretch(Media& media, double begin_s, const CleaningPlan& plan) {
+    CleaningChain chain;
+    std::vector<LoneDepth> lone;
     Stretch stretch;
-    media.seek(begin_s);
+    media.seek(std::max(0.0, begin_s - kBefore_s));
     while (std::optional<RawFrame> read = media.next()) {
         Frame frame;
         frame.time_s = read->media_s;
         stretch.raw.push_back(read->depth);
-        CleanedDepth cleaned = cleaner.cleaned(std::move(read->depth), cleaning, read->held);
-        frame.depth = std::move(cleaned.depth);
-        frame.unseen = std::move(cleaned.unseen);
+        lone.push_back(chain.alone(std::move(read->depth), plan, read->held));
         stretch.frames.push_back(std::move(frame));
-        if (stretch.frames.back().time_s - stretch.frames.front().time_s > kTouched_s + kAfter_s)
-            break;
+        if (stretch.frames.back().time_s > begin_s + kTouched_s + kAfter_s) break;
     }
+    std::vector<const LoneDepth*> all;
+    for (const LoneDepth& one : lone) all.push_back(&one);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        CleanedDepth cleaned = chain.finished(all, k, plan);
+        stretch.frames[k].depth = std::move(cleaned.depth);
+        stretch.frames[k].unseen = std::move(cleaned.unseen);
+    }
+    const auto first = std::find_if(stretch.frames.begin(), stretch.frames.end() - 1,
+                                    [&](const Frame& frame) { return frame.time_s >= begin_s; });
+    stretch.raw.erase(stretch.raw.begin(), stretch.raw.begin() + (first - stretch.frames.begin()));
+    stretch.frames.erase(stretch.frames.begin(), first);
     const double there_s = stretch.frames.back().time_s - stretch.frames.front().time_s;
     stretch.milliseconds =
         static_cast<std::size_t>(std::lround(std::min(kTouched_s, there_s) / test::kFingerTick_s));
@@ -252,14 +275,16 @@ Feel feel_of(std::unique_ptr<Media> opened, const FeelOptions& options) {
         parameters.coupling.pixel_pitch_mm = fit.pixel_pitch_mm;
     }
     Toucher toucher(survey, parameters, options.seed);
+    const CleaningPlan plan = plan_for(media, options.cleaning);
     const std::vector<double> moments_s = survey.moments_s(options.spots);
     const auto moments = static_cast<int>(moments_s.size());
     for (int k = 0; k < moments; ++k) {
-        const Stretch stretch =
-            read_stretch(media, moments_s[static_cast<std::size_t>(k)], options.cleaning);
+        const Stretch stretch = read_stretch(media, moments_s[static_cast<std::size_t>(k)], plan);
         toucher.touch(stretch, (options.spots + moments - 1 - k) / moments);
     }
-    return toucher.feel();
+    Feel feel = toucher.feel();
+    feel.cleaning = in_words(options.cleaning, plan);
+    return feel;
 }
 
 }  // namespace dibhr::bench

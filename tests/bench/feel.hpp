@@ -10,8 +10,9 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <string>
 
-#include "core/video/depth/depth_cleaning.hpp"
+#include "core/video/cleaning/cleaning_options.hpp"
 #include "core/video/media.hpp"
 #include "tests/bench/felt.hpp"
 
@@ -49,7 +50,8 @@ struct Feel {
     int columns{0};
     int rows{0};
     std::int64_t frames{0};
-    double seconds{0.0};  ///< of the recording
+    double seconds{0.0};     ///< of the recording
+    std::string cleaning{};  ///< in words: what was done to it
 
     [[nodiscard]] const FeelNumbers& operator[](Way way) const {
         return of[static_cast<std::size_t>(way)];

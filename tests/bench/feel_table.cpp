@@ -1,5 +1,6 @@
-// Prints how recordings feel (feel.hpp): feel [--raw] [--fitted] [--spots N] [--json FILE] PLACE...
-// A place is what `dibhr view` takes, in one word; of two files the depth alone is as good.
+// Prints how recordings feel (feel.hpp): feel [--cleaning raw,gentle,auto] [--fitted] [--spots N]
+// [--json FILE] PLACE... A place is what `dibhr view` takes, in one word; of two files the depth
+// alone is as good.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -30,14 +31,14 @@ std::string short_name(const std::filesystem::path& place) {
 }
 
 void print_head() {
-    std::printf("%-36s %-13s %9s %9s %9s %7s %8s %8s |", "recording", "way", "buzz N", "p99 N/ms",
+    std::printf("%-43s %-13s %9s %9s %9s %7s %8s %8s |", "recording", "way", "buzz N", "p99 N/ms",
                 "p99.9", "stuck", "contact", "of s");
     for (const Cause cause : kCauses) std::printf(" %12s", name_of(cause));
     std::printf("  [%% of the time lost to it]\n");
 }
 
 void print_way(const std::string& name, Way way, const FeelNumbers& feel) {
-    std::printf("%-36s %-13s %9.4f %9.4f %9.4f", name.c_str(), name_of(way), feel.buzz_newton,
+    std::printf("%-43s %-13s %9.4f %9.4f %9.4f", name.c_str(), name_of(way), feel.buzz_newton,
                 feel.step_p99, feel.step_p999);
     const bool slides = way == Way::slide;
     if (slides)
@@ -67,30 +68,26 @@ Json json_of(Way way, const FeelNumbers& feel) {
 }
 
 Json json_of(const std::string& place, const Feel& feel) {
-    Json json{{"recording", place},
-              {"columns", feel.columns},
-              {"rows", feel.rows},
-              {"frames", feel.frames},
-              {"seconds", feel.seconds}};
+    Json json{{"recording", place}, {"cleaning", feel.cleaning}, {"columns", feel.columns},
+              {"rows", feel.rows},  {"frames", feel.frames},     {"seconds", feel.seconds}};
     for (const Way way : kWays) json[name_of(way)] = json_of(way, feel[way]);
     return json;
 }
 
-/// False when one of them could not be read, which is said.
-bool measure(const std::vector<std::string>& places, const FeelOptions& options, Json& json) {
-    bool all = true;
-    print_head();
-    for (const std::string& place : places) {
-        try {
-            const Feel feel = feel_of(open_media(place, {}, {.find_out = true}), options);
-            for (const Way way : kWays) print_way(short_name(place), way, feel[way]);
-            json.push_back(json_of(place, feel));
-        } catch (const std::exception& error) {
-            print_error_line(place + ": " + error.what());
-            all = false;
-        }
+/// False when it could not be read, which is said.
+bool measure(const std::string& place, const std::string& cleaning, FeelOptions options,
+             Json& json) {
+    options.cleaning.preset = cleaning_named(cleaning).value();
+    try {
+        const Feel feel = feel_of(open_media(place, {}, {.find_out = true}), options);
+        for (const Way way : kWays) print_way(short_name(place) + " " + cleaning, way, feel[way]);
+        std::printf("  %s\n", feel.cleaning.c_str());
+        json.push_back(json_of(place, feel));
+        return true;
+    } catch (const std::exception& error) {
+        print_error_line(place + ": " + error.what());
+        return false;
     }
-    return all;
 }
 
 }  // namespace
@@ -98,11 +95,16 @@ bool measure(const std::vector<std::string>& places, const FeelOptions& options,
 int main(int count, char** words) {
     std::vector<std::string> places;
     FeelOptions options;
-    bool raw = false;
+    std::vector<std::string> ways{"auto"};
     std::string json_file;
     CLI::App app{"How recordings feel, in numbers."};
     app.add_option("PLACE", places, "Recordings, each as `dibhr view` takes it")->required();
-    app.add_flag("--raw", raw, "Without cleaning; what levels mean is found out all the same");
+    app.add_option("--cleaning", ways,
+                   "Presets, one after the other: raw, gentle, sensor, auto; what levels mean is "
+                   "found out in each")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"raw", "gentle", "sensor", "auto"}))
+        ->capture_default_str();
     app.add_flag("--fitted", options.fitted, "Relief and pitch as the viewer fits them");
     app.add_option("--spots", options.spots, "Fingers of each way to touch")
         ->check(CLI::Range(1, 100000))
@@ -110,12 +112,14 @@ int main(int count, char** words) {
     app.add_option("--seed", options.seed, "Of the places")->capture_default_str();
     app.add_option("--json", json_file, "Writes the numbers as JSON; - is standard output");
     CLI11_PARSE(app, count, words);
-    if (raw) options.cleaning = {false, false, false};
     try {
         std::optional<OutputFile> out;
         if (!json_file.empty()) out.emplace(json_file);
         Json json = Json::array();
-        const bool all = measure(places, options, json);
+        bool all = true;
+        print_head();
+        for (const std::string& place : places)
+            for (const std::string& way : ways) all = measure(place, way, options, json) && all;
         if (out) {
             out->write(json_text(json));
             out->commit();

@@ -39,7 +39,7 @@ Feel feel(const Level& level, const FeelOptions& options = {}) {
 }
 
 /// As the file has it: what the scene does is not what cleaning makes of it.
-const FeelOptions kRaw{.cleaning = {false, false, false}};
+const FeelOptions kRaw{.cleaning = {.preset = CleaningPreset::raw}};
 
 double lost_share(const FeelNumbers& numbers, Cause cause) {
     return 1e-3 * static_cast<double>(numbers.lost[cause]) / numbers.seconds;
@@ -124,7 +124,7 @@ TEST_CASE("what cleaning takes away is told from holes", "[feel]") {
     const Level blinking = [](int frame, int i, int j) {
         return frame % 20 < 2 && (i % 3 != 0 || j % 3 != 0) ? 20.0 : 150.0;
     };
-    FeelOptions options{.spots = 60};
+    FeelOptions options{.cleaning = {.preset = CleaningPreset::gentle}, .spots = 60};
     CHECK(feel(blinking, options)[Way::rest_anywhere].lost[Cause::cleaning] > 0);
     options.cleaning = kRaw.cleaning;
     CHECK(feel(blinking, options)[Way::rest_anywhere].lost[Cause::cleaning] == 0);

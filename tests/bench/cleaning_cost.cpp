@@ -1,0 +1,253 @@
+// Prints what the cleaning of a frame costs, step by step: cleaning_cost [--cleaning sensor,gentle]
+// [--size 640x480,1920x1080] [--frames N] [PLACE...]. A place is what `dibhr view` takes, in one
+// word; its frames are stretched to the size, with fresh noise. bad, bad16, clean and clean16 are
+// made up.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <ctime>
+#include <exception>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/video/cleaning/cleaning_chain.hpp"
+#include "core/video/libraries.hpp"
+#include "core/video/media.hpp"
+
+namespace {
+
+using namespace dibhr;
+
+constexpr double kMadeNoise = 1.0 / 255.0;  ///< standard deviation, of the highest level
+
+struct Size {
+    int columns{0}, rows{0};
+};
+
+/// Of "640x480"; as recorded where nothing is said.
+Size size_of(const std::string& words) {
+    Size size;
+    if (std::sscanf(words.c_str(), "%dx%d", &size.columns, &size.rows) != 2) return {};
+    return size;
+}
+
+/// Of the process, whose other threads wait: what the libraries start counts, too.
+double cpu_ms() {
+    timespec now{};
+    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+/// Made up: of 8 bits or of more, with all that is bad or clean.
+struct Made {
+    const char* name;
+    double highest_level;
+    bool bad;
+};
+constexpr std::array<Made, 4> kMade{{{"bad", 255.0, true},
+                                     {"bad16", 8000.0, true},
+                                     {"clean", 255.0, false},
+                                     {"clean16", 8000.0, false}}};
+
+/// Steps in front of a wavy wall; where it is bad, holes, flickering patches, noise and outliers.
+DepthImage made_frame(Size size, const Made& made, std::size_t number) {
+    std::mt19937 random(static_cast<unsigned>(number));
+    std::normal_distribution<float> noise;
+    const double highest = made.highest_level;
+    const double time = 0.1 * static_cast<double>(number);
+    return image_of(size.columns, size.rows, highest, [&](int i, int j) {
+        const double x = 8.0 * i / size.columns;
+        const double y = 6.0 * j / size.columns;
+        const bool near = std::fmod(x + time, 2.0) < 1.0 && std::fmod(y, 2.0) < 1.4;
+        const bool flips = made.bad && std::fmod(x + 5.0 * time, 1.7) < 0.1;
+        const double level = (near != flips ? 0.7 : 0.3) + 0.05 * std::sin(3.0 * x + 2.0 * y);
+        const auto dice = random() % 1000;
+        if (!made.bad) return std::round(highest * level);
+        const bool shadow = near && std::fmod(x + time, 2.0) > 0.9;
+        if (dice < 30 || (shadow && dice < 900)) return std::nan("");
+        const double outlier = dice < 35 ? 0.3 : 0.0;
+        const double shaken = level + outlier + kMadeNoise * static_cast<double>(noise(random));
+        return std::round(highest * std::clamp(shaken, 0.0, 1.0));
+    });
+}
+
+/// The nearest pixel's level and fresh noise: whole levels where there were.
+DepthImage stretched(const DepthImage& image, Size size, const DepthNoise& noise, unsigned seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<float> normal;
+    const auto highest = static_cast<float>(image.highest_level);
+    return image_of(size.columns, size.rows, image.highest_level, [&](int i, int j) {
+        const float level = image.at(i * image.columns / size.columns, j * image.rows / size.rows);
+        const float shake = normal(random) * noise.at(level / highest) * highest;
+        if (std::isnan(level)) return level;
+        return std::clamp(std::round(level + shake), 0.0F, highest) + 0.0F;  // no -0
+    });
+}
+
+struct Clip {
+    std::vector<DepthImage> frames{};
+    std::vector<std::vector<HeldLevel>> held{};
+    DepthNoise noise{};
+};
+
+std::vector<DepthImage> read(const std::string& place, std::size_t count) {
+    std::vector<DepthImage> frames;
+    const auto media = open_media(place, {}, {.find_out = true});
+    while (frames.size() < count) {
+        std::optional<RawFrame> frame = media->next();
+        if (!frame) break;
+        frames.push_back(std::move(frame->depth));
+    }
+    if (frames.empty()) throw InputError(place + " holds no picture");
+    return frames;
+}
+
+DepthNoise noise_of(const std::vector<DepthImage>& frames) {
+    NoiseMeter meter;
+    for (std::size_t k = 0; k < std::min(frames.size(), NoiseMeter::kEnough); ++k)
+        meter.add(frames[k]);
+    return meter.noise();
+}
+
+Clip clip_of(const std::string& place, Size size, std::size_t count) {
+    Clip clip;
+    const auto* const made = std::find_if(kMade.begin(), kMade.end(),
+                                          [&](const Made& one) { return place == one.name; });
+    if (made != kMade.end()) {
+        if (size.columns == 0) size = {640, 480};
+        for (std::size_t k = 0; k < count; ++k) clip.frames.push_back(made_frame(size, *made, k));
+    } else {
+        clip.frames = read(place, count);
+        const DepthNoise noise = noise_of(clip.frames);
+        for (std::size_t k = 0; size.columns != 0 && k < clip.frames.size(); ++k)
+            clip.frames[k] = stretched(clip.frames[k], size, noise, static_cast<unsigned>(k));
+    }
+    clip.noise = noise_of(clip.frames);
+    DepthMemory memory;
+    for (std::size_t k = 0; k < clip.frames.size(); ++k)
+        clip.held.push_back(memory.take(clip.frames[k], static_cast<double>(k) / 30.0));
+    return clip;
+}
+
+struct Cost {
+    double least_ms{0.0}, median_ms{0.0};
+};
+
+Cost cost_of(std::vector<double> each_ms) {
+    std::sort(each_ms.begin(), each_ms.end());
+    return {each_ms.front(), each_ms[each_ms.size() / 2]};
+}
+
+/// Of the finished levels: which change tells from the same.
+std::uint64_t mixed(std::uint64_t sum, const DepthImage& image) {
+    for (const float level : image.levels)
+        sum = (sum ^ std::bit_cast<std::uint32_t>(level)) * 0x100000001B3ULL;
+    return sum;
+}
+
+struct Cleaned {
+    Cost alone{}, finished{};
+    std::uint64_t sum{0xCBF29CE484222325ULL};
+};
+
+/// All frames with these steps; those at the ends, which have fewer around them, are not counted.
+Cleaned clean(const Clip& clip, const CleaningPlan& plan) {
+    CleaningChain chain;
+    std::vector<LoneDepth> lone;
+    std::vector<double> alone_ms, finished_ms;
+    for (std::size_t k = 0; k < clip.frames.size(); ++k) {
+        DepthImage frame = clip.frames[k];
+        const double begin_ms = cpu_ms();
+        lone.push_back(chain.alone(std::move(frame), plan, clip.held[k]));
+        if (k > 1) alone_ms.push_back(cpu_ms() - begin_ms);
+    }
+    std::vector<const LoneDepth*> all;
+    for (const LoneDepth& one : lone) all.push_back(&one);
+    Cleaned cleaned;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const double begin_ms = cpu_ms();
+        CleanedDepth done = chain.finished(all, k, plan);
+        const bool inside = k >= kReachInTime && k + kReachInTime < all.size();
+        if (inside || all.size() <= 2 * kReachInTime) finished_ms.push_back(cpu_ms() - begin_ms);
+        cleaned.sum = mixed(cleaned.sum, *done.depth);
+    }
+    cleaned.alone = cost_of(alone_ms);
+    cleaned.finished = cost_of(finished_ms);
+    return cleaned;
+}
+
+/// What each step adds, and all of them.
+void print_costs(const Clip& clip, const CleaningSteps& wanted) {
+    CleaningSteps steps;
+    Cleaned before = clean(clip, {steps, {}, clip.noise});
+    std::printf(" %7.2f", before.alone.least_ms + before.finished.least_ms);
+    std::array<bool, 6> on{};
+    std::size_t k = 0;
+    visit_steps(wanted, [&](const char*, bool step) { on[k++] = step; });
+    for (std::size_t step = 0; step < on.size(); ++step) {
+        k = 0;
+        visit_steps(steps, [&](const char*, bool& value) { value = k++ <= step && on[k - 1]; });
+        const Cleaned now = on[step] ? clean(clip, {steps, {}, clip.noise}) : before;
+        std::printf(" %7.2f", now.alone.least_ms - before.alone.least_ms + now.finished.least_ms -
+                                  before.finished.least_ms);
+        before = now;
+    }
+    std::printf(" | %7.2f %7.2f | %7.2f %7.2f | %016llx\n", before.alone.least_ms,
+                before.alone.median_ms, before.finished.least_ms, before.finished.median_ms,
+                static_cast<unsigned long long>(before.sum));
+    std::fflush(stdout);
+}
+
+void print_head() {
+    std::printf("%-36s %-9s %-7s %7s %7s %7s %7s %7s %7s %7s | %7s %7s | %7s %7s | [ms of CPU]\n",
+                "recording", "size", "way", "none", "spikes", "holes", "silhou.", "time", "steps",
+                "noise", "alone", "median", "finish", "median");
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+    std::vector<std::string> places{"bad"}, ways{"sensor"}, sizes{"as recorded"};
+    std::size_t frames = 24;
+    CLI::App app{"What the cleaning of a frame costs."};
+    app.add_option("PLACE", places, "Recordings; bad, bad16, clean and clean16 are made up")
+        ->capture_default_str();
+    app.add_option("--cleaning", ways, "Presets, one after the other")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"gentle", "sensor"}))
+        ->capture_default_str();
+    app.add_option("--size", sizes, "Such as 640x480, one after the other")->delimiter(',');
+    app.add_option("--frames", frames, "Of each")->check(CLI::Range(3, 1000));
+    CLI11_PARSE(app, count, words);
+    set_up_libraries();
+    try {
+        print_head();
+        for (const std::string& place : places)
+            for (const std::string& size : sizes) {
+                const Clip clip = clip_of(place, size_of(size), frames);
+                for (const std::string& way : ways) {
+                    const std::filesystem::path path(place);
+                    const auto name = path.parent_path().filename() / path.filename();
+                    const DepthImage& first = clip.frames.front();
+                    std::printf("%-36s %4dx%-4d %-7s", name.c_str(), first.columns, first.rows,
+                                way.c_str());
+                    print_costs(clip, way == "gentle" ? kGentleSteps : kSensorSteps);
+                }
+            }
+        return 0;
+    } catch (const std::exception& error) {
+        print_error_line(error.what());
+        return 1;
+    }
+}

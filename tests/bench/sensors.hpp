@@ -1,0 +1,27 @@
+// What cameras, codecs and estimators make of a known surface.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/haptics/depth_image.hpp"
+#include "tests/bench/known_scene.hpp"
+
+namespace dibhr::bench {
+
+/// One way to see: frames as a file would give them, of 8 or 16 bits; NaN is no data.
+struct Sensor {
+    std::string name{};
+    std::function<std::vector<DepthImage>(const TrueFrames& truth, std::uint32_t seed)> see{};
+};
+
+/// "exact" (nothing is done but to round to 16 bits), "white", "kinect", "stereo", "lidar", "tof",
+/// "8-bit", "h264" and "mono". The same seed gives the same frames.
+[[nodiscard]] std::vector<Sensor> sensors();
+
+/// Of that name, which there must be.
+[[nodiscard]] Sensor sensor(const std::string& name);
+
+}  // namespace dibhr::bench

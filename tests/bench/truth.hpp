@@ -1,0 +1,97 @@
+// How near depth comes to the truth: known surfaces, seen by sensors, cleaned, and held against
+// what they are.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/haptics/depth_image.hpp"
+#include "core/video/cleaning/cleaning_options.hpp"
+#include "tests/bench/known_scene.hpp"
+
+namespace dibhr::bench {
+
+/// NaN: there is nothing that this could be measured of.
+struct Nearness {
+    static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+    /// RMS over all pixels at least 2 px from silhouettes [px].
+    double elevation_px{kNone};
+    /// RMS angle between the normal of the core's triangles, along which its force acts on them,
+    /// and that of the true surface under their middles, there [deg]. Of a scene with objects: on
+    /// those alone.
+    double normal_deg{kNone};
+    /// Of all places at a silhouette 95 % have so near a step of at least half the height between
+    /// two neighbours, up to the same side [px]; at most kFarthestEdge_px.
+    double edge_px{kNone};
+    /// How late what moves is [frames], where the chain sees to both sides; below 0: early.
+    double lag_frames{kNone};
+    /// What of a bump's height is there at its top [1].
+    double bump_kept{kNone};
+    /// RMS deviation of a pixel from its mean in time, where the scene is still and no silhouette
+    /// is within 2 px [px].
+    double flicker_px{kNone};
+};
+inline constexpr double kFarthestEdge_px = 16.0;
+
+/// Takes in a clip's frames, one after the other.
+class NearnessMeter {
+  public:
+    /// The truth must outlive it.
+    explicit NearnessMeter(const TrueFrames& truth);
+
+    /// The next frame, of any highest level: no NaN.
+    void add(const DepthImage& depth);
+    [[nodiscard]] Nearness nearness() const;
+
+  private:
+    /// Mean of squares.
+    struct Squares {
+        double sum{0.0};
+        double count{0.0};
+
+        void add(double value) {
+            sum += value * value;
+            count += 1.0;
+        }
+        [[nodiscard]] double root() const;  ///< NaN of none
+    };
+
+    void add_elevations();
+    void add_normals();
+    void add_edges();
+    void look_for_edge(std::size_t from, std::size_t to);
+    void keep_moving();
+    void add_bumps();
+    void add_flicker();
+    [[nodiscard]] double squares_from_truth(double late_frames) const;
+    [[nodiscard]] double lag_frames() const;
+    [[nodiscard]] double flicker_px() const;
+
+    const TrueFrames& truth_;
+    int frame_{0};
+    DepthImage now_{};  ///< [px]
+    Squares elevation_{}, normal_{};
+    std::vector<double> edges_px_{};
+    std::vector<std::size_t> moving_{};  ///< pixels
+    std::vector<float> of_moving_{};     ///< their elevations, frame after frame
+    std::vector<std::size_t> tops_{};    ///< of bumps
+    double bump_{0.0}, whole_bump_{0.0};
+    std::vector<char> still_{};               ///< pixels
+    std::vector<double> sums_{}, squares_{};  ///< in time, of each
+};
+
+/// What the program makes of such a recording, frame after frame: read, cleaned as it says, and
+/// held against the truth. `recorded` are of 8 or 16 bits; NaN is no data.
+struct Cleaned {
+    Nearness nearness{};
+    std::string words{};  ///< what was done
+};
+[[nodiscard]] Cleaned cleaned_against(const TrueFrames& truth,
+                                      const std::vector<DepthImage>& recorded,
+                                      CleaningPreset preset);
+
+}  // namespace dibhr::bench
