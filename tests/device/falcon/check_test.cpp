@@ -26,7 +26,7 @@ TEST_CASE(
     "in the record",
     "[check]") {
     Checked check;
-    check.options.times.hold = std::chrono::milliseconds(400);
+    check.options.times.hold = std::chrono::milliseconds(1000);
     const CheckResult result = check.run();
     CHECK(result.fault.empty());
     CHECK(result.record == check.options.record);

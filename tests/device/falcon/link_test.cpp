@@ -137,7 +137,7 @@ TEST_CASE("a stall, a pulled cable and a wire that takes nothing end the link wi
 
 // The undefined behaviour sanitizer makes a pipe to look at an object's type: under this limit it
 // cannot, and reports the object.
-#ifndef __SANITIZE_ADDRESS__
+#ifdef DIBHR_FEW_DESCRIPTORS
 TEST_CASE("a descriptor limit that ends the waiting ends the link, with a sentence", "[link]") {
     Linked linked;
     linked.exchange_until(10);

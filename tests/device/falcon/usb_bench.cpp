@@ -1,8 +1,6 @@
 // Units, and the bus they are plugged into.
 #include "tests/device/falcon/usb_bench.hpp"
 
-#include <thread>
-
 namespace dibhr::test::falcon {
 
 void Unit::set_faults(const Faults& faults) {
@@ -42,15 +40,6 @@ void UsbBench::unplug(Unit& unit) {
     pull_cable(unit);
     bus_.remove(unit.place_);
     unit.plugged_ = false;
-}
-
-bool eventually(const std::function<bool()>& is_so, std::chrono::milliseconds patience) {
-    const auto deadline = std::chrono::steady_clock::now() + patience;
-    while (!is_so()) {
-        if (std::chrono::steady_clock::now() > deadline) return false;
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return true;
 }
 
 }  // namespace dibhr::test::falcon

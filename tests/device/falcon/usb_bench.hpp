@@ -2,8 +2,6 @@
 // break.
 #pragma once
 
-#include <chrono>
-#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -12,6 +10,7 @@
 #include "tests/device/falcon/falcon_model.hpp"
 #include "tests/device/falcon/usb_bus.hpp"
 #include "tests/device/falcon/usbfs_unit.hpp"
+#include "tests/support/eventually.hpp"
 
 namespace dibhr::test::falcon {
 
@@ -68,8 +67,6 @@ class UsbBench {
     int last_address_{1};
 };
 
-/// Asks again every millisecond until it is true; false when it never was.
-[[nodiscard]] bool eventually(const std::function<bool()>& is_so,
-                              std::chrono::milliseconds patience = std::chrono::seconds(10));
+using test::eventually;
 
 }  // namespace dibhr::test::falcon
