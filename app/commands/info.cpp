@@ -26,8 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 
 void print_fact(std::string_view name, std::string_view value) {
-    constexpr int kNameWidth = 17;
-    std::cout << "  " << std::left << std::setw(kNameWidth) << one_line(name) << ' '
+    constexpr int kFactWidth = 17;
+    std::cout << "  " << std::left << std::setw(kFactWidth) << one_line(name) << ' '
               << one_line(value) << '\n';
 }
 

@@ -135,10 +135,10 @@ void draw_contacts(Canvas& canvas, Box strip, const Axes& axes, const SessionNum
 void draw_marks(Canvas& canvas, const Axes& axes, double bottom_px, const PlotWords& words) {
     constexpr std::size_t kLongestName = 18;
     constexpr double kRow_px = 17.0;
-    constexpr int kRows = 3;
+    constexpr int kNameRows = 3;
     const TextStyle style{kTextInk, kNumberCap_px, Align::left};
     const Box area = axes.area();
-    std::vector<double> taken_px(kRows, area.left);  // how far each row of names is full
+    std::vector<double> taken_px(kNameRows, area.left);  // how far each row of names is full
     for (const SessionMark& mark : words.marks) {
         const double x = axes.at(mark.t_s - words.begin_s, 0.0).x;
         if (!(x >= area.left - 0.5 && x <= area.right + 0.5)) continue;
@@ -146,7 +146,7 @@ void draw_marks(Canvas& canvas, const Axes& axes, double bottom_px, const PlotWo
         const std::string name = one_line(mark.tag, kLongestName);
         const double width = text_width(name, style);
         const double left = std::min(x - 2.0, area.right + 24.0 - width);
-        for (int row = 0; row < kRows; ++row) {
+        for (int row = 0; row < kNameRows; ++row) {
             double& taken = taken_px[static_cast<std::size_t>(row)];
             if (left < taken) continue;
             canvas.text({left, area.top - 8.0 - row * kRow_px}, name, style);

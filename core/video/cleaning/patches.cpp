@@ -33,9 +33,9 @@ DIBHR_VECTOR_CLONES int mark(const float* levels, int other, std::uint8_t* __res
 }  // namespace
 
 bool has_holes(const float* levels, std::size_t count) noexcept {
-    constexpr std::size_t kChunk = 4096;
-    for (std::size_t at = 0; at < count; at += kChunk)
-        if (any_hole(levels + at, std::min(kChunk, count - at)) != 0) return true;
+    constexpr std::size_t kSome = 4096;
+    for (std::size_t at = 0; at < count; at += kSome)
+        if (any_hole(levels + at, std::min(kSome, count - at)) != 0) return true;
     return false;
 }
 
