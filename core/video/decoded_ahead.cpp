@@ -44,10 +44,11 @@ std::optional<RawFrame> DecodedAhead::next_from(double earliest_s, double apart_
         {
             std::unique_lock lock(mutex_);
             ++read_in_a_row_;
-            from_s_ = earliest_s;
+            from_s_ = apart_s > 0.0 ? std::max(from_s_, earliest_s) : earliest_s;
+            apart_s_ = apart_s;
             if (!can_be_read()) wait(lock);
             if (passed && is_at_end()) return passed;
-            taken = take(earliest_s, apart_s);
+            taken = take(earliest_s);
         }
         description_ = std::move(taken.description);
         making_s_ = taken.making_s;
@@ -61,14 +62,18 @@ bool DecodedAhead::is_at_end() const {
     return !decoded_.front().frame && !decoded_.front().broken;
 }
 
-DecodedAhead::Decoded DecodedAhead::take(double earliest_s, double apart_s) {
+DecodedAhead::Decoded DecodedAhead::take(double earliest_s) {
     Decoded taken = std::move(decoded_.front());
     decoded_.pop_front();
     bytes_ -= taken.bytes;
     const bool given_out = taken.frame && !(taken.frame->media_s < earliest_s);
-    if (given_out && apart_s > 0.0) from_s_ = taken.frame->media_s + apart_s;
+    if (given_out) go_on_apart_from(*taken.frame);
     asked_.notify_one();
     return taken;
+}
+
+void DecodedAhead::go_on_apart_from(const RawFrame& frame) {
+    if (apart_s_ > 0.0) from_s_ = std::max(from_s_, frame.media_s + apart_s_);
 }
 
 void DecodedAhead::wait(std::unique_lock<std::mutex>& lock) {
@@ -98,7 +103,7 @@ void DecodedAhead::jump(Target target, Begins begins) {
         target_ = target;
         decoded_.clear();
         bytes_ = 0;
-        from_s_ = 0.0;
+        from_s_ = apart_s_ = 0.0;
         read_in_a_row_ = begins == Begins::at_once ? kInARow : 0;
         ended_ = false;
     }
@@ -169,6 +174,8 @@ void DecodedAhead::decode_one(std::unique_lock<std::mutex>& lock) {
     if (target_) return;  // it was asked for something else meanwhile
     ended_ = !decoded.frame;
     bytes_ += decoded.bytes;
+    const bool wanted = decoded.frame && !(decoded.frame->media_s < from_s_);
+    if (wanted) go_on_apart_from(*decoded.frame);
     decoded_.push_back(std::move(decoded));
     ready_.notify_one();
 }

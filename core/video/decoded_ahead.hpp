@@ -75,7 +75,8 @@ class DecodedAhead : public Media {
 
     void wait(std::unique_lock<std::mutex>& lock);
     [[nodiscard]] bool is_at_end() const;
-    Decoded take(double earliest_s, double apart_s);
+    Decoded take(double earliest_s);
+    void go_on_apart_from(const RawFrame& frame);
     void jump(Target target, Begins begins);
     void run();
     [[nodiscard]] bool has_room() const;
@@ -103,6 +104,7 @@ class DecodedAhead : public Media {
     std::size_t bytes_{0};            ///< of them
     std::size_t read_in_a_row_{0};    ///< since the last jump; as if, where more will be
     double from_s_{0.0};              ///< what is before is passed over
+    double apart_s_{0.0};             ///< as is what is nearer than this to one that is wanted
     std::optional<Target> target_{};  ///< where to decode next; nothing: what follows
     bool waited_for_{false};
     bool ended_{false};  ///< nothing follows, or it cannot be read, until it is asked for

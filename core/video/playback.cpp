@@ -236,11 +236,14 @@ Pace Playback::pace(Time now) const {
 
 /// Of the next frame, on the playback timeline. One that would come too late is passed over, with
 /// all up to one that is there a frame before its time, so that the surface moves on to it; from
-/// then on frames are as far apart as they take.
+/// then on frames are as far apart as they take. Where they are made side by side, the one that is
+/// so far apart is under way already.
 double Playback::earliest_s(Time now, double takes_s) const {
     const double there_s = clock_.playback_s(now) + takes_s;
     const double newest_s = frames_.back().time_s;
-    if (newest_s + interval_s() < there_s) return there_s + takes_s;
+    const bool under_way = reader_->making_s() > 0.0;
+    const double next_s = newest_s + (under_way ? std::max(takes_s, interval_s()) : interval_s());
+    if (next_s < there_s) return there_s + takes_s;
     return frames_.size() < 3 && takes_s > interval_s() ? newest_s + takes_s : 0.0;
 }
 

@@ -146,6 +146,22 @@ TEST_CASE("what is passed over is not made, but for the last frame of all", "[de
     CHECK(index_of_next(media) == 21);
 }
 
+TEST_CASE("frames that are asked for as far apart as they take are all that is made",
+          "[decoding]") {
+    constexpr double kApart_s = 0.25;
+    const auto log = new_log();
+    DecodedAhead media(std::make_unique<SlowMedia>(100, std::chrono::milliseconds(5), log));
+    double last_s = 0.0;
+    int read = 0;
+    for (; last_s < 9.0; ++read) {
+        const auto next = media.next_from(last_s + kApart_s, kApart_s);
+        REQUIRE(next);
+        last_s = next->media_s;
+    }
+    CHECK(read > 20);
+    CHECK(log->decoded <= read + 6);  // some before they were asked for so, and four ahead
+}
+
 TEST_CASE("where frames will be read in a while they are decoded at once", "[decoding]") {
     const auto log = new_log();
     DecodedAhead media(std::make_unique<SlowMedia>(100, std::chrono::milliseconds(1), log));

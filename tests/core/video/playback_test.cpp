@@ -399,7 +399,7 @@ TEST_CASE("where frames are slow to make and not to decode the time is kept", "[
     CHECK_FALSE(playback.waits());
     CHECK(playback.window().frames[0].media_s > 3.5);
     CHECK(made.took_s > 0.5 * kTime_s);  // 20 of 22 ms; the others decode what is passed over
-    CHECK(shown > 0.8 * made.frames);
+    CHECK(shown > 0.65 * made.frames);   // few of them come too late
 }
 
 TEST_CASE("a change of cleaning shows at once, also when paused", "[playback]") {
