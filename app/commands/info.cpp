@@ -105,6 +105,19 @@ std::string registration_text(const MediaDescription& media) {
            short_text(moved.down_px) + " px down, " + short_text(moved.scale) + " times as large";
 }
 
+std::vector<std::string> words_of(const CleaningSteps& steps) {
+    std::vector<std::string> names;
+    visit_steps(steps, [&names](std::string_view name, bool step) {
+        if (step) names.emplace_back(name);
+    });
+    return names;
+}
+
+std::string cleaning_text(const CleaningChoice& choice) {
+    return choice.preset == CleaningPreset::own ? list_text(words_of(choice.own))
+                                                : std::string(name_of(choice.preset));
+}
+
 void print_depth(const MediaDescription& media) {
     print_fact("depth", size_text(media.depth_columns, media.depth_rows) + ", " +
                             media.depth_codec + ", " + levels_text(media));
@@ -117,6 +130,10 @@ void print_depth(const MediaDescription& media) {
     print_fact("code", name_of(meaning.code.value));
     if (const std::string colour = registration_text(media); !colour.empty())
         print_fact("registered", colour);
+    if (meaning.cleaning.value != CleaningChoice{})
+        print_fact("cleaning", cleaning_text(meaning.cleaning.value));
+    if (meaning.finger_mm.value > 0.0)
+        print_fact("finger", short_text(meaning.finger_mm.value) + " mm");
     print_fact("holes", number_text(100.0 * media.holes_share, 1) + " %");
 }
 
@@ -159,6 +176,11 @@ Json json_of(const Intrinsics& camera) {
 }
 Json json_of(const Registration& registration) {
     return {registration.right_px, registration.down_px, registration.scale};
+}
+
+Json json_of(const CleaningChoice& choice) {
+    if (choice.preset != CleaningPreset::own) return name_of(choice.preset);
+    return words_of(choice.own);
 }
 
 /// Each fact, and whose word it is; what is not known is null.

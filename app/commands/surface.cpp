@@ -101,7 +101,7 @@ SurfaceFormat format_asked(const fs::path& out) {
 void write_felt_surface(const SurfaceOptions& options, SurfaceFormat format) {
     TouchParameters parameters = options.parameters;
     FrameReader reader(open_given(options, parameters));
-    reader.set_cleaning(options.touch.cleaning(parameters));
+    reader.set_cleaning(options.touch.cleaning(parameters, reader.description()));
     std::optional<BumpMap> bump;
     if (!options.touch.bump.empty()) bump = read_bump_map(options.touch.bump);
     const std::vector<Frame> frames = frames_around(reader, options.time_s);

@@ -59,7 +59,12 @@ class TouchRun {
         auto media = open_depth(options.depth, options.touch.depth_request());
         print_warning(media->description().notice);
         options.touch.given.fit(media->description(), options.touch.raw_depth, parameters);
-        return {std::move(media), options.video, options.touch.cleaning(parameters)};
+        const CleaningOptions cleaning = options.touch.cleaning(parameters, media->description());
+        if (cleaning.preset == CleaningPreset::own && cleaning.own.colour_edges)
+            print_warning(shown(options.depth) +
+                          " is to be cut along the colour's edges, which touch does not look at: "
+                          "its silhouettes are those of the depth alone");
+        return {std::move(media), options.video, cleaning};
     }
 
     OutputRow update(const TimedGoal& goal) {

@@ -1,8 +1,10 @@
 // The Video panel: which files, playback, and the cleaning of depth.
 #include <algorithm>
+#include <string>
 
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
+#include "core/files/plain_text.hpp"
 
 namespace dibhr {
 
@@ -69,10 +71,16 @@ void draw_cleaning(ViewerState& state) {
                "What is done to the depth before it is drawn and touched (--cleaning); hold B to "
                "see and feel it as recorded",
                CleaningPreset::automatic);
+    const bool by_sidecar = cleaning_on(state.media, cleaning).preset != cleaning.preset;
     if (!state.replay && !state.playback.cleaning.empty())
-        quiet_text(capitalised(state.playback.cleaning));
+        quiet_text((by_sidecar ? "By the sidecar: " + state.playback.cleaning
+                               : capitalised(state.playback.cleaning)));
+    const double said_mm = finger_mm_on(state.media, 0.0);
+    const std::string unless_chosen =
+        said_mm > 0.0 ? short_text(said_mm) + " mm (sidecar)" : "a point";
     number_row({"Fingertip", "%.1f mm", 0.0, 10.0, 0.0,
-                "Radius of the ball that touches; 0: a point (--finger)", false, "a point"},
+                "Radius of the ball that touches; 0: a point, or as a sidecar says (--finger)",
+                false, unless_chosen.c_str()},
                state.settings.finger_mm);
     if (!part("Cleaning steps")) return;
     const bool own = cleaning.preset == CleaningPreset::own;
@@ -88,6 +96,9 @@ void draw_cleaning(ViewerState& state) {
         "Where the camera saw no depth, take the depth around it");
     row("Sharpen silhouettes", steps.sharpen_silhouettes, standard.sharpen_silhouettes,
         "Ramps between near and far become steps");
+    row("Edges of colour", steps.colour_edges, standard.colour_edges,
+        "Wide ramps become a step where the colour has its sharp edge; a replay then needs the "
+        "colour, too");
     row("Steady in time", steps.steady, standard.steady,
         "What does not move keeps its level from frame to frame");
     row("Smooth depth steps", steps.smooth_steps, standard.smooth_steps,

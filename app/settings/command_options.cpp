@@ -163,6 +163,8 @@ void add_surface_options(CLI::App& app, TouchRequest& request) {
                    throw CLI::ValidationError(
                        "--cleaning", "'" + name + "' is none of auto, raw, gentle, sensor");
                if (request.preset == CleaningPreset::raw) request.raw_depth = true;
+               if (request.preset == CleaningPreset::automatic)
+                   request.depth.cleaning.emplace();  // whatever a sidecar says
            },
            "What is done to the depth: raw (as --raw-depth), gentle (holes, spikes, 8-bit steps), "
            "sensor (also silhouettes and noise), auto (as the clip's noise asks)")
@@ -170,7 +172,10 @@ void add_surface_options(CLI::App& app, TouchRequest& request) {
         ->default_str("auto");
     add_number_option(app, "--finger", 0.0, kThickestFinger_mm,
                       "Radius of the fingertip [mm]; 0: the paper's point",
-                      [&request](double radius_mm) { request.finger_mm = radius_mm; })
+                      [&request](double radius_mm) {
+                          request.finger_mm = radius_mm;
+                          if (!(radius_mm > 0.0)) request.depth.finger_mm = radius_mm;
+                      })
         ->type_name("MM")
         ->default_str("0");
     add_depth_options(app, request.depth);
@@ -186,10 +191,13 @@ bool TouchRequest::asks_for_another_surface() const {
     return !bump.empty() || raw_depth || preset || finger_mm;
 }
 
-CleaningOptions TouchRequest::cleaning(const TouchParameters& parameters) const {
+CleaningOptions TouchRequest::cleaning(const TouchParameters& parameters,
+                                       const MediaDescription& media) const {
     CleaningOptions options{.preset = preset.value_or(CleaningPreset::automatic)};
     if (raw_depth) options.preset = CleaningPreset::raw;
-    if (finger_mm.value_or(0.0) > 0.0) options.finger = fingertip_of(*finger_mm, parameters);
+    options = cleaning_on(media, options);
+    const double radius_mm = finger_mm_on(media, finger_mm.value_or(0.0));
+    if (radius_mm > 0.0) options.finger = fingertip_of(radius_mm, parameters);
     return options;
 }
 
@@ -229,6 +237,10 @@ void GivenParameters::fit(const MediaDescription& media, bool raw,
 DepthRequest TouchRequest::depth_request() const {
     DepthRequest request = raw_depth ? DepthRequest{} : usual_depth_request();
     request.command_line = depth;
+    if (raw_depth) {  // nothing is done to it in any case
+        request.command_line.cleaning.reset();
+        request.command_line.finger_mm.reset();
+    }
     return request;
 }
 

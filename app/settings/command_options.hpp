@@ -55,8 +55,10 @@ struct TouchRequest {
     [[nodiscard]] DepthRequest depth_request() const;
     /// By what is no number of the touch: another bump map, cleaning or fingertip.
     [[nodiscard]] bool asks_for_another_surface() const;
-    /// For a surface of these parameters, in which a finger has its size.
-    [[nodiscard]] CleaningOptions cleaning(const TouchParameters& parameters) const;
+    /// For a surface of these parameters, in which a finger has its size; of a media where that
+    /// says which finger.
+    [[nodiscard]] CleaningOptions cleaning(const TouchParameters& parameters,
+                                           const MediaDescription& media = {}) const;
 };
 
 /// A finger of that radius on a surface of these parameters.

@@ -74,9 +74,6 @@ struct Settings {
 /// Writes the file whole or not at all. Throws InputError.
 void save_settings(const Settings& settings, const std::filesystem::path& file);
 
-/// A thicker finger than anybody's [mm].
-inline constexpr double kThickestFinger_mm = 25.0;
-
 /// One value of the settings file, and where it is held.
 struct Setting {
     std::string_view table;

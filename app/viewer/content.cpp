@@ -173,7 +173,11 @@ void Viewer::open_again(const DepthStatement& panel) {
 std::string Viewer::save_sidecar() {
     if (!state_.media.meaning) throw InputError("nothing is known of this depth: it is shown raw");
     const std::filesystem::path& file = depth_file(state_.media);
-    const DepthStatement all = state_.media.meaning->statement();
+    DepthStatement all = state_.media.meaning->statement();
+    const CleaningOptions& cleaning = state_.settings.cleaning;
+    if (cleaning.preset != CleaningPreset::automatic)
+        all.cleaning = CleaningChoice{cleaning.preset, cleaning.own};
+    all.finger_mm = finger_mm_on(state_.media, state_.settings.finger_mm);
     DepthRequest& request = state_.opened.request;
     write_sidecar(file, all);
     request.panel = {};  // the sidecar says it now

@@ -43,8 +43,8 @@ std::map<std::string, std::string> session_facts(const ViewerState& state) {
     for (const TouchNumber& number : touch_numbers()) {
         facts.emplace(std::string(number.name), number_text(number.of(state.settings.touch)));
     }
-    facts.emplace("cleaning", name_of(state.settings.cleaning.preset));
-    facts.emplace("finger", number_text(state.settings.finger_mm));
+    facts.emplace("cleaning", name_of(cleaning_on(state.media, state.settings.cleaning).preset));
+    facts.emplace("finger", number_text(finger_mm_on(state.media, state.settings.finger_mm)));
     facts.emplace("surface-version", std::to_string(kSurfaceVersion));
     if (state.falcon) {
         FalconSettings falcon = state.settings.falcon;

@@ -319,10 +319,10 @@ void Viewer::hand_over_settings() {
 
 /// As the panel says; as recorded while the key for it is held.
 CleaningOptions Viewer::wanted_cleaning() const {
-    CleaningOptions cleaning = state_.settings.cleaning;
+    CleaningOptions cleaning = cleaning_on(state_.media, state_.settings.cleaning);
     if (state_.as_recorded) return {.preset = CleaningPreset::raw};
-    if (state_.settings.finger_mm > 0.0)
-        cleaning.finger = fingertip_of(state_.settings.finger_mm, state_.settings.touch);
+    const double radius_mm = finger_mm_on(state_.media, state_.settings.finger_mm);
+    if (radius_mm > 0.0) cleaning.finger = fingertip_of(radius_mm, state_.settings.touch);
     return cleaning;
 }
 

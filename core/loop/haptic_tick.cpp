@@ -26,6 +26,7 @@ FramePair frames_of(const DepthBlend& pair) {
              .remove_spikes = steps.remove_spikes,
              .smooth_steps = steps.smooth_steps,
              .sharpen_silhouettes = steps.sharpen_silhouettes,
+             .colour_edges = steps.colour_edges,
              .steady = steps.steady,
              .smooth_noise = steps.smooth_noise,
              .finger_px = from.cleaning.finger.radius_px,

@@ -110,6 +110,7 @@ FrameCleaning cleaning_of(const FrameSource& source) {
     return {{.remove_spikes = source.remove_spikes,
              .fill_holes = source.fill_holes,
              .sharpen_silhouettes = source.sharpen_silhouettes,
+             .colour_edges = source.colour_edges,
              .steady = source.steady,
              .smooth_steps = source.smooth_steps,
              .smooth_noise = source.smooth_noise},
@@ -133,10 +134,13 @@ SessionFrames::SessionFrames(const Session& session, const SessionFramesOptions&
 void SessionFrames::find_videos(const Session& session) {
     for (const SessionSource& source : session.sources()) {
         Video& video = videos_[source.source.media];
+        const bool by_colour =
+            source.source.sharpen_silhouettes && source.source.colour_edges && !options_.cleaning;
+        video.in_colour = video.in_colour || options_.colour || by_colour;
+        if (video.in_colour && video.colour.empty() && !source.colour.file.empty())
+            video.colour = finder_.find(source.colour, "colour video");
         if (!video.depth.empty()) continue;
         video.depth = finder_.find(source.depth, "depth video");
-        if (options_.colour && !source.colour.file.empty())
-            video.colour = finder_.find(source.colour, "colour video");
         if (!source.depth_meaning.empty())
             video.request.recorded = statement_in(source.depth_meaning, session.file().string());
     }
@@ -201,7 +205,7 @@ CleaningOptions SessionFrames::cleaning_for(const FrameSource& source) const {
 FrameReader& SessionFrames::reader_of(Video& video) const {
     if (!video.reader) {
         video.reader = std::make_unique<FrameReader>(
-            options_.colour ? open_media(video.colour, video.depth, video.request)
+            video.in_colour ? open_media(video.colour, video.depth, video.request)
                             : open_depth(video.depth, video.request));
     }
     return *video.reader;

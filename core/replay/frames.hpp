@@ -74,6 +74,7 @@ class SessionFrames final : public RecordedFrames {
     /// One of the session's videos, opened when it is needed.
     struct Video {
         std::filesystem::path colour{}, depth{};
+        bool in_colour{false};   ///< it is shown, or surfaces depend on it
         DepthRequest request{};  ///< what its depth meant
         std::unique_ptr<FrameReader> reader{};
         std::optional<double> last_s{};  ///< of the frame last read

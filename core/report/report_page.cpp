@@ -222,6 +222,7 @@ std::string cleaning_text(const FrameSource& source) {
     add(source.remove_spikes, "spikes removed");
     add(source.fill_holes, "holes filled");
     add(source.sharpen_silhouettes, "silhouettes sharpened");
+    add(source.sharpen_silhouettes && source.colour_edges, "at the colour's edges");
     add(source.steady, "steadied in time");
     add(source.smooth_steps, "steps smoothed");
     add(source.smooth_noise, "noise smoothed");

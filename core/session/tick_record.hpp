@@ -23,6 +23,7 @@ struct FrameSource {
     bool remove_spikes{false};
     bool smooth_steps{false};
     bool sharpen_silhouettes{false};
+    bool colour_edges{false};
     bool steady{false};
     bool smooth_noise{false};
     double finger_px{0.0};         ///< the fingertip's radius; 0: a point
@@ -38,6 +39,7 @@ void visit_cleaning(Source& source, const Visit& visit) {
     visit("remove_spikes", source.remove_spikes);
     visit("smooth_steps", source.smooth_steps);
     visit("sharpen_silhouettes", source.sharpen_silhouettes);
+    visit("colour_edges", source.colour_edges);
     visit("steady", source.steady);
     visit("smooth_noise", source.smooth_noise);
     visit("finger_px", source.finger_px);

@@ -129,6 +129,8 @@ void FrameReader::tell_wait(const RawFrame& raw, std::int64_t frames, double wai
 FrameReader::Kept* FrameReader::keep(RawFrame raw) {
     let_go();
     Kept& kept = kept_[raw.media_s];
+    const bool needs_colour = plan_.steps.sharpen_silhouettes && plan_.steps.colour_edges;
+    if (needs_colour && !raw.lone && !kept.can_be_cleaned()) clean_alone(raw, plan_);
     if (!kept.frame.colour) {  // it is new, or nobody had wanted it any more
         kept.frame.colour = std::make_shared<const ColourImage>(std::move(raw.colour));
         kept.frame.media_s = raw.media_s;
@@ -254,7 +256,9 @@ void FrameReader::clean_alone(RawFrame& raw, const CleaningPlan& plan) {
     const std::lock_guard lock(alone_);
     const auto begin = Clock::now();
     const std::vector<HeldLevel> held = std::move(raw.held);
-    raw.lone = std::make_shared<const LoneDepth>(chain_.alone(std::move(raw.depth), plan, held));
+    const ColourImage* const colour = raw.colour_of_view ? &raw.colour : nullptr;
+    raw.lone =
+        std::make_shared<const LoneDepth>(chain_.alone(std::move(raw.depth), plan, held, colour));
     raw.lone_ms = 1000.0 * seconds_since(begin);
 }
 
@@ -455,6 +459,7 @@ std::optional<Frame> FrameReader::preview(double media_s) {
     at_beginning_ = false;
     std::optional<RawFrame> raw = media_.next();
     if (!raw) return std::nullopt;
+    if (!raw->lone) clean_alone(*raw, plan_);
     Frame frame;
     frame.colour = std::make_shared<const ColourImage>(std::move(raw->colour));
     frame.media_s = raw->media_s;
@@ -462,7 +467,6 @@ std::optional<Frame> FrameReader::preview(double media_s) {
     frame.media = number_;
     CleaningSteps steps = plan_.steps;
     steps.steady = false;
-    if (!raw->lone) clean_alone(*raw, plan_);
     const LoneDepth* const lone = raw->lone.get();
     return with_depth(std::move(frame), chain_.finished({&lone, 1}, 0, plan_), steps);
 }

@@ -115,6 +115,17 @@ Fit fit_of(const MediaDescription& media) {
     return {kPaperRelief * columns, kPaperWidth_mm / columns};
 }
 
+CleaningOptions cleaning_on(const MediaDescription& media, CleaningOptions asked) {
+    if (asked.preset != CleaningPreset::automatic || !media.meaning) return asked;
+    const CleaningChoice& said = media.meaning->cleaning.value;
+    return {.preset = said.preset, .own = said.own, .finger = asked.finger};
+}
+
+double finger_mm_on(const MediaDescription& media, double asked_mm) {
+    if (asked_mm > 0.0 || !media.meaning) return asked_mm;
+    return media.meaning->finger_mm.value;
+}
+
 std::string shown(const fs::path& file) {
     return in_quotes(file.string(), std::string::npos);
 }

@@ -35,6 +35,7 @@ struct RawFrame {
     std::shared_ptr<const LoneDepth> lone{};
     double lone_ms{0.0};  ///< which took so long
     ColourImage colour{};
+    bool colour_of_view{false};  ///< a camera's, and as far as is known of the depth's own view
     double media_s{0.0};
     std::int64_t index{0};
     bool always_whole{false};  ///< no frame of this media has a pixel without data
@@ -94,6 +95,13 @@ struct MediaDescription {
 /// Falcon's hand reaches, 101.6 mm: as in the paper, whatever the picture's size. A true shape fits
 /// as it is.
 [[nodiscard]] Fit fit_of(const MediaDescription& media);
+
+/// What is asked for, or where that is automatic what is said of the media.
+[[nodiscard]] CleaningOptions cleaning_on(const MediaDescription& media, CleaningOptions asked);
+
+/// The radius of the fingertip [mm]: the one asked for, or where that is 0 what is said of the
+/// media.
+[[nodiscard]] double finger_mm_on(const MediaDescription& media, double asked_mm);
 
 /// Containers round times to milliseconds: a time asked for matches a frame's within half of one.
 inline constexpr double kTimeTolerance_s = 0.0005;

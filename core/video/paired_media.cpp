@@ -69,23 +69,24 @@ void describe_time(const SourceFacts& facts, MediaDescription& description) {
 }
 
 ColourTrack::ColourTrack(std::unique_ptr<PictureSource> source, const SourceFacts& depth)
-    : source_(std::move(source)), starts_later_s_(colour_start_s(source_->facts(), depth)) {}
+    : source_(std::move(source)),
+      starts_later_s_(colour_start_s(source_->facts(), depth)),
+      interval_s_(std::min(interval_of(depth), interval_of(source_->facts()))) {}
 
-const cv::Mat& ColourTrack::shown_at(double depth_time_s, double depth_interval_s) {
-    const double interval_s = std::min(depth_interval_s, interval_of(source_->facts()));
-    const double latest_s = depth_time_s - starts_later_s_ + kNotLater * interval_s;
+const cv::Mat& ColourTrack::shown_at(double depth_time_s) {
+    const double latest_s = depth_time_s - starts_later_s_ + kNotLater * interval_s_;
     if (std::exchange(near_, false)) {
         source_->seek_near(latest_s);
         now_ = source_->next().value_or(now_);
         return now_.picture;
     }
-    if (!placed_ || (later_ && later_->time_s + kFarAhead * interval_s < latest_s)) {
+    if (!placed_ || (later_ && later_->time_s + kFarAhead * interval_s_ < latest_s)) {
         source_->seek(latest_s);
         now_ = source_->next().value_or(now_);
         later_ = source_->next();
         placed_ = true;
     }
-    while (later_ && later_->time_s <= latest_s) {
+    while (later_ && later_->time_s <= latest_s + kTimeTolerance_s) {  // as after a jump
         now_ = std::move(*later_);
         later_ = source_->next();
     }
@@ -109,6 +110,7 @@ PairedMedia::PairedMedia(std::unique_ptr<PictureSource> depth,
     add_notice(depth_->facts().notice);
     if (colour == nullptr) return;
     add_notice(colour->facts().notice);
+    colour_of_view_ = true;
     take_registration(colour->facts());
     colour_.emplace(std::move(colour), depth_->facts());
 }
@@ -130,6 +132,7 @@ std::optional<RawFrame> PairedMedia::frame_of(std::optional<TimedPicture> taken)
     frame.depth = scale_.image_of(taken->picture);
     frame.media_s = taken->time_s;
     frame.index = taken->index;
+    frame.colour_of_view = colour_of_view_;
     frame.always_whole = scale_.is_always_data() && !shape_;
     cv::Mat colour;
     if (colour_) colour = colour_for(*taken);
@@ -145,7 +148,7 @@ std::optional<RawFrame> PairedMedia::frame_of(std::optional<TimedPicture> taken)
 
 /// The colour picture as the depth camera would see it.
 cv::Mat PairedMedia::colour_for(const TimedPicture& depth) {
-    cv::Mat colour = colour_->shown_at(depth.time_s, interval_of(depth_->facts()));
+    cv::Mat colour = colour_->shown_at(depth.time_s);
     tell_trouble(colour_->facts());
     if (cameras_ && !colour.empty())
         colour = cameras_->seen_from_depth(scale_.distances_mm(depth.picture), colour);
@@ -169,7 +172,8 @@ void PairedMedia::take_registration(const SourceFacts& colour) {
     if (facts.cameras && meaning->is_metric()) {
         cameras_.emplace(size_, *facts.cameras, range_mm_.far);
         description_.registered_by = facts.cameras->known_from;
-    } else if (facts.other_camera && meaning->registration.origin == Origin::found) {
+    } else if (facts.other_camera && registration_ == Registration{}) {
+        colour_of_view_ = false;
         add_notice(shown(facts.file) +
                    " has colour and depth of two cameras, and does not tell how they stand: record "
                    "depth that is aligned to the colour, or shift the colour (--registration)");

@@ -31,13 +31,14 @@ class ColourTrack {
         forget();
         near_ = true;
     }
-    const cv::Mat& shown_at(double depth_time_s, double depth_interval_s);
+    const cv::Mat& shown_at(double depth_time_s);
     /// So long decoding one picture takes, as of late; 0: not known.
     [[nodiscard]] double decoding_s() const { return now_.decoding_s; }
 
   private:
     std::unique_ptr<PictureSource> source_;
-    double starts_later_s_;  // than the depth
+    double starts_later_s_;  ///< than the depth
+    double interval_s_;      ///< as known at the opening: later it may be known better
     TimedPicture now_{};
     std::optional<TimedPicture> later_{};
     bool placed_{false};
@@ -85,6 +86,7 @@ class PairedMedia : public Media {
     Registration registration_{};                  ///< beyond that
     std::optional<TrueShape> shape_{};             ///< for `--geometry true`
     bool painted_;
+    bool colour_of_view_{false};  ///< as far as is known
     MediaDescription description_{};
 };
 

@@ -100,7 +100,7 @@ void CleaningChain::close_holes(LoneDepth& lone, bool fill, std::span<const Held
 }
 
 LoneDepth CleaningChain::alone(DepthImage image, const CleaningPlan& plan,
-                               std::span<const HeldLevel> held) {
+                               std::span<const HeldLevel> held, const ColourImage* colour) {
     LoneDepth lone{std::move(image), {}, {}};
     const bool touchable = is_touchable(lone.depth);
     spikes_.forget();
@@ -108,7 +108,7 @@ LoneDepth CleaningChain::alone(DepthImage image, const CleaningPlan& plan,
     if (has_holes(lone.depth)) close_holes(lone, touchable && plan.steps.fill_holes, held);
     if (touchable && plan.steps.sharpen_silhouettes) {
         const float noise = plan.noise.at(0.5F) * static_cast<float>(lone.depth.highest_level);
-        silhouettes_.sharpen(lone.depth, nullptr, noise);
+        silhouettes_.sharpen(lone.depth, plan.steps.colour_edges ? colour : nullptr, noise);
     }
     return lone;
 }

@@ -54,7 +54,8 @@ inline constexpr std::size_t kMostForSensor = 1'000'000;
 /// Whether frames cleaned alone are the same by both.
 [[nodiscard]] inline bool same_alone(const CleaningSteps& a, const CleaningSteps& b) noexcept {
     return a.remove_spikes == b.remove_spikes && a.fill_holes == b.fill_holes &&
-           a.sharpen_silhouettes == b.sharpen_silhouettes;  // by the noise, which is the clip's
+           a.sharpen_silhouettes == b.sharpen_silhouettes &&  // by the noise, which is the clip's
+           a.colour_edges == b.colour_edges;
 }
 
 /// In one line, for a person: "auto: sensor, noise 0.9 px near, 6.9 far".
@@ -66,9 +67,11 @@ inline constexpr std::size_t kMostForSensor = 1'000'000;
 /// alone(), and one, that or another, finished().
 class CleaningChain {
   public:
-    /// Spikes, holes and silhouettes of one frame. `held`: what pixels without data were before.
+    /// Spikes, holes and silhouettes of one frame. `held`: what pixels without data were before;
+    /// `colour`: of the same view, null where there is none.
     [[nodiscard]] LoneDepth alone(DepthImage image, const CleaningPlan& plan,
-                                  std::span<const HeldLevel> held = {});
+                                  std::span<const HeldLevel> held = {},
+                                  const ColourImage* colour = nullptr);
 
     /// All that is left, of frame `now` of `frames`, which follow each other in time and may be
     /// only one.

@@ -14,6 +14,7 @@ struct CleaningSteps {
     bool remove_spikes{false};  ///< single pixels that stand out, small patches alone in holes
     bool fill_holes{false};     ///< where there is no data, take what was there, or is around
     bool sharpen_silhouettes{false};  ///< ramps between near and far become steps
+    bool colour_edges{false};         ///< of wide ramps: where the colour has its edge
     bool steady{false};               ///< what does not move keeps its level, frame after frame
     bool smooth_steps{false};         ///< 8-bit terraces, within half a level of the data
     bool smooth_noise{false};         ///< within the noise of the recording
@@ -27,6 +28,7 @@ void visit_steps(Steps& steps, const Visit& visit) {
     visit("remove-spikes", steps.remove_spikes);
     visit("fill-holes", steps.fill_holes);
     visit("sharpen-silhouettes", steps.sharpen_silhouettes);
+    visit("colour-edges", steps.colour_edges);
     visit("steady", steps.steady);
     visit("smooth-steps", steps.smooth_steps);
     visit("smooth-noise", steps.smooth_noise);
@@ -37,7 +39,8 @@ inline constexpr CleaningSteps kRawSteps{};
 /// What can be told from one frame without knowing its noise.
 inline constexpr CleaningSteps kGentleSteps{
     .remove_spikes = true, .fill_holes = true, .smooth_steps = true};
-/// All of it: for what cameras and estimators measure.
+/// All of it but the colour's edges, so that a surface is of its depth alone: for what cameras and
+/// estimators measure.
 inline constexpr CleaningSteps kSensorSteps{.remove_spikes = true,
                                             .fill_holes = true,
                                             .sharpen_silhouettes = true,
@@ -73,6 +76,14 @@ inline constexpr std::array<CleaningWord, 5> kCleaningWords{
     return std::nullopt;
 }
 
+/// Which steps are asked for.
+struct CleaningChoice {
+    CleaningPreset preset{CleaningPreset::automatic};
+    CleaningSteps own{kGentleSteps};  ///< of CleaningPreset::own
+
+    bool operator==(const CleaningChoice&) const = default;
+};
+
 /// A ball that touches instead of a point; its lowest point is what is felt and drawn as the proxy.
 struct Fingertip {
     double radius_px{0.0};  ///< 0: a point; not more than kWidestFinger_px counts
@@ -80,6 +91,9 @@ struct Fingertip {
 
     bool operator==(const Fingertip&) const = default;
 };
+
+/// A thicker finger than anybody's [mm].
+inline constexpr double kThickestFinger_mm = 25.0;
 
 /// What is asked for.
 struct CleaningOptions {

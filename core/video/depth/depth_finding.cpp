@@ -67,12 +67,15 @@ DepthStatement as_in_file(const DepthRequest& request, int bits) {
     return file;
 }
 
-/// Files of their own, grey, as a relief and over each other, as nobody needs to say.
+/// Files of their own, grey, as a relief and over each other, cleaned as they ask for and touched
+/// by a point, as nobody needs to say.
 DepthStatement plain() {
     return {.packing = DepthPacking::separate,
             .code = DepthCode::grey,
             .geometry = Geometry::relief,
-            .registration = Registration{}};
+            .registration = Registration{},
+            .cleaning = CleaningChoice{},
+            .finger_mm = 0.0};
 }
 
 /// A range that a unit cannot have, or that numbers cannot count, is told, whoever said it.

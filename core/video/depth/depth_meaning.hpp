@@ -1,5 +1,5 @@
 // What the levels of a depth source mean: what somebody says of them, what is known in the end and
-// from whom, and how high a level stands.
+// from whom, and how high a level stands. How they are to be cleaned is said in the same places.
 #pragma once
 
 #include <array>
@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "core/video/cleaning/cleaning_options.hpp"
 
 namespace dibhr {
 
@@ -93,6 +95,8 @@ struct DepthStatement {
     std::optional<Geometry> geometry{};
     std::optional<Intrinsics> intrinsics{};
     std::optional<Registration> registration{};
+    std::optional<CleaningChoice> cleaning{};
+    std::optional<double> finger_mm{};  ///< radius of the fingertip
 
     bool operator==(const DepthStatement&) const = default;
     /// What `other` says, where this says nothing.
@@ -126,6 +130,8 @@ struct DepthMeaning {
     Known<Geometry> geometry{Geometry::relief};
     Known<std::optional<Intrinsics>> intrinsics{};  ///< nothing: not known
     Known<Registration> registration{};  ///< beyond what the file's calibration says of it
+    Known<CleaningChoice> cleaning{};    ///< automatic: nobody says else
+    Known<double> finger_mm{0.0};        ///< 0: a point
     std::string found_in{};  ///< where what was found was found: "TUM lists"; empty: nowhere
 
     [[nodiscard]] bool is_metric() const {
@@ -149,6 +155,8 @@ void visit_facts(One& one, Other& other, const Visit& visit) {
     visit("geometry", one.geometry, other.geometry);
     visit("intrinsics", one.intrinsics, other.intrinsics);
     visit("registration", one.registration, other.registration);
+    visit("cleaning", one.cleaning, other.cleaning);
+    visit("finger_mm", one.finger_mm, other.finger_mm);
 }
 
 /// Statements by whose word they are, the strongest first.

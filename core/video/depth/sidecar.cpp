@@ -97,6 +97,33 @@ std::optional<Intrinsics> intrinsics_of(const toml::node& node) {
     return numbers ? intrinsics_of(*numbers) : std::nullopt;
 }
 
+/// The name of a way to clean, or those of single steps.
+std::optional<CleaningChoice> cleaning_of(const toml::node& node) {
+    CleaningChoice choice;
+    if (const auto word = node.value<std::string_view>()) {
+        const auto preset = cleaning_named(*word);
+        if (!preset || preset == CleaningPreset::own) return std::nullopt;
+        choice.preset = *preset;
+        return choice;
+    }
+    const toml::array* const names = node.as_array();
+    if (names == nullptr) return std::nullopt;
+    choice = {CleaningPreset::own, kRawSteps};
+    for (const toml::node& name : *names) {
+        bool known = false;
+        visit_steps(choice.own, [&](std::string_view step_name, bool& step) {
+            if (name.value<std::string_view>() == step_name) step = known = true;
+        });
+        if (!known) return std::nullopt;
+    }
+    return choice;
+}
+
+std::optional<double> finger_of(const std::vector<double>& numbers) {
+    const bool fits = numbers.size() == 1 && numbers[0] >= 0.0 && numbers[0] <= kThickestFinger_mm;
+    return fits ? std::optional(numbers.front()) : std::nullopt;
+}
+
 template <typename Values>
 auto word_of(const toml::node& node, const Values& values) {
     std::optional<typename Values::value_type> named;
@@ -138,6 +165,10 @@ std::string take(const std::string& name, const toml::node& node, DepthStatement
             said.intrinsics, intrinsics_of(node),
             "is neither [fx, fy, cx, cy] with fx and fy of 0.001 or more nor a field of view like "
             "\"60deg\"");
+    if (name == "cleaning")
+        return keep(said.cleaning, cleaning_of(node),
+                    "is none of raw, gentle, sensor, auto, nor a list of steps like "
+                    "[\"remove-spikes\", \"fill-holes\"]");
     const auto numbers = numbers_of(node, name == "range" ? ':' : ',');
     if (name == "scale")
         return keep(said.scale, numbers ? scale_of(*numbers) : std::nullopt,
@@ -148,6 +179,9 @@ std::string take(const std::string& name, const toml::node& node, DepthStatement
     if (name == "registration")
         return keep(said.registration, numbers ? registration_of(*numbers) : std::nullopt,
                     "is not [right, down, scale] in depth pixels, the scale 0.01 to 100");
+    if (name == "finger")
+        return keep(said.finger_mm, numbers ? finger_of(*numbers) : std::nullopt,
+                    "is not a radius of 0 to 25 mm");
     if (name == "no-data")
         return keep(said.no_data,
                     numbers && numbers->size() <= kMostNoData ? numbers : std::nullopt,
@@ -193,6 +227,16 @@ std::optional<fs::path> find_sidecar(const fs::path& media) {
 std::string list_of(const std::vector<double>& numbers) {
     std::string list = "[";
     for (const double number : numbers) list += (list.size() > 1 ? ", " : "") + number_text(number);
+    return list + "]";
+}
+
+std::string text_of(const CleaningChoice& choice) {
+    if (choice.preset != CleaningPreset::own)
+        return '"' + std::string(name_of(choice.preset)) + '"';
+    std::string list = "[";
+    visit_steps(choice.own, [&list](std::string_view name, bool step) {
+        if (step) list += (list.size() > 1 ? ", \"" : "\"") + std::string(name) + '"';
+    });
     return list + "]";
 }
 
@@ -247,6 +291,8 @@ std::string toml_of(const DepthStatement& said) {
     if (said.registration)
         line("registration", list_of({said.registration->right_px, said.registration->down_px,
                                       said.registration->scale}));
+    if (said.cleaning) line("cleaning", text_of(*said.cleaning));
+    if (said.finger_mm) line("finger", number_text(*said.finger_mm));
     return toml;
 }
 

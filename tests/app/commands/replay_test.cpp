@@ -103,6 +103,34 @@ TEST_CASE("a session replays bit for bit, cleaned or raw, with any algorithm and
     CHECK(result.errors.empty());
 }
 
+TEST_CASE("silhouettes at the colour's edges are replayed with the colour, bit for bit",
+          "[replay]") {
+    const TemporaryFolder folder;
+    const std::string film =
+        "ffmpeg -v error -f lavfi -i color=size=480x90:rate=30:duration=0.5,"
+        "format=gray,geq=lum=";
+    run_shell(folder, film + "'50+130*clip((X-318.5)/13\\,0\\,1)' -c:v ffv1 film_depth.mkv");
+    run_shell(folder, film + "'if(gt(X\\,319+N)\\,200\\,50)' -c:v ffv1 film_color.mkv");
+    RecordedSession session = film_session(folder);
+    session.cleaning = {.preset = CleaningPreset::own,
+                        .own = {.sharpen_silhouettes = true, .colour_edges = true}};
+    record_session(folder / "mine.dibhr", session);
+    const auto replayed = [&](const std::string& file) {
+        return run_dibhr(folder, {"replay", file});
+    };
+    const std::string identical = "all 1000 proxies and forces are identical";
+    CHECK(contains(replayed("mine.dibhr").output, identical));
+    run_shell(
+        folder,
+        "cp mine.dibhr other.dibhr; sqlite3 other.dibhr 'UPDATE source SET colour_edges = 0'");
+    CHECK_FALSE(contains(replayed("other.dibhr").output, identical));  // or this proved little
+    fs::remove(folder / "film_color.mkv");
+    const ProgramResult without = replayed("mine.dibhr");
+    CHECK(without.exit_code == 1);
+    CHECK(is_one_line(without.errors));
+    CHECK(contains(without.errors, "film_color.mkv"));
+}
+
 TEST_CASE("several algorithms are compared in one table, the recorded one among them", "[replay]") {
     const TemporaryFolder folder;
     make_film(folder);

@@ -342,6 +342,45 @@ TEST_CASE("cleaning fills a hole that raw depth keeps", "[touch]") {
     CHECK_THAT(rows_of(result.output).back().number("pz"), WithinAbs(100.0, 1.0));
 }
 
+TEST_CASE(
+    "a sidecar says how depth is cleaned and which finger touches, and the command line beats it",
+    "[touch]") {
+    const TemporaryFolder folder;
+    write_depth_png(folder / "whole.png", 64, 64, 100);
+    run_shell(folder,
+              "ffmpeg -v error -i whole.png -vf "
+              "drawbox=26:26:8:8:white:fill,drawbox=48:48:2:2:black:fill depth.png");
+    const auto height = [&](Vec3 goal, std::vector<std::string> options) {
+        write_text(folder / "goals.csv", goals_csv({goal + Vec3{0.0, 0.0, 300.0}, goal}));
+        options.insert(options.begin(),
+                       {"touch", "--depth-range", "255:0", "--relief", "255", "--pixel-pitch", "1",
+                        "--depth", "depth.png", "--goals", "goals.csv"});
+        const ProgramResult result = run_dibhr(folder, options);
+        INFO(result.errors);
+        REQUIRE(result.exit_code == 0);
+        return rows_of(result.output).back().number("pz");
+    };
+    const Vec3 beside_box{35.0, 30.0, 250.0};
+    const Vec3 hole{48.5, 48.5, 0.0};
+    const double plain = height(beside_box, {});
+    const double fingered = height(beside_box, {"--finger", "4"});
+    CHECK(plain == 250.0);
+    CHECK(fingered > plain + 1.0);
+    write_text(folder / "depth.toml",
+               "[depth]\nfinger = 4\ncleaning = [\"remove-spikes\", \"sharpen-silhouettes\"]\n");
+    CHECK(height(beside_box, {}) == fingered);
+    CHECK(height(beside_box, {"--finger", "0"}) == plain);
+    CHECK(height(hole, {"--finger", "0"}) < 60.0);
+    CHECK_THAT(height(hole, {"--finger", "0", "--cleaning", "auto"}), WithinAbs(100.0, 1.0));
+    CHECK(height(beside_box, {"--raw-depth", "--finger", "0"}) ==
+          height(beside_box, {"--raw-depth"}));
+    write_text(folder / "depth.toml", "[depth]\ncleaning = [\"colour-edges\"]\n");
+    const ProgramResult told =
+        run_dibhr(folder, {"touch", "--depth", "depth.png", "--goals", "goals.csv"});
+    CHECK(told.exit_code == 0);
+    CHECK(contains(told.errors, "the colour's edges"));
+}
+
 TEST_CASE("a roughness without a bump map is told to change nothing, on stderr alone", "[touch]") {
     const TemporaryFolder folder;
     write_depth_png(folder / "depth.png", 16, 12, 100);

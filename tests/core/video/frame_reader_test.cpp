@@ -12,14 +12,17 @@
 #include <fstream>
 #include <memory>
 #include <optional>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "core/video/playback.hpp"
+#include "tests/core/video/clips.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/eventually.hpp"
 #include "tests/support/shaken_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -325,3 +328,54 @@ TEST_CASE("a reader of large frames keeps within its memory", "[reader]") {
     CHECK(resident_bytes() < given + (std::size_t{260} << 20));
 }
 #endif
+
+TEST_CASE(
+    "a wide ramp's step is at the colour's edge where that is asked for, whatever was read "
+    "before",
+    "[reader]") {
+    constexpr int kFrames = 12;
+    const TemporaryFolder folder;
+    const std::string picture = "-f lavfi -i color=size=480x60:rate=25:duration=0.48,format=gray,";
+    ffmpeg(picture + "geq=lum='50+130*clip((X-73.5)/13\\,0\\,1)' -c:v ffv1 " +
+           (folder / "clip_depth.mkv").string());
+    ffmpeg(picture + "geq=lum='if(gt(X\\,74+N)\\,200\\,50)' -c:v ffv1 -g 6 " +
+           (folder / "clip_color.mkv").string());
+    CleaningSteps steps{.sharpen_silhouettes = true, .colour_edges = true};
+    const auto reader = [&](std::unique_ptr<Media> media) {
+        auto made = std::make_unique<FrameReader>(std::move(media));
+        made->set_cleaning({.preset = CleaningPreset::own, .own = steps});
+        return made;
+    };
+    const auto pair = [&] {
+        return reader(open_media(folder / "clip_color.mkv", folder / "clip_depth.mkv"));
+    };
+    const auto step_of = [](const Frame& frame) {
+        const DepthImage& depth = *frame.depth;
+        int i = 0;
+        while (i + 1 < depth.columns &&
+               depth.at(i, 30) < 0.5 * (depth.at(0, 30) + depth.at(479, 30)))
+            ++i;
+        return i;
+    };
+    const auto in_order = pair();
+    std::vector<Frame> frames{in_order->at(0.0).value()};
+    while (auto next = in_order->after(frames.back().media_s)) frames.push_back(std::move(*next));
+    REQUIRE(frames.size() == kFrames);
+    for (int k = 0; k < kFrames; ++k) {
+        CAPTURE(k);
+        CHECK(std::abs(step_of(frames[static_cast<std::size_t>(k)]) - (75 + k)) <= 1);
+    }
+    const auto jumping = pair();
+    for (const int k : {7, 2, 11, 10, 3, 0, 6}) {
+        CAPTURE(k);
+        const Frame& same = frames[static_cast<std::size_t>(k)];
+        CHECK(jumping->at(same.media_s).value().depth->levels == same.depth->levels);
+    }
+    for (int k = kFrames - 1; k > 0; --k)
+        CHECK(step_of(in_order->before(frames[static_cast<std::size_t>(k)].media_s).value()) ==
+              step_of(frames[static_cast<std::size_t>(k - 1)]));
+    const int half_way = step_of(reader(open_depth(folder / "clip_depth.mkv"))->at(0.4).value());
+    CHECK(std::abs(half_way - 80) <= 1);
+    steps.colour_edges = false;
+    CHECK(step_of(pair()->at(0.4).value()) == half_way);
+}

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/video/frame_reader.hpp"
 #include "core/video/media.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/support/catch.hpp"
@@ -29,7 +30,10 @@ DepthStatement everything() {
             .code = DepthCode::hue,
             .geometry = Geometry::true_shape,
             .intrinsics = Intrinsics{525.0, 525.12345678901234, 319.5, -0.1},
-            .registration = Registration{-3.25, 0.1, 1.01}};
+            .registration = Registration{-3.25, 0.1, 1.01},
+            .cleaning = CleaningChoice{CleaningPreset::own,
+                                       {.fill_holes = true, .colour_edges = true, .steady = true}},
+            .finger_mm = 1.0 / 3.0};
 }
 
 template <typename Value>
@@ -148,9 +152,41 @@ TEST_CASE("a field of view is that of the picture's whole width, with square pix
     CHECK(camera.value->field_of_view_deg == 0.0);
 }
 
+TEST_CASE("a sidecar says how its depth is cleaned: by a name, or step by step", "[sidecar]") {
+    using Choice = CleaningChoice;
+    CHECK(said_by("cleaning = \"sensor\"").cleaning == Choice{CleaningPreset::sensor});
+    CHECK(said_by("cleaning = \"raw\"").cleaning == Choice{CleaningPreset::raw});
+    CHECK(said_by("cleaning = []").cleaning == Choice{CleaningPreset::own, kRawSteps});
+    const Choice two{CleaningPreset::own, {.remove_spikes = true, .smooth_noise = true}};
+    CHECK(said_by("cleaning = [\"smooth-noise\", \"remove-spikes\"]").cleaning == two);
+    CHECK(said_by("finger = 2.5").finger_mm == 2.5);
+}
+
+TEST_CASE("auto is cleaned as the sidecar says, and any other choice beats that", "[sidecar]") {
+    const TemporaryFolder folder;
+    const auto file = folder / "ramp.png";
+    write_ramp(file);
+    DepthRequest request{.find_out = true};
+    const auto steps = [&](CleaningPreset asked) {
+        FrameReader reader(open_depth(file, request));
+        reader.set_cleaning(cleaning_on(reader.description(), {.preset = asked}));
+        REQUIRE(reader.at(0.0));
+        return reader.plan().steps;
+    };
+    CHECK(steps(CleaningPreset::automatic) != kSensorSteps);
+    write_text(folder / "ramp.toml", table("cleaning = \"sensor\""));
+    CHECK(steps(CleaningPreset::automatic) == kSensorSteps);
+    CHECK(steps(CleaningPreset::gentle) == kGentleSteps);
+    const CleaningSteps own{.fill_holes = true};
+    write_text(folder / "ramp.toml", table("cleaning = [\"fill-holes\"]"));
+    CHECK(steps(CleaningPreset::automatic) == own);
+    request.command_line.cleaning.emplace();
+    CHECK(steps(CleaningPreset::automatic) != own);
+}
+
 TEST_CASE("auto says nothing", "[sidecar]") {
     for (const std::string name : {"near", "unit", "scale", "range", "no-data", "packing", "code",
-                                   "geometry", "intrinsics"}) {
+                                   "geometry", "intrinsics", "cleaning", "finger"}) {
         CAPTURE(name);
         CHECK(said_by(name + " = \"auto\"") == DepthStatement{});
     }
@@ -169,6 +205,8 @@ TEST_CASE("a fact that cannot be understood is told in one line, with the file a
         "geometry = \"flat\"", "intrinsics = [1, 1, 0]", "intrinsics = [0, 1, 0, 0]",
         "intrinsics = [1, -1, 0, 0]", "intrinsics = \"0.5deg\"", "intrinsics = 179",
         "intrinsics = \"60rad\"", "intrinsics = \"1,1,0,0deg\"", "colour = \"red\"", "unit = true",
+        "cleaning = \"clean\"", "cleaning = \"own\"", "cleaning = [\"fill\"]", "cleaning = [1]",
+        "cleaning = true", "finger = -1", "finger = 26", "finger = [1, 2]", "finger = \"thumb\"",
         "range = 2020-01-01", "scale = {}", "no-data = ", "unit = \"mm", "[depth]");
     CAPTURE(fact);
     const auto file = folder / "clip.toml";
