@@ -63,11 +63,11 @@ void FalconScene::wait_for_force() const {
 }
 
 void FalconScene::wait_for_lasting_zero() const {
-    using Clock = std::chrono::steady_clock;
-    Clock::time_point last_force = Clock::now();
+    using std::chrono::steady_clock;
+    steady_clock::time_point last_force = steady_clock::now();
     FalconOnUsb::wait_until([&] {
-        if (glm::length(falcon.vector("motor_newton")) > 1e-6) last_force = Clock::now();
-        return Clock::now() - last_force > std::chrono::seconds(1);
+        if (glm::length(falcon.vector("motor_newton")) > 1e-6) last_force = steady_clock::now();
+        return steady_clock::now() - last_force > std::chrono::seconds(1);
     });
 }
 
