@@ -253,10 +253,11 @@ GLuint UnseenTexture::show(const std::shared_ptr<const std::vector<std::uint8_t>
     return texture_.get();
 }
 
-GLuint BumpTexture::show(const BumpMap& bump, const DepthImage& depth, const ReliefGrid& grid) {
+GLuint BumpTexture::show(const BumpMap& bump, double size_px, const DepthImage& depth,
+                         const ReliefGrid& grid) {
     const std::uint64_t print = fingerprint(bump);
-    if (print == fingerprint_ && grid == grid_) return texture_.name();
-    const DepthSurface bump_alone(depth, depth, 0.0, SurfaceShape{0.0, 1.0}, &bump);
+    if (print == fingerprint_ && size_px == size_px_ && grid == grid_) return texture_.name();
+    const DepthSurface bump_alone(depth, depth, 0.0, SurfaceShape{0.0, 1.0, size_px}, &bump);
     std::vector<float> heights;
     for (int j = 0; j < grid.rows(); ++j) {
         for (int i = 0; i < grid.columns(); ++i) {
@@ -266,6 +267,7 @@ GLuint BumpTexture::show(const BumpMap& bump, const DepthImage& depth, const Rel
     }
     texture_.upload(grid.columns(), grid.rows(), heights.data());
     fingerprint_ = print;
+    size_px_ = size_px;
     grid_ = grid;
     return texture_.name();
 }

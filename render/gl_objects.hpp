@@ -187,12 +187,15 @@ class UnseenTexture {
 /// The bump map's height at every drawn vertex, exactly as the hand feels it.
 class BumpTexture {
   public:
-    /// Uploads when the map's content or the grid changed. `depth` gives the size only.
-    GLuint show(const BumpMap& bump, const DepthImage& depth, const ReliefGrid& grid);
+    /// Uploads when the map's content, its size (SurfaceShape::bump_size_px) or the grid changed.
+    /// `depth` gives the image's size only.
+    GLuint show(const BumpMap& bump, double size_px, const DepthImage& depth,
+                const ReliefGrid& grid);
 
   private:
     GridTexture texture_{};
     std::uint64_t fingerprint_{0};
+    double size_px_{0.0};
     ReliefGrid grid_{};
 };
 

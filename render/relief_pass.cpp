@@ -134,8 +134,9 @@ void ReliefPass::bind_textures(const SceneContent& content, const Variant& varia
     }
     const GLuint unseen =
         variant.unseen ? unseen_.show(content.depth.nearest().unseen, detail_grid_) : 0;
-    const GLuint bump =
-        variant.rough ? bump_.show(*content.bump, *content.depth.from->drawn(), grid_) : 0;
+    const GLuint bump = variant.rough ? bump_.show(*content.bump, content.shape.bump_size_px,
+                                                   *content.depth.from->drawn(), grid_)
+                                      : 0;
     const int most_side = limits_.software ? std::min(kMostColourSideSoftware, limits_.texture_side)
                                            : limits_.texture_side;
     const GLuint colour =

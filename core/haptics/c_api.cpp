@@ -141,9 +141,10 @@ dibhr_status no_surface(const dibhr_handle* handle) noexcept {
 /// An update over the bump map is faster then; without memory for it, it works all the same.
 void stretch_bump(dibhr_handle& handle) noexcept {
     const DepthImage& depth = handle.from;
-    if (!handle.bump || is_stretched(*handle.bump, depth.columns, depth.rows)) return;
+    const double size_px = handle.parameters.shape.bump_size_px;
+    if (!handle.bump || is_stretched(*handle.bump, depth.columns, depth.rows, size_px)) return;
     try {
-        stretch(*handle.bump, depth.columns, depth.rows);
+        stretch(*handle.bump, depth.columns, depth.rows, size_px);
     } catch (const std::exception&) {  // no memory: it stays as it was
     }
 }

@@ -34,17 +34,19 @@ template <typename Level>
     return image;
 }
 
-/// Fine relief laid over the whole depth image: rows x columns, row-major, heights in [0, 1].
+/// Fine relief laid over the depth image, once or again and again: rows x columns, row-major,
+/// heights in [0, 1].
 struct BumpMap {
     int columns{0};
     int rows{0};
     std::vector<float> heights{};
 
-    /// The same at every VERTEX of a depth image of one size, columns x rows of them, row-major:
-    /// `stretch` (surface.hpp) works them out.
+    /// The same at every VERTEX of a depth image of one size, columns x rows of them, row-major,
+    /// where the map is `size_px` wide: `stretch` (surface.hpp) works them out.
     struct AtVertices {
         int columns{0};
         int rows{0};
+        double size_px{0.0};
         std::vector<double> heights{};
     };
     AtVertices at_vertices{};

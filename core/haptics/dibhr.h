@@ -76,8 +76,9 @@ dibhr_status dibhr_push_depth(dibhr_handle* handle, const dibhr_image* next);
 /* Between the two images, in [0, 1]: 0 is `from`, 1 is `to`. */
 dibhr_status dibhr_set_blend(dibhr_handle* handle, double blend);
 
-/* Relief laid over the whole image, at any resolution: level / highest_level times the parameter
- * "roughness". NULL: none. (`dibhr touch --bump` and the Python module stretch a picture's lowest
+/* Relief laid over the image, at any resolution: level / highest_level times the parameter
+ * "roughness"; once over the whole, or again and again where the parameter "bump-size" (set before:
+ * then updates are quicker) says how wide. NULL: none. (`dibhr touch --bump` and the Python module stretch a picture's lowest
  * to highest level over 0 to 1 before.) */
 dibhr_status dibhr_set_bump(dibhr_handle* handle, const dibhr_image* bump);
 

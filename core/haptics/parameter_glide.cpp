@@ -23,6 +23,7 @@ auto ParameterGlide::towards(const Values& target, double dt_s, bool at_once) no
         double& value = number.in(now_.parameters);
         value = between(number.in(from_.parameters), value);
     }
+    now_.parameters.shape.bump_size_px = target.parameters.shape.bump_size_px;
     Coupling& coupling = now_.parameters.coupling;
     coupling.pixel_pitch_mm = target.parameters.coupling.pixel_pitch_mm;
     // Between none and one there is no low-pass, but a slower one.

@@ -60,6 +60,9 @@ constexpr std::array kTouchNumbers{
                 "Share of the force where no surface was ever seen; 1: a wall at the back, 0: "
                 "nothing is touched there",
                 [](P& p) -> double& { return p.coupling.unseen_share; }, "not touched"},
+    TouchNumber{"bump-size", "Bump size", "bump_size_px", "px", TouchTopic::texture, 0.0, 4096.0,
+                "Width of the bump map, which repeats; 0: stretched over the whole surface once",
+                [](P& p) -> double& { return p.shape.bump_size_px; }, "whole surface"},
 };
 
 }  // namespace

@@ -33,6 +33,7 @@ inline constexpr double kPaperPitch_mm = 101.6 / 720.0;
 struct SurfaceShape {
     double relief_px{255.0};   ///< of depth 1.0; so a grey level is a pixel, as in the paper
     double roughness_px{0.0};  ///< of bump height 1.0
+    double bump_size_px{0.0};  ///< width of the bump map, which repeats; 0: of the whole surface
 
     bool operator==(const SurfaceShape&) const = default;
 };

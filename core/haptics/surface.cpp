@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -14,20 +15,53 @@ namespace dibhr {
 
 namespace {
 
-/// The two columns (or rows) of a bump map around vertex k of `count`, held at its border, and how
-/// far k is from the first to the second. Pixel centres of both images in the same normalised
-/// coordinates.
+/// The two columns (or rows) of a bump map around a VERTEX, and how far that is from the first to
+/// the second. Pixel centres of both images in the same normalised coordinates.
 struct Between {
-    Between(int k, int count, int bumps) noexcept {
-        const double at = (k + 0.5) / count * bumps - 0.5;  // >= -0.5
-        const int below = at < 0.0 ? -1 : static_cast<int>(at);
-        first = std::max(below, 0);
-        second = std::min(below + 1, bumps - 1);
-        share = at - below;
-    }
     int first{0};
     int second{0};
     double share{0.0};
+};
+
+/// Around VERTEX k of `count` that the map is stretched over: held at its border.
+Between stretched_between(int k, int count, int bumps) noexcept {
+    const double at = (k + 0.5) / count * bumps - 0.5;  // >= -0.5
+    const int below = at < 0.0 ? -1 : static_cast<int>(at);
+    return {std::max(below, 0), std::min(below + 1, bumps - 1), at - below};
+}
+
+/// Around VERTEX k, where the map begins anew every `period_px`.
+Between repeated_between(int k, double period_px, int bumps) noexcept {
+    const double at = std::fmod((k + 0.5) / period_px, 1.0) * bumps - 0.5;  // >= -0.5, < bumps
+    const int below = at < 0.0 ? -1 : static_cast<int>(at);
+    return {(below + bumps) % bumps, (below + 1) % bumps, at - below};
+}
+
+/// A bump map as it lies over columns x rows VERTEXes.
+class LaidBump {
+  public:
+    LaidBump(const BumpMap& bump, int columns, int rows, double size_px) noexcept
+        : bump_(bump), columns_(columns), rows_(rows), size_px_(size_px) {}
+
+    [[nodiscard]] Between across(int i) const noexcept {
+        if (!repeats()) return stretched_between(i, columns_, bump_.columns);
+        return repeated_between(i, width_px(), bump_.columns);
+    }
+
+    [[nodiscard]] Between down(int j) const noexcept {
+        if (!repeats()) return stretched_between(j, rows_, bump_.rows);
+        return repeated_between(j, width_px() / bump_.columns * bump_.rows, bump_.rows);
+    }
+
+  private:
+    [[nodiscard]] bool repeats() const noexcept { return size_px_ > 0.0; }
+    /// A copy is a pixel at least.
+    [[nodiscard]] double width_px() const noexcept { return std::max(size_px_, 1.0); }
+
+    const BumpMap& bump_;
+    int columns_;
+    int rows_;
+    double size_px_;
 };
 
 /// Bilinear height of a bump map.
@@ -56,10 +90,11 @@ DepthSurface::DepthSurface(const DepthImage& from, const DepthImage& to, double 
       relief_px_(shape.relief_px),
       highest_level_(from.highest_level),
       roughness_px_(shape.roughness_px),
+      bump_size_px_(shape.bump_size_px),
       bump_(shape.roughness_px == 0.0 ? nullptr : bump),
       unseen_(unseen == nullptr ? nullptr : unseen->data()) {
     assert(unseen == nullptr || unseen->size() == from.levels.size());
-    if (bump_ != nullptr && is_stretched(*bump_, columns_, rows_)) {
+    if (bump_ != nullptr && is_stretched(*bump_, columns_, rows_, bump_size_px_)) {
         stretched_ = bump_->at_vertices.heights.data();
         assert(bump_->at_vertices.heights.size() == from.levels.size());
     }
@@ -81,25 +116,35 @@ bool DepthSurface::seen_at(double x, double y) const noexcept {
 }
 
 double DepthSurface::bump_height(int i, int j) const noexcept {
-    return height_between(*bump_, Between(i, columns_, bump_->columns),
-                          Between(j, rows_, bump_->rows));
+    const LaidBump laid(*bump_, columns_, rows_, bump_size_px_);
+    return height_between(*bump_, laid.across(i), laid.down(j));
 }
 
-void stretch(BumpMap& bump, int columns, int rows) {
+void stretch(BumpMap& bump, int columns, int rows, double bump_size_px) {
     bump.at_vertices = {};  // should memory run out
+    const LaidBump laid(bump, columns, rows, bump_size_px);
     std::vector<double> heights;
     heights.reserve(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
     for (int j = 0; j < rows; ++j) {
-        const Between y(j, rows, bump.rows);
-        for (int i = 0; i < columns; ++i) {
-            heights.push_back(height_between(bump, Between(i, columns, bump.columns), y));
-        }
+        const Between y = laid.down(j);
+        for (int i = 0; i < columns; ++i)
+            heights.push_back(height_between(bump, laid.across(i), y));
     }
-    bump.at_vertices = {columns, rows, std::move(heights)};
+    bump.at_vertices = {columns, rows, bump_size_px, std::move(heights)};
 }
 
-bool is_stretched(const BumpMap& bump, int columns, int rows) noexcept {
-    return bump.at_vertices.columns == columns && bump.at_vertices.rows == rows;
+void stretch(std::shared_ptr<const BumpMap>& bump, int columns, int rows, double bump_size_px) try {
+    if (!bump || columns < 1 || rows < 1 || is_stretched(*bump, columns, rows, bump_size_px))
+        return;
+    auto stretched = std::make_shared<BumpMap>(BumpMap{bump->columns, bump->rows, bump->heights});
+    stretch(*stretched, columns, rows, bump_size_px);
+    bump = std::move(stretched);
+} catch (const std::bad_alloc&) {  // it is felt all the same, in more time
+}
+
+bool is_stretched(const BumpMap& bump, int columns, int rows, double bump_size_px) noexcept {
+    const BumpMap::AtVertices& at = bump.at_vertices;
+    return at.columns == columns && at.rows == rows && at.size_px == bump_size_px;
 }
 
 }  // namespace dibhr

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
@@ -147,7 +148,7 @@ class DepthSurface {
         return static_cast<int>(std::clamp(along, 0.0, static_cast<double>(last)));
     }
 
-    /// Bilinear height of the bump map, stretched over the image, at vertex (i, j), in [0, 1].
+    /// Bilinear height of the bump map at vertex (i, j), in [0, 1].
     [[nodiscard]] double bump_height(int i, int j) const noexcept;
 
     const float* from_{nullptr};
@@ -158,18 +159,24 @@ class DepthSurface {
     double relief_px_{0.0};
     double highest_level_{255.0};
     double roughness_px_{0.0};
+    double bump_size_px_{0.0};
     const BumpMap* bump_{nullptr};
     const std::uint8_t* unseen_{nullptr};
     const double* stretched_{nullptr};  ///< the bump map's heights at the vertices, if known
 };
 
-/// Stretches a bump map over depth images of this size (at least 1 x 1) beforehand: an update there
-/// takes about half as long. Over others its heights are worked out one by one when they are asked
-/// for, to the same bits. Takes 8 bytes and some nanoseconds a VERTEX. To be called again when the
-/// bump map's own heights change.
-void stretch(BumpMap& bump, int columns, int rows);
+/// Lays a bump map of that size (SurfaceShape::bump_size_px) over depth images of columns x rows,
+/// at least 1 x 1, beforehand: an update there takes about half as long. Over others its heights
+/// are worked out one by one when they are asked for, to the same bits. Takes 8 bytes and some
+/// nanoseconds a VERTEX. To be called again when the bump map's own heights change.
+void stretch(BumpMap& bump, int columns, int rows, double bump_size_px = 0.0);
+
+/// The same of a map that others may hold: where it is not so yet, a copy takes its place. Without
+/// an image, or memory, it stays as it is.
+void stretch(std::shared_ptr<const BumpMap>& bump, int columns, int rows, double bump_size_px);
 
 /// Whether it has been, over images of this size.
-[[nodiscard]] bool is_stretched(const BumpMap& bump, int columns, int rows) noexcept;
+[[nodiscard]] bool is_stretched(const BumpMap& bump, int columns, int rows,
+                                double bump_size_px = 0.0) noexcept;
 
 }  // namespace dibhr

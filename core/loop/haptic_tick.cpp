@@ -67,11 +67,16 @@ void HapticTick::notice_changes(const HapticSettings& settings,
         state_.touch = {};
     }
     const double pitch_mm = settings.parameters.coupling.pixel_pitch_mm;
-    if (recording_begins || pitch_mm != pitch_mm_ || frames.discontinuity != discontinuity_) {
+    const double bump_size_px = settings.parameters.shape.bump_size_px;
+    const bool other_bumps = settings.bump.get() != bump_ || bump_size_px != bump_size_px_;
+    if (recording_begins || pitch_mm != pitch_mm_ || other_bumps ||
+        frames.discontinuity != discontinuity_) {
         from_zero_ = true;
     }
     recording_ = settings.recording;
     pitch_mm_ = pitch_mm;
+    bump_ = settings.bump.get();
+    bump_size_px_ = bump_size_px;
     discontinuity_ = frames.discontinuity;
 }
 

@@ -147,29 +147,30 @@ void SessionFrames::find_videos(const Session& session) {
 }
 
 void SessionFrames::read_bumps(const Session& session) {
-    const auto read = [this](const std::filesystem::path& file) {
-        auto bump = std::make_shared<BumpMap>(read_bump_map(file));
-        // Over the first video: mostly there is no other, and one of another size works as well.
-        if (description_.depth_columns > 0) {
-            stretch(*bump, description_.depth_columns, description_.depth_rows);
-        }
-        return bump;
-    };
     if (!options_.bump.empty()) {
-        other_bump_ = read(options_.bump);
+        other_bump_ = std::make_shared<const BumpMap>(read_bump_map(options_.bump));
+        lay(other_bump_, options_.bump_size_px);
         return;
     }
     for (const SessionParameters& parameters : session.parameters()) {
         const SessionMedia& bump = parameters.bump;
         if (bump.file.empty() || bumps_.contains(bump.file)) continue;
-        bumps_[bump.file] = read(finder_.find(bump, "bump map"));
+        bumps_[bump.file] =
+            std::make_shared<const BumpMap>(read_bump_map(finder_.find(bump, "bump map")));
     }
 }
 
 std::shared_ptr<const BumpMap> SessionFrames::bump(const SessionParameters& parameters) {
     if (other_bump_) return other_bump_;
     const auto found = bumps_.find(parameters.bump.file);
-    return found == bumps_.end() ? nullptr : found->second;
+    if (found == bumps_.end()) return nullptr;
+    lay(found->second, parameters.touch.shape.bump_size_px);
+    return found->second;
+}
+
+/// Over the first video: mostly there is no other, and one of another size works as well.
+void SessionFrames::lay(std::shared_ptr<const BumpMap>& bump, double size_px) const {
+    stretch(bump, description_.depth_columns, description_.depth_rows, size_px);
 }
 
 Frame SessionFrames::frame(const FrameSource& source, double media_s) {

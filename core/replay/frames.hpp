@@ -52,6 +52,7 @@ struct SessionFramesOptions {
     std::optional<CleaningPreset> cleaning{};  ///< raw: without the recorded fingertip, too
     std::optional<Fingertip> finger{};
     std::filesystem::path bump{};  ///< instead of the recorded bump map; empty: the recorded one
+    double bump_size_px{0.0};      ///< of that one; SurfaceShape::bump_size_px
 };
 
 /// Cleans frames as they were and keeps all of them as long as there is room: a video that repeats
@@ -86,6 +87,7 @@ class SessionFrames final : public RecordedFrames {
 
     void find_videos(const Session& session);
     void read_bumps(const Session& session);
+    void lay(std::shared_ptr<const BumpMap>& bump, double size_px) const;
     [[nodiscard]] FrameReader& reader_of(Video& video) const;
     [[nodiscard]] CleaningOptions cleaning_for(const FrameSource& source) const;
     [[nodiscard]] const Kept* find(const FrameSource& source, double media_s) const;

@@ -86,7 +86,8 @@ TEST_CASE("goals of any size on any ground: finite, on or above the surface, wit
         const int rows = n % 10 == 9 ? 720 : 2 + static_cast<int>(dice.uniform(0.0, 70.0));
         const Scene scene = wild_scene(dice, columns, rows);
         const SurfaceShape shape{dice.uniform(0.0, 1.0) < 0.5 ? 255.0 : 4096.0,
-                                 dice.uniform(0.0, 1.0) < 0.5 ? 0.0 : dice.uniform(0.0, 9.0)};
+                                 dice.uniform(0.0, 1.0) < 0.5 ? 0.0 : dice.uniform(0.0, 9.0),
+                                 dice.uniform(0.0, 1.0) < 0.5 ? 0.0 : dice.uniform(0.0, 30.0)};
         const auto proxy = make_algorithm(algorithm);
         Friction friction{};
         Vec3 goal(0.5 * columns, 0.5 * rows, 50.0);

@@ -35,6 +35,7 @@ TEST_CASE("every number goes straight to where it is to be, in a tenth of a seco
         Values to = random_values(dice);
         to.parameters.coupling.pixel_pitch_mm = from.parameters.coupling.pixel_pitch_mm;
         to.parameters.coupling.damping_cutoff_hz = from.parameters.coupling.damping_cutoff_hz;
+        to.parameters.shape.bump_size_px = from.parameters.shape.bump_size_px;
         CHECK(glide.towards(from, kTick_s, false) == from);  // nothing was felt before
         for (int k = 1; k < 100; ++k) {
             Values now = glide.towards(to, kTick_s, false);
@@ -77,11 +78,13 @@ TEST_CASE("where the force begins from zero, and for what is no force, there is 
     target.parameters.shape.relief_px = 20.0;
     target.parameters.algorithm = Algorithm::pga;
     target.parameters.coupling.pixel_pitch_mm = 1.0;
+    target.parameters.shape.bump_size_px = 64.0;
     target.parameters.coupling.damping_cutoff_hz = 50.0;
     target.limits.ramp_s = 2.0;
     const Values& now = glide.towards(target, kTick_s, false);
     CHECK(now.parameters.algorithm == Algorithm::pga);
     CHECK(now.parameters.coupling.pixel_pitch_mm == 1.0);
+    CHECK(now.parameters.shape.bump_size_px == 64.0);
     CHECK(now.parameters.coupling.damping_cutoff_hz == 50.0);
     CHECK(now.limits.ramp_s == 2.0);
     CHECK(now.parameters.shape.relief_px < 11.0);

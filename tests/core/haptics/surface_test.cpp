@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
+#include <numbers>
 #include <set>
 #include <string>
 
@@ -93,6 +95,56 @@ TEST_CASE("a bump map stretched beforehand gives the same bits, over other image
                 for (int i = 0; i < image_columns; ++i) {
                     REQUIRE(beforehand.elevation(i, j) == one_by_one.elevation(i, j));
                 }
+            }
+        }
+    }
+}
+
+TEST_CASE("a bump map with a size of its own repeats, in its own proportions", "[surface]") {
+    // Waves of 16 columns and 8 rows a copy; a copy is 24 px wide, and so 12 px high.
+    BumpMap bump{16, 8, {}};
+    const auto wave = [](double turns) {
+        return 0.5 + 0.5 * std::sin(2.0 * std::numbers::pi * turns);
+    };
+    for (int row = 0; row < 8; ++row)
+        for (int column = 0; column < 16; ++column)
+            bump.heights.push_back(static_cast<float>(0.5 * wave((column + 0.5) / 16.0) +
+                                                      0.5 * wave((row + 0.5) / 8.0)));
+    const DepthImage image = test::flat(100, 60, 50.0);
+    const DepthSurface surface(image, image, 0.0, {255.0, 10.0, 24.0}, &bump);
+    for (int j = 0; j < 60; ++j) {
+        for (int i = 0; i < 100; ++i) {
+            const double waves = 5.0 * wave((i + 0.5) / 24.0) + 5.0 * wave((j + 0.5) / 12.0);
+            REQUIRE_THAT(surface.elevation(i, j), WithinAbs(50.0 + waves, 0.5));  // of 8 samples
+            if (i >= 24)
+                REQUIRE_THAT(surface.elevation(i - 24, j),
+                             WithinAbs(surface.elevation(i, j), 1e-6));
+            if (j >= 12)
+                REQUIRE_THAT(surface.elevation(i, j - 12),
+                             WithinAbs(surface.elevation(i, j), 1e-6));
+        }
+    }
+}
+
+TEST_CASE("a repeated bump map stretched beforehand gives the same bits, at any size of a copy",
+          "[surface]") {
+    const DepthImage image = test::flat(23, 19, 50.0);
+    for (const double size_px : {1e-300, 0.3, 1.0, 7.7, 22.0, 23.0, 4096.0}) {
+        BumpMap bump{5, 3, {}};
+        for (int k = 0; k < 15; ++k)
+            bump.heights.push_back(static_cast<float>(k * 7919 % 256) / 255.0F);
+        const SurfaceShape shape{255.0, 4.0, size_px};
+        auto stretched = std::make_shared<const BumpMap>(bump);
+        stretch(stretched, 23, 19, size_px);
+        REQUIRE(is_stretched(*stretched, 23, 19, size_px));
+        CHECK_FALSE(is_stretched(*stretched, 23, 19));
+        const DepthSurface one_by_one(image, image, 0.0, shape, &bump);
+        const DepthSurface beforehand(image, image, 0.0, shape, stretched.get());
+        for (int j = 0; j < 19; ++j) {
+            for (int i = 0; i < 23; ++i) {
+                REQUIRE(beforehand.elevation(i, j) == one_by_one.elevation(i, j));
+                REQUIRE(beforehand.elevation(i, j) >= 50.0);
+                REQUIRE(beforehand.elevation(i, j) <= 54.0);
             }
         }
     }

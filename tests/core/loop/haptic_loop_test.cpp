@@ -185,17 +185,20 @@ TEST_CASE("a hand that presses with 3.8 N is not moved by a millimetre when para
     CHECK(farthest_m < 1e-3);
 }
 
-TEST_CASE("a hand of another scale, or another algorithm, lets the force rise again from zero",
+TEST_CASE("another scale, algorithm, bump map or size of it lets the force rise again from zero",
           "[loop]") {
-    const bool scale = GENERATE(true, false);
+    const auto change = GENERATE(
+        as<void (*)(HapticSettings&)>{},
+        [](HapticSettings& s) { s.parameters.coupling.pixel_pitch_mm *= 1.5; },
+        [](HapticSettings& s) { s.parameters.algorithm = Algorithm::pga; },
+        [](HapticSettings& s) {
+            s.bump = std::make_shared<const BumpMap>(BumpMap{2, 1, {0.0F, 1.0F}});
+        },
+        [](HapticSettings& s) { s.parameters.shape.bump_size_px = 32.0; });
     PressingBench bench;
     HapticTick& tick = bench.tick;
     const double before = bench.hand.sent.z;
-    if (scale) {
-        bench.handed.parameters.coupling.pixel_pitch_mm *= 1.5;
-    } else {
-        bench.handed.parameters.algorithm = Algorithm::pga;
-    }
+    change(bench.handed);
     bench.hand_over();
     run_ticks(tick, 1);
     CHECK_THAT(bench.hand.sent.z, WithinAbs(0.0, 1e-9));
