@@ -1,4 +1,4 @@
-// make_sample: renders the built-in sample and the bump maps, or one frame of it as PNG.
+// make_sample: renders the built-in sample or one frame of it as PNG.
 #include <algorithm>
 #include <csignal>
 #include <cstdint>
@@ -12,7 +12,6 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "assets/sample/bump.hpp"
 #include "assets/sample/encode.hpp"
 #include "assets/sample/picture.hpp"
 #include "core/error.hpp"
@@ -23,7 +22,6 @@ using dibhr::sample::Picture;
 
 constexpr auto kUsage =
     "usage: make_sample DIR            color.mp4 and depth.mp4\n"
-    "       make_sample --bump DIR     linen.png and grain.png\n"
     "       make_sample --frame N DIR  color-N.png and depth-N.png\n";
 
 void write_png(const std::filesystem::path& file, int columns, int rows, int type,
@@ -55,12 +53,6 @@ void make_video(const std::filesystem::path& folder) {
     depth.finish();
 }
 
-void make_bumps(const std::filesystem::path& folder) {
-    namespace sample = dibhr::sample;
-    write_png(folder / "linen.png", sample::kBumpSide, sample::kBumpSide, CV_8UC1, sample::linen());
-    write_png(folder / "grain.png", sample::kBumpSide, sample::kBumpSide, CV_8UC1, sample::grain());
-}
-
 void make_frame(int frame, const std::filesystem::path& folder) {
     namespace sample = dibhr::sample;
     const Picture picture = sample::picture_of(frame);
@@ -79,8 +71,6 @@ bool is_number(const std::string& word) {
 bool make(const std::vector<std::string>& words) {
     if (words.size() == 1 && !words[0].starts_with("-")) {
         make_video(words[0]);
-    } else if (words.size() == 2 && words[0] == "--bump") {
-        make_bumps(words[1]);
     } else if (words.size() == 3 && words[0] == "--frame" && is_number(words[1])) {
         make_frame(std::stoi(words[1]), words[2]);
     } else {
