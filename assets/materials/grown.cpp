@@ -14,10 +14,10 @@ struct Creases {
 
 /// How deep the creases of a set are here: sharp at their bottom, now deeper, now nearly gone.
 double crease(Place at, const Creases& set, int seed) noexcept {
-    const double phase = set.across * at.x + set.down * at.y + 0.45 * noise(at, 10, 10, seed) +
+    const double phase = set.across * at.x + set.down * at.y + 0.45 * noise(at, 8, 8, seed) +
                          0.6 * noise(at, 3, 3, seed + 4);
     const double from = std::abs(off_middle(phase));
-    const double strength = std::clamp(0.75 + 0.9 * noise(at, 12, 12, seed + 8), 0.15, 1.0);
+    const double strength = std::clamp(0.75 + 0.9 * noise(at, 9, 9, seed + 8), 0.15, 1.0);
     return set.depth * strength * (1.0 - rise(0.0, 0.26, from));
 }
 
@@ -56,7 +56,7 @@ double bark_at(Place at) noexcept {
 
 double skin_at(Place at) noexcept {
     constexpr std::array<Creases, 4> kSets{
-        {{16, -3, 1.0}, {7, 14, 0.9}, {-13, 10, 0.5}, {2, 25, 0.4}}};
+        {{13, -3, 1.0}, {6, 11, 0.9}, {-10, 8, 0.6}, {2, 19, 0.4}}};
     const Place p = warped(at, 0.010, 7, 7, 201);
     double deepest = 0.0, sum = 0.0;
     int seed = 211;
@@ -74,7 +74,7 @@ double wood_at(Place at) noexcept {
     // Year rings, cut along: lines of equal height of a long, low hill.
     const double bent =
         1.5 * noise(at, 1, 2, 301) + 0.6 * noise(at, 2, 5, 303) + 0.05 * noise(at, 5, 20, 305);
-    const double ring = 15.0 * at.y + 1.7 * bent;
+    const double ring = 15.0 * at.y + 1.25 * bent;
     const double year = ring - std::floor(ring);
     const double late =
         rise(0.0, 0.78, year) * (1.0 - rise(0.88, 1.0, year));  // the hard wood stays
@@ -84,8 +84,8 @@ double wood_at(Place at) noexcept {
     const bool open = chance(pore.i, pore.j, 7, 44, 331) < 0.55;
     const double length = 0.02 + 0.045 * chance(pore.i, pore.j, 7, 44, 332);
     const double pit =
-        open ? bump(glm::length(pore.from_centre / Place{length, 0.0075}), 1.0) : 0.0;
-    return 0.75 * late + 0.42 * fibres - 0.75 * pit;
+        open ? bump(glm::length(pore.from_centre / Place{length, 0.0095}), 1.0) : 0.0;
+    return 0.75 * late + 0.42 * fibres - 0.85 * pit;
 }
 
 }  // namespace dibhr::materials

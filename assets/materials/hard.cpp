@@ -6,60 +6,63 @@
 namespace dibhr::materials {
 namespace {
 
-/// A straight or slightly bent scratch right through the map: `across` and `down` times round it.
+/// A nearly straight scratch that repeats `across` times to the right and `down` times down the
+/// map.
 struct Scratch {
     int across{}, down{};
     double offset{};  ///< 0..1
     double depth{};
 };
 
-/// How far `at` is below the ice, by one scratch: a groove with a fine raised edge.
+/// How far below the ice a scratch lies here: a groove with a fine raised edge.
 double scratched(Place at, const Scratch& scratch, int seed) noexcept {
     const Place normal{scratch.across, scratch.down};
     const double phase = glm::dot(normal, at) + scratch.offset + 0.13 * noise(at, 2, 2, seed);
     const double from = off_middle(phase) / glm::length(normal);
     const double there = rise(-0.25, 0.2, noise(at, 3, 3, seed + 2));
-    return scratch.depth * there * (bump(from, 0.011) - 0.2 * bump(std::abs(from) - 0.013, 0.008));
+    return scratch.depth * there * (bump(from, 0.014) - 0.2 * bump(std::abs(from) - 0.016, 0.009));
 }
 
-/// A stone's grain: a blunt pyramid of random faces around the middle of a cell of `across`
-/// squared.
-double grain(Place at, int across, int seed) noexcept {
-    double height = 0.0;
-    const Place p = at * static_cast<double>(across);
-    const int i0 = static_cast<int>(std::floor(p.x)), j0 = static_cast<int>(std::floor(p.y));
-    for (int j = j0 - 2; j <= j0 + 2; ++j)
-        for (int i = i0 - 2; i <= i0 + 2; ++i) {
-            const auto dice = [&](int k) { return chance(i, j, across, across, seed + k); };
-            const Place from = p - Place{i + 1.4 * dice(0) - 0.2, j + 1.4 * dice(1) - 0.2};
-            const double top = 0.35 + 0.65 * dice(2);
-            double face =
-                0.75 * top + 0.5 * (dice(3) - 0.5) * from.x + 0.5 * (dice(4) - 0.5) * from.y;
-            for (int k = 0; k < 5; ++k) {
-                constexpr std::array<Place, 5> kSides{
-                    {{1.0, 0.1}, {0.25, 0.95}, {-0.8, 0.6}, {-0.75, -0.65}, {0.4, -0.9}}};
-                const Place lean{0.7 * (dice(5 + k) - 0.5), 0.7 * (dice(10 + k) - 0.5)};
-                const double steep = 1.4 + 0.8 * dice(15 + k);
-                face = std::min(
-                    face, top - steep * glm::dot(from, kSides[static_cast<std::size_t>(k)] + lean));
-            }
-            height = std::max(height, face);
-        }
+/// One sharp grain, `from` its middle: a pyramid of random faces, cut off aslant. `dice(k)` is
+/// 0..1.
+template <typename Dice>
+double grain(Place from, Dice&& dice) noexcept {
+    constexpr std::array<Place, 5> kSides{
+        {{1.0, 0.1}, {0.25, 0.95}, {-0.8, 0.6}, {-0.75, -0.65}, {0.4, -0.9}}};
+    const double top = 0.35 + 0.65 * dice(2);
+    double height = 0.75 * top + 0.5 * glm::dot(Place{dice(3) - 0.5, dice(4) - 0.5}, from);
+    int k = 5;
+    for (const Place& side : kSides) {
+        const Place lean{0.7 * (dice(k) - 0.5), 0.7 * (dice(k + 5) - 0.5)};
+        const double steep = 1.4 + 0.8 * dice(k + 10);
+        height = std::min(height, top - steep * glm::dot(from, side + lean));
+        ++k;
+    }
     return height;
 }
 
-/// Hewn: every cell a plane that leans its own way.
+/// Grains, one in each cell of a lattice of `across` squared.
+double grains(Place at, int across, int seed) noexcept {
+    const Place p = at * static_cast<double>(across);
+    double height = 0.0;
+    each_near(p, [&](int i, int j) {
+        const auto dice = [&](int k) { return chance(i, j, across, across, seed + k); };
+        const Place from = p - Place{i + 1.4 * dice(0) - 0.2, j + 1.4 * dice(1) - 0.2};
+        height = std::max(height, grain(from, dice));
+    });
+    return height;
+}
+
+/// Hewn: every cell a low hill that leans its own way.
 double hewn(Place at, int across, int seed) noexcept {
     const Place p = at * static_cast<double>(across);
-    const int i0 = static_cast<int>(std::floor(p.x)), j0 = static_cast<int>(std::floor(p.y));
     double height = -9.0;
-    for (int j = j0 - 2; j <= j0 + 2; ++j)
-        for (int i = i0 - 2; i <= i0 + 2; ++i) {
-            const auto dice = [&](int k) { return chance(i, j, across, across, seed + k) - 0.5; };
-            const Place from = p - Place{i + 0.5 + 1.3 * dice(0), j + 0.5 + 1.3 * dice(1)};
-            const double plane = 0.55 * dice(2) + 1.0 * (dice(3) * from.x + dice(4) * from.y);
-            height = larger(height, plane - 0.5 * glm::dot(from, from), 0.03);
-        }
+    each_near(p, [&](int i, int j) {
+        const auto dice = [&](int k) { return chance(i, j, across, across, seed + k) - 0.5; };
+        const Place from = p - Place{i + 0.5 + 1.3 * dice(0), j + 0.5 + 1.3 * dice(1)};
+        const double lean = glm::dot(Place{dice(3), dice(4)}, from);
+        height = larger(height, 0.55 * dice(2) + lean - 0.5 * glm::dot(from, from), 0.03);
+    });
     return height;
 }
 
@@ -82,7 +85,7 @@ double ice_at(Place at) noexcept {
     double height = 1.3 * rough_noise(warped(at, 0.05, 2, 2, 401), 3, 3, 2, 0.35, 411);
     int seed = 421;
     for (const Scratch& scratch : kScratches) {
-        height -= 0.5 * scratched(at, scratch, seed);
+        height -= 0.65 * scratched(at, scratch, seed);
         seed += 10;
     }
     return height;
@@ -98,7 +101,7 @@ double rubber_at(Place at) noexcept {
 double sandpaper_at(Place at) noexcept {
     const Place p = warped(at, 0.003, 30, 30, 501);
     const double glue = 0.12 * rough_noise(at, 14, 14, 2, 0.5, 571);
-    return std::max({0.1 + glue, grain(p, 20, 511), 0.7 * grain(p, 33, 541)}) + 0.05 * glue;
+    return std::max({0.1 + glue, grains(p, 20, 511), 0.7 * grains(p, 33, 541)}) + 0.05 * glue;
 }
 
 double stone_at(Place at) noexcept {

@@ -83,6 +83,15 @@ inline Place warped(Place at, double by, int across, int down, int seed) noexcep
     return at + by * Place{noise(at, across, down, seed), noise(at, across, down, seed + 2)};
 }
 
+/// Calls `visit(i, j)` for every cell of a lattice that is at most two away from that of `p`, in
+/// cells.
+template <typename Visit>
+void each_near(Place p, Visit&& visit) {
+    const int i = static_cast<int>(std::floor(p.x)), j = static_cast<int>(std::floor(p.y));
+    for (int v = j - 2; v <= j + 2; ++v)
+        for (int u = i - 2; u <= i + 2; ++u) visit(u, v);
+}
+
 /// What is known of a place among the irregular cells of a lattice.
 struct Cell {
     Place from_centre{};  ///< in units of the map
@@ -95,31 +104,30 @@ struct Cell {
 inline Cell cell_at(Place at, int across, int down, double jitter, int seed) noexcept {
     const Place cells{across, down};
     const Place p = at * cells;
-    const int i = static_cast<int>(std::floor(p.x)), j = static_cast<int>(std::floor(p.y));
     const auto towards = [&](int u, int v) {
         const Place off{chance(u, v, across, down, seed) - 0.5,
                         chance(u, v, across, down, seed + 1) - 0.5};
         return Place{u + 0.5, v + 0.5} + 2.0 * jitter * off - p;
     };
-    int nearest_i = i, nearest_j = j;
+    Cell cell;
     Place nearest{9.0};
-    for (int v = j - 2; v <= j + 2; ++v)
-        for (int u = i - 2; u <= i + 2; ++u)
-            if (const Place to = towards(u, v); glm::dot(to, to) < glm::dot(nearest, nearest)) {
-                nearest = to;
-                nearest_i = u;
-                nearest_j = v;
-            }
-    double border = 9.0;
-    for (int v = nearest_j - 2; v <= nearest_j + 2; ++v)
-        for (int u = nearest_i - 2; u <= nearest_i + 2; ++u) {
-            if (u == nearest_i && v == nearest_j) continue;
-            const Place to = towards(u, v);
-            const Place between = to - nearest;
-            const double gone = 0.5 * glm::dot(nearest + to, between);
-            border = std::min(border, gone / glm::length(between * cells));
-        }
-    return {-nearest / cells, border, nearest_i, nearest_j};
+    each_near(p, [&](int u, int v) {
+        const Place to = towards(u, v);
+        if (glm::dot(to, to) >= glm::dot(nearest, nearest)) return;
+        nearest = to;
+        cell.i = u;
+        cell.j = v;
+    });
+    cell.from_centre = -nearest / cells;
+    cell.to_border = 9.0;
+    each_near(Place{cell.i, cell.j}, [&](int u, int v) {
+        if (u == cell.i && v == cell.j) return;
+        const Place to = towards(u, v);
+        const Place between = to - nearest;
+        const double gone = 0.5 * glm::dot(nearest + to, between);
+        cell.to_border = std::min(cell.to_border, gone / glm::length(between * cells));
+    });
+    return cell;
 }
 
 }  // namespace dibhr::materials

@@ -18,7 +18,7 @@ double leg(Place from, double side) noexcept {
     const double across = bent / kThickness, along = upright.y / kLength;
     const double inside = std::max(1.0 - across * across, 0.0) * std::max(1.0 - along * along, 0.0);
     // Two plies, twisted: fine grooves across the yarn.
-    const double twist = wave(2.6 * upright.y - 1.7 * across * 0.5);
+    const double twist = wave(2.6 * upright.y - 0.85 * across);
     return inside * (1.7 - 0.7 * inside) + 0.05 * inside * twist;
 }
 
