@@ -106,7 +106,9 @@ double sandpaper_at(Place at) noexcept {
 
 double stone_at(Place at) noexcept {
     const Place p = warped(warped(at, 0.03, 4, 4, 601), 0.004, 13, 13, 605);
-    return hewn(p, 7, 650) + 0.19 * rough_noise(p + Place{0.05, 0.06}, 9, 9, 4, 0.62, 621) -
+    const double faces =
+        larger(hewn(p, 7, 650), -0.30, 0.15);  // no holes that would mark the repeats
+    return faces + 0.19 * rough_noise(p + Place{0.05, 0.06}, 9, 9, 4, 0.62, 621) -
            0.42 * pits(p, 14, 0.4, 661) - 0.24 * pits(p, 31, 0.35, 671);
 }
 
