@@ -115,6 +115,10 @@ void ShaderProgram::set(const char* name, glm::vec2 value) const {
 void ShaderProgram::set(const char* name, glm::vec3 value) const {
     glUniform3f(glGetUniformLocation(name_, name), value.x, value.y, value.z);
 }
+
+void ShaderProgram::set(const char* name, glm::vec4 value) const {
+    glUniform4f(glGetUniformLocation(name_, name), value.x, value.y, value.z, value.w);
+}
 void ShaderProgram::set(const char* name, const glm::mat4& value) const {
     glUniformMatrix4fv(glGetUniformLocation(name_, name), 1, GL_FALSE, glm::value_ptr(value));
 }

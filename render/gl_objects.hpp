@@ -65,6 +65,7 @@ class ShaderProgram {
     void set(const char* name, glm::ivec2 value) const;
     void set(const char* name, glm::vec2 value) const;
     void set(const char* name, glm::vec3 value) const;
+    void set(const char* name, glm::vec4 value) const;
     void set(const char* name, const glm::mat4& value) const;
 
   private:

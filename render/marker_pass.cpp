@@ -23,6 +23,8 @@ constexpr glm::vec4 kGoalTint{0.95F, 0.55F, 0.05F, 1.0F};
 constexpr glm::vec4 kSpringTint{0.86F, 0.86F, 0.86F, 1.0F};
 constexpr glm::vec4 kNormalTint{0.10F, 0.78F, 0.60F, 1.0F};
 constexpr glm::vec4 kForceTint{0.98F, 0.90F, 0.25F, 1.0F};
+constexpr glm::vec4 kGaugeGround{0.30F, 0.30F, 0.26F, 0.55F};
+constexpr glm::vec3 kTraceTint{0.45F, 0.74F, 1.0F};
 
 // Radii on the screen [px] in a picture 800 pixels high.
 constexpr double kProxyRadius = 7.0;
@@ -32,6 +34,10 @@ constexpr double kGoalRadius = 11.0;
 constexpr float kGoalHollow = 0.66F;
 constexpr double kCatchingUpRadius = 15.0;  // clear of the goal's ring when the proxy is there
 constexpr float kCatchingUpHollow = 0.84F;
+constexpr double kGaugeRadius = 22.0;  // clear of both
+constexpr float kGaugeHollow = 0.85F;
+constexpr double kTraceRadius = 2.0;
+constexpr float kTraceOpacity = 0.8F;
 constexpr double kSpringRadius = 1.4;
 constexpr double kDash = 16.0;
 constexpr double kNormalRadius = 1.6;
@@ -72,6 +78,33 @@ void add_force_arrow(std::vector<MarkerStroke>& strokes, const TouchMarkers& tou
                        ball(camera, neck, kShaftRadius * scale), kForceTint});
     strokes.push_back({ball(camera, neck, kHeadRadius * scale * slim),
                        ball(camera, tip, 0.8 * scale), kForceTint});
+}
+
+/// How much of the most that may be sent: it faces the viewer, wherever the force points.
+void add_force_gauge(std::vector<MarkerStroke>& strokes, const TouchMarkers& touch,
+                     const Camera& camera, double scale) {
+    const double newton = glm::length(touch.force_newton);
+    if (!(newton > kLeastForce_newton) || !(touch.most_newton > 0.0)) return;
+    const glm::vec4 around = ball(camera, touch.proxy, kGaugeRadius * scale);
+    const auto share = static_cast<float>(std::min(newton / touch.most_newton, 1.0));
+    strokes.push_back(
+        {.ball_a = around, .ball_b = around, .tint = kGaugeGround, .hollow = kGaugeHollow});
+    strokes.push_back({.ball_a = around,
+                       .ball_b = around,
+                       .tint = kForceTint,
+                       .hollow = kGaugeHollow,
+                       .share = share});
+}
+
+/// Dots where the proxy was in contact, fainter with time.
+void add_trace(std::vector<MarkerStroke>& strokes, const TouchMarkers& touch, const Camera& camera,
+               double scale) {
+    for (const TracePoint& point : touch.trace) {
+        if (!is_finite(point.place)) continue;
+        const glm::vec4 dot = ball(camera, point.place, kTraceRadius * scale);
+        const float opacity = kTraceOpacity * static_cast<float>(point.strength);
+        strokes.push_back({dot, dot, glm::vec4(kTraceTint, opacity)});
+    }
 }
 
 /// The ball's three great circles, dashed.
@@ -122,7 +155,11 @@ std::vector<MarkerStroke> touch_strokes(const TouchMarkers& touch, const Camera&
         strokes.push_back({ball(camera, touch.proxy, kNormalRadius * scale),
                            ball(camera, normal_end, kNormalRadius * scale), kNormalTint});
     }
-    if (is_finite(touch.force_newton)) add_force_arrow(strokes, touch, camera, scale);
+    if (is_finite(touch.force_newton)) {
+        add_force_arrow(strokes, touch, camera, scale);
+        add_force_gauge(strokes, touch, camera, scale);
+    }
+    add_trace(strokes, touch, camera, scale);
     if (touch.recorded_proxy && is_finite(*touch.recorded_proxy)) {
         const glm::vec4 recorded = ball(camera, *touch.recorded_proxy, kProxyRadius * scale);
         strokes.push_back({recorded, recorded, kRecordedTint});
@@ -168,6 +205,7 @@ MarkerPass::MarkerPass()
     stroke_attribute(2, 4, offsetof(MarkerStroke, tint));
     stroke_attribute(3, 1, offsetof(MarkerStroke, hollow));
     stroke_attribute(4, 1, offsetof(MarkerStroke, dash));
+    stroke_attribute(5, 1, offsetof(MarkerStroke, share));
     glBindVertexArray(0);
 }
 

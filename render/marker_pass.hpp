@@ -22,6 +22,7 @@ struct MarkerStroke {
     glm::vec4 tint{1.0F};  ///< red, green, blue, opacity
     float hollow{0.0F};    ///< inner radius of a ring as a part of its radius; 0: solid
     float dash{0.0F};      ///< from dash to dash [screen px]; 0: one line
+    float share{1.0F};     ///< of a ring: clockwise from the top
 };
 
 /// Proxy: a blue ball. Goal: an orange ring. Spring: a thin grey line. Normal: a thin green line.

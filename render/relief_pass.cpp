@@ -181,6 +181,10 @@ const ShaderProgram& ReliefPass::prepared(const Variant& variant, const SceneCon
     program->set("roughness_px", static_cast<float>(content.shape.roughness_px));
     program->set("slope_limit", static_cast<float>(limit));
     program->set("ground_px", static_cast<float>(-kGroundDepth * image.columns));
+    const Dent& dent = content.dent;
+    program->set("dent", glm::vec4(dent.at.x, dent.at.y, std::max(dent.radius_px, 1.0),
+                                   dent.radius_px > 0.0 ? dent.depth_px : 0.0));
+    program->set("shadow", static_cast<float>(dent.radius_px > 0.0 ? dent.shadow : 0.0));
     program->set("grid_step", grid_.step);
     program->set("detail_step", detail_grid_.step);
     program->set("drawn", glm::ivec2(grid_.columns(), grid_.rows()));

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "core/haptics/depth_image.hpp"
 #include "core/haptics/parameters.hpp"
@@ -19,6 +20,22 @@ struct ReliefLook {
     bool textured{true};             ///< false: plain clay, which shows the shape
     double light{0.6};               ///< 0: flat colour, 1: strong shading
     bool coarse{false};  ///< half as many columns and rows as this machine would draw otherwise
+    bool dent{true};     ///< the skin gives way under the proxy, in a soft shadow; drawn only
+    bool trace{true};    ///< dots where one has touched in the last seconds
+};
+
+/// Where the proxy was in contact, on the surface of now. Grid space.
+struct TracePoint {
+    Vec3 place{0.0};
+    double strength{1.0};  ///< 1: a moment ago, 0: forgotten
+};
+
+/// What a finger would do to skin: nothing of it is felt. Grid space.
+struct Dent {
+    Vec3 at{0.0};           ///< on the surface
+    double radius_px{0.0};  ///< of the dent; 0: none
+    double depth_px{0.0};
+    double shadow{0.0};  ///< 0: none, 1: black
 };
 
 /// What the hand does, for the markers. Grid space.
@@ -27,10 +44,12 @@ struct TouchMarkers {
     bool contact{false};
     bool catching_up{false};  ///< the proxy is still on its way to where it rests
     Vec3 goal{0.0}, proxy{0.0};
-    Vec3 normal{0.0, 0.0, 1.0};            ///< of the surface under the proxy
-    double friction{0.4};                  ///< the cone's coefficient in force
-    Vec3 force_newton{0.0};                ///< as sent
-    double newton_per_px{0.02};            ///< length of the force arrow
+    Vec3 normal{0.0, 0.0, 1.0};  ///< of the surface under the proxy
+    double friction{0.4};        ///< the cone's coefficient in force
+    Vec3 force_newton{0.0};      ///< as sent
+    double newton_per_px{0.02};  ///< length of the force arrow
+    double most_newton{0.0};     ///< of the gauge around the proxy; 0: no gauge
+    std::vector<TracePoint> trace{};
     std::optional<Vec3> recorded_proxy{};  ///< of a session, when `proxy` is computed anew
     double finger_px{0.0};                 ///< radius of the ball whose lowest point is `proxy`
     std::optional<Vec3> finger_contact{};  ///< where the ball touches what is drawn
@@ -43,6 +62,7 @@ struct SceneContent {
     SurfaceShape shape{};
     const BumpMap* bump{nullptr};
     ReliefLook look{};
+    Dent dent{};
     TouchMarkers markers{};
 };
 

@@ -24,12 +24,15 @@ uniform sampler2D unseen;  // 1: no surface was ever seen, as fine as can be
 uniform sampler2D colour;
 uniform int detail_step;
 uniform ivec2 image;
+uniform vec4 dent;  // column, row, radius [px]
+uniform float shadow;  // of the proxy, where it is on the surface; 0: none
 
 out vec4 pixel;
 
 const vec3 kClay = vec3(0.70, 0.66, 0.61);
 const vec3 kWall = vec3(0.125, 0.130, 0.140);
 const float kBackside = 0.35;  // seen from behind, as through a gap
+const float kShadowReach = 1.3;  // of the dent's radius
 
 // Where this place is in a texture of every `detail_step`-th vertex.
 vec2 in_detail(ivec2 size) {
@@ -81,6 +84,10 @@ void main() {
     float none = texture(unseen, in_detail(textureSize(unseen, 0))).r;
     body = mix(body, not_seen(body), smoothstep(0.3, 0.7, none));
 #endif
+    if (shadow > 0.0) {
+        vec2 off = (lifted.xy * vec2(image) - 0.5 - dent.xy) / (kShadowReach * dent.z);
+        body *= 1.0 - shadow * exp(-dot(off, off));
+    }
     pixel = vec4(body * (gl_FrontFacing ? shade : shade * kBackside), 1.0);
 #endif
 }

@@ -18,6 +18,7 @@ uniform float px_per_level;
 uniform float roughness_px;
 uniform float slope_limit;  // steeper from pixel to pixel is a silhouette, and no guide to the light
 uniform float ground_px;
+uniform vec4 dent;  // column, row, radius, depth [px]
 uniform int grid_step;
 uniform ivec2 drawn;  // columns and rows of the drawn grid
 uniform ivec2 image;  // columns and rows of the depth image
@@ -36,15 +37,22 @@ float level(ivec2 at) {
     return texelFetch(depth_from, at, 0).r * (1.0 - blend) + texelFetch(depth_to, at, 0).r * blend;
 }
 
-float elevation(ivec2 at) {
-#ifdef ROUGH
-    return px_per_level * level(at) + roughness_px * texelFetch(bump, at, 0).r;
-#else
-    return px_per_level * level(at);
-#endif
+vec2 in_image(ivec2 at) { return vec2(min(at * grid_step, image - 1)); }
+
+// How far the skin is pressed in under the proxy.
+float pressed_in(ivec2 at) {
+    if (dent.w <= 0.0) return 0.0;
+    vec2 off = (in_image(at) - dent.xy) / dent.z;
+    return dent.w * exp(-dot(off, off));
 }
 
-vec2 in_image(ivec2 at) { return vec2(min(at * grid_step, image - 1)); }
+float elevation(ivec2 at) {
+    float z = px_per_level * level(at) - pressed_in(at);
+#ifdef ROUGH
+    z += roughness_px * texelFetch(bump, at, 0).r;
+#endif
+    return z;
+}
 
 // The slope of the gentler side where the other is a silhouette: its rim keeps the light of its face.
 float slope(float before, float here, float after, vec2 reach) {

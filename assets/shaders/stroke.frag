@@ -4,6 +4,7 @@
 flat in vec4 a_px;
 flat in vec4 b_px;
 flat in vec4 colour;
+flat in float turn;
 
 uniform float opacity;
 
@@ -11,6 +12,7 @@ out vec4 pixel;
 
 const float kOutline_px = 1.25;
 const float kHalfDash = 0.2;  // of the way from dash to dash; its round ends come on top
+const float kTurn = 6.2831853;
 const vec3 kOutline = vec3(0.04, 0.04, 0.05);
 const vec3 kKey = vec3(-0.46, 0.55, 0.70);
 
@@ -30,8 +32,14 @@ void main() {
         float middle = radius * 0.5 * (1.0 + a_px.w);
         float thick = radius * 0.5 * (1.0 - a_px.w);
         float off = length(from_axis) - middle;
+        vec2 outwards = normalize(from_axis + 1e-4);
         distance_px = abs(off) - thick;
-        round_xy = normalize(from_axis + 1e-4) * off / max(thick, 0.5);
+        float beyond = (fract(atan(from_axis.x, from_axis.y) / kTurn) - turn) * kTurn;
+        if (beyond > 0.0) {  // measured from the nearer end of the arc
+            float off_end = min(beyond, kTurn * (1.0 - turn) - beyond);
+            distance_px = max(distance_px, min(off_end, 1.0) * middle - 0.5);
+        }
+        round_xy = outwards * off / max(thick, 0.5);
     }
     float coverage = clamp(0.5 + kOutline_px - distance_px, 0.0, 1.0);
     if (coverage <= 0.0) discard;

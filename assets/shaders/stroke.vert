@@ -7,6 +7,7 @@ layout(location = 1) in vec4 ball_b;
 layout(location = 2) in vec4 tint;
 layout(location = 3) in float hollow;  // inner radius of a ring, as a part of its radius; 0: solid
 layout(location = 4) in float dash;    // from dash to dash on the screen [px]; 0: one line
+layout(location = 5) in float share;   // of a ring: clockwise from the top
 
 uniform mat4 view_from_world;
 uniform mat4 clip_from_view;
@@ -15,6 +16,7 @@ uniform vec2 viewport;
 flat out vec4 a_px;  // centre, radius, hollow
 flat out vec4 b_px;  // centre, radius, dash
 flat out vec4 colour;
+flat out float turn;  // of a ring [turns]
 
 const float kBorder = 2.0;  // pixels around the stroke for its outline and soft edge
 
@@ -34,6 +36,7 @@ void main() {
     a_px = vec4(a.xy, ball_a.w, hollow);
     b_px = vec4(b.xy, ball_b.w, dash);
     colour = tint;
+    turn = share;
 
     vec2 along = b.xy - a.xy;
     float len = length(along);

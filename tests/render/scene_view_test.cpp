@@ -9,6 +9,7 @@
 #include <glm/matrix.hpp>
 #include <initializer_list>
 #include <memory>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -364,6 +365,77 @@ TEST_CASE("the force arrow points on the screen where the force points in the gr
     CHECK(yellow(15.0));
     CHECK_FALSE(yellow(23.0));
     CHECK_FALSE(yellow(-7.0));
+    CHECK(window.errors().empty());
+}
+
+TEST_CASE("the ring around the proxy shows the force as a part of the most, wherever it points") {
+    HiddenWindow window;
+    const Frame shown =
+        frame(depth_image(64, 48, [](int, int) { return 0.0; }), colour_image(1, 1, [](int, int) {
+                  return Rgb{60, 60, 60};
+              }));
+    SceneContent content = still(shown);
+    const Camera camera = straight(64, 48, 100.0);
+    const glm::ivec2 size(1280, 960);
+    content.markers.visible = true;
+    content.markers.proxy = {32.0, 24.0, 50.0};
+    content.markers.goal = content.markers.proxy;
+    content.markers.newton_per_px = 1e3;  // the arrow is too short to be seen
+    content.markers.most_newton = 4.0;
+    const double share = GENERATE(0.1, 0.25, 0.6, 0.9, 1.0, 1.5);
+    const Vec3 direction = GENERATE(Vec3(0.0, 0.0, 1.0), Vec3(0.6, 0.8, 0.0));
+    content.markers.force_newton = direction * share * 4.0;
+    SceneView view;
+    const ColourImage picture = view.capture(content, camera, size);
+    const glm::ivec2 centre = pixel_of(camera, content.markers.proxy, size);
+    int wrong = 0;
+    for (int k = 0; k < 360; ++k) {
+        const double turn = (k + 0.5) / 360.0;  // clockwise from the top
+        if (std::abs(turn - share) < 0.02 || turn < 0.02 || turn > 0.98) continue;  // its ends
+        const double radius_px = 22.0 * 1.2 * 0.925;  // in the middle of the ring
+        const glm::ivec2 at(
+            std::lround(centre.x + radius_px * std::sin(2.0 * std::numbers::pi * turn)),
+            std::lround(centre.y - radius_px * std::cos(2.0 * std::numbers::pi * turn)));
+        const Rgb seen = pixel(picture, at);
+        const bool lit = seen[0] > 120 && seen[1] > 110 && seen[2] < seen[0] - 50;
+        if (lit != (turn < share)) ++wrong;
+    }
+    CHECK(wrong == 0);
+    CHECK(window.errors().empty());
+}
+
+TEST_CASE("the skin gives way under the proxy, in a shadow, and nowhere else") {
+    HiddenWindow window;
+    const Frame shown =
+        frame(depth_image(64, 48, [](int, int) { return 100.0; }), colour_image(1, 1, [](int, int) {
+                  return Rgb{200, 200, 200};
+              }));
+    SceneContent content = still(shown);
+    content.look.light = 0.0;
+    const Camera camera = straight(64, 48);
+    const glm::ivec2 size(640, 480);
+    SceneView view;
+    const ColourImage before = view.capture(content, camera, size);
+    content.dent = {.at = {32.0, 24.0, 100.0}, .radius_px = 5.0, .depth_px = 3.0, .shadow = 0.5};
+    const Offscreen offscreen(size, 0);
+    view.draw(content, camera, size);
+    double deepest = 0.0, off_centre_px = 0.0;
+    for (const Vec3& p : visible_points(camera, size, {64, 48})) {
+        const double deep = 100.0 - p.z;
+        const double away = std::hypot(p.x - 32.0, p.y - 24.0);
+        CHECK_THAT(deep, WithinAbs(3.0 * std::exp(-away * away / 25.0), 0.12));
+        if (deep > deepest) off_centre_px = away;
+        deepest = std::max(deepest, deep);
+    }
+    CHECK_THAT(deepest, WithinAbs(3.0, 0.05));
+    CHECK(off_centre_px < 1.0);
+    const ColourImage after = view.capture(content, camera, size);
+    const auto brightness = [&](const ColourImage& picture, Vec3 at) {
+        return static_cast<int>(pixel(picture, pixel_of(camera, at, size))[0]);
+    };
+    CHECK(brightness(after, {32.0, 24.0, 97.0}) < 0.6 * brightness(before, {32.0, 24.0, 100.0}));
+    for (const Vec3 far : {Vec3(10.0, 24.0, 100.0), Vec3(32.0, 4.0, 100.0)})
+        CHECK(brightness(after, far) == brightness(before, far));
     CHECK(window.errors().empty());
 }
 
