@@ -87,7 +87,7 @@ std::vector<Run> make_runs(const Session& session, const ReplayOptions& options)
 
 bool has_bump(const Session& session, const ReplayOptions& options) {
     const auto& all = session.parameters();
-    return !options.touch.bump.empty() ||
+    return !options.touch.given.bump_file().empty() ||
            std::any_of(all.begin(), all.end(), [](const SessionParameters& parameters) {
                return !parameters.bump.file.empty();
            });
@@ -100,7 +100,9 @@ SessionFramesOptions frames_options(const Session& session, const ReplayOptions&
     if (!session.parameters().empty()) parameters = session.parameters().front().touch;
     touch.given.apply(parameters);
     const CleaningOptions asked = touch.cleaning(parameters);
-    SessionFramesOptions frames{.any_media = options.any_media, .bump = touch.bump};
+    SessionFramesOptions frames{.any_media = options.any_media,
+                                .bump = touch.given.bump_file(),
+                                .bump_size_px = parameters.shape.bump_size_px};
     if (touch.raw_depth || touch.preset) frames.cleaning = asked.preset;
     if (touch.finger_mm) frames.finger = asked.finger;
     return frames;

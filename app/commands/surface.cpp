@@ -102,15 +102,15 @@ void write_felt_surface(const SurfaceOptions& options, SurfaceFormat format) {
     TouchParameters parameters = options.parameters;
     FrameReader reader(open_given(options, parameters));
     reader.set_cleaning(options.touch.cleaning(parameters, reader.description()));
-    std::optional<BumpMap> bump;
-    if (!options.touch.bump.empty()) bump = read_bump_map(options.touch.bump);
+    const std::shared_ptr<const BumpMap> bump = options.touch.given.read_bumps();
     const std::vector<Frame> frames = frames_around(reader, options.time_s);
     const DepthBlend blend = depth_at(frames, options.time_s);
-    const FeltSurface felt{blend.surface(parameters.shape, bump ? &*bump : nullptr),
+    const FeltSurface felt{blend.surface(parameters.shape, bump.get()),
                            parameters.coupling.pixel_pitch_mm, blend.from->colour.get()};
 
     const MediaDescription& media = reader.description();
-    refuse_overwriting(options.out, {media.colour_path, media.depth_path, options.touch.bump},
+    refuse_overwriting(options.out,
+                       {media.colour_path, media.depth_path, options.touch.given.bump_file()},
                        "is also read by this command; give --out another name");
     OutputFile file(options.out);
     write_surface(felt, format, file);
@@ -143,7 +143,7 @@ int run_surface(CLI::App& app, const Arguments& arguments) {
     if (!parse(app, arguments)) return 0;
     const SurfaceFormat format = format_asked(options.out);
     options.touch.given.apply(options.parameters);
-    print_warning(roughness_warning(options.touch.given, !options.touch.bump.empty()));
+    print_warning(roughness_warning(options.touch.given, !options.touch.given.bump_file().empty()));
     write_felt_surface(options, format);
     return 0;
 }

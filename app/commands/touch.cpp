@@ -37,12 +37,11 @@ struct TouchOptions {
 class TouchRun {
   public:
     explicit TouchRun(const TouchOptions& options)
-        : parameters_(options.parameters), depth_(opened(options, parameters_)) {
-        if (!options.touch.bump.empty()) {
-            bump_ = read_bump_map(options.touch.bump);
-            const DepthImage& depth = *depth_.now().from->depth;
-            stretch(*bump_, depth.columns, depth.rows);
-        }
+        : parameters_(options.parameters),
+          depth_(opened(options, parameters_)),
+          bump_(options.touch.given.read_bumps()) {
+        const DepthImage& depth = *depth_.now().from->depth;
+        stretch(bump_, depth.columns, depth.rows, parameters_.shape.bump_size_px);
         input_.from_zero = true;
     }
 
@@ -72,8 +71,7 @@ class TouchRun {
         // Recorded hands have equal time stamps: still an update, of the usual length.
         const double step_s = last_t_s_ ? goal.t_s - *last_t_s_ : 0.0;
         input_.dt_s = step_s > 0.0 ? step_s : kUsualTick_s;
-        const DepthSurface surface =
-            depth_.now().surface(parameters_.shape, bump_ ? &*bump_ : nullptr);
+        const DepthSurface surface = depth_.now().surface(parameters_.shape, bump_.get());
 
         const auto start = std::chrono::steady_clock::now();
         const Touch& touch =
@@ -89,7 +87,7 @@ class TouchRun {
 
     TouchParameters parameters_;
     DepthInTime depth_;
-    std::optional<BumpMap> bump_{};
+    std::shared_ptr<const BumpMap> bump_;
     TouchRenderer renderer_{};
     SafetyInput input_{};
     SafetyLimits limits_{};
@@ -100,7 +98,7 @@ class TouchRun {
 void touch_all(const TouchOptions& options) {
     const std::vector<TimedGoal> goals = read_goals(options.goals);
     TouchRun run(options);
-    RowFile out(options.out, {options.depth, options.goals, options.touch.bump},
+    RowFile out(options.out, {options.depth, options.goals, options.touch.given.bump_file()},
                 "is also read by this command; give --out another name");
     std::vector<OutputRow> rows;
     rows.reserve(kBlockRows);
@@ -136,7 +134,7 @@ int run_touch(CLI::App& app, const Arguments& arguments) {
         "  dibhr touch --depth depth.mp4 --video --goals goals.csv --friction 0.2 | head");
     if (!parse(app, arguments)) return 0;
     options.touch.given.apply(options.parameters);
-    print_warning(roughness_warning(options.touch.given, !options.touch.bump.empty()));
+    print_warning(roughness_warning(options.touch.given, !options.touch.given.bump_file().empty()));
     touch_all(options);
     return 0;
 }

@@ -92,10 +92,10 @@ void require_replay_options(const ViewOptions& options, const TouchRequest& touc
     const bool wrong = !options.open.depth.empty() || !options.record.empty() ||
                        touch.asks_for_another_surface() || touch.depth != DepthStatement{};
     if (!wrong) return;
-    throw UsageError(
-        options.open.colour.string() +
-        " is a session, which is replayed as it was recorded: leave away a depth "
-        "file, --record, --bump, --raw-depth, --cleaning, --finger and what depth means");
+    throw UsageError(options.open.colour.string() +
+                     " is a session, which is replayed as it was recorded: leave away a depth "
+                     "file, --record, --material, --bump, --raw-depth, --cleaning, --finger and "
+                     "what depth means");
 }
 
 void require_writable_folder(const fs::path& file, const char* option) {
@@ -142,8 +142,36 @@ void take_fitting(const TouchRequest& touch, Settings& settings) {
     take(settings.fit_pitch, touch.given.fit_pitch, parameters.coupling.pixel_pitch_mm);
 }
 
-ViewerParts open_parts(const ViewOptions& options) {
-    ViewerParts parts;
+/// What the surface is made of: as the command line says, else as it was when the window closed.
+Material chosen_material(const GivenParameters& given, Settings& settings) try {
+    if (!given.material && !given.bump.empty()) settings.material.clear();
+    Material material;
+    if (given.material) {
+        material = *given.material;
+        settings.material = material.name;
+    } else if (!settings.material.empty()) {
+        material = material_called(settings.material);
+        lay_texture(material, settings.touch);
+    }
+    return material;
+} catch (const InputError& error) {
+    print_warning(error.what());
+    settings.material.clear();
+    return {};
+}
+
+void take_parameters(const TouchRequest& touch, ViewerParts& parts, Settings& settings) {
+    parts.material = chosen_material(touch.given, settings);
+    parts.bump_file = parts.material.map;
+    parts.bump = parts.material.bumps;
+    if (!touch.given.bump.empty()) {
+        parts.bump_file = touch.given.bump;
+        parts.bump = touch.given.read_bumps();
+    }
+    touch.given.apply(settings.touch);
+}
+
+void open_parts(const ViewOptions& options, ViewerParts& parts) {
     if (names_session(options.open.colour)) {
         parts.session = std::make_unique<OpenedSession>(options.open.colour, options.any_media);
         print_warning(parts.session->session.warning());
@@ -154,9 +182,6 @@ ViewerParts open_parts(const ViewOptions& options) {
     }
     parts.hand =
         make_hand_device(options.device, {options.settings.falcon.connection, options.firmware});
-    if (!options.touch.bump.empty())
-        parts.bump = std::make_shared<const BumpMap>(read_bump_map(options.touch.bump));
-    return parts;
 }
 
 }  // namespace
@@ -207,6 +232,7 @@ int run_view(CLI::App& app, const Arguments& arguments) {
         "Examples:\n"
         "  dibhr                                  the built-in sample\n"
         "  dibhr color.mp4 depth.mp4 --friction 0.8\n"
+        "  dibhr --material bark                  the sample, covered with it\n"
         "  dibhr view touch                       a file that is called like a command\n"
         "  dibhr color.mp4 --record mine.dibhr --seconds 20 --screenshot last.png\n"
         "  dibhr mine.dibhr --algorithm pga       what was recorded, through another algorithm");
@@ -224,7 +250,8 @@ int run_view(CLI::App& app, const Arguments& arguments) {
     Ending ending(words);
     options.in_file = options.settings = load_settings(settings_path());
     Settings& settings = options.settings;
-    touch.given.apply(settings.touch);
+    ViewerParts parts;
+    take_parameters(touch, parts, settings);
     if (stability) settings.stability = *stability;
     if (gives_damping(touch.given)) settings.damping_as_needed = false;
     if (size) std::tie(settings.width, settings.height) = *size;
@@ -237,7 +264,7 @@ int run_view(CLI::App& app, const Arguments& arguments) {
     require_writable_outputs(options);
     words.doing("opening the files");
     if (!names_session(options.open.colour)) take_sample_for_nothing(options.open);
-    ViewerParts parts = open_parts(options);
+    open_parts(options, parts);
     words.doing("opening the window");
     Viewer viewer(options, std::move(parts), ending);
     viewer.run();

@@ -107,6 +107,8 @@ constexpr Explained kMarks[] = {
     {"Line between", "The spring that pulls the hand"},
     {"Blue ring, dashed line", "The proxy is catching up with a jump"},
     {"Yellow arrow", "The force on the hand"},
+    {"Yellow ring", "How much of the most force that may be sent"},
+    {"Light dots", "Where you have touched in the last seconds"},
     {"Green rod", "The surface's normal"},
     {"Pale cone", "The friction cone: a proxy inside it sticks"},
 };
@@ -171,12 +173,16 @@ void draw_overlay(const ViewerState& state, double now_s) {
     }
 }
 
-void draw_hint(const ViewerState& state, float alpha) {
+void draw_hint(const ViewerState& state, Hint hint, float alpha) {
     if (alpha <= 0.0F) return;
-    const std::string whole = "Move the mouse over the picture. Hold the left button to touch.";
+    constexpr const char* kHints[][2] = {
+        {"Move the mouse over the picture. Hold the left button to touch.",
+         "Hold the left button to touch."},
+        {"Turn the wheel while you press: deeper, or less deep.", "Wheel: press deeper."}};
+    const auto& [whole, brief] = kHints[static_cast<int>(hint)];
     const float room = ImGui::GetIO().DisplaySize.x - panel_column_width(state);
-    const bool fits = ImGui::CalcTextSize(whole.c_str()).x + 40.0F * state.scale < room;
-    centred_label(state, fits ? whole : "Hold the left button to touch.", 0.0F, alpha);
+    const bool fits = ImGui::CalcTextSize(whole).x + 40.0F * state.scale < room;
+    centred_label(state, fits ? whole : brief, 0.0F, alpha);
 }
 
 void draw_message_box(ViewerState& state) {

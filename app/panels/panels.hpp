@@ -44,8 +44,10 @@ void draw_replay_bar(ViewerState& state, SessionPlayer& replay);
 /// Over the relief: the force in numbers, notices; `now_s` counts from the start.
 void draw_overlay(const ViewerState& state, double now_s);
 
-/// How to touch, for who has not touched yet; `alpha` 0 .. 1 fades it out.
-void draw_hint(const ViewerState& state, float alpha);
+/// What there is to find out with the mouse.
+enum class Hint { touch, press_deeper };
+/// For who has not done it yet; `alpha` 0 .. 1 fades it out.
+void draw_hint(const ViewerState& state, Hint hint, float alpha);
 
 /// The help sheet and the message box, on top of everything.
 void draw_help_sheet(ViewerState& state);

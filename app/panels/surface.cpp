@@ -68,6 +68,10 @@ void draw_surface_panel(ViewerState& state) {
     ImGui::EndDisabled();
     flag_row("Coarse drawing", settings.look.coarse, standard.coarse,
              "Every second point, for slow machines; touch stays exact");
+    flag_row("Dent and shadow", settings.look.dent, standard.dent,
+             "The skin gives way under the proxy: drawn only, what is felt stays as it is");
+    flag_row("Trace", settings.look.trace, standard.trace,
+             "Dots where you have touched in the last seconds");
     int straight = settings.straight_view ? 1 : 0;
     ImGui::RadioButton("Perspective", &straight, 0);
     ImGui::SameLine();

@@ -1,5 +1,8 @@
 // The Touch panel: what is computed at each tick, from the table of options.
 
+#include <algorithm>
+#include <string>
+
 #include "app/panels/falcon_state.hpp"
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
@@ -65,6 +68,52 @@ void draw_stability(ViewerState& state) {
                                : formatted("takes out %.1f mW", energy.taken_out_mw));
 }
 
+/// Of a material's file name, for a person.
+std::string spoken(std::string name) {
+    std::replace(name.begin(), name.end(), '-', ' ');
+    return capitalised(name);
+}
+
+/// One of the row, lit when it is the chosen one; where it does not fit, on the next line.
+void draw_material(ViewerState& state, const std::string& name, const char* help) {
+    const std::string label = spoken(name.empty() ? std::string(kAsRecorded) : name);
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float width = ImGui::CalcTextSize(label.c_str()).x + 2.0F * style.FramePadding.x;
+    if (!name.empty()) {  // not the first
+        ImGui::SameLine(0.0F, style.ItemInnerSpacing.x);
+        if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
+    }
+    const bool chosen = state.material.name == name;
+    ImGui::PushStyleColor(
+        ImGuiCol_Button, ImGui::GetStyleColorVec4(chosen ? ImGuiCol_SliderGrab : ImGuiCol_FrameBg));
+    if (ImGui::Button(label.c_str()))
+        state.requests.material = name.empty() ? std::string(kAsRecorded) : name;
+    ImGui::PopStyleColor();
+    explain(help);
+}
+
+/// What the surface is made of, and a person's own made from it.
+void draw_materials(ViewerState& state) {
+    if (state.replay) return;
+    ImGui::PushID("materials");
+    draw_material(state, {},
+                  "Only what the depth shows: no bump map, the usual friction and spring");
+    for (const std::string& name : state.materials.shipped)
+        draw_material(state, name, "Bump map, friction, stiffness and damping in one (--material)");
+    for (const std::string& name : state.materials.own)
+        draw_material(state, name, own_materials_folder().c_str());
+    const bool changed =
+        state.bump_file != state.material.map || !is_made_of(state.material, state.settings.touch);
+    if (changed) {
+        const bool done =
+            text_field("##keep", "Changed: keep as a material called ...", state.fields.material,
+                       "Enter keeps what is felt now under that name");
+        if (done && state.fields.material.front() != '\0')
+            state.requests.keep_material = state.fields.material.data();
+    }
+    ImGui::PopID();
+}
+
 void draw_bump(ViewerState& state) {
     if (state.replay) {
         if (state.bump) fact_row("Bump map", state.bump_file.filename().string());
@@ -85,6 +134,7 @@ void draw_touch_panel(ViewerState& state) {
     if (!section(state, "Touch", state.settings.panels.touch)) return;
     ImGui::PushID("touch");
     draw_origin(state);
+    draw_materials(state);
     choice_row(
         "Algorithm", algorithm_words(), state.settings.touch.algorithm,
         "How the proxy follows the goal (--algorithm); another one goes on from where it is");

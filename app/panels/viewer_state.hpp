@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "app/settings/material.hpp"
 #include "app/settings/settings.hpp"
 #include "app/window/window.hpp"
 #include "core/loop/device.hpp"
@@ -55,6 +56,7 @@ struct TextFields {
     Field colour{};
     Field depth{};
     Field bump{};
+    Field material{};  ///< the name to keep one under
     Field firmware{};
     Field depth_scale{};                      ///< "0.001"
     Field depth_range{};                      ///< "480:4210"
@@ -74,6 +76,8 @@ struct Requests {
     std::optional<DepthStatement> meaning{};  ///< what a person says of the depth that is open
     bool save_sidecar{false};
     std::optional<std::filesystem::path> bump{};  ///< empty path: no bump map
+    std::optional<std::string> material{};        ///< as material_called() takes it
+    std::string keep_material{};  ///< what is felt, under that name; empty: not asked
     std::optional<std::filesystem::path> firmware{};
     bool reset_view{false};
     bool toggle_recording{false};
@@ -128,8 +132,10 @@ struct ViewerState {
     std::uint32_t centred{0};  ///< counts the wishes to forget the clutch's shift
     std::shared_ptr<const BumpMap> bump{};
     std::filesystem::path bump_file{};
+    Material material{};  ///< chosen last; numbers and bump map may have been changed since
 
     // Shown only.
+    MaterialNames materials{};  ///< to choose from
     DeviceSpecification device{};
     MediaDescription media{};
     OpenRequest opened{};  ///< how it was opened
@@ -148,7 +154,7 @@ struct ViewerState {
     bool in_front{true};  ///< the window; false: people work in another one
     bool opening{false};
     bool as_recorded{false};  ///< the depth, while its key is held
-    bool touched{false};  ///< there has been a contact: the first hint has done its work
+    bool touched{false};      ///< there has been a contact: the first hint has done its work
 
     bool show_device{false};   ///< the Falcon needs its person: the Device panel comes into sight
     bool show_session{false};  ///< recording began by key: the Session panel comes into sight

@@ -42,4 +42,8 @@ SampleFiles sample_files() {
     return {file_starting_with(folder, "color"), file_starting_with(folder, "depth")};
 }
 
+fs::path shipped_materials_folder() {
+    return assets_folder() / "materials";
+}
+
 }  // namespace dibhr

@@ -13,4 +13,7 @@ struct SampleFiles {
 };
 [[nodiscard]] SampleFiles sample_files();
 
+/// The materials that come with the program. Throws InputError when its files are missing.
+[[nodiscard]] std::filesystem::path shipped_materials_folder();
+
 }  // namespace dibhr

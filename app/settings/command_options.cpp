@@ -13,6 +13,9 @@
 #include "core/video/depth/sidecar.hpp"
 
 namespace dibhr {
+
+namespace fs = std::filesystem;
+
 namespace {
 
 /// "N s/m" -> "N_S_PER_M", a ratio -> "MU": what stands behind the option in the help.
@@ -149,7 +152,14 @@ void add_number_of_touch(CLI::App& app, const TouchNumber& option, GivenParamete
 }
 
 void add_surface_options(CLI::App& app, TouchRequest& request) {
-    app.add_option("--bump", request.bump, "Bump map laid over the surface: an 8- or 16-bit image")
+    app.add_option_function<std::string>(
+           "--material",
+           [&request](const std::string& name) { request.given.material = material_called(name); },
+           "What the surface is made of: " + list_of_materials() +
+               ", or a .toml file; numbers given by themselves win")
+        ->type_name("NAME");
+    app.add_option("--bump", request.given.bump,
+                   "Bump map laid over the surface: an 8- or 16-bit image")
         ->type_name("IMAGE");
     app.add_flag(
         "--raw-depth", request.raw_depth,
@@ -188,7 +198,7 @@ Fingertip fingertip_of(double radius_mm, const TouchParameters& parameters) {
 }
 
 bool TouchRequest::asks_for_another_surface() const {
-    return !bump.empty() || raw_depth || preset || finger_mm;
+    return !given.bump_file().empty() || raw_depth || preset || finger_mm;
 }
 
 CleaningOptions TouchRequest::cleaning(const TouchParameters& parameters,
@@ -207,10 +217,37 @@ const double* GivenParameters::value_of(const TouchNumber& number) const {
     return last == numbers.rend() ? nullptr : &last->second;
 }
 
+fs::path GivenParameters::bump_file() const {
+    if (!bump.empty() || !material) return bump;
+    return material->map;
+}
+
+std::shared_ptr<const BumpMap> GivenParameters::read_bumps() const {
+    if (!bump.empty()) return std::make_shared<const BumpMap>(read_bump_map(bump));
+    return material ? material->bumps : nullptr;
+}
+
+void make_felt(TouchParameters& parameters) {
+    constexpr double kFelt_px = 4.0;  // half a millimetre at the paper's pitch
+    double& roughness_px = parameters.shape.roughness_px;
+    if (!(roughness_px > 0.0)) roughness_px = kFelt_px;
+}
+
+void GivenParameters::apply_texture(TouchParameters& parameters) const {
+    if (material) lay_texture(*material, parameters);
+    const auto* const roughness = value_of(number_of(parameters.shape.roughness_px, parameters));
+    const auto* const size = value_of(number_of(parameters.shape.bump_size_px, parameters));
+    if (roughness != nullptr) parameters.shape.roughness_px = *roughness;
+    if (size != nullptr) parameters.shape.bump_size_px = *size;
+    if (roughness == nullptr && !bump_file().empty()) make_felt(parameters);
+}
+
 void GivenParameters::apply(TouchParameters& parameters) const {
     if (algorithm) parameters.algorithm = *algorithm;
+    if (material) lay(*material, parameters);
     if (friction) parameters.friction = {*friction, *friction};
     for (const auto& [option, value] : numbers) option->in(parameters) = value;
+    apply_texture(parameters);
     const double* const dynamic =
         value_of(number_of(parameters.friction.dynamic_coefficient, parameters));
     if (dynamic != nullptr && *dynamic > parameters.friction.static_coefficient) {
@@ -231,6 +268,7 @@ void GivenParameters::fit(const MediaDescription& media, bool raw,
     if (is_free(parameters.shape.relief_px, fit_relief)) parameters.shape.relief_px = fit.relief_px;
     if (is_free(parameters.coupling.pixel_pitch_mm, fit_pitch))
         parameters.coupling.pixel_pitch_mm = fit.pixel_pitch_mm;
+    if (material) apply_texture(parameters);
     keep_in_range(parameters);
 }
 
@@ -248,7 +286,8 @@ std::string roughness_warning(const GivenParameters& given, bool has_bump) {
     TouchParameters any;
     const double* const roughness = given.value_of(number_of(any.shape.roughness_px, any));
     if (has_bump || roughness == nullptr || *roughness == 0.0) return {};
-    return "--roughness changes nothing without a bump map; give one with --bump IMAGE";
+    return "--roughness changes nothing without a bump map; give one with --bump IMAGE, or a "
+           "--material";
 }
 
 CLI::Option* add_number_option(CLI::App& app, const std::string& name, double lowest,

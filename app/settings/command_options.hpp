@@ -1,12 +1,15 @@
 // Command line options that several commands share, and the error of a wrong command line.
 #pragma once
 
+#include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "app/settings/material.hpp"
 #include "core/error.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/plot/canvas.hpp"
@@ -25,10 +28,12 @@ class UsageError : public Error {
     using Error::Error;
 };
 
-/// The algorithm and the numbers the command line gave: they beat what a settings file or the
-/// program's defaults say.
+/// The algorithm, the numbers and what is laid over the surface, as the command line gave them:
+/// they beat what a settings file or the program's defaults say.
 struct GivenParameters {
     std::optional<Algorithm> algorithm{};
+    std::optional<Material> material{};  ///< --material; numbers given by themselves win
+    std::string bump{};                  ///< --bump IMAGE, instead of the material's; empty: none
     std::vector<std::pair<const TouchNumber*, double>> numbers{};
     std::optional<double> friction{};  ///< both coefficients, unless one is given by itself
     bool fit_relief{false};            ///< --relief auto
@@ -36,17 +41,24 @@ struct GivenParameters {
 
     /// What was given for that entry of touch_numbers(); null: nothing.
     [[nodiscard]] const double* value_of(const TouchNumber& number) const;
+    /// The file of --bump or of the material; empty: none.
+    [[nodiscard]] std::filesystem::path bump_file() const;
+    /// What it holds; null: none. Throws InputError.
+    [[nodiscard]] std::shared_ptr<const BumpMap> read_bumps() const;
     /// Throws UsageError when --dynamic-friction ends above the static coefficient.
     void apply(TouchParameters& parameters) const;
     /// The relief and the pitch that were not given as numbers are the media's. `raw`: only those
     /// that were given as auto.
     void fit(const MediaDescription& media, bool raw, TouchParameters& parameters) const;
+
+  private:
+    /// Roughness and size of the bump map, which depend on the pitch.
+    void apply_texture(TouchParameters& parameters) const;
 };
 
 /// What all commands that compute forces take.
 struct TouchRequest {
     GivenParameters given{};
-    std::string bump{};                      ///< --bump IMAGE; empty: none
     bool raw_depth{false};                   ///< --raw-depth, or --cleaning raw
     std::optional<CleaningPreset> preset{};  ///< --cleaning
     std::optional<double> finger_mm{};       ///< --finger
@@ -63,6 +75,9 @@ struct TouchRequest {
 
 /// A finger of that radius on a surface of these parameters.
 [[nodiscard]] Fingertip fingertip_of(double radius_mm, const TouchParameters& parameters);
+
+/// So rough that it is felt: of a bump map that nobody gave a roughness.
+void make_felt(TouchParameters& parameters);
 
 /// That a roughness is given, but no bump map that it could scale, as a sentence; or empty.
 [[nodiscard]] std::string roughness_warning(const GivenParameters& given, bool has_bump);
@@ -91,8 +106,8 @@ CLI::Option* add_plot_format_option(CLI::App& app, std::vector<PlotFormat>& form
 /// --geometry and --intrinsics. `depth` must outlive the parsing of `app`.
 void add_depth_options(CLI::App& app, DepthStatement& depth);
 
-/// --bump, --raw-depth, --cleaning, --finger, those of add_depth_options and the entries of
-/// touch_numbers() that shape a surface. `request` must outlive the parsing of `app`.
+/// --material, --bump, --raw-depth, --cleaning, --finger, those of add_depth_options and the
+/// entries of touch_numbers() that shape a surface. `request` must outlive the parsing of `app`.
 void add_shape_options(CLI::App& app, TouchRequest& request);
 
 /// The same, --friction and the other entries of touch_numbers().

@@ -293,6 +293,7 @@ std::vector<Setting> list_of(Settings& s) {
                               {"panels", "session", &s.panels.session},
                               {"panels", "loop", &s.panels.loop},
                               {"touch", "algorithm", &s.touch.algorithm},
+                              {"touch", "material", &s.material},
                               {"touch", "stability", &s.stability},
                               {"touch", "damping-as-needed", &s.damping_as_needed},
                               {"touch", "fit-relief", &s.fit_relief},
@@ -313,6 +314,8 @@ std::vector<Setting> list_of(Settings& s) {
                              {"look", "textured", &s.look.textured},
                              {"look", "light", &s.look.light, 0.0, 1.0},
                              {"look", "coarse", &s.look.coarse},
+                             {"look", "dent", &s.look.dent},
+                             {"look", "trace", &s.look.trace},
                              {"look", "straight-view", &s.straight_view}});
     return list;
 }

@@ -49,8 +49,23 @@ TouchMarkers markers_of(const ViewerState& state, const DepthSurface& surface) {
     markers.friction =
         touch.proxy.slipping ? friction.dynamic_coefficient : friction.static_coefficient;
     markers.force_newton = touch.sent_force_newton;
+    markers.most_newton =
+        std::min(state.settings.max_force_newton, state.device.limits.max_force_newton);
     if (state.replay && state.replay->computed) markers.recorded_proxy = state.replay->tick.proxy;
     return markers;
+}
+
+/// Softly, as deep as the goal is pressed in, up to a ball as large as the proxy's; none where the
+/// look has none.
+Dent dent_under(const ViewerState& state, const TouchMarkers& markers, const DepthImage& image) {
+    constexpr double kRadiusPerColumn = 0.02;
+    constexpr double kDeepest = 0.45;  // of the radius: nothing is hidden
+    constexpr double kShadow = 0.45;
+    if (!state.settings.look.dent || !markers.contact || !is_finite(markers.proxy)) return {};
+    const double radius_px = kRadiusPerColumn * image.columns;
+    const double pressed = glm::length(markers.proxy - markers.goal) / radius_px;
+    const double share = 1.0 - std::exp(-pressed);
+    return {markers.proxy, radius_px, kDeepest * radius_px * share, kShadow * (0.4 + 0.6 * share)};
 }
 
 /// What to draw now. The markers are those of the last tick; the colour is that of the `from`
@@ -66,6 +81,7 @@ SceneContent scene_content(const ViewerState& state, const DepthBlend& shown) {
     const DepthSurface surface = shown.surface(content.shape, content.bump);
     content.markers = markers_of(state, surface);
     add_finger(shown, content.shape, content.markers);
+    content.dent = dent_under(state, content.markers, *shown.from->drawn());
     return content;
 }
 
@@ -104,6 +120,8 @@ void Viewer::take_opened() {
 void Viewer::take_dropped(const std::vector<std::filesystem::path>& files) {
     if (files.size() == 1 && named_firmware(files.front())) {
         state_.requests.firmware = files.front();
+    } else if (files.size() == 1 && files.front().extension() == ".toml") {
+        state_.requests.material = files.front().string();
     } else if (const auto dropped = dropped_request(files)) {
         state_.requests.open = dropped;
     } else if (!files.empty()) {
@@ -120,7 +138,6 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
     show_depth_words(state_);
     if (request.chosen) keep_panel(depth_file(before));
     fit_to_media();
-    stretch_bump();
     // A person who says else looks on from where they are.
     const bool same_size = state_.media.depth_columns == before.depth_columns &&
                            state_.media.depth_rows == before.depth_rows;
@@ -192,15 +209,22 @@ Settings Viewer::lasting_settings() const {
     Settings settings = replay_.lasting(state_);
     const TouchParameters& before = options_.settings.touch;
     if (settings.fit_relief) settings.touch.shape.relief_px = before.shape.relief_px;
+    const Material& material = state_.material;
+    if (material.bumps && has_texture(material, settings.touch)) {  // as its file has it
+        settings.touch.shape.roughness_px = before.shape.roughness_px;
+        settings.touch.shape.bump_size_px = before.shape.bump_size_px;
+    }
     if (settings.fit_pitch) settings.touch.coupling.pixel_pitch_mm = before.coupling.pixel_pitch_mm;
     return settings;
 }
 
 void Viewer::fit_to_media() {
     Settings& settings = state_.settings;
+    const bool keeps_texture = has_texture(state_.material, settings.touch);
     const Fit fit = fit_of(state_.media);
     if (settings.fit_relief) settings.touch.shape.relief_px = fit.relief_px;
     if (settings.fit_pitch) settings.touch.coupling.pixel_pitch_mm = fit.pixel_pitch_mm;
+    if (keeps_texture) lay_texture(state_.material, settings.touch);  // a pixel is of another size
     keep_in_range(settings.touch);
 }
 
@@ -213,20 +237,31 @@ void Viewer::load_bump(const std::filesystem::path& file) {
     attempt([&] {
         state_.bump = file.empty() ? nullptr : std::make_shared<const BumpMap>(read_bump_map(file));
         state_.bump_file = file;
-        stretch_bump();
+        if (state_.bump) make_felt(state_.settings.touch);
     });
 }
 
-void Viewer::stretch_bump() try {
-    const int columns = state_.media.depth_columns;
-    const int rows = state_.media.depth_rows;
-    if (!state_.bump || is_stretched(*state_.bump, columns, rows)) return;
-    const BumpMap& unstretched = *state_.bump;  // which the loop may hold
-    auto bump = std::make_shared<BumpMap>(
-        BumpMap{unstretched.columns, unstretched.rows, unstretched.heights});
-    stretch(*bump, columns, rows);
-    state_.bump = std::move(bump);
-} catch (const std::bad_alloc&) {  // it is felt all the same, in more time
+void Viewer::take_material(const std::string& name) {
+    attempt([&] {
+        Material material = material_called(name);
+        lay(material, state_.settings.touch);
+        state_.bump = material.bumps;
+        state_.bump_file = material.map;
+        state_.settings.material = material.name.empty() ? std::string{} : name;
+        state_.material = std::move(material);
+    });
+}
+
+void Viewer::keep_material(const std::string& name) {
+    attempt([&] {
+        Material material = material_of(state_.settings.touch, state_.bump_file, state_.bump,
+                                        state_.media.depth_columns);
+        material.name = name;
+        tell("Kept as " + save_material(material).string());
+        state_.materials = material_names();
+        state_.fields.material = {};
+        take_material(name);
+    });
 }
 
 void Viewer::start_loop() {
@@ -252,7 +287,16 @@ void Viewer::draw_scene(glm::ivec2 viewport) {
     camera_.set_projection(state_.settings.straight_view ? Camera::Projection::straight
                                                          : Camera::Projection::perspective);
     state_.under_hand = under_hand(state_, shown_);
-    scene_.draw(scene_content(state_, shown_), camera_, viewport);
+    SceneContent content = scene_content(state_, shown_);
+    leave_trace(content.markers);
+    scene_.draw(content, camera_, viewport);
+}
+
+void Viewer::leave_trace(TouchMarkers& markers) {
+    if (!state_.settings.look.trace || !shown_.makes_surface()) return;
+    if (markers.visible && markers.contact) trace_.add(markers.proxy, now_s());
+    const DepthSurface surface = shown_.drawn_surface(state_.shape(), state_.bump.get());
+    markers.trace = trace_.points(surface, now_s());
 }
 
 }  // namespace dibhr

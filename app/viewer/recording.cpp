@@ -35,6 +35,7 @@ std::map<std::string, std::string> session_facts(const ViewerState& state) {
         {"depth-columns", std::to_string(state.media.depth_columns)},
         {"depth-rows", std::to_string(state.media.depth_rows)},
         {"bump", state.bump_file.string()},
+        {"material", state.material.name},
         {"max-force", number_text(state.settings.max_force_newton)},
         {"stability", state.settings.stability ? "on" : "off"},
         {"damping-as-needed", state.settings.damping_as_needed ? "yes" : "no"},

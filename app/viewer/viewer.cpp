@@ -75,7 +75,9 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending)
     window_.on_display_loss([this] { close_without_display(); });
     state_.device = hand_.device->specification();
     state_.bump = std::move(parts.bump);
-    state_.bump_file = options.touch.bump;
+    state_.bump_file = std::move(parts.bump_file);
+    state_.material = std::move(parts.material);
+    state_.materials = material_names();
     state_.fonts = gui_.fonts();
     state_.scale = gui_.scale();
     if (parts.session) {
@@ -243,6 +245,7 @@ void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {
     const Pointer pointer = window_.pointer();
     PointerUse use =
         mouse_.use(pointer, input.wheel_steps, gui_.wants_pointer(), viewport, camera_);
+    pressed_deeper_ = pressed_deeper_ || (use.pressed && use.wheel_steps != 0.0);
     // While the Falcon touches the mouse only points, so that it does not take over pressing.
     if (hand_.falcon != nullptr && !state_.haptic.hand.stand_in) use.pressed = false;
     if (state_.replay || hand_.mouse == nullptr || !shown_.makes_surface()) return;
@@ -261,10 +264,16 @@ void Viewer::draw_panels() {
             draw_transport_bar(state_, player_);
         }
     }
-    if (state_.touched) hint_alpha_ = std::max(0.0F, hint_alpha_ - 0.03F);
+    const auto fade = [](float& alpha) { alpha = std::max(0.0F, alpha - 0.03F); };
+    if (state_.touched) fade(hint_alpha_);
+    if (pressed_deeper_) fade(wheel_hint_alpha_);
     const bool mouse_touches = !state_.replay && hand_.mouse != nullptr &&
                                (hand_.falcon == nullptr || state_.haptic.hand.stand_in);
-    if (mouse_touches && state_.message.empty()) draw_hint(state_, hint_alpha_);
+    if (mouse_touches && state_.message.empty()) {
+        draw_hint(state_, Hint::touch, hint_alpha_);
+        const bool wonders = hint_alpha_ <= 0.0F && state_.haptic.touch.proxy.contact;
+        if (wonders) draw_hint(state_, Hint::press_deeper, wheel_hint_alpha_);
+    }
     draw_overlay(state_, now_s());
     draw_help_sheet(state_);
     draw_message_box(state_);
@@ -278,6 +287,8 @@ void Viewer::carry_out_requests() {
     if (asked.meaning) open_again(*asked.meaning);
     if (asked.save_sidecar) attempt([&] { tell(save_sidecar()); });
     if (asked.bump) load_bump(*asked.bump);
+    if (asked.material) take_material(*asked.material);
+    if (!asked.keep_material.empty()) keep_material(asked.keep_material);
     if (asked.firmware) attempt([&] { tell(falcon_.use_firmware(*asked.firmware, state_)); });
     if (asked.reset_view) frame_relief();
     if (asked.full_screen) window_.toggle_full_screen();
@@ -292,6 +303,8 @@ void Viewer::carry_out_requests() {
 void Viewer::hand_over_settings() {
     if (state_.replay) return;
     fit_to_media();
+    stretch(state_.bump, state_.media.depth_columns, state_.media.depth_rows,
+            state_.settings.touch.shape.bump_size_px);
     // As they are wished: the loop holds them to what the hand it reads can stand.
     TouchParameters parameters = state_.settings.touch;
     parameters.coupling = asked_coupling(state_);

@@ -17,6 +17,7 @@
 #include "app/viewer/input.hpp"
 #include "app/viewer/recording.hpp"
 #include "app/viewer/replay.hpp"
+#include "app/viewer/trace.hpp"
 #include "app/window/ending.hpp"
 #include "app/window/window.hpp"
 #include "core/error.hpp"
@@ -47,7 +48,9 @@ struct ViewerParts {
     std::unique_ptr<Media> media{};
     std::unique_ptr<OpenedSession> session{};  ///< to be replayed, in place of media
     HandDevice hand{};
+    Material material{};  ///< of the settings or the command line
     std::shared_ptr<const BumpMap> bump{};
+    std::filesystem::path bump_file{};
 };
 
 class Viewer {
@@ -91,7 +94,9 @@ class Viewer {
     std::string save_sidecar();
     void frame_relief();
     void load_bump(const std::filesystem::path& file);
-    void stretch_bump();
+    void leave_trace(TouchMarkers& markers);
+    void take_material(const std::string& name);
+    void keep_material(const std::string& name);
     void start_or_stop_recording();
     void beat();
     void beat_while_drawing();
@@ -135,6 +140,9 @@ class Viewer {
     CleaningOptions cleaning_handed_{};
     DepthBlend shown_{};  // of the picture being made
     float hint_alpha_{1.0F};
+    float wheel_hint_alpha_{1.0F};
+    bool pressed_deeper_{false};  // with the wheel, at least once
+    TouchTrace trace_{};
     std::string playback_failure_{};  // as told
     std::uint64_t bounds_met_{0};     // as of the last picture
     std::uint64_t standstills_{0};    // as told

@@ -28,6 +28,7 @@ Settings unusual_settings() {
     settings.panels_visible = false;
     settings.touch.shape.relief_px = 123.456789012345;
     settings.touch.algorithm = Algorithm::neighborhood;
+    settings.material = "my \"old\" oak";
     settings.touch.friction = {0.7, 0.3};
     settings.touch.coupling.damping_cutoff_hz = 62.5;
     settings.cleaning.own.fill_holes = false;

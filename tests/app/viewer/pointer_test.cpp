@@ -3,9 +3,11 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <optional>
+#include <vector>
 
 #include "app/viewer/files.hpp"
 #include "app/viewer/input.hpp"
+#include "app/viewer/trace.hpp"
 #include "core/error.hpp"
 #include "device/hand_device.hpp"
 #include "tests/app/program/desk.hpp"
@@ -85,6 +87,28 @@ TEST_CASE("a stroke over the image's edge goes on beside it, and the wheel press
     CHECK_THAT(target.cursor_in_grid.x, WithinAbs(90.0, 1e-9));
     CHECK(target.pressed);
     CHECK_THAT(pointer.target(over, surface, {true, false, 0.0}).wheel_px, WithinAbs(0.0, 1e-12));
+}
+
+TEST_CASE("the trace is where one has touched, stays on a surface that moves, and fades",
+          "[pointer]") {
+    const DepthImage low = image_of(64, 48, 255.0, [](int, int) { return 50; });
+    const DepthImage high = image_of(64, 48, 255.0, [](int i, int) { return 100 + i; });
+    const DepthSurface before(low, low, 0.0, {255.0});
+    const DepthSurface after(high, high, 0.0, {255.0});
+    TouchTrace trace;
+    CHECK(trace.points(before, 0.0).empty());
+    for (int k = 0; k <= 100; ++k) trace.add({10.0 + 0.4 * k, 20.0, 50.0}, 0.01 * k);
+    const std::vector<TracePoint> now = trace.points(before, 1.0);
+    REQUIRE(now.size() == 8);  // a dot every 5 px or a little more, of 40
+    for (std::size_t k = 1; k < now.size(); ++k) {
+        CHECK(now[k].place.x - now[k - 1].place.x >= TouchTrace::kApart_px);
+        CHECK(now[k].strength > now[k - 1].strength);
+        CHECK(now[k].place.z == 50.0);
+    }
+    for (const TracePoint& point : trace.points(after, 1.5))
+        CHECK_THAT(point.place.z, WithinAbs(100.0 + point.place.x, 1e-9));
+    CHECK(trace.points(after, 4.5).size() < now.size());
+    CHECK(trace.points(after, 5.5).empty());
 }
 
 TEST_CASE("of two dropped pictures the depth is known by its name, else by being grey",

@@ -12,6 +12,7 @@
 #include <system_error>
 #include <vector>
 
+#include "app/settings/material.hpp"
 #include "app/settings/settings.hpp"
 #include "core/session/session.hpp"
 #include "core/video/libraries.hpp"
@@ -51,10 +52,11 @@ std::string stroke() {
     return commands;
 }
 
-/// Clicks on the list of algorithms, an entry of it, and the sliders under it.
+/// Clicks on the list of algorithms, under two lines of materials, an entry of it, and the sliders
+/// under it.
 std::string change_touch_panel() {
     std::string commands;
-    for (const int y : {100, 140, 160, 172, 184, 196, 208, 220}) {
+    for (const int y : {146, 186, 206, 218, 230, 242, 254, 266}) {
         commands += "mousemove 1130 " + std::to_string(y) + " sleep 0.15 mousedown 1 sleep 0.15 " +
                     "mouseup 1 sleep 0.15 ";
     }
@@ -149,6 +151,38 @@ TEST_CASE(
     CHECK(other_cutoff);
     CHECK(force_off);
     require_same_bits(folder, file);
+}
+
+TEST_CASE("a material is chosen by one click, felt, recorded and replayed, and there the next time",
+          "[session]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    make_films(folder);
+    open_touch_panel_only(folder);
+    const auto view = [&](const std::string& recording, const std::string& commands) {
+        Process viewer =
+            desk.start_viewer(folder, {"film_color.mkv", "--device", "mouse", "--size", "1280x800",
+                                       "--record", recording, "--seconds", "60"});
+        desk.act(kMeet + commands + "key ctrl+q");
+        REQUIRE(viewer.wait() == 0);
+        require_same_bits(folder, folder / recording);
+    };
+    const std::string click_on_bark =
+        "sleep 0.5 mousemove 1063 101 sleep 0.2 mousedown 1 sleep 0.2 mouseup 1 sleep 0.5 ";
+    view("first.dibhr", click_on_bark + stroke() + "mouseup 1 sleep 0.3 ");
+    view("next.dibhr", "sleep 0.5 " + stroke() + "mouseup 1 sleep 0.3 ");
+
+    const Session first(folder / "first.dibhr");
+    const TouchParameters plain = first.parameters().front().touch;
+    CHECK(first.parameters().front().bump.file.empty());
+    const SessionParameters& chosen = first.parameters().back();
+    CHECK(chosen.bump.file.filename() == "bark.png");
+    CHECK(is_made_of(material_called("bark"), chosen.touch));
+    CHECK_FALSE(chosen.touch == plain);
+    const Session next(folder / "next.dibhr");
+    CHECK(next.fact("material") == "bark");
+    CHECK(next.parameters().front().touch == chosen.touch);
+    CHECK(next.parameters().front().bump.file == chosen.bump.file);
 }
 
 TEST_CASE("a session is replayed in the window, moved by keys, and ends like any other",

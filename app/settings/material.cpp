@@ -1,0 +1,289 @@
+// Reads, finds and keeps materials.
+#include "app/settings/material.hpp"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include "app/settings/assets_path.hpp"
+#include "app/settings/settings.hpp"
+#include "core/error.hpp"
+#include "core/files/output_file.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/video/media.hpp"
+
+namespace dibhr {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kEnding = ".toml";
+constexpr std::uintmax_t kMostBytes = 1U << 20;  ///< a page of text; more is no material
+constexpr std::size_t kLongestName = 60;
+
+/// A number of the file, and what it is of the material.
+struct Property {
+    std::string_view name;
+    double lowest;
+    double highest;
+    double& (*in)(Material&);
+    std::string_view unit;
+};
+
+double highest_of(std::string_view number) {
+    return touch_number(number)->highest;
+}
+
+const std::array<Property, 6>& properties() {
+    static const std::array<Property, 6> all{{
+        {"width", 0.1, 1000.0, [](Material& m) -> double& { return m.width_mm; },
+         "mm of the map, which repeats"},
+        {"height", 0.0, 50.0, [](Material& m) -> double& { return m.height_mm; },
+         "mm from its lowest to its highest point"},
+        {"static-friction", 0.0, highest_of("static-friction"),
+         [](Material& m) -> double& { return m.friction.static_coefficient; }, ""},
+        {"dynamic-friction", 0.0, highest_of("dynamic-friction"),
+         [](Material& m) -> double& { return m.friction.dynamic_coefficient; }, ""},
+        {"stiffness", 0.0, highest_of("stiffness"),
+         [](Material& m) -> double& { return m.stiffness_newton_per_mm; }, "N/mm"},
+        {"damping", 0.0, highest_of("damping"),
+         [](Material& m) -> double& { return m.damping_newton_s_per_m; }, "N s/m"},
+    }};
+    return all;
+}
+
+[[noreturn]] void refuse(const fs::path& file, const toml::node& node, const std::string& what) {
+    throw InputError(
+        one_line(file.string() + ":" + std::to_string(node.source().begin.line) + ": " + what));
+}
+
+std::string known_properties() {
+    std::string names = "map";
+    for (const Property& property : properties()) names += ", " + std::string(property.name);
+    return names;
+}
+
+void take_number(const fs::path& file, const Property& property, const toml::node& node,
+                 Material& material) {
+    const auto number = node.is_number() ? node.value<double>() : std::nullopt;
+    if (!number || !(*number >= property.lowest && *number <= property.highest))
+        refuse(file, node,
+               std::string(property.name) + " is not a number from " + short_text(property.lowest) +
+                   " to " + short_text(property.highest));
+    property.in(material) = *number;
+}
+
+void take(const fs::path& file, std::string_view name, const toml::node& node, Material& material) {
+    if (name == "map") {
+        const auto map = node.value_exact<std::string>();
+        if (!map || map->empty()) refuse(file, node, "map is not the name of a picture in quotes");
+        material.map = fs::absolute(file).parent_path() / *map;
+        return;
+    }
+    const auto& all = properties();
+    const auto* const found = std::find_if(
+        all.begin(), all.end(), [name](const Property& known) { return known.name == name; });
+    if (found == all.end())
+        refuse(file, node,
+               in_quotes(name) + " is no property of a material: those are " + known_properties());
+    take_number(file, *found, node, material);
+}
+
+toml::table table_of(const fs::path& file) {
+    std::error_code failed;
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream content;
+    const bool fits =
+        fs::is_regular_file(file, failed) && fs::file_size(file, failed) <= kMostBytes;
+    if (in && fits && fs::file_size(file, failed) > 0) content << in.rdbuf();
+    if (!in || !fits)
+        throw InputError("cannot read the material " + shown(file) +
+                         ": name a small text file that can be read");
+    try {
+        return toml::parse(content.str());
+    } catch (const toml::parse_error& error) {
+        std::ostringstream text;
+        text << file.string() << ":" << error.source().begin.line << ": cannot be understood ("
+             << error.description() << "); mend it";
+        throw InputError(one_line(text.str()));  // it quotes the file
+    }
+}
+
+std::vector<std::string> names_in(const fs::path& folder) {
+    std::vector<std::string> names;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(folder, none))
+        if (entry.path().extension() == kEnding) names.push_back(entry.path().stem().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+void require_own_name(const std::string& name) {
+    const auto fits = [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '-' || c == '_' || c == ' ' || c >= 0x80;
+    };
+    const bool names_file = !name.empty() && name.size() <= kLongestName && name.front() != ' ' &&
+                            name.back() != ' ' && std::all_of(name.begin(), name.end(), fits);
+    if (!names_file)
+        throw InputError(in_quotes(name) +
+                         " is no name for a material: use letters, digits, spaces and hyphens");
+    if (name == kAsRecorded || contains(material_names().shipped, name))
+        throw InputError(in_quotes(name) +
+                         " is a material that comes with the program: choose another name");
+}
+
+std::string bytes_of(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream bytes;
+    bytes << in.rdbuf();
+    if (!in || bytes.fail())
+        throw InputError("cannot read the bump map " + shown(file) +
+                         ": put it back, or choose another");
+    return bytes.str();
+}
+
+std::string toml_of(Material material, const fs::path& map) {
+    std::ostringstream text;
+    text << "# A material of dibhr; any file like this can be named with --material or dropped on "
+            "the window.\n";
+    if (!map.empty()) text << "map = " << toml::value<std::string>(map.string()) << '\n';
+    for (const Property& property : properties()) {
+        text << property.name << " = " << number_text(property.in(material));
+        if (!property.unit.empty()) text << "  # " << property.unit;
+        text << '\n';
+    }
+    return text.str();
+}
+
+}  // namespace
+
+void lay_texture(const Material& material, TouchParameters& parameters) {
+    SurfaceShape& shape = parameters.shape;
+    shape.roughness_px = shape.bump_size_px = 0.0;
+    if (material.bumps) {
+        const double pitch_mm = parameters.coupling.pixel_pitch_mm;
+        shape.roughness_px = material.height_mm / pitch_mm;
+        shape.bump_size_px = std::max(material.width_mm / pitch_mm, 0.5 * material.bumps->columns);
+    }
+    keep_in_range(parameters);
+}
+
+void lay(const Material& material, TouchParameters& parameters) {
+    lay_texture(material, parameters);
+    parameters.friction = material.friction;
+    parameters.coupling.stiffness_newton_per_mm = material.stiffness_newton_per_mm;
+    parameters.coupling.damping_newton_s_per_m = material.damping_newton_s_per_m;
+    keep_in_range(parameters);
+}
+
+bool has_texture(const Material& material, const TouchParameters& parameters) {
+    TouchParameters laid = parameters;
+    lay_texture(material, laid);
+    return laid == parameters;
+}
+
+bool is_made_of(const Material& material, const TouchParameters& parameters) {
+    TouchParameters laid = parameters;
+    lay(material, laid);
+    return laid == parameters;
+}
+
+Material material_of(const TouchParameters& parameters, const fs::path& map,
+                     std::shared_ptr<const BumpMap> bumps, int columns) {
+    const double pitch_mm = parameters.coupling.pixel_pitch_mm;
+    Material material{.map = map,
+                      .bumps = std::move(bumps),
+                      .friction = parameters.friction,
+                      .stiffness_newton_per_mm = parameters.coupling.stiffness_newton_per_mm,
+                      .damping_newton_s_per_m = parameters.coupling.damping_newton_s_per_m};
+    if (material.bumps) {
+        const double size_px = parameters.shape.bump_size_px;
+        material.width_mm = (size_px > 0.0 ? size_px : columns) * pitch_mm;
+        material.height_mm = parameters.shape.roughness_px * pitch_mm;
+    }
+    for (const Property& property : properties()) {
+        double& number = property.in(material);
+        number = std::clamp(number, property.lowest, property.highest);
+    }
+    return material;
+}
+
+Material read_material(const fs::path& file) {
+    const toml::table table = table_of(file);
+    Material material{.name = file.stem().string()};
+    for (const auto& [name, node] : table) take(file, name.str(), node, material);
+    const Friction& friction = material.friction;
+    if (friction.dynamic_coefficient > friction.static_coefficient)
+        throw InputError(shown(file) +
+                         ": its dynamic friction is above its static friction; lower it");
+    if (!material.map.empty())
+        material.bumps = std::make_shared<const BumpMap>(read_bump_map(material.map));
+    return material;
+}
+
+Material material_called(const std::string& name) {
+    if (name == kAsRecorded) return {};
+    if (fs::path(name).extension() == kEnding) return read_material(name);
+    for (const fs::path& folder : {own_materials_folder(), shipped_materials_folder()}) {
+        if (contains(names_in(folder), name)) return read_material(folder / (name + kEnding));
+    }
+    throw InputError("no material is called " + in_quotes(name) + ": there are " +
+                     list_of_materials() + ", and files that end in .toml");
+}
+
+MaterialNames material_names() {
+    MaterialNames names{.own = names_in(own_materials_folder())};
+    try {
+        names.shipped = names_in(shipped_materials_folder());
+    } catch (const InputError&) {  // whoever asks for one of them is told
+    }
+    return names;
+}
+
+std::string list_of_materials() {
+    const MaterialNames names = material_names();
+    std::string list(kAsRecorded);
+    for (const auto* group : {&names.shipped, &names.own})
+        for (const std::string& name : *group) list += ", " + name;
+    return list;
+}
+
+fs::path own_materials_folder() {
+    return settings_path().parent_path() / "materials";
+}
+
+fs::path save_material(const Material& material) {
+    require_own_name(material.name);
+    const fs::path folder = own_materials_folder();
+    std::error_code failed;
+    fs::create_directories(folder, failed);
+    fs::path map;
+    if (!material.map.empty()) {
+        map = material.name + material.map.extension().string();
+        if (!fs::equivalent(material.map, folder / map, failed)) {
+            const std::string bytes = bytes_of(material.map);
+            OutputFile copy(folder / map);
+            copy.write(bytes);
+            copy.commit();
+        }
+    }
+    const fs::path file = folder / (material.name + kEnding);
+    OutputFile out(file);
+    out.write(toml_of(material, map));
+    out.commit();
+    return file;
+}
+
+}  // namespace dibhr
