@@ -12,7 +12,8 @@ namespace dibhr {
 namespace {
 
 std::string point_text(const Vec3& p) {
-    return formatted("%7.1f %7.1f %7.1f px", p.x, p.y, p.z);
+    return formatted("%7s %7s %7s px", decimal(p.x, 1).c_str(), decimal(p.y, 1).c_str(),
+                     decimal(p.z, 1).c_str());
 }
 
 /// Its counts mean no place that the grip can be at, or its replies have grown old.
@@ -70,14 +71,16 @@ void draw_force_switch(ViewerState& state, float width) {
 void draw_device_panel(ViewerState& state) {
     if (!section(state, "Device", state.settings.panels.device, &state.show_device)) return;
     ImGui::PushID("device");
-    if (state.falcon) {
+    const bool has_falcon = in_sight(state);
+    if (has_falcon) {
         draw_falcon_state(state);
     } else {
-        fact_row("Device", state.device.name);
+        fact_row("Device", state.falcon ? "mouse" : state.device.name);
+        if (state.falcon) quiet_text("A Novint Falcon takes over as soon as it is plugged in.");
     }
     fact_row("State", state_text(state));
     draw_force_switch(state, -1.0F);
-    if (state.falcon) {
+    if (has_falcon) {
         flag_row("Force only while the window is in front",
                  state.settings.falcon.force_in_front_only, FalconSettings{}.force_in_front_only,
                  "No force while the keyboard goes to another window, or this one is an icon: the "
@@ -95,7 +98,7 @@ void draw_device_panel(ViewerState& state) {
     fact_row("Proxy", point_text(touch.proxy.position));
     fact_row("Force", formatted("%.2f N", glm::length(touch.sent_force_newton)));
     if (touch.cut != SafetyCut::none) fact_row("Cut", name_of(touch.cut));
-    if (state.falcon) draw_falcon_settings(state);
+    if (has_falcon) draw_falcon_settings(state);
     ImGui::PopID();
 }
 

@@ -60,6 +60,13 @@ bool clutched(const ViewerState& state) {
     return touches(state) && held != 0;
 }
 
+bool in_sight(const ViewerState& state) {
+    if (!state.falcon) return false;
+    const FalconNews& news = *state.falcon;
+    return news.status.stage != Stage::looking || news.status.trouble || news.was_ready ||
+           !state.haptic.hand.stand_in;
+}
+
 std::string falcon_banner(const ViewerState& state) {
     if (!state.falcon || state.replay) return {};
     if (touches(state) && state.force_enabled && waits_for_front(state)) {

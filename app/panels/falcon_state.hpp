@@ -28,6 +28,9 @@ namespace dibhr {
 /// It waits for something that a person has to do.
 [[nodiscard]] bool needs_its_person(falcon::Stage stage);
 
+/// It is attached, was so in this run, or is waited for by name: else the mouse is all there is.
+[[nodiscard]] bool in_sight(const ViewerState& state);
+
 /// What to say over the relief of a Falcon that is there and does not touch, was lost, or waits for
 /// the window; empty: nothing.
 [[nodiscard]] std::string falcon_banner(const ViewerState& state);

@@ -91,8 +91,9 @@ std::string touch_text(const ViewerState& state) {
     if (!haptic.touch.proxy.contact) return "Free";
     const Vec3& f = haptic.touch.sent_force_newton;
     const bool limited = glm::length(haptic.touch.spring_force_newton) > 1.001 * glm::length(f);
-    return formatted("Touching   %.2f N%s   (%+.2f, %+.2f, %+.2f)", glm::length(f),
-                     limited ? ", limited" : "", f.x, f.y, f.z);
+    return formatted("Touching   %.2f N%s   (%s, %s, %s)", glm::length(f),
+                     limited ? ", limited" : "", decimal(f.x, 2).c_str(), decimal(f.y, 2).c_str(),
+                     decimal(f.z, 2).c_str());
 }
 
 struct Explained {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/panels/panels.hpp"
+#include "core/files/plain_text.hpp"
 
 namespace dibhr {
 
@@ -333,6 +334,12 @@ std::string formatted(const char* format, ...) {
     std::vsnprintf(text, sizeof text, format, values);
     va_end(values);
     return text;
+}
+
+std::string decimal(double value, int digits) {
+    std::string text = number_text(value, digits);
+    const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
+    return is_zero && text.front() == '-' ? text.substr(1) : text;
 }
 
 std::string date_text(const std::string& utc) {

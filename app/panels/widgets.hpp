@@ -83,6 +83,9 @@ bool button_or_drop(const char* label, bool enabled, const char* dropped);
 /// A row for each touch parameter of that topic, with its label, unit, range and help.
 void draw_numbers(TouchTopic topic, TouchParameters& parameters);
 
+/// With so many digits after the point, and no sign where they are all 0.
+[[nodiscard]] std::string decimal(double value, int digits);
+
 /// A name and a value to read.
 void fact_row(const char* label, const std::string& value);
 

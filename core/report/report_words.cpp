@@ -164,7 +164,7 @@ std::vector<Definition> definitions() {
 
 std::string device_text(const std::string& device, const HandTicks& hand) {
     if (hand.stand_in <= 0) return device;
-    if (hand.stand_in >= hand.all) return device + "; the mouse stood in for all of it";
+    if (hand.stand_in >= hand.all) return "mouse";
     constexpr double kLeast = 0.1;  // percent; not none, and not all
     const double percent =
         100.0 * static_cast<double>(hand.stand_in) / static_cast<double>(hand.all);
