@@ -232,7 +232,7 @@ void draw_firmware_field(ViewerState& state) {
     const bool named = state.fields.firmware[0] != '\0';
     const bool pressed = button_or_drop("Load", named, "the file");
     if ((entered || pressed) && named) {
-        state.requests.firmware = std::filesystem::path(state.fields.firmware.data());
+        state.requests.firmware = typed_path(state.fields.firmware.data());
     }
 }
 

@@ -121,7 +121,7 @@ void draw_bump(ViewerState& state) {
     }
     if (text_field("##bump", "Bump map: a grey picture", state.fields.bump,
                    "Path of a picture laid over the surface as fine relief; Enter takes it")) {
-        state.requests.bump = std::filesystem::path(state.fields.bump.data());
+        state.requests.bump = typed_path(state.fields.bump.data());
     }
     if (!state.bump) return;
     fact_row("Bump map", state.bump_file.filename().string());

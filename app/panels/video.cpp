@@ -1,6 +1,8 @@
 // The Video panel: which files, playback, and the cleaning of depth.
 #include <algorithm>
+#include <filesystem>
 #include <string>
+#include <system_error>
 
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
@@ -9,6 +11,34 @@
 namespace dibhr {
 
 namespace {
+
+/// The files opened before, the last one first; those that are gone cannot be chosen.
+void draw_recent(ViewerState& state) {
+    const char* const label = "Recent";
+    const float width = ImGui::CalcTextSize(label).x + 2.0F * ImGui::GetStyle().FramePadding.x;
+    ImGui::SameLine();
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() +
+                         std::max(0.0F, ImGui::GetContentRegionAvail().x - width));
+    ImGui::BeginDisabled(state.recent.empty());
+    if (ImGui::Button(label)) ImGui::OpenPopup("recent");
+    ImGui::EndDisabled();
+    explain("Files that were opened before");
+    if (!ImGui::BeginPopup("recent")) return;
+    for (const RecentFile& file : state.recent) {
+        std::error_code unknown;
+        const bool there = std::filesystem::exists(file.colour, unknown);
+        const std::string depth =
+            file.depth.empty() ? std::string{} : " + " + file.depth.filename().string();
+        ImGui::BeginDisabled(!there);
+        ImGui::PushID(&file);
+        if (ImGui::Selectable((file.colour.filename().string() + depth).c_str()))
+            state.requests.open = OpenRequest{file.colour, file.depth};
+        ImGui::PopID();
+        ImGui::EndDisabled();
+        explain(file.colour.c_str());
+    }
+    ImGui::EndPopup();
+}
 
 void draw_open(ViewerState& state) {
     if (state.fields.ask_for_keyboard > 0) {
@@ -26,8 +56,10 @@ void draw_open(ViewerState& state) {
     const bool pressed =
         button_or_drop(state.opening ? "Opening" : "Open", named && !state.opening, "files");
     if ((from_colour || from_depth || pressed) && named) {
-        state.requests.open = OpenRequest{state.fields.colour.data(), state.fields.depth.data()};
+        state.requests.open = OpenRequest{typed_path(state.fields.colour.data()),
+                                          typed_path(state.fields.depth.data())};
     }
+    draw_recent(state);
 }
 
 void draw_files(const MediaDescription& media) {

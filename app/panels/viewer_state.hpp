@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/settings/material.hpp"
+#include "app/settings/recent_files.hpp"
 #include "app/settings/settings.hpp"
 #include "app/window/window.hpp"
 #include "core/loop/device.hpp"
@@ -136,6 +137,7 @@ struct ViewerState {
 
     // Shown only.
     MaterialNames materials{};  ///< to choose from
+    std::vector<RecentFile> recent{};
     DeviceSpecification device{};
     MediaDescription media{};
     OpenRequest opened{};  ///< how it was opened

@@ -9,6 +9,8 @@
 
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
+#include "app/settings/assets_path.hpp"
+#include "app/settings/recent_files.hpp"
 #include "app/viewer/viewer.hpp"
 #include "core/error.hpp"
 #include "core/haptics/facet.hpp"
@@ -144,6 +146,10 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
     if (!request.chosen || !same_size) frame_relief();
     show_title(state_.media.colour_path.empty() ? state_.media.depth_path
                                                 : state_.media.colour_path);
+    // As it was named, or, dropped, as it was told apart.
+    keep_recent(request.in_any_order && !request.depth.empty()
+                    ? RecentFile{state_.media.colour_path, state_.media.depth_path}
+                    : RecentFile{request.colour, request.depth});
     player_.play_media(std::move(media), recording_.opened(state_.media));
     if (request.at_s > 0.0) player_.seek(request.at_s);
     if (request.paused) player_.pause();
@@ -156,8 +162,18 @@ void Viewer::replay_session(std::unique_ptr<OpenedSession> session) {
     loop_.reset();  // the force goes to zero, and nobody touches
     player_.pause();
     show_title(session->session.file());
+    keep_recent({session->session.file()});
     replay_.begin(std::move(session), std::exchange(options_.touch.given, {}), state_);
     frame_relief();
+}
+
+/// A history that cannot be kept is none: whoever has such a home is told of the settings.
+void Viewer::keep_recent(const RecentFile& opened) try {
+    const SampleFiles sample = sample_files();
+    const std::filesystem::path history = recent_files_path();
+    if (opened != RecentFile{sample.colour, sample.depth}) remember(opened, history);
+    state_.recent = read_recent_files(history);
+} catch (const InputError&) {
 }
 
 void Viewer::show_title(const std::filesystem::path& file) {

@@ -84,6 +84,7 @@ class Viewer {
     void keep_settings();
     void show_media(std::unique_ptr<Media> media, const OpenRequest& request);
     void replay_session(std::unique_ptr<OpenedSession> session);
+    void keep_recent(const RecentFile& opened);
     void show_title(const std::filesystem::path& file);
     void start_loop();
     /// What a person chose, not what a media or a replay did.

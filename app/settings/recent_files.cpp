@@ -1,0 +1,74 @@
+// Which files were opened before.
+#include "app/settings/recent_files.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <fstream>
+#include <system_error>
+
+#include "core/error.hpp"
+#include "core/files/output_file.hpp"
+
+namespace dibhr {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kMostKept = 12;
+constexpr std::size_t kLongestLine = 16384;  // two paths and more
+constexpr const char* kOwnBytes = "\t\n";    // which end a path and a line here
+
+fs::path home() {
+    const char* const folder = std::getenv("HOME");
+    return folder != nullptr ? folder : "/";
+}
+
+fs::path whole(const fs::path& file) {
+    return file.empty() ? file : fs::absolute(file).lexically_normal();
+}
+
+}  // namespace
+
+fs::path recent_files_path() {
+    const char* const folder = std::getenv("XDG_STATE_HOME");
+    const fs::path states =
+        folder != nullptr && *folder == '/' ? fs::path(folder) : home() / ".local" / "state";
+    return states / "dibhr" / "recent";
+}
+
+std::vector<RecentFile> read_recent_files(const fs::path& file) {
+    std::vector<RecentFile> files;
+    std::ifstream in(file, std::ios::binary);
+    for (std::string line; files.size() < kMostKept && std::getline(in, line);) {
+        const std::size_t tab = line.find('\t');
+        if (tab == std::string::npos || tab == 0 || line.size() > kLongestLine) continue;
+        files.push_back({line.substr(0, tab), line.substr(tab + 1)});
+    }
+    return files;
+}
+
+void remember(const RecentFile& opened, const fs::path& file) {
+    const RecentFile first{whole(opened.colour), whole(opened.depth)};
+    const std::string names = first.colour.string() + first.depth.string();
+    if (first.colour.empty() || names.find_first_of(kOwnBytes) != std::string::npos) return;
+    std::vector<RecentFile> files = read_recent_files(file);
+    if (!files.empty() && files.front() == first) return;
+    files.erase(std::remove(files.begin(), files.end(), first), files.end());
+    files.insert(files.begin(), first);
+    files.resize(std::min(files.size(), kMostKept));
+    std::error_code failed;  // is told when the file is opened
+    fs::create_directories(file.parent_path(), failed);
+    OutputFile out(file);
+    for (const RecentFile& kept : files)
+        out.write(kept.colour.string() + "\t" + kept.depth.string() + "\n");
+    out.commit();
+}
+
+fs::path typed_path(const std::string& text) {
+    if (text == "~") return home();
+    return text.starts_with("~/") ? home() / text.substr(2) : fs::path(text);
+}
+
+}  // namespace dibhr

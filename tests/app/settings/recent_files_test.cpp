@@ -1,0 +1,82 @@
+// Which files were opened before, and how paths are typed.
+#include "app/settings/recent_files.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/app/program/command_program.hpp"
+#include "tests/app/program/desk.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/text.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+namespace fs = std::filesystem;
+
+TEST_CASE("the last file opened is the first, twelve are kept, and none twice", "[recent]") {
+    const TemporaryFolder folder;
+    const fs::path history = folder / "state/dibhr/recent";
+    CHECK(read_recent_files(history).empty());
+    for (int k = 0; k < 20; ++k) {
+        const std::string name = "/films/" + std::to_string(k);
+        remember({name + " a.mp4", k % 2 == 0 ? fs::path{} : fs::path(name + " b.mp4")}, history);
+    }
+    remember({"/films/15 a.mp4", "/films/15 b.mp4"}, history);
+    const std::vector<RecentFile> files = read_recent_files(history);
+    REQUIRE(files.size() == 12);
+    CHECK(files[0] == RecentFile{"/films/15 a.mp4", "/films/15 b.mp4"});
+    CHECK(files[1] == RecentFile{"/films/19 a.mp4", "/films/19 b.mp4"});
+    CHECK(files[2] == RecentFile{"/films/18 a.mp4", {}});
+    CHECK(files[5] == RecentFile{"/films/14 a.mp4", {}});
+    CHECK(names_in(folder / "state/dibhr") == std::vector<std::string>{"recent"});
+}
+
+TEST_CASE("paths are kept whole, and what a line cannot hold is not", "[recent]") {
+    const TemporaryFolder folder;
+    const fs::path history = folder / "recent";
+    remember({"film.mp4", {}}, history);
+    remember({"two\nlines.mp4", {}}, history);
+    remember({"a\ttab.mp4", {}}, history);
+    remember({}, history);
+    const std::vector<RecentFile> files = read_recent_files(history);
+    REQUIRE(files.size() == 1);
+    CHECK(files[0].colour == fs::current_path() / "film.mp4");
+    write_text(history, "no tab\n\t\n/a.mp4\t\n" + std::string(20000, 'x') + "\t\n");
+    CHECK(read_recent_files(history) == std::vector<RecentFile>{{"/a.mp4", {}}});
+}
+
+TEST_CASE("a tilde is the home folder, and only at the beginning", "[recent]") {
+    const char* const home = std::getenv("HOME");
+    REQUIRE(home != nullptr);
+    CHECK(typed_path("~/films/a.mp4") == fs::path(home) / "films/a.mp4");
+    CHECK(typed_path("~") == fs::path(home));
+    CHECK(typed_path("a~/b.mp4") == fs::path("a~/b.mp4"));
+    CHECK(typed_path("~other/b.mp4") == fs::path("~other/b.mp4"));
+}
+
+TEST_CASE("a file opened before is opened again from the list of recent ones", "[window]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    write_depth_png(folder / "first_depth.png", 64, 48, 100, 2);
+    write_depth_png(folder / "next_depth.png", 32, 24, 100, 2);
+    const fs::path history = folder / "state/dibhr/recent";
+    const auto view = [&](const std::string& file, const std::string& commands) {
+        Process viewer = desk.start_viewer(
+            folder, {file, "--device", "mouse", "--size", "1280x800", "--seconds", "60"});
+        desk.act("search --sync --onlyvisible --name dibhr sleep 0.6 " + commands + "key ctrl+q");
+        REQUIRE(viewer.wait() == 0);
+    };
+    const auto click = [](int x, int y) {
+        return "mousemove " + std::to_string(x) + " " + std::to_string(y) +
+               " sleep 0.2 mousedown 1 sleep 0.2 mouseup 1 sleep 0.5 ";
+    };
+    view("first_depth.png", "");
+    view("next_depth.png", click(1230, 93) + click(1180, 132) + "sleep 1 ");
+    const std::vector<RecentFile> files = read_recent_files(history);
+    REQUIRE(files.size() == 2);
+    CHECK(files[0].colour.filename() == "first_depth.png");
+    CHECK(files[1].colour.filename() == "next_depth.png");
+}
