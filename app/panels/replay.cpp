@@ -66,8 +66,10 @@ void draw_replay_panel(ViewerState& state, SessionPlayer& replay) {
     ImGui::PushID("replay");
     const ReplayNews& news = *state.replay;
     draw_about(news);
-    if (ImGui::Button("Touch this video", {-1.0F, 0.0F})) state.requests.leave_replay = true;
+    if (ImGui::Button("Touch this video", {half_width(), 0.0F})) state.requests.leave_replay = true;
     explain("Leaves the replay: the hand touches the video it was recorded over");
+    ImGui::SameLine();
+    report_button(state, news.file);
     if (!news.playback.failure.empty()) trouble_text(capitalised(news.playback.failure));
     speed_row(news.playback.speed, replay);
     draw_moment(state);

@@ -70,9 +70,11 @@ void draw_session_panel(ViewerState& state) {
         draw_progress(*state.recording);
     } else if (!state.recorded_file.empty()) {
         file_row("Recorded", state.recorded_file);
-        if (ImGui::Button("Replay it", {-1.0F, 0.0F})) {
+        if (ImGui::Button("Replay it", {half_width(), 0.0F})) {
             state.requests.open = OpenRequest{.colour = state.recorded_file};
         }
+        ImGui::SameLine();
+        report_button(state, state.recorded_file);
     }
     draw_about(state.fields);
     if (state.recording) draw_marks(state);

@@ -85,6 +85,7 @@ struct Requests {
     bool mark{false};
     bool as_recorded{false};   ///< a replay: no other parameters any more
     bool leave_replay{false};  ///< its video is to be touched
+    std::filesystem::path report{};  ///< of that session; empty: none is asked for
     bool screenshot{false};
     bool full_screen{false};
     bool quit{false};

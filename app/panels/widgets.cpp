@@ -238,6 +238,15 @@ bool text_row(const char* label, const std::string& hint, std::span<char> text, 
     return done;
 }
 
+float half_width() {
+    return 0.5F * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
+}
+
+void report_button(ViewerState& state, const std::filesystem::path& session) {
+    if (ImGui::Button("Report", {-1.0F, 0.0F})) state.requests.report = session;
+    explain("One page: where, how long and how hard it was touched (dibhr report)");
+}
+
 bool button_or_drop(const char* label, bool enabled, const char* dropped) {
     ImGui::BeginDisabled(!enabled);
     const bool pressed = ImGui::Button(label);

@@ -77,6 +77,12 @@ bool text_field(const char* id, const char* hint, std::span<char> text, const ch
 /// when Enter or the arrow was pressed.
 bool text_row(const char* label, const std::string& hint, std::span<char> text, const char* help);
 
+/// Of the first of two buttons side by side [px].
+[[nodiscard]] float half_width();
+
+/// A button that asks for a report of a session, as wide as there is room.
+void report_button(ViewerState& state, const std::filesystem::path& session);
+
 /// A button for what was typed, and that it can be dropped instead. True when it was pressed.
 bool button_or_drop(const char* label, bool enabled, const char* dropped);
 

@@ -199,6 +199,23 @@ void Viewer::take_news() {
     attempt([this] {
         while (const auto notice = screenshots_.take()) tell(*notice);
     });
+    take_report();
+}
+
+void Viewer::make_report(const std::filesystem::path& session) {
+    attempt([&] {
+        const bool begun = reporting_.start(std::filesystem::absolute(session));
+        tell(begun ? "Making the report" : "Still making the last report");
+    });
+}
+
+void Viewer::take_report() {
+    attempt([this] {
+        const auto page = reporting_.take();
+        if (!page) return;
+        tell("Report: " + page->string());
+        show_in_browser(*page);
+    });
 }
 
 /// Also what happened in the ticks between two pictures.
@@ -290,6 +307,7 @@ void Viewer::carry_out_requests() {
     if (asked.material) take_material(*asked.material);
     if (!asked.keep_material.empty()) keep_material(asked.keep_material);
     if (asked.firmware) attempt([&] { tell(falcon_.use_firmware(*asked.firmware, state_)); });
+    if (!asked.report.empty()) make_report(asked.report);
     if (asked.reset_view) frame_relief();
     if (asked.full_screen) window_.toggle_full_screen();
     if (asked.toggle_recording) start_or_stop_recording();

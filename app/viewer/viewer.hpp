@@ -17,6 +17,7 @@
 #include "app/viewer/input.hpp"
 #include "app/viewer/recording.hpp"
 #include "app/viewer/replay.hpp"
+#include "app/viewer/reporting.hpp"
 #include "app/viewer/trace.hpp"
 #include "app/window/ending.hpp"
 #include "app/window/window.hpp"
@@ -104,6 +105,8 @@ class Viewer {
     void finish();
     void close_without_display();
     void write_last_picture();
+    void make_report(const std::filesystem::path& session);
+    void take_report();
     void tell(const std::string& notice);
     /// Takes a step; its failure goes into the message box, and the program goes on.
     template <typename Step>
@@ -136,6 +139,7 @@ class Viewer {
     ViewerFalcon falcon_;
     Opening opening_{};
     Screenshots screenshots_{};
+    Reporting reporting_{};
     SettingsKeeper keeper_;
     HapticSettings handed_{};
     CleaningOptions cleaning_handed_{};

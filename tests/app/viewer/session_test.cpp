@@ -2,6 +2,7 @@
 // disks.
 #include <sys/mount.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -19,6 +20,7 @@
 #include "core/video/media.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/eventually.hpp"
 #include "tests/support/text.hpp"
 
 using namespace dibhr;
@@ -183,6 +185,29 @@ TEST_CASE("a material is chosen by one click, felt, recorded and replayed, and t
     CHECK(next.fact("material") == "bark");
     CHECK(next.parameters().front().touch == chosen.touch);
     CHECK(next.parameters().front().bump.file == chosen.bump.file);
+}
+
+TEST_CASE("a report is made from a replay by a button, while the window goes on", "[session]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    make_films(folder);
+    {
+        Process viewer =
+            desk.start_viewer(folder, {"film_color.mkv", "--device", "mouse", "--size", "1280x800",
+                                       "--record", "hand.dibhr", "--seconds", "60"});
+        desk.act(kMeet + stroke() + "mouseup 1 key ctrl+q");
+        REQUIRE(viewer.wait() == 0);
+    }
+    Process viewer =
+        desk.start_viewer(folder, {"hand.dibhr", "--size", "1280x800", "--seconds", "60"});
+    desk.act(std::string(kMeet) +
+             "sleep 0.5 mousemove 1180 98 sleep 0.3 mousedown 1 sleep 0.2 mouseup 1");
+    const fs::path page = folder / "hand-report/report.html";
+    CHECK(eventually([&page] { return fs::exists(page); }, std::chrono::seconds(20)));
+    desk.act(std::string(kMeet) + "key ctrl+q");
+    CHECK(viewer.wait() == 0);
+    CHECK(contains(read_text(page), "</html>"));
+    CHECK(read_text(folder / "errors.txt").empty());
 }
 
 TEST_CASE("a session is replayed in the window, moved by keys, and ends like any other",
