@@ -80,6 +80,18 @@ std::string replay_text(const ReplayNews& replay) {
     return "Replay of " + replay.file.filename().string() + (about.empty() ? "" : " - " + about);
 }
 
+/// Where playing is, in time and in frames or ticks.
+std::string place_text(const ViewerState& state) {
+    if (state.replay) {
+        const SessionPlayback& at = state.replay->playback;
+        return clock_text(at.now_s - at.begin_s) + " of " + clock_text(at.end_s - at.begin_s) +
+               ", tick " + std::to_string(state.replay->tick.tick + 1);
+    }
+    const PlaybackStatus& at = state.playback;
+    return clock_text(at.media_s) + " of " + clock_text(at.duration_s) + ", frame " +
+           std::to_string(at.frame + 1);
+}
+
 std::string touch_text(const ViewerState& state) {
     const HapticState& haptic = state.haptic;
     if (!state.replay && !state.force_enabled) return "Force off";
@@ -170,7 +182,8 @@ void draw_overlay(const ViewerState& state, double now_s) {
     }
     if (now_s < state.notice_until_s) {
         const double left_s = state.notice_until_s - now_s;
-        centred_label(state, state.notice, 1.5F, static_cast<float>(std::min(1.0, left_s)));
+        const std::string text = state.notice_of_place ? place_text(state) : state.notice;
+        centred_label(state, text, 1.5F, static_cast<float>(std::min(1.0, left_s)));
     }
 }
 

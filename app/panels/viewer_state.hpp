@@ -162,8 +162,9 @@ struct ViewerState {
     bool show_device{false};   ///< the Falcon needs its person: the Device panel comes into sight
     bool show_session{false};  ///< recording began by key: the Session panel comes into sight
     bool help_open{false};
-    std::string message{};  ///< shown in a box until it is closed
-    std::string notice{};   ///< shown for a while at the bottom
+    std::string message{};        ///< shown in a box until it is closed
+    std::string notice{};         ///< shown for a while at the bottom
+    bool notice_of_place{false};  ///< instead: where playing is, as long as it is shown
     double notice_until_s{0.0};
     TextFields fields{};
     Requests requests{};

@@ -21,6 +21,11 @@ constexpr KeyBinding with_control(KeyBinding binding) {
     return while_typing(binding);
 }
 
+constexpr KeyBinding with_shift(KeyBinding binding) {
+    binding.with_shift = true;
+    return binding;
+}
+
 constexpr KeyBinding repeating(KeyBinding binding) {
     binding.repeats = true;
     return binding;
@@ -44,11 +49,26 @@ constexpr KeyBinding kBindings[] = {
     repeating(
         {Action::step_forward, kPlayback, ".", "One frame forward; in a replay, one tick", "."}),
     repeating({Action::step_back, kPlayback, ",", "One frame back; in a replay, one tick", ","}),
+    // Before those without Shift, which take the same keys.
+    repeating(with_shift({Action::seek_forward_little,
+                          kPlayback,
+                          "Shift+Right",
+                          "1 s forward",
+                          "",
+                          {GLFW_KEY_RIGHT}})),
+    repeating(with_shift(
+        {Action::seek_back_little, kPlayback, "Shift+Left", "1 s back", "", {GLFW_KEY_LEFT}})),
     repeating({Action::seek_forward, kPlayback, "Right", "5 s forward", "", {GLFW_KEY_RIGHT}}),
     repeating({Action::seek_back, kPlayback, "Left", "5 s back", "", {GLFW_KEY_LEFT}}),
+    repeating({Action::seek_forward_far, kPlayback, "Up", "60 s forward", "", {GLFW_KEY_UP}}),
+    repeating({Action::seek_back_far, kPlayback, "Down", "60 s back", "", {GLFW_KEY_DOWN}}),
     {Action::go_to_start, kPlayback, "Home", "To the start", "", {GLFW_KEY_HOME}},
+    {Action::go_to_end, kPlayback, "End", "To the last second", "", {GLFW_KEY_END}},
     repeating({Action::slower, kPlayback, "[ or -", "Slower", "[-"}),
     repeating({Action::faster, kPlayback, "] or +", "Faster", "]+="}),
+    {Action::half_speed, kPlayback, "{ or Page down", "Half the speed", "{", {GLFW_KEY_PAGE_DOWN}},
+    {Action::double_speed, kPlayback, "} or Page up", "Twice the speed", "}", {GLFW_KEY_PAGE_UP}},
+    {Action::normal_speed, kPlayback, "Backspace", "Normal speed", "", {GLFW_KEY_BACKSPACE}},
     {Action::toggle_loop, kPlayback, "L", "Loop on, off", "l"},
     {Action::reset_view, kView, "R", "Reset the view", "r"},
     {Action::toggle_straight_view, kView, "V", "Straight view, perspective", "v"},
@@ -107,12 +127,13 @@ std::optional<Action> action_of_character(unsigned character, bool repeated) {
     return {};
 }
 
-std::optional<Action> action_of_key(int key, bool control, bool typing, bool repeated) {
+std::optional<Action> action_of_key(int key, bool control, bool typing, bool repeated, bool shift) {
     for (const KeyBinding& binding : kBindings) {
         const bool bound = std::find(std::begin(binding.keys), std::end(binding.keys), key) !=
                            std::end(binding.keys);
         if (bound && key != 0 && binding.with_control == control &&
-            (binding.while_typing || !typing) && (binding.repeats || !repeated)) {
+            (shift || !binding.with_shift) && (binding.while_typing || !typing) &&
+            (binding.repeats || !repeated)) {
             return binding.action;
         }
     }

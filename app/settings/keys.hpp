@@ -14,9 +14,17 @@ enum class Action {
     step_back,
     seek_forward,
     seek_back,
+    seek_forward_little,
+    seek_back_little,
+    seek_forward_far,
+    seek_back_far,
     go_to_start,
+    go_to_end,
     faster,
     slower,
+    double_speed,
+    half_speed,
+    normal_speed,
     toggle_loop,
     toggle_force,
     force_off,
@@ -45,6 +53,7 @@ struct KeyBinding {
     std::string_view characters{};  ///< any of these typed; letters match both cases
     int keys[2]{0, 0};              ///< GLFW keys; 0: none
     bool with_control{false};       ///< for `keys`
+    bool with_shift{false};         ///< for `keys`; a row without it takes them with Shift, too
     bool while_typing{false};       ///< also acts while a text field has the keyboard
     bool repeats{false};            ///< acts again and again while held down
 };
@@ -59,6 +68,6 @@ struct KeyBinding {
 
 /// The action of a pressed GLFW key. `typing`: a text field has the keyboard.
 [[nodiscard]] std::optional<Action> action_of_key(int key, bool control, bool typing,
-                                                  bool repeated = false);
+                                                  bool repeated = false, bool shift = false);
 
 }  // namespace dibhr

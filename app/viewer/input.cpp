@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
+#include "core/files/plain_text.hpp"
 #include "core/haptics/collision.hpp"
 
 namespace dibhr {
@@ -13,18 +13,19 @@ namespace dibhr {
 namespace {
 
 constexpr double kSeekStep_s = 5.0;
+constexpr double kLittleStep_s = 1.0;
+constexpr double kFarStep_s = 60.0;
+constexpr double kBeforeEnd_s = 1.0;
 constexpr int kPicturesToFocus = 30;  // it takes two; a field out of sight never gets it
-constexpr double kSpeeds[] = {kSlowestSpeed, 0.25, 0.5, 0.75, 1.0,
-                              1.25,          1.5,  2.0, 3.0,  kFastestSpeed};
+constexpr double kFaster = 1.1;
 
-double faster_than(double speed) {
-    const auto* next = std::upper_bound(std::begin(kSpeeds), std::end(kSpeeds), speed + 1e-6);
-    return next == std::end(kSpeeds) ? *std::prev(std::end(kSpeeds)) : *next;
-}
-
-double slower_than(double speed) {
-    const auto* here = std::lower_bound(std::begin(kSpeeds), std::end(kSpeeds), speed - 1e-6);
-    return here == std::begin(kSpeeds) ? *here : *std::prev(here);
+/// Held to what can be played; on the way past the normal speed it stops there.
+double times_speed(double speed, double factor) {
+    constexpr double kRounding = 1e-6;
+    const double wanted = speed * factor;
+    const bool passes = std::abs(speed - 1.0) > kRounding &&
+                        (speed < 1.0 ? wanted > 1.0 - kRounding : wanted < 1.0 + kRounding);
+    return passes ? 1.0 : std::clamp(wanted, kSlowestSpeed, kFastestSpeed);
 }
 
 /// What the viewer does after the picture.
@@ -51,43 +52,77 @@ struct Course {
     double now_s, begin_s, end_s;
 };
 
-/// What moves a video or a session; false when the action is not about that.
+/// How far an action seeks, forward or back [s]; 0: it does not.
+double seek_step_s(Action action) {
+    switch (action) {
+        case Action::seek_forward:
+            return kSeekStep_s;
+        case Action::seek_back:
+            return -kSeekStep_s;
+        case Action::seek_forward_little:
+            return kLittleStep_s;
+        case Action::seek_back_little:
+            return -kLittleStep_s;
+        case Action::seek_forward_far:
+            return kFarStep_s;
+        case Action::seek_back_far:
+            return -kFarStep_s;
+        default:
+            return 0.0;
+    }
+}
+
+/// The speed after an action; nothing: it is not about that.
+std::optional<double> speed_after(Action action, double speed) {
+    switch (action) {
+        case Action::faster:
+            return times_speed(speed, kFaster);
+        case Action::slower:
+            return times_speed(speed, 1.0 / kFaster);
+        case Action::double_speed:
+            return times_speed(speed, 2.0);
+        case Action::half_speed:
+            return times_speed(speed, 0.5);
+        case Action::normal_speed:
+            return 1.0;
+        default:
+            return std::nullopt;
+    }
+}
+
+/// What moves a video or a session; nothing when the action is not about that.
 template <typename AnyPlayer>
-bool move(Action action, const Course& course, AnyPlayer& player) {
-    const auto seek_by = [&](double step_s) {
-        const double end_s = std::max(course.begin_s, course.end_s);
+std::optional<Answer> move(Action action, const Course& course, AnyPlayer& player) {
+    const double end_s = std::max(course.begin_s, course.end_s);
+    if (const double step_s = seek_step_s(action); std::abs(step_s) > 0.0) {
         player.seek(std::clamp(course.now_s + step_s, course.begin_s, end_s));
-    };
+        return Answer{.place = true};
+    }
+    if (const auto speed = speed_after(action, course.speed)) {
+        player.set_speed(*speed);
+        return Answer{"Speed " + short_text(*speed, 3) + "x"};
+    }
     switch (action) {
         case Action::play_or_pause:
             course.playing ? player.pause() : player.play();
-            return true;
+            return Answer{course.playing ? "Pause" : "Play"};
         case Action::step_forward:
             player.step(1);
-            return true;
+            return Answer{.place = true};
         case Action::step_back:
             player.step(-1);
-            return true;
-        case Action::seek_forward:
-            seek_by(kSeekStep_s);
-            return true;
-        case Action::seek_back:
-            seek_by(-kSeekStep_s);
-            return true;
+            return Answer{.place = true};
         case Action::go_to_start:
             player.seek(course.begin_s);
-            return true;
-        case Action::faster:
-            player.set_speed(faster_than(course.speed));
-            return true;
-        case Action::slower:
-            player.set_speed(slower_than(course.speed));
-            return true;
+            return Answer{.place = true};
+        case Action::go_to_end:
+            player.seek(std::max(course.begin_s, end_s - kBeforeEnd_s));
+            return Answer{.place = true};
         case Action::toggle_loop:
             player.set_looping(!course.looping);
-            return true;
+            return Answer{course.looping ? "Loop off" : "Loop on"};
         default:
-            return false;
+            return std::nullopt;
     }
 }
 
@@ -114,11 +149,12 @@ bool clip(const Vec3& from, const Vec3& way, int axis, double low, double high, 
 
 }  // namespace
 
-void perform(Action action, ViewerState& state, Player& player) {
+Answer perform(Action action, ViewerState& state, Player& player) {
     const PlaybackStatus& now = state.playback;
-    if (move(action, {now.playing, now.looping, now.speed, now.media_s, 0.0, now.duration_s},
-             player)) {
-        return;
+    if (const auto moved =
+            move(action, {now.playing, now.looping, now.speed, now.media_s, 0.0, now.duration_s},
+                 player)) {
+        return state.media.still ? Answer{"A still picture: nothing plays"} : *moved;
     }
     for (const auto& [asking, request] : kRequests) {
         if (action == asking) state.requests.*request = true;
@@ -127,43 +163,47 @@ void perform(Action action, ViewerState& state, Player& player) {
     switch (action) {
         case Action::toggle_force:
             state.force_enabled = !state.force_enabled;
-            break;
+            return {state.force_enabled ? "Force on" : "Force off"};
         case Action::force_off:
             state.force_enabled = false;
-            break;
+            return {"Force off"};
         case Action::centre_workspace:
             ++state.centred;
-            break;
+            return {"Hand centred"};
+        case Action::reset_view:
+            return {"View reset"};
         case Action::toggle_straight_view:
             settings.straight_view = !settings.straight_view;
-            break;
+            return {settings.straight_view ? "Straight view" : "Perspective"};
         case Action::toggle_panels:
             settings.panels_visible = !settings.panels_visible;
-            break;
+            return {settings.panels_visible ? "Panels shown" : "Panels hidden: Tab shows them"};
         case Action::open_file:
             settings.panels_visible = settings.panels.video = true;
             state.fields.ask_for_keyboard = kPicturesToFocus;
-            break;
+            return {};
         case Action::toggle_help:
             state.help_open = !state.help_open;
-            break;
+            return {};
         case Action::close_topmost:
             close_topmost(state);
-            break;
+            return {};
         default:
-            break;
+            return {};
     }
 }
 
-bool perform_in_replay(Action action, SessionPlayer& replay) {
+std::optional<Answer> perform_in_replay(Action action, SessionPlayer& replay) {
     const SessionPlayback& now = replay.playback();
-    if (move(action, {now.playing, now.looping, now.speed, now.now_s, now.begin_s, now.end_s},
-             replay)) {
-        return true;
+    if (auto moved =
+            move(action, {now.playing, now.looping, now.speed, now.now_s, now.begin_s, now.end_s},
+                 replay)) {
+        return moved;
     }
-    // No hand is touching.
-    return action == Action::toggle_force || action == Action::force_off ||
-           action == Action::centre_workspace || action == Action::mark;
+    const bool of_a_hand = action == Action::toggle_force || action == Action::force_off ||
+                           action == Action::centre_workspace || action == Action::mark;
+    if (of_a_hand) return Answer{"A replay: no hand is touching"};
+    return std::nullopt;
 }
 
 PointerUse ReliefMouse::use(const Pointer& pointer, double wheel_steps, bool over_panel,

@@ -3,6 +3,7 @@
 
 #include <glm/vec2.hpp>
 #include <optional>
+#include <string>
 
 #include "app/panels/viewer_state.hpp"
 #include "app/settings/keys.hpp"
@@ -14,11 +15,18 @@
 
 namespace dibhr {
 
-/// What an action does, to a video or to the window.
-void perform(Action action, ViewerState& state, Player& player);
+/// What a person reads at the bottom of the picture after a key: nothing where what happens is
+/// seen, or told by who does it.
+struct Answer {
+    std::string words{};
+    bool place{false};  ///< instead: where playing is then
+};
 
-/// What moves a replay, and nothing else; false when the action is not about that.
-bool perform_in_replay(Action action, SessionPlayer& replay);
+/// What an action does, to a video or to the window.
+Answer perform(Action action, ViewerState& state, Player& player);
+
+/// What moves a replay, and nothing else; nothing when the action is not about that.
+std::optional<Answer> perform_in_replay(Action action, SessionPlayer& replay);
 
 /// What the mouse does over the relief in one picture.
 struct PointerUse {

@@ -238,9 +238,12 @@ void Viewer::take_keys(const WindowInput& input) {
     if (gui_.wants_keyboard()) state_.fields.ask_for_keyboard = 0;
     // A name typed right after Ctrl+O is no key, even before the field has the keyboard.
     const bool typing = gui_.wants_keyboard() || state_.fields.ask_for_keyboard > 0;
-    state_.as_recorded = !typing && window_.holds(held_key(Action::show_as_recorded));
+    const bool as_recorded = !typing && window_.holds(held_key(Action::show_as_recorded));
+    if (as_recorded && !state_.as_recorded && !state_.replay) tell("Depth as recorded");
+    state_.as_recorded = as_recorded;
     for (const KeyPress& press : input.keys) {
-        if (const auto action = action_of_key(press.key, press.control, typing, press.repeated))
+        if (const auto action =
+                action_of_key(press.key, press.control, typing, press.repeated, press.shift))
             perform(*action);
     }
     if (typing) return;
@@ -251,8 +254,12 @@ void Viewer::take_keys(const WindowInput& input) {
 
 void Viewer::perform(Action action) {
     SessionPlayer* const replay = replay_.player();
-    if (replay != nullptr && perform_in_replay(action, *replay)) return;
-    dibhr::perform(action, state_, player_);
+    std::optional<Answer> answer;
+    if (replay != nullptr) answer = perform_in_replay(action, *replay);
+    if (!answer) answer = dibhr::perform(action, state_, player_);
+    if (!answer->place && answer->words.empty()) return;
+    tell(answer->words);
+    state_.notice_of_place = answer->place;
 }
 
 void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {
@@ -309,7 +316,7 @@ void Viewer::carry_out_requests() {
     if (asked.firmware) attempt([&] { tell(falcon_.use_firmware(*asked.firmware, state_)); });
     if (!asked.report.empty()) make_report(asked.report);
     if (asked.reset_view) frame_relief();
-    if (asked.full_screen) window_.toggle_full_screen();
+    if (asked.full_screen) tell(window_.toggle_full_screen() ? "Full screen" : "Full screen off");
     if (asked.toggle_recording) start_or_stop_recording();
     if (asked.mark) tell(recording_.mark(state_));
     if (asked.leave_replay && !opening_.start({state_.media.colour_path, state_.media.depth_path}))
@@ -391,6 +398,7 @@ void Viewer::write_last_picture() {
 
 void Viewer::tell(const std::string& notice) {
     state_.notice = notice;
+    state_.notice_of_place = false;
     state_.notice_until_s = now_s() + kNoticeTime_s;
 }
 

@@ -169,8 +169,8 @@ Window::~Window() {
 void Window::collect_events() {
     glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int mods) {
         if (action == GLFW_RELEASE) return;
-        input_of(window).keys.push_back(
-            {key, (mods & GLFW_MOD_CONTROL) != 0, action == GLFW_REPEAT});
+        input_of(window).keys.push_back({key, (mods & GLFW_MOD_CONTROL) != 0, action == GLFW_REPEAT,
+                                         (mods & GLFW_MOD_SHIFT) != 0});
     });
     glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned character) {
         WindowInput& input = input_of(window);
@@ -253,18 +253,19 @@ void Window::set_title(const std::string& title) {
     glfwSetWindowTitle(window_, title.c_str());
 }
 
-void Window::toggle_full_screen() {
+bool Window::toggle_full_screen() {
     if (glfwGetWindowMonitor(window_) != nullptr) {
         glfwSetWindowMonitor(window_, nullptr, place_.x, place_.y, size_.x, size_.y,
                              GLFW_DONT_CARE);
-        return;
+        return false;
     }
     GLFWmonitor* monitor = glfwGetPrimaryMonitor();
     const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
-    if (mode == nullptr) return;
+    if (mode == nullptr) return false;
     glfwGetWindowPos(window_, &place_.x, &place_.y);
     size_ = window_size();
     glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+    return true;
 }
 
 void Window::show_picture() {

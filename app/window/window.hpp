@@ -20,6 +20,7 @@ struct KeyPress {
     int key{0};
     bool control{false};
     bool repeated{false};  ///< the key is being held down
+    bool shift{false};
 };
 
 struct TypedCharacter {
@@ -80,8 +81,8 @@ class Window {
     [[nodiscard]] glm::ivec2 window_size() const;  ///< when not on the full screen [screen units]
     [[nodiscard]] float content_scale() const;     ///< 1 on an ordinary display
     void set_title(const std::string& title);
-    void toggle_full_screen();
-    void show_picture();  ///< swaps; waits for the display when in sync
+    bool toggle_full_screen();  ///< whether it fills the screen now
+    void show_picture();        ///< swaps; waits for the display when in sync
     /// Asks the display server something and waits for its answer: shows that it goes on. (Under
     /// Wayland nothing is asked.)
     void meet_display() const { static_cast<void>(framebuffer_size()); }

@@ -1,4 +1,7 @@
 // The settings file: what it keeps, and what happens to one that is wrong.
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
 #include <filesystem>
 #include <iterator>
 #include <string>
@@ -166,7 +169,8 @@ TEST_CASE("no key does two things, and every job is on the help sheet", "[keys]"
         }
         for (const int key : one.keys) {
             CAPTURE(key);
-            if (key != 0) CHECK(action_of_key(key, one.with_control, false) == one.action);
+            if (key == 0) continue;
+            CHECK(action_of_key(key, one.with_control, false, false, one.with_shift) == one.action);
         }
         bool shown = false;
         for (const KeyBinding& other : key_bindings()) {
@@ -196,4 +200,50 @@ TEST_CASE("a key held down does not switch anything again and again", "[keys]") 
     CHECK_FALSE(action_of_character('F', true));
     CHECK_FALSE(action_of_character('s', true));
     CHECK(action_of_character('.', true) == Action::step_forward);
+}
+
+TEST_CASE("Shift makes a seek small, and takes nothing from the other keys", "[keys]") {
+    const auto pressed = [](int key, bool shift) {
+        return action_of_key(key, false, false, false, shift);
+    };
+    CHECK(pressed(GLFW_KEY_RIGHT, false) == Action::seek_forward);
+    CHECK(pressed(GLFW_KEY_RIGHT, true) == Action::seek_forward_little);
+    CHECK(pressed(GLFW_KEY_LEFT, true) == Action::seek_back_little);
+    CHECK(pressed(GLFW_KEY_F8, true) == Action::force_off);
+}
+
+TEST_CASE("the speed goes by a tenth or by two, within bounds, and never past the normal one",
+          "[keys]") {
+    Player player;
+    ViewerState state;
+    const auto told = [&](Action action, double speed) {
+        state.playback.speed = speed;
+        return perform(action, state, player).words;
+    };
+    CHECK(told(Action::faster, 1.0) == "Speed 1.1x");
+    CHECK(told(Action::slower, 1.1) == "Speed 1x");
+    CHECK(told(Action::faster, 0.95) == "Speed 1x");
+    CHECK(told(Action::slower, 1.05) == "Speed 1x");
+    CHECK(told(Action::double_speed, 0.25) == "Speed 0.5x");
+    CHECK(told(Action::half_speed, 1.0) == "Speed 0.5x");
+    CHECK(told(Action::double_speed, 3.0) == "Speed 4x");
+    CHECK(told(Action::half_speed, 0.15) == "Speed 0.1x");
+    CHECK(told(Action::normal_speed, 3.3) == "Speed 1x");
+}
+
+TEST_CASE("a key that changes how it plays, touches or looks says so", "[keys]") {
+    Player player;
+    ViewerState state;
+    for (const KeyBinding& binding : key_bindings()) {
+        const bool of_program = binding.group == "Program";  // it opens something that is seen
+        const bool after_picture = binding.action == Action::record ||
+                                   binding.action == Action::mark ||
+                                   binding.action == Action::toggle_full_screen;
+        if (of_program || after_picture || binding.action == Action::show_as_recorded) continue;
+        CAPTURE(std::string(binding.shown));
+        const Answer answer = perform(binding.action, state, player);
+        CHECK((answer.place || !answer.words.empty()));
+    }
+    state.media.still = true;
+    CHECK(perform(Action::seek_forward, state, player).words == "A still picture: nothing plays");
 }

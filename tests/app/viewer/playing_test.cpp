@@ -1,0 +1,88 @@
+// Keys that move a video, typed into the real window; what is recorded tells where it went.
+#include <string>
+#include <vector>
+
+#include "tests/app/program/desk.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+using Catch::Matchers::WithinAbs;
+
+namespace {
+
+constexpr double kFrame_s = 0.1;
+
+/// 100 seconds of film.
+void make_long_films(const TemporaryFolder& folder) {
+    const std::string quiet = "ffmpeg -nostdin -v error -y -f lavfi -i ";
+    run_shell(quiet + "color=gray:s=64x48:r=10:d=100 -c:v ffv1 '" +
+              (folder / "long_color.mkv").string() + "'");
+    run_shell(quiet + "color=gray:s=64x48:r=10:d=100,format=gray -c:v ffv1 '" +
+              (folder / "long_depth.mkv").string() + "'");
+}
+
+/// What is recorded while these keys are typed.
+std::vector<Row> played(const std::vector<std::string>& options, const std::string& commands) {
+    const Desk desk;
+    const TemporaryFolder folder;
+    make_long_films(folder);
+    std::vector<std::string> arguments{"long_color.mkv", "--raw-depth", "--device", "mouse",
+                                       "--record",       "hand.dibhr",  "--size",   "640x480",
+                                       "--seconds",      "30"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    Process viewer = desk.start_viewer(folder, arguments);
+    desk.act("search --sync --onlyvisible --name dibhr sleep 0.6 " + commands + "key q");
+    REQUIRE(viewer.wait() == 0);
+    return read_session(folder / "hand.dibhr");
+}
+
+/// Moments of the video that were held for long, one after the other.
+std::vector<double> held_moments(const std::vector<Row>& rows) {
+    constexpr double kLong_s = 0.25;
+    std::vector<double> held;
+    double since_s = 0.0;
+    double at_s = -1.0;
+    bool told = false;
+    for (const Row& row : rows) {
+        if (!row.surface) continue;
+        if (row.video_s < at_s || row.video_s > at_s) {
+            at_s = row.video_s;
+            since_s = row.t_s;
+            told = false;
+        } else if (!told && row.t_s - since_s > kLong_s) {
+            held.push_back(at_s);
+            told = true;
+        }
+    }
+    return held;
+}
+
+}  // namespace
+
+TEST_CASE("arrows seek by 5, 1 and 60 seconds, Home and End to the start and the last second",
+          "[playing]") {
+    std::string commands = "key space sleep 0.3 ";
+    for (const char* key :
+         {"Home", "Up", "Right", "shift+Right", "shift+Left", "Left", "Down", "End"}) {
+        commands += std::string("key ") + key + " sleep 0.7 ";
+    }
+    std::vector<double> held = held_moments(played({}, commands));
+    const std::vector<double> wanted{0.0, 60.0, 65.0, 66.0, 65.0, 60.0, 0.0, 99.0};
+    if (held.size() > wanted.size()) held.erase(held.begin());  // where it was paused
+    CAPTURE(held);
+    REQUIRE(held.size() == wanted.size());
+    for (std::size_t k = 0; k < wanted.size(); ++k)
+        CHECK_THAT(held[k], WithinAbs(wanted[k], 1.5 * kFrame_s));
+}
+
+TEST_CASE("a key doubles the speed, and Backspace makes it normal again", "[playing]") {
+    const std::string back = GENERATE("", "key BackSpace sleep 0.3 ");
+    const double speed = back.empty() ? 2.0 : 1.0;
+    CAPTURE(speed);
+    const std::vector<Row> rows = played({}, "key Prior sleep 0.3 " + back + "sleep 2 ");
+    REQUIRE(rows.size() > 1500);
+    const Row& from = rows[rows.size() - 1200];
+    const Row& to = rows[rows.size() - 100];
+    CHECK_THAT((to.video_s - from.video_s) / (to.t_s - from.t_s), WithinAbs(speed, 0.25));
+}
