@@ -23,6 +23,7 @@
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/replay/session_player.hpp"
+#include "core/video/frame_window.hpp"
 #include "device/falcon/guardian.hpp"
 
 namespace dibhr {
@@ -54,19 +55,31 @@ std::pair<int, int> parse_size(const std::string& text) {
     return {size[0], size[1]};
 }
 
-void add_stability_option(CLI::App& app, std::optional<bool>& on) {
-    app.add_option_function<std::string>(
-           "--stability",
-           [&on](const std::string& word) {
-               if (word != "on" && word != "off")
-                   throw CLI::ValidationError("--stability",
-                                              "'" + word + "' is neither on nor off");
-               on = word == "on";
-           },
-           "on: damping as the device needs it, and no energy that rendering creates; off: for "
-           "experiments that must not have it")
-        ->type_name("on|off")
+CLI::Option* add_on_off_option(CLI::App& app, const std::string& name, const std::string& help,
+                               std::optional<bool>& on) {
+    const auto take = [name, &on](const std::string& word) {
+        if (word != "on" && word != "off")
+            throw CLI::ValidationError(name, "'" + word + "' is neither on nor off");
+        on = word == "on";
+    };
+    return app.add_option_function<std::string>(name, take, help)->type_name("on|off");
+}
+
+/// How what is opened begins to play.
+void add_playing_options(CLI::App& app, ViewOptions& options) {
+    add_number_option(app, "--start", 0.0, kLongestRun_s,
+                      "Begins so many seconds after the start; beyond the end: with the last frame",
+                      [&options](double seconds) { options.open.at_s = seconds; })
+        ->type_name("S");
+    add_number_option(app, "--speed", kSlowestSpeed, kFastestSpeed, "Times the speed of the video",
+                      [&options](double speed) { options.speed = speed; })
+        ->type_name("X")
+        ->default_str("1");
+    add_on_off_option(app, "--loop", "Starts again at the end; a session does not unless asked",
+                      options.looping)
         ->default_str("on");
+    app.add_flag("--pause", options.open.paused, "Stands still until it is told to play");
+    app.add_flag("--full-screen", options.full_screen, "Fills the screen (F11)");
 }
 
 /// A person's own damping, instead of what the device needs.
@@ -215,6 +228,7 @@ int run_view(CLI::App& app, const Arguments& arguments) {
     add_number_option(app, "--seconds", 0.0, kLongestRun_s, "Leaves after so long",
                       [&options](double seconds) { options.seconds = seconds; })
         ->type_name("S");
+    add_playing_options(app, options);
     app.add_flag_function(
         "--no-sync", [&options](std::int64_t) { options.sync = false; },
         "Does not wait for the display");
@@ -227,7 +241,12 @@ int run_view(CLI::App& app, const Arguments& arguments) {
     add_algorithm_option(app, touch.given);
     add_touch_options(app, touch);
     std::optional<bool> stability;
-    add_stability_option(app, stability);
+    add_on_off_option(
+        app, "--stability",
+        "on: damping as the device needs it, and no energy that rendering creates; off: for "
+        "experiments that must not have it",
+        stability)
+        ->default_str("on");
     app.footer(
         "Examples:\n"
         "  dibhr                                  the built-in sample\n"
@@ -235,6 +254,7 @@ int run_view(CLI::App& app, const Arguments& arguments) {
         "  dibhr --material bark                  the sample, covered with it\n"
         "  dibhr view touch                       a file that is called like a command\n"
         "  dibhr color.mp4 --record mine.dibhr --seconds 20 --screenshot last.png\n"
+        "  dibhr color.mp4 --start 12.5 --pause   one moment of it\n"
         "  dibhr mine.dibhr --algorithm pga       what was recorded, through another algorithm");
     if (!parse(app, arguments)) return 0;
     const std::string colour = options.open.colour.string();

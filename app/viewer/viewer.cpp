@@ -48,6 +48,12 @@ std::optional<double> hang_asked_for() {
     return std::strtod(text, nullptr);
 }
 
+template <typename AnyPlayer>
+void play_as_asked(const ViewOptions& options, AnyPlayer& player) {
+    if (options.speed) player.set_speed(*options.speed);
+    if (options.looping) player.set_looping(*options.looping);
+}
+
 [[noreturn]] void hang() {
     for (volatile bool ever = true; ever;) continue;
     std::abort();
@@ -80,13 +86,19 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending)
     state_.materials = material_names();
     state_.fonts = gui_.fonts();
     state_.scale = gui_.scale();
+    if (options.full_screen) window_.toggle_full_screen();
     if (parts.session) {
         replay_session(std::move(parts.session));
+        SessionPlayer& replay = *replay_.player();
+        play_as_asked(options, replay);
+        if (options.open.at_s > 0.0) replay.seek(replay.playback().begin_s + options.open.at_s);
+        if (options.open.paused) replay.pause();
         return;
     }
     state_.media = parts.media->description();
     if (!options.record.empty()) recording_.start(options.record, state_);
     show_media(std::move(parts.media), options.open);
+    play_as_asked(options, player_);
 }
 
 void Viewer::run() {
@@ -316,7 +328,10 @@ void Viewer::carry_out_requests() {
     if (asked.firmware) attempt([&] { tell(falcon_.use_firmware(*asked.firmware, state_)); });
     if (!asked.report.empty()) make_report(asked.report);
     if (asked.reset_view) frame_relief();
-    if (asked.full_screen) tell(window_.toggle_full_screen() ? "Full screen" : "Full screen off");
+    if (asked.full_screen) {
+        window_.toggle_full_screen();
+        tell(window_.full_screen() ? "Full screen" : "Full screen off");
+    }
     if (asked.toggle_recording) start_or_stop_recording();
     if (asked.mark) tell(recording_.mark(state_));
     if (asked.leave_replay && !opening_.start({state_.media.colour_path, state_.media.depth_path}))
@@ -365,9 +380,11 @@ CleaningOptions Viewer::wanted_cleaning() const {
 }
 
 void Viewer::keep_settings() {
-    const glm::ivec2 size = window_.window_size();
-    state_.settings.width = size.x;
-    state_.settings.height = size.y;
+    if (!window_.full_screen()) {
+        const glm::ivec2 size = window_.window_size();
+        state_.settings.width = size.x;
+        state_.settings.height = size.y;
+    }
     attempt([this] { keeper_.look(lasting_settings(), now_s()); });
 }
 

@@ -38,10 +38,13 @@ struct ViewOptions {
     std::filesystem::path screenshot{};  ///< the last picture, as PNG
     std::optional<double> seconds{};     ///< leave after so long
     bool sync{true};                     ///< --no-sync: do not wait for the display
-    bool any_media{false};               ///< replay: also over files that have changed
-    TouchRequest touch{};  ///< the command line's alone: its parameters beat a session's
-    Settings in_file{};    ///< as read; the window saves only what a person changed in it
-    Settings settings{};   ///< the same, the command line's values on top
+    std::optional<double> speed{};       ///< kSlowestSpeed .. kFastestSpeed
+    std::optional<bool> looping{};       ///< else a video begins again, a session stops
+    bool full_screen{false};
+    bool any_media{false};  ///< replay: also over files that have changed
+    TouchRequest touch{};   ///< the command line's alone: its parameters beat a session's
+    Settings in_file{};     ///< as read; the window saves only what a person changed in it
+    Settings settings{};    ///< the same, the command line's values on top
 };
 
 /// What was opened before there was a window.

@@ -253,19 +253,22 @@ void Window::set_title(const std::string& title) {
     glfwSetWindowTitle(window_, title.c_str());
 }
 
-bool Window::toggle_full_screen() {
-    if (glfwGetWindowMonitor(window_) != nullptr) {
+bool Window::full_screen() const {
+    return glfwGetWindowMonitor(window_) != nullptr;
+}
+
+void Window::toggle_full_screen() {
+    if (full_screen()) {
         glfwSetWindowMonitor(window_, nullptr, place_.x, place_.y, size_.x, size_.y,
                              GLFW_DONT_CARE);
-        return false;
+        return;
     }
     GLFWmonitor* monitor = glfwGetPrimaryMonitor();
     const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
-    if (mode == nullptr) return false;
+    if (mode == nullptr) return;
     glfwGetWindowPos(window_, &place_.x, &place_.y);
     size_ = window_size();
     glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
-    return true;
 }
 
 void Window::show_picture() {

@@ -81,8 +81,9 @@ class Window {
     [[nodiscard]] glm::ivec2 window_size() const;  ///< when not on the full screen [screen units]
     [[nodiscard]] float content_scale() const;     ///< 1 on an ordinary display
     void set_title(const std::string& title);
-    bool toggle_full_screen();  ///< whether it fills the screen now
-    void show_picture();        ///< swaps; waits for the display when in sync
+    void toggle_full_screen();
+    [[nodiscard]] bool full_screen() const;
+    void show_picture();  ///< swaps; waits for the display when in sync
     /// Asks the display server something and waits for its answer: shows that it goes on. (Under
     /// Wayland nothing is asked.)
     void meet_display() const { static_cast<void>(framebuffer_size()); }

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "core/video/media.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/support/catch.hpp"
 
@@ -85,4 +86,42 @@ TEST_CASE("a key doubles the speed, and Backspace makes it normal again", "[play
     const Row& from = rows[rows.size() - 1200];
     const Row& to = rows[rows.size() - 100];
     CHECK_THAT((to.video_s - from.video_s) / (to.t_s - from.t_s), WithinAbs(speed, 0.25));
+}
+
+TEST_CASE("options say where it begins, that it stands still, and how fast it goes on",
+          "[playing]") {
+    SECTION("standing still") {
+        const std::vector<Row> rows = played({"--start", "42", "--pause"}, "sleep 0.6 ");
+        const std::vector<double> held = held_moments(rows);
+        REQUIRE(held.size() == 1);
+        CHECK_THAT(held[0], WithinAbs(42.0, 1.5 * kFrame_s));
+    }
+    SECTION("faster") {
+        const std::vector<Row> rows = played({"--start", "10", "--speed", "3"}, "sleep 2 ");
+        REQUIRE(rows.size() > 1500);
+        const Row& from = rows[rows.size() - 1200];
+        const Row& to = rows[rows.size() - 100];
+        CHECK(from.video_s > 10.0);
+        CHECK_THAT((to.video_s - from.video_s) / (to.t_s - from.t_s), WithinAbs(3.0, 0.4));
+    }
+    SECTION("not again from the start") {
+        const std::vector<double> held =
+            held_moments(played({"--start", "99", "--loop", "off"}, "sleep 2.5 "));
+        REQUIRE(held.size() == 1);
+        CHECK_THAT(held[0], WithinAbs(100.0 - kFrame_s, 0.5 * kFrame_s));
+    }
+}
+
+TEST_CASE("a window that fills the screen does not change the size it is kept with", "[playing]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    make_long_films(folder);
+    Process viewer =
+        desk.start_viewer(folder, {"long_color.mkv", "--device", "mouse", "--size", "640x480",
+                                   "--full-screen", "--seconds", "4", "--screenshot", "last.png"});
+    REQUIRE(viewer.wait() == 0);
+    const MediaDescription picture = describe_media(folder / "last.png");
+    CHECK(picture.colour_columns == 1280);
+    CHECK(picture.colour_rows == 800);
+    run_shell("! grep -rqE '1280|800' '" + folder.path().string() + "' --include=settings.toml");
 }
