@@ -41,8 +41,6 @@ void draw_panel_column(ViewerState& state, Player& player, SessionPlayer* replay
         draw_session_panel(state);
         draw_loop_panel(state);
     }
-    ImGui::Spacing();
-    ImGui::TextDisabled("Keys: ?   Hide the panels: Tab");
     ImGui::End();
 }
 

@@ -166,12 +166,29 @@ void draw_keys(const ViewerState& state) {
 
 }  // namespace
 
+namespace {
+
+/// Always in view, at the upper right of the relief, and never over what is said at its left.
+void draw_way_to_keys(const ViewerState& state, float margin) {
+    constexpr float kFaint = 0.6F;
+    const std::string text = "Keys: ?   Panels: Tab";
+    const float width =
+        ImGui::CalcTextSize(text.c_str()).x + 2.0F * ImGui::GetStyle().FramePadding.x;
+    const float room = ImGui::GetIO().DisplaySize.x - panel_column_width(state);
+    const float touching = ImGui::CalcTextSize(touch_text(state).c_str()).x;
+    if (touching + width + 4.0F * margin < room)
+        label(text, {room - width - margin, margin}, kFaint);
+}
+
+}  // namespace
+
 void draw_overlay(const ViewerState& state, double now_s) {
     const float margin = 12.0F * state.scale;
     const float line = 1.3F * ImGui::GetFrameHeight();
     const float second = margin + line;
     label(touch_text(state), {margin, state.replay ? second : margin}, 1.0F);
     if (state.replay) label(replay_text(*state.replay), {margin, margin}, 1.0F);
+    draw_way_to_keys(state, margin);
     if (state.recording) draw_recording(*state.recording, {margin, second});
     if (state.catching_up) {
         const bool taken = state.replay || state.recording;

@@ -36,10 +36,10 @@ void draw_panel_column(ViewerState& state, Player& player, SessionPlayer* replay
 
 /// Of the bar under the relief [px].
 [[nodiscard]] float bottom_bar_height(const ViewerState& state);
-/// The bar under the relief: play, time line, time and frame, force switch.
-void draw_transport_bar(ViewerState& state, Player& player);
-/// The same for a replay: with the contacts and marks on the time line.
-void draw_replay_bar(ViewerState& state, SessionPlayer& replay);
+/// The bar under the relief: play, time line, time and frame, force switch; of a replay, contacts
+/// and marks on the time line. While the panels are hidden it comes when the pointer does, and the
+/// force switch stays.
+void draw_bottom_bar(ViewerState& state, Player& player, SessionPlayer* replay);
 
 /// Over the relief: the force in numbers, notices; `now_s` counts from the start.
 void draw_overlay(const ViewerState& state, double now_s);

@@ -91,6 +91,7 @@ std::optional<double> draw_time_line(const TimeLineContents& line, float width) 
     draw_line(list, track, track.x_of(held ? under_s : line.now_s), hovered || held);
     if (hovered || held) {
         const std::string tag = mark != nullptr ? "   " + mark->tag : "";
+        place_next_tooltip();
         ImGui::SetTooltip("%s%s", clock_text(under_s).c_str(), tag.c_str());
     }
     const bool moved = ImGui::IsItemActivated() || ImGui::GetIO().MouseDelta.x != 0.0F;
@@ -153,19 +154,14 @@ TimeLineContents line_of(const ReplayNews& news) {
     return line;
 }
 
-}  // namespace
-
-float bottom_bar_height(const ViewerState& state) {
-    const ImGuiStyle& style = ImGui::GetStyle();
-    const bool has_line = !state.replay && state.media.meaning;
-    const float line = has_line ? ImGui::GetTextLineHeight() + style.ItemSpacing.y : 0.0F;
-    return ImGui::GetFrameHeight() + line + 2.0F * style.WindowPadding.y;
+float force_switch_width() {
+    return ImGui::CalcTextSize("Force is OFF").x + 2.0F * ImGui::GetStyle().FramePadding.x;
 }
 
 void draw_transport_bar(ViewerState& state, Player& player) {
     const ImGuiStyle& style = ImGui::GetStyle();
     begin_bottom_bar(state, "Transport");
-    const float force_width = ImGui::CalcTextSize("Force is OFF").x + 2.0F * style.FramePadding.x;
+    const float force_width = force_switch_width();
     if (state.media.still) {
         const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;
         ImGui::AlignTextToFramePadding();
@@ -196,6 +192,50 @@ void draw_replay_bar(ViewerState& state, SessionPlayer& replay) {
     }
     ImGui::TextDisabled("%s", video.c_str());
     ImGui::End();
+}
+
+/// Where the panels are hidden, the bar is, too, until the pointer comes near it; a hand that
+/// presses there is not in its way.
+bool bar_is_wanted(const ViewerState& state) {
+    constexpr float kNear = 2.5F;  // of its height
+    if (state.settings.panels_visible) return true;
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool touches = io.MouseDown[ImGuiMouseButton_Left] && !io.WantCaptureMouse;
+    const float from_below = io.DisplaySize.y - io.MousePos.y;
+    return !touches && from_below >= 0.0F && from_below < kNear * bottom_bar_height(state);
+}
+
+/// What is always in reach.
+void draw_force_switch_alone(ViewerState& state) {
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos(display, ImGuiCond_Always, {1.0F, 1.0F});
+    ImGui::SetNextWindowBgAlpha(0.0F);
+    ImGui::Begin("Force", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus);
+    draw_force_switch(state, force_switch_width());
+    ImGui::End();
+}
+
+}  // namespace
+
+float bottom_bar_height(const ViewerState& state) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const bool has_line = !state.replay && state.media.meaning;
+    const float line = has_line ? ImGui::GetTextLineHeight() + style.ItemSpacing.y : 0.0F;
+    return ImGui::GetFrameHeight() + line + 2.0F * style.WindowPadding.y;
+}
+
+void draw_bottom_bar(ViewerState& state, Player& player, SessionPlayer* replay) {
+    const bool wanted = bar_is_wanted(state);
+    if (replay != nullptr) {
+        if (wanted) draw_replay_bar(state, *replay);
+    } else if (wanted) {
+        draw_transport_bar(state, player);
+    } else {
+        draw_force_switch_alone(state);
+    }
 }
 
 }  // namespace dibhr

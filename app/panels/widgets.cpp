@@ -272,8 +272,21 @@ void file_row(const char* label, const std::filesystem::path& file) {
     explain(file.c_str());
 }
 
+void place_next_tooltip() {
+    const ImVec2 window = ImGui::GetWindowPos();
+    const float gap = ImGui::GetStyle().ItemSpacing.x;
+    if (window.x > gap) {
+        ImGui::SetNextWindowPos({window.x - gap, ImGui::GetItemRectMin().y}, ImGuiCond_Always,
+                                {1.0F, 0.0F});
+    } else {
+        ImGui::SetNextWindowPos({ImGui::GetIO().MousePos.x, window.y - gap}, ImGuiCond_Always,
+                                {0.5F, 1.0F});
+    }
+}
+
 void explain(const char* text) {
     if (*text == '\0' || !ImGui::IsItemHovered()) return;
+    place_next_tooltip();
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * 22.0F);
     ImGui::TextUnformatted(text);

@@ -98,6 +98,9 @@ void fact_row(const char* label, const std::string& value);
 /// The same for a file: its name, and the whole path as a tooltip.
 void file_row(const char* label, const std::filesystem::path& file);
 
+/// Beside the last item's window, or above it: a tooltip covers none of its controls.
+void place_next_tooltip();
+
 /// The tooltip of the last item.
 void explain(const char* text);
 

@@ -292,14 +292,8 @@ void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {
 
 void Viewer::draw_panels() {
     gui_.begin();
-    if (state_.settings.panels_visible) {
-        draw_panel_column(state_, player_, replay_.player());
-        if (SessionPlayer* const replay = replay_.player()) {
-            draw_replay_bar(state_, *replay);
-        } else {
-            draw_transport_bar(state_, player_);
-        }
-    }
+    if (state_.settings.panels_visible) draw_panel_column(state_, player_, replay_.player());
+    draw_bottom_bar(state_, player_, replay_.player());
     const auto fade = [](float& alpha) { alpha = std::max(0.0F, alpha - 0.03F); };
     if (state_.touched) fade(hint_alpha_);
     if (pressed_deeper_) fade(wheel_hint_alpha_);

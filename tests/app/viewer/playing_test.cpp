@@ -1,7 +1,9 @@
 // Keys that move a video, typed into the real window; what is recorded tells where it went.
+#include <algorithm>
 #include <string>
 #include <vector>
 
+#include "core/haptics/safety.hpp"
 #include "core/video/media.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/support/catch.hpp"
@@ -124,4 +126,22 @@ TEST_CASE("a window that fills the screen does not change the size it is kept wi
     CHECK(picture.colour_columns == 1280);
     CHECK(picture.colour_rows == 800);
     run_shell("! grep -rqE '1280|800' '" + folder.path().string() + "' --include=settings.toml");
+}
+
+TEST_CASE("with the panels hidden the force switch stays, and the time line comes to the pointer",
+          "[playing]") {
+    const auto rows = played({},
+                             "key Tab sleep 0.3 key space sleep 0.3 "
+                             // The switch in the corner, where nothing else is.
+                             "mousemove 590 460 sleep 0.3 mousedown 1 sleep 0.2 mouseup 1 "
+                             "sleep 0.4 mousedown 1 sleep 0.2 mouseup 1 sleep 0.4 "
+                             // The line, a little right of its middle.
+                             "mousemove 200 452 sleep 0.4 mousedown 1 sleep 0.2 mouseup 1 "
+                             "sleep 0.8 ");
+    const auto is_off = [](const Row& row) { return row.cut == static_cast<int>(SafetyCut::off); };
+    const auto off = std::find_if(rows.begin(), rows.end(), is_off);
+    REQUIRE(off != rows.end());
+    CHECK(std::find_if_not(off, rows.end(), is_off) != rows.end());
+    CHECK(rows.back().video_s > 20.0);
+    CHECK(rows.back().video_s < 95.0);
 }
