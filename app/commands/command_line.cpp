@@ -8,7 +8,9 @@
 #include <iostream>
 #include <string_view>
 
+#include "app/commands/spelling.hpp"
 #include "app/settings/command_options.hpp"
+#include "core/files/plain_text.hpp"
 
 namespace dibhr {
 namespace {
@@ -51,8 +53,8 @@ void print_help() {
                   << name + ' ' + std::string(command.arguments) << command.summary << '\n';
     }
     std::cout
-        << "\n  dibhr COMMAND --help   the options of a command\n"
-           "  dibhr --version        the version\n"
+        << "\n  dibhr help COMMAND     the options of a command, as dibhr COMMAND --help\n"
+           "  dibhr --version, -V    the version\n"
            "\nExamples:\n"
            "  dibhr                                the built-in sample, touched by the mouse\n"
            "  dibhr color.mp4 depth.mp4            a colour and a depth video\n"
@@ -62,7 +64,52 @@ void print_help() {
            "\nEnds with 0 on success, 1 on a failure it explains, 2 on bad usage.\n";
 }
 
+const Command* command_called(const std::string& name) {
+    const auto* const found =
+        std::find_if(kCommands.begin(), kCommands.end(),
+                     [&name](const Command& command) { return command.name == name; });
+    return found == kCommands.end() ? nullptr : found;
+}
+
+int run_one(const Command& command, const Arguments& arguments) {
+    CLI::App app(std::string(command.summary), "dibhr " + std::string(command.name));
+    return command.run(app, arguments);
+}
+
+/// `dibhr help` and `dibhr help COMMAND`.
+int run_help(const Arguments& about) {
+    if (about.empty()) {
+        print_help();
+        return 0;
+    }
+    if (const Command* const command = command_called(about.front()))
+        return run_one(*command, {"--help"});
+    throw UsageError("no command is called " + in_quotes(about.front()) +
+                     meant_command(about.front()) + " (see dibhr --help)");
+}
+
+/// Of the first word that looks like an option and is none: that, and what it may have meant; or
+/// nothing.
+std::string unknown_option(const CLI::App& app, const Arguments& arguments) {
+    std::vector<std::string> names;
+    for (const CLI::Option* const option : app.get_options())
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& argument : arguments) {
+        const std::string word = argument.substr(0, argument.find('='));
+        const bool known = std::find(names.begin(), names.end(), word) != names.end();
+        if (word.size() > 2 && word.starts_with("--") && !known)
+            return "there is no option " + one_line(word) + did_you_mean(word, names);
+    }
+    return {};
+}
+
 }  // namespace
+
+std::string meant_command(const std::string& word) {
+    std::vector<std::string> names;
+    for (const Command& command : kCommands) names.emplace_back(command.name);
+    return did_you_mean(word, names);
+}
 
 bool parse(CLI::App& app, const Arguments& arguments) {
     try {
@@ -72,7 +119,9 @@ bool parse(CLI::App& app, const Arguments& arguments) {
         std::cout << app.help();
         return false;
     } catch (const CLI::ParseError& error) {
-        throw UsageError(std::string(error.what()) + " (see " + app.get_name() + " --help)");
+        const std::string unknown = unknown_option(app, arguments);
+        throw UsageError((unknown.empty() ? error.what() : unknown) + " (see " + app.get_name() +
+                         " --help)");
     }
 }
 
@@ -99,18 +148,15 @@ int run_command_line(const Arguments& arguments) {
         print_help();
         return 0;
     }
-    if (first == "--version") {
+    if (first == "help") return run_help(Arguments(arguments.begin() + 1, arguments.end()));
+    if (first == "--version" || first == "-V") {
         std::cout << "dibhr " << DIBHR_VERSION << '\n';
         return 0;
     }
     // What is no command is what the viewer, the first of the table, is to show.
-    const auto named =
-        std::find_if(kCommands.begin(), kCommands.end(),
-                     [&first](const Command& command) { return command.name == first; });
-    const bool is_named = named != kCommands.end();
-    const Command& command = is_named ? *named : kCommands.front();
-    CLI::App app(std::string(command.summary), "dibhr " + std::string(command.name));
-    return command.run(app, Arguments(arguments.begin() + (is_named ? 1 : 0), arguments.end()));
+    if (const Command* const command = command_called(first))
+        return run_one(*command, Arguments(arguments.begin() + 1, arguments.end()));
+    return run_one(kCommands.front(), arguments);
 }
 
 }  // namespace dibhr

@@ -23,6 +23,9 @@ int run_command_line(const Arguments& arguments);
 /// False when the help was asked for, which is then printed. Throws UsageError.
 [[nodiscard]] bool parse(CLI::App& app, const Arguments& arguments);
 
+/// "; did you mean touch?" of a word that is nearly a command, or nothing.
+[[nodiscard]] std::string meant_command(const std::string& word);
+
 /// An option, or an argument, that names a file. `file` must outlive the parsing of `app`.
 CLI::Option* add_file(CLI::App& app, const std::string& name, std::filesystem::path& file,
                       const std::string& help, const std::string& type = "FILE");

@@ -261,8 +261,8 @@ int run_view(CLI::App& app, const Arguments& arguments) {
     std::error_code unknown;
     if (colour.find_first_of("./") == std::string::npos && !colour.empty() &&
         !fs::exists(colour, unknown)) {
-        throw UsageError("neither a command nor a file is called '" + colour +
-                         "'; see dibhr --help");
+        throw UsageError("neither a command nor a file is called '" + colour + "'" +
+                         meant_command(colour) + " (see dibhr --help)");
     }
     if (names_session(options.open.colour)) require_replay_options(options, touch);
     LastWords words;

@@ -184,6 +184,31 @@ TEST_CASE("help and version answer on standard output", "[usage]") {
     const ProgramResult version = run_dibhr(folder, {"--version"});
     CHECK(version.exit_code == 0);
     CHECK(version.output.starts_with("dibhr "));
+    CHECK(run_dibhr(folder, {"-V"}).output == version.output);
+    CHECK(run_dibhr(folder, {"help"}).output == help.output);
+    CHECK(run_dibhr(folder, {"help", "touch"}).output ==
+          run_dibhr(folder, {"touch", "--help"}).output);
+    CHECK(run_dibhr(folder, {"help", "nothing"}).exit_code == 2);
+}
+
+TEST_CASE("a mistyped command or option is told what it may have meant", "[usage]") {
+    const auto said = [](const std::vector<std::string>& arguments) -> std::string {
+        try {
+            run_command_line(arguments);
+        } catch (const UsageError& error) {
+            return error.what();
+        }
+        return {};
+    };
+    CHECK(contains(said({"tuoch"}), "; did you mean touch?"));
+    CHECK(contains(said({"help", "replya"}), "; did you mean replay?"));
+    CHECK(contains(said(touch_with({"--frictoin", "0.2"})), "; did you mean --friction?"));
+    CHECK(contains(said({"touch", "--frictoin", "0.2"}), "there is no option --frictoin"));
+    CHECK(contains(said(touch_with({"--stifness=1"})), "; did you mean --stiffness?"));
+    CHECK(contains(said({"view", "none.mp4", "--scrennshot", "a.png"}),
+                   "; did you mean --screenshot?"));
+    CHECK_FALSE(contains(said({"zzzzzz"}), "did you mean"));
+    CHECK_FALSE(contains(said(touch_with({"--qqqq"})), "did you mean"));
 }
 
 TEST_CASE("a file that is called like a command is reachable through view", "[usage]") {
