@@ -138,6 +138,7 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
     state_.opened = request;
     state_.opened.request.panel = state_.media.panel;
     show_depth_words(state_);
+    trace_.clear();
     if (request.chosen) keep_panel(depth_file(before));
     fit_to_media();
     // A person who says else looks on from where they are.
@@ -160,6 +161,7 @@ void Viewer::replay_session(std::unique_ptr<OpenedSession> session) {
     if (recording_.active()) tell(recording_.stop(state_));
     if (!session->frames.warning().empty()) tell(capitalised(session->frames.warning()));
     loop_.reset();  // the force goes to zero, and nobody touches
+    trace_.clear();
     player_.pause();
     show_title(session->session.file());
     keep_recent({session->session.file()});
@@ -258,6 +260,10 @@ void Viewer::load_bump(const std::filesystem::path& file) {
 }
 
 void Viewer::take_material(const std::string& name) {
+    if (state_.replay) {
+        tell("A replay is felt as it was recorded: touch its video to choose a material");
+        return;
+    }
     attempt([&] {
         Material material = material_called(name);
         lay(material, state_.settings.touch);

@@ -9,8 +9,8 @@
 
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
+#include <cstddef>
 #include <vector>
 
 #include "core/error.hpp"
@@ -51,24 +51,6 @@ pid_t started(std::vector<std::string> words, int error_descriptor) {
     return failed == 0 ? child : 0;
 }
 
-/// Until its other end is closed.
-std::string read_all(int descriptor) {
-    std::string text;
-    std::array<char, 512> piece{};
-    for (ssize_t count = 1; count != 0;) {
-        count = ::read(descriptor, piece.data(), piece.size());
-        if (count < 0 && errno != EINTR) break;
-        if (count > 0) text.append(piece.data(), static_cast<std::size_t>(count));
-    }
-    return text;
-}
-
-int ending_of(pid_t child) {
-    int status = 0;
-    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
-    return status;
-}
-
 /// "dibhr: what went wrong": what, without the program's name.
 std::string sentence_in(const std::string& errors) {
     constexpr std::string_view kName = "dibhr: ";
@@ -79,12 +61,12 @@ std::string sentence_in(const std::string& errors) {
 }  // namespace
 
 bool Reporting::start(const fs::path& session) {
-    if (page_.valid()) return false;
+    if (child_ != 0) return false;
     fs::path folder = session;
     folder.replace_extension();
     folder += "-report";
     std::array<int, 2> errors{};
-    if (::pipe2(errors.data(), O_CLOEXEC) != 0)
+    if (::pipe2(errors.data(), O_CLOEXEC | O_NONBLOCK) != 0)
         throw InputError("no report can be made: too many files are open");
     const pid_t child = started(
         {"/proc/self/exe", "report", session.string(), "--out", folder.string()}, errors[1]);
@@ -97,31 +79,37 @@ bool Reporting::start(const fs::path& session) {
             session.string());
     }
     ::setpriority(PRIO_PROCESS, static_cast<id_t>(child), kPolitely);
-    running_ = child;
-    page_ = std::async(std::launch::async, [this, child, read_end = errors[0], folder] {
-        const std::string said = read_all(read_end);
-        ::close(read_end);
-        const int status = ending_of(child);
-        running_ = 0;
-        if (status != 0)
-            throw InputError(said.empty() ? "the report was not made: it was ended"
-                                          : sentence_in(said));
-        return folder / "report.html";
-    });
+    child_ = child;
+    said_.clear();
+    said_end_ = errors[0];
+    page_ = folder / "report.html";
     return true;
 }
 
-std::optional<fs::path> Reporting::take() {
-    if (!page_.valid() || page_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
-        return {};
-    return page_.get();
+void Reporting::take_what_is_said() {
+    std::array<char, 512> piece{};
+    for (ssize_t count = 1; count > 0;) {
+        count = ::read(said_end_, piece.data(), piece.size());
+        if (count > 0) said_.append(piece.data(), static_cast<std::size_t>(count));
+    }
 }
 
-/// Nothing of a report that is not done remains.
+std::optional<fs::path> Reporting::take() {
+    if (child_ == 0) return {};
+    take_what_is_said();  // or it would wait for room
+    int status = 0;
+    if (::waitpid(child_, &status, WNOHANG) != child_) return {};
+    take_what_is_said();
+    ::close(said_end_);
+    child_ = 0;
+    if (status != 0)
+        throw InputError(said_.empty() ? "the report was not made: its program was ended"
+                                       : sentence_in(said_));
+    return page_;
+}
+
 Reporting::~Reporting() {
-    const pid_t child = running_;
-    if (child > 0) ::kill(child, SIGTERM);
-    if (page_.valid()) page_.wait();
+    if (child_ != 0) ::close(said_end_);
 }
 
 void show_in_browser(const fs::path& page) {
@@ -131,7 +119,8 @@ void show_in_browser(const fs::path& page) {
         started({"sh", "-c", "command -v xdg-open > /dev/null && xdg-open \"$1\" 2> /dev/null &",
                  "sh", page.string()},
                 nowhere);
-    if (shell > 0) static_cast<void>(ending_of(shell));
+    int status = 0;
+    while (shell > 0 && ::waitpid(shell, &status, 0) < 0 && errno == EINTR) continue;
     if (nowhere >= 0) ::close(nowhere);
 }
 

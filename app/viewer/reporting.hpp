@@ -3,16 +3,14 @@
 
 #include <sys/types.h>
 
-#include <atomic>
 #include <filesystem>
-#include <future>
 #include <optional>
 #include <string>
 
 namespace dibhr {
 
 /// Runs `dibhr report` as a program of its own, at low priority: its hours of ticks and its memory
-/// are none of the hand's. One at a time.
+/// are none of the hand's. One at a time; it ends its work also when the window is closed.
 class Reporting {
   public:
     Reporting() = default;
@@ -24,12 +22,16 @@ class Reporting {
     /// under way is not disturbed. Throws InputError when no program can be started.
     bool start(const std::filesystem::path& session);
 
-    /// The page of one that is done. Throws InputError, once, when it failed.
+    /// The page of one that is done, without waiting. Throws InputError, once, when it failed.
     [[nodiscard]] std::optional<std::filesystem::path> take();
 
   private:
-    std::future<std::filesystem::path> page_{};
-    std::atomic<pid_t> running_{0};  // 0: none
+    void take_what_is_said();
+
+    std::filesystem::path page_{};
+    std::string said_{};  // on its stderr
+    pid_t child_{0};      // 0: none is under way
+    int said_end_{-1};    // of the pipe
 };
 
 /// Shows a page in the browser, where the desktop has one; says nothing where it has not.
