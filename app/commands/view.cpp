@@ -71,6 +71,10 @@ void add_playing_options(CLI::App& app, ViewOptions& options) {
                       "Begins so many seconds after the start; beyond the end: with the last frame",
                       [&options](double seconds) { options.open.at_s = seconds; })
         ->type_name("S");
+    add_number_option(app, "--end", 0.0, kLongestRun_s,
+                      "Ends, or begins again at --start, so many seconds after the start",
+                      [&options](double seconds) { options.end_s = seconds; })
+        ->type_name("S");
     add_number_option(app, "--speed", kSlowestSpeed, kFastestSpeed, "Times the speed of the video",
                       [&options](double speed) { options.speed = speed; })
         ->type_name("X")
@@ -264,6 +268,9 @@ int run_view(CLI::App& app, const Arguments& arguments) {
         throw UsageError("neither a command nor a file is called '" + colour + "'" +
                          meant_command(colour) + " (see dibhr --help)");
     }
+    if (options.end_s && *options.end_s <= options.open.at_s)
+        throw UsageError("--end " + short_text(*options.end_s) + " is not after --start " +
+                         short_text(options.open.at_s) + ": give a later one");
     if (names_session(options.open.colour)) require_replay_options(options, touch);
     LastWords words;
     const CrashHandler crash(words, &falcon::Guardian::alarm);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "app/panels/panels.hpp"
@@ -15,6 +16,7 @@ namespace {
 struct TimeLineContents {
     double now_s{0.0};  ///< from the line's beginning, like all its times
     double length_s{0.0};
+    std::optional<MediaPart> part{};       ///< only that is played
     const ContactBand* contacts{nullptr};  ///< null: none to show
     std::vector<SessionMark> marks{};
 };
@@ -75,6 +77,19 @@ void draw_line(ImDrawList& list, const Track& track, float x, bool lively) {
         ImGui::GetColorU32(lively ? ImGuiCol_CheckMark : ImGuiCol_SliderGrabActive), 24);
 }
 
+/// The part that is played, between two posts.
+void draw_part(ImDrawList& list, const MediaPart& part, const Track& track) {
+    const ImU32 colour = ImGui::GetColorU32(ImGuiCol_CheckMark);
+    const float thick = std::max(1.5F, track.height * 0.07F);
+    const float reach = track.height * 0.30F;
+    const float y = track.middle();
+    const float left = track.x_of(part.from_s);
+    const float right = track.x_of(part.to_s);
+    for (const float x : {left, right})
+        list.AddRectFilled({x - thick, y - reach}, {x + thick, y + reach}, colour, 0.5F * thick);
+    list.AddRectFilled({left, y + reach - thick}, {right, y + reach}, colour);
+}
+
 /// Click or drag to go there: gives back where to. `width` in pixels.
 std::optional<double> draw_time_line(const TimeLineContents& line, float width) {
     const Track track{ImGui::GetCursorScreenPos(), std::max(width, 1.0F), ImGui::GetFrameHeight(),
@@ -88,6 +103,7 @@ std::optional<double> draw_time_line(const TimeLineContents& line, float width) 
     ImDrawList& list = *ImGui::GetWindowDrawList();
     if (line.contacts != nullptr) draw_contacts(list, *line.contacts, track);
     const SessionMark* mark = draw_marks(list, line.marks, track, cursor_x);
+    if (line.part) draw_part(list, *line.part, track);
     draw_line(list, track, track.x_of(held ? under_s : line.now_s), hovered || held);
     if (hovered || held) {
         const std::string tag = mark != nullptr ? "   " + mark->tag : "";
@@ -135,7 +151,8 @@ void draw_playback(const ViewerState& state, Player& player, float right_of_line
     ImGui::SameLine();
     const float frame_width = ImGui::CalcTextSize("frame 00000").x;
     const float gap = ImGui::GetStyle().ItemSpacing.x;
-    const TimeLineContents times{.now_s = playback.media_s, .length_s = playback.duration_s};
+    const TimeLineContents times{
+        .now_s = playback.media_s, .length_s = playback.duration_s, .part = playback.part};
     if (const auto wanted_s = draw_line_and_time(times, frame_width + gap + right_of_line)) {
         player.seek(*wanted_s);
     }
@@ -148,9 +165,14 @@ TimeLineContents line_of(const ReplayNews& news) {
     const SessionPlayback& playback = news.playback;
     TimeLineContents line{.now_s = playback.now_s - playback.begin_s,
                           .length_s = playback.end_s - playback.begin_s,
+                          .part = playback.part,
                           .contacts = news.contacts,
                           .marks = news.marks};
     for (SessionMark& mark : line.marks) mark.t_s -= playback.begin_s;
+    if (line.part) {
+        line.part->from_s -= playback.begin_s;
+        line.part->to_s -= playback.begin_s;
+    }
     return line;
 }
 

@@ -70,6 +70,7 @@ constexpr KeyBinding kBindings[] = {
     {Action::double_speed, kPlayback, "} or Page up", "Twice the speed", "}", {GLFW_KEY_PAGE_UP}},
     {Action::normal_speed, kPlayback, "Backspace", "Normal speed", "", {GLFW_KEY_BACKSPACE}},
     {Action::toggle_loop, kPlayback, "L", "Loop on, off", "l"},
+    {Action::loop_part, kPlayback, "A", "Loop from here; to here; all again", "a"},
     {Action::reset_view, kView, "R", "Reset the view", "r"},
     {Action::toggle_straight_view, kView, "V", "Straight view, perspective", "v"},
     {Action::show_as_recorded,

@@ -26,6 +26,7 @@ enum class Action {
     half_speed,
     normal_speed,
     toggle_loop,
+    loop_part,
     toggle_force,
     force_off,
     centre_workspace,

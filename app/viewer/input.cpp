@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
+#include "app/panels/widgets.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/collision.hpp"
 
@@ -48,6 +50,7 @@ void close_topmost(ViewerState& state) {
 /// How what plays goes on: a video or a session.
 struct Course {
     bool playing, looping;
+    std::optional<MediaPart> part;
     double speed;
     double now_s, begin_s, end_s;
 };
@@ -90,6 +93,23 @@ std::optional<double> speed_after(Action action, double speed) {
     }
 }
 
+/// The key for a part says where it begins, then where it ends, then that all is played again.
+std::optional<MediaPart> next_part(const Course& course) {
+    constexpr double kForEver_s = std::numeric_limits<double>::infinity();
+    constexpr double kShortest_s = 0.04;  // a frame
+    if (!course.part) return MediaPart{course.now_s, kForEver_s};
+    if (course.part->to_s < kForEver_s) return std::nullopt;
+    const auto [from_s, to_s] = std::minmax(course.part->from_s, course.now_s);
+    return MediaPart{from_s, std::max(to_s, from_s + kShortest_s)};
+}
+
+std::string said_of(const std::optional<MediaPart>& part, const Course& course) {
+    const auto at = [&course](double t_s) { return clock_text(t_s - course.begin_s); };
+    if (!part) return "All is played again";
+    if (std::isinf(part->to_s)) return "Loop from " + at(part->from_s) + ": A again ends it here";
+    return "Loop from " + at(part->from_s) + " to " + at(part->to_s);
+}
+
 /// What moves a video or a session; nothing when the action is not about that.
 template <typename AnyPlayer>
 std::optional<Answer> move(Action action, const Course& course, AnyPlayer& player) {
@@ -118,6 +138,12 @@ std::optional<Answer> move(Action action, const Course& course, AnyPlayer& playe
         case Action::go_to_end:
             player.seek(std::max(course.begin_s, end_s - kBeforeEnd_s));
             return Answer{.place = true};
+        case Action::loop_part: {
+            const std::optional<MediaPart> part = next_part(course);
+            player.set_part(part);
+            if (part) player.set_looping(true);
+            return Answer{said_of(part, course)};
+        }
         case Action::toggle_loop:
             player.set_looping(!course.looping);
             return Answer{course.looping ? "Loop off" : "Loop on"};
@@ -152,7 +178,8 @@ bool clip(const Vec3& from, const Vec3& way, int axis, double low, double high, 
 Answer perform(Action action, ViewerState& state, Player& player) {
     const PlaybackStatus& now = state.playback;
     if (const auto moved =
-            move(action, {now.playing, now.looping, now.speed, now.media_s, 0.0, now.duration_s},
+            move(action,
+                 {now.playing, now.looping, now.part, now.speed, now.media_s, 0.0, now.duration_s},
                  player)) {
         return state.media.still ? Answer{"A still picture: nothing plays"} : *moved;
     }
@@ -196,7 +223,8 @@ Answer perform(Action action, ViewerState& state, Player& player) {
 std::optional<Answer> perform_in_replay(Action action, SessionPlayer& replay) {
     const SessionPlayback& now = replay.playback();
     if (auto moved =
-            move(action, {now.playing, now.looping, now.speed, now.now_s, now.begin_s, now.end_s},
+            move(action,
+                 {now.playing, now.looping, now.part, now.speed, now.now_s, now.begin_s, now.end_s},
                  replay)) {
         return moved;
     }

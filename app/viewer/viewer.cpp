@@ -48,8 +48,11 @@ std::optional<double> hang_asked_for() {
     return std::strtod(text, nullptr);
 }
 
+/// `begin_s`: of what is played, on its own clock.
 template <typename AnyPlayer>
-void play_as_asked(const ViewOptions& options, AnyPlayer& player) {
+void play_as_asked(const ViewOptions& options, double begin_s, AnyPlayer& player) {
+    if (options.end_s)
+        player.set_part(MediaPart{begin_s + options.open.at_s, begin_s + *options.end_s});
     if (options.speed) player.set_speed(*options.speed);
     if (options.looping) player.set_looping(*options.looping);
 }
@@ -90,7 +93,7 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending)
     if (parts.session) {
         replay_session(std::move(parts.session));
         SessionPlayer& replay = *replay_.player();
-        play_as_asked(options, replay);
+        play_as_asked(options, replay.playback().begin_s, replay);
         if (options.open.at_s > 0.0) replay.seek(replay.playback().begin_s + options.open.at_s);
         if (options.open.paused) replay.pause();
         return;
@@ -98,7 +101,7 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending)
     state_.media = parts.media->description();
     if (!options.record.empty()) recording_.start(options.record, state_);
     show_media(std::move(parts.media), options.open);
-    play_as_asked(options, player_);
+    play_as_asked(options, 0.0, player_);
 }
 
 void Viewer::run() {

@@ -40,6 +40,7 @@ struct ViewOptions {
     bool sync{true};                     ///< --no-sync: do not wait for the display
     std::optional<double> speed{};       ///< kSlowestSpeed .. kFastestSpeed
     std::optional<bool> looping{};       ///< else a video begins again, a session stops
+    std::optional<double> end_s{};       ///< where what is played ends, from its begin
     bool full_screen{false};
     bool any_media{false};  ///< replay: also over files that have changed
     TouchRequest touch{};   ///< the command line's alone: its parameters beat a session's

@@ -177,6 +177,9 @@ struct SessionPlayer::Implementation {
             const std::chrono::duration<double> since = Clock::now() - anchored;
             due_s = anchored_s + playback.speed * since.count();
         }
+        const bool leaves_part =
+            playback.part && playback.now_s <= playback.part->to_s && due_s > playback.part->to_s;
+        if (leaves_part) due_s = playback.part->to_s;
         bool all_taken = false;
         {
             const std::lock_guard lock(mutex);
@@ -186,8 +189,8 @@ struct SessionPlayer::Implementation {
                 take_next();
                 passed(*moment);
             }
-            all_taken = ahead.empty() && complete;
             playback.waiting = ahead.empty() && !complete;
+            all_taken = (ahead.empty() && complete) || (leaves_part && !playback.waiting);
         }
         asked.notify_one();
         if (jumping) return;
@@ -218,12 +221,18 @@ struct SessionPlayer::Implementation {
     void go_on(double due_s, bool all_taken) {
         playback.now_s = std::clamp(due_s, playback.begin_s, playback.end_s);
         if (all_taken && playback.looping && playback.failure.empty()) {
-            go_to({playback.begin_s, {}, other, true});
+            go_to({lap_begins_s(), {}, other, true});
         } else if (all_taken) {
             playback.playing = false;
         } else if (playback.waiting && moment) {
             anchor(moment->tick.t_s);  // the clock waits for what is read
         }
+    }
+
+    /// Beyond the part that is played it is the session's own.
+    [[nodiscard]] double lap_begins_s() const {
+        const std::optional<MediaPart>& part = playback.part;
+        return part && playback.now_s <= part->to_s ? part->from_s : playback.begin_s;
     }
 
     // The reading thread.
@@ -326,7 +335,9 @@ void SessionPlayer::play() {
     if (here.playback.playing) return;
     here.playback.playing = true;
     here.anchor(here.playback.now_s);
-    if (here.playback.now_s >= here.playback.end_s) seek(here.playback.begin_s);
+    const std::optional<MediaPart>& part = here.playback.part;
+    const double ends_s = part ? std::min(part->to_s, here.playback.end_s) : here.playback.end_s;
+    if (here.playback.now_s >= ends_s) seek(here.lap_begins_s());
 }
 
 void SessionPlayer::pause() {
@@ -355,6 +366,10 @@ void SessionPlayer::step(int ticks) {
 
 void SessionPlayer::set_looping(bool looping) {
     implementation_->playback.looping = looping;
+}
+
+void SessionPlayer::set_part(const std::optional<MediaPart>& part) {
+    implementation_->playback.part = part;
 }
 
 void SessionPlayer::set_speed(double speed) {

@@ -46,8 +46,9 @@ struct SessionPlayback {
     double speed{1.0};
     double now_s{0.0};
     double begin_s{0.0}, end_s{0.0};
-    bool waiting{false};    ///< for ticks that are being read
-    std::string failure{};  ///< a plain sentence when reading broke off; empty otherwise
+    std::optional<MediaPart> part{};  ///< only that is played; nothing: all of it
+    bool waiting{false};              ///< for ticks that are being read
+    std::string failure{};            ///< a plain sentence when reading broke off; empty otherwise
 };
 
 /// All of it belongs to the window's thread; nothing waits for a disk or for decoding.
@@ -64,6 +65,9 @@ class SessionPlayer {
     void seek(double t_s);  ///< keeps playing or paused; of many in a row the last one counts
     void step(int ticks);   ///< pauses, then moves by that many ticks forth, or by one back
     void set_looping(bool looping);
+    /// Plays only that part: stops at its end, or begins it again. What is beyond it already goes
+    /// on to the session's own end.
+    void set_part(const std::optional<MediaPart>& part);
     void set_speed(double speed);  ///< kSlowestSpeed .. kFastestSpeed
     /// What these parameters give is computed from now on; nothing: as recorded.
     void compute(const std::optional<TouchParameters>& other);

@@ -50,6 +50,14 @@ struct Frame {
 inline constexpr double kSlowestSpeed = 0.1;
 inline constexpr double kFastestSpeed = 4.0;
 
+/// From one media time to a later one [s].
+struct MediaPart {
+    double from_s{0.0};
+    double to_s{0.0};
+
+    bool operator==(const MediaPart&) const = default;
+};
+
 /// Maps the monotonic clock to the playback timeline.
 struct PlaybackClock {
     std::chrono::steady_clock::time_point anchor{};

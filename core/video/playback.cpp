@@ -64,7 +64,7 @@ void Playback::play(Time now) {
     const bool at_end = complete_ && frames_.size() == 1;
     playing_ = !single();
     if (at_end && playing_)
-        seek(first_media_s_, now);
+        seek(lap_begins_s(frames_.front()), now);
     else
         anchor(moment(now), now);
 }
@@ -118,6 +118,16 @@ void Playback::set_looping(bool looping) {
         frames_.resize(k);
         offset_s_ = frames_.back().time_s - frames_.back().media_s;
     }
+}
+
+void Playback::set_part(const std::optional<MediaPart>& part) {
+    if (part == part_) return;
+    part_ = part;
+    complete_ = false;  // asked again by the next reading
+    // Frames that are not of it any more are forgotten, but for one that the surface moves towards.
+    if (frames_.size() <= 2) return;
+    frames_.resize(2);
+    offset_s_ = frames_.back().time_s - frames_.back().media_s;
 }
 
 void Playback::set_speed(double speed, Time now) {
@@ -187,9 +197,13 @@ bool Playback::read_next(Time now) {
     const Frame& newest = frames_.back();
     const std::int64_t passed_over = reader_->passed_over();
     auto next = reader_->after(newest.media_s, pace(now));
-    if (!next && looping_ && newest.media_s > first_media_s_) {
-        offset_s_ += newest.media_s + reader_->last_interval_s(newest.media_s) - first_media_s_;
-        next = reader_->at(first_media_s_);
+    if (ends_with(newest, next)) {
+        const double lasts_s =
+            next ? next->media_s - newest.media_s : reader_->last_interval_s(newest.media_s);
+        const double begins_s = lap_begins_s(newest);
+        next.reset();
+        if (looping_ && newest.media_s > begins_s) next = reader_->at(begins_s);
+        if (next) offset_s_ += newest.media_s + lasts_s - next->media_s;
     }
     complete_ = !next;
     if (!next) return false;
@@ -199,6 +213,17 @@ bool Playback::read_next(Time now) {
     frames_.push_back(std::move(*next));
     if (frames_.size() == 2 && at_seam()) ++discontinuity_;
     return true;
+}
+
+/// The lap does: with the media, or with the part that is played.
+bool Playback::ends_with(const Frame& newest, const std::optional<Frame>& next) const {
+    if (!next) return true;
+    return part_ && newest.media_s <= part_->to_s && next->media_s > part_->to_s;
+}
+
+/// Beyond the part that is played it is the media's own.
+double Playback::lap_begins_s(const Frame& newest) const {
+    return part_ && newest.media_s <= part_->to_s ? part_->from_s : first_media_s_;
 }
 
 double Playback::interval_s() const {

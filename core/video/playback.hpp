@@ -30,6 +30,9 @@ class Playback {
     void seek(double media_s, Time now);
     void step(int frames, Time now);
     void set_looping(bool looping);
+    /// Only this part of the media is played: at its end it stops, or begins the part again. What
+    /// is beyond it already goes on to the media's own end.
+    void set_part(const std::optional<MediaPart>& part);
     void set_speed(double speed, Time now);
     void set_cleaning(const CleaningOptions& options);
 
@@ -66,6 +69,7 @@ class Playback {
     [[nodiscard]] bool is_open() const { return reader_ != nullptr; }
     [[nodiscard]] bool playing() const { return playing_; }
     [[nodiscard]] bool looping() const { return looping_; }
+    [[nodiscard]] const std::optional<MediaPart>& part() const { return part_; }
     [[nodiscard]] double speed() const { return speed_; }
     [[nodiscard]] const MediaDescription& description() const { return reader_->description(); }
     [[nodiscard]] const FrameCost& cost() const { return reader_->cost(); }
@@ -86,6 +90,8 @@ class Playback {
     void clean_again(const CleaningOptions& options);
     void anchor(double playback_s, Time now);
     [[nodiscard]] double moment(Time now) const;  ///< playback time, held at the newest frame
+    [[nodiscard]] bool ends_with(const Frame& newest, const std::optional<Frame>& next) const;
+    [[nodiscard]] double lap_begins_s(const Frame& newest) const;
     [[nodiscard]] bool at_seam() const;  ///< from the last frame to the first of the next lap
     [[nodiscard]] bool single() const;   ///< one frame is all there is
 
@@ -107,6 +113,7 @@ class Playback {
     double speed_{1.0};
     bool playing_{false};
     bool looping_{true};
+    std::optional<MediaPart> part_{};
     bool complete_{false};  ///< no frame follows the newest
     bool steps_back_{false};
     std::optional<double> ready_before_s_{};  ///< media time of the frame before which one is ready

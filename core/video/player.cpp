@@ -151,6 +151,7 @@ void Player::Implementation::publish() {
     status.open = true;
     status.playing = playback.playing();
     status.looping = playback.looping();
+    status.part = playback.part();
     status.speed = playback.speed();
     status.duration_s = playback.description().duration_s;
     status.frames = playback.description().frames;
@@ -212,6 +213,10 @@ void Player::step(int frames) {
 
 void Player::set_looping(bool looping) {
     implementation_->ask({[looping](Playback& playback, Time) { playback.set_looping(looping); }});
+}
+
+void Player::set_part(const std::optional<MediaPart>& part) {
+    implementation_->ask({[part](Playback& playback, Time) { playback.set_part(part); }});
 }
 
 void Player::set_speed(double speed) {

@@ -18,6 +18,7 @@ struct PlaybackStatus {
     bool open{false};
     bool playing{false};
     bool looping{true};
+    std::optional<MediaPart> part{};
     double speed{1.0};
     double media_s{0.0};
     double duration_s{0.0};
@@ -52,6 +53,8 @@ class Player {
     void seek(double media_s);  ///< to the frame shown at that time; keeps playing or paused
     void step(int frames);      ///< pauses, then moves by whole frames, back or forth
     void set_looping(bool looping);
+    /// Plays only that part of the media, nothing: all of it. Stops at its end, or begins it again.
+    void set_part(const std::optional<MediaPart>& part);
     void set_speed(double speed);  ///< kSlowestSpeed .. kFastestSpeed
     void set_cleaning(const CleaningOptions& options);
 

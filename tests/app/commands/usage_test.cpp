@@ -52,6 +52,7 @@ TEST_CASE("bad usage is refused in one line before anything is done", "[usage]")
         {"view", "none.mp4", "--seconds", "-1"},
         {"view", "none.mp4", "--seconds", "soon"},
         {"view", "none.mp4", "--start", "-1"},
+        {"view", "none.mp4", "--start", "3", "--end", "3"},
         {"view", "none.mp4", "--speed", "0"},
         {"view", "none.mp4", "--speed", "5"},
         {"view", "none.mp4", "--loop", "yes"},

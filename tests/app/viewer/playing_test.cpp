@@ -1,5 +1,6 @@
 // Keys that move a video, typed into the real window; what is recorded tells where it went.
 #include <algorithm>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -112,6 +113,36 @@ TEST_CASE("options say where it begins, that it stands still, and how fast it go
         REQUIRE(held.size() == 1);
         CHECK_THAT(held[0], WithinAbs(100.0 - kFrame_s, 0.5 * kFrame_s));
     }
+}
+
+TEST_CASE("a key plays from here to here again and again, and then all again", "[playing]") {
+    const std::vector<Row> rows =
+        played({"--start", "50"}, "key a sleep 0.8 key a sleep 3 key a sleep 2 ");
+    double latest_s = 0.0;
+    int laps = 0;
+    for (std::size_t k = 1; k < rows.size(); ++k) {
+        if (!rows[k].surface || !rows[k - 1].surface) continue;
+        if (rows[k].video_s < rows[k - 1].video_s - 0.3) ++laps;
+        latest_s = std::max(latest_s, rows[k].video_s);
+    }
+    CHECK(laps >= 2);
+    CHECK(laps <= 5);
+    CHECK(rows.back().video_s > 51.5);  // beyond where it was to end
+    CHECK(latest_s < 60.0);
+}
+
+TEST_CASE("options say what part is played, once or again and again", "[playing]") {
+    const std::string looping = GENERATE("on", "off");
+    CAPTURE(looping);
+    const std::vector<Row> rows =
+        played({"--start", "10", "--end", "11", "--loop", looping}, "sleep 3 ");
+    for (const Row& row : rows) {
+        if (!row.surface) continue;
+        CHECK(row.video_s >= 10.0 - kFrame_s);
+        CHECK(row.video_s <= 11.0 + kFrame_s);
+    }
+    const std::vector<double> held = held_moments(rows);
+    CHECK(held.size() == (looping == "on" ? 0 : 1));
 }
 
 TEST_CASE("a window that fills the screen does not change the size it is kept with", "[playing]") {

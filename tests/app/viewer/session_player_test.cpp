@@ -134,6 +134,39 @@ TEST_CASE("a replay goes to any time, and by single ticks, whether it plays or n
     CHECK(arrival(player).tick.tick == ticks.back().tick);
 }
 
+TEST_CASE("of a replay a part is played again and again, or once", "[player]") {
+    const Recorded recorded;
+    SessionPlayer player(recorded.open());
+    const double begin_s = player.playback().begin_s;
+    const MediaPart part{begin_s + 0.2, begin_s + 0.4};
+    player.set_part(part);
+    player.seek(part.from_s);
+    SECTION("again and again") {
+        player.set_looping(true);
+        int laps = 0;
+        double last_s = 0.0;
+        const auto passed = play_until(player, [&](const auto& moments) {
+            if (!moments.empty() && moments.back().tick.t_s < last_s) ++laps;
+            if (!moments.empty()) last_s = moments.back().tick.t_s;
+            return laps == 3;
+        });
+        // From where it began to play until it was sought to the part it was before it.
+        const auto first = std::find_if(passed.begin(), passed.end(), [&](const auto& moment) {
+            return moment.tick.t_s >= part.from_s;
+        });
+        for (auto moment = first; moment != passed.end(); ++moment) {
+            CHECK(moment->tick.t_s >= part.from_s - 2e-3);
+            CHECK(moment->tick.t_s <= part.to_s);
+        }
+    }
+    SECTION("once") {
+        static_cast<void>(play_to_end(player));
+        CHECK_THAT(player.playback().now_s, WithinAbs(part.to_s, 1e-9));
+        player.play();
+        CHECK_THAT(arrival(player).tick.t_s, WithinAbs(part.from_s, 2e-3));
+    }
+}
+
 TEST_CASE("of many seeks in a row the last one counts", "[player]") {
     const Recorded recorded;
     const std::vector<TickRecord> ticks = recorded.ticks();

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -193,6 +194,71 @@ TEST_CASE("looping switched off near the end forgets the next lap, and on again 
     scene.settle();
     scene.pass(0.05);
     CHECK_THAT(scene.shown(), WithinAbs(7.5, 1e-6));
+}
+
+TEST_CASE("a part is played again and again, and its last frame blends into its first",
+          "[playback]") {
+    Scene scene(kTenths);
+    scene.playback.set_part(MediaPart{0.2, 0.5});
+    scene.pass(0.35);
+    CHECK_THAT(scene.shown(), WithinAbs(3.5, 1e-6));
+    CHECK(scene.playback.window().discontinuity == 1);  // the opening
+    scene.pass(0.2);
+    CHECK_THAT(scene.shown(), WithinAbs(5.5, 1e-6));
+    CHECK(scene.playback.window().discontinuity == 2);
+    CHECK(scene.playback.window().frames[1].index == 2);
+    scene.pass(0.1);
+    CHECK_THAT(scene.shown(), WithinAbs(2.5, 1e-6));
+    scene.pass(4.0);
+    CHECK_THAT(scene.shown(), WithinAbs(2.5, 1e-5));
+    CHECK(scene.playback.window().discontinuity == 12);  // ten laps more
+    scene.playback.set_part({});
+    scene.pass(0.4);
+    CHECK_THAT(scene.shown(), WithinAbs(6.5, 1e-5));
+}
+
+TEST_CASE("without looping, playing ends with the part, and play begins with it again",
+          "[playback]") {
+    Scene scene(kTenths);
+    scene.playback.set_looping(false);
+    scene.playback.set_part(MediaPart{0.2, 0.5});
+    scene.pass(1.0);
+    CHECK_FALSE(scene.playback.playing());
+    CHECK_THAT(scene.shown(), WithinAbs(5.0, 1e-9));
+    scene.playback.play(scene.now);
+    scene.settle();
+    CHECK(scene.playback.playing());
+    CHECK_THAT(scene.shown(), WithinAbs(2.0, 1e-6));
+}
+
+TEST_CASE("beyond the part that is set the media goes on to its own end, and begins as a whole",
+          "[playback]") {
+    Scene scene(kTenths);
+    scene.pass(0.65);
+    scene.playback.set_part(MediaPart{0.2, 0.4});
+    scene.pass(0.2);
+    CHECK_THAT(scene.shown(), WithinAbs(0.5, 1e-6));
+    scene.pass(0.4);  // and from there on in it
+    CHECK_THAT(scene.shown(), WithinAbs(4.5, 1e-6));
+    scene.pass(0.1);
+    CHECK_THAT(scene.shown(), WithinAbs(2.5, 1e-6));
+}
+
+TEST_CASE("a part without an end goes to the media's, and begins where it was set", "[playback]") {
+    Scene scene(kTenths);
+    scene.pass(0.35);
+    scene.playback.set_part(MediaPart{0.35, std::numeric_limits<double>::infinity()});
+    scene.pass(0.45);
+    CHECK_THAT(scene.shown(), WithinAbs(3.0, 1e-5));
+}
+
+TEST_CASE("a part of one frame is held", "[playback]") {
+    Scene scene(kTenths);
+    scene.playback.set_part(MediaPart{0.3, 0.35});
+    scene.playback.seek(0.3, scene.now);
+    scene.settle();
+    scene.pass(1.0);
+    CHECK_THAT(scene.shown(), WithinAbs(3.0, 1e-6));
 }
 
 TEST_CASE("a pause keeps the moment exactly, and play goes on from it", "[playback]") {
