@@ -64,7 +64,7 @@ void Playback::play(Time now) {
     const bool at_end = complete_ && frames_.size() == 1;
     playing_ = !single();
     if (at_end && playing_)
-        seek(lap_begins_s(frames_.front()), now);
+        seek(lap_begins_s(), now);
     else
         anchor(moment(now), now);
 }
@@ -197,10 +197,10 @@ bool Playback::read_next(Time now) {
     const Frame& newest = frames_.back();
     const std::int64_t passed_over = reader_->passed_over();
     auto next = reader_->after(newest.media_s, pace(now));
-    if (ends_with(newest, next)) {
+    if (lap_ends_before(next)) {
         const double lasts_s =
             next ? next->media_s - newest.media_s : reader_->last_interval_s(newest.media_s);
-        const double begins_s = lap_begins_s(newest);
+        const double begins_s = lap_begins_s();
         next.reset();
         if (looping_ && newest.media_s > begins_s) next = reader_->at(begins_s);
         if (next) offset_s_ += newest.media_s + lasts_s - next->media_s;
@@ -215,15 +215,20 @@ bool Playback::read_next(Time now) {
     return true;
 }
 
-/// The lap does: with the media, or with the part that is played.
-bool Playback::ends_with(const Frame& newest, const std::optional<Frame>& next) const {
-    if (!next) return true;
-    return part_ && newest.media_s <= part_->to_s && next->media_s > part_->to_s;
+/// Not beyond its end: what is shown, or, on a new lap, what is read ahead. The surface may move
+/// towards a frame beyond it, when the end is set where it is.
+bool Playback::in_part() const {
+    return part_ && std::min(frames_.front().media_s, frames_.back().media_s) <= part_->to_s;
+}
+
+/// With the media, or with the part that is played.
+bool Playback::lap_ends_before(const std::optional<Frame>& next) const {
+    return !next || (in_part() && next->media_s > part_->to_s);
 }
 
 /// Beyond the part that is played it is the media's own.
-double Playback::lap_begins_s(const Frame& newest) const {
-    return part_ && newest.media_s <= part_->to_s ? part_->from_s : first_media_s_;
+double Playback::lap_begins_s() const {
+    return in_part() ? part_->from_s : first_media_s_;
 }
 
 double Playback::interval_s() const {

@@ -90,8 +90,9 @@ class Playback {
     void clean_again(const CleaningOptions& options);
     void anchor(double playback_s, Time now);
     [[nodiscard]] double moment(Time now) const;  ///< playback time, held at the newest frame
-    [[nodiscard]] bool ends_with(const Frame& newest, const std::optional<Frame>& next) const;
-    [[nodiscard]] double lap_begins_s(const Frame& newest) const;
+    [[nodiscard]] bool in_part() const;
+    [[nodiscard]] bool lap_ends_before(const std::optional<Frame>& next) const;
+    [[nodiscard]] double lap_begins_s() const;
     [[nodiscard]] bool at_seam() const;  ///< from the last frame to the first of the next lap
     [[nodiscard]] bool single() const;   ///< one frame is all there is
 

@@ -252,6 +252,18 @@ TEST_CASE("a part without an end goes to the media's, and begins where it was se
     CHECK_THAT(scene.shown(), WithinAbs(3.0, 1e-5));
 }
 
+TEST_CASE("a part whose end is set where it is begins again from there", "[playback]") {
+    Scene scene(kTenths);
+    scene.pass(0.45);
+    scene.playback.set_part(MediaPart{0.2, 0.45});
+    scene.pass(0.1);
+    CHECK_THAT(scene.shown(), WithinAbs(5.5, 1e-6));
+    CHECK(scene.playback.window().frames[1].index == 2);
+    scene.pass(0.3);
+    CHECK_THAT(scene.shown(), WithinAbs(4.5, 1e-5));
+    CHECK(scene.playback.window().frames[1].index == 2);
+}
+
 TEST_CASE("a part of one frame is held", "[playback]") {
     Scene scene(kTenths);
     scene.playback.set_part(MediaPart{0.3, 0.35});
