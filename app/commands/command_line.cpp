@@ -107,6 +107,7 @@ std::string unknown_option(const CLI::App& app, const Arguments& arguments) {
 
 std::string meant_command(const std::string& word) {
     std::vector<std::string> names;
+    names.reserve(kCommands.size());
     for (const Command& command : kCommands) names.emplace_back(command.name);
     return did_you_mean(word, names);
 }

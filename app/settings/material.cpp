@@ -279,7 +279,7 @@ fs::path save_material(const Material& material) {
             copy.commit();
         }
     }
-    const fs::path file = folder / (material.name + kEnding);
+    fs::path file = folder / (material.name + kEnding);
     OutputFile out(file);
     out.write(toml_of(material, map));
     out.commit();

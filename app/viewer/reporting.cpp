@@ -29,6 +29,7 @@ constexpr int kPolitely = 10;  // nice(2): the hand's and the window's threads c
 /// Starts a program whose stderr goes to that descriptor; 0: it could not be started.
 pid_t started(std::vector<std::string> words, int error_descriptor) {
     std::vector<char*> arguments;
+    arguments.reserve(words.size() + 1);
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
     posix_spawn_file_actions_t files;
