@@ -66,7 +66,7 @@ class SurfaceWalk : private ProxyWalk {
     Next glide(const Facet& start, const Facet::Projection& goal_on) noexcept {
         const double moving = square(friction_.dynamic_coefficient);
         const double sticking = square(friction_.static_coefficient);
-        Glide glide({surface_, goal_, moving, most_moves_}, proxy_.position, proxy_.moves,
+        Glide glide({surface_, goal_, moving, last_move()}, proxy_.position, proxy_.moves,
                     proxy_.slipping ? moving : sticking, start, goal_on);
         const Glide::End end = glide.run();
         proxy_.moves = glide.moves();
@@ -175,7 +175,7 @@ class SurfaceWalk : private ProxyWalk {
         const double to_cone =
             std::sqrt(squared_distance(piece.foot, corner)) - std::sqrt(piece.cone.moving2);
         const double edges = to_cone / std::sqrt(glm::dot(along, along)) - 1.0;
-        const int moves_left = most_moves_ - proxy_.moves;
+        const int moves_left = last_move() - proxy_.moves;
         const int most = std::min(static_cast<int>(std::max(edges, 0.0)), moves_left / 2 - 1);
         const int more = CreaseAhead(surface_, end, spoke, goal_).count(most);
         proxy_.moves += 2 * more;  // a VERTEX and an EDGE each
@@ -190,7 +190,7 @@ class SurfaceWalk : private ProxyWalk {
         const std::size_t steepest = steepest_spoke(fan, kThere_px, [](Vec3) { return true; });
         if (steepest == kSpokes.size()) return rest_or_leave();
         proxy_.active = edge_at(proxy_.active, steepest);
-        if (proxy_.moves >= most_moves_) return Next::visit;  // which ends the walk
+        if (proxy_.moves >= last_move()) return Next::visit;  // which ends the walk
         ++proxy_.moves;
         return visit_fan_edge(fan, steepest);
     }
@@ -311,7 +311,14 @@ class SurfaceWalk : private ProxyWalk {
 
 void Dibhr::walk(const DepthSurface& surface, Vec3 goal, const Friction& friction,
                  Proxy& proxy) const noexcept {
-    SurfaceWalk(surface, goal, friction, kMostMoves, proxy).run();
+    SurfaceWalk(surface, goal, friction, kMostMoves, proxy, last_move_).run();
+}
+
+Proxy Dibhr::after_moves(const DepthSurface& surface, Vec3 goal, const Friction& friction,
+                         int moves) const noexcept {
+    Dibhr some = *this;
+    some.last_move_ = moves;
+    return some.update(surface, goal, friction);
 }
 
 }  // namespace dibhr

@@ -37,6 +37,14 @@ class ProxyAlgorithm {
     /// Goes on from where another algorithm left its proxy, on the surface it left it on.
     void resume(const ProxyAlgorithm& other) noexcept { *this = other; }
 
+    /// Goes on from a proxy as an update left it on a surface of that size.
+    void resume(const Proxy& proxy, int columns, int rows) noexcept {
+        proxy_ = proxy;
+        columns_ = columns;
+        rows_ = rows;
+        started_ = true;
+    }
+
   protected:
     /// From where the proxy is to where it rests, or to where the algorithm's most moves take it:
     /// then `bound_met` is set. `goal` lies inside the image rectangle.

@@ -36,12 +36,14 @@ inline constexpr double kThere_px = 1e-11;
 /// derived from it gives the visits.
 class ProxyWalk {
   public:
+    /// It ends after `last_move`, too, if that comes first: as it would have gone on.
     ProxyWalk(const DepthSurface& surface, Vec3 goal, const Friction& friction, int most_moves,
-              Proxy& proxy) noexcept
+              Proxy& proxy, int last_move = std::numeric_limits<int>::max()) noexcept
         : surface_(surface),
           goal_(goal),
           friction_(friction),
           all_moves_(most_moves),
+          last_move_(last_move),
           proxy_(proxy) {}
 
   protected:
@@ -56,7 +58,7 @@ class ProxyWalk {
     void visit_until_rest(Visit&& visit) noexcept {
         Next next = proxy_.contact ? Next::visit : visit_free();
         while (next == Next::visit) {
-            if (proxy_.moves >= most_moves_) {
+            if (proxy_.moves >= last_move()) {
                 proxy_.bound_met = true;
                 break;
             }
@@ -65,6 +67,9 @@ class ProxyWalk {
         }
         if (!moved_) proxy_.slipping = false;
     }
+
+    /// No move is made after that many.
+    [[nodiscard]] int last_move() const noexcept { return std::min(most_moves_, last_move_); }
 
     /// Free flight to the goal, or to where it meets the surface: then there is a TRIANGLE to
     /// visit.
@@ -178,6 +183,7 @@ class ProxyWalk {
     const Vec3 goal_;
     const Friction friction_;
     const int all_moves_;
+    const int last_move_;
     int most_moves_{all_moves_};  ///< of them: less those that flights have taken
     Proxy& proxy_;
     bool moved_{false};
