@@ -64,6 +64,13 @@ void Camera::zoom(double factor) {
     if (factor > 0.0) zoom_ = std::clamp(zoom_ * factor, kLeastZoom, kMostZoom);
 }
 
+void Camera::close_up(Vec3 centre_in_grid, double radius_px) {
+    centre_in_world_ = world_from_grid(centre_in_grid);
+    zoom_ = 1.0;
+    const double scale = projection_ == Projection::perspective ? distance_px() : 1.0;
+    zoom(half_extent().y * scale / std::max(radius_px, 1e-3));
+}
+
 double Camera::radius_px() const {
     return 0.5 * glm::length(Vec3(columns_, rows_, relief_px_));
 }
@@ -103,6 +110,12 @@ glm::dmat4 Camera::clip_from_view(double aspect) const {
     }
     return glm::frustum(-up * aspect * near_px, up * aspect * near_px, -up * near_px, up * near_px,
                         near_px, far_px);
+}
+
+glm::dmat4 Camera::clip_from_grid(double aspect) const {
+    const glm::dmat4 upright = glm::scale(glm::dmat4(1.0), glm::dvec3(1.0, -1.0, 1.0));
+    const glm::dmat4 world_from_grid = glm::translate(upright, -grid_from_world(Vec3(0.0)));
+    return clip_from_view(aspect) * view_from_world() * world_from_grid;
 }
 
 Vec3 Camera::grid_from_world(Vec3 world) const {

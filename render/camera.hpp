@@ -31,10 +31,16 @@ class Camera {
     /// > 1: larger. A lens, not a walk: the eye never enters the relief. Bounded.
     void zoom(double factor);
 
+    /// Puts a ball in grid space in the middle, as large as it fits (but see zoom()). The direction
+    /// stays.
+    void close_up(Vec3 centre_in_grid, double radius_px);
+
     void set_projection(Projection projection) { projection_ = projection; }
 
     [[nodiscard]] glm::dmat4 view_from_world() const;
     [[nodiscard]] glm::dmat4 clip_from_view(double aspect) const;  ///< aspect = width / height
+    /// From grid space to the clip space of such a viewport, for what is drawn over the picture.
+    [[nodiscard]] glm::dmat4 clip_from_grid(double aspect) const;
     [[nodiscard]] Vec3 grid_from_world(Vec3 world) const;
     [[nodiscard]] Vec3 world_from_grid(Vec3 grid) const;
 

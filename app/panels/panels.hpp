@@ -1,7 +1,10 @@
 // The panels, each in a file of its own. They draw, and edit the state they are given.
 #pragma once
 
+#include <glm/mat4x4.hpp>
+
 #include "app/panels/viewer_state.hpp"
+#include "core/haptics/surface.hpp"
 
 namespace dibhr {
 
@@ -48,6 +51,11 @@ void draw_overlay(const ViewerState& state, double now_s);
 enum class Hint { touch, press_deeper };
 /// For who has not done it yet; `alpha` 0 .. 1 fades it out.
 void draw_hint(const ViewerState& state, Hint hint, float alpha);
+
+/// The update that is explained: on the relief, as far as steps were taken, and what the last one
+/// did in words, with its buttons. `clip_from_grid` is the relief's camera, `surface` what is felt.
+void draw_explanation(ViewerState& state, const DepthSurface& surface,
+                      const glm::dmat4& clip_from_grid);
 
 /// The help sheet and the message box, on top of everything.
 void draw_help_sheet(ViewerState& state);

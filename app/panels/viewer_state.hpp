@@ -11,10 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "app/settings/keys.hpp"
 #include "app/settings/material.hpp"
 #include "app/settings/recent_files.hpp"
 #include "app/settings/settings.hpp"
 #include "app/window/window.hpp"
+#include "core/haptics/explanation.hpp"
 #include "core/loop/device.hpp"
 #include "core/loop/haptic_tick.hpp"
 #include "core/replay/session_player.hpp"
@@ -83,8 +85,9 @@ struct Requests {
     bool reset_view{false};
     bool toggle_recording{false};
     bool mark{false};
-    bool as_recorded{false};   ///< a replay: no other parameters any more
-    bool leave_replay{false};  ///< its video is to be touched
+    bool as_recorded{false};         ///< a replay: no other parameters any more
+    bool leave_replay{false};        ///< its video is to be touched
+    std::optional<Action> action{};  ///< of a button that does what a key does
     std::filesystem::path report{};  ///< of that session; empty: none is asked for
     bool screenshot{false};
     bool full_screen{false};
@@ -117,6 +120,14 @@ struct UnderHand {
     double nearness{0.0};      ///< 0: the farthest, 1: the nearest
     double elevation_px{0.0};  ///< of the surface, with its roughness
     bool unseen{false};        ///< no surface was ever seen there
+};
+
+/// One update, looked at step by step.
+struct ExplainedNews {
+    ExplainedUpdate update{};
+    bool held{false};      ///< the goal stays: a first step was taken, or it is a replay's
+    std::size_t taken{0};  ///< steps, of update.steps
+    bool runs{false};      ///< takes them by itself, slowly
 };
 
 /// What the window shows of the Falcon.
@@ -152,6 +163,7 @@ struct ViewerState {
     std::string recording_trouble{};        ///< why the last recording broke off
     std::filesystem::path recorded_file{};  ///< the last one; empty: none yet
     std::optional<ReplayNews> replay{};     ///< nothing: a hand touches
+    std::optional<ExplainedNews> explained{};
     ForceHistory forces{};
     double pictures_per_s{0.0};
     bool in_front{true};  ///< the window; false: people work in another one

@@ -45,6 +45,7 @@ constexpr KeyBinding kBindings[] = {
     with_control(
         {Action::record, kTouch, "Ctrl+R", "Record what is touched, stop", "", {GLFW_KEY_R}}),
     {Action::mark, kTouch, "M", "Mark this moment of the recording", "m"},
+    {Action::explain, kTouch, "E", "Explain an update step by step; end it", "e"},
     {Action::play_or_pause, kPlayback, "Space or P", "Play, pause", " p"},
     repeating(
         {Action::step_forward, kPlayback, ".", "One frame forward; in a replay, one tick", "."}),

@@ -32,6 +32,7 @@ enum class Action {
     centre_workspace,
     record,
     mark,
+    explain,
     reset_view,
     toggle_straight_view,
     show_as_recorded,

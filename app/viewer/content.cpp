@@ -82,8 +82,9 @@ SceneContent scene_content(const ViewerState& state, const DepthBlend& shown) {
     content.colour = shown.from;
     const DepthSurface surface = shown.surface(content.shape, content.bump);
     content.markers = markers_of(state, surface);
+    content.markers.visible = content.markers.visible && !state.explained;
     add_finger(shown, content.shape, content.markers);
-    content.dent = dent_under(state, content.markers, *shown.from->drawn());
+    if (!state.explained) content.dent = dent_under(state, content.markers, *shown.from->drawn());
     return content;
 }
 

@@ -1,6 +1,8 @@
 // A session in the window.
 #include "app/viewer/replay.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -8,13 +10,28 @@ namespace dibhr {
 
 namespace {
 
+/// A session names the cell; where in it the proxy was says which TRIANGLE or EDGE.
+Primitive recorded_primitive(const TickRecord& tick) {
+    Primitive primitive{
+        .kind = static_cast<PrimitiveKind>(tick.primitive), .i = tick.i, .j = tick.j};
+    const double right = std::abs(tick.proxy.x - tick.i);
+    const double down = std::abs(tick.proxy.y - tick.j);
+    if (primitive.kind == PrimitiveKind::triangle && right + down > 1.0)
+        primitive.side = TriangleSide::far_corner;
+    if (primitive.kind == PrimitiveKind::edge) {
+        const double to_diagonal = std::abs(right + down - 1.0);
+        primitive.direction = down <= std::min(right, to_diagonal) ? EdgeDirection::along_row
+                              : right <= to_diagonal               ? EdgeDirection::along_column
+                                                                   : EdgeDirection::diagonal;
+    }
+    return primitive;
+}
+
 Touch recorded_touch(const TickRecord& tick) {
     Touch touch;
     touch.goal = tick.goal;
     touch.proxy.position = tick.proxy;
-    touch.proxy.active.kind = static_cast<PrimitiveKind>(tick.primitive);
-    touch.proxy.active.i = tick.i;
-    touch.proxy.active.j = tick.j;
+    touch.proxy.active = recorded_primitive(tick);
     touch.proxy.moves = tick.moves;
     touch.proxy.contact = tick.contact;
     touch.proxy.bound_met = tick.catching_up;

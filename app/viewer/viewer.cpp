@@ -270,7 +270,8 @@ void Viewer::take_keys(const WindowInput& input) {
 void Viewer::perform(Action action) {
     SessionPlayer* const replay = replay_.player();
     std::optional<Answer> answer;
-    if (replay != nullptr) answer = perform_in_replay(action, *replay);
+    answer = explaining_.perform(action, state_, player_, replay);
+    if (!answer && replay != nullptr) answer = perform_in_replay(action, *replay);
     if (!answer) answer = dibhr::perform(action, state_, player_);
     if (!answer->place && answer->words.empty()) return;
     tell(answer->words);
@@ -302,15 +303,25 @@ void Viewer::draw_panels() {
     if (pressed_deeper_) fade(wheel_hint_alpha_);
     const bool mouse_touches = !state_.replay && hand_.mouse != nullptr &&
                                (hand_.falcon == nullptr || state_.haptic.hand.stand_in);
-    if (mouse_touches && state_.message.empty()) {
+    if (mouse_touches && state_.message.empty() && !state_.explained) {
         draw_hint(state_, Hint::touch, hint_alpha_);
         const bool wonders = hint_alpha_ <= 0.0F && state_.haptic.touch.proxy.contact;
         if (wonders) draw_hint(state_, Hint::press_deeper, wheel_hint_alpha_);
     }
     draw_overlay(state_, now_s());
+    draw_explained();
     draw_help_sheet(state_);
     draw_message_box(state_);
     gui_.end();
+}
+
+void Viewer::draw_explained() {
+    explaining_.advance(shown_, state_, camera_, now_s());
+    if (!state_.explained) return;
+    const glm::ivec2 viewport = relief_viewport();
+    const DepthSurface surface = shown_.surface(state_.shape(), state_.bump.get());
+    draw_explanation(state_, surface,
+                     camera_.clip_from_grid(static_cast<double>(viewport.x) / viewport.y));
 }
 
 void Viewer::carry_out_requests() {
@@ -333,6 +344,7 @@ void Viewer::carry_out_requests() {
     if (asked.mark) tell(recording_.mark(state_));
     if (asked.leave_replay && !opening_.start({state_.media.colour_path, state_.media.depth_path}))
         tell("Still opening the last files");
+    if (asked.action) perform(*asked.action);
     if (asked.screenshot) screenshots_.save(read_framebuffer(window_.framebuffer_size()));
     if (asked.quit) window_.close();
 }

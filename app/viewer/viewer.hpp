@@ -12,6 +12,7 @@
 #include "app/settings/command_options.hpp"
 #include "app/settings/keys.hpp"
 #include "app/settings/settings.hpp"
+#include "app/viewer/explaining.hpp"
 #include "app/viewer/falcon.hpp"
 #include "app/viewer/files.hpp"
 #include "app/viewer/input.hpp"
@@ -83,6 +84,7 @@ class Viewer {
     void move_hand(const WindowInput& input, glm::ivec2 viewport);
     void draw_scene(glm::ivec2 viewport);
     void draw_panels();
+    void draw_explained();
     void carry_out_requests();
     void hand_over_settings();
     [[nodiscard]] CleaningOptions wanted_cleaning() const;
@@ -144,6 +146,7 @@ class Viewer {
     Opening opening_{};
     Screenshots screenshots_{};
     Reporting reporting_{};
+    ViewerExplaining explaining_{};
     SettingsKeeper keeper_;
     HapticSettings handed_{};
     CleaningOptions cleaning_handed_{};

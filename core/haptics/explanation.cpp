@@ -119,8 +119,9 @@ class Explainer {
         step.foot = foot_on(surface_, step.piece, update_.goal);
         step.end = end_of(step);
         const bool sticks = step.end == StepEnd::stays_in_cone && !before.slipping;
-        step.cone_px = (sticks ? friction_.static_coefficient : friction_.dynamic_coefficient) *
-                       glm::length(update_.goal - step.foot);
+        const double mu = sticks ? friction_.static_coefficient : friction_.dynamic_coefficient;
+        if (step.piece.kind != PrimitiveKind::vertex)
+            step.cone_px = mu * glm::length(update_.goal - step.foot);
         update_.steps.push_back(step);
     }
 

@@ -38,7 +38,7 @@ struct WalkStep {
     Primitive piece{};  ///< the last of them, or where it moves: along an EDGE beside a crease
     Proxy before{}, after{};
     Vec3 foot{0.0};       ///< the goal's nearest point on the piece's plane or line, inside or not
-    double cone_px{0.0};  ///< radius of the friction cone around the foot
+    double cone_px{0.0};  ///< radius of the friction cone around the foot; 0 on a VERTEX
     StepEnd end{StepEnd::reaches_goal};
 };
 

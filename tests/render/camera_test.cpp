@@ -35,6 +35,47 @@ TEST_CASE("the ray under the projected place of a grid point passes through that
     }
 }
 
+TEST_CASE("what is drawn over the picture in grid space is where the picture has it") {
+    const glm::ivec2 viewport(900, 700);
+    const auto projection = GENERATE(Camera::Projection::perspective, Camera::Projection::straight);
+    Camera camera;
+    camera.frame_relief(640, 480, 255.0);
+    camera.orbit(-0.3, 0.2);
+    camera.set_projection(projection);
+    for (const Vec3 p : {Vec3(0.0), Vec3(639.0, 479.0, 255.0), Vec3(100.5, 333.0, 71.0)}) {
+        const glm::dvec4 clip = camera.clip_from_grid(900.0 / 700.0) * glm::dvec4(p, 1.0);
+        const glm::dvec2 seen = on_screen(camera, p, viewport);
+        CHECK_THAT((clip.x / clip.w + 1.0) * 450.0, WithinAbs(seen.x, 1e-6));
+        CHECK_THAT((1.0 - clip.y / clip.w) * 350.0, WithinAbs(seen.y, 1e-6));
+    }
+}
+
+TEST_CASE(
+    "a close-up has its ball in the middle, and all of it in view, whatever was seen before") {
+    const glm::ivec2 viewport = GENERATE(glm::ivec2(1280, 800), glm::ivec2(500, 900));
+    const auto projection = GENERATE(Camera::Projection::perspective, Camera::Projection::straight);
+    const double radius = GENERATE(8.0, 60.0);
+    Camera camera;
+    camera.frame_relief(640, 480, 255.0);
+    camera.set_projection(projection);
+    camera.zoom(3.0);
+    camera.pan(50.0, 20.0, viewport.y);
+    const Vec3 centre(200.0, 130.0, 90.0);
+    camera.close_up(centre, radius);
+    const glm::dvec2 middle = on_screen(camera, centre, viewport);
+    CHECK_THAT(middle.x, WithinAbs(0.5 * viewport.x, 1e-6));
+    CHECK_THAT(middle.y, WithinAbs(0.5 * viewport.y, 1e-6));
+    double farthest = 0.0;
+    for (const Vec3 way : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0)}) {
+        const glm::dvec2 seen = on_screen(camera, centre + radius * way, viewport) - middle;
+        CHECK(std::abs(seen.x) <= 0.5 * viewport.x * 1.03);
+        CHECK(std::abs(seen.y) <= 0.5 * viewport.y * 1.03);
+        farthest =
+            std::max({farthest, std::abs(seen.x) / viewport.x, std::abs(seen.y) / viewport.y});
+    }
+    CHECK(farthest > 0.25);  // of the window: it is no speck
+}
+
 TEST_CASE("a ray goes from near to far: down onto the relief") {
     Camera camera;
     camera.frame_relief(640, 480, 255.0);

@@ -185,3 +185,26 @@ TEST_CASE("with the panels hidden the force switch stays, and the time line come
     CHECK(rows.back().video_s > 20.0);
     CHECK(rows.back().video_s < 95.0);
 }
+
+TEST_CASE(
+    "while E explains an update the video stands still, its step keys step the explanation, "
+    "and the hand is felt on",
+    "[playing]") {
+    const std::vector<Row> rows =
+        played({"--start", "20"},
+               "mousemove 200 250 sleep 0.3 mousedown 1 sleep 0.5 key e sleep 0.6 "
+               "key period sleep 0.5 key period sleep 0.5 mousemove 240 250 sleep 0.6 "
+               "key e sleep 0.4 key period sleep 0.6 ");
+    const std::vector<double> held = held_moments(rows);
+    REQUIRE(held.size() == 2);
+    CHECK(held[1] > held[0]);  // paused between two frames, it steps to the next one
+    CHECK(held[1] <= held[0] + 1.01 * kFrame_s);
+    const auto in_still = [&](const Row& row) {
+        return row.surface && row.contact && !(row.video_s < held[0] || row.video_s > held[0]);
+    };
+    const auto first = std::find_if(rows.begin(), rows.end(), in_still);
+    const auto last = std::find_if(rows.rbegin(), rows.rend(), in_still);
+    REQUIRE(first != rows.end());
+    REQUIRE(last != rows.rend());
+    CHECK(last->proxy.x > first->proxy.x + 2.0);
+}

@@ -1,0 +1,286 @@
+// One update of DIBHR on the relief: the primitives it visits, the goal's foot, the friction cone
+// and where the proxy goes, with a line of text for each step.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/panels/panels.hpp"
+#include "app/panels/widgets.hpp"
+#include "core/haptics/facet.hpp"
+#include "core/haptics/neighbours.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr ImU32 kMesh = IM_COL32(255, 255, 255, 60);
+constexpr ImU32 kVisited = IM_COL32(80, 200, 190, 60);
+constexpr ImU32 kVisitedLine = IM_COL32(80, 220, 210, 170);
+constexpr ImU32 kNow = IM_COL32(250, 230, 64, 90);
+constexpr ImU32 kNowLine = IM_COL32(250, 230, 64, 255);
+constexpr ImU32 kGoal = IM_COL32(242, 140, 13, 255);
+constexpr ImU32 kProxy = IM_COL32(64, 148, 245, 255);
+constexpr ImU32 kFoot = IM_COL32(255, 255, 255, 235);
+constexpr ImU32 kCone = IM_COL32(255, 205, 120, 200);
+constexpr ImU32 kWord = IM_COL32(255, 255, 255, 235);
+constexpr ImU32 kOutline = IM_COL32(0, 0, 0, 190);
+
+/// Cells of the drawn net around the walk, on each side; of a long walk none in its middle is left
+/// out.
+constexpr int kNetAround = 4;
+constexpr int kWidestNet = 90;
+
+/// Draws in grid space on top of the relief.
+class Blackboard {
+  public:
+    Blackboard(const glm::dmat4& clip_from_grid, glm::dvec2 size, float scale)
+        : clip_from_grid_(clip_from_grid), size_(size), scale_(scale) {}
+
+    [[nodiscard]] std::optional<ImVec2> screen(Vec3 p) const {
+        const glm::dvec4 clip = clip_from_grid_ * glm::dvec4(p, 1.0);
+        if (clip.w <= 0.0) return std::nullopt;
+        return ImVec2(static_cast<float>((0.5 + 0.5 * clip.x / clip.w) * size_.x),
+                      static_cast<float>((0.5 - 0.5 * clip.y / clip.w) * size_.y));
+    }
+
+    void line(Vec3 from, Vec3 to, ImU32 colour, float thick = 1.0F) const {
+        const auto a = screen(from);
+        const auto b = screen(to);
+        if (a && b) list().AddLine(*a, *b, colour, thick * scale_);
+    }
+
+    void dashes(Vec3 from, Vec3 to, ImU32 colour) const {
+        constexpr int kDashes = 14;
+        for (int k = 0; k < kDashes; ++k) {
+            const Vec3 step = (to - from) / static_cast<double>(kDashes);
+            line(from + step * static_cast<double>(k), from + step * (k + 0.55), colour, 1.5F);
+        }
+    }
+
+    void triangle(const std::array<Vec3, 3>& corners, ImU32 fill, ImU32 border) const {
+        const auto a = screen(corners[0]);
+        const auto b = screen(corners[1]);
+        const auto c = screen(corners[2]);
+        if (!a || !b || !c) return;
+        list().AddTriangleFilled(*a, *b, *c, fill);
+        list().AddTriangle(*a, *b, *c, border, 1.5F * scale_);
+    }
+
+    void dot(Vec3 at, float radius, ImU32 colour) const {
+        if (const auto p = screen(at)) {
+            list().AddCircleFilled(*p, (radius + 1.5F) * scale_, kOutline, 24);
+            list().AddCircleFilled(*p, radius * scale_, colour, 24);
+        }
+    }
+
+    void ring(Vec3 at, float radius, ImU32 colour) const {
+        if (const auto p = screen(at)) {
+            list().AddCircle(*p, radius * scale_, kOutline, 28, 5.0F * scale_);
+            list().AddCircle(*p, radius * scale_, colour, 28, 3.0F * scale_);
+        }
+    }
+
+    /// Beside a place, readable on any picture.
+    void word(Vec3 at, const char* text) const {
+        const auto p = screen(at);
+        if (!p) return;
+        const ImVec2 size = ImGui::CalcTextSize(text);
+        const float gap = 12.0F * scale_;
+        const ImVec2 low{p->x + gap, p->y - 0.5F * size.y};
+        const float pad = 3.0F * scale_;
+        list().AddRectFilled({low.x - pad, low.y}, {low.x + size.x + pad, low.y + size.y},
+                             IM_COL32(0, 0, 0, 170), pad);
+        list().AddText(low, kWord, text);
+    }
+
+  private:
+    [[nodiscard]] static ImDrawList& list() { return *ImGui::GetBackgroundDrawList(); }
+
+    glm::dmat4 clip_from_grid_;
+    glm::dvec2 size_;
+    float scale_;
+};
+
+std::array<Vec3, 3> corners_of(const DepthSurface& surface, const Primitive& triangle) {
+    const int far = triangle.side == TriangleSide::far_corner ? 1 : 0;
+    const int i = triangle.i;
+    const int j = triangle.j;
+    return {surface.vertex_at(i + far, j + far), surface.vertex_at(i + 1, j),
+            surface.vertex_at(i, j + 1)};
+}
+
+void draw_net(const Blackboard& board, const DepthSurface& surface, const ExplainedUpdate& update) {
+    Vec3 low = update.start.position;
+    Vec3 high = low;
+    for (const WalkStep& step : update.steps) {
+        low = glm::min(low, step.after.position);
+        high = glm::max(high, step.after.position);
+    }
+    const int first_i = std::max(static_cast<int>(low.x) - kNetAround, 0);
+    const int first_j = std::max(static_cast<int>(low.y) - kNetAround, 0);
+    const int last_i = std::min(static_cast<int>(high.x) + 1 + kNetAround, surface.columns() - 1);
+    const int last_j = std::min(static_cast<int>(high.y) + 1 + kNetAround, surface.rows() - 1);
+    if (last_i - first_i > kWidestNet || last_j - first_j > kWidestNet) return;
+    for (int j = first_j; j <= last_j; ++j) {
+        for (int i = first_i; i <= last_i; ++i) {
+            const Vec3 here = surface.vertex_at(i, j);
+            if (i < last_i) board.line(here, surface.vertex_at(i + 1, j), kMesh);
+            if (j < last_j) board.line(here, surface.vertex_at(i, j + 1), kMesh);
+            if (i < last_i && j < last_j)
+                board.line(surface.vertex_at(i + 1, j), surface.vertex_at(i, j + 1), kMesh);
+        }
+    }
+}
+
+void draw_primitive(const Blackboard& board, const DepthSurface& surface,
+                    const Primitive& primitive, bool now) {
+    const ImU32 border = now ? kNowLine : kVisitedLine;
+    switch (primitive.kind) {
+        case PrimitiveKind::triangle:
+            return board.triangle(corners_of(surface, primitive), now ? kNow : kVisited, border);
+        case PrimitiveKind::edge: {
+            const EdgeEnds ends = ends_of(primitive);
+            return board.line(surface.vertex_at(ends.begin_i, ends.begin_j),
+                              surface.vertex_at(ends.end_i, ends.end_j), border, now ? 5.0F : 3.0F);
+        }
+        case PrimitiveKind::vertex:
+            return board.dot(surface.vertex_at(primitive.i, primitive.j), now ? 7.0F : 4.0F,
+                             border);
+        case PrimitiveKind::none:
+            break;
+    }
+}
+
+/// Around the foot, in the plane across the way from the goal to it, and its sides from the goal.
+void draw_cone(const Blackboard& board, Vec3 goal, const WalkStep& step) {
+    constexpr int kSides = 48;
+    constexpr int kRays = 6;
+    constexpr double kNone_px = 1e-6;
+    const Vec3 axis = step.foot - goal;
+    if (step.cone_px <= kNone_px || glm::length(axis) <= kNone_px) return;
+    const Vec3 up = glm::normalize(axis);
+    const Vec3 any = std::abs(up.x) < 0.7 ? Vec3(1.0, 0.0, 0.0) : Vec3(0.0, 1.0, 0.0);
+    const Vec3 one = glm::normalize(glm::cross(up, any));
+    const Vec3 other = glm::cross(up, one);
+    const auto rim = [&](int k) {
+        const double turn = 2.0 * 3.14159265358979323846 * k / kSides;
+        return step.foot + step.cone_px * (std::cos(turn) * one + std::sin(turn) * other);
+    };
+    for (int k = 0; k < kSides; ++k) {
+        board.line(rim(k), rim(k + 1), kCone, 2.0F);
+        if (k % (kSides / kRays) == 0) board.line(goal, rim(k), kCone);
+    }
+}
+
+void draw_path(const Blackboard& board, const ExplainedNews& news) {
+    for (std::size_t k = 0; k < news.taken; ++k) {
+        const WalkStep& step = news.update.steps[k];
+        board.line(step.before.position, step.after.position, kOutline, 5.0F);
+        board.line(step.before.position, step.after.position, kProxy, 3.0F);
+    }
+}
+
+void draw_on_relief(const Blackboard& board, const DepthSurface& surface,
+                    const ExplainedNews& news) {
+    const ExplainedUpdate& update = news.update;
+    draw_net(board, surface, update);
+    for (std::size_t k = 0; k < news.taken; ++k) {
+        const WalkStep& step = update.steps[k];
+        for (std::size_t n = 0; n < step.visits; ++n) {
+            draw_primitive(board, surface, step.visited.at(n), k + 1 == news.taken);
+        }
+    }
+    const WalkStep* last = news.taken > 0 ? &update.steps[news.taken - 1] : nullptr;
+    const bool has_foot = last != nullptr && (last->piece.kind == PrimitiveKind::triangle ||
+                                              last->piece.kind == PrimitiveKind::edge);
+    if (has_foot) {
+        board.dashes(last->before.position, last->foot, kFoot);
+        board.dashes(update.goal, last->foot, kGoal);
+        draw_cone(board, update.goal, *last);
+        board.dot(last->foot, 3.0F, kFoot);
+        board.word(last->foot, "foot");
+    } else {
+        board.dashes(last != nullptr ? last->before.position : update.start.position, update.goal,
+                     kGoal);
+    }
+    draw_path(board, news);
+    board.ring(update.goal, 9.0F, kGoal);
+    board.word(update.goal, "goal");
+    const Vec3 proxy = last != nullptr ? last->after.position : update.start.position;
+    board.dot(proxy, 6.0F, kProxy);
+    board.word(proxy, "proxy");
+}
+
+/// What to read: of the last step that was taken.
+std::string words_of(const ViewerState& state) {
+    const ExplainedNews& news = *state.explained;
+    if (news.taken > 0) return text_of(news.update.steps[news.taken - 1]);
+    const std::string after = "Step with the arrows ( . and , ) or let it run slowly (Space).";
+    if (news.held) return "The update begins here. " + after;
+    return "What one update does, from where the proxy was to where you press: hold the left "
+           "button to move the goal. " +
+           after;
+}
+
+std::string title_of(const ExplainedNews& news) {
+    std::string title = "Explain one update of DIBHR";
+    const std::size_t steps = news.update.steps.size();
+    if (steps == 0) return title + ": the proxy rests where it is";
+    title += formatted("     step %zu of %zu", news.taken, steps);
+    const int moves = news.taken > 0 ? news.update.steps[news.taken - 1].after.moves : 0;
+    return title + formatted("     %d of %d primitives visited", moves, news.update.result.moves);
+}
+
+void draw_card(ViewerState& state) {
+    const ExplainedNews& news = *state.explained;
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float room = display.x - panel_column_width(state);
+    const float margin = 12.0F * state.scale;
+    const float width = std::min(room - 2.0F * margin, 46.0F * ImGui::GetFontSize());
+    ImGui::SetNextWindowPos({0.5F * room, display.y - bottom_bar_height(state) - margin},
+                            ImGuiCond_Always, {0.5F, 1.0F});
+    ImGui::SetNextWindowSize({width, 0.0F});
+    ImGui::SetNextWindowBgAlpha(0.9F);
+    ImGui::Begin("Explain", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
+    const auto does = [&state](Action action) { state.requests.action = action; };
+    if (icon_button("back", Icon::step_back, "One step back ( , )")) does(Action::step_back);
+    ImGui::SameLine(0.0F, 0.0F);
+    if (icon_button("run", news.runs ? Icon::pause : Icon::play, "Slow motion (Space)"))
+        does(Action::play_or_pause);
+    ImGui::SameLine(0.0F, 0.0F);
+    if (icon_button("on", Icon::step_forward, "One step on ( . )")) does(Action::step_forward);
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(title_of(news).c_str());
+    const char* const end = "End (E)";
+    ImGui::SameLine(width - ImGui::CalcTextSize(end).x - 3.0F * ImGui::GetStyle().WindowPadding.x);
+    if (ImGui::SmallButton(end)) does(Action::explain);
+    ImGui::TextWrapped("%s", words_of(state).c_str());
+    // As high as for two lines: what is read does not jump.
+    const float lines = ImGui::GetCursorPosY();
+    const float least = ImGui::GetFrameHeight() + 2.6F * ImGui::GetTextLineHeightWithSpacing();
+    if (lines < least + ImGui::GetStyle().WindowPadding.y)
+        ImGui::Dummy({0.0F, least + ImGui::GetStyle().WindowPadding.y - lines});
+    ImGui::End();
+}
+
+}  // namespace
+
+void draw_explanation(ViewerState& state, const DepthSurface& surface,
+                      const glm::dmat4& clip_from_grid) {
+    if (!state.explained) return;
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const glm::dvec2 size(display.x - panel_column_width(state), display.y);
+    draw_on_relief(Blackboard(clip_from_grid, size, state.scale), surface, *state.explained);
+    draw_card(state);
+}
+
+}  // namespace dibhr
