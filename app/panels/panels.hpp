@@ -57,6 +57,9 @@ void draw_hint(const ViewerState& state, Hint hint, float alpha);
 void draw_explanation(ViewerState& state, const DepthSurface& surface,
                       const glm::dmat4& clip_from_grid);
 
+/// The window's own dialog for opening files.
+void draw_open_dialog(ViewerState& state);
+
 /// The help sheet and the message box, on top of everything.
 void draw_help_sheet(ViewerState& state);
 void draw_message_box(ViewerState& state);

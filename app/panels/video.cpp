@@ -41,20 +41,17 @@ void draw_recent(ViewerState& state) {
 }
 
 void draw_open(ViewerState& state) {
-    if (state.fields.ask_for_keyboard > 0) {
-        ImGui::SetWindowFocus();  // newer ImGui looks for the next field in that window only
-        ImGui::SetKeyboardFocusHere();
-        --state.fields.ask_for_keyboard;
-    }
     const bool from_colour =
         text_field("##colour", "Colour file, or session", state.fields.colour,
-                   "Path of a colour video or picture, or of a recorded session (Ctrl+O)");
+                   "Path of a colour video or picture, or of a recorded session; Open without one "
+                   "shows what there is (Ctrl+O)");
     const bool from_depth =
         text_field("##depth", "Depth file: found beside it", state.fields.depth,
                    "Empty: the file called like the colour file, with depth in place of color");
     const bool named = state.fields.colour[0] != '\0';
     const bool pressed =
-        button_or_drop(state.opening ? "Opening" : "Open", named && !state.opening, "files");
+        button_or_drop(state.opening ? "Opening" : "Open", !state.opening, "files");
+    if (pressed && !named) state.requests.action = Action::open_file;
     if ((from_colour || from_depth || pressed) && named) {
         state.requests.open = OpenRequest{typed_path(state.fields.colour.data()),
                                           typed_path(state.fields.depth.data())};

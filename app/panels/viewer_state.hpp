@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "app/settings/folder.hpp"
 #include "app/settings/keys.hpp"
 #include "app/settings/material.hpp"
 #include "app/settings/recent_files.hpp"
@@ -69,8 +70,33 @@ struct TextFields {
     std::array<double, 1> colour_size{1.0};   ///< times
     Field participant{};                      ///< kept with a recording
     Field note{};
-    Field tag{};              ///< of the next mark
-    int ask_for_keyboard{0};  ///< Ctrl+O: pictures left in which the colour field asks for it
+    Field tag{};  ///< of the next mark
+};
+
+/// A recording before it is opened.
+struct Preview {
+    std::filesystem::path of{};
+    std::uintptr_t texture{0};  ///< name of an OpenGL texture; 0: nothing to see
+    int columns{0}, rows{0};
+    std::string words{};
+};
+
+/// The window's own dialog for opening files.
+struct OpenDialog {
+    static constexpr int kPicturesToFocus = 30;  ///< it takes two
+
+    bool shown{false};
+    Folder folder{};
+    std::filesystem::path chosen{};  ///< an entry of the folder; empty: none
+    TextFields::Field typed{};       ///< narrows the entries, or is a path
+    bool all_files{false};           ///< also those that cannot be opened
+    Preview preview{};
+    std::filesystem::path sample_folder{};
+    int line{0};               ///< another one has nothing typed into it yet
+    int asks_for_keyboard{0};  ///< pictures left in which the line asks for it
+    int move{0};               ///< the choice, by so many entries
+    bool enter{false};         ///< opens the choice
+    bool bring_into_sight{false};
 };
 
 /// What a panel asks the viewer to do after the picture.
@@ -85,10 +111,11 @@ struct Requests {
     bool reset_view{false};
     bool toggle_recording{false};
     bool mark{false};
-    bool as_recorded{false};         ///< a replay: no other parameters any more
-    bool leave_replay{false};        ///< its video is to be touched
-    std::optional<Action> action{};  ///< of a button that does what a key does
-    std::filesystem::path report{};  ///< of that session; empty: none is asked for
+    bool as_recorded{false};                        ///< a replay: no other parameters any more
+    bool leave_replay{false};                       ///< its video is to be touched
+    std::optional<std::filesystem::path> folder{};  ///< to be read, for the Open dialog
+    std::optional<Action> action{};                 ///< of a button that does what a key does
+    std::filesystem::path report{};                 ///< of that session; empty: none is asked for
     bool screenshot{false};
     bool full_screen{false};
     bool quit{false};
@@ -178,6 +205,7 @@ struct ViewerState {
     std::string notice{};         ///< shown for a while at the bottom
     bool notice_of_place{false};  ///< instead: where playing is, as long as it is shown
     double notice_until_s{0.0};
+    OpenDialog dialog{};
     TextFields fields{};
     Requests requests{};
     Fonts fonts{};

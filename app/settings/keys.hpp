@@ -40,6 +40,8 @@ enum class Action {
     toggle_full_screen,
     take_screenshot,
     open_file,
+    next_file,
+    previous_file,
     toggle_help,
     close_topmost,
     quit,

@@ -47,7 +47,8 @@ std::optional<Answer> ViewerExplaining::perform(Action action, ViewerState& stat
             if (news.taken >= news.update.steps.size()) news.taken = 0;
             return Answer{};
         case Action::close_topmost:
-            if (!state.message.empty() || state.help_open) return std::nullopt;
+            if (!state.message.empty() || state.help_open || state.dialog.shown)
+                return std::nullopt;
             state.explained.reset();
             return Answer{};
         default:

@@ -18,7 +18,6 @@ constexpr double kSeekStep_s = 5.0;
 constexpr double kLittleStep_s = 1.0;
 constexpr double kFarStep_s = 60.0;
 constexpr double kBeforeEnd_s = 1.0;
-constexpr int kPicturesToFocus = 30;  // it takes two; a field out of sight never gets it
 constexpr double kFaster = 1.1;
 
 /// Held to what can be played; on the way past the normal speed it stops there.
@@ -42,6 +41,8 @@ constexpr std::pair<Action, bool Requests::*> kRequests[] = {
 void close_topmost(ViewerState& state) {
     if (!state.message.empty()) {
         state.message.clear();
+    } else if (state.dialog.shown) {
+        state.dialog.shown = false;
     } else {
         state.help_open = false;
     }
@@ -205,10 +206,6 @@ Answer perform(Action action, ViewerState& state, Player& player) {
         case Action::toggle_panels:
             settings.panels_visible = !settings.panels_visible;
             return {settings.panels_visible ? "Panels shown" : "Panels hidden: Tab shows them"};
-        case Action::open_file:
-            settings.panels_visible = settings.panels.video = true;
-            state.fields.ask_for_keyboard = kPicturesToFocus;
-            return {};
         case Action::toggle_help:
             state.help_open = !state.help_open;
             return {};

@@ -1,6 +1,9 @@
 // The viewer's window thread: input, scene, panels, and the hand-over to the other threads.
 #include "app/viewer/viewer.hpp"
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <utility>
@@ -179,7 +182,7 @@ void Viewer::show_one_picture() {
     move_hand(input, viewport);
     draw_scene(viewport);
     beat();
-    draw_panels();
+    draw_panels(input.keys);
     beat();
     carry_out_requests();
     hand_over_settings();
@@ -250,13 +253,13 @@ void Viewer::notice_standstill() {
 }
 
 void Viewer::take_keys(const WindowInput& input) {
-    if (gui_.wants_keyboard()) state_.fields.ask_for_keyboard = 0;
     // A name typed right after Ctrl+O is no key, even before the field has the keyboard.
-    const bool typing = gui_.wants_keyboard() || state_.fields.ask_for_keyboard > 0;
+    const bool typing = gui_.wants_keyboard() || state_.dialog.shown;
     const bool as_recorded = !typing && window_.holds(held_key(Action::show_as_recorded));
     if (as_recorded && !state_.as_recorded && !state_.replay) tell("Depth as recorded");
     state_.as_recorded = as_recorded;
     for (const KeyPress& press : input.keys) {
+        if (state_.dialog.shown) take_dialog_key(press);
         if (const auto action =
                 action_of_key(press.key, press.control, typing, press.repeated, press.shift))
             perform(*action);
@@ -267,10 +270,32 @@ void Viewer::take_keys(const WindowInput& input) {
     }
 }
 
+void Viewer::take_dialog_key(const KeyPress& press) {
+    if (press.key == GLFW_KEY_DOWN) ++state_.dialog.move;
+    if (press.key == GLFW_KEY_UP) --state_.dialog.move;
+    const bool is_enter = press.key == GLFW_KEY_ENTER || press.key == GLFW_KEY_KP_ENTER;
+    if (is_enter && !press.repeated) state_.dialog.enter = true;
+}
+
+std::optional<Answer> Viewer::perform_with_files(Action action) {
+    switch (action) {
+        case Action::open_file:
+            browsing_.toggle(state_);
+            return Answer{};
+        case Action::next_file:
+        case Action::previous_file:
+            if (browsing_.go_by(action == Action::next_file ? 1 : -1, state_)) return Answer{};
+            return Answer{"Still looking into the folder"};
+        default:
+            return std::nullopt;
+    }
+}
+
 void Viewer::perform(Action action) {
     SessionPlayer* const replay = replay_.player();
     std::optional<Answer> answer;
-    answer = explaining_.perform(action, state_, player_, replay);
+    answer = perform_with_files(action);
+    if (!answer) answer = explaining_.perform(action, state_, player_, replay);
     if (!answer && replay != nullptr) answer = perform_in_replay(action, *replay);
     if (!answer) answer = dibhr::perform(action, state_, player_);
     if (!answer->place && answer->words.empty()) return;
@@ -294,8 +319,8 @@ void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {
     hand_.mouse->target().publish(pointer_.target(ray, surface, use));
 }
 
-void Viewer::draw_panels() {
-    gui_.begin();
+void Viewer::draw_panels(std::span<const KeyPress> pressed) {
+    gui_.begin(pressed);
     if (state_.settings.panels_visible) draw_panel_column(state_, player_, replay_.player());
     draw_bottom_bar(state_, player_, replay_.player());
     const auto fade = [](float& alpha) { alpha = std::max(0.0F, alpha - 0.03F); };
@@ -310,6 +335,7 @@ void Viewer::draw_panels() {
     }
     draw_overlay(state_, now_s());
     draw_explained();
+    draw_open_dialog(state_);
     draw_help_sheet(state_);
     draw_message_box(state_);
     gui_.end();
@@ -326,6 +352,7 @@ void Viewer::draw_explained() {
 
 void Viewer::carry_out_requests() {
     if (state_.replay) replay_.follow_panels(state_);
+    if (const auto notice = browsing_.advance(state_)) tell(*notice);
     const Requests asked = std::exchange(state_.requests, {});
     if (asked.open && !opening_.start(*asked.open)) tell("Still opening the last files");
     if (asked.meaning) open_again(*asked.meaning);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "app/settings/command_options.hpp"
 #include "app/settings/keys.hpp"
 #include "app/settings/settings.hpp"
+#include "app/viewer/browsing.hpp"
 #include "app/viewer/explaining.hpp"
 #include "app/viewer/falcon.hpp"
 #include "app/viewer/files.hpp"
@@ -79,11 +81,13 @@ class Viewer {
     void notice_standstill();
     void take_opened();
     void take_keys(const WindowInput& input);
+    void take_dialog_key(const KeyPress& press);
+    [[nodiscard]] std::optional<Answer> perform_with_files(Action action);
     void perform(Action action);
     void take_dropped(const std::vector<std::filesystem::path>& files);
     void move_hand(const WindowInput& input, glm::ivec2 viewport);
     void draw_scene(glm::ivec2 viewport);
-    void draw_panels();
+    void draw_panels(std::span<const KeyPress> pressed = {});
     void draw_explained();
     void carry_out_requests();
     void hand_over_settings();
@@ -147,6 +151,7 @@ class Viewer {
     Screenshots screenshots_{};
     Reporting reporting_{};
     ViewerExplaining explaining_{};
+    Browsing browsing_{};
     SettingsKeeper keeper_;
     HapticSettings handed_{};
     CleaningOptions cleaning_handed_{};

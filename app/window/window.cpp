@@ -135,6 +135,30 @@ Fonts load_fonts(float scale) {
     return fonts;
 }
 
+#if IMGUI_VERSION_NUM < 18700
+/// Keys that count as down for as long as it lives.
+class LingeringKeys {
+  public:
+    explicit LingeringKeys(std::span<const KeyPress> pressed) {
+        bool* const down = ImGui::GetIO().KeysDown;
+        constexpr int kKeys = IM_ARRAYSIZE(ImGuiIO::KeysDown);
+        for (const KeyPress& press : pressed) {
+            if (press.key < 0 || press.key >= kKeys || down[press.key]) continue;
+            down[press.key] = true;
+            keys_.push_back(press.key);
+        }
+    }
+    ~LingeringKeys() {
+        for (const int key : keys_) ImGui::GetIO().KeysDown[key] = false;
+    }
+    LingeringKeys(const LingeringKeys&) = delete;
+    LingeringKeys& operator=(const LingeringKeys&) = delete;
+
+  private:
+    std::vector<int> keys_{};
+};
+#endif
+
 }  // namespace
 
 Window::Window(int width, int height, bool sync, const std::string& title) : size_{width, height} {
@@ -306,9 +330,15 @@ Gui::~Gui() {
     ImGui::DestroyContext();
 }
 
-void Gui::begin() {
+void Gui::begin(std::span<const KeyPress> pressed) {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+#if IMGUI_VERSION_NUM < 18700
+    // It looks at what is down now: a key that came up again since the last picture would be lost.
+    const LingeringKeys lingering(pressed);
+#else
+    static_cast<void>(pressed);  // it has all of them in a queue
+#endif
     ImGui::NewFrame();
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <glm/vec2.hpp>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -138,8 +139,9 @@ class Gui {
     Gui(const Gui&) = delete;
     Gui& operator=(const Gui&) = delete;
 
-    void begin();  ///< a new picture; panels may be drawn until end()
-    void end();    ///< draws them into the bound framebuffer
+    /// A new picture; panels may be drawn until end(). `pressed` since the last one.
+    void begin(std::span<const KeyPress> pressed);
+    void end();  ///< draws them into the bound framebuffer
 
     [[nodiscard]] bool wants_pointer() const;   ///< the cursor is over a panel, or dragging one
     [[nodiscard]] bool wants_keyboard() const;  ///< a text field is being typed into

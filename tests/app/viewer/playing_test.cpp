@@ -1,14 +1,17 @@
 // Keys that move a video, typed into the real window; what is recorded tells where it went.
 #include <algorithm>
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "core/haptics/safety.hpp"
+#include "core/session/session.hpp"
 #include "core/video/media.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/support/catch.hpp"
 
+namespace fs = std::filesystem;
 using namespace dibhr;
 using namespace dibhr::test;
 using Catch::Matchers::WithinAbs;
@@ -207,4 +210,34 @@ TEST_CASE(
     REQUIRE(first != rows.end());
     REQUIRE(last != rows.rend());
     CHECK(last->proxy.x > first->proxy.x + 2.0);
+}
+
+TEST_CASE(
+    "another recording is opened with the pointer alone, and the next one of the folder by key",
+    "[playing]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    make_long_films(folder);
+    for (const char* of : {"color", "depth"}) {
+        for (const char* name : {"other", "still"}) {
+            fs::copy_file(folder / ("long_" + std::string(of) + ".mkv"),
+                          folder / (std::string(name) + "_" + of + ".mkv"));
+        }
+    }
+    Process viewer = desk.start_viewer(
+        folder, {"long_color.mkv", "--raw-depth", "--device", "mouse", "--record", "hand.dibhr"});
+    desk.act(
+        "search --sync --onlyvisible --name dibhr sleep 0.8 "
+        "mousemove 970 97 sleep 0.3 mousedown 1 sleep 0.1 mouseup 1 sleep 0.8 "  // Open
+        "mousemove 350 280 sleep 0.3 mousedown 1 sleep 0.1 mouseup 1 sleep 0.1 "
+        "mousedown 1 sleep 0.1 mouseup 1 sleep 1.5 mousemove 300 600 "
+        "key ctrl+Next sleep 1.5 key q");
+    REQUIRE(viewer.wait() == 0);
+    std::vector<std::string> opened;
+    const Session session(folder / "hand.dibhr");
+    for (const SessionSource& source : session.sources())
+        opened.push_back(source.depth.file.filename().string());
+    opened.erase(std::unique(opened.begin(), opened.end()), opened.end());
+    CHECK(opened ==
+          std::vector<std::string>{"long_depth.mkv", "other_depth.mkv", "still_depth.mkv"});
 }

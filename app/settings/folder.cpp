@@ -1,0 +1,173 @@
+// Reading a folder, and completing what is typed.
+#include "app/settings/folder.hpp"
+
+#include <algorithm>
+#include <map>
+#include <system_error>
+#include <utility>
+
+#include "app/settings/recent_files.hpp"
+#include "core/video/media.hpp"
+#include "core/video/media_names.hpp"
+
+namespace dibhr {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_hidden(const fs::path& file) {
+    return file.filename().string().starts_with('.');
+}
+
+/// Of ROS.
+bool is_bag(const fs::path& file) {
+    const std::string ending = lower_case(file.extension().string());
+    return ending == ".mcap" || ending == ".db3" || ending == ".bag";
+}
+
+FileKind kind_of(const fs::directory_entry& entry) {
+    std::error_code unknown;
+    if (entry.is_directory(unknown)) return FileKind::folder;
+    const fs::path& file = entry.path();
+    if (lower_case(file.extension().string()) == ".dibhr") return FileKind::session;
+    if (named_video(file) || is_bag(file)) return FileKind::video;
+    return named_picture(file) ? FileKind::picture : FileKind::other;
+}
+
+FolderEntry described(const fs::directory_entry& entry) {
+    FolderEntry row{.kind = kind_of(entry), .file = entry.path()};
+    std::error_code unknown;
+    if (row.kind != FileKind::folder) {
+        const std::uintmax_t bytes = entry.file_size(unknown);
+        row.bytes = unknown ? 0 : bytes;
+    }
+    const auto changed = entry.last_write_time(unknown);
+    if (!unknown) row.changed = changed;
+    return row;
+}
+
+bool comes_before(const FolderEntry& a, const FolderEntry& b) {
+    const bool a_folder = a.kind == FileKind::folder;
+    const bool b_folder = b.kind == FileKind::folder;
+    if (a_folder != b_folder) return a_folder;
+    return in_natural_order(lower_case(a.file.filename().string()),
+                            lower_case(b.file.filename().string()));
+}
+
+bool is_film(const FolderEntry& entry) {
+    return entry.kind == FileKind::video || entry.kind == FileKind::picture;
+}
+
+/// Depth goes into the row of its colour: of the same subject, of the same kind if there is one.
+void join_pairs(std::vector<FolderEntry>& entries) {
+    std::map<std::string, std::vector<std::size_t>> colours;
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+        const fs::path& file = entries[k].file;
+        if (is_film(entries[k]) && !named_depth(file) &&
+            (named_colour(file) || may_name_colour(file)))
+            colours[subject_of(file)].push_back(k);
+    }
+    std::vector<bool> joined(entries.size(), false);
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+        if (!is_film(entries[k]) || !named_depth(entries[k].file)) continue;
+        const auto same = colours.find(subject_of(entries[k].file));
+        if (same == colours.end()) continue;
+        for (const std::size_t colour : same->second) {
+            FolderEntry& row = entries[colour];
+            if (!row.depth.empty() || row.kind != entries[k].kind) continue;
+            row.depth = entries[k].file;
+            row.bytes += entries[k].bytes;
+            joined[k] = true;
+            break;
+        }
+    }
+    std::size_t next = 0;
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+        if (joined[k]) continue;
+        if (next != k) entries[next] = std::move(entries[k]);
+        ++next;
+    }
+    entries.resize(next);
+}
+
+std::string common_beginning(const std::string& a, const std::string& b) {
+    const auto differ = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+    return {a.begin(), differ.first};
+}
+
+}  // namespace
+
+const char* name_of(FileKind kind) noexcept {
+    switch (kind) {
+        case FileKind::folder:
+            return "folder";
+        case FileKind::session:
+            return "session";
+        case FileKind::video:
+            return "video";
+        case FileKind::picture:
+            return "picture";
+        case FileKind::other:
+            break;
+    }
+    return "file";
+}
+
+std::string FolderEntry::name() const {
+    const std::string first = file.filename().string();
+    if (kind == FileKind::folder) return first + "/";
+    return depth.empty() ? first : first + " + " + depth.filename().string();
+}
+
+Folder read_folder(const fs::path& path) {
+    Folder folder;
+    std::error_code failed;
+    folder.path = fs::absolute(path, failed).lexically_normal();
+    if (!folder.path.has_filename() && folder.path.has_relative_path())
+        folder.path = folder.path.parent_path();
+    fs::directory_iterator entries(folder.path, fs::directory_options::skip_permission_denied,
+                                   failed);
+    for (; !failed && entries != fs::directory_iterator(); entries.increment(failed)) {
+        if (!is_hidden(entries->path())) folder.entries.push_back(described(*entries));
+    }
+    if (failed) folder.trouble = shown(folder.path) + " cannot be read: " + failed.message();
+    std::sort(folder.entries.begin(), folder.entries.end(), comes_before);
+    join_pairs(folder.entries);
+    return folder;
+}
+
+bool can_be_opened(const FolderEntry& entry) noexcept {
+    return entry.kind != FileKind::other;
+}
+
+std::optional<std::size_t> entry_of(const Folder& folder, const fs::path& file) {
+    const fs::path whole = fs::absolute(file).lexically_normal();
+    const auto holds = [&whole](const FolderEntry& entry) {
+        return entry.file == whole || entry.depth == whole;
+    };
+    const auto found = std::find_if(folder.entries.begin(), folder.entries.end(), holds);
+    if (found == folder.entries.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - folder.entries.begin());
+}
+
+std::string completed(const std::string& typed, const fs::path& folder) {
+    const std::size_t slash = typed.rfind('/');
+    const std::string before = slash == std::string::npos ? "" : typed.substr(0, slash + 1);
+    const std::string begun = typed.substr(before.size());
+    const fs::path place = before.empty() ? folder : folder / typed_path(before);
+    std::error_code failed;
+    std::optional<std::string> all;
+    for (fs::directory_iterator entries(place, failed);
+         !failed && entries != fs::directory_iterator(); entries.increment(failed)) {
+        const fs::path& file = entries->path();
+        std::string name = file.filename().string();
+        if (!name.starts_with(begun) || (begun.empty() && is_hidden(file))) continue;
+        std::error_code unknown;
+        if (entries->is_directory(unknown)) name += '/';
+        all = all ? common_beginning(*all, name) : name;
+    }
+    return all && all->size() > begun.size() ? before + *all : typed;
+}
+
+}  // namespace dibhr

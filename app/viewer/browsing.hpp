@@ -1,0 +1,50 @@
+// What the Open dialog shows, read away from the window's thread; and the next file of a folder.
+#pragma once
+
+#include <filesystem>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/panels/viewer_state.hpp"
+#include "app/settings/folder.hpp"
+#include "core/video/frame_window.hpp"
+#include "render/gl_objects.hpp"
+
+namespace dibhr {
+
+class Browsing {
+  public:
+    /// Shows the dialog, or puts it away.
+    void toggle(ViewerState& state);
+
+    /// The file after the one that is shown, or before it, in its folder: asked for when the folder
+    /// has been read. False while it is still being read for the last one.
+    [[nodiscard]] bool go_by(int entries, const ViewerState& state);
+
+    /// Once a picture: takes what was read, and reads what the dialog asks for. What there is to
+    /// tell a person.
+    [[nodiscard]] std::optional<std::string> advance(ViewerState& state);
+
+  private:
+    struct Read {
+        std::filesystem::path of{};
+        std::shared_ptr<const ColourImage> picture{};
+        std::string words{};
+    };
+
+    static Read read_preview(const FolderEntry& entry);
+    void look_at_chosen(ViewerState& state);
+    [[nodiscard]] std::optional<std::string> step(const Folder& folder, ViewerState& state) const;
+
+    std::future<Folder> folder_{};
+    std::optional<std::filesystem::path> next_folder_{};
+    std::future<Read> preview_{};
+    std::shared_ptr<const ColourImage> picture_{};
+    ColourTexture texture_{};
+    std::future<Folder> neighbours_{};
+    int by_{0};
+};
+
+}  // namespace dibhr

@@ -1,0 +1,93 @@
+// What the Open dialog lists, and how it completes what is typed.
+#include "app/settings/folder.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace fs = std::filesystem;
+using namespace dibhr;
+using dibhr::test::TemporaryFolder;
+
+namespace {
+
+void put(const fs::path& file, int bytes = 3) {
+    fs::create_directories(file.parent_path());
+    std::ofstream(file) << std::string(static_cast<std::size_t>(bytes), 'x');
+}
+
+std::vector<std::string> names_of(const Folder& folder) {
+    std::vector<std::string> names;
+    for (const FolderEntry& entry : folder.entries) names.push_back(entry.name());
+    return names;
+}
+
+}  // namespace
+
+TEST_CASE("a folder lists folders first, then files, numbers by their value, nothing hidden",
+          "[folder]") {
+    const TemporaryFolder folder;
+    for (const char* name :
+         {"take10.mp4", "take9.mp4", "Notes.txt", ".hidden.mp4", "zoo/a.png", "Albums/b.png"}) {
+        put(folder / name);
+    }
+    CHECK(names_of(read_folder(folder.path())) ==
+          std::vector<std::string>{"Albums/", "zoo/", "Notes.txt", "take9.mp4", "take10.mp4"});
+}
+
+TEST_CASE("colour and depth of one recording are one row, wherever the words stand", "[folder]") {
+    const TemporaryFolder folder;
+    put(folder / "take2_color.mp4", 100);
+    put(folder / "Take2-Depth.mp4", 30);
+    put(folder / "take3_rgb.png");
+    put(folder / "take3_depth.mkv");  // a video is no picture's depth
+    put(folder / "lonely_depth.mp4");
+    const Folder read = read_folder(folder.path());
+    CHECK(names_of(read) == std::vector<std::string>{"lonely_depth.mp4",
+                                                     "take2_color.mp4 + Take2-Depth.mp4",
+                                                     "take3_depth.mkv", "take3_rgb.png"});
+    const auto pair = entry_of(read, folder / "Take2-Depth.mp4");
+    REQUIRE(pair);
+    CHECK(read.entries[*pair].bytes == 130);
+    CHECK(read.entries[*pair].file == folder / "take2_color.mp4");
+    CHECK_FALSE(entry_of(read, folder / "gone.mp4"));
+}
+
+TEST_CASE("what the program opens is told from what it does not", "[folder]") {
+    const TemporaryFolder folder;
+    for (const char* name : {"a.dibhr", "b.MP4", "c.png", "d.txt", "e/f", "g.mcap"})
+        put(folder / name);
+    std::vector<FileKind> kinds;
+    for (const FolderEntry& entry : read_folder(folder.path()).entries) {
+        kinds.push_back(entry.kind);
+        CHECK(can_be_opened(entry) == (entry.kind != FileKind::other));
+    }
+    CHECK(kinds == std::vector<FileKind>{FileKind::folder, FileKind::session, FileKind::video,
+                                         FileKind::picture, FileKind::other, FileKind::video});
+}
+
+TEST_CASE("a folder that cannot be read says so in a line, and names itself", "[folder]") {
+    const TemporaryFolder folder;
+    const Folder read = read_folder(folder / "gone");
+    CHECK(read.entries.empty());
+    CHECK(read.trouble.find("gone") != std::string::npos);
+    CHECK(read.trouble.find("cannot be read") != std::string::npos);
+}
+
+TEST_CASE("Tab completes as far as there is one way to go on", "[folder]") {
+    const TemporaryFolder folder;
+    for (const char* name : {"recordings/one_color.mp4", "recordings/one_depth.mp4", "readme.txt"})
+        put(folder / name);
+    CHECK(completed("rec", folder.path()) == "recordings/");
+    CHECK(completed("re", folder.path()) == "re");  // recordings, readme
+    CHECK(completed("recordings/", folder.path()) == "recordings/one_");
+    CHECK(completed("recordings/one_c", folder.path()) == "recordings/one_color.mp4");
+    CHECK(completed("nothing", folder.path()) == "nothing");
+    const std::string whole = folder.path().string();
+    CHECK(completed(whole + "/readm", "/") == whole + "/readme.txt");
+    CHECK(completed("gone/x", folder.path()) == "gone/x");
+}
