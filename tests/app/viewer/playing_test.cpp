@@ -218,14 +218,13 @@ TEST_CASE(
     const Desk desk;
     const TemporaryFolder folder;
     make_long_films(folder);
-    for (const char* of : {"color", "depth"}) {
-        for (const char* name : {"other", "still"}) {
-            fs::copy_file(folder / ("long_" + std::string(of) + ".mkv"),
-                          folder / (std::string(name) + "_" + of + ".mkv"));
-        }
+    fs::create_directory(folder / "films");
+    for (const std::string of : {"_color.mkv", "_depth.mkv"}) {
+        for (const std::string name : {"films/long", "films/other", "films/still"})
+            fs::copy_file(folder / ("long" + of), folder / (name + of));
     }
-    Process viewer = desk.start_viewer(
-        folder, {"long_color.mkv", "--raw-depth", "--device", "mouse", "--record", "hand.dibhr"});
+    Process viewer = desk.start_viewer(folder, {"films/long_color.mkv", "--raw-depth", "--device",
+                                                "mouse", "--record", "hand.dibhr"});
     desk.act(
         "search --sync --onlyvisible --name dibhr sleep 0.8 "
         "mousemove 970 97 sleep 0.3 mousedown 1 sleep 0.1 mouseup 1 sleep 0.8 "  // Open
