@@ -14,6 +14,7 @@
 #include "app/settings/material.hpp"
 #include "app/settings/recent_files.hpp"
 #include "app/settings/settings.hpp"
+#include "app/sound/sound_output.hpp"
 #include "app/window/window.hpp"
 #include "core/loop/device.hpp"
 #include "core/loop/haptic_tick.hpp"
@@ -83,8 +84,8 @@ struct Requests {
     bool reset_view{false};
     bool toggle_recording{false};
     bool mark{false};
-    bool as_recorded{false};   ///< a replay: no other parameters any more
-    bool leave_replay{false};  ///< its video is to be touched
+    bool as_recorded{false};         ///< a replay: no other parameters any more
+    bool leave_replay{false};        ///< its video is to be touched
     std::filesystem::path report{};  ///< of that session; empty: none is asked for
     bool screenshot{false};
     bool full_screen{false};
@@ -153,6 +154,7 @@ struct ViewerState {
     std::filesystem::path recorded_file{};  ///< the last one; empty: none yet
     std::optional<ReplayNews> replay{};     ///< nothing: a hand touches
     ForceHistory forces{};
+    SoundOutput::State sound{SoundOutput::State::quiet};
     double pictures_per_s{0.0};
     bool in_front{true};  ///< the window; false: people work in another one
     bool opening{false};

@@ -197,6 +197,9 @@ Answer perform(Action action, ViewerState& state, Player& player) {
         case Action::centre_workspace:
             ++state.centred;
             return {"Hand centred"};
+        case Action::toggle_sound:
+            settings.mute = !settings.mute;
+            return {settings.mute ? "Sound off" : "Sound on"};
         case Action::reset_view:
             return {"View reset"};
         case Action::toggle_straight_view:

@@ -12,6 +12,7 @@
 #include "app/settings/command_options.hpp"
 #include "app/settings/keys.hpp"
 #include "app/settings/settings.hpp"
+#include "app/sound/sound_output.hpp"
 #include "app/viewer/falcon.hpp"
 #include "app/viewer/files.hpp"
 #include "app/viewer/input.hpp"
@@ -163,6 +164,8 @@ class Viewer {
     TripleBuffer<HapticState> haptic_state_{};
     std::unique_ptr<ForceRing> forces_;
     std::unique_ptr<TickRing> ticks_;
+    std::unique_ptr<SoundRing> heard_;
+    SoundOutput sound_;
     ViewerRecording recording_;
     ViewerReplay replay_{};
     std::unique_ptr<HapticLoop> loop_;  // null in a replay: no hand is read, no force is sent
