@@ -114,6 +114,7 @@ void SoundOutput::run() {
         state_ = wanted ? State::no_device : State::quiet;
         if (wanted && !goes_on_for(kTryAgain_s)) state_ = State::quiet;
     }
+    SDL_TLSCleanup();  // what it keeps of a thread that is not its own
 }
 
 bool SoundOutput::wait_for_sound() {

@@ -18,10 +18,11 @@ constexpr double kTicks_hz = 1000.0;
 constexpr double kLowestTexture_hz = 30.0;
 constexpr double kForceHeard_per_newton = 0.9;
 constexpr double kHeightHeard_per_mm = 0.6;
+constexpr double kLoudestTexture = 0.6;  // over an edge the force may leap by newtons
 constexpr double kFirmlyPressed_newton = 0.5;
 
-constexpr double kScrapeHeard = 0.35;
-constexpr double kHalfScraping_mm_per_s = 100.0;  // at which it is half as loud as it gets
+constexpr double kScrapeHeard = 0.8;
+constexpr double kHalfScraping_mm_per_s = 60.0;  // at which it is half as loud as it gets
 constexpr double kLowestScraping_hz = 150.0;
 constexpr double kHighestScraping = 0.4;  // of the rate
 constexpr double kBandDamping = 1.25;     // 1 / Q: more than an octave wide
@@ -38,6 +39,8 @@ constexpr double kLongestStep_mm = 3.0;  // in a tick; more is a jump, which is 
 constexpr double kSpeedSmoothing_ticks = 5.0;
 constexpr double kPressedFor_ticks = 30.0;
 constexpr double kStrongest_newton = 20.0;
+
+constexpr double kGain = 7.0;  // a slow stroke over sandpaper: about -30 dB at half the volume
 
 constexpr double kJitter_ticks = 1.0;  // that ticks may come too late
 constexpr double kLookAhead_ticks = 4.0;
@@ -193,9 +196,10 @@ double TouchSound::next_sample() noexcept {
     const Heard felt = between(at_ - kLookAhead_ticks);
     if (std::exchange(opens_, false)) rest_ = felt;
     const double firmly = std::clamp(felt.force_newton / kFirmlyPressed_newton, 0.0, 1.0);
-    const double texture =
+    const double rubbing =
         kForceHeard_per_newton * force_.next(felt.force_newton - rest_.force_newton) +
         kHeightHeard_per_mm * firmly * height_.next(felt.height_mm - rest_.height_mm);
+    const double texture = kLoudestTexture * std::tanh(rubbing / kLoudestTexture);
     burst_ -= burst_ / (kBurst_s * rate_hz_);
     const double scraping =
         kScrapeHeard * choice_.material.hiss * band_.next((scrape_ + burst_) * noise());
@@ -203,7 +207,7 @@ double TouchSound::next_sample() noexcept {
     for (Mode& mode : modes_) ringing += mode.next(impulse_);
     impulse_ = 0.0;
     volume_ += (choice_.volume * choice_.material.loudness - volume_) / (kVolumeFade_s * rate_hz_);
-    return gate_ * std::tanh(2.0 * volume_ * (texture + scraping + kTapHeard * ringing));
+    return gate_ * std::tanh(kGain * volume_ * (texture + scraping + kTapHeard * ringing));
 }
 
 /// What rang before the force went off is not heard when it is on again.
@@ -253,7 +257,7 @@ TouchSound::Heard TouchSound::between(double place) const noexcept {
 
 /// Lanczos's: flat up to 400 Hz, and nearly nothing of the ticks' own beat above 600 Hz.
 void TouchSound::fill_weights() noexcept {
-    constexpr double kHalf = kTaps / 2;
+    constexpr double kHalf = 0.5 * kTaps;
     const auto sinc = [](double x) {
         return std::abs(x) < 1e-9 ? 1.0 : std::sin(kPi * x) / (kPi * x);
     };
