@@ -232,7 +232,8 @@ std::optional<Answer> perform_in_replay(Action action, SessionPlayer& replay) {
         return moved;
     }
     const bool of_a_hand = action == Action::toggle_force || action == Action::force_off ||
-                           action == Action::centre_workspace || action == Action::mark;
+                           action == Action::centre_workspace || action == Action::mark ||
+                           action == Action::toggle_sound;
     if (of_a_hand) return Answer{"A replay: no hand is touching"};
     return std::nullopt;
 }
