@@ -240,6 +240,8 @@ int run_view(CLI::App& app, const Arguments& arguments) {
            "--size", [&size](const std::string& text) { size = parse_size(text); },
            "Size of the window")
         ->type_name("WxH");
+    bool mute = false;
+    app.add_flag("--mute", mute, "Touch makes no sound (U)");
     app.add_flag("--any-media", options.any_media,
                  "Replays a session also over files that have changed since");
     add_algorithm_option(app, touch.given);
@@ -279,6 +281,7 @@ int run_view(CLI::App& app, const Arguments& arguments) {
     Settings& settings = options.settings;
     ViewerParts parts;
     take_parameters(touch, parts, settings);
+    if (mute) settings.mute = true;
     if (stability) settings.stability = *stability;
     if (gives_damping(touch.given)) settings.damping_as_needed = false;
     if (size) std::tie(settings.width, settings.height) = *size;

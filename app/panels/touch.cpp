@@ -128,6 +128,33 @@ void draw_bump(ViewerState& state) {
     if (ImGui::Button("Remove the bump map")) state.requests.bump = std::filesystem::path{};
 }
 
+/// Its volume, and whether it is heard at all.
+void draw_sound(ViewerState& state) {
+    if (state.replay) return;  // it is not touched
+    if (state.sound == SoundOutput::State::no_device) {
+        fact_row("Sound", "No sound device");
+        return;
+    }
+    Settings& settings = state.settings;
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float mute_width = ImGui::GetFrameHeight() + style.ItemInnerSpacing.x +
+                             ImGui::CalcTextSize("Mute").x + style.ItemSpacing.x;
+    double percent = 100.0 * settings.sound_volume;
+    if (number_row({.label = "Sound",
+                    .format = "%.0f %%",
+                    .lowest = 0.0,
+                    .highest = 100.0,
+                    .standard = 100.0 * Settings{}.sound_volume,
+                    .help = "What is touched taps, scrapes and rubs, as its material does",
+                    .beside = mute_width},
+                   percent)) {
+        settings.sound_volume = std::clamp(percent / 100.0, 0.0, 1.0);
+    }
+    ImGui::SameLine();
+    ImGui::Checkbox("Mute", &settings.mute);
+    explain("Touch makes no sound (U)");
+}
+
 }  // namespace
 
 void draw_touch_panel(ViewerState& state) {
@@ -145,6 +172,7 @@ void draw_touch_panel(ViewerState& state) {
     draw_bump(state);
     draw_numbers(TouchTopic::texture, state.settings.touch);
     if (!state.bump && !state.replay) quiet_text("Roughness needs a bump map to be felt.");
+    draw_sound(state);
     ImGui::PopID();
 }
 

@@ -16,6 +16,7 @@
 #include "app/settings/material.hpp"
 #include "app/settings/recent_files.hpp"
 #include "app/settings/settings.hpp"
+#include "app/sound/sound_output.hpp"
 #include "app/window/window.hpp"
 #include "core/haptics/explanation.hpp"
 #include "core/loop/device.hpp"
@@ -192,6 +193,7 @@ struct ViewerState {
     std::optional<ReplayNews> replay{};     ///< nothing: a hand touches
     std::optional<ExplainedNews> explained{};
     ForceHistory forces{};
+    SoundOutput::State sound{SoundOutput::State::quiet};
     double pictures_per_s{0.0};
     bool in_front{true};  ///< the window; false: people work in another one
     bool opening{false};

@@ -159,7 +159,7 @@ bool number_row(const NumberRow& row, double& value) {
     const bool named = row.zero != nullptr && !(std::abs(value) > 0.0);
     ImGui::PushID(row.label);
     row_label(row.label, row.help);
-    ImGui::SetNextItemWidth(value_width());
+    ImGui::SetNextItemWidth(value_width() - row.beside);
     ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &row.lowest, &row.highest,
                         named ? row.zero : row.format,
                         row.logarithmic ? ImGuiSliderFlags_Logarithmic : 0);

@@ -27,6 +27,7 @@ struct NumberRow {
     const char* help{""};
     bool logarithmic{false};
     const char* zero{nullptr};  ///< shown for 0 instead of the number
+    float beside{0.0F};         ///< left free at the right end, for another item [px]
 };
 
 /// Label, slider, and a small arrow when the value is not the standard one. True when it changed.

@@ -44,6 +44,7 @@ constexpr KeyBinding kBindings[] = {
     {Action::centre_workspace, kTouch, "C", "Centre the Falcon's hand in the image", "c"},
     with_control(
         {Action::record, kTouch, "Ctrl+R", "Record what is touched, stop", "", {GLFW_KEY_R}}),
+    {Action::toggle_sound, kTouch, "U", "Sound of touch off, on", "u"},
     {Action::mark, kTouch, "M", "Mark this moment of the recording", "m"},
     {Action::explain, kTouch, "E", "Explain an update step by step; end it", "e"},
     {Action::play_or_pause, kPlayback, "Space or P", "Play, pause", " p"},

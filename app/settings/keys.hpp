@@ -30,6 +30,7 @@ enum class Action {
     toggle_force,
     force_off,
     centre_workspace,
+    toggle_sound,
     record,
     mark,
     explain,

@@ -42,8 +42,8 @@ double highest_of(std::string_view number) {
     return touch_number(number)->highest;
 }
 
-const std::array<Property, 6>& properties() {
-    static const std::array<Property, 6> all{{
+const std::array<Property, 11>& properties() {
+    static const std::array<Property, 11> all{{
         {"width", 0.1, 1000.0, [](Material& m) -> double& { return m.width_mm; },
          "mm of the map, which repeats"},
         {"height", 0.0, 50.0, [](Material& m) -> double& { return m.height_mm; },
@@ -56,6 +56,17 @@ const std::array<Property, 6>& properties() {
          [](Material& m) -> double& { return m.stiffness_newton_per_mm; }, "N/mm"},
         {"damping", 0.0, highest_of("damping"),
          [](Material& m) -> double& { return m.damping_newton_s_per_m; }, "N s/m"},
+        {"sound-frequency", 20.0, 8000.0,
+         [](Material& m) -> double& { return m.sound.frequency_hz; },
+         "Hz, the lowest that a tap rings at"},
+        {"sound-decay", 0.005, 2.0, [](Material& m) -> double& { return m.sound.decay_s; },
+         "s until that has faded by 60 dB"},
+        {"sound-loudness", 0.0, 1.0, [](Material& m) -> double& { return m.sound.loudness; },
+         "of taps, texture and scraping"},
+        {"sound-hiss", 0.0, 1.0, [](Material& m) -> double& { return m.sound.hiss; },
+         "of scraping alone"},
+        {"sound-grain", 0.01, 10.0, [](Material& m) -> double& { return m.sound.grain_mm; },
+         "mm between what scrapes: finer is higher"},
     }};
     return all;
 }

@@ -1,5 +1,5 @@
-// What a surface is made of, as it is felt: a small TOML file beside the bump map it names. Some
-// come with the program, others a person saved.
+// What a surface is made of, as it is felt and heard: a small TOML file beside the bump map it
+// names. Some come with the program, others a person saved.
 #pragma once
 
 #include <filesystem>
@@ -10,6 +10,7 @@
 
 #include "core/haptics/depth_image.hpp"
 #include "core/haptics/parameters.hpp"
+#include "core/sound/touch_sound.hpp"
 
 namespace dibhr {
 
@@ -23,6 +24,7 @@ struct Material {
     Friction friction{};
     double stiffness_newton_per_mm{Coupling{}.stiffness_newton_per_mm};
     double damping_newton_s_per_m{Coupling{}.damping_newton_s_per_m};
+    SoundMaterial sound{};
 };
 
 /// What `--material` and the panel call the surface as it is.

@@ -11,6 +11,7 @@
 #include "app/settings/falcon_settings.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/safety.hpp"
+#include "core/sound/touch_sound.hpp"
 #include "core/video/cleaning/cleaning_options.hpp"
 #include "core/video/media.hpp"
 #include "render/scene_view.hpp"
@@ -41,7 +42,7 @@ struct Settings {
     PanelsOpen panels{};
     bool panels_visible{true};
     TouchParameters touch{};
-    std::string material{};  ///< what material_called() is asked for; empty: as recorded
+    std::string material{};        ///< what material_called() is asked for; empty: as recorded
     bool stability{true};          ///< energy that rendering creates is taken out
     bool damping_as_needed{true};  ///< with stability: not that of `touch`, but what the hand needs
     CleaningOptions cleaning{};    ///< but for the finger
@@ -51,6 +52,8 @@ struct Settings {
     bool fit_relief{true};  ///< to the media, whenever one is opened
     bool fit_pitch{true};
     double max_force_newton{SafetyLimits{}.max_force_newton};  ///< 0 .. 8
+    double sound_volume{SoundChoice{}.volume};                 ///< 0 .. 1
+    bool mute{false};                                          ///< no sound of touch
     FalconSettings falcon{};
 };
 

@@ -280,6 +280,7 @@ void Viewer::keep_material(const std::string& name) {
         Material material = material_of(state_.settings.touch, state_.bump_file, state_.bump,
                                         state_.media.depth_columns);
         material.name = name;
+        material.sound = state_.material.sound;
         tell("Kept as " + save_material(material).string());
         state_.materials = material_names();
         state_.fields.material = {};
@@ -303,7 +304,8 @@ void Viewer::start_loop() {
                            .video = &player_.heart(),
                            .recorder = &recording_.heart(),
                            .decoder = &player_.decoder_heart()},
-                          &ending_.asked()});
+                          &ending_.asked(),
+                          heard_.get()});
 }
 
 void Viewer::draw_scene(glm::ivec2 viewport) {

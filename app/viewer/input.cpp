@@ -198,6 +198,9 @@ Answer perform(Action action, ViewerState& state, Player& player) {
         case Action::centre_workspace:
             ++state.centred;
             return {"Hand centred"};
+        case Action::toggle_sound:
+            settings.mute = !settings.mute;
+            return {settings.mute ? "Sound off" : "Sound on"};
         case Action::reset_view:
             return {"View reset"};
         case Action::toggle_straight_view:
@@ -226,7 +229,8 @@ std::optional<Answer> perform_in_replay(Action action, SessionPlayer& replay) {
         return moved;
     }
     const bool of_a_hand = action == Action::toggle_force || action == Action::force_off ||
-                           action == Action::centre_workspace || action == Action::mark;
+                           action == Action::centre_workspace || action == Action::mark ||
+                           action == Action::toggle_sound;
     if (of_a_hand) return Answer{"A replay: no hand is touching"};
     return std::nullopt;
 }

@@ -82,6 +82,8 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending)
       hang_after_s_(hang_asked_for()),
       forces_(std::make_unique<ForceRing>()),
       ticks_(std::make_unique<TickRing>()),
+      heard_(std::make_unique<SoundRing>()),
+      sound_(*heard_),
       recording_(*ticks_, ending.words()) {
     if (software_) let_drawing_give_way();
     window_.on_display_loss([this] { close_without_display(); });
@@ -205,6 +207,7 @@ void Viewer::take_news() {
     if (!state_.grants && loop_) state_.grants = loop_->grants();
     recording_.take_news(state_);
     for (double sent_newton{}; forces_->pop(sent_newton);) state_.forces.add(sent_newton);
+    state_.sound = sound_.state();
     state_.pictures_per_s = pace_.pictures_per_s();
     take_opened();
     const std::string& failure =
@@ -377,6 +380,8 @@ void Viewer::carry_out_requests() {
 }
 
 void Viewer::hand_over_settings() {
+    sound_.choose({state_.material.sound, state_.settings.sound_volume},
+                  state_.settings.mute || state_.replay);
     if (state_.replay) return;
     fit_to_media();
     stretch(state_.bump, state_.media.depth_columns, state_.media.depth_rows,

@@ -13,6 +13,7 @@
 #include "app/settings/command_options.hpp"
 #include "app/settings/keys.hpp"
 #include "app/settings/settings.hpp"
+#include "app/sound/sound_output.hpp"
 #include "app/viewer/browsing.hpp"
 #include "app/viewer/explaining.hpp"
 #include "app/viewer/falcon.hpp"
@@ -171,6 +172,8 @@ class Viewer {
     TripleBuffer<HapticState> haptic_state_{};
     std::unique_ptr<ForceRing> forces_;
     std::unique_ptr<TickRing> ticks_;
+    std::unique_ptr<SoundRing> heard_;
+    SoundOutput sound_;
     ViewerRecording recording_;
     ViewerReplay replay_{};
     std::unique_ptr<HapticLoop> loop_;  // null in a replay: no hand is read, no force is sent

@@ -55,6 +55,7 @@ void HapticTick::run(const TickTiming& timing, std::uint64_t late_ticks) noexcep
     TickRecord row = state_.touchable ? touch_surface(pair, settings, timing) : touch_nothing();
     row.settings = settings.version;
     if (settings.recording) record(row, timing);
+    let_hear(settings);
     count(timing, row.update_us);
     to_.state.publish(state_);
 }
@@ -165,6 +166,16 @@ void HapticTick::record(TickRecord& row, const TickTiming& timing) noexcept {
     row.cut = static_cast<std::uint8_t>(touch.cut);
     row.catching_up = state_.catching_up();
     to_.ticks.push(row);
+}
+
+void HapticTick::let_hear(const HapticSettings& settings) noexcept {
+    if (to_.sound == nullptr) return;
+    const Touch& touch = state_.touch;
+    const bool may_act = settings.limits.max_force_newton > 0.0 && touch.cut == SafetyCut::none;
+    to_.sound->push({.proxy_mm = pitch_mm_ * touch.proxy.position,
+                     .force_newton = glm::length(touch.sent_force_newton),
+                     .contact = touch.proxy.contact,
+                     .force_on = state_.touchable && may_act});
 }
 
 void HapticTick::count(const TickTiming& timing, double update_us) noexcept {

@@ -19,6 +19,7 @@
 #include "core/realtime/tick_timer.hpp"
 #include "core/realtime/triple_buffer.hpp"
 #include "core/session/tick_record.hpp"
+#include "core/sound/sound_tick.hpp"
 #include "core/video/frame_window.hpp"
 
 namespace dibhr {
@@ -73,6 +74,7 @@ struct HapticConnections {
     Heartbeats hearts{};
     /// Once true, no force is sent any more; null: never.
     const std::atomic<bool>* leaving{nullptr};
+    SoundRing* sound{nullptr};  ///< null: nobody listens
 };
 
 /// One tick of the loop, without a thread: nothing in it allocates, locks, waits or throws.
@@ -101,6 +103,7 @@ class HapticTick {
     [[nodiscard]] bool taken_off(const HandReading& hand, const HapticSettings& settings) noexcept;
     /// Adds what came of the tick.
     void record(TickRecord& row, const TickTiming& timing) noexcept;
+    void let_hear(const HapticSettings& settings) noexcept;
     void count(const TickTiming& timing, double update_us) noexcept;
 
     HapticConnections to_;

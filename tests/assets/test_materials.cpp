@@ -161,6 +161,18 @@ TEST_CASE("a material's figures are in range and stay where a Falcon is stable",
     CHECK(number(name, "damping") <= 3.0);
 }
 
+TEST_CASE("what is hard rings, higher and longer than what is soft", "[materials]") {
+    for (const char* hard : {"ice", "stone", "wood"})
+        for (const char* soft : {"linen", "rubber", "skin", "wool"}) {
+            CAPTURE(hard, soft);
+            CHECK(number(hard, "sound-frequency") > 2.0 * number(soft, "sound-frequency"));
+            CHECK(number(hard, "sound-decay") > 2.0 * number(soft, "sound-decay"));
+            CHECK(number(hard, "sound-loudness") < 1.0);
+        }
+    for (const std::string& other : dibhr::materials::names())
+        CHECK(number(other, "sound-hiss") <= number("sandpaper", "sound-hiss"));
+}
+
 TEST_CASE("only bark has walls, and even these can be climbed", "[materials]") {
     const std::string name = each_name();
     CAPTURE(name);

@@ -44,7 +44,7 @@ class Desk {
     Desk();
 
     /// Starts `dibhr view` with these arguments, settings and current folder inside `folder`;
-    /// `host`: a program and its own arguments that starts it.
+    /// `host`: a program and its own arguments that starts it. Its sound is heard nowhere.
     [[nodiscard]] Process start_viewer(const TemporaryFolder& folder,
                                        const std::vector<std::string>& arguments,
                                        const std::vector<std::string>& host = {}) const;

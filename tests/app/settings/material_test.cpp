@@ -96,6 +96,8 @@ TEST_CASE("what a material's file lacks is told with its line", "[material]") {
         {"width = 3\nstiffness = \"soft\"\n", "oak.toml:2: stiffness is not a number from 0 to 10"},
         {"width = 0\n", "oak.toml:1: width is not a number from 0.1 to 1000"},
         {"damping = nan\n", "oak.toml:1: damping is not a number"},
+        {"sound-hiss = 1.5\n", "oak.toml:1: sound-hiss is not a number from 0 to 1"},
+        {"sound-frequency = 0\n", "oak.toml:1: sound-frequency is not a number from 20 to 8000"},
         {"map = 3\n", "oak.toml:1: map is not the name of a picture"},
         {"map = \"elm.png\"\n", "elm.png"},
         {"width = \n", "oak.toml:1: cannot be understood"},
@@ -142,6 +144,7 @@ TEST_CASE("a person's own material is kept with its map, comes back, and can be 
     const auto bumps = read_material(folder / "oak.toml").bumps;
     Material mine = material_of(parameters, folder / "elsewhere.png", bumps, 640);
     mine.name = "my oak";
+    mine.sound = {321.5, 0.125, 0.75, 0.0625, 0.3};
     const fs::path file = save_material(mine);
     CHECK(file == own_materials_folder() / "my oak.toml");
     CHECK(material_names().own == std::vector<std::string>{"my oak"});
@@ -157,6 +160,7 @@ TEST_CASE("a person's own material is kept with its map, comes back, and can be 
         CHECK_THAT(again.shape.roughness_px, WithinAbs(parameters.shape.roughness_px, 1e-9));
         CHECK_THAT(again.shape.bump_size_px, WithinAbs(parameters.shape.bump_size_px, 1e-9));
         CHECK(again.friction == parameters.friction);
+        CHECK(material.sound == mine.sound);
         CHECK(material.bumps->heights == bumps->heights);
     }
     CHECK_NOTHROW(save_material(material_called("my oak")));  // over itself

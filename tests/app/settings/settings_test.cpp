@@ -38,6 +38,8 @@ Settings unusual_settings() {
     settings.look.light = 0.125;
     settings.straight_view = true;
     settings.max_force_newton = 2.5;
+    settings.sound_volume = 0.25;
+    settings.mute = true;
     return settings;
 }
 

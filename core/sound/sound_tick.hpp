@@ -1,0 +1,20 @@
+// What the sound of touch hears of a haptic tick, and the way it takes from the tick to the sound.
+#pragma once
+
+#include "core/haptics/vec.hpp"
+#include "core/realtime/spsc_ring.hpp"
+
+namespace dibhr {
+
+/// One millisecond of touch.
+struct SoundTick {
+    Vec3 proxy_mm{0.0};        ///< axes of grid space
+    double force_newton{0.0};  ///< length of the force sent
+    bool contact{false};
+    bool force_on{false};  ///< false: nothing may be felt, and so nothing is heard
+};
+
+/// Full while nobody listens, which costs a tick nothing.
+using SoundRing = SpscRing<SoundTick, 1024>;
+
+}  // namespace dibhr

@@ -1,0 +1,163 @@
+// What the real window sounds like: the samples that it gives a sound device, written into a file;
+// and machines that have none.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/sound/sound_output.hpp"
+#include "tests/app/program/desk.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/eventually.hpp"
+#include "tests/support/text.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kRate_hz = 48'000;
+constexpr const char* kMeet = "search --sync --onlyvisible --name dibhr sleep 0.4 ";
+constexpr const char* kPress = "mousemove 400 560 sleep 1 mousedown 1 sleep 0.6 ";
+const std::vector<std::string> kIntoFile{"env", "SDL_AUDIODRIVER=disk",
+                                         "SDL_DISKAUDIOFILE=sound.raw"};
+
+std::string drag(int way) {
+    std::string commands;
+    for (int step = 0; step < 50; ++step)
+        commands += "mousemove_relative -- " + std::to_string(way) + " 0 sleep 0.012 ";
+    return commands;
+}
+
+std::vector<float> samples_of(const fs::path& file) {
+    const std::string bytes = read_text(file);
+    std::vector<float> samples(bytes.size() / sizeof(float));
+    std::memcpy(samples.data(), bytes.data(), samples.size() * sizeof(float));
+    return samples;
+}
+
+/// Of the samples whether each tenth of a second holds a sound.
+std::vector<bool> heard_tenths(const std::vector<float>& samples) {
+    std::vector<bool> heard;
+    for (std::size_t k = 0; k < samples.size(); k += kRate_hz / 10) {
+        const auto begin = samples.begin() + static_cast<std::ptrdiff_t>(k);
+        const auto end =
+            begin + std::min<std::ptrdiff_t>(kRate_hz / 10, std::distance(begin, samples.end()));
+        heard.push_back(
+            std::any_of(begin, end, [](float sample) { return std::abs(sample) > 1e-4F; }));
+    }
+    return heard;
+}
+
+/// Sets a variable of the environment for a while.
+class Variable {
+  public:
+    Variable(const char* name, const char* value) : name_(name) { ::setenv(name, value, 1); }
+    ~Variable() { ::unsetenv(name_); }
+    Variable(const Variable&) = delete;
+    Variable& operator=(const Variable&) = delete;
+
+  private:
+    const char* name_;
+};
+
+}  // namespace
+
+TEST_CASE("what is touched in the window is heard, and nothing once the force is off", "[sound]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    Process viewer = desk.start_viewer(folder,
+                                       {"--device", "mouse", "--material", "wood", "--pause",
+                                        "--record", "hand.dibhr", "--seconds", "30"},
+                                       kIntoFile);
+    desk.act(kMeet + std::string(kPress) + drag(2));
+    desk.act("key f sleep 0.3 " + drag(-2) + drag(2) + "key q");
+    REQUIRE(viewer.wait() == 0);
+    const auto rows = read_session(folder / "hand.dibhr");
+    const auto samples = samples_of(folder / "sound.raw");
+    CHECK(std::all_of(samples.begin(), samples.end(),
+                      [](float sample) { return std::abs(sample) <= 1.0F; }));
+    const std::vector<bool> heard = heard_tenths(samples);
+    const auto first = std::find(heard.begin(), heard.end(), true);
+    CHECK(first - heard.begin() >= 5);  // the hand was in the air
+    CHECK(std::count(heard.begin(), heard.end(), true) >= 5);
+    const auto last = std::find(heard.rbegin(), heard.rend(), true);
+    CHECK(last - heard.rbegin() >= 8);
+    // In which the hand went on sliding over what it touched.
+    REQUIRE(rows.size() > 1000);
+    double way_px = 0.0;
+    for (auto row = rows.end() - 800; row != rows.end(); ++row) {
+        CHECK(row->contact);
+        way_px += glm::distance(row->proxy, (row - 1)->proxy);
+    }
+    CHECK(way_px > 20.0);
+}
+
+TEST_CASE("a window that is muted opens no sound device until its key is pressed", "[sound]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    Process viewer = desk.start_viewer(
+        folder, {"--device", "mouse", "--mute", "--seconds", "30", "--size", "640x480"}, kIntoFile);
+    desk.act(kMeet + std::string("sleep 1"));
+    CHECK_FALSE(fs::exists(folder / "sound.raw"));
+    CHECK(read_text(folder / "errors.txt").empty());
+    desk.act("key u sleep 1");
+    CHECK(fs::exists(folder / "sound.raw"));
+    desk.act("key u sleep 1");
+    const auto size = fs::file_size(folder / "sound.raw");
+    desk.act("sleep 0.3");
+    CHECK(fs::file_size(folder / "sound.raw") == size);
+    desk.act("key q");
+    CHECK(viewer.wait() == 0);
+    // The command line's word is not kept.
+    CHECK_FALSE(contains(read_text(folder / "config/dibhr/settings.toml"), "mute = true"));
+}
+
+TEST_CASE("without a sound device the window goes on and says nothing on stderr", "[sound]") {
+    const auto missing =
+        GENERATE(std::vector<std::string>{"env", "SDL_AUDIODRIVER=nonsense"},
+                 std::vector<std::string>{"env", "SDL_AUDIODRIVER=alsa", "AUDIODEV=nonsense"});
+    const Desk desk;
+    const TemporaryFolder folder;
+    Process viewer = desk.start_viewer(
+        folder,
+        {"--device", "mouse", "--record", "hand.dibhr", "--seconds", "3", "--size", "640x480"},
+        missing);
+    CHECK(viewer.wait() == 0);
+    CHECK(read_text(folder / "errors.txt").empty());
+    CHECK(read_session(folder / "hand.dibhr").size() > 1000);
+}
+
+TEST_CASE("a sound device is opened when it is wanted, and that there is none is told", "[sound]") {
+    const auto ring = std::make_unique<SoundRing>();
+    using State = SoundOutput::State;
+    SECTION("a device that plays") {
+        const Variable driver("SDL_AUDIODRIVER", "dummy");
+        SoundOutput output(*ring);
+        CHECK(output.state() == State::quiet);
+        for (int k = 0; k < 3; ++k) {
+            output.choose({}, false);
+            CHECK(eventually([&] { return output.state() == State::playing; }));
+            ring->push({});
+            CHECK(eventually([&] { return ring->size() == 0; }));
+            output.choose({}, true);
+            CHECK(eventually([&] { return output.state() == State::quiet; }));
+        }
+    }
+    SECTION("none") {
+        const Variable driver("SDL_AUDIODRIVER", "nonsense");
+        SoundOutput output(*ring);
+        output.choose({}, false);
+        CHECK(eventually([&] { return output.state() == State::no_device; }));
+        output.choose({}, true);
+        CHECK(eventually([&] { return output.state() == State::quiet; }));
+    }
+}
