@@ -6,8 +6,10 @@
 #include <array>
 #include <iomanip>
 #include <iostream>
+#include <memory>
 #include <string_view>
 
+#include "app/commands/documentation.hpp"
 #include "app/commands/spelling.hpp"
 #include "app/settings/command_options.hpp"
 #include "core/files/plain_text.hpp"
@@ -54,6 +56,8 @@ void print_help() {
     }
     std::cout
         << "\n  dibhr help COMMAND     the options of a command, as dibhr COMMAND --help\n"
+           "  dibhr help --man       all of it as a manual page, for man -l -\n"
+           "  dibhr completion bash  for that shell, zsh or fish: source it\n"
            "  dibhr --version, -V    the version\n"
            "\nExamples:\n"
            "  dibhr                                the built-in sample, touched by the mouse\n"
@@ -76,10 +80,61 @@ int run_one(const Command& command, const Arguments& arguments) {
     return command.run(app, arguments);
 }
 
-/// `dibhr help` and `dibhr help COMMAND`.
+/// In place of a help text: takes down what a command declares.
+class Documenting : public CLI::Formatter {
+  public:
+    explicit Documenting(DocumentedCommand& into) : into_(into) {}
+
+    std::string make_help(const CLI::App* app, std::string /*name*/,
+                          CLI::AppFormatMode /*mode*/) const override {
+        into_.examples = app->get_footer();
+        for (const CLI::Option* const option : app->get_options()) {
+            DocumentedOption taken{.argument = option->get_positional() ? option->get_name() : "",
+                                   .standard = option->get_default_str(),
+                                   .help = option->get_description(),
+                                   .required = option->get_required()};
+            for (const std::string& name : option->get_lnames()) taken.names.push_back("--" + name);
+            for (const std::string& name : option->get_snames()) taken.names.push_back("-" + name);
+            if (option->get_items_expected_max() > 0 && !taken.is_argument())
+                taken.type = option->get_type_name();
+            into_.options.push_back(std::move(taken));
+        }
+        return {};
+    }
+
+  private:
+    DocumentedCommand& into_;
+};
+
+std::vector<DocumentedCommand> documented_commands() {
+    std::vector<DocumentedCommand> all;
+    all.reserve(kCommands.size());
+    for (const Command& command : kCommands) {
+        all.push_back({.name = std::string(command.name),
+                       .arguments = std::string(command.arguments),
+                       .summary = std::string(command.summary)});
+        CLI::App app(std::string(command.summary), "dibhr " + std::string(command.name));
+        app.formatter(std::make_shared<Documenting>(all.back()));
+        command.run(app, {"--help"});
+    }
+    return all;
+}
+
+int run_completion(const Arguments& arguments) {
+    if (arguments.size() != 1)
+        throw UsageError("completion is for one shell: dibhr completion bash, zsh or fish");
+    std::cout << completion_for(arguments.front(), documented_commands());
+    return 0;
+}
+
+/// `dibhr help`, `dibhr help COMMAND`, and the manual page.
 int run_help(const Arguments& about) {
     if (about.empty()) {
         print_help();
+        return 0;
+    }
+    if (about.front() == "--man") {
+        std::cout << man_page(documented_commands());
         return 0;
     }
     if (const Command* const command = command_called(about.front()))
@@ -150,6 +205,7 @@ int run_command_line(const Arguments& arguments) {
         return 0;
     }
     if (first == "help") return run_help(Arguments(arguments.begin() + 1, arguments.end()));
+    if (first == "completion") return run_completion({arguments.begin() + 1, arguments.end()});
     if (first == "--version" || first == "-V") {
         std::cout << "dibhr " << DIBHR_VERSION << '\n';
         return 0;

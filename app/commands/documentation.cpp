@@ -1,0 +1,294 @@
+// The manual page and the shells' completions.
+#include "app/commands/documentation.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+
+#include "app/settings/command_options.hpp"
+#include "core/files/plain_text.hpp"
+
+namespace dibhr {
+
+namespace {
+
+std::string replaced(std::string text, std::string_view what, std::string_view by) {
+    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size())
+        text.replace(at, what.size(), by);
+    return text;
+}
+
+std::vector<std::string> split(const std::string& text, std::string_view at) {
+    std::vector<std::string> parts;
+    std::size_t begin = 0;
+    for (std::size_t end; (end = text.find(at, begin)) != std::string::npos;
+         begin = end + at.size())
+        parts.push_back(text.substr(begin, end - begin));
+    parts.push_back(text.substr(begin));
+    return parts;
+}
+
+std::string joined(const std::vector<std::string>& parts, std::string_view between) {
+    std::string text;
+    for (const std::string& part : parts) {
+        if (!text.empty()) text += between;
+        text += part;
+    }
+    return text;
+}
+
+std::string without_parentheses(std::string text) {
+    for (std::size_t open; (open = text.find(" (")) != std::string::npos;) {
+        const std::size_t close = text.find(')', open);
+        if (close == std::string::npos) break;
+        text.erase(open, close + 1 - open);
+    }
+    return text;
+}
+
+bool is_word(const std::string& text) {
+    return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '-' || c == '_';
+    });
+}
+
+/// For troff: no escape, no hyphen that would be broken at, no request at a line's begin.
+std::string troff(std::string text) {
+    text = replaced(replaced(std::move(text), "\\", "\\e"), "-", "\\-");
+    text = replaced(std::move(text), "\n.", "\n\\&.");
+    return text.starts_with('.') || text.starts_with('\'') ? "\\&" + text : text;
+}
+
+void add_option(std::ostringstream& page, const DocumentedOption& option) {
+    const std::string shown = option.is_argument() ? option.argument : joined(option.names, ", ");
+    page << ".TP\n\\fB" << troff(shown) << "\\fR";
+    if (!option.type.empty()) page << " \\fI" << troff(option.type) << "\\fR";
+    page << '\n' << troff(option.help);
+    if (option.required) page << " (required)";
+    if (!option.standard.empty()) page << " (" << troff(option.standard) << " unless given)";
+    page << '\n';
+}
+
+void add_command(std::ostringstream& page, const DocumentedCommand& command) {
+    page << ".SS dibhr " << troff(command.name) << ' ' << troff(command.arguments) << '\n'
+         << troff(command.summary) << ".\n";
+    for (const DocumentedOption& option : command.options) add_option(page, option);
+    if (!command.examples.empty()) {
+        page << ".PP\n.nf\n" << troff(command.examples) << "\n.fi\n";
+    }
+}
+
+std::string names_of(const std::vector<DocumentedCommand>& commands) {
+    std::vector<std::string> names;
+    names.reserve(commands.size() + 2);
+    for (const DocumentedCommand& command : commands) names.push_back(command.name);
+    names.insert(names.end(), {"help", "completion"});
+    return joined(names, " ");
+}
+
+/// In single quotes of a shell.
+std::string quoted(const std::string& text) {
+    return "'" + replaced(text, "'", "'\\''") + "'";
+}
+
+std::string bash_completion(const std::vector<DocumentedCommand>& commands) {
+    std::ostringstream script;
+    script
+        << "# bash completion of dibhr\n"
+           "_dibhr() {\n"
+           "    local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]}\n"
+           "    local command=view options='' commands='"
+        << names_of(commands)
+        << "'\n"
+           "    if ((COMP_CWORD > 1)) && [[ \" $commands \" == *\" ${COMP_WORDS[1]} \"* ]]; then\n"
+           "        command=${COMP_WORDS[1]}\n"
+           "    fi\n"
+           "    COMPREPLY=()\n"
+           "    case $command in\n"
+           "        help) COMPREPLY=($(compgen -W \"$commands\" -- \"$cur\")); return ;;\n"
+           "        completion) COMPREPLY=($(compgen -W 'bash zsh fish' -- \"$cur\")); return ;;\n"
+           "    esac\n"
+           "    case $command:$prev in\n";
+    for (const DocumentedCommand& command : commands) {
+        for (const DocumentedOption& option : command.options) {
+            if (option.is_argument() || option.type.empty() || option.takes_file()) continue;
+            const std::vector<std::string> values = option.values();
+            const std::string pattern = command.name + ':' + option.names.front();
+            script << "        " << pattern << ") ";
+            if (!values.empty())
+                script << "COMPREPLY=($(compgen -W '" << joined(values, " ") << "' -- \"$cur\")); ";
+            script << "return ;;\n";
+        }
+    }
+    script << "    esac\n    case $command in\n";
+    for (const DocumentedCommand& command : commands) {
+        script << "        " << command.name << ") options='";
+        for (const DocumentedOption& option : command.options)
+            if (!option.is_argument()) script << option.names.front() << ' ';
+        script << "' ;;\n";
+    }
+    script << "    esac\n"
+              "    if [[ $cur == -* ]]; then\n"
+              "        COMPREPLY=($(compgen -W \"$options\" -- \"$cur\"))\n"
+              "        return\n"
+              "    fi\n"
+              "    compopt -o filenames\n"
+              "    local IFS=$'\\n'\n"
+              "    COMPREPLY=($(compgen -f -- \"$cur\"))\n"
+              "    if ((COMP_CWORD == 1)); then\n"
+              "        IFS=' '\n"
+              "        COMPREPLY+=($(compgen -W \"$commands\" -- \"$cur\"))\n"
+              "    fi\n"
+              "}\n"
+              "complete -F _dibhr dibhr\n";
+    return script.str();
+}
+
+/// For _arguments: no bracket or colon of its own meaning.
+std::string zsh_text(const std::string& text) {
+    std::string safe = text;
+    for (const char* special : {"[", "]", ":"})
+        safe = replaced(safe, special, std::string("\\") + special);
+    return safe;
+}
+
+std::string zsh_completion(const std::vector<DocumentedCommand>& commands) {
+    std::ostringstream script;
+    script << "#compdef dibhr\n"
+              "_dibhr() {\n"
+              "    local -a commands=(\n";
+    for (const DocumentedCommand& command : commands)
+        script << "        " << quoted(command.name + ':' + zsh_text(command.summary)) << '\n';
+    script << "        'help:The options of a command'\n"
+              "        'completion:A script for a shell'\n"
+              "    )\n"
+              "    if (( CURRENT == 2 )); then\n"
+              "        [[ $words[2] == -* ]] || { _describe command commands; _files; return }\n"
+              "    fi\n"
+              "    local command=view\n"
+              "    if (( ${commands[(I)$words[2]:*]} )); then\n"
+              "        command=$words[2]\n"
+              "        shift words\n"
+              "        (( CURRENT-- ))\n"
+              "    fi\n"
+              "    case $command in\n"
+              "        help) _describe command commands ;;\n"
+              "        completion) _values shell bash zsh fish ;;\n";
+    for (const DocumentedCommand& command : commands) {
+        script << "        " << command.name << ")\n            _arguments";
+        for (const DocumentedOption& option : command.options) {
+            if (option.is_argument()) continue;
+            std::string form = option.names.front() + '[' + zsh_text(option.help) + ']';
+            if (!option.type.empty()) {
+                form += ':' + zsh_text(option.type) + ':';
+                const std::vector<std::string> values = option.values();
+                if (!values.empty()) form += '(' + joined(values, " ") + ')';
+                if (option.takes_file()) form += "_files";
+            }
+            script << " \\\n                " << quoted(form);
+        }
+        script << " \\\n                '*:file:_files' ;;\n";
+    }
+    script << "    esac\n}\n_dibhr \"$@\"\n";
+    return script.str();
+}
+
+std::string fish_completion(const std::vector<DocumentedCommand>& commands) {
+    std::ostringstream script;
+    script << "# fish completion of dibhr\n";
+    const std::string names = names_of(commands);
+    for (const DocumentedCommand& command : commands) {
+        script << "complete -c dibhr -n '__fish_is_first_arg' -a " << command.name << " -d "
+               << quoted(command.summary) << '\n';
+    }
+    script << "complete -c dibhr -n '__fish_is_first_arg' -a help -d 'The options of a command'\n"
+              "complete -c dibhr -n '__fish_is_first_arg' -a completion -d 'A script for a shell'\n"
+              "complete -c dibhr -f -n '__fish_seen_subcommand_from help' -a '"
+           << names
+           << "'\n"
+              "complete -c dibhr -f -n '__fish_seen_subcommand_from completion' -a 'bash zsh "
+              "fish'\n";
+    for (const DocumentedCommand& command : commands) {
+        // What names no command is the viewer's.
+        const std::string when =
+            command.name == "view"
+                ? "not __fish_seen_subcommand_from " + replaced(names, "view ", "")
+                : "__fish_seen_subcommand_from " + command.name;
+        for (const DocumentedOption& option : command.options) {
+            if (option.is_argument() || !option.names.front().starts_with("--")) continue;
+            script << "complete -c dibhr -n '" << when << "' -l " << option.names.front().substr(2)
+                   << " -d " << quoted(option.help);
+            const std::vector<std::string> values = option.values();
+            if (option.takes_file()) {
+                script << " -r -F";
+            } else if (!option.type.empty()) {
+                script << " -x";
+                if (!values.empty()) script << " -a '" << joined(values, " ") << "'";
+            }
+            script << '\n';
+        }
+    }
+    return script.str();
+}
+
+}  // namespace
+
+bool DocumentedOption::takes_file() const {
+    return type == "FILE" || type == "IMAGE" || type == "DIR" ||
+           type.find('.') != std::string::npos;
+}
+
+std::vector<std::string> DocumentedOption::values() const {
+    if (type == "on|off") return {"on", "off"};
+    if (type != "NAME" && type != "WORD") return {};
+    const std::size_t colon = help.find(": ");
+    if (colon == std::string::npos) return {};
+    const std::string listed = help.substr(colon + 2);
+    // "raw (as --raw-depth), gentle"; what follows a semicolon is said of them.
+    std::vector<std::string> words =
+        split(without_parentheses(listed.substr(0, listed.find(';'))), ", ");
+    // "relief: the picture plane; true: the shape: auto, relief, true"
+    if (const std::size_t last = help.rfind(": "); last != colon)
+        words = split(without_parentheses(help.substr(last + 2)), ", ");
+    std::erase_if(words, [](const std::string& word) { return !is_word(word); });
+    return words;
+}
+
+std::string man_page(const std::vector<DocumentedCommand>& commands) {
+    std::ostringstream page;
+    page << ".TH DIBHR 1 \"\" \"dibhr " << DIBHR_VERSION
+         << "\" \"User Commands\"\n"
+            ".SH NAME\n"
+            "dibhr \\- touch recorded 3D video with a force device or the mouse\n"
+            ".SH SYNOPSIS\n";
+    for (const DocumentedCommand& command : commands) {
+        const std::string name = command.name == "view" ? "[view]" : command.name;
+        page << ".B dibhr " << troff(name) << "\n.I " << troff(command.arguments) << "\n.br\n";
+    }
+    page
+        << ".B dibhr help\n.RI [ COMMAND ]\n.br\n.B dibhr completion\n.I bash|zsh|fish\n"
+           ".SH DESCRIPTION\n"
+           "Colour and depth video is shown as a moving relief that a hand feels: contact, "
+           "friction and roughness are rendered a thousand times a second with Depth Image\\-Based "
+           "Haptic Rendering (Cha, Eid and El Saddik, EuroHaptics 2008).\n"
+           "What is no command is what the viewer is to show.\n"
+           ".SH COMMANDS\n";
+    for (const DocumentedCommand& command : commands) add_command(page, command);
+    page << ".SH EXIT STATUS\n"
+            "0 on success, 1 on a failure it explains, 2 on bad usage.\n"
+            ".SH FILES\n"
+            ".TP\n\\fI~/.config/dibhr/settings.toml\\fR\nWhat a person changed in the window.\n"
+            ".TP\n\\fI~/.config/dibhr/materials\\fR\nMaterials of one's own.\n"
+            ".TP\n\\fI~/.local/state/dibhr/recent\\fR\nFiles opened before.\n";
+    return page.str();
+}
+
+std::string completion_for(std::string_view shell, const std::vector<DocumentedCommand>& commands) {
+    if (shell == "bash") return bash_completion(commands);
+    if (shell == "zsh") return zsh_completion(commands);
+    if (shell == "fish") return fish_completion(commands);
+    throw UsageError("there is no completion for " + in_quotes(std::string(shell)) +
+                     "; choose bash, zsh or fish");
+}
+
+}  // namespace dibhr
