@@ -10,8 +10,6 @@ namespace dibhr {
 
 namespace {
 
-constexpr double kTicks_hz = 1000.0;
-
 constexpr double kSoftestTap = 0.15;
 constexpr double kHardTap_mm_per_s = 250.0;
 constexpr double kHardestRelease = 0.3;
@@ -67,7 +65,8 @@ void HeardTicks::add(const SoundTick& tick) noexcept {
     const bool moved = newest_ > 0 && way_mm < kLongestStep_mm;  // false for what is not finite
     proxy_mm_ = tick.proxy_mm;
     now.tap = tap_of(tick);  // by how fast it was until now
-    if (moved) speed_mm_per_s_ += (way_mm * kTicks_hz - speed_mm_per_s_) / kSpeedSmoothing_ticks;
+    if (moved)
+        speed_mm_per_s_ += (way_mm * kSoundTicks_hz - speed_mm_per_s_) / kSpeedSmoothing_ticks;
     if (tick.contact && contact_ && moved) now.height_mm += step.z;
     contact_ = tick.contact;
     if (!contact_) return;

@@ -9,8 +9,6 @@ namespace dibhr {
 
 namespace {
 
-constexpr double kTicks_hz = 1000.0;
-
 constexpr double kLowestTexture_hz = 30.0;  // slower is the shape of things
 constexpr double kForceHeard_per_newton = 0.9;
 constexpr double kHeightHeard_per_mm = 0.6;
@@ -85,7 +83,7 @@ void TouchSound::add(const SoundTick& tick) noexcept {
 void TouchSound::render(std::span<float> samples) noexcept {
     const double block_s = static_cast<double>(samples.size()) / rate_hz_;
     patience_s_ = kPatience_s + 2.0 * block_s;
-    settle(block_s * kTicks_hz);
+    settle(block_s * kSoundTicks_hz);
     for (float& sample : samples) sample = static_cast<float>(next_sample());
 }
 
@@ -99,7 +97,7 @@ void TouchSound::settle(double block_ticks) noexcept {
     if (behind > wanted + kTooFarBehind_ticks) at_ = newest - wanted;
     if (behind >= wanted) waits_ = false;
     const double change = std::clamp(kPaceGain * (behind - wanted), -kMostPace, kMostPace);
-    pace_ = (1.0 + change) * kTicks_hz / rate_hz_;
+    pace_ = (1.0 + change) * kSoundTicks_hz / rate_hz_;
 }
 
 void TouchSound::advance() noexcept {
