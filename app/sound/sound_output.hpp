@@ -2,12 +2,9 @@
 // threads.
 #pragma once
 
-#include <atomic>
-#include <condition_variable>
-#include <mutex>
+#include <memory>
 #include <thread>
 
-#include "core/realtime/triple_buffer.hpp"
 #include "core/sound/sound_tick.hpp"
 #include "core/sound/touch_sound.hpp"
 
@@ -19,36 +16,27 @@ class SoundOutput {
   public:
     enum class State { quiet, playing, no_device };  ///< quiet: muted, or about to play
 
-    /// Muted at first. `ticks` outlives it: the haptic loop's end.
-    explicit SoundOutput(SoundRing& ticks);
+    /// Muted at first.
+    SoundOutput();
+    /// Waits half a second for a sound server at most: one that hangs is left alone.
     ~SoundOutput();
     SoundOutput(const SoundOutput&) = delete;
     SoundOutput& operator=(const SoundOutput&) = delete;
 
+    /// The haptic loop's end. It must be still before this is destroyed.
+    [[nodiscard]] SoundRing& ticks() noexcept;
+
     /// The window thread's: what the next samples are made of.
     void choose(const SoundChoice& choice, bool mute);
 
-    [[nodiscard]] State state() const noexcept { return state_.load(std::memory_order_relaxed); }
+    [[nodiscard]] State state() const noexcept;
 
   private:
-    /// A device that is open.
-    class Playing;
+    class Work;
 
-    void run();
-    /// False when the thread is to leave.
-    [[nodiscard]] bool wait_for_sound();
-    /// Waits so long, or until no sound is wanted any more: then false.
-    bool goes_on_for(double longest_s);
-
-    SoundRing& ticks_;
-    TripleBuffer<SoundChoice> choices_{};
-    SoundChoice chosen_{};  // the window thread's
-    std::atomic<State> state_{State::quiet};
-    std::mutex mutex_{};
-    std::condition_variable changed_{};
-    bool mute_{true};      // under the mutex
-    bool leaving_{false};  // under the mutex
-    std::thread thread_{};
+    std::shared_ptr<Work> work_;  // with the thread, which may outlive this
+    SoundChoice chosen_{};
+    std::thread thread_;
 };
 
 }  // namespace dibhr

@@ -305,7 +305,7 @@ void Viewer::start_loop() {
                            .recorder = &recording_.heart(),
                            .decoder = &player_.decoder_heart()},
                           &ending_.asked(),
-                          heard_.get()});
+                          &sound_.ticks()});
 }
 
 void Viewer::draw_scene(glm::ivec2 viewport) {

@@ -82,8 +82,6 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending)
       hang_after_s_(hang_asked_for()),
       forces_(std::make_unique<ForceRing>()),
       ticks_(std::make_unique<TickRing>()),
-      heard_(std::make_unique<SoundRing>()),
-      sound_(*heard_),
       recording_(*ticks_, ending.words()) {
     if (software_) let_drawing_give_way();
     window_.on_display_loss([this] { close_without_display(); });

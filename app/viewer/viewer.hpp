@@ -172,8 +172,7 @@ class Viewer {
     TripleBuffer<HapticState> haptic_state_{};
     std::unique_ptr<ForceRing> forces_;
     std::unique_ptr<TickRing> ticks_;
-    std::unique_ptr<SoundRing> heard_;
-    SoundOutput sound_;
+    SoundOutput sound_{};
     ViewerRecording recording_;
     ViewerReplay replay_{};
     std::unique_ptr<HapticLoop> loop_;  // null in a replay: no hand is read, no force is sent

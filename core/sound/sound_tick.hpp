@@ -6,6 +6,8 @@
 
 namespace dibhr {
 
+inline constexpr double kSoundTicks_hz = 1000.0;
+
 /// One millisecond of touch.
 struct SoundTick {
     Vec3 proxy_mm{0.0};        ///< axes of grid space

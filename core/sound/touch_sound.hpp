@@ -6,7 +6,8 @@
 #include <cstdint>
 #include <span>
 
-#include "core/sound/sound_tick.hpp"
+#include "core/sound/filters.hpp"
+#include "core/sound/heard_ticks.hpp"
 
 namespace dibhr {
 
@@ -31,7 +32,7 @@ struct SoundChoice {
 
 /// Three sounds, added and softly held to [-1, 1]:
 /// - a tap when contact begins, by the proxy's speed then, and a quieter one when it ends: an
-///   impulse into the resonances of the material, those of a bar of which one end is free;
+///   impulse into the resonances of the material, which are a free bar's;
 /// - texture: force and height of the proxy as they are at 1 kHz, above 30 Hz. A bump every
 ///   `period` is heard at speed / period, as it is felt;
 /// - scraping: noise around speed / grain, louder with speed and force.
@@ -53,91 +54,34 @@ class TouchSound {
     void render(std::span<float> samples) noexcept;
 
   private:
-    /// A tick as it is heard.
-    struct Heard {
-        double force_newton{0.0};  ///< in contact
-        double height_mm{0.0};     ///< of the proxy, summed up while in contact
-        double speed_mm_per_s{0.0};
-        double tap{0.0};  ///< 0 .. 1
-    };
-
-    /// Second order, transposed direct form II.
-    struct Filter {
-        double b0{1.0}, b1{0.0}, b2{0.0}, a1{0.0}, a2{0.0};
-        double s1{0.0}, s2{0.0};
-
-        [[nodiscard]] double next(double in) noexcept;
-        void be_quiet() noexcept { s1 = s2 = 0.0; }
-    };
-
-    /// Rings down after an impulse.
-    struct Mode {
-        double gain{0.0}, a1{0.0}, a2{0.0};
-        double y1{0.0}, y2{0.0};
-
-        [[nodiscard]] double next(double in) noexcept;
-    };
-
-    /// Noise around a frequency that may change at any sample: a state-variable filter with
-    /// trapezoidal integration, the band-pass output, of gain 1 at that frequency.
-    struct Band {
-        double g{0.1};
-        double s1{0.0}, s2{0.0};
-
-        [[nodiscard]] double next(double in) noexcept;
-    };
-
-    static constexpr std::size_t kModes = 4;
-    static constexpr std::size_t kTaps = 8;  // of a place between ticks
-    static constexpr std::size_t kPlaces = 256;
-    static constexpr std::size_t kHeard = 512;  // ticks: half a second
-    static_assert((kHeard & (kHeard - 1)) == 0, "a power of two");
-
-    [[nodiscard]] static Filter high_pass(double cutoff_hz, double rate_hz) noexcept;
-    void fill_weights() noexcept;
-    void tune_modes() noexcept;
-    [[nodiscard]] double tap_of(const SoundTick& tick) noexcept;
-    [[nodiscard]] const Heard& heard(std::int64_t tick) const noexcept;
-    /// Force and height at a place between ticks.
-    [[nodiscard]] Heard between(double place) const noexcept;
+    void tune_resonances() noexcept;
     void settle(double block_ticks) noexcept;
     void advance() noexcept;
-    void reach(const Heard& tick) noexcept;
+    void reach(const HeardTick& tick) noexcept;
     [[nodiscard]] double noise() noexcept;
     [[nodiscard]] double next_sample() noexcept;
+    [[nodiscard]] double next_texture() noexcept;
     void be_quiet() noexcept;
 
     double rate_hz_;
     SoundChoice choice_{};
-    // Of the ticks as they come in.
-    std::array<Heard, kHeard> heard_{};
-    std::int64_t newest_{-1};  ///< number of the last one
-    Vec3 proxy_mm_{0.0};
-    bool contact_{false};
-    bool force_on_{false};
-    int ticks_since_change_{0};  ///< of contact
-    double height_mm_{0.0};
-    double speed_mm_per_s_{0.0};  ///< over a few milliseconds
-    double pressed_newton_{0.0};  ///< most of the last tens of milliseconds
-    // Of the samples as they go out.
+    HeardTicks ticks_{};
     double at_{0.0};         ///< the tick that taps are heard of
     double pace_{0.0};       ///< ticks a sample
     bool waits_{true};       ///< for ticks
     double unheard_s_{0.0};  ///< since the last tick came in
     double patience_s_{0.0};
-    double gate_{0.0};  ///< 0: silent, 1: open
-    double impulse_{0.0};
-    double burst_{0.0};  ///< the noise of an impact
-    double scrape_{0.0};
+    double gate_{0.0};      ///< 0: silent, 1: open
+    double impulse_{0.0};   ///< for the resonances
+    double burst_{0.0};     ///< level of the noise of an impact
+    double scraping_{0.0};  ///< level of that of sliding
     double volume_{0.0};
-    // Where force and height were when the gate opened: being there is no sound.
-    bool opens_{true};
-    Heard rest_{};
+    bool opens_{true};  ///< the gate
+    HeardTick rest_{};  ///< where force and height were then: being there is no sound
     std::uint32_t random_{0x9E3779B9U};
-    std::array<Mode, kModes> modes_{};
-    Filter force_, height_;
-    std::array<std::array<double, kTaps>, kPlaces + 1> weights_{};
-    Band band_{};
+    std::array<Resonance, 4> resonances_{};
+    HighPass force_, height_;
+    BandPass hiss_{};
 };
 
 }  // namespace dibhr

@@ -1,5 +1,9 @@
 // What the real window sounds like: the samples that it gives a sound device, written into a file;
 // and machines that have none.
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -7,7 +11,6 @@
 #include <cstring>
 #include <filesystem>
 #include <glm/geometric.hpp>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -67,6 +70,26 @@ class Variable {
 
   private:
     const char* name_;
+};
+
+/// A sound server that takes calls and never answers.
+class SilentServer {
+  public:
+    explicit SilentServer(const fs::path& place)
+        : socket_(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+        sockaddr_un address{};
+        address.sun_family = AF_UNIX;
+        REQUIRE(place.string().size() < sizeof address.sun_path);
+        std::strcpy(address.sun_path, place.c_str());
+        REQUIRE(::bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
+        REQUIRE(::listen(socket_, 8) == 0);
+    }
+    ~SilentServer() { ::close(socket_); }
+    SilentServer(const SilentServer&) = delete;
+    SilentServer& operator=(const SilentServer&) = delete;
+
+  private:
+    int socket_;
 };
 
 }  // namespace
@@ -136,25 +159,38 @@ TEST_CASE("without a sound device the window goes on and says nothing on stderr"
     CHECK(read_session(folder / "hand.dibhr").size() > 1000);
 }
 
+TEST_CASE("a sound server that never answers holds up neither the window nor its end", "[sound]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    const SilentServer server(folder / "pulse");
+    Process viewer = desk.start_viewer(
+        folder,
+        {"--device", "mouse", "--record", "hand.dibhr", "--seconds", "3", "--size", "640x480"},
+        {"timeout", "20", "env", "SDL_AUDIODRIVER=pulseaudio",
+         "PULSE_SERVER=unix:" + (folder / "pulse").string()});
+    CHECK(viewer.wait() == 0);
+    CHECK(read_text(folder / "errors.txt").empty());
+    CHECK(read_session(folder / "hand.dibhr").size() > 1000);
+}
+
 TEST_CASE("a sound device is opened when it is wanted, and that there is none is told", "[sound]") {
-    const auto ring = std::make_unique<SoundRing>();
     using State = SoundOutput::State;
     SECTION("a device that plays") {
         const Variable driver("SDL_AUDIODRIVER", "dummy");
-        SoundOutput output(*ring);
+        SoundOutput output;
         CHECK(output.state() == State::quiet);
         for (int k = 0; k < 3; ++k) {
             output.choose({}, false);
             CHECK(eventually([&] { return output.state() == State::playing; }));
-            ring->push({});
-            CHECK(eventually([&] { return ring->size() == 0; }));
+            output.ticks().push({});
+            CHECK(eventually([&] { return output.ticks().size() == 0; }));
             output.choose({}, true);
             CHECK(eventually([&] { return output.state() == State::quiet; }));
         }
     }
     SECTION("none") {
         const Variable driver("SDL_AUDIODRIVER", "nonsense");
-        SoundOutput output(*ring);
+        SoundOutput output;
         output.choose({}, false);
         CHECK(eventually([&] { return output.state() == State::no_device; }));
         output.choose({}, true);
