@@ -155,4 +155,11 @@ std::optional<Action> action_of_key(int key, bool control, bool typing, bool rep
     return {};
 }
 
+std::optional<ListKey> list_key(int key) {
+    if (key == GLFW_KEY_UP) return ListKey::up;
+    if (key == GLFW_KEY_DOWN) return ListKey::down;
+    if (key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER) return ListKey::take;
+    return std::nullopt;
+}
+
 }  // namespace dibhr

@@ -75,4 +75,10 @@ struct KeyBinding {
 [[nodiscard]] std::optional<Action> action_of_key(int key, bool control, bool typing,
                                                   bool repeated = false, bool shift = false);
 
+/// What a key does in a list to choose from.
+enum class ListKey { up, down, take };
+
+/// Nothing: it is for something else.
+[[nodiscard]] std::optional<ListKey> list_key(int key);
+
 }  // namespace dibhr

@@ -1,9 +1,6 @@
 // The viewer's window thread: input, scene, panels, and the hand-over to the other threads.
 #include "app/viewer/viewer.hpp"
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <utility>
@@ -272,10 +269,10 @@ void Viewer::take_keys(const WindowInput& input) {
 }
 
 void Viewer::take_dialog_key(const KeyPress& press) {
-    if (press.key == GLFW_KEY_DOWN) ++state_.dialog.move;
-    if (press.key == GLFW_KEY_UP) --state_.dialog.move;
-    const bool is_enter = press.key == GLFW_KEY_ENTER || press.key == GLFW_KEY_KP_ENTER;
-    if (is_enter && !press.repeated) state_.dialog.enter = true;
+    const auto key = list_key(press.key);
+    if (key == ListKey::down) ++state_.dialog.move;
+    if (key == ListKey::up) --state_.dialog.move;
+    if (key == ListKey::take && !press.repeated) state_.dialog.enter = true;
 }
 
 std::optional<Answer> Viewer::perform_with_files(Action action) {
