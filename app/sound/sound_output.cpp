@@ -43,7 +43,8 @@ class Playing {
         SDL_SetHint(SDL_HINT_APP_NAME, "dibhr");
         SDL_SetHint(SDL_HINT_AUDIO_DEVICE_STREAM_NAME, "Touch");
         snd_lib_error_set_handler(say_nothing);
-        if (SDL_InitSubSystem(SDL_INIT_AUDIO) != 0) return;
+        // Not SDL_InitSubSystem, which looks for D-Bus, and may copy the whole process for that.
+        if (SDL_AudioInit(nullptr) != 0) return;
         initialised_ = true;
         for (SoundTick past; heard.ticks.pop(past);) continue;  // nobody listened
         SDL_AudioSpec wanted{};
@@ -62,7 +63,7 @@ class Playing {
     }
     ~Playing() {
         if (device_ != 0) SDL_CloseAudioDevice(device_);
-        if (initialised_) SDL_QuitSubSystem(SDL_INIT_AUDIO);
+        if (initialised_) SDL_AudioQuit();
     }
     Playing(const Playing&) = delete;
     Playing& operator=(const Playing&) = delete;

@@ -121,7 +121,8 @@ Process Desk::start_viewer(const TemporaryFolder& folder, const std::vector<std:
     words.insert(words.end(), arguments.begin(), arguments.end());
     return Process(words,
                    {"DISPLAY=" + display_, "WAYLAND_DISPLAY=", "LIBGL_ALWAYS_SOFTWARE=1",
-                    "SDL_AUDIODRIVER=dummy", "XDG_CONFIG_HOME=" + (folder / "config").string(),
+                    "SDL_AUDIODRIVER=dummy", "DBUS_SESSION_BUS_ADDRESS=disabled:",
+                    "XDG_CONFIG_HOME=" + (folder / "config").string(),
                     "XDG_DATA_HOME=" + (folder / "data").string(),
                     "XDG_STATE_HOME=" + (folder / "state").string()},
                    folder / "errors.txt");
