@@ -21,9 +21,12 @@ std::string replaced(std::string text, std::string_view what, std::string_view b
 std::vector<std::string> split(const std::string& text, std::string_view at) {
     std::vector<std::string> parts;
     std::size_t begin = 0;
-    for (std::size_t end; (end = text.find(at, begin)) != std::string::npos;
-         begin = end + at.size())
+    std::size_t end = text.find(at);
+    while (end != std::string::npos) {
         parts.push_back(text.substr(begin, end - begin));
+        begin = end + at.size();
+        end = text.find(at, begin);
+    }
     parts.push_back(text.substr(begin));
     return parts;
 }
@@ -38,10 +41,12 @@ std::string joined(const std::vector<std::string>& parts, std::string_view betwe
 }
 
 std::string without_parentheses(std::string text) {
-    for (std::size_t open; (open = text.find(" (")) != std::string::npos;) {
+    std::size_t open = text.find(" (");
+    while (open != std::string::npos) {
         const std::size_t close = text.find(')', open);
         if (close == std::string::npos) break;
         text.erase(open, close + 1 - open);
+        open = text.find(" (");
     }
     return text;
 }

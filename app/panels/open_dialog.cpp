@@ -2,11 +2,12 @@
 // of the one that is chosen.
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
+#include <cstdint>
 #include <ctime>
 #include <filesystem>
 #include <string>
 #include <system_error>
+#include <type_traits>
 #include <utility>
 
 #include "app/panels/panels.hpp"
@@ -46,6 +47,16 @@ std::string time_text(const FolderEntry& entry) {
     char text[32];
     std::strftime(text, sizeof text, "%Y-%m-%d %H:%M", &local);
     return text;
+}
+
+/// The name of a texture as ImGui wants it: as a pointer, or, from 1.91.4 on, as a number.
+template <typename Id>
+Id texture_id(std::uintptr_t name) {
+    if constexpr (std::is_pointer_v<Id>) {
+        return reinterpret_cast<Id>(name);  // NOLINT(performance-no-int-to-ptr)
+    } else {
+        return static_cast<Id>(name);
+    }
 }
 
 void go_to(ViewerState& state, const fs::path& folder) {
@@ -257,8 +268,7 @@ void draw_preview(const ViewerState& state, const FolderEntry* chosen, ImVec2 si
                                           0.7F * size.y);
             const float drawn = height * static_cast<float>(preview.columns) /
                                 static_cast<float>(std::max(preview.rows, 1));
-            // As ImGui wants the name of a texture.
-            ImGui::Image(reinterpret_cast<ImTextureID>(preview.texture), {drawn, height});
+            ImGui::Image(texture_id<ImTextureID>(preview.texture), {drawn, height});
         }
         ImGui::TextWrapped("%s", chosen->name().c_str());
         ImGui::TextDisabled("%s%s", chosen->depth.empty() ? "" : "Colour + depth, ",
