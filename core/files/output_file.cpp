@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <cstddef>
+#include <cstdio>
 #include <cstring>
 #include <string>
 #include <system_error>
@@ -24,6 +25,20 @@ void remove_empty(const std::vector<fs::path>& folders) {
     for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) {
         fs::remove(*folder, not_empty);
     }
+}
+
+/// False, and why in errno: EEXIST when there is a file of that name.
+bool renamed_to_new(const fs::path& from, const fs::path& to) {
+    if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0)
+        return true;
+    if (errno != EINVAL && errno != ENOSYS) return false;
+    // A file system that cannot do both in one: another program may come between.
+    std::error_code ignored;
+    if (fs::exists(fs::symlink_status(to, ignored))) {
+        errno = EEXIST;
+        return false;
+    }
+    return ::rename(from.c_str(), to.c_str()) == 0;
 }
 
 }  // namespace
@@ -78,14 +93,35 @@ void OutputFile::write(std::string_view bytes) {
     }
 }
 
-void OutputFile::commit() {
-    if (!owned_) return;
+void OutputFile::close() {
     const int file = file_;
     file_ = -1;
     if (::close(file) != 0) fail("cannot be written");
+}
+
+void OutputFile::commit() {
+    if (!owned_) return;
+    close();
     if (temporary_.empty()) return;
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot be replaced");
     temporary_.clear();
+}
+
+fs::path OutputFile::commit_beside() {
+    if (!owned_ || temporary_.empty()) {
+        commit();
+        return target_;
+    }
+    close();
+    constexpr int kMostBeside = 10000;
+    const fs::path wanted = target_;
+    for (int number = 2; !renamed_to_new(temporary_, target_); ++number) {
+        if (errno != EEXIST || number > kMostBeside) fail("cannot be written");
+        target_.replace_filename(wanted.stem().string() + "-" + std::to_string(number) +
+                                 wanted.extension().string());
+    }
+    temporary_.clear();
+    return target_;
 }
 
 void OutputFile::fail(const char* what) const {

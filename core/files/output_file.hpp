@@ -31,7 +31,17 @@ class OutputFile {
     /// Throws InputError when the target cannot be replaced.
     void commit();
 
+    /// As commit(), but nothing is replaced: where a file of that name exists, the first free
+    /// number is appended to it, "view-2.png". Gives the name. Throws InputError.
+    std::filesystem::path commit_beside();
+
+    /// Where it is written until commit(), for a library that opens files by name.
+    [[nodiscard]] const std::filesystem::path& written() const noexcept {
+        return temporary_.empty() ? target_ : temporary_;
+    }
+
   private:
+    void close();
     [[noreturn]] void fail(const char* what) const;
 
     std::filesystem::path target_;

@@ -167,4 +167,8 @@ class Media {
 /// Writes an RGB picture as PNG, whole or not at all. Throws InputError.
 void write_png(const ColourImage& picture, const std::filesystem::path& file);
 
+/// The same, but beside a file of that name: with the first free number, "view-2.png". Gives the
+/// name.
+std::filesystem::path write_new_png(const ColourImage& picture, const std::filesystem::path& file);
+
 }  // namespace dibhr

@@ -86,13 +86,26 @@ std::string png_of(const ColourImage& picture) {
     return {png.begin(), png.end()};
 }
 
-void write_png(const ColourImage& picture, const fs::path& file) {
+namespace {
+
+void write_png_into(OutputFile& out, const ColourImage& picture, const fs::path& file) {
     if (picture.rgb.empty())
         throw InputError(shown(file) + " cannot be written: the picture is empty");
-    const std::string png = png_of(picture);
+    out.write(png_of(picture));
+}
+
+}  // namespace
+
+void write_png(const ColourImage& picture, const fs::path& file) {
     OutputFile out(file);
-    out.write(png);
+    write_png_into(out, picture, file);
     out.commit();
+}
+
+fs::path write_new_png(const ColourImage& picture, const fs::path& file) {
+    OutputFile out(file);
+    write_png_into(out, picture, file);
+    return out.commit_beside();
 }
 
 cv::Mat with_bits(const cv::Mat& picture, int bits_now, int bits) {

@@ -1,4 +1,4 @@
-// The packets of one video track of a file, through libavformat; inside the room.
+// The packets of one video track of a file, through libavformat; for this room and core/clip.
 #pragma once
 
 #include <cstdint>

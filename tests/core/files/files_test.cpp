@@ -52,6 +52,30 @@ TEST_CASE("an output file is there after commit, and nothing is without it", "[f
     CHECK(std::distance(fs::directory_iterator(file.parent_path()), {}) == 1);
 }
 
+TEST_CASE("an output file that stands beside others replaces none and takes the first free number",
+          "[files]") {
+    const TemporaryFolder folder;
+    const fs::path file = folder / "view.png";
+    const auto written = [&file](const char* text) {
+        OutputFile out(file);
+        out.write(text);
+        return out.commit_beside();
+    };
+    CHECK(written("first") == file);
+    CHECK(written("second") == folder / "view-2.png");
+    {
+        OutputFile late(file);
+        late.write("third");
+        CHECK(written("fourth") == folder / "view-3.png");  // while the other is written
+        CHECK(late.commit_beside() == folder / "view-4.png");
+    }
+    fs::remove(folder / "view-2.png");
+    CHECK(written("fifth") == folder / "view-2.png");
+    CHECK(read_text(file) == "first");
+    CHECK(read_text(folder / "view-4.png") == "third");
+    CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 4);
+}
+
 TEST_CASE("an output file is written beside what another program left, and as readable as any",
           "[files]") {
     const TemporaryFolder folder;

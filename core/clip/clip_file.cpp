@@ -1,0 +1,92 @@
+// A clip while it is written, and what becomes of it.
+#include "core/clip/clip_file.hpp"
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+}
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "core/clip/mp4_file.hpp"
+#include "core/clip/picture_encoder.hpp"
+#include "core/error.hpp"
+#include "core/video/frame_window.hpp"
+#include "core/video/libraries.hpp"
+
+namespace dibhr {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::int64_t clip_time(double seconds) {
+    return std::llround(seconds * kClipTimeBase);
+}
+
+fs::path committed(OutputFile& file, const fs::path& target, ClipName name) {
+    if (name == ClipName::stands_beside) return file.commit_beside();
+    file.commit();
+    return target;
+}
+
+}  // namespace
+
+ClipFile::ClipFile(const fs::path& target, ClipName name)
+    : target_(target), name_(name), written_(target) {
+    set_up_libraries();
+}
+
+ClipFile::~ClipFile() = default;
+
+template <typename Step>
+auto ClipFile::telling_which_file(const Step& step) {
+    try {
+        return step();
+    } catch (const InputError& error) {
+        throw InputError(target_.string() + ": " + error.what());
+    }
+}
+
+void ClipFile::open(const ColourImage& first) {
+    encoder_ = std::make_unique<PictureEncoder>(first.columns, first.rows);
+    AVCodecParameters* coded = avcodec_parameters_alloc();
+    if (coded == nullptr || avcodec_parameters_from_context(coded, &encoder_->codec()) < 0)
+        throw std::bad_alloc();
+    const std::unique_ptr<AVCodecParameters, void (*)(AVCodecParameters*)> freed(
+        coded, [](AVCodecParameters* parameters) { avcodec_parameters_free(&parameters); });
+    file_ = std::make_unique<Mp4File>(written_.written(), *coded, Mp4Index::in_pieces);
+}
+
+void ClipFile::add(const ColourImage& picture, double shown_s) {
+    const std::int64_t shown_ms = clip_time(shown_s);
+    if (shown_ms <= last_ms_ || picture.rgb.empty()) return;
+    telling_which_file([&] {
+        if (!encoder_) open(picture);
+        encoder_->encode(picture, shown_ms, [this](AVPacket& packet) { file_->write(packet); });
+    });
+    last_ms_ = shown_ms;
+}
+
+fs::path ClipFile::finish(double end_s, ClipEnd how) {
+    return telling_which_file([&] {
+        if (!encoder_) throw InputError("no picture was drawn while the clip went on");
+        encoder_->drain([this](AVPacket& packet) { file_->write(packet); });
+        const std::int64_t end_ms = std::max(clip_time(end_s), last_ms_ + 1);
+        file_->finish(end_ms);
+        if (how == ClipEnd::at_once) return committed(written_, target_, name_);
+        try {
+            OutputFile copy(target_);
+            copy_with_index_at_begin(written_.written(), copy.written(), last_ms_, end_ms);
+            return committed(copy, target_, name_);
+        } catch (const std::exception&) {  // no room for both: this one is as whole
+            return committed(written_, target_, name_);
+        }
+    });
+}
+
+}  // namespace dibhr

@@ -1,0 +1,54 @@
+// The file of a clip: the pictures of a window, each shown at its own time.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+#include "core/files/output_file.hpp"
+
+namespace dibhr {
+
+struct ColourImage;
+class Mp4File;
+class PictureEncoder;
+
+/// What happens to a file that has the name already.
+enum class ClipName { replaces, stands_beside };
+
+/// How a clip is finished: its index at the begin of the file takes a copy; at once, it is in
+/// pieces, which plays as well.
+enum class ClipEnd { well, at_once };
+
+/// An MP4 that appears whole or not at all. Until then it is a file beside it, called .part...,
+/// which plays up to a second before the last picture even when the program dies.
+class ClipFile {
+  public:
+    /// Throws InputError when the file cannot be made.
+    ClipFile(const std::filesystem::path& target, ClipName name);
+    ~ClipFile();
+    ClipFile(const ClipFile&) = delete;
+    ClipFile& operator=(const ClipFile&) = delete;
+
+    /// `shown_s` counts from the clip's begin; a picture that is not at least a millisecond after
+    /// the one before is left out. The first one gives the video its size. Throws InputError: what,
+    /// and which file.
+    void add(const ColourImage& picture, double shown_s);
+
+    /// The last picture is seen until `end_s`. Gives the name that the file has. Throws InputError.
+    std::filesystem::path finish(double end_s, ClipEnd how);
+
+  private:
+    void open(const ColourImage& first);
+    template <typename Step>
+    auto telling_which_file(const Step& step);
+
+    std::filesystem::path target_;
+    ClipName name_;
+    OutputFile written_;
+    std::unique_ptr<PictureEncoder> encoder_{};
+    std::unique_ptr<Mp4File> file_{};
+    std::int64_t last_ms_{-1};
+};
+
+}  // namespace dibhr

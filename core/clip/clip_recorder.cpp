@@ -1,0 +1,95 @@
+// The thread that encodes a clip.
+#include "core/clip/clip_recorder.hpp"
+
+#include <sched.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <optional>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace dibhr {
+
+namespace {
+
+/// For the calling thread: it gets little of what others want, and is off the processor as soon as
+/// the hand's wakes. Not nothing (SCHED_IDLE): the window's thread takes the same lock.
+void give_way() {
+    constexpr int kLeast = 19;
+    const sched_param none{};
+    ::sched_setscheduler(0, SCHED_BATCH, &none);
+    ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kLeast);
+}
+
+}  // namespace
+
+ClipRecorder::ClipRecorder(const std::filesystem::path& file, ClipName name)
+    : file_(file, name), result_(std::async(std::launch::async, [this] { return work(); })) {}
+
+ClipRecorder::~ClipRecorder() {
+    const std::scoped_lock lock(mutex_);
+    given_up_ = !stopped_;
+    stopped_ = true;
+    news_.notify_one();
+}
+
+bool ClipRecorder::wants_picture() const {
+    const std::scoped_lock lock(mutex_);
+    return !stopped_ && !done() && waiting_.size() < kMostWaiting;
+}
+
+void ClipRecorder::add(ColourImage picture, Clock::time_point shown) {
+    {
+        const std::scoped_lock lock(mutex_);
+        if (stopped_ || waiting_.size() >= kMostWaiting) return;
+        waiting_.push_back({std::move(picture), shown});
+    }
+    news_.notify_one();
+}
+
+void ClipRecorder::stop(Clock::time_point end, ClipEnd how) {
+    const std::scoped_lock lock(mutex_);
+    how_ = how;
+    if (std::exchange(stopped_, true)) return;
+    end_ = end;
+    news_.notify_one();
+}
+
+bool ClipRecorder::done() const {
+    return !result_.valid() ||
+           result_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+std::uint64_t ClipRecorder::encoded() const {
+    const std::scoped_lock lock(mutex_);
+    return encoded_;
+}
+
+std::filesystem::path ClipRecorder::work() {
+    give_way();
+    std::optional<Clock::time_point> begin;
+    const auto seconds = [&begin](Clock::time_point at) {
+        return std::chrono::duration<double>(at - *begin).count();
+    };
+    std::unique_lock lock(mutex_);
+    while (true) {
+        news_.wait(lock, [this] { return stopped_ || !waiting_.empty(); });
+        if (given_up_) throw InputError("the clip was given up");
+        if (waiting_.empty()) break;
+        const Shown next = std::move(waiting_.front());
+        waiting_.pop_front();
+        lock.unlock();
+        if (!begin) begin = next.at;
+        file_.add(next.picture, seconds(next.at));
+        lock.lock();
+        ++encoded_;
+    }
+    const Clock::time_point end = begin ? end_ : Clock::time_point{};
+    const ClipEnd how = how_;
+    lock.unlock();
+    return file_.finish(begin ? seconds(end) : 0.0, how);
+}
+
+}  // namespace dibhr

@@ -1,0 +1,46 @@
+// An MP4 file of one video track, from packets.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+struct AVCodecParameters;
+struct AVFormatContext;
+struct AVPacket;
+
+namespace dibhr {
+
+/// Where the index is: in pieces, so that what is written plays however it ends; or whole at the
+/// begin, as players and browsers like it best.
+enum class Mp4Index { in_pieces, at_begin };
+
+class Mp4File {
+  public:
+    /// Writes over the file. Throws InputError.
+    Mp4File(const std::filesystem::path& file, const AVCodecParameters& coded, Mp4Index index);
+    ~Mp4File();
+    Mp4File(const Mp4File&) = delete;
+    Mp4File& operator=(const Mp4File&) = delete;
+
+    /// Takes the packet's content; its times are in 1/kClipTimeBase s. It lasts until the next one,
+    /// and is written then. Throws InputError, e.g. when the disk is full.
+    void write(AVPacket& packet);
+    /// The last one lasts until then. Throws InputError.
+    void finish(std::int64_t end_ms);
+
+  private:
+    struct Held;
+
+    void write_held(std::int64_t until_ms);
+
+    std::unique_ptr<AVFormatContext, void (*)(AVFormatContext*)> format_;
+    std::unique_ptr<Held> held_;
+};
+
+/// A copy of a finished one, its index at the begin: the same pictures at the same times. Throws
+/// InputError, also where the last picture that is read is not that of `last_ms`.
+void copy_with_index_at_begin(const std::filesystem::path& from, const std::filesystem::path& to,
+                              std::int64_t last_ms, std::int64_t end_ms);
+
+}  // namespace dibhr

@@ -1,0 +1,185 @@
+// libav's encoders, and the window's pictures as they want them.
+#include "core/clip/picture_encoder.hpp"
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavutil/frame.h>
+#include <libavutil/imgutils.h>
+#include <libavutil/opt.h>
+#include <libswscale/swscale.h>
+}
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <new>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/video/frame_window.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr int kPicturesPerSecond = 30;  // about: what the encoder reckons with
+constexpr int kPicturesToKey = 30;      // between two that can be sought, and kept after a crash
+constexpr const char* kH264Quality = "20";
+constexpr int kMpeg4Quality = 3;  // 1: the best, 31
+
+/// By name: that a machine without their hardware has others, too, is found out too late.
+constexpr std::array<const char*, 3> kEncoders{"libx264", "libopenh264", "mpeg4"};
+
+int even(int pixels) {
+    return std::max(pixels, 2) & ~1;
+}
+
+/// Colours as of HDTV, which players take where nothing is said.
+void say_colours(AVCodecContext& codec) {
+    codec.pix_fmt = AV_PIX_FMT_YUV420P;
+    codec.color_range = AVCOL_RANGE_MPEG;
+    codec.colorspace = AVCOL_SPC_BT709;
+    codec.color_primaries = AVCOL_PRI_BT709;
+    codec.color_trc = AVCOL_TRC_BT709;
+}
+
+/// On the thread that calls alone, a packet a picture: a hand is felt on the same machine. Null:
+/// this libav has no such encoder, or it takes no pictures of that size.
+AVCodecContext* opened(const char* name, int columns, int rows) {
+    const AVCodec* const encoder = avcodec_find_encoder_by_name(name);
+    if (encoder == nullptr) return nullptr;
+    AVCodecContext* codec = avcodec_alloc_context3(encoder);
+    if (codec == nullptr) throw std::bad_alloc();
+    codec->width = columns;
+    codec->height = rows;
+    codec->time_base = {1, kClipTimeBase};
+    codec->framerate = {kPicturesPerSecond, 1};
+    codec->gop_size = kPicturesToKey;
+    codec->max_b_frames = 0;
+    codec->thread_count = 1;
+    codec->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;  // as MP4 wants it
+    say_colours(*codec);
+    if (encoder->id == AV_CODEC_ID_MPEG4) {
+        codec->flags |= AV_CODEC_FLAG_QSCALE;
+        codec->global_quality = FF_QP2LAMBDA * kMpeg4Quality;
+    }
+    // Of libx264; the others do not know them.
+    av_opt_set(codec->priv_data, "preset", "veryfast", 0);
+    av_opt_set(codec->priv_data, "tune", "zerolatency", 0);
+    av_opt_set(codec->priv_data, "crf", kH264Quality, 0);
+    if (avcodec_open2(codec, encoder, nullptr) < 0) avcodec_free_context(&codec);
+    return codec;
+}
+
+/// Where a picture lies in one of another size: the same shape, in the middle.
+struct Place {
+    int left, top, columns, rows;
+};
+
+Place place_in(const AVFrame& frame, const ColourImage& picture) {
+    const double scale =
+        std::min(1.0 * frame.width / picture.columns, 1.0 * frame.height / picture.rows);
+    const auto side = [scale](int pixels, int most) {
+        return std::min(even(static_cast<int>(std::lround(scale * pixels))), most);
+    };
+    const int columns = side(picture.columns, frame.width);
+    const int rows = side(picture.rows, frame.height);
+    return {(frame.width - columns) / 2 & ~1, (frame.height - rows) / 2 & ~1, columns, rows};
+}
+
+void paint_black(AVFrame& frame) {
+    std::array<std::ptrdiff_t, 4> strides{};
+    std::copy_n(std::begin(frame.linesize), strides.size(), strides.begin());
+    av_image_fill_black(frame.data, strides.data(), AV_PIX_FMT_YUV420P, AVCOL_RANGE_MPEG,
+                        frame.width, frame.height);
+}
+
+InputError cannot_encode() {
+    return InputError("the clip ends: libav cannot encode another picture; begin a new one");
+}
+
+}  // namespace
+
+void PictureEncoder::Free::operator()(AVCodecContext* codec) const {
+    avcodec_free_context(&codec);
+}
+
+void PictureEncoder::Free::operator()(AVFrame* frame) const {
+    av_frame_free(&frame);
+}
+
+void PictureEncoder::Free::operator()(AVPacket* packet) const {
+    av_packet_free(&packet);
+}
+
+void PictureEncoder::Free::operator()(SwsContext* scaler) const {
+    sws_freeContext(scaler);
+}
+
+PictureEncoder::PictureEncoder(int columns, int rows)
+    : frame_(av_frame_alloc()), packet_(av_packet_alloc()) {
+    if (frame_ == nullptr || packet_ == nullptr) throw std::bad_alloc();
+    for (const char* const name : kEncoders)
+        if (codec_ == nullptr) codec_.reset(opened(name, even(columns), even(rows)));
+    if (codec_ == nullptr) {
+        throw InputError("no clip can be made of " + std::to_string(columns) + " x " +
+                         std::to_string(rows) +
+                         " pixels: this libavcodec has neither an H.264 nor an MPEG-4 encoder for "
+                         "it; install the distribution's full libavcodec");
+    }
+    frame_->format = AV_PIX_FMT_YUV420P;
+    frame_->width = codec_->width;
+    frame_->height = codec_->height;
+    if (av_frame_get_buffer(frame_.get(), 0) < 0) throw std::bad_alloc();
+}
+
+PictureEncoder::~PictureEncoder() = default;
+
+/// Draws the picture into frame_.
+void PictureEncoder::place(const ColourImage& picture) {
+    AVFrame& frame = *frame_;
+    if (av_frame_make_writable(&frame) < 0) throw std::bad_alloc();
+    const Place place = place_in(frame, picture);
+    if (place.columns != frame.width || place.rows != frame.height) paint_black(frame);
+    scaler_.reset(sws_getCachedContext(
+        scaler_.release(), picture.columns, picture.rows, AV_PIX_FMT_RGB24, place.columns,
+        place.rows, AV_PIX_FMT_YUV420P, SWS_BILINEAR, nullptr, nullptr, nullptr));
+    if (scaler_ == nullptr) throw cannot_encode();
+    const int* const colours = sws_getCoefficients(SWS_CS_ITU709);
+    constexpr int kOne = 1 << 16;
+    sws_setColorspaceDetails(scaler_.get(), colours, 1, colours, 0, 0, kOne, kOne);
+    const std::array<const std::uint8_t*, 4> from{picture.rgb.data()};
+    const std::array<int, 4> from_stride{3 * picture.columns};
+    const auto start = [&](std::size_t plane, int subsampling) {
+        return frame.data[plane] +
+               std::ptrdiff_t{frame.linesize[plane]} * (place.top / subsampling) +
+               place.left / subsampling;
+    };
+    const std::array<std::uint8_t*, 4> to{start(0, 1), start(1, 2), start(2, 2)};
+    sws_scale(scaler_.get(), from.data(), from_stride.data(), 0, picture.rows, to.data(),
+              frame.linesize);
+}
+
+void PictureEncoder::encode(const ColourImage& picture, std::int64_t shown_ms, const Sink& sink) {
+    place(picture);
+    frame_->pts = shown_ms;
+    if (avcodec_send_frame(codec_.get(), frame_.get()) < 0) throw cannot_encode();
+    take_packets(sink);
+}
+
+void PictureEncoder::drain(const Sink& sink) {
+    avcodec_send_frame(codec_.get(), nullptr);
+    take_packets(sink);
+}
+
+void PictureEncoder::take_packets(const Sink& sink) {
+    int got = 0;
+    while ((got = avcodec_receive_packet(codec_.get(), packet_.get())) == 0) {
+        sink(*packet_);
+        av_packet_unref(packet_.get());
+    }
+    if (got != AVERROR(EAGAIN) && got != AVERROR_EOF) throw cannot_encode();
+}
+
+}  // namespace dibhr
