@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <optional>
 
@@ -68,12 +69,49 @@ std::optional<Primitive> triangle_beside(const DepthSurface& surface, const Prim
     return in_first ? pair.first : pair.second;
 }
 
+/// Whether a surface of this size has the primitive.
+bool has_primitive(const DepthSurface& surface, const Primitive& primitive) {
+    const int i = primitive.i;
+    const int j = primitive.j;
+    switch (primitive.kind) {
+        case PrimitiveKind::triangle:
+            return surface.has_vertex(i, j) && surface.has_vertex(i + 1, j + 1);
+        case PrimitiveKind::edge: {
+            const EdgeEnds ends = ends_of(primitive);
+            return surface.has_vertex(ends.begin_i, ends.begin_j) &&
+                   surface.has_vertex(ends.end_i, ends.end_j);
+        }
+        case PrimitiveKind::vertex:
+            return surface.has_vertex(i, j);
+        case PrimitiveKind::none:
+            break;
+    }
+    return false;
+}
+
+/// Whether an update over a surface of this size can have left it so: a session that is replayed
+/// over other files holds those that cannot.
+bool fits(const DepthSurface& surface, const Proxy& proxy) {
+    if (!is_finite(proxy.position)) return false;
+    if (surface.clamped_to_frame(proxy.position) != proxy.position) return false;
+    return !proxy.contact || has_primitive(surface, proxy.active);
+}
+
+/// Where an update begins that has no proxy to go on from.
+Proxy above(const DepthSurface& surface, Vec3 goal) {
+    Proxy proxy;
+    proxy.position = {goal.x, goal.y, std::max(goal.z, surface.elevation_at(goal.x, goal.y))};
+    return proxy;
+}
+
 class Explainer {
   public:
-    Explainer(const DepthSurface& surface, const Proxy& proxy, Vec3 goal, const Friction& friction)
+    Explainer(const DepthSurface& surface, const Proxy& left, Vec3 goal, const Friction& friction)
         : surface_(surface), asked_goal_(goal), friction_(friction) {
+        const Vec3 goal_in_frame = surface.clamped_to_frame(surface.clamped_to_reach(goal));
+        const Proxy proxy = fits(surface, left) ? left : above(surface, goal_in_frame);
         walk_.resume(proxy, surface.columns(), surface.rows());
-        update_.goal = surface.clamped_to_frame(surface.clamped_to_reach(goal));
+        update_.goal = goal_in_frame;
         update_.result = after(Dibhr::kMostMoves);
         update_.start = proxy.contact ? after(0) : proxy;
         update_.start.moves = 0;
@@ -254,7 +292,17 @@ std::string end_text(const WalkStep& step) {
 
 ExplainedUpdate explain(const DepthSurface& surface, const Proxy& proxy, Vec3 goal,
                         const Friction& friction) {
+    if (!is_finite(goal)) return {.goal = goal, .start = proxy, .steps = {}, .result = proxy};
     return Explainer(surface, proxy, goal, friction).run();
+}
+
+PathBox box_of(const ExplainedUpdate& update) {
+    PathBox box{update.start.position, update.start.position};
+    for (const WalkStep& step : update.steps) {
+        box.low = glm::min(box.low, step.after.position);
+        box.high = glm::max(box.high, step.after.position);
+    }
+    return box;
 }
 
 std::string text_of(const Primitive& primitive) {

@@ -50,8 +50,15 @@ struct ExplainedUpdate {
     Proxy result{};  ///< as `update` gives it
 };
 
-/// What DIBHR would do with `proxy`, as an update left it on a surface of this size. Takes an
-/// update's time for each of its moves, and memory: not for the haptic thread.
+/// Around all places of the proxy.
+struct PathBox {
+    Vec3 low{0.0}, high{0.0};
+};
+[[nodiscard]] PathBox box_of(const ExplainedUpdate& update);
+
+/// What DIBHR would do with `proxy`, as an update left it on a surface of this size; one that
+/// cannot be on it begins anew above the goal, and a goal that is not finite is refused: no steps.
+/// Takes an update's time for each of its moves, and memory: not for the haptic thread.
 [[nodiscard]] ExplainedUpdate explain(const DepthSurface& surface, const Proxy& proxy, Vec3 goal,
                                       const Friction& friction);
 

@@ -17,6 +17,8 @@ struct Proxy {
     /// The walk came to its last move, or a flight to its last cell, before its end: it goes on
     /// from here in the next update.
     bool bound_met{false};
+
+    bool operator==(const Proxy&) const = default;
 };
 
 /// Where the proxy starts, how it follows a surface that moves, and where it goes on from when

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <string>
 
 #include "core/haptics/dibhr.hpp"
@@ -22,12 +23,6 @@ constexpr SurfaceShape kWalkedShape{60.0, 0.0};
 Vec3 next_goal(test::Dice& dice) {
     return {dice.uniform(-4.0, kWalkedColumns + 3.0), dice.uniform(-4.0, kWalkedRows + 3.0),
             dice.uniform(-20.0, 70.0)};
-}
-
-bool same(const Proxy& one, const Proxy& other) {
-    return one.position == other.position && one.active == other.active &&
-           one.moves == other.moves && one.contact == other.contact &&
-           one.slipping == other.slipping && one.bound_met == other.bound_met;
 }
 
 template <typename Check>
@@ -55,7 +50,7 @@ TEST_CASE("the steps of an explained update end where the update ends, to the sa
     const double mu = GENERATE(0.0, 0.1, 0.8);
     walk_over_all(mu,
                   [](const DepthSurface&, const ExplainedUpdate& explained, const Proxy& updated) {
-                      REQUIRE(same(explained.result, updated));
+                      REQUIRE(explained.result == updated);
                       if (explained.steps.empty()) return;
                       const Proxy& last = explained.steps.back().after;
                       REQUIRE(last.position == updated.position);
@@ -118,6 +113,34 @@ TEST_CASE("a step says that the proxy stops on the cone when it is as far from t
         }
     });
     CHECK(stopped > 50);
+}
+
+TEST_CASE("a proxy that cannot be on the surface is explained as one that begins above the goal",
+          "[explain]") {
+    const DepthImage image = test::flat(20, 20, 100.0);
+    const DepthSurface surface(image, image, 0.0, {255.0, 0.0});
+    const Friction friction{0.5, 0.5};
+    const Vec3 goal{4.2, 3.3, 96.0};
+    Dibhr fresh;
+    const Proxy wanted = fresh.update(surface, goal, friction);
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    Proxy elsewhere;
+    elsewhere.contact = true;
+    for (const Primitive& primitive :
+         {triangle(TriangleSide::far_corner, 19, 3), edge(EdgeDirection::diagonal, 700, 2),
+          edge(EdgeDirection::along_column, 3, 19), vertex(20, 20), vertex(-1, 4), Primitive{}}) {
+        CAPTURE(text_of(primitive));
+        elsewhere.position = {4.0, 4.0, 100.0};
+        elsewhere.active = primitive;
+        CHECK(explain(surface, elsewhere, goal, friction).result == wanted);
+    }
+    elsewhere.active = vertex(4, 4);
+    for (const Vec3 position : {Vec3(500.0, 3.0, 100.0), Vec3(3.0, -0.5, 100.0),
+                                Vec3(nan, 3.0, 100.0), Vec3(3.0, 3.0, nan)}) {
+        elsewhere.position = position;
+        CHECK(explain(surface, elsewhere, goal, friction).result == wanted);
+    }
+    CHECK(explain(surface, wanted, {nan, 3.0, 100.0}, friction).steps.empty());
 }
 
 TEST_CASE("over a flat ground the way to a goal below is told primitive by primitive",
