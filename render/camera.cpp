@@ -71,6 +71,17 @@ void Camera::close_up(Vec3 centre_in_grid, double radius_px) {
     zoom(half_extent().y * scale / std::max(radius_px, 1e-3));
 }
 
+void Camera::set_view(const View& view) {
+    yaw_rad_ = view.yaw_rad;
+    pitch_rad_ = 0.0;
+    orbit(0.0, view.pitch_rad);
+    zoom_ = 1.0;
+    zoom(view.zoom);
+    constexpr double kFarthest = 4.0;  // the relief would be out of sight
+    const Vec3 bound(kFarthest * radius_px());
+    centre_in_world_ = glm::clamp(view.centre_in_world, -bound, bound);
+}
+
 double Camera::radius_px() const {
     return 0.5 * glm::length(Vec3(columns_, rows_, relief_px_));
 }

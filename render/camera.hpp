@@ -35,6 +35,17 @@ class Camera {
     /// stays.
     void close_up(Vec3 centre_in_grid, double radius_px);
 
+    /// Where it looks from, in numbers that mean the same over reliefs of one size.
+    struct View {
+        double yaw_rad{0.0}, pitch_rad{0.0}, zoom{1.0};
+        Vec3 centre_in_world{0.0};
+
+        bool operator==(const View&) const = default;
+    };
+    [[nodiscard]] View view() const { return {yaw_rad_, pitch_rad_, zoom_, centre_in_world_}; }
+    /// Held to what orbit() and zoom() can give.
+    void set_view(const View& view);
+
     void set_projection(Projection projection) { projection_ = projection; }
 
     [[nodiscard]] glm::dmat4 view_from_world() const;

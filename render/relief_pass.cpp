@@ -57,8 +57,9 @@ void ReliefPass::draw(const SceneContent& content, const glm::mat4& clip_from_wo
 
     Variant variant;
     variant.rough = content.bump != nullptr && content.shape.roughness_px != 0.0;
-    variant.textured = content.look.textured && content.colour && content.colour->colour &&
-                       !content.colour->colour->rgb.empty();
+    variant.textured = content.look.paint == ReliefPaint::video && content.colour &&
+                       content.colour->colour && !content.colour->colour->rgb.empty();
+    variant.by_depth = depth_colours(content.look.paint) != nullptr;
     variant.silhouettes = content.look.discard_silhouettes;
     variant.unseen = content.depth.nearest().unseen != nullptr;
     if (variant.silhouettes) tear(content);
@@ -139,8 +140,11 @@ void ReliefPass::bind_textures(const SceneContent& content, const Variant& varia
                                       : 0;
     const int most_side = limits_.software ? std::min(kMostColourSideSoftware, limits_.texture_side)
                                            : limits_.texture_side;
-    const GLuint colour =
-        variant.textured ? colour_.show(content.colour->colour, most_side, !limits_.software) : 0;
+    GLuint colour = 0;
+    if (variant.textured)
+        colour = colour_.show(content.colour->colour, most_side, !limits_.software);
+    if (variant.by_depth)
+        colour = depth_colours_.show(depth_colours(content.look.paint), most_side, false);
     bind(kDetailFromUnit, detail.from);
     bind(kDetailToUnit, detail.to);
     bind(kDepthFromUnit, depth.from);
@@ -160,6 +164,7 @@ const ShaderProgram& ReliefPass::prepared(const Variant& variant, const SceneCon
         if (variant.rim) defines += "#define RIM\n";
         if (variant.rough) defines += "#define ROUGH\n";
         if (variant.textured) defines += "#define TEXTURED\n";
+        if (variant.by_depth) defines += "#define BY_DEPTH\n";
         if (variant.unseen) defines += "#define UNSEEN\n";
         if (variant.silhouettes) defines += "#define SILHOUETTES\n";
         program =
@@ -178,6 +183,7 @@ const ShaderProgram& ReliefPass::prepared(const Variant& variant, const SceneCon
     program->set("colour", kColourUnit);
     program->set("blend", static_cast<float>(std::clamp(content.depth.blend, 0.0, 1.0)));
     program->set("px_per_level", static_cast<float>(content.shape.relief_px / image.highest_level));
+    program->set("relief_px", static_cast<float>(content.shape.relief_px));
     program->set("roughness_px", static_cast<float>(content.shape.roughness_px));
     program->set("slope_limit", static_cast<float>(limit));
     program->set("ground_px", static_cast<float>(-kGroundDepth * image.columns));

@@ -27,6 +27,7 @@ class ReliefPass {
         bool rim{false};
         bool rough{false};
         bool textured{false};
+        bool by_depth{false};
         bool silhouettes{false};
         bool unseen{false};
         auto operator<=>(const Variant&) const = default;  // NOLINT(modernize-use-nullptr)
@@ -45,6 +46,7 @@ class ReliefPass {
     UnseenTexture unseen_{};
     BumpTexture bump_{};
     ColourTexture colour_{};
+    ColourTexture depth_colours_{};
     ReliefGrid grid_{};
     ReliefGrid detail_grid_{};
     GlVertexArray surface_{};

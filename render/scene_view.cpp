@@ -12,6 +12,13 @@
 namespace dibhr {
 namespace {
 
+/// Behind the relief, at its upper and lower end.
+struct Wall {
+    glm::vec3 top, bottom;
+};
+constexpr Wall kDarkWall{{0.165F, 0.172F, 0.190F}, {0.055F, 0.058F, 0.066F}};
+constexpr Wall kLightWall{{0.90F, 0.91F, 0.92F}, {0.76F, 0.77F, 0.79F}};
+
 constexpr int kSamples = 4;  // a pixel, off-screen; on software they cost four times the work
 
 }  // namespace
@@ -47,6 +54,9 @@ void SceneView::draw(const SceneContent& content, const Camera& camera, glm::ive
     // After the relief, so that only what stays empty is filled.
     objects_->backdrop.use();
     objects_->backdrop.set("height_px", static_cast<float>(size.y));
+    const Wall& wall = content.light_wall ? kLightWall : kDarkWall;
+    objects_->backdrop.set("top", wall.top);
+    objects_->backdrop.set("bottom", wall.bottom);
     glBindVertexArray(objects_->no_vertices.get());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     objects_->markers.draw(content.markers, camera, size);

@@ -10,6 +10,7 @@
 #include "core/haptics/vec.hpp"
 #include "core/video/frame_window.hpp"
 #include "render/camera.hpp"
+#include "render/relief_paint.hpp"
 
 namespace dibhr {
 
@@ -17,8 +18,8 @@ namespace dibhr {
 struct ReliefLook {
     bool discard_silhouettes{true};  ///< tear the relief where it is steeper than this:
     double silhouette_slope{12.0};   ///< elevation change from pixel to pixel [px/px]
-    bool textured{true};             ///< false: plain clay, which shows the shape
-    double light{0.6};               ///< 0: flat colour, 1: strong shading
+    ReliefPaint paint{ReliefPaint::video};
+    double light{0.6};   ///< 0: flat colour, 1: strong shading
     bool coarse{false};  ///< half as many columns and rows as this machine would draw otherwise
     bool dent{true};     ///< the skin gives way under the proxy, in a soft shadow; drawn only
     bool trace{true};    ///< dots where one has touched in the last seconds
@@ -62,6 +63,7 @@ struct SceneContent {
     SurfaceShape shape{};
     const BumpMap* bump{nullptr};
     ReliefLook look{};
+    bool light_wall{false};  ///< behind the relief; else a dark one
     Dent dent{};
     TouchMarkers markers{};
 };

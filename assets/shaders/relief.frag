@@ -1,5 +1,5 @@
 #version 330 core
-// The relief's colour. Defines: TEXTURED (else clay), SILHOUETTES (leave out the torn cells), WALL,
+// The relief's colour. Defines: TEXTURED or BY_DEPTH (else clay), SILHOUETTES (leave out the torn cells), WALL,
 // RIM (a layer that goes on beyond a silhouette: only what agrees with the depth image is shown),
 // UNSEEN (somewhere no surface was ever seen: dimmed and hatched).
 
@@ -21,7 +21,8 @@ uniform float px_per_level;
 uniform sampler2D unseen;  // 1: no surface was ever seen, as fine as can be
 #endif
 
-uniform sampler2D colour;
+uniform sampler2D colour;  // BY_DEPTH: one row, from far to near
+uniform float relief_px;
 uniform int detail_step;
 uniform ivec2 image;
 uniform vec4 dent;  // column, row, radius [px]
@@ -75,8 +76,10 @@ void main() {
     ivec2 cell = from_vertex.x + from_vertex.y < 0.0 ? vertex - 1 : vertex;
     if (texelFetch(torn, cell, 0).r > 0.5) discard;
 #endif
-#ifdef TEXTURED
+#if defined(TEXTURED)
     vec3 body = texture(colour, lifted.xy).rgb;
+#elif defined(BY_DEPTH)
+    vec3 body = texture(colour, vec2(clamp(lifted.z / max(relief_px, 1e-6), 0.002, 0.998), 0.5)).rgb;
 #else
     vec3 body = kClay;
 #endif

@@ -76,6 +76,25 @@ TEST_CASE(
     CHECK(farthest > 0.25);  // of the window: it is no speck
 }
 
+TEST_CASE(
+    "a view that was taken down is taken again, and held to what a hand can turn and zoom to") {
+    Camera camera;
+    camera.frame_relief(640, 480, 255.0);
+    camera.orbit(0.4, -0.3);
+    camera.zoom(2.5);
+    camera.pan(12.0, 7.0, 800);
+    const Camera::View view = camera.view();
+    camera.reset();
+    CHECK_FALSE(camera.view() == view);
+    camera.set_view(view);
+    CHECK(camera.view() == view);
+    camera.set_view({.yaw_rad = 0.0, .pitch_rad = 9.0, .zoom = 1e9});
+    CHECK(camera.view().pitch_rad < 1.6);
+    CHECK(camera.view().zoom <= 50.0);
+    camera.set_view({.centre_in_world = {1e300, 0.0, -1e300}});
+    CHECK(glm::length(camera.view().centre_in_world) < 1e4);
+}
+
 TEST_CASE("a ray goes from near to far: down onto the relief") {
     Camera camera;
     camera.frame_relief(640, 480, 255.0);

@@ -110,6 +110,29 @@ TEST_CASE("a cell with two high corners on its diagonal is a ridge, not a valley
     }
 }
 
+TEST_CASE("painted by its depth, the relief has the legend's colours from far to near") {
+    const ReliefPaint paint = GENERATE(ReliefPaint::turbo, ReliefPaint::viridis, ReliefPaint::grey);
+    HiddenWindow window;
+    const auto colours = depth_colours(paint);
+    REQUIRE(colours);
+    REQUIRE(colours->columns == 256);
+    const auto purple = colour_image(64, 48, [](int, int) { return Rgb{200, 0, 200}; });
+    for (const double level : {20.0, 128.0, 240.0}) {
+        const Frame shown_frame =
+            frame(depth_image(64, 48, [level](int, int) { return level; }), purple);
+        SceneContent content = still(shown_frame);
+        content.look.paint = paint;
+        content.look.light = 0.0;
+        const ColourImage picture = SceneView().capture(content, straight(64, 48), {640, 480});
+        const auto shown =
+            pixel(picture, pixel_of(straight(64, 48), {32.0, 24.0, level}, {640, 480}));
+        for (std::size_t c = 0; c < 3; ++c) {
+            const int wanted = colours->rgb[3 * static_cast<std::size_t>(level) + c];
+            CHECK(std::abs(shown[c] - wanted) <= 6);
+        }
+    }
+}
+
 TEST_CASE("where no surface was ever seen the relief is dimmed and hatched, and only there") {
     const bool textured = GENERATE(true, false);
     HiddenWindow window;
@@ -122,7 +145,7 @@ TEST_CASE("where no surface was ever seen the relief is dimmed and hatched, and 
     holed.unseen = std::make_shared<const std::vector<std::uint8_t>>(unseen);
     const auto picture_of = [&, textured = textured](const Frame& shown) {
         SceneContent content = still(shown);
-        content.look.textured = textured;
+        content.look.paint = textured ? ReliefPaint::video : ReliefPaint::clay;
         return SceneView().capture(content, straight(64, 48), {640, 480});
     };
     const ColourImage plain = picture_of(whole);
