@@ -171,7 +171,7 @@ LoopRun measure_loops() {
     GoalStream device("bench", std::move(goals));
     TripleBuffer<HapticSettings> settings;
     TripleBuffer<HapticState> state;
-    const auto forces = std::make_unique<ForceRing>();
+    const auto strips = std::make_unique<StripRing>();
     const auto ticks = std::make_unique<TickRing>();
     settings.publish(HapticSettings{});
 
@@ -181,7 +181,7 @@ LoopRun measure_loops() {
         static_cast<void>(become_realtime("bench empty"));
         while (!stop.load(std::memory_order_relaxed)) empty_timer.wait();
     });
-    HapticLoop loop({device, player.haptics(), settings, state, *forces, *ticks});
+    HapticLoop loop({device, player.haptics(), settings, state, *strips, *ticks});
     std::this_thread::sleep_for(std::chrono::duration<double>(kLoopSeconds));
     stop.store(true);
     empty.join();

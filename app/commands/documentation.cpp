@@ -61,6 +61,7 @@ bool is_word(const std::string& text) {
 std::string troff(std::string text) {
     text = replaced(replaced(std::move(text), "\\", "\\e"), "-", "\\-");
     text = replaced(std::move(text), "\n.", "\n\\&.");
+    text = replaced(std::move(text), "\n'", "\n\\&'");
     return text.starts_with('.') || text.starts_with('\'') ? "\\&" + text : text;
 }
 
@@ -96,12 +97,32 @@ std::string quoted(const std::string& text) {
     return "'" + replaced(text, "'", "'\\''") + "'";
 }
 
+/// What a word after an option can be, where the option takes one that is no file.
+void add_bash_values(std::ostringstream& script, const DocumentedCommand& command) {
+    for (const DocumentedOption& option : command.options) {
+        if (option.is_argument() || option.type.empty() || option.takes_file()) continue;
+        const std::vector<std::string> values = option.values();
+        script << "        " << command.name << ':' << option.names.front() << ") ";
+        if (!values.empty())
+            script << "COMPREPLY=($(compgen -W '" << joined(values, " ") << "' -- \"$cur\")); ";
+        script << "return ;;\n";
+    }
+}
+
+void add_bash_options(std::ostringstream& script, const DocumentedCommand& command) {
+    script << "        " << command.name << ") options='";
+    for (const DocumentedOption& option : command.options)
+        if (!option.is_argument()) script << option.names.front() << ' ';
+    script << "' ;;\n";
+}
+
 std::string bash_completion(const std::vector<DocumentedCommand>& commands) {
     std::ostringstream script;
     script
         << "# bash completion of dibhr\n"
            "_dibhr() {\n"
-           "    local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]}\n"
+           "    local IFS=$' \\t\\n' cur=${COMP_WORDS[COMP_CWORD]} "
+           "prev=${COMP_WORDS[COMP_CWORD-1]}\n"
            "    local command=view options='' commands='"
         << names_of(commands)
         << "'\n"
@@ -114,38 +135,22 @@ std::string bash_completion(const std::vector<DocumentedCommand>& commands) {
            "        completion) COMPREPLY=($(compgen -W 'bash zsh fish' -- \"$cur\")); return ;;\n"
            "    esac\n"
            "    case $command:$prev in\n";
-    for (const DocumentedCommand& command : commands) {
-        for (const DocumentedOption& option : command.options) {
-            if (option.is_argument() || option.type.empty() || option.takes_file()) continue;
-            const std::vector<std::string> values = option.values();
-            const std::string pattern = command.name + ':' + option.names.front();
-            script << "        " << pattern << ") ";
-            if (!values.empty())
-                script << "COMPREPLY=($(compgen -W '" << joined(values, " ") << "' -- \"$cur\")); ";
-            script << "return ;;\n";
-        }
-    }
+    for (const DocumentedCommand& command : commands) add_bash_values(script, command);
     script << "    esac\n    case $command in\n";
-    for (const DocumentedCommand& command : commands) {
-        script << "        " << command.name << ") options='";
-        for (const DocumentedOption& option : command.options)
-            if (!option.is_argument()) script << option.names.front() << ' ';
-        script << "' ;;\n";
-    }
-    script << "    esac\n"
-              "    if [[ $cur == -* ]]; then\n"
-              "        COMPREPLY=($(compgen -W \"$options\" -- \"$cur\"))\n"
-              "        return\n"
-              "    fi\n"
-              "    compopt -o filenames\n"
-              "    local IFS=$'\\n'\n"
-              "    COMPREPLY=($(compgen -f -- \"$cur\"))\n"
-              "    if ((COMP_CWORD == 1)); then\n"
-              "        IFS=' '\n"
-              "        COMPREPLY+=($(compgen -W \"$commands\" -- \"$cur\"))\n"
-              "    fi\n"
-              "}\n"
-              "complete -F _dibhr dibhr\n";
+    for (const DocumentedCommand& command : commands) add_bash_options(script, command);
+    script
+        << "    esac\n"
+           "    if [[ $cur == -* ]]; then\n"
+           "        COMPREPLY=($(compgen -W \"$options\" -- \"$cur\"))\n"
+           "        return\n"
+           "    fi\n"
+           "    compopt -o filenames\n"
+           "    mapfile -t COMPREPLY < <(compgen -f -- \"$cur\")  # names with spaces stay whole\n"
+           "    if ((COMP_CWORD == 1)); then\n"
+           "        COMPREPLY+=($(compgen -W \"$commands\" -- \"$cur\"))\n"
+           "    fi\n"
+           "}\n"
+           "complete -F _dibhr dibhr\n";
     return script.str();
 }
 
@@ -194,7 +199,13 @@ std::string zsh_completion(const std::vector<DocumentedCommand>& commands) {
         }
         script << " \\\n                '*:file:_files' ;;\n";
     }
-    script << "    esac\n}\n_dibhr \"$@\"\n";
+    // Found by its name in zsh's folders, or read by a person's own settings.
+    script << "    esac\n}\n"
+              "if [[ ${funcstack[1]} == _dibhr ]]; then\n"
+              "    _dibhr \"$@\"\n"
+              "else\n"
+              "    compdef _dibhr dibhr\n"
+              "fi\n";
     return script.str();
 }
 

@@ -17,6 +17,7 @@
 #include "app/commands/command_line.hpp"
 #include "app/settings/assets_path.hpp"
 #include "app/settings/command_options.hpp"
+#include "app/settings/folder.hpp"
 #include "app/viewer/viewer.hpp"
 #include "app/window/crash_handler.hpp"
 #include "app/window/ending.hpp"
@@ -82,6 +83,9 @@ void add_playing_options(CLI::App& app, ViewOptions& options) {
     add_on_off_option(app, "--loop", "Starts again at the end; a session does not unless asked",
                       options.looping)
         ->default_str("on");
+    add_on_off_option(app, "--resume", "Goes on where the video was left the last time",
+                      options.resume)
+        ->default_str("off");
     app.add_flag("--pause", options.open.paused, "Stands still until it is told to play");
     app.add_flag("--full-screen", options.full_screen, "Fills the screen (F11)");
 }
@@ -92,6 +96,12 @@ bool gives_damping(const GivenParameters& given) {
         touch_numbers().begin(), touch_numbers().end(), [&](const TouchNumber& number) {
             return number.topic == TouchTopic::damper && given.value_of(number) != nullptr;
         });
+}
+
+/// Which then beats what is remembered of the file.
+bool gives_relief(const TouchRequest& touch) {
+    return touch.raw_depth || touch.given.fit_relief ||
+           touch.given.value_of(*touch_number("relief")) != nullptr;
 }
 
 void check_device(const std::string& device) {
@@ -126,12 +136,21 @@ void require_writable_folder(const fs::path& file, const char* option) {
 
 void require_writable_outputs(const ViewOptions& options) {
     if (!options.screenshot.empty()) require_writable_folder(options.screenshot, "--screenshot");
+    if (!options.clip.empty()) require_writable_folder(options.clip, "--clip");
+    if (options.clip == "-" || (fs::exists(options.clip) && !fs::is_regular_file(options.clip)))
+        throw InputError("a clip cannot be written to " + options.clip.string() +
+                         ": give --clip the name of a file");
+    const auto cannot_be = [](const fs::path& file, const char* both) {
+        throw InputError(file.string() + " cannot be both " + both + ": give them two names");
+    };
+    if (!options.clip.empty() && whole_path(options.clip) == whole_path(options.screenshot))
+        cannot_be(options.clip, "clip and screenshot");
     if (options.record.empty()) return;
     require_writable_folder(options.record, "--record");
-    if (options.record == options.screenshot) {
-        throw InputError(options.record.string() +
-                         " cannot be both recording and screenshot: give them two names");
-    }
+    const fs::path record = whole_path(options.record);
+    if (record == whole_path(options.screenshot))
+        cannot_be(options.record, "recording and screenshot");
+    if (record == whole_path(options.clip)) cannot_be(options.record, "recording and clip");
     if (fs::exists(options.record)) {
         throw InputError(options.record.string() +
                          " exists already: move it away or give --record another name");
@@ -195,6 +214,9 @@ void open_parts(const ViewOptions& options, ViewerParts& parts) {
         print_warning(parts.session->frames.warning());
     } else {
         parts.media = open_request(options.open);
+        parts.memory = memory_of(*parts.media);
+        if (gives_relief(options.touch)) parts.memory.relief_px.reset();
+        if (options.start_given || options.end_s || !options.clip.empty()) parts.memory.at_s = 0.0;
         print_warning(parts.media->description().notice);
     }
     parts.hand =
@@ -229,6 +251,12 @@ int run_view(CLI::App& app, const Arguments& arguments) {
     add_file(app, "--record", options.record,
              "Records every tick into a new session file (.dibhr)");
     add_file(app, "--screenshot", options.screenshot, "Saves the last picture as PNG");
+    add_file(app, "--clip", options.clip,
+             "Saves what the window shows as MP4, from start to end; leaves at --end, unless it is "
+             "to begin again");
+    app.add_flag_function(
+        "--no-panels", [&options](std::int64_t) { options.pictures_of = PictureOf::relief; },
+        "--screenshot and --clip show the relief alone");
     add_number_option(app, "--seconds", 0.0, kLongestRun_s, "Leaves after so long",
                       [&options](double seconds) { options.seconds = seconds; })
         ->type_name("S");
@@ -240,6 +268,36 @@ int run_view(CLI::App& app, const Arguments& arguments) {
            "--size", [&size](const std::string& text) { size = parse_size(text); },
            "Size of the window")
         ->type_name("WxH");
+    std::optional<double> ui_scale;
+    add_number_option(app, "--ui-scale", kSmallestUi, kLargestUi,
+                      "Size of text and panels, times an ordinary display's",
+                      [&ui_scale](double scale) { ui_scale = scale; })
+        ->type_name("X");
+    std::optional<Theme> theme;
+    app.add_option_function<std::string>(
+           "--theme",
+           [&theme](const std::string& name) {
+               theme = theme_named(name);
+               if (!theme)
+                   throw CLI::ValidationError("--theme",
+                                              "'" + name + "' is neither dark nor light");
+           },
+           "Colours of the window: dark, light")
+        ->type_name("NAME")
+        ->default_str("dark");
+    std::optional<NamePattern> screenshot_name;
+    app.add_option_function<std::string>(
+           "--screenshot-name",
+           [&screenshot_name](const std::string& text) {
+               screenshot_name = NamePattern{text};
+               const std::string lacking = lacking_of(*screenshot_name);
+               if (!lacking.empty())
+                   throw CLI::ValidationError("--screenshot-name", in_quotes(text) + " " + lacking);
+           },
+           "How pictures (S) and clips (F9) are called, without ending: %Y %m %d %H %M %S, {file}, "
+           "{time} and {frame} of the video; a folder may stand before it")
+        ->type_name("PATTERN")
+        ->default_str(NamePattern{}.text);
     bool mute = false;
     app.add_flag("--mute", mute, "Touch makes no sound (U)");
     app.add_flag("--any-media", options.any_media,
@@ -263,6 +321,7 @@ int run_view(CLI::App& app, const Arguments& arguments) {
         "  dibhr color.mp4 --start 12.5 --pause   one moment of it\n"
         "  dibhr mine.dibhr --algorithm pga       what was recorded, through another algorithm");
     if (!parse(app, arguments)) return 0;
+    options.start_given = app.get_option("--start")->count() > 0;
     const std::string colour = options.open.colour.string();
     std::error_code unknown;
     if (colour.find_first_of("./") == std::string::npos && !colour.empty() &&
@@ -273,6 +332,7 @@ int run_view(CLI::App& app, const Arguments& arguments) {
     if (options.end_s && *options.end_s <= options.open.at_s)
         throw UsageError("--end " + short_text(*options.end_s) + " is not after --start " +
                          short_text(options.open.at_s) + ": give a later one");
+    if (!options.clip.empty() && options.end_s && !options.looping) options.looping = false;
     if (names_session(options.open.colour)) require_replay_options(options, touch);
     LastWords words;
     const CrashHandler crash(words, &falcon::Guardian::alarm);
@@ -281,9 +341,14 @@ int run_view(CLI::App& app, const Arguments& arguments) {
     Settings& settings = options.settings;
     ViewerParts parts;
     take_parameters(touch, parts, settings);
+    if (ui_scale) settings.ui_scale = *ui_scale;
+    if (theme) settings.theme = *theme;
     if (mute) settings.mute = true;
+    if (screenshot_name) settings.screenshot_name = *screenshot_name;
     if (stability) settings.stability = *stability;
+    if (options.resume) settings.resume = *options.resume;
     if (gives_damping(touch.given)) settings.damping_as_needed = false;
+    options.size_given = size.has_value();
     if (size) std::tie(settings.width, settings.height) = *size;
     if (touch.preset) settings.cleaning.preset = *touch.preset;
     if (touch.raw_depth) settings.cleaning.preset = CleaningPreset::raw;

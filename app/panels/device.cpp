@@ -60,11 +60,12 @@ void draw_force_switch(ViewerState& state, float width) {
     const ForceSwitch shown = force_switch(state);
     const ImVec4& ground = shown.ground;
     const ImVec4 raised{ground.x * 1.2F, ground.y * 1.2F, ground.z * 1.2F, 1.0F};
+    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0F, 1.0F, 1.0F, 1.0F));  // in every theme
     ImGui::PushStyleColor(ImGuiCol_Button, ground);
     ImGui::PushStyleColor(ImGuiCol_ButtonHovered, raised);
     ImGui::PushStyleColor(ImGuiCol_ButtonActive, raised);
     if (ImGui::Button(shown.text, {width, 0.0F})) state.force_enabled = !state.force_enabled;
-    ImGui::PopStyleColor(3);
+    ImGui::PopStyleColor(4);
     explain(shown.help);
 }
 

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,10 +32,8 @@ constexpr ImU32 kCone = IM_COL32(255, 205, 120, 200);
 constexpr ImU32 kWord = IM_COL32(255, 255, 255, 235);
 constexpr ImU32 kOutline = IM_COL32(0, 0, 0, 190);
 
-/// Cells of the drawn net around the walk, on each side; of a long walk none in its middle is left
-/// out.
-constexpr int kNetAround = 4;
-constexpr int kWidestNet = 90;
+constexpr int kNetAround = 4;   // cells on each side of the walk
+constexpr int kWidestNet = 90;  // of a wider one the lines would cover the relief: none is drawn
 
 /// Draws in grid space on top of the relief.
 class Blackboard {
@@ -116,12 +115,7 @@ std::array<Vec3, 3> corners_of(const DepthSurface& surface, const Primitive& tri
 }
 
 void draw_net(const Blackboard& board, const DepthSurface& surface, const ExplainedUpdate& update) {
-    Vec3 low = update.start.position;
-    Vec3 high = low;
-    for (const WalkStep& step : update.steps) {
-        low = glm::min(low, step.after.position);
-        high = glm::max(high, step.after.position);
-    }
+    const auto [low, high] = box_of(update);
     const int first_i = std::max(static_cast<int>(low.x) - kNetAround, 0);
     const int first_j = std::max(static_cast<int>(low.y) - kNetAround, 0);
     const int last_i = std::min(static_cast<int>(high.x) + 1 + kNetAround, surface.columns() - 1);
@@ -169,7 +163,7 @@ void draw_cone(const Blackboard& board, Vec3 goal, const WalkStep& step) {
     const Vec3 one = glm::normalize(glm::cross(up, any));
     const Vec3 other = glm::cross(up, one);
     const auto rim = [&](int k) {
-        const double turn = 2.0 * 3.14159265358979323846 * k / kSides;
+        const double turn = 2.0 * std::numbers::pi * k / kSides;
         return step.foot + step.cone_px * (std::cos(turn) * one + std::sin(turn) * other);
     };
     for (int k = 0; k < kSides; ++k) {
@@ -228,13 +222,19 @@ std::string words_of(const ViewerState& state) {
            after;
 }
 
-std::string title_of(const ExplainedNews& news) {
-    std::string title = "Explain one update of DIBHR";
+/// As much of it as there is room for.
+std::string title_of(const ExplainedNews& news, float room) {
     const std::size_t steps = news.update.steps.size();
-    if (steps == 0) return title + ": the proxy rests where it is";
-    title += formatted("     step %zu of %zu", news.taken, steps);
+    const std::string what = "Explain one update of DIBHR";
+    if (steps == 0) return what + ": the proxy rests where it is";
+    std::string step = formatted("step %zu of %zu", news.taken, steps);
     const int moves = news.taken > 0 ? news.update.steps[news.taken - 1].after.moves : 0;
-    return title + formatted("     %d of %d primitives visited", moves, news.update.result.moves);
+    const std::string more = formatted("%s     %d of %d primitives visited", step.c_str(), moves,
+                                       news.update.result.moves);
+    for (const std::string& title : {formatted("%s     %s", what.c_str(), more.c_str()), more}) {
+        if (ImGui::CalcTextSize(title.c_str()).x < room) return title;
+    }
+    return step;
 }
 
 void draw_card(ViewerState& state) {
@@ -259,9 +259,11 @@ void draw_card(ViewerState& state) {
     if (icon_button("on", Icon::step_forward, "One step on ( . )")) does(Action::step_forward);
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(title_of(news).c_str());
     const char* const end = "End (E)";
-    ImGui::SameLine(width - ImGui::CalcTextSize(end).x - 3.0F * ImGui::GetStyle().WindowPadding.x);
+    const float end_x =
+        width - ImGui::CalcTextSize(end).x - 3.0F * ImGui::GetStyle().WindowPadding.x;
+    ImGui::TextUnformatted(title_of(news, end_x - ImGui::GetCursorPosX()).c_str());
+    ImGui::SameLine(end_x);
     if (ImGui::SmallButton(end)) does(Action::explain);
     ImGui::TextWrapped("%s", words_of(state).c_str());
     // As high as for two lines: what is read does not jump.
@@ -276,7 +278,7 @@ void draw_card(ViewerState& state) {
 
 void draw_explanation(ViewerState& state, const DepthSurface& surface,
                       const glm::dmat4& clip_from_grid) {
-    if (!state.explained) return;
+    if (!state.explained || state.explained->waits) return;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const glm::dvec2 size(display.x - panel_column_width(state), display.y);
     draw_on_relief(Blackboard(clip_from_grid, size, state.scale), surface, *state.explained);

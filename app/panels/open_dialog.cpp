@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <ctime>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <system_error>
-#include <type_traits>
 #include <utility>
 
 #include "app/panels/panels.hpp"
@@ -49,88 +49,86 @@ std::string time_text(const FolderEntry& entry) {
     return text;
 }
 
-/// The name of a texture as ImGui wants it: as a pointer, or, from 1.91.4 on, as a number.
-template <typename Id>
-Id texture_id(std::uintptr_t name) {
-    if constexpr (std::is_pointer_v<Id>) {
-        return reinterpret_cast<Id>(name);  // NOLINT(performance-no-int-to-ptr)
-    } else {
-        return static_cast<Id>(name);
-    }
-}
-
 void go_to(ViewerState& state, const fs::path& folder) {
     state.requests.folder = folder;
-    state.dialog.typed = {};
-    ++state.dialog.line;
-    state.dialog.asks_for_keyboard = OpenDialog::kPicturesToFocus;
-    state.dialog.chosen.clear();
 }
 
 void open(ViewerState& state, const FolderEntry& entry) {
     if (entry.kind == FileKind::folder) return go_to(state, entry.file);
-    OpenRequest request{entry.file, entry.depth};
-    request.in_any_order = entry.depth.empty();  // depth alone finds its colour
-    state.requests.open = request;
+    state.requests.open = request_for(entry);
     state.dialog.shown = false;
 }
 
-/// What was typed narrows the rows, unless it is a path.
-bool is_wanted(const OpenDialog& dialog, const FolderEntry& entry) {
-    if (!dialog.all_files && !can_be_opened(entry)) return false;
-    const std::string typed = lower_case(dialog.typed.data());
-    if (typed.empty() || typed.find('/') != std::string::npos || typed.starts_with('~'))
-        return true;
-    return lower_case(entry.name()).find(typed) != std::string::npos;
+bool is_path(const std::string& typed) {
+    return typed.find('/') != std::string::npos || typed.starts_with('~');
 }
 
-std::vector<const FolderEntry*> rows_of(const OpenDialog& dialog) {
-    std::vector<const FolderEntry*> rows;
-    rows.reserve(dialog.folder.entries.size());
-    for (const FolderEntry& entry : dialog.folder.entries) {
-        if (is_wanted(dialog, entry)) rows.push_back(&entry);
+/// What was typed narrows the rows, unless it is a path. Worked out when something changed.
+void list_rows(OpenDialog& dialog) {
+    const std::string typed = dialog.typed.data();
+    OpenDialog::Rows& rows = dialog.rows;
+    if (rows.of_reading == dialog.reading && rows.typed == typed &&
+        rows.all_files == dialog.all_files)
+        return;
+    rows = {{}, typed, dialog.all_files, dialog.reading};
+    const std::string wanted = is_path(typed) ? std::string{} : lower_case(typed);
+    const std::vector<FolderEntry>& entries = dialog.folder.entries;
+    rows.entries.reserve(entries.size());
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+        if (!dialog.all_files && !can_be_opened(entries[k])) continue;
+        if (lower_case(entries[k].name()).find(wanted) != std::string::npos)
+            rows.entries.push_back(k);
     }
-    return rows;
 }
 
-const FolderEntry* chosen_of(const OpenDialog& dialog,
-                             const std::vector<const FolderEntry*>& rows) {
-    for (const FolderEntry* row : rows) {
-        if (row->file == dialog.chosen) return row;
-    }
-    return nullptr;
+/// Which row is chosen; nothing: none that is listed.
+std::optional<std::size_t> chosen_row(const OpenDialog& dialog) {
+    const std::vector<std::size_t>& rows = dialog.rows.entries;
+    const auto found = std::find_if(rows.begin(), rows.end(), [&](std::size_t entry) {
+        return dialog.folder.entries[entry].file == dialog.chosen;
+    });
+    if (found == rows.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - rows.begin());
 }
 
-/// A path that is there, or a row; the program says why where neither can be opened.
-void open_typed(ViewerState& state, const std::vector<const FolderEntry*>& rows) {
+const FolderEntry& entry_in(const OpenDialog& dialog, std::size_t row) {
+    return dialog.folder.entries[dialog.rows.entries[row]];
+}
+
+const FolderEntry* chosen_of(const OpenDialog& dialog) {
+    const auto row = chosen_row(dialog);
+    return row ? &entry_in(dialog, *row) : nullptr;
+}
+
+/// The chosen row; else what was typed, or the first row that it leaves.
+void enter(ViewerState& state) {
     OpenDialog& dialog = state.dialog;
     const std::string typed = dialog.typed.data();
-    const FolderEntry* chosen = chosen_of(dialog, rows);
+    const FolderEntry* chosen = chosen_of(dialog);
     if (typed.empty()) {
         if (chosen != nullptr) open(state, *chosen);
         return;
     }
-    const fs::path named = typed_path(typed);
-    std::error_code unknown;
-    for (const fs::path& place : {dialog.folder.path / named, fs::absolute(named, unknown)}) {
-        if (is_folder(place)) return go_to(state, place);
-        if (!fs::exists(place, unknown)) continue;
-        const auto in_pair = entry_of(dialog.folder, place);
-        return open(
-            state, in_pair ? dialog.folder.entries[*in_pair] : FolderEntry{FileKind::other, place});
-    }
-    if (chosen == nullptr && !rows.empty() && !named.has_parent_path()) chosen = rows.front();
-    open(state, chosen != nullptr ? *chosen : FolderEntry{FileKind::other, named});
+    if (chosen == nullptr && !dialog.rows.entries.empty() && !is_path(typed))
+        chosen = &entry_in(dialog, 0);
+    TypedFile file{typed, {}};
+    if (chosen != nullptr) file.chosen = *chosen;
+    state.requests.typed = file;
 }
 
+/// Asks for the completion at Tab, and writes it when it is there, unless more was typed since.
 int complete(ImGuiInputTextCallbackData* data) {
-    const fs::path& folder = *static_cast<const fs::path*>(data->UserData);
+    ViewerState& state = *static_cast<ViewerState*>(data->UserData);
     const std::string typed(data->Buf, static_cast<std::size_t>(data->BufTextLen));
-    const std::string whole = completed(typed, folder);
-    if (whole != typed) {
-        data->DeleteChars(0, data->BufTextLen);
-        data->InsertChars(0, whole.c_str());
+    if (data->EventFlag == ImGuiInputTextFlags_CallbackCompletion) {
+        state.requests.completion = typed;
+        return 0;
     }
+    const Completion done = std::exchange(state.dialog.completion, {});
+    const bool fits = static_cast<int>(done.whole.size()) < data->BufSize;
+    if (done.typed != typed || done.whole == typed || !fits) return 0;
+    data->DeleteChars(0, data->BufTextLen);
+    data->InsertChars(0, done.whole.c_str());
     return 0;
 }
 
@@ -155,12 +153,12 @@ void draw_path(ViewerState& state) {
     for (std::size_t k = first; k < parts.size(); ++k) {
         if (k > first) ImGui::SameLine();
         ImGui::PushID(static_cast<int>(k));
-        if (ImGui::Button(name_of_part(parts[k]).c_str())) go_to(state, parts[k]);
+        if (name_button(name_of_part(parts[k]))) go_to(state, parts[k]);
         ImGui::PopID();
     }
 }
 
-void draw_line(ViewerState& state, const std::vector<const FolderEntry*>& rows) {
+void draw_line(ViewerState& state) {
     OpenDialog& dialog = state.dialog;
     if (dialog.asks_for_keyboard > 0) {
         ImGui::SetWindowFocus();
@@ -168,32 +166,56 @@ void draw_line(ViewerState& state, const std::vector<const FolderEntry*>& rows) 
         --dialog.asks_for_keyboard;
     }
     ImGui::SetNextItemWidth(-1.0F);
-    fs::path folder = dialog.folder.path;
     ImGui::PushID(dialog.line);
-    ImGui::InputTextWithHint("##typed", "Type to narrow the list, or a path (Tab completes it)",
-                             dialog.typed.data(), dialog.typed.size(),
-                             ImGuiInputTextFlags_CallbackCompletion, complete, &folder);
+    ImGui::InputTextWithHint(
+        "##typed", "Type to narrow the list, or a path (Tab completes it)", dialog.typed.data(),
+        dialog.typed.size(),
+        ImGuiInputTextFlags_CallbackCompletion | ImGuiInputTextFlags_CallbackAlways, complete,
+        &state);
     if (ImGui::IsItemActive()) dialog.asks_for_keyboard = 0;
     ImGui::PopID();
-    if (std::exchange(dialog.enter, false)) open_typed(state, rows);
 }
 
-void move_choice(OpenDialog& dialog, const std::vector<const FolderEntry*>& rows) {
+void move_choice(OpenDialog& dialog) {
     const int by = std::exchange(dialog.move, 0);
-    if (by == 0 || rows.empty()) return;
-    const auto found = std::find_if(rows.begin(), rows.end(), [&](const FolderEntry* row) {
-        return row->file == dialog.chosen;
-    });
-    const int last = static_cast<int>(rows.size()) - 1;
-    const int next = found == rows.end()
-                         ? (by > 0 ? 0 : last)
-                         : std::clamp(static_cast<int>(found - rows.begin()) + by, 0, last);
-    dialog.chosen = rows[static_cast<std::size_t>(next)]->file;
+    const int last = static_cast<int>(dialog.rows.entries.size()) - 1;
+    if (by == 0 || last < 0) return;
+    const auto chosen = chosen_row(dialog);
+    const int next = chosen   ? std::clamp(static_cast<int>(*chosen) + by, 0, last)
+                     : by > 0 ? 0
+                              : last;
+    dialog.chosen = entry_in(dialog, static_cast<std::size_t>(next)).file;
     dialog.bring_into_sight = true;
 }
 
-void draw_rows(ViewerState& state, const std::vector<const FolderEntry*>& rows, ImVec2 size) {
+void draw_row(ViewerState& state, const FolderEntry& entry, bool wide) {
     OpenDialog& dialog = state.dialog;
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::PushID(entry.file.c_str());
+    if (name_selectable(
+            entry.name(), entry.file == dialog.chosen,
+            ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick)) {
+        dialog.chosen = entry.file;
+        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) open(state, entry);
+    }
+    ImGui::PopID();
+    if (!wide) return;
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%s", size_text(entry).c_str());
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%s", time_text(entry).c_str());
+}
+
+/// The chosen row into the middle, where it is moved to by keys.
+void scroll_to_chosen(OpenDialog& dialog, float height) {
+    const auto row = chosen_row(dialog);
+    if (!row || !std::exchange(dialog.bring_into_sight, false)) return;
+    const float each = ImGui::GetTextLineHeight() + 2.0F * ImGui::GetStyle().CellPadding.y;
+    ImGui::SetScrollY(each * (static_cast<float>(*row) + 1.5F) - 0.5F * height);
+}
+
+void draw_rows(ViewerState& state, ImVec2 size) {
     constexpr ImGuiTableFlags kTable =
         ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp;
     const float em = ImGui::GetFontSize();
@@ -206,25 +228,13 @@ void draw_rows(ViewerState& state, const std::vector<const FolderEntry*>& rows, 
     }
     ImGui::TableSetupScrollFreeze(0, 1);
     ImGui::TableHeadersRow();
+    scroll_to_chosen(state.dialog, size.y);
     ImGui::PushStyleColor(ImGuiCol_Header, ImGui::GetStyleColorVec4(ImGuiCol_SliderGrab));
-    for (const FolderEntry* row : rows) {
-        ImGui::TableNextRow();
-        ImGui::TableNextColumn();
-        ImGui::PushID(row->file.c_str());
-        const bool chosen = row->file == dialog.chosen;
-        if (ImGui::Selectable(
-                row->name().c_str(), chosen,
-                ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick)) {
-            dialog.chosen = row->file;
-            if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) open(state, *row);
-        }
-        if (chosen && std::exchange(dialog.bring_into_sight, false)) ImGui::SetScrollHereY(0.5F);
-        ImGui::PopID();
-        if (!wide) continue;
-        ImGui::TableNextColumn();
-        ImGui::TextDisabled("%s", size_text(*row).c_str());
-        ImGui::TableNextColumn();
-        ImGui::TextDisabled("%s", time_text(*row).c_str());
+    ImGuiListClipper clipper;
+    clipper.Begin(static_cast<int>(state.dialog.rows.entries.size()));
+    while (clipper.Step()) {
+        for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row)
+            draw_row(state, entry_in(state.dialog, static_cast<std::size_t>(row)), wide);
     }
     ImGui::PopStyleColor();
     ImGui::EndTable();
@@ -234,8 +244,7 @@ void draw_places(ViewerState& state, ImVec2 size) {
     ImGui::BeginChild("places", size);
     const auto place = [&state](const std::string& label, const fs::path& folder) {
         ImGui::PushID(folder.c_str());
-        if (ImGui::Selectable(label.c_str(), folder == state.dialog.folder.path))
-            go_to(state, folder);
+        if (name_selectable(label, folder == state.dialog.folder.path)) go_to(state, folder);
         ImGui::PopID();
         explain(folder.c_str());
     };
@@ -294,10 +303,38 @@ void draw_buttons(ViewerState& state, const FolderEntry* chosen) {
     ImGui::EndDisabled();
 }
 
+/// What the folder holds, or why that is not known.
+void draw_contents(ViewerState& state, ImVec2 size) {
+    const OpenDialog& dialog = state.dialog;
+    if (dialog.folder.trouble.empty() && !dialog.reads) return draw_rows(state, size);
+    ImGui::BeginChild("words", size);
+    if (dialog.reads) {
+        quiet_text("Reading the folder");
+    } else {
+        trouble_text(capitalised(dialog.folder.trouble));
+    }
+    ImGui::EndChild();
+}
+
+/// Places, rows and preview, beside each other where there is room.
+void draw_middle(ViewerState& state, const FolderEntry* chosen, float width) {
+    const float em = ImGui::GetFontSize();
+    const float gap = ImGui::GetStyle().ItemSpacing.x;
+    const ImVec2 room = ImGui::GetContentRegionAvail();
+    const float height = room.y - ImGui::GetFrameHeightWithSpacing();
+    if (width <= 46.0F * em) return draw_contents(state, {room.x, height});
+    draw_places(state, {kPlaces_em * em, height});
+    ImGui::SameLine();
+    draw_contents(state, {room.x - (kPlaces_em + kPreview_em) * em - 2.0F * gap, height});
+    ImGui::SameLine();
+    draw_preview(state, chosen, {kPreview_em * em, height});
+}
+
 }  // namespace
 
 void draw_open_dialog(ViewerState& state) {
     OpenDialog& dialog = state.dialog;
+    dialog.in_front = false;
     if (!dialog.shown) return;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float em = ImGui::GetFontSize();
@@ -309,31 +346,14 @@ void draw_open_dialog(ViewerState& state) {
     ImGui::Begin("Open a recording or a session", &dialog.shown,
                  ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoSavedSettings);
-    const std::vector<const FolderEntry*> rows = rows_of(dialog);
-    move_choice(dialog, rows);
-    const FolderEntry* chosen = chosen_of(dialog, rows);
+    dialog.in_front = ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows);
     draw_path(state);
-    draw_line(state, rows);
-    const float height = ImGui::GetContentRegionAvail().y - ImGui::GetFrameHeightWithSpacing();
-    const bool wide = size.x > 46.0F * em;
-    const float gap = ImGui::GetStyle().ItemSpacing.x;
-    const float all = ImGui::GetContentRegionAvail().x;
-    if (wide) {
-        draw_places(state, {kPlaces_em * em, height});
-        ImGui::SameLine();
-    }
-    const float middle = all - (wide ? (kPlaces_em + kPreview_em) * em + 2.0F * gap : 0.0F);
-    if (!dialog.folder.trouble.empty()) {
-        ImGui::BeginChild("trouble", {middle, height});
-        trouble_text(capitalised(dialog.folder.trouble));
-        ImGui::EndChild();
-    } else {
-        draw_rows(state, rows, {middle, height});
-    }
-    if (wide) {
-        ImGui::SameLine();
-        draw_preview(state, chosen, {kPreview_em * em, height});
-    }
+    draw_line(state);
+    list_rows(dialog);
+    move_choice(dialog);
+    const FolderEntry* const chosen = chosen_of(dialog);
+    if (std::exchange(dialog.enter, false)) enter(state);
+    draw_middle(state, chosen, size.x);
     draw_buttons(state, chosen);
     ImGui::End();
     ImGui::PopStyleVar();

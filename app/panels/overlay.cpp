@@ -1,14 +1,19 @@
 // What is written over the relief: the force in numbers, the first hint, short notices, the box
 // that tells what went wrong, and the help sheet.
 #include <algorithm>
+#include <array>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/panels/falcon_state.hpp"
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 #include "app/settings/keys.hpp"
+#include "core/files/plain_text.hpp"
+#include "render/relief_paint.hpp"
 
 namespace dibhr {
 
@@ -20,18 +25,23 @@ ImU32 with_alpha(ImGuiCol colour, float alpha) {
     return ImGui::GetColorU32(value);
 }
 
-void draw_ground(ImVec2 low, ImVec2 size, float alpha) {
-    ImGui::GetBackgroundDrawList()->AddRectFilled(low, {low.x + size.x, low.y + size.y},
-                                                  with_alpha(ImGuiCol_PopupBg, alpha), 5.0F);
+void draw_ground(ImVec2 low, ImVec2 size, float alpha,
+                 ImDrawList& list = *ImGui::GetBackgroundDrawList()) {
+    list.AddRectFilled(low, {low.x + size.x, low.y + size.y}, with_alpha(ImGuiCol_PopupBg, alpha),
+                       5.0F);
 }
 
-/// Text on a dark rounded ground, so that it can be read over any picture.
-void label(const std::string& text, ImVec2 low, float alpha) {
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+/// Text on a rounded ground, so that it can be read over any picture; broken into lines that wide
+/// (0: nowhere). Its height.
+float label(const std::string& text, ImVec2 low, float alpha, float widest = 0.0F,
+            ImDrawList& list = *ImGui::GetBackgroundDrawList()) {
     const ImVec2 pad = ImGui::GetStyle().FramePadding;
-    draw_ground(low, {size.x + 2.0F * pad.x, size.y + 2.0F * pad.y}, 0.8F * alpha);
-    ImGui::GetBackgroundDrawList()->AddText({low.x + pad.x, low.y + pad.y},
-                                            with_alpha(ImGuiCol_Text, alpha), text.c_str());
+    const float wrap = widest > 0.0F ? std::max(widest - 2.0F * pad.x, 1.0F) : -1.0F;
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+    draw_ground(low, {size.x + 2.0F * pad.x, size.y + 2.0F * pad.y}, 0.8F * alpha, list);
+    list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {low.x + pad.x, low.y + pad.y},
+                 with_alpha(ImGuiCol_Text, alpha), text.c_str(), nullptr, std::max(wrap, 0.0F));
+    return size.y + 2.0F * pad.y;
 }
 
 /// What the Falcon lacks, at the top in the middle of the relief, as wide as there is room.
@@ -42,7 +52,7 @@ void draw_banner(const ViewerState& state, const std::string& text) {
         std::max(std::min(room - 4.0F * style.WindowPadding.x, ImGui::GetFontSize() * 40.0F), 1.0F);
     const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
     const ImVec2 pad = style.WindowPadding;
-    const ImVec2 low{(room - size.x) * 0.5F, 3.2F * ImGui::GetFrameHeight()};
+    const ImVec2 low{(room - size.x) * 0.5F, panes_height(state) + 3.2F * ImGui::GetFrameHeight()};
     draw_ground({low.x - pad.x, low.y - pad.y}, {size.x + 2.0F * pad.x, size.y + 2.0F * pad.y},
                 0.88F);
     ImGui::GetBackgroundDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(), low,
@@ -63,14 +73,13 @@ void centred_label(const ViewerState& state, const std::string& text, float line
 }
 
 /// Whether something is recorded is seen at a glance, also from afar.
-void draw_recording(const RecordingNews& recording, ImVec2 low) {
+void red_dot_label(ImDrawList& list, const std::string& text, ImVec2 low) {
     const ImVec2 pad = ImGui::GetStyle().FramePadding;
     const float line = ImGui::GetTextLineHeight();
     const std::string indent = "      ";
-    label(indent + "Recording   " + clock_text(recording.time_s), low, 1.0F);
-    ImGui::GetBackgroundDrawList()->AddCircleFilled(
-        {low.x + pad.x + line * 0.45F, low.y + pad.y + line * 0.5F}, line * 0.42F,
-        IM_COL32(235, 64, 52, 255), 24);
+    label(indent + text, low, 1.0F, 0.0F, list);
+    list.AddCircleFilled({low.x + pad.x + line * 0.45F, low.y + pad.y + line * 0.5F}, line * 0.42F,
+                         IM_COL32(235, 64, 52, 255), 24);
 }
 
 std::string replay_text(const ReplayNews& replay) {
@@ -106,6 +115,140 @@ std::string touch_text(const ViewerState& state) {
     return formatted("Touching   %.2f N%s   (%s, %s, %s)", glm::length(f),
                      limited ? ", limited" : "", decimal(f.x, 2).c_str(), decimal(f.y, 2).c_str(),
                      decimal(f.z, 2).c_str());
+}
+
+/// What a picky person wants to know at any moment, a line each.
+std::vector<std::string> statistics_of(const ViewerState& state) {
+    std::vector<std::string> lines;
+    const MediaDescription& media = state.media;
+    const PlaybackStatus& playback = state.playback;
+    lines.push_back(formatted("Pictures %.0f per second, relief %d x %d, colour %d x %d",
+                              state.pictures_per_s, media.depth_columns, media.depth_rows,
+                              media.colour_columns, media.colour_rows));
+    if (!state.replay && !media.still) {
+        lines.push_back(formatted("Video %.0f of %.0f frames per second, decoding %.1f ms a frame",
+                                  playback.shown_per_s, playback.frames_per_s, playback.decode_ms));
+    }
+    lines.push_back("At " + place_text(state));
+    if (!state.replay) {
+        const LoopSecond& second = state.haptic.second;
+        lines.push_back(formatted("Touch %.1f ticks per second, worst %.3f ms late", second.rate_hz,
+                                  second.worst_lateness_ms));
+        lines.push_back(formatted("Late ticks %s of %s",
+                                  std::to_string(state.haptic.late_ticks).c_str(),
+                                  std::to_string(state.haptic.ticks).c_str()));
+        lines.push_back(formatted("Update %.2f us, worst %.1f us, %.1f moves", second.update_us,
+                                  second.worst_update_us, second.moves));
+    }
+    const Touch& touch = state.haptic.touch;
+    const double pitch_mm = state.settings.touch.coupling.pixel_pitch_mm;
+    if (touch.proxy.contact) {
+        lines.push_back(formatted("Penetration %.2f mm, %s (%d, %d)",
+                                  glm::length(touch.proxy.position - touch.goal) * pitch_mm,
+                                  name_of(touch.proxy.active.kind), touch.proxy.active.i,
+                                  touch.proxy.active.j));
+    }
+    return lines;
+}
+
+std::string statistics_text(const ViewerState& state) {
+    std::string text;
+    for (const std::string& line : statistics_of(state)) text += (text.empty() ? "" : "\n") + line;
+    return text;
+}
+
+/// What the pointer is on.
+std::string pointer_text(const ViewerState& state) {
+    const PixelShown& pixel = *state.under_pointer;
+    std::string text = formatted("Pixel %d, %d", pixel.column, pixel.row);
+    if (const std::string depth = depth_text(state, pixel); !depth.empty()) text += "   " + depth;
+    return text + "   stands " + elevation_text(state, pixel);
+}
+
+/// What a legend says.
+struct Legend {
+    static constexpr int kNumbers = 5;
+
+    std::shared_ptr<const ColourImage> colours{};  ///< null: there is none
+    std::string unit{};
+    std::array<std::string, kNumbers> numbers{};  ///< from the farthest to the nearest
+    float width{0.0F};                            ///< of numbers and unit [px]
+};
+
+Legend legend_of(const ViewerState& state) {
+    Legend legend;
+    if (!state.media.meaning) return legend;
+    legend.colours = depth_colours(depth_paint(state));
+    const DepthMeaning& meaning = *state.media.meaning;
+    legend.unit = meaning.unit.value == DepthUnit::levels
+                      ? "level"
+                      : std::string(name_of(meaning.unit.value));
+    for (std::size_t k = 0; k < legend.numbers.size(); ++k) {
+        const double nearness = static_cast<double>(k) / (Legend::kNumbers - 1);
+        legend.numbers[k] = short_text(value_at(meaning, nearness), 4);
+        legend.width = std::max(legend.width, ImGui::CalcTextSize(legend.numbers[k].c_str()).x);
+    }
+    return legend;
+}
+
+/// The nearest on top.
+void draw_colours(const ColourImage& colours, ImVec2 low, ImVec2 high) {
+    constexpr int kSteps = 64;
+    const float height = high.y - low.y;
+    for (int k = 0; k < kSteps; ++k) {
+        const std::size_t colour = 3 * (255 - static_cast<std::size_t>(k * 255 / (kSteps - 1)));
+        const auto part = [&](std::size_t c) { return static_cast<int>(colours.rgb[colour + c]); };
+        ImGui::GetBackgroundDrawList()->AddRectFilled(
+            {low.x, low.y + height * static_cast<float>(k) / kSteps},
+            {high.x, low.y + height * static_cast<float>(k + 1) / kSteps},
+            IM_COL32(part(0), part(1), part(2), 255));
+    }
+}
+
+/// Which colour is how far, at the right of the relief. Where it begins, or the relief ends.
+float draw_legend(const ViewerState& state, float margin) {
+    const float room = ImGui::GetIO().DisplaySize.x - panel_column_width(state);
+    const Legend legend = legend_of(state);
+    if (!legend.colours) return room;
+    const float line = ImGui::GetTextLineHeight();
+    const float height = 10.0F * line;
+    const float bar = 0.9F * line;
+    const float unit = ImGui::CalcTextSize(legend.unit.c_str()).x;
+    const float inner = std::max(bar + 0.5F * margin + legend.width, unit);
+    const ImVec2 low{room - inner - 2.0F * margin, panes_height(state) + 4.0F * margin};
+    draw_ground(low, {inner + margin, height + 3.5F * line}, 0.8F);
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const ImU32 text = with_alpha(ImGuiCol_Text, 1.0F);
+    const float left = low.x + 0.5F * margin;
+    const float top = low.y + 2.2F * line;
+    list.AddText({left, low.y + 0.4F * line}, text, legend.unit.c_str());
+    draw_colours(*legend.colours, {left, top}, {left + bar, top + height});
+    for (std::size_t k = 0; k < legend.numbers.size(); ++k) {
+        const float y =
+            top + height * (1.0F - static_cast<float>(k) / (Legend::kNumbers - 1)) - 0.5F * line;
+        list.AddText({left + bar + 0.5F * margin, y}, text, legend.numbers[k].c_str());
+    }
+    return low.x;
+}
+
+/// One label under the other, up to `right`; those that come and go by themselves are the last.
+void draw_upper_left(const ViewerState& state, float margin, float right) {
+    ImVec2 low{margin, panes_height(state) + margin};
+    const float widest = right - 2.0F * margin;
+    const auto add = [&low, widest](const std::string& text) {
+        low.y += label(text, low, 1.0F, widest) + 0.3F * ImGui::GetFrameHeight();
+    };
+    if (state.replay) add(replay_text(*state.replay));
+    add(touch_text(state));
+    if (state.recording) {
+        red_dot_label(*ImGui::GetBackgroundDrawList(),
+                      "Recording   " + clock_text(state.recording->time_s), low);
+        low.y += 1.3F * ImGui::GetFrameHeight();
+    }
+    if (state.statistics) add(statistics_text(state));
+    if (state.ruler && !state.explained) add(ruler_text(state));
+    if (state.under_pointer && !state.explained) add(pointer_text(state));
+    if (state.catching_up) add("Catching up");
 }
 
 struct Explained {
@@ -177,23 +320,15 @@ void draw_way_to_keys(const ViewerState& state, float margin) {
     const float room = ImGui::GetIO().DisplaySize.x - panel_column_width(state);
     const float touching = ImGui::CalcTextSize(touch_text(state).c_str()).x;
     if (touching + width + 4.0F * margin < room)
-        label(text, {room - width - margin, margin}, kFaint);
+        label(text, {room - width - margin, panes_height(state) + margin}, kFaint);
 }
 
 }  // namespace
 
 void draw_overlay(const ViewerState& state, double now_s) {
     const float margin = 12.0F * state.scale;
-    const float line = 1.3F * ImGui::GetFrameHeight();
-    const float second = margin + line;
-    label(touch_text(state), {margin, state.replay ? second : margin}, 1.0F);
-    if (state.replay) label(replay_text(*state.replay), {margin, margin}, 1.0F);
     draw_way_to_keys(state, margin);
-    if (state.recording) draw_recording(*state.recording, {margin, second});
-    if (state.catching_up) {
-        const bool taken = state.replay || state.recording;
-        label("Catching up", {margin, taken ? second + line : second}, 1.0F);
-    }
+    draw_upper_left(state, margin, draw_legend(state, margin));
     if (const std::string banner = falcon_banner(state); !banner.empty()) {
         draw_banner(state, capitalised(banner));
     }
@@ -202,6 +337,23 @@ void draw_overlay(const ViewerState& state, double now_s) {
         const std::string text = state.notice_of_place ? place_text(state) : state.notice;
         centred_label(state, text, 1.5F, static_cast<float>(std::min(1.0, left_s)));
     }
+}
+
+void draw_over_pictures(const ViewerState& state, const std::function<void()>& drawn) {
+    ImDrawList& list = *ImGui::GetForegroundDrawList();
+    const auto call = [](const ImDrawList*, const ImDrawCmd* command) {
+        (*static_cast<const std::function<void()>*>(command->UserCallbackData))();
+    };
+    list.AddCallback(call, const_cast<std::function<void()>*>(&drawn));  // NOLINT: its signature
+    if (!state.clip) return;
+    const float margin = 12.0F * state.scale;
+    const float above_bar = ImGui::GetIO().DisplaySize.y - bottom_bar_height(state);
+    constexpr float kLinesAboveBar = 4.4F;  // hints and notices are below
+    const ImVec2 low{margin, above_bar - kLinesAboveBar * ImGui::GetFrameHeight()};
+    const std::string time = clock_text(state.clip->time_s);
+    red_dot_label(list,
+                  state.clip->finishing ? "Finishing the clip" : "Clip   " + time + "   F9 ends it",
+                  low);
 }
 
 void draw_hint(const ViewerState& state, Hint hint, float alpha) {

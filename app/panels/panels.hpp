@@ -1,10 +1,15 @@
 // The panels, each in a file of its own. They draw, and edit the state they are given.
 #pragma once
 
+#include <functional>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
 
 #include "app/panels/viewer_state.hpp"
 #include "core/haptics/surface.hpp"
+#include "render/relief_paint.hpp"
 
 namespace dibhr {
 
@@ -17,6 +22,10 @@ void show_depth_words(ViewerState& state);
 /// The same in one line, which opens them when it is clicked.
 void draw_depth_line(ViewerState& state);
 void draw_surface_panel(ViewerState& state);
+/// How high a pixel stands, "12.3 px, 1.74 mm", and what its depth is in the file's own words,
+/// "0.512 m (level 173.0)"; empty where nothing is known of that.
+[[nodiscard]] std::string elevation_text(const ViewerState& state, const PixelShown& pixel);
+[[nodiscard]] std::string depth_text(const ViewerState& state, const PixelShown& pixel);
 void draw_touch_panel(ViewerState& state);
 void draw_device_panel(ViewerState& state);
 void draw_loop_panel(ViewerState& state);
@@ -28,6 +37,9 @@ void draw_session_panel(ViewerState& state);
 /// homing and the firmware; then its workspace, buttons and constants.
 void draw_falcon_state(ViewerState& state);
 void draw_falcon_settings(ViewerState& state);
+
+/// Starts and ends a clip of the window, as wide as there is room.
+void draw_clip_button(ViewerState& state);
 
 /// In a replay: whose it is, what was felt at the moment shown, its marks.
 void draw_replay_panel(ViewerState& state, SessionPlayer& replay);
@@ -44,8 +56,27 @@ void draw_panel_column(ViewerState& state, Player& player, SessionPlayer* replay
 /// force switch stays.
 void draw_bottom_bar(ViewerState& state, Player& player, SessionPlayer* replay);
 
+/// Whether the colour picture and the depth are shown above the relief, and how high they are [px];
+/// 0: they are not.
+[[nodiscard]] bool shows_panes(const ViewerState& state);
+[[nodiscard]] float panes_height(const ViewerState& state);
+/// What their depth is painted with; without them, what the relief is.
+[[nodiscard]] ReliefPaint depth_paint(const ViewerState& state);
+/// The pixel of the grid under a place of the window; nothing: it is beside the panes.
+[[nodiscard]] std::optional<Vec3> place_on_panes(const ViewerState& state, glm::dvec2 position_px);
+void draw_panes(const ViewerState& state);
+
+/// How far the ruler's points are apart, or what to do next; of a ruler that is on.
+[[nodiscard]] std::string ruler_text(const ViewerState& state);
+/// Its points and its line, on the relief seen by that camera; nothing when it is off.
+void draw_ruler(const ViewerState& state, const glm::dmat4& clip_from_grid);
+
 /// Over the relief: the force in numbers, notices; `now_s` counts from the start.
 void draw_overlay(const ViewerState& state, double now_s);
+
+/// That a clip is made. `drawn` is called when all but that has been drawn, in Gui::end(): until
+/// then it must last.
+void draw_over_pictures(const ViewerState& state, const std::function<void()>& drawn);
 
 /// What there is to find out with the mouse.
 enum class Hint { touch, press_deeper };
@@ -65,7 +96,7 @@ void draw_help_sheet(ViewerState& state);
 void draw_message_box(ViewerState& state);
 
 /// The strip chart of the force, as wide as there is room.
-void draw_force_chart(const ViewerState& state);
+void draw_strip_charts(ViewerState& state);
 
 /// "Force on" or "Force off", as a large switch of the given width.
 void draw_force_switch(ViewerState& state, float width);

@@ -70,10 +70,11 @@ void draw_replay_panel(ViewerState& state, SessionPlayer& replay) {
     explain("Leaves the replay: the hand touches the video it was recorded over");
     ImGui::SameLine();
     report_button(state, news.file);
+    draw_clip_button(state);
     if (!news.playback.failure.empty()) trouble_text(capitalised(news.playback.failure));
     speed_row(news.playback.speed, replay);
     draw_moment(state);
-    draw_force_chart(state);
+    draw_strip_charts(state);
     draw_marks(news, replay);
     ImGui::PopID();
 }

@@ -13,11 +13,12 @@ namespace {
 
 constexpr std::size_t kMarksShown = 5;
 constexpr double kBytesPerMegabyte = 1e6;
+constexpr ImU32 kRecordingColour = IM_COL32(140, 41, 36, 255);
 
 void draw_switch(ViewerState& state) {
     const bool on = state.recording.has_value();
-    if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImVec4{0.55F, 0.16F, 0.14F, 1.0F});
-    if (ImGui::Button(on ? "Stop recording###record" : "Record###record", {-1.0F, 0.0F})) {
+    if (on) ImGui::PushStyleColor(ImGuiCol_Button, kRecordingColour);
+    if (ImGui::Button(on ? "Stop recording###record" : "Record###record", {half_width(), 0.0F})) {
         state.requests.toggle_recording = true;
     }
     if (on) ImGui::PopStyleColor();
@@ -61,10 +62,25 @@ void draw_marks(ViewerState& state) {
 
 }  // namespace
 
+void draw_clip_button(ViewerState& state) {
+    const bool on = state.clip && !state.clip->finishing;
+    if (on) ImGui::PushStyleColor(ImGuiCol_Button, kRecordingColour);
+    ImGui::BeginDisabled(state.clip && state.clip->finishing);
+    if (ImGui::Button(on ? "End the clip###clip" : "Save a clip###clip", {-1.0F, 0.0F}))
+        state.requests.toggle_clip = true;
+    ImGui::EndDisabled();
+    if (on) ImGui::PopStyleColor();
+    explain(on ? "Finishes its file (F9)"
+               : "What this window shows, as MP4 in the current folder (F9; Shift+F9: without "
+                 "panels)");
+}
+
 void draw_session_panel(ViewerState& state) {
     if (!section(state, "Session", state.settings.panels.session, &state.show_session)) return;
     ImGui::PushID("session");
     draw_switch(state);
+    ImGui::SameLine();
+    draw_clip_button(state);
     if (!state.recording_trouble.empty()) trouble_text(capitalised(state.recording_trouble));
     if (state.recording) {
         draw_progress(*state.recording);

@@ -1,4 +1,7 @@
 // The Surface panel: the shape of the relief, how it is drawn, and from where.
+#include <algorithm>
+#include <string>
+
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 #include "core/files/plain_text.hpp"
@@ -28,25 +31,47 @@ void draw_under_hand(const ViewerState& state) {
         fact_row("Under the hand", "beside the picture");
         return;
     }
-    const UnderHand& here = *state.under_hand;
-    const double pitch_mm = state.settings.touch.coupling.pixel_pitch_mm;
+    const PixelShown& here = *state.under_hand;
     fact_row("Under the hand", formatted("pixel %d, %d", here.column, here.row));
-    fact_row("Stands",
-             formatted("%.1f px, %.2f mm", here.elevation_px, here.elevation_px * pitch_mm));
-    if (here.unseen) {
-        fact_row("Depth", "no data");
-    } else if (state.media.meaning) {
-        const DepthMeaning& meaning = *state.media.meaning;
-        const double value = value_at(meaning, here.nearness);
-        const std::string unit(meaning.unit.value == DepthUnit::levels
-                                   ? std::string_view{}
-                                   : name_of(meaning.unit.value));
-        fact_row("Depth", short_text(value, 5) + " " + unit +
-                              formatted(" (level %.1f)", value / meaning.scale.value));
-    }
+    fact_row("Stands", elevation_text(state, here));
+    if (here.unseen || state.media.meaning) fact_row("Depth", depth_text(state, here));
+}
+
+/// No slider: it would grow under the hand that drags it.
+void draw_text_size(ViewerState& state) {
+    constexpr double kStep = 1.25;
+    double& scale = state.settings.ui_scale;
+    const auto choose = [&](const char* words, double wanted, const char* help) {
+        if (ImGui::Button(words)) scale = wanted;
+        explain(help);
+    };
+    const double now = static_cast<double>(state.scale);
+    choose("Smaller text", std::max(now / kStep, kSmallestUi), "Of all panels; as --ui-scale");
+    ImGui::SameLine();
+    choose("Larger text", std::min(now * kStep, kLargestUi), "Of all panels; as --ui-scale");
+    ImGui::SameLine();
+    ImGui::BeginDisabled(!(scale > 0.0));
+    choose("As usual", 0.0, "As large as the display says");
+    ImGui::EndDisabled();
 }
 
 }  // namespace
+
+std::string elevation_text(const ViewerState& state, const PixelShown& pixel) {
+    const double pitch_mm = state.settings.touch.coupling.pixel_pitch_mm;
+    return formatted("%.1f px, %.2f mm", pixel.elevation_px, pixel.elevation_px * pitch_mm);
+}
+
+std::string depth_text(const ViewerState& state, const PixelShown& pixel) {
+    if (pixel.unseen) return "no data";
+    if (!state.media.meaning) return {};
+    const DepthMeaning& meaning = *state.media.meaning;
+    const double value = value_at(meaning, pixel.nearness);
+    std::string level = formatted("level %.1f", value / meaning.scale.value);
+    if (meaning.unit.value == DepthUnit::levels) return level;
+    return short_text(value, 5) + " " + std::string(name_of(meaning.unit.value)) + " (" + level +
+           ")";
+}
 
 void draw_surface_panel(ViewerState& state) {
     if (!section(state, "Surface", state.settings.panels.surface)) return;
@@ -57,8 +82,10 @@ void draw_surface_panel(ViewerState& state) {
     draw_under_hand(state);
     number_row({"Shading", "%.2f", 0.0, 1.0, standard.light, "0: flat colour, 1: strong"},
                settings.look.light);
-    flag_row("Colour of the video", settings.look.textured, standard.textured,
-             "Off: plain clay, which shows the shape");
+    choice_row("Painted with", kReliefPaintWords, settings.look.paint,
+               "Clay shows the shape; the depth's colours have a legend (D: one after the other)");
+    flag_row("Colour and depth above", settings.panes, false,
+             "Both as pictures above the relief, with the proxy and the pointer on them (K)");
     flag_row("Cut silhouettes", settings.look.discard_silhouettes, standard.discard_silhouettes,
              "Leaves out the stretched walls between near and far; they are still there to touch");
     ImGui::BeginDisabled(!settings.look.discard_silhouettes);
@@ -81,6 +108,8 @@ void draw_surface_panel(ViewerState& state) {
     ImGui::SameLine();
     if (ImGui::Button("Reset view")) state.requests.reset_view = true;
     explain("R");
+    choice_row("Window", kThemeWords, settings.theme, "The colours of the panels and the wall");
+    draw_text_size(state);
     ImGui::PopID();
 }
 

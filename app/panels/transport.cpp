@@ -115,21 +115,52 @@ std::optional<double> draw_time_line(const TimeLineContents& line, float width) 
     return {};
 }
 
+/// What stands beside the line: all of it where there is room for a line one can aim at, else less,
+/// or nothing.
+struct Beside {
+    std::string time{};  ///< "00:04.1 / 00:10.0"
+    std::string more{};  ///< "frame 124"; empty where there is no room for it
+    float width{0.0F};   ///< of all, with the gaps
+};
+
+/// `more_width` is that of the longest; `right_of_line`: what is to stay free for others.
+Beside beside_line(const TimeLineContents& line, const std::string& more, float more_width,
+                   float right_of_line) {
+    const float least = 7.0F * ImGui::GetFontSize();
+    const float gap = ImGui::GetStyle().ItemSpacing.x;
+    const float room = ImGui::GetContentRegionAvail().x - right_of_line - least;
+    const std::string now = clock_text(line.now_s);
+    const std::string both = now + " / " + clock_text(line.length_s);
+    const auto width = [gap](const std::string& text) {
+        return text.empty() ? 0.0F : ImGui::CalcTextSize(text.c_str()).x + gap;
+    };
+    if (width(both) + more_width + gap <= room) return {both, more, width(both) + more_width + gap};
+    if (width(both) <= room) return {both, {}, width(both)};
+    if (width(now) <= room) return {now, {}, width(now)};
+    return {};
+}
+
 /// The line, as long as it can be with `right_of_line` pixels free beside the time. Gives back
 /// where to go.
-std::optional<double> draw_line_and_time(const TimeLineContents& line, float right_of_line) {
-    const std::string time = clock_text(line.now_s) + " / " + clock_text(line.length_s);
-    const float beside = ImGui::CalcTextSize(time.c_str()).x + right_of_line;
-    const float width =
-        ImGui::GetContentRegionAvail().x - beside - 2.0F * ImGui::GetStyle().ItemSpacing.x;
+std::optional<double> draw_line_and_time(const TimeLineContents& line, const std::string& more,
+                                         float more_width, float right_of_line) {
+    const Beside beside = beside_line(line, more, more_width, right_of_line);
+    const float gap = ImGui::GetStyle().ItemSpacing.x;
+    const float width = ImGui::GetContentRegionAvail().x - beside.width - right_of_line - gap;
     std::optional<double> wanted_s;
-    if (width > 40.0F) {
+    if (width > 2.0F * ImGui::GetFontSize()) {
         wanted_s = draw_time_line(line, width);
         ImGui::SameLine();
     }
+    if (beside.time.empty()) return wanted_s;
+    const float begin = ImGui::GetCursorPosX();
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(time.c_str());
-    ImGui::SameLine();
+    ImGui::TextUnformatted(beside.time.c_str());
+    if (!beside.more.empty()) {
+        ImGui::SameLine();
+        ImGui::TextDisabled("%s", beside.more.c_str());
+    }
+    ImGui::SameLine(begin + beside.width);
     return wanted_s;
 }
 
@@ -149,16 +180,11 @@ void draw_playback(const ViewerState& state, Player& player, float right_of_line
     const PlaybackStatus& playback = state.playback;
     play_button(playback.playing, player);
     ImGui::SameLine();
-    const float frame_width = ImGui::CalcTextSize("frame 00000").x;
-    const float gap = ImGui::GetStyle().ItemSpacing.x;
     const TimeLineContents times{
         .now_s = playback.media_s, .length_s = playback.duration_s, .part = playback.part};
-    if (const auto wanted_s = draw_line_and_time(times, frame_width + gap + right_of_line)) {
-        player.seek(*wanted_s);
-    }
-    const float begin = ImGui::GetCursorPosX();
-    ImGui::TextDisabled("frame %lld", static_cast<long long>(playback.frame) + 1);
-    ImGui::SameLine(begin + frame_width + gap);
+    const auto wanted_s = draw_line_and_time(times, "frame " + std::to_string(playback.frame + 1),
+                                             ImGui::CalcTextSize("frame 00000").x, right_of_line);
+    if (wanted_s) player.seek(*wanted_s);
 }
 
 TimeLineContents line_of(const ReplayNews& news) {
@@ -207,12 +233,9 @@ void draw_replay_bar(ViewerState& state, SessionPlayer& replay) {
     ImGui::SameLine();
     const TimeLineContents line = line_of(*state.replay);
     const std::string video = "video " + clock_text(state.replay->tick.video_s);
-    const float right_of_line =
-        ImGui::CalcTextSize(video.c_str()).x + ImGui::GetStyle().ItemSpacing.x;
-    if (const auto wanted_s = draw_line_and_time(line, right_of_line)) {
-        replay.seek(playback.begin_s + *wanted_s);
-    }
-    ImGui::TextDisabled("%s", video.c_str());
+    const auto wanted_s =
+        draw_line_and_time(line, video, ImGui::CalcTextSize(video.c_str()).x, 0.0F);
+    if (wanted_s) replay.seek(playback.begin_s + *wanted_s);
     ImGui::End();
 }
 

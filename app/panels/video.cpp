@@ -12,18 +12,22 @@ namespace dibhr {
 
 namespace {
 
+constexpr const char* kRecent = "Recent";
+
+float button_width(const char* label) {
+    return ImGui::CalcTextSize(label).x + 2.0F * ImGui::GetStyle().FramePadding.x;
+}
+
 /// The files opened before, the last one first; those that are gone cannot be chosen.
 void draw_recent(ViewerState& state) {
-    const char* const label = "Recent";
-    const float width = ImGui::CalcTextSize(label).x + 2.0F * ImGui::GetStyle().FramePadding.x;
+    const float width = button_width(kRecent);
     ImGui::SameLine();
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() +
                          std::max(0.0F, ImGui::GetContentRegionAvail().x - width));
-    ImGui::BeginDisabled(state.recent.empty());
-    if (ImGui::Button(label)) ImGui::OpenPopup("recent");
-    ImGui::EndDisabled();
+    if (ImGui::Button(kRecent)) ImGui::OpenPopup("recent");
     explain("Files that were opened before");
     if (!ImGui::BeginPopup("recent")) return;
+    if (state.recent.empty()) quiet_text("No file was opened yet.");
     for (const RecentFile& file : state.recent) {
         std::error_code unknown;
         const bool there = std::filesystem::exists(file.colour, unknown);
@@ -37,6 +41,9 @@ void draw_recent(ViewerState& state) {
         ImGui::EndDisabled();
         explain(file.colour.c_str());
     }
+    ImGui::Separator();
+    ImGui::Checkbox("Go on where it was left", &state.settings.resume);
+    explain("A video that is opened again goes on at the moment at which it was closed");
     ImGui::EndPopup();
 }
 
@@ -49,8 +56,8 @@ void draw_open(ViewerState& state) {
         text_field("##depth", "Depth file: found beside it", state.fields.depth,
                    "Empty: the file called like the colour file, with depth in place of color");
     const bool named = state.fields.colour[0] != '\0';
-    const bool pressed =
-        button_or_drop(state.opening ? "Opening" : "Open", !state.opening, "files");
+    const bool pressed = button_or_drop(state.opening ? "Opening" : "Open", !state.opening, "files",
+                                        button_width(kRecent));
     if (pressed && !named) state.requests.action = Action::open_file;
     if ((from_colour || from_depth || pressed) && named) {
         state.requests.open = OpenRequest{typed_path(state.fields.colour.data()),

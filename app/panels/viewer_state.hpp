@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -17,7 +18,7 @@
 #include "app/settings/recent_files.hpp"
 #include "app/settings/settings.hpp"
 #include "app/sound/sound_output.hpp"
-#include "app/window/window.hpp"
+#include "app/window/gui.hpp"
 #include "core/haptics/explanation.hpp"
 #include "core/loop/device.hpp"
 #include "core/loop/haptic_tick.hpp"
@@ -29,16 +30,30 @@
 
 namespace dibhr {
 
-/// The last seconds of the force's length, one value a tick, for the strip chart.
-struct ForceHistory {
+/// What the strip charts can show, and what of the last seconds they do show.
+enum class Strip { force, penetration, speed, energy, lateness };
+inline constexpr std::size_t kStrips = 5;
+
+/// The last ticks, one value of each kind a tick.
+struct StripHistory {
     static constexpr std::size_t kTicks = 4000;
 
-    std::array<float, kTicks> newton{};
+    std::array<std::array<float, kTicks>, kStrips> values{};
     std::size_t next{0};  ///< the oldest value, overwritten by the next one
+    double given_millijoule{0.0};
 
-    void add(double value_newton) {
-        newton[next] = static_cast<float>(value_newton);
+    void add(const TickStrip& strip) {
+        if (std::isfinite(strip.given_millijoule))
+            given_millijoule += static_cast<double>(strip.given_millijoule);
+        const std::array<float, kStrips> now{
+            strip.force_newton, strip.penetration_mm, strip.speed_mm_per_s,
+            static_cast<float>(given_millijoule), strip.lateness_us};
+        for (std::size_t k = 0; k < kStrips; ++k) values[k][next] = now[k];
         next = (next + 1) % kTicks;
+    }
+    /// `age` ticks before the last one.
+    [[nodiscard]] float before(Strip strip, std::size_t age) const {
+        return values[static_cast<std::size_t>(strip)][(next + kTicks - 1 - age) % kTicks];
     }
 };
 
@@ -52,6 +67,13 @@ struct OpenRequest {
     double at_s{0.0};    ///< where to go on [s]
     bool paused{false};  ///< and to stand still there
 };
+
+/// A row of the Open dialog, opened: depth alone finds its colour.
+[[nodiscard]] inline OpenRequest request_for(const FolderEntry& entry) {
+    OpenRequest request{entry.file, entry.depth};
+    request.in_any_order = entry.depth.empty();
+    return request;
+}
 
 /// Text fields of the panels.
 struct TextFields {
@@ -82,14 +104,38 @@ struct Preview {
     std::string words{};
 };
 
+/// What Tab makes of what is typed.
+struct Completion {
+    std::string typed{}, whole{};
+};
+
+/// What was entered in the Open dialog, to be looked up.
+struct TypedFile {
+    std::string typed{};
+    std::optional<FolderEntry> chosen{};  ///< where that is no file
+};
+
 /// The window's own dialog for opening files.
 struct OpenDialog {
     static constexpr int kPicturesToFocus = 30;  ///< it takes two
 
+    /// The folder's entries that are listed, and what that depends on.
+    struct Rows {
+        std::vector<std::size_t> entries{};
+        std::string typed{};
+        bool all_files{false};
+        int of_reading{-1};
+    };
+
     bool shown{false};
-    Folder folder{};
+    bool in_front{false};  ///< none of the panels' fields has the keyboard
+    Folder folder{};       ///< its entries are still being read, while `reads`
+    bool reads{false};
+    int reading{0};  ///< another number with every change of `folder`
+    Rows rows{};
     std::filesystem::path chosen{};  ///< an entry of the folder; empty: none
     TextFields::Field typed{};       ///< narrows the entries, or is a path
+    Completion completion{};         ///< of what is typed, when it is known
     bool all_files{false};           ///< also those that cannot be opened
     Preview preview{};
     std::filesystem::path sample_folder{};
@@ -99,6 +145,11 @@ struct OpenDialog {
     bool enter{false};         ///< opens the choice
     bool bring_into_sight{false};
 };
+
+/// Whether Enter and the arrows are meant for it; from the moment it is asked for on.
+[[nodiscard]] inline bool takes_keys(const OpenDialog& dialog) {
+    return dialog.shown && (dialog.in_front || dialog.asks_for_keyboard > 0);
+}
 
 /// What a panel asks the viewer to do after the picture.
 struct Requests {
@@ -115,9 +166,14 @@ struct Requests {
     bool as_recorded{false};                        ///< a replay: no other parameters any more
     bool leave_replay{false};                       ///< its video is to be touched
     std::optional<std::filesystem::path> folder{};  ///< to be read, for the Open dialog
+    std::optional<std::string> completion{};        ///< of what was typed there
+    std::optional<TypedFile> typed{};               ///< and entered
     std::optional<Action> action{};                 ///< of a button that does what a key does
     std::filesystem::path report{};                 ///< of that session; empty: none is asked for
     bool screenshot{false};
+    bool screenshot_of_relief{false};  ///< without panels
+    bool toggle_clip{false};
+    bool toggle_clip_of_relief{false};
     bool full_screen{false};
     bool quit{false};
 };
@@ -128,6 +184,22 @@ struct RecordingNews {
     std::filesystem::path file{};
     double time_s{0.0};                ///< since it began
     std::vector<SessionMark> marks{};  ///< times since it began
+};
+
+/// What a picture or a clip of the window is of.
+enum class PictureOf { window, relief };
+
+/// What the window shows of a clip that is made of it.
+struct ClipNews {
+    std::filesystem::path file{};
+    double time_s{0.0};     ///< since its first picture
+    bool finishing{false};  ///< it has ended, its file is on its way
+};
+
+/// The pictures above the relief.
+struct PanesShown {
+    std::uintptr_t colour{0};  ///< names of OpenGL textures; 0: nothing to see
+    std::uintptr_t depth{0};
 };
 
 /// What the window shows of a replay.
@@ -142,12 +214,22 @@ struct ReplayNews {
     const ContactBand* contacts{nullptr};  ///< null: not yet summed up
 };
 
-/// What is shown where the hand is: a pixel of the depth, and what it holds.
-struct UnderHand {
+/// A pixel of the depth that is drawn, and what it holds.
+struct PixelShown {
     int column{0}, row{0};
     double nearness{0.0};      ///< 0: the farthest, 1: the nearest
     double elevation_px{0.0};  ///< of the surface, with its roughness
     bool unseen{false};        ///< no surface was ever seen there
+};
+
+/// Two points on the relief, whose distance is shown.
+struct Ruler {
+    std::vector<Vec3> places{};      ///< up to two; grid space, the elevation means nothing
+    bool pressed{false};             ///< the mouse's button was, a picture ago
+    std::vector<PixelShown> ends{};  ///< the places, now
+
+    /// A click sets a point; a third one begins anew. `under`: nothing: it is beside the relief.
+    void press(bool down, const std::optional<Vec3>& under);
 };
 
 /// One update, looked at step by step.
@@ -156,6 +238,7 @@ struct ExplainedNews {
     bool held{false};      ///< the goal stays: a first step was taken, or it is a replay's
     std::size_t taken{0};  ///< steps, of update.steps
     bool runs{false};      ///< takes them by itself, slowly
+    bool waits{false};     ///< for the replay's next tick: nothing is known of it yet
 };
 
 /// What the window shows of the Falcon.
@@ -183,16 +266,23 @@ struct ViewerState {
     OpenRequest opened{};  ///< how it was opened
     PlaybackStatus playback{};
     HapticState haptic{};
-    std::optional<UnderHand> under_hand{};  ///< nothing: the hand is beside the picture
-    bool catching_up{false};  ///< the proxy is, or was a moment ago: long enough to be read
+    std::optional<PixelShown> under_hand{};     ///< nothing: the hand is beside the picture
+    std::optional<PixelShown> under_pointer{};  ///< nothing: it presses, or is beside the relief
+    PanesShown panes{};
+    std::optional<Ruler> ruler{};  ///< nothing: it is off
+    bool statistics{false};        ///< are shown over the relief
+    bool catching_up{false};       ///< the proxy is, or was a moment ago: long enough to be read
     std::optional<FalconNews> falcon{};  ///< nothing: no Falcon is looked for
     std::optional<RealtimeGrants> grants{};
     std::optional<RecordingNews> recording{};
     std::string recording_trouble{};        ///< why the last recording broke off
     std::filesystem::path recorded_file{};  ///< the last one; empty: none yet
+    std::optional<ClipNews> clip{};         ///< nothing: no clip is made
     std::optional<ReplayNews> replay{};     ///< nothing: a hand touches
     std::optional<ExplainedNews> explained{};
-    ForceHistory forces{};
+    StripHistory strips{};
+    std::optional<StripHistory> held_strips{};  ///< the charts stand still
+    float strips_end_y{0.0F};                   ///< where they ended in the last picture [px]
     SoundOutput::State sound{SoundOutput::State::quiet};
     double pictures_per_s{0.0};
     bool in_front{true};  ///< the window; false: people work in another one
@@ -213,6 +303,7 @@ struct ViewerState {
     Fonts fonts{};
     float scale{1.0F};         ///< screen pixels of a layout pixel
     float window_width{1.0F};  ///< [px]
+    float window_height{1.0F};
 
     /// What is seen is what is felt: a changed one is on its way.
     [[nodiscard]] const SurfaceShape& shape() const noexcept {

@@ -19,7 +19,12 @@ namespace dibhr {
 namespace {
 
 constexpr float kLabelShare = 0.40F;  // of a row's width
-constexpr ImU32 kTrouble = IM_COL32(242, 184, 97, 255);
+
+/// Of a warning, readable on the theme's ground.
+ImU32 trouble_colour() {
+    const bool on_dark = ImGui::GetStyleColorVec4(ImGuiCol_Text).x > 0.5F;
+    return on_dark ? IM_COL32(242, 184, 97, 255) : IM_COL32(146, 84, 0, 255);
+}
 
 /// The label, and the cursor moved to where the row's value begins.
 void row_label(const char* label, const char* help) {
@@ -247,13 +252,17 @@ void report_button(ViewerState& state, const std::filesystem::path& session) {
     explain("One page: where, how long and how hard it was touched (dibhr report)");
 }
 
-bool button_or_drop(const char* label, bool enabled, const char* dropped) {
+bool button_or_drop(const char* label, bool enabled, const char* dropped, float beside) {
     ImGui::BeginDisabled(!enabled);
     const bool pressed = ImGui::Button(label);
     ImGui::EndDisabled();
+    const std::string words = formatted("or drop %s on the window", dropped);
+    const float needed = ImGui::GetItemRectSize().x + ImGui::CalcTextSize(words.c_str()).x +
+                         beside + 2.0F * ImGui::GetStyle().ItemSpacing.x;
+    if (needed > ImGui::GetContentRegionAvail().x) return pressed;
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
-    ImGui::TextDisabled("or drop %s on the window", dropped);
+    ImGui::TextDisabled("%s", words.c_str());
     return pressed;
 }
 
@@ -294,6 +303,23 @@ void explain(const char* text) {
     ImGui::EndTooltip();
 }
 
+bool name_button(const std::string& name) {
+    const ImVec2 pad = ImGui::GetStyle().FramePadding;
+    const ImVec2 text = ImGui::CalcTextSize(name.c_str());
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const bool pressed = ImGui::Button("##button", {text.x + 2.0F * pad.x, text.y + 2.0F * pad.y});
+    ImGui::GetWindowDrawList()->AddText({at.x + pad.x, at.y + pad.y},
+                                        ImGui::GetColorU32(ImGuiCol_Text), name.c_str());
+    return pressed;
+}
+
+bool name_selectable(const std::string& name, bool chosen, ImGuiSelectableFlags flags) {
+    const bool pressed = ImGui::Selectable("##row", chosen, flags);
+    ImGui::SameLine(0.0F, 0.0F);
+    ImGui::TextUnformatted(name.c_str());
+    return pressed;
+}
+
 void quiet_text(const std::string& text) {
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
     ImGui::TextWrapped("%s", text.c_str());
@@ -303,7 +329,7 @@ void quiet_text(const std::string& text) {
 void trouble_text(const std::string& text) {
     const float line = ImGui::GetTextLineHeight();
     const ImVec2 low = ImGui::GetCursorScreenPos();
-    const ImU32 colour = ImGui::GetColorU32(kTrouble);
+    const ImU32 colour = trouble_colour();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddTriangle({low.x + line * 0.5F, low.y + line * 0.1F},
                      {low.x + line * 0.02F, low.y + line * 0.92F},
@@ -313,7 +339,7 @@ void trouble_text(const std::string& text) {
     list.AddCircleFilled({low.x + line * 0.5F, low.y + line * 0.78F}, line * 0.065F, colour);
     ImGui::Dummy({line, line});
     ImGui::SameLine();
-    ImGui::PushStyleColor(ImGuiCol_Text, kTrouble);
+    ImGui::PushStyleColor(ImGuiCol_Text, trouble_colour());
     ImGui::PushTextWrapPos(0.0F);
     ImGui::TextUnformatted(text.c_str());
     ImGui::PopTextWrapPos();

@@ -4,8 +4,10 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "app/panels/viewer_state.hpp"
@@ -84,8 +86,9 @@ bool text_row(const char* label, const std::string& hint, std::span<char> text, 
 /// A button that asks for a report of a session, as wide as there is room.
 void report_button(ViewerState& state, const std::filesystem::path& session);
 
-/// A button for what was typed, and that it can be dropped instead. True when it was pressed.
-bool button_or_drop(const char* label, bool enabled, const char* dropped);
+/// A button for what was typed, and, where there is room, that it can be dropped instead; `beside`
+/// is left free [px]. True when it was pressed.
+bool button_or_drop(const char* label, bool enabled, const char* dropped, float beside = 0.0F);
 
 /// A row for each touch parameter of that topic, with its label, unit, range and help.
 void draw_numbers(TouchTopic topic, TouchParameters& parameters);
@@ -107,6 +110,11 @@ void explain(const char* text);
 
 /// Text that breaks at the panel's edge, in the quiet colour.
 void quiet_text(const std::string& text);
+
+/// Of a file's name, as it is: in ImGui's own labels "##" is not shown. Each needs an ID of its
+/// own.
+bool name_button(const std::string& name);
+bool name_selectable(const std::string& name, bool chosen, ImGuiSelectableFlags flags = 0);
 
 /// The same in the colour of trouble, behind a warning sign.
 void trouble_text(const std::string& text);
@@ -149,6 +157,16 @@ void speed_row(double speed, AnyPlayer& player) {
     if (number_row({"Speed", "x %.2f", kSlowestSpeed, kFastestSpeed, 1.0, "[ slower, ] faster"},
                    speed)) {
         player.set_speed(speed);
+    }
+}
+
+/// The name of a texture as ImGui wants it: as a pointer, or, from 1.91.4 on, as a number.
+template <typename Id>
+Id texture_id(std::uintptr_t name) {
+    if constexpr (std::is_pointer_v<Id>) {
+        return reinterpret_cast<Id>(name);  // NOLINT(performance-no-int-to-ptr)
+    } else {
+        return static_cast<Id>(name);
     }
 }
 

@@ -122,8 +122,8 @@ std::string FolderEntry::name() const {
 
 Folder read_folder(const fs::path& path) {
     Folder folder;
+    folder.path = whole_path(path);
     std::error_code failed;
-    folder.path = fs::absolute(path, failed).lexically_normal();
     if (!folder.path.has_filename() && folder.path.has_relative_path())
         folder.path = folder.path.parent_path();
     fs::directory_iterator entries(folder.path, fs::directory_options::skip_permission_denied,
@@ -141,8 +141,27 @@ bool can_be_opened(const FolderEntry& entry) noexcept {
     return entry.kind != FileKind::other;
 }
 
+fs::path whole_path(const fs::path& file) {
+    std::error_code unknown;
+    const fs::path whole = fs::absolute(file, unknown);
+    return (unknown ? file : whole).lexically_normal();
+}
+
+FolderEntry entry_meant(const Folder& folder, const std::string& typed,
+                        const std::optional<FolderEntry>& chosen) {
+    const fs::path named = typed_path(typed);
+    for (const fs::path& place : {folder.path / named, whole_path(named)}) {
+        std::error_code unknown;
+        if (fs::is_directory(place, unknown)) return {FileKind::folder, place};
+        if (!fs::exists(place, unknown)) continue;
+        const auto known = entry_of(folder, place);
+        return known ? folder.entries[*known] : FolderEntry{FileKind::other, place};
+    }
+    return chosen ? *chosen : FolderEntry{FileKind::other, named};
+}
+
 std::optional<std::size_t> entry_of(const Folder& folder, const fs::path& file) {
-    const fs::path whole = fs::absolute(file).lexically_normal();
+    const fs::path whole = whole_path(file);
     const auto holds = [&whole](const FolderEntry& entry) {
         return entry.file == whole || entry.depth == whole;
     };

@@ -38,12 +38,22 @@ struct Folder {
 /// Whether it is what the program opens: all but `other`.
 [[nodiscard]] bool can_be_opened(const FolderEntry& entry) noexcept;
 
+/// From the root on and without "..", where the current folder is known.
+[[nodiscard]] std::filesystem::path whole_path(const std::filesystem::path& file);
+
+/// What a person who typed that means: a file or folder that is there, in `folder` or from the
+/// current one on; else `chosen`; else, for the program to say why not, what was typed. Asks the
+/// disk: not for the window's thread.
+[[nodiscard]] FolderEntry entry_meant(const Folder& folder, const std::string& typed,
+                                      const std::optional<FolderEntry>& chosen);
+
 /// The entry that `file` is in, alone or in a pair; nothing: it is not there.
 [[nodiscard]] std::optional<std::size_t> entry_of(const Folder& folder,
                                                   const std::filesystem::path& file);
 
 /// What a person typed, so far as it goes on in one way: "/da" as "/data/". Of entries of the same
-/// beginning their common part. Relative to `folder`. As it was where nothing goes on.
+/// beginning their common part. Relative to `folder`. As it was where nothing goes on. Asks the
+/// disk.
 [[nodiscard]] std::string completed(const std::string& typed, const std::filesystem::path& folder);
 
 }  // namespace dibhr

@@ -21,6 +21,12 @@ constexpr KeyBinding with_control(KeyBinding binding) {
     return while_typing(binding);
 }
 
+/// While a text field has the keyboard it takes them itself.
+constexpr KeyBinding on_control(KeyBinding binding) {
+    binding.with_control = true;
+    return binding;
+}
+
 constexpr KeyBinding with_shift(KeyBinding binding) {
     binding.with_shift = true;
     return binding;
@@ -81,6 +87,13 @@ constexpr KeyBinding kBindings[] = {
      "Depth as recorded, before cleaning",
      "",
      {GLFW_KEY_B}},
+    {Action::next_paint, kView, "D", "Colour of the video, clay, colours of the depth", "d"},
+    {Action::toggle_panes, kView, "K", "Colour and depth as pictures above the relief", "k"},
+    {Action::toggle_ruler, kView, "N", "Ruler between two clicks on the relief; end it", "n"},
+    {Action::toggle_statistics, kView, "I", "Statistics over the relief", "i"},
+    on_control(
+        {Action::copy_view, kView, "Ctrl+C", "Copy where the view is from", "", {GLFW_KEY_C}}),
+    on_control({Action::paste_view, kView, "Ctrl+V", "Take the copied view", "", {GLFW_KEY_V}}),
     {Action::toggle_panels, kView, "Tab", "Hide the panels, show them", "", {GLFW_KEY_TAB}},
     while_typing(
         {Action::toggle_full_screen, kView, "F11", "Full screen on, off", "", {GLFW_KEY_F11}}),
@@ -97,12 +110,27 @@ constexpr KeyBinding kBindings[] = {
                   "The file before it",
                   "",
                   {GLFW_KEY_PAGE_UP}}),
+    // Before those without Shift, which take the same keys.
+    while_typing(with_shift({Action::take_screenshot_of_relief,
+                             kProgram,
+                             "Shift+F12",
+                             "Save a picture without panels",
+                             "",
+                             {GLFW_KEY_F12}})),
+    while_typing(with_shift({Action::take_clip_of_relief,
+                             kProgram,
+                             "Shift+F9",
+                             "Save a clip without panels, end it",
+                             "",
+                             {GLFW_KEY_F9}})),
     while_typing({Action::take_screenshot,
                   kProgram,
                   "S or F12",
-                  "Save a picture into the current folder",
+                  "Save a picture, by default into the current folder",
                   "s",
                   {GLFW_KEY_F12}}),
+    while_typing(
+        {Action::take_clip, kProgram, "F9", "Save a clip (MP4), end it", "", {GLFW_KEY_F9}}),
     while_typing({Action::toggle_help, kProgram, "? or F1", "This sheet", "?h", {GLFW_KEY_F1}}),
     while_typing({Action::close_topmost,
                   kProgram,

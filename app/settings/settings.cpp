@@ -57,6 +57,14 @@ std::string take(const toml::node& node, const Setting&, std::string& value) {
     return take_exact(node, value, "is not a text in quotes");
 }
 
+std::string take(const toml::node& node, const Setting&, NamePattern& value) {
+    const auto read = node.value_exact<std::string>();
+    if (!read) return "is not a text in quotes";
+    std::string lacking = lacking_of({*read});
+    if (lacking.empty()) value.text = *read;
+    return lacking;
+}
+
 std::string take(const toml::node& node, const Setting& setting, double& value) {
     const auto read = node.is_number() ? node.value<double>() : std::nullopt;
     if (!read || !(*read >= setting.lowest && *read <= setting.highest)) {
@@ -82,6 +90,16 @@ std::string take(const toml::node& node, const Setting&, Algorithm& value) {
 std::string take(const toml::node& node, const Setting&, CleaningPreset& value) {
     const auto word = node.value<std::string_view>().value_or("");
     return take_word(cleaning_named(word), value, "is not the name of a way to clean");
+}
+
+std::string take(const toml::node& node, const Setting&, ReliefPaint& value) {
+    const auto word = node.value<std::string_view>().value_or("");
+    return take_word(paint_named(word), value, "is not what the relief can be painted with");
+}
+
+std::string take(const toml::node& node, const Setting&, Theme& value) {
+    const auto word = node.value<std::string_view>().value_or("");
+    return take_word(theme_named(word), value, "is not the name of a theme");
 }
 
 std::string take(const toml::node& node, const Setting&, ButtonAction& value) {
@@ -157,6 +175,10 @@ std::string toml_text(const std::string& value) {
     std::ostringstream quoted;
     quoted << toml::value<std::string>(value);
     return quoted.str();
+}
+
+std::string toml_text(const NamePattern& value) {
+    return toml_text(value.text);
 }
 
 /// A word.
@@ -285,7 +307,10 @@ void save_settings(const Settings& settings, const fs::path& file) {
 std::vector<Setting> list_of(Settings& s) {
     std::vector<Setting> list{{"window", "width", &s.width, kSmallestWindow, kLargestWindow},
                               {"window", "height", &s.height, kSmallestWindow, kLargestWindow},
+                              {"window", "ui-scale", &s.ui_scale, 0.0, kLargestUi},
+                              {"window", "theme", &s.theme},
                               {"window", "panels-visible", &s.panels_visible},
+                              {"window", "screenshot-name", &s.screenshot_name},
                               {"panels", "video", &s.panels.video},
                               {"panels", "surface", &s.panels.surface},
                               {"panels", "touch", &s.panels.touch},
@@ -313,12 +338,19 @@ std::vector<Setting> list_of(Settings& s) {
     });
     list.insert(list.end(), {{"look", "discard-silhouettes", &s.look.discard_silhouettes},
                              {"look", "silhouette-slope", &s.look.silhouette_slope, 1.0, 100.0},
-                             {"look", "textured", &s.look.textured},
+                             {"look", "paint", &s.look.paint},
                              {"look", "light", &s.look.light, 0.0, 1.0},
                              {"look", "coarse", &s.look.coarse},
                              {"look", "dent", &s.look.dent},
                              {"look", "trace", &s.look.trace},
-                             {"look", "straight-view", &s.straight_view}});
+                             {"look", "straight-view", &s.straight_view},
+                             {"look", "panes", &s.panes},
+                             {"playing", "resume", &s.resume},
+                             {"charts", "force", &s.charts.force},
+                             {"charts", "penetration", &s.charts.penetration},
+                             {"charts", "speed", &s.charts.speed},
+                             {"charts", "energy", &s.charts.energy},
+                             {"charts", "lateness", &s.charts.lateness}});
     return list;
 }
 

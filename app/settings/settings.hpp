@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "app/settings/falcon_settings.hpp"
+#include "app/settings/name_pattern.hpp"
+#include "app/settings/theme.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/safety.hpp"
 #include "core/sound/touch_sound.hpp"
@@ -22,6 +24,10 @@ namespace dibhr {
 inline constexpr int kSmallestWindow = 160;
 inline constexpr int kLargestWindow = 16384;
 
+/// Of text and panels; 0 stands for what the display says.
+inline constexpr double kSmallestUi = 0.5;
+inline constexpr double kLargestUi = 4.0;
+
 /// Which panels stand open.
 struct PanelsOpen {
     bool video{true};
@@ -34,13 +40,27 @@ struct PanelsOpen {
     bool operator==(const PanelsOpen&) const = default;
 };
 
+/// Which strip charts are drawn.
+struct ChartsShown {
+    bool force{true};
+    bool penetration{false};
+    bool speed{false};
+    bool energy{false};
+    bool lateness{false};
+
+    bool operator==(const ChartsShown&) const = default;
+};
+
 /// Everything that lasts. A value that the command line gives beats it, and does not get into the
 /// file.
 struct Settings {
     int width{1280};  ///< of the window [screen units]
     int height{800};
+    double ui_scale{0.0};  ///< of text and panels; 0: as the display says
+    Theme theme{Theme::dark};
     PanelsOpen panels{};
     bool panels_visible{true};
+    ChartsShown charts{};
     TouchParameters touch{};
     std::string material{};        ///< what material_called() is asked for; empty: as recorded
     bool stability{true};          ///< energy that rendering creates is taken out
@@ -49,7 +69,10 @@ struct Settings {
     double finger_mm{0.0};         ///< radius of the fingertip
     ReliefLook look{};
     bool straight_view{false};
-    bool fit_relief{true};  ///< to the media, whenever one is opened
+    bool panes{false};              ///< the colour picture and the depth above the relief
+    NamePattern screenshot_name{};  ///< of pictures and clips
+    bool resume{false};             ///< a video goes on where it was left
+    bool fit_relief{true};          ///< to the media, whenever one is opened
     bool fit_pitch{true};
     double max_force_newton{SafetyLimits{}.max_force_newton};  ///< 0 .. 8
     double sound_volume{SoundChoice{}.volume};                 ///< 0 .. 1
@@ -82,7 +105,8 @@ void save_settings(const Settings& settings, const std::filesystem::path& file);
 struct Setting {
     std::string_view table;
     std::string_view name;
-    std::variant<bool*, int*, double*, std::string*, Algorithm*, CleaningPreset*, ButtonAction*>
+    std::variant<bool*, int*, double*, std::string*, NamePattern*, Algorithm*, CleaningPreset*,
+                 ButtonAction*, ReliefPaint*, Theme*>
         value;
     double lowest{0.0};  ///< of a number
     double highest{0.0};

@@ -1,13 +1,14 @@
 // The Open dialog's folder and preview, and the next file of a folder.
 #include "app/viewer/browsing.hpp"
 
-#include <chrono>
 #include <exception>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 #include "app/settings/assets_path.hpp"
+#include "app/viewer/files.hpp"
 #include "core/error.hpp"
-#include "core/video/media.hpp"
 
 namespace dibhr {
 
@@ -16,13 +17,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kMostPreview_px = 640;
-
-template <typename T>
-std::optional<T> result_of(std::future<T>& future) {
-    if (!future.valid() || future.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
-        return std::nullopt;
-    return future.get();
-}
 
 /// The file that is shown: of a pair the one that was named.
 fs::path shown_file(const ViewerState& state) {
@@ -38,37 +32,87 @@ fs::path sample_folder() try {
 
 }  // namespace
 
+Browsing::Browsing() : sample_folder_(sample_folder()) {}
+
 void Browsing::toggle(ViewerState& state) {
     OpenDialog& dialog = state.dialog;
     dialog.shown = !dialog.shown;
     if (!dialog.shown) return;
-    dialog.sample_folder = sample_folder();
+    dialog.sample_folder = sample_folder_;
+    dialog.move = 0;
+    dialog.enter = false;
+    const fs::path shown = whole_path(shown_file(state));
+    // Nobody keeps recordings beside the program's own.
+    const bool is_sample = shown.parent_path() == sample_folder_;
+    go_to(is_sample ? whole_path(".") : shown.parent_path(), dialog);
+    dialog.chosen = shown;
+}
+
+void Browsing::go_to(const fs::path& folder, OpenDialog& dialog) {
+    next_folder_ = folder;
+    dialog.folder = {.path = whole_path(folder)};
+    dialog.reads = true;
+    ++dialog.reading;
     dialog.typed = {};
     ++dialog.line;
     dialog.asks_for_keyboard = OpenDialog::kPicturesToFocus;
-    const fs::path shown = shown_file(state);
-    dialog.chosen = fs::absolute(shown).lexically_normal();
-    const fs::path folder = dialog.chosen.parent_path();
-    // Nobody keeps recordings beside the program's own.
-    std::error_code unknown;
-    state.requests.folder = folder == dialog.sample_folder ? fs::current_path(unknown) : folder;
+    dialog.chosen.clear();
 }
 
 bool Browsing::go_by(int entries, const ViewerState& state) {
-    if (neighbours_.valid()) return false;
+    const fs::path folder = whole_path(shown_file(state)).parent_path();
+    if (!neighbours_.start([folder] { return read_folder(folder); })) return false;
     by_ = entries;
-    const fs::path folder = fs::absolute(shown_file(state)).parent_path();
-    neighbours_ = std::async(std::launch::async, read_folder, folder);
     return true;
 }
 
 std::optional<std::string> Browsing::advance(ViewerState& state) {
+    advance_folder(state);
+    advance_typed(state);
+    advance_preview(state.dialog);
+    if (const auto folder = neighbours_.take()) return step(*folder, state);
+    return std::nullopt;
+}
+
+void Browsing::advance_folder(ViewerState& state) {
     OpenDialog& dialog = state.dialog;
-    if (state.requests.folder) next_folder_ = std::exchange(state.requests.folder, {});
-    if (auto folder = result_of(folder_)) dialog.folder = std::move(*folder);
-    if (next_folder_ && !folder_.valid())
-        folder_ = std::async(std::launch::async, read_folder, *std::exchange(next_folder_, {}));
-    if (auto preview = result_of(preview_)) {
+    if (state.requests.folder) go_to(*std::exchange(state.requests.folder, {}), dialog);
+    if (auto folder = folder_.take(); folder && !next_folder_) {
+        dialog.folder = std::move(*folder);
+        dialog.reads = false;
+        ++dialog.reading;
+        // The row of a pair is named by its colour.
+        if (const auto row = entry_of(dialog.folder, dialog.chosen))
+            dialog.chosen = dialog.folder.entries[*row].file;
+    }
+    if (!next_folder_) return;
+    folder_.start_anew([folder = *std::exchange(next_folder_, {})] { return read_folder(folder); });
+}
+
+void Browsing::advance_typed(ViewerState& state) {
+    OpenDialog& dialog = state.dialog;
+    const fs::path folder = dialog.folder.path;
+    if (const auto typed = std::exchange(state.requests.completion, {})) {
+        completion_.start_anew([typed = *typed, folder] {
+            return Completion{typed, completed(typed, folder)};
+        });
+    }
+    if (auto completion = completion_.take()) dialog.completion = std::move(*completion);
+    if (const auto entered = std::exchange(state.requests.typed, {})) {
+        entered_in_ = dialog.line;
+        typed_.start_anew([typed = *entered, listed = dialog.folder] {
+            return entry_meant(listed, typed.typed, typed.chosen);
+        });
+    }
+    const auto meant = typed_.take();
+    if (!meant || !dialog.shown || dialog.line != entered_in_) return;
+    if (meant->kind == FileKind::folder) return go_to(meant->file, dialog);
+    state.requests.open = request_for(*meant);
+    dialog.shown = false;
+}
+
+void Browsing::advance_preview(OpenDialog& dialog) {
+    if (auto preview = preview_.take()) {
         picture_ = std::move(preview->picture);
         dialog.preview = {.of = std::move(preview->of), .words = std::move(preview->words)};
         if (picture_) {
@@ -77,24 +121,17 @@ std::optional<std::string> Browsing::advance(ViewerState& state) {
             dialog.preview.texture = texture_.show(picture_, kMostPreview_px, false);
         }
     }
-    if (dialog.shown) look_at_chosen(state);
-    if (const auto folder = result_of(neighbours_)) return step(*folder, state);
-    return std::nullopt;
-}
-
-void Browsing::look_at_chosen(ViewerState& state) {
-    const OpenDialog& dialog = state.dialog;
-    if (preview_.valid() || dialog.chosen.empty() || dialog.preview.of == dialog.chosen) return;
+    if (!dialog.shown || dialog.chosen.empty() || dialog.preview.of == dialog.chosen) return;
     const auto chosen = entry_of(dialog.folder, dialog.chosen);
-    if (chosen)
-        preview_ = std::async(std::launch::async, read_preview, dialog.folder.entries[*chosen]);
+    if (!chosen || preview_.under_way()) return;
+    preview_.start([entry = dialog.folder.entries[*chosen]] { return read_preview(entry); });
 }
 
 Browsing::Read Browsing::read_preview(const FolderEntry& entry) {
     Read read{.of = entry.file};
     if (entry.kind != FileKind::video && entry.kind != FileKind::picture) return read;
     try {
-        const auto media = open_media(entry.file, entry.depth);
+        const auto media = open_request(request_for(entry));
         const auto first = media->next();
         const MediaDescription& about = media->description();
         if (first) read.picture = std::make_shared<const ColourImage>(first->colour);
@@ -105,7 +142,8 @@ Browsing::Read Browsing::read_preview(const FolderEntry& entry) {
     return read;
 }
 
-std::optional<std::string> Browsing::step(const Folder& folder, ViewerState& state) const {
+std::string Browsing::step(const Folder& folder, ViewerState& state) const {
+    if (!folder.trouble.empty()) return folder.trouble;
     std::vector<const FolderEntry*> files;
     files.reserve(folder.entries.size());
     std::optional<std::size_t> at;
@@ -120,9 +158,7 @@ std::optional<std::string> Browsing::step(const Folder& folder, ViewerState& sta
     if (next < 0) return "The first one in its folder";
     if (next >= static_cast<long>(files.size())) return "The last one in its folder";
     const FolderEntry& entry = *files[static_cast<std::size_t>(next)];
-    OpenRequest request{entry.file, entry.depth};
-    request.in_any_order = entry.depth.empty();
-    state.requests.open = request;
+    state.requests.open = request_for(entry);
     return std::to_string(next + 1) + " of " + std::to_string(files.size()) + ": " + entry.name();
 }
 

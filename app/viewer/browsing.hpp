@@ -2,13 +2,13 @@
 #pragma once
 
 #include <filesystem>
-#include <future>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "app/panels/viewer_state.hpp"
 #include "app/settings/folder.hpp"
+#include "app/viewer/errand.hpp"
 #include "core/video/frame_window.hpp"
 #include "render/gl_objects.hpp"
 
@@ -16,6 +16,8 @@ namespace dibhr {
 
 class Browsing {
   public:
+    Browsing();
+
     /// Shows the dialog, or puts it away.
     void toggle(ViewerState& state);
 
@@ -35,16 +37,23 @@ class Browsing {
     };
 
     static Read read_preview(const FolderEntry& entry);
-    void look_at_chosen(ViewerState& state);
-    [[nodiscard]] std::optional<std::string> step(const Folder& folder, ViewerState& state) const;
+    void go_to(const std::filesystem::path& folder, OpenDialog& dialog);
+    void advance_folder(ViewerState& state);
+    void advance_typed(ViewerState& state);
+    void advance_preview(OpenDialog& dialog);
+    [[nodiscard]] std::string step(const Folder& folder, ViewerState& state) const;
 
-    std::future<Folder> folder_{};
+    std::filesystem::path sample_folder_;
     std::optional<std::filesystem::path> next_folder_{};
-    std::future<Read> preview_{};
     std::shared_ptr<const ColourImage> picture_{};
     ColourTexture texture_{};
-    std::future<Folder> neighbours_{};
     int by_{0};
+    int entered_in_{0};  // OpenDialog::line: another one asks for nothing any more
+    Errand<Folder> folder_{};
+    Errand<Completion> completion_{};
+    Errand<FolderEntry> typed_{};
+    Errand<Read> preview_{};
+    Errand<Folder> neighbours_{};
 };
 
 }  // namespace dibhr

@@ -2,6 +2,7 @@
 // the scene made of them.
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <memory>
@@ -77,6 +78,7 @@ SceneContent scene_content(const ViewerState& state, const DepthBlend& shown) {
     content.shape = state.shape();
     content.bump = state.bump.get();
     content.look = state.settings.look;
+    content.light_wall = state.settings.theme == Theme::light;
     if (!shown.makes_surface()) return content;
     content.depth = shown;
     content.colour = shown.from;
@@ -93,16 +95,16 @@ const std::filesystem::path& depth_file(const MediaDescription& media) {
     return media.depth_path.empty() ? media.colour_path : media.depth_path;
 }
 
-std::optional<UnderHand> under_hand(const ViewerState& state, const DepthBlend& shown) {
+/// The pixel at a place of the grid; nothing beside the picture.
+std::optional<PixelShown> pixel_at(Vec3 place, const ViewerState& state, const DepthBlend& shown) {
     if (!shown.makes_surface()) return {};
-    const Vec3 goal = state.haptic.touch.goal;
     const DepthImage& depth = *shown.from->drawn();
-    const int i = static_cast<int>(std::lround(goal.x));
-    const int j = static_cast<int>(std::lround(goal.y));
+    const int i = static_cast<int>(std::lround(place.x));
+    const int j = static_cast<int>(std::lround(place.y));
     if (i < 0 || j < 0 || i >= depth.columns || j >= depth.rows) return {};
     const DepthSurface surface = shown.drawn_surface(state.shape(), state.bump.get());
     const auto& unseen = shown.nearest().unseen;
-    return UnderHand{i, j, depth.at(i, j) / depth.highest_level, surface.elevation_at(i, j),
+    return PixelShown{i, j, depth.at(i, j) / depth.highest_level, surface.elevation_at(i, j),
                      unseen && (*unseen)[depth.index(i, j)] != 0};
 }
 
@@ -110,7 +112,8 @@ std::optional<UnderHand> under_hand(const ViewerState& state, const DepthBlend& 
 
 void Viewer::take_opened() {
     if (auto opened = opening_.take()) {
-        if (opened->media) show_media(std::move(opened->media), opened->request);
+        if (opened->media)
+            show_media(std::move(opened->media), opened->request, opened->memory);
         if (opened->session) replay_session(std::move(opened->session));
         if (!opened->failure.empty()) {
             state_.message = opened->failure;
@@ -132,8 +135,12 @@ void Viewer::take_dropped(const std::vector<std::filesystem::path>& files) {
     }
 }
 
-void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request) {
+void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request,
+                        const FileMemory& memory) {
+    explaining_.end(state_, camera_);
+    if (!request.chosen) keep_memory();
     replay_.end(state_);
+    if (!request.chosen) forget_relief();
     const MediaDescription before = state_.media;
     state_.media = media->description();
     state_.opened = request;
@@ -155,12 +162,65 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
     player_.play_media(std::move(media), recording_.opened(state_.media));
     if (request.at_s > 0.0) player_.seek(request.at_s);
     if (request.paused) player_.pause();
+    if (!request.chosen) take_memory(memory, request);
     if (!loop_) start_loop();
+}
+
+/// Of the file that is shown, when another one comes or the program ends. What cannot be kept is
+/// missed by nobody at once: it is not told.
+void Viewer::keep_memory() try {
+    if (remembered_.empty()) return;
+    FileMemory memory;
+    const Settings& settings = state_.settings;
+    const OwnRelief relief{settings.fit_relief, settings.touch.shape.relief_px};
+    if (relief == relief_shown_) {  // also where the command line gave it
+        memory.relief_px = read_memory(file_memories_path(), remembered_).relief_px;
+    } else if (!relief.fits) {
+        memory.relief_px = relief.relief_px;
+    }
+    Camera whole = camera_;
+    whole.reset();
+    if (!(camera_.view() == whole.view())) memory.view = text_of(camera_.view());
+    constexpr double kNearEnd_s = 2.0;  // what was seen to its end begins anew
+    const double at_s = player_.status().media_s;
+    const bool goes_on = at_s > 0.0 && at_s < player_.status().duration_s - kNearEnd_s;
+    if (goes_on) memory.at_s = at_s;
+    dibhr::keep_memory(file_memories_path(), remembered_, memory);
+} catch (const std::exception&) {
+}
+
+void Viewer::take_memory(const FileMemory& memory, const OpenRequest& request) {
+    remembered_ = remembered_file(state_.media);
+    Settings& settings = state_.settings;
+    if (!remembered_.empty())
+        relief_before_ = {settings.fit_relief, settings.touch.shape.relief_px};
+    if (memory.relief_px) {
+        settings.fit_relief = false;
+        settings.touch.shape.relief_px = *memory.relief_px;
+        frame_relief();
+    }
+    relief_shown_ = {settings.fit_relief, settings.touch.shape.relief_px};
+    if (const auto view = view_in(memory.view)) camera_.set_view(*view);
+    if (settings.resume && memory.at_s > 0.0 && !(request.at_s > 0.0)) {
+        player_.seek(memory.at_s);
+        tell("Goes on where it was left (Home: from the start)");
+    }
+}
+
+/// A file's own relief is not that of the next one.
+void Viewer::forget_relief() {
+    if (!relief_before_) return;
+    state_.settings.fit_relief = relief_before_->fits;
+    state_.settings.touch.shape.relief_px = relief_before_->relief_px;
+    relief_before_.reset();
 }
 
 void Viewer::replay_session(std::unique_ptr<OpenedSession> session) {
     if (recording_.active()) tell(recording_.stop(state_));
     if (!session->frames.warning().empty()) tell(capitalised(session->frames.warning()));
+    explaining_.end(state_, camera_);
+    keep_memory();
+    remembered_.clear();
     loop_.reset();  // the force goes to zero, and nobody touches
     trace_.clear();
     player_.pause();
@@ -203,7 +263,12 @@ void Viewer::open_again(const DepthStatement& panel) {
     request.chosen = true;
     request.at_s = state_.playback.media_s;
     request.paused = !state_.playback.playing;
-    if (!opening_.start(request)) tell("Still opening the last files");
+    open(request);
+}
+
+void Viewer::open(const OpenRequest& request) {
+    if (!opening_.start([request] { return try_open(request); }))
+        tell("Still opening the last files");
 }
 
 std::string Viewer::save_sidecar() {
@@ -227,6 +292,10 @@ std::string Viewer::save_sidecar() {
 Settings Viewer::lasting_settings() const {
     Settings settings = replay_.lasting(state_);
     const TouchParameters& before = options_.settings.touch;
+    if (relief_before_) {
+        settings.fit_relief = relief_before_->fits;
+        settings.touch.shape.relief_px = relief_before_->relief_px;
+    }
     if (settings.fit_relief) settings.touch.shape.relief_px = before.shape.relief_px;
     const Material& material = state_.material;
     if (material.bumps && has_texture(material, settings.touch)) {  // as its file has it
@@ -248,6 +317,7 @@ void Viewer::fit_to_media() {
 }
 
 void Viewer::frame_relief() {
+    explaining_.leave_camera();
     camera_.frame_relief(state_.media.depth_columns, state_.media.depth_rows,
                          state_.settings.touch.shape.relief_px);
 }
@@ -298,7 +368,7 @@ void Viewer::start_loop() {
                           player_.haptics(),
                           haptic_settings_,
                           haptic_state_,
-                          *forces_,
+                          *strips_,
                           *ticks_,
                           {.window = &heart_,
                            .video = &player_.heart(),
@@ -311,7 +381,14 @@ void Viewer::start_loop() {
 void Viewer::draw_scene(glm::ivec2 viewport) {
     camera_.set_projection(state_.settings.straight_view ? Camera::Projection::straight
                                                          : Camera::Projection::perspective);
-    state_.under_hand = under_hand(state_, shown_);
+    state_.under_hand = pixel_at(state_.haptic.touch.goal, state_, shown_);
+    state_.under_pointer.reset();
+    if (pointed_at_) state_.under_pointer = pixel_at(*pointed_at_, state_, shown_);
+    if (state_.ruler) {
+        state_.ruler->ends.clear();
+        for (const Vec3& place : state_.ruler->places)
+            if (const auto end = pixel_at(place, state_, shown_)) state_.ruler->ends.push_back(*end);
+    }
     SceneContent content = scene_content(state_, shown_);
     leave_trace(content.markers);
     scene_.draw(content, camera_, viewport);

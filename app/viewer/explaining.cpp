@@ -16,6 +16,10 @@ constexpr double kAround_px = 9.0;
 constexpr double kStepTime_s = 1.0;
 constexpr double kLongestRun_s = 20.0;
 
+bool is_at_its_end(const SessionPlayer& replay) {
+    return replay.moment() != nullptr && replay.moment()->tick.t_s >= replay.playback().end_s;
+}
+
 }  // namespace
 
 std::optional<Answer> ViewerExplaining::perform(Action action, ViewerState& state, Player& player,
@@ -23,6 +27,8 @@ std::optional<Answer> ViewerExplaining::perform(Action action, ViewerState& stat
     if (action == Action::explain) {
         if (std::exchange(state.explained, {})) return Answer{"Explained"};
         if (!state.haptic.touchable) return Answer{"No surface to explain an update on"};
+        if (replay != nullptr && is_at_its_end(*replay))
+            return Answer{"No update comes after this"};
         begin(state, player);
         if (replay != nullptr) take_next_tick(state, *replay);
         return Answer{};
@@ -32,8 +38,7 @@ std::optional<Answer> ViewerExplaining::perform(Action action, ViewerState& stat
     switch (action) {
         case Action::step_forward:
             news.runs = false;
-            step_on(news, replay, state);
-            return Answer{};
+            return step_on(news, replay, state);
         case Action::step_back:
             news.runs = false;
             if (news.taken > 0) --news.taken;
@@ -64,23 +69,29 @@ void ViewerExplaining::begin(ViewerState& state, Player& player) {
     pressed_ = false;
     columns_ = state.media.depth_columns;
     rows_ = state.media.depth_rows;
+    tick_ = -1;
+    asked_.reset();
     seen_held_.reset();
 }
 
 /// The tick shown has been: the update is that of the one after it.
 void ViewerExplaining::take_next_tick(ViewerState& state, SessionPlayer& replay) {
     proxy_ = state.haptic.touch.proxy;
+    left_tick_ = state.replay->tick.tick;
+    tick_ = -1;
     *state.explained = ExplainedNews{.held = true};
     replay.step(1);
 }
 
-void ViewerExplaining::step_on(ExplainedNews& news, SessionPlayer* replay, ViewerState& state) {
+Answer ViewerExplaining::step_on(ExplainedNews& news, SessionPlayer* replay, ViewerState& state) {
     news.held = true;
     if (news.taken < news.update.steps.size()) {
         ++news.taken;
     } else if (replay != nullptr) {
+        if (is_at_its_end(*replay)) return {"No update comes after this"};
         take_next_tick(state, *replay);
     }
+    return {};
 }
 
 void ViewerExplaining::follow_hand(const ViewerState& state) {
@@ -99,45 +110,62 @@ void ViewerExplaining::run(ExplainedNews& news, double now_s) {
         now_s + std::min(kStepTime_s, kLongestRun_s / std::max(1.0, static_cast<double>(steps)));
 }
 
+void ViewerExplaining::end(ViewerState& state, Camera& camera) {
+    state.explained.reset();
+    if (before_) camera = *std::exchange(before_, {});
+}
+
+/// Another surface, or a replay that someone played on or moved elsewhere.
+bool ViewerExplaining::has_gone(const DepthBlend& shown, const ViewerState& state) const {
+    if (!shown.makes_surface() || shown.from->depth->columns != columns_ ||
+        shown.from->depth->rows != rows_)
+        return true;
+    if (!state.replay) return false;
+    const std::int64_t tick = state.replay->tick.tick;
+    if (tick_ < 0) return tick != left_tick_;
+    return state.replay->playback.playing || tick != tick_;
+}
+
+/// Only when it depends on something that changed: a long walk costs its square.
+void ViewerExplaining::explain_anew(const DepthBlend& shown, ViewerState& state) {
+    Asked asked{shown.from->depth, shown.to->depth, shown.blend, state.shape(),
+                state.bump,        proxy_,          goal_,       state.settings.touch.friction};
+    if (asked_ == asked) return;
+    const DepthSurface surface = shown.surface(asked.shape, asked.bump.get());
+    ExplainedNews& news = *state.explained;
+    news.update = explain(surface, proxy_, goal_, asked.friction);
+    news.taken = std::min(news.taken, news.update.steps.size());
+    asked_ = std::move(asked);
+}
+
 void ViewerExplaining::advance(const DepthBlend& shown, ViewerState& state, Camera& camera,
                                double now_s) {
-    const bool same_ground = shown.makes_surface() && shown.from->depth->columns == columns_ &&
-                             shown.from->depth->rows == rows_;
-    if (state.explained && !same_ground) state.explained.reset();
-    if (!state.explained) {
-        if (before_) camera = *before_;
-        before_.reset();
-        return;
-    }
+    if (!state.explained) return end(state, camera);
+    const bool reads = state.replay && tick_ < 0;
+    if (reads && state.replay->tick.tick > left_tick_) tick_ = state.replay->tick.tick;
+    if (has_gone(shown, state)) return end(state, camera);
     ExplainedNews& news = *state.explained;
+    news.waits = state.replay && tick_ < 0;
+    if (news.waits) return;
     if (state.replay) {
         goal_ = state.haptic.touch.goal;
     } else if (!news.held) {
         follow_hand(state);
     }
-    const DepthSurface surface = shown.surface(state.shape(), state.bump.get());
-    news.update = explain(surface, proxy_, goal_, state.settings.touch.friction);
-    news.taken = std::min(news.taken, news.update.steps.size());
+    explain_anew(shown, state);
     run(news, now_s);
-    const std::int64_t tick = state.replay ? state.replay->tick.tick : -1;
-    if (seen_held_ == news.held && seen_tick_ == tick) return;
+    if (seen_held_ == news.held && seen_tick_ == tick_) return;
     seen_held_ = news.held;
-    seen_tick_ = tick;
+    seen_tick_ = tick_;
     move_camera(news, camera);
 }
 
 /// All of the walk in view; before its goal stands, with room to move it.
 void ViewerExplaining::move_camera(const ExplainedNews& news, Camera& camera) {
     if (!before_) before_ = camera;
-    const ExplainedUpdate& update = news.update;
-    Vec3 low = update.start.position;
-    Vec3 high = low;
-    const auto include = [&](Vec3 p) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    };
-    for (const WalkStep& step : update.steps) include(step.after.position);
-    include(update.goal);
+    const PathBox walked = box_of(news.update);
+    const Vec3 low = glm::min(walked.low, news.update.goal);
+    const Vec3 high = glm::max(walked.high, news.update.goal);
     constexpr double kClosest_px = 2.5;
     constexpr double kAir = 1.35;
     const double radius = kAir * 0.5 * glm::length(high - low);

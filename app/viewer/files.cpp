@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "app/settings/assets_path.hpp"
 #include "core/error.hpp"
 #include "core/video/media.hpp"
 #include "core/video/media_names.hpp"
@@ -41,17 +42,6 @@ bool shows_grey(const fs::path& colour, const fs::path& depth) {
     return first && is_grey(first->colour);
 }
 
-Opened try_open(const OpenRequest& request) {
-    try {
-        if (request.depth.empty() && names_session(request.colour)) {
-            return {request, nullptr, std::make_unique<OpenedSession>(request.colour, false), {}};
-        }
-        return {request, open_request(request), nullptr, {}};
-    } catch (const std::exception& error) {
-        return {request, nullptr, nullptr, error.what()};
-    }
-}
-
 }  // namespace
 
 std::string new_file_name(const char* ending) {
@@ -68,10 +58,26 @@ std::string new_file_name(const char* ending) {
     return std::filesystem::absolute(name).string();
 }
 
-void Screenshots::save(ColourImage picture) {
-    const auto write = [picture = std::move(picture), file = new_file_name("png")] {
-        write_png(picture, file);
-        return "Saved " + file;
+std::string picture_name(const ViewerState& state) {
+    const fs::path& video =
+        state.media.colour_path.empty() ? state.media.depth_path : state.media.colour_path;
+    NameFacts facts{.file = (state.replay ? state.replay->file : video).stem().string(),
+                    .media_s = state.playback.media_s,
+                    .frame = state.playback.frame + 1};
+    if (state.replay) {
+        facts.media_s = state.replay->tick.video_s;
+        facts.frame = static_cast<std::int64_t>(state.replay->tick.frames.from_frame) + 1;
+    }
+    if (facts.file.empty()) facts.file = "dibhr";  // of a folder with a slash
+    const std::time_t now = std::time(nullptr);
+    localtime_r(&now, &facts.now);
+    return whole_path(name_from(state.settings.screenshot_name, facts)).string();
+}
+
+void Screenshots::save(ColourImage picture, const std::string& name) {
+    asked_.reset();
+    const auto write = [picture = std::move(picture), file = name + ".png"] {
+        return "Saved " + write_new_png(picture, file).string();
     };
     writing_.push_back(std::async(std::launch::async, write));
 }
@@ -137,16 +143,31 @@ std::optional<OpenRequest> dropped_request(const std::vector<fs::path>& files) {
     return request;
 }
 
-bool Opening::start(const OpenRequest& request) {
-    if (under_way()) return false;
-    result_ = std::async(std::launch::async, try_open, request);
-    return true;
+fs::path remembered_file(const MediaDescription& media) try {
+    const fs::path& file = media.colour_path.empty() ? media.depth_path : media.colour_path;
+    return file == sample_files().colour ? fs::path{} : file;
+} catch (const InputError&) {  // without its sample it has none to leave as it is
+    return media.colour_path;
 }
 
-std::optional<Opened> Opening::take() {
-    if (!under_way() || result_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
-        return {};
-    return result_.get();
+FileMemory memory_of(const Media& media) {
+    const fs::path file = remembered_file(media.description());
+    return file.empty() ? FileMemory{} : read_memory(file_memories_path(), file);
+}
+
+Opened try_open(const OpenRequest& request) {
+    try {
+        Opened opened{.request = request};
+        if (request.depth.empty() && names_session(request.colour)) {
+            opened.session = std::make_unique<OpenedSession>(request.colour, false);
+        } else {
+            opened.media = open_request(request);
+            opened.memory = memory_of(*opened.media);
+        }
+        return opened;
+    } catch (const std::exception& error) {
+        return {.request = request, .failure = error.what()};
+    }
 }
 
 }  // namespace dibhr

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/panels/viewer_state.hpp"
+#include "app/settings/file_memory.hpp"
 #include "app/settings/settings.hpp"
 #include "core/replay/session_player.hpp"
 #include "core/video/media.hpp"
@@ -20,11 +21,18 @@ namespace dibhr {
 /// files share a name.
 [[nodiscard]] std::string new_file_name(const char* ending);
 
+/// What a picture or clip of now is called after the settings' pattern, without its ending.
+[[nodiscard]] std::string picture_name(const ViewerState& state);
+
 /// Writes pictures away from the window's thread.
 class Screenshots {
   public:
-    /// Begins to write one into a new file.
-    void save(ColourImage picture);
+    /// The next picture that is drawn is to be saved.
+    void ask(PictureOf of) { asked_ = of; }
+    [[nodiscard]] bool wants(PictureOf of) const { return asked_ == of; }
+
+    /// Begins to write what was asked for into a new file of that name, or with a number after it.
+    void save(ColourImage picture, const std::string& name);
 
     /// What came of one that is done, for a notice. Throws InputError, once a picture.
     [[nodiscard]] std::optional<std::string> take();
@@ -33,6 +41,7 @@ class Screenshots {
     void finish();
 
   private:
+    std::optional<PictureOf> asked_{};
     std::vector<std::future<std::string>> writing_{};
 };
 
@@ -65,9 +74,15 @@ class SettingsKeeper {
 struct Opened {
     OpenRequest request{};
     std::unique_ptr<Media> media{};
+    FileMemory memory{};  ///< of the media
     std::unique_ptr<OpenedSession> session{};
     std::string failure{};
 };
+
+/// The file whose memory is kept: colour, where there is a pair; empty for the program's own
+/// sample, which everybody finds as it is.
+[[nodiscard]] std::filesystem::path remembered_file(const MediaDescription& media);
+[[nodiscard]] FileMemory memory_of(const Media& media);
 
 /// Opens what a person dropped or typed. Dropped pairs are told apart by name, else by which one is
 /// grey. Throws InputError.
@@ -77,17 +92,7 @@ struct Opened {
 [[nodiscard]] std::optional<OpenRequest> dropped_request(
     const std::vector<std::filesystem::path>& files);
 
-/// Opens files on a thread of its own, one request at a time.
-class Opening {
-  public:
-    /// Begins, unless one is under way: then false.
-    bool start(const OpenRequest& request);
-    [[nodiscard]] bool under_way() const { return result_.valid(); }
-    /// The result, once.
-    [[nodiscard]] std::optional<Opened> take();
-
-  private:
-    std::future<Opened> result_{};
-};
+/// Opens what is asked for: media, or a session. For a thread that may wait.
+[[nodiscard]] Opened try_open(const OpenRequest& request);
 
 }  // namespace dibhr

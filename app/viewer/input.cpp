@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <locale>
+#include <sstream>
 #include <utility>
 
 #include "app/panels/widgets.hpp"
@@ -36,6 +38,9 @@ constexpr std::pair<Action, bool Requests::*> kRequests[] = {
     {Action::reset_view, &Requests::reset_view},
     {Action::toggle_full_screen, &Requests::full_screen},
     {Action::take_screenshot, &Requests::screenshot},
+    {Action::take_screenshot_of_relief, &Requests::screenshot_of_relief},
+    {Action::take_clip, &Requests::toggle_clip},
+    {Action::take_clip_of_relief, &Requests::toggle_clip_of_relief},
     {Action::quit, &Requests::quit}};
 
 void close_topmost(ViewerState& state) {
@@ -209,6 +214,21 @@ Answer perform(Action action, ViewerState& state, Player& player) {
         case Action::toggle_panels:
             settings.panels_visible = !settings.panels_visible;
             return {settings.panels_visible ? "Panels shown" : "Panels hidden: Tab shows them"};
+        case Action::next_paint: {
+            ReliefPaint& paint = settings.look.paint;
+            const std::size_t next = static_cast<std::size_t>(paint) + 1;
+            paint = static_cast<ReliefPaint>(next % kReliefPaintWords.size());
+            return {entry_of(kReliefPaintWords, paint).label};
+        }
+        case Action::toggle_panes:
+            settings.panes = !settings.panes;
+            return {settings.panes ? "Colour and depth above" : "The relief alone"};
+        case Action::toggle_ruler:
+            state.ruler ? state.ruler.reset() : static_cast<void>(state.ruler.emplace());
+            return {state.ruler ? "Ruler" : "Ruler off"};
+        case Action::toggle_statistics:
+            state.statistics = !state.statistics;
+            return {state.statistics ? "Statistics" : "Statistics off"};
         case Action::toggle_help:
             state.help_open = !state.help_open;
             return {};
@@ -218,6 +238,14 @@ Answer perform(Action action, ViewerState& state, Player& player) {
         default:
             return {};
     }
+}
+
+void Ruler::press(bool down, const std::optional<Vec3>& under) {
+    const bool clicked = down && !pressed;
+    pressed = down;
+    if (!clicked || !under) return;
+    if (places.size() == 2) places.clear();
+    places.push_back(*under);
 }
 
 std::optional<Answer> perform_in_replay(Action action, SessionPlayer& replay) {
@@ -233,6 +261,28 @@ std::optional<Answer> perform_in_replay(Action action, SessionPlayer& replay) {
                            action == Action::toggle_sound;
     if (of_a_hand) return Answer{"A replay: no hand is touching"};
     return std::nullopt;
+}
+
+constexpr const char* kViewWord = "dibhr-view";
+
+std::string text_of(const Camera::View& view) {
+    std::string text = kViewWord;
+    for (const double number : {view.yaw_rad, view.pitch_rad, view.zoom, view.centre_in_world.x,
+                                view.centre_in_world.y, view.centre_in_world.z})
+        text += " " + number_text(number);
+    return text;
+}
+
+std::optional<Camera::View> view_in(const std::string& text) {
+    std::istringstream in(text);
+    in.imbue(std::locale::classic());
+    std::string word;
+    Camera::View view;
+    Vec3& centre = view.centre_in_world;
+    in >> word >> view.yaw_rad >> view.pitch_rad >> view.zoom >> centre.x >> centre.y >> centre.z;
+    const bool whole = !in.fail() && word == kViewWord && is_finite(centre) &&
+                       is_finite({view.yaw_rad, view.pitch_rad, view.zoom}) && view.zoom > 0.0;
+    return whole ? std::optional(view) : std::nullopt;
 }
 
 PointerUse ReliefMouse::use(const Pointer& pointer, double wheel_steps, bool over_panel,

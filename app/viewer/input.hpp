@@ -28,6 +28,10 @@ Answer perform(Action action, ViewerState& state, Player& player);
 /// What moves a replay, and nothing else; nothing when the action is not about that.
 std::optional<Answer> perform_in_replay(Action action, SessionPlayer& replay);
 
+/// A view as text for the clipboard, and back; nothing: that text is no view.
+[[nodiscard]] std::string text_of(const Camera::View& view);
+[[nodiscard]] std::optional<Camera::View> view_in(const std::string& text);
+
 /// What the mouse does over the relief in one picture.
 struct PointerUse {
     bool over_relief{false};  ///< neither over a panel nor outside the window

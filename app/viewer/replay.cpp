@@ -63,7 +63,7 @@ void ViewerReplay::begin(std::unique_ptr<OpenedSession> opened, const GivenParam
                               .device = session.fact("device"),
                               .marks = session.marks()};
     state.media = opened->frames.description();
-    state.forces = {};
+    state.strips = {};
     state.haptic = {};
     recorded_ =
         session.parameters().empty() ? TouchParameters{} : session.parameters().front().touch;
@@ -87,13 +87,19 @@ void ViewerReplay::end(ViewerState& state) {
     state.bump = std::exchange(bump_, nullptr);
     state.bump_file = bump_file_;
     state.haptic = {};
-    state.forces = {};
+    state.strips = {};
 }
 
 void ViewerReplay::advance(ViewerState& state) {
-    player_->advance([&state](const SessionMoment& moment) {
+    player_->advance([&state, this](const SessionMoment& moment) {
         const Touch touch = touch_of(moment);
-        state.forces.add(glm::length(touch.sent_force_newton));
+        const TickRecord& tick = moment.tick;
+        const bool goes_on = tick.tick == passed_tick_ + 1 && !tick.from_zero && !tick.lets_go;
+        const double pitch_mm = state.settings.touch.coupling.pixel_pitch_mm;
+        state.strips.add(
+            strip_of(passed_, touch, goes_on ? tick.dt_s : 0.0, tick.lateness_us, pitch_mm));
+        passed_ = touch;
+        passed_tick_ = tick.tick;
         if (moment.tick.surface && touch.proxy.bound_met) ++state.haptic.bounds_met;
     });
     state.replay->playback = player_->playback();

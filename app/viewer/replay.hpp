@@ -2,6 +2,7 @@
 // given.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -40,6 +41,8 @@ class ViewerReplay {
     std::unique_ptr<SessionOutline> outline_{};
     TouchParameters recorded_{};               // of the moment shown
     std::optional<TouchParameters> chosen_{};  // instead of them
+    Touch passed_{};                           // in the last tick that was passed
+    std::int64_t passed_tick_{-1};
 
     // Of before.
     TouchParameters touch_{};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <functional>
 #include <utility>
 
 #include "app/panels/falcon_state.hpp"
@@ -57,6 +58,16 @@ void play_as_asked(const ViewOptions& options, double begin_s, AnyPlayer& player
     if (options.looping) player.set_looping(*options.looping);
 }
 
+/// As a person left it, or asks for; else one that grows with its text.
+WindowSize asked_size(const ViewOptions& options) {
+    const Settings& settings = options.settings;
+    const Settings standard;
+    const bool chosen = options.size_given || settings.width != standard.width ||
+                        settings.height != standard.height;
+    return {settings.width, settings.height,
+            chosen ? std::nullopt : std::optional(settings.ui_scale)};
+}
+
 [[noreturn]] void hang() {
     for (volatile bool ever = true; ever;) continue;
     std::abort();
@@ -68,8 +79,8 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending)
     : options_(options),
       ending_(ending),
       hand_(std::move(parts.hand)),
-      window_(options.settings.width, options.settings.height, options.sync, "dibhr"),
-      gui_(window_),
+      window_(asked_size(options), options.sync, "dibhr"),
+      gui_(window_, {window_.scale(options.settings.ui_scale), options.settings.theme}),
       software_(read_limits().software),
       pace_(shortest_picture(options.sync, software_)),
       state_{.settings = options.settings},
@@ -77,7 +88,7 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending)
       keeper_(options.in_file, options.settings, settings_path()),
       start_(steady_clock::now()),
       hang_after_s_(hang_asked_for()),
-      forces_(std::make_unique<ForceRing>()),
+      strips_(std::make_unique<StripRing>()),
       ticks_(std::make_unique<TickRing>()),
       recording_(*ticks_, ending.words()) {
     if (software_) let_drawing_give_way();
@@ -87,9 +98,9 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending)
     state_.bump_file = std::move(parts.bump_file);
     state_.material = std::move(parts.material);
     state_.materials = material_names();
-    state_.fonts = gui_.fonts();
-    state_.scale = gui_.scale();
+    wear_look();
     if (options.full_screen) window_.toggle_full_screen();
+    if (!options.clip.empty()) clip_.start(options.clip, ClipName::replaces, options.pictures_of);
     if (parts.session) {
         replay_session(std::move(parts.session));
         SessionPlayer& replay = *replay_.player();
@@ -100,7 +111,7 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending)
     }
     state_.media = parts.media->description();
     if (!options.record.empty()) recording_.start(options.record, state_);
-    show_media(std::move(parts.media), options.open);
+    show_media(std::move(parts.media), options.open, parts.memory);
     play_as_asked(options, 0.0, player_);
 }
 
@@ -136,8 +147,11 @@ void Viewer::close_without_display() {
     ending_.words().doing("closing without a display");
     state_.message.clear();
     loop_.reset();
+    explaining_.end(state_, camera_);
+    keep_memory();
     attempt([this] { keeper_.finish(lasting_settings()); });
     attempt([this] { screenshots_.finish(); });
+    attempt([this] { clip_.finish(ClipEnd::at_once); });
     attempt([this] { recording_.finish(kPatienceAtAnEnd); });
     hand_.device.reset();
     if (!state_.message.empty()) print_error_line(state_.message);
@@ -158,16 +172,29 @@ void Viewer::finish() {
     now("writing the last picture");
     try_to([this] { write_last_picture(); });
     now("saving the settings");
+    explaining_.end(state_, camera_);
+    keep_memory();
     try_to([this] { keeper_.finish(lasting_settings()); });
     now("writing pictures");
     try_to([this] { screenshots_.finish(); });
+    now("finishing the clip");
+    try_to([this] { clip_.finish(ending_.asked() ? ClipEnd::at_once : ClipEnd::well); });
     now("closing the recording");
     try_to([this] { recording_.finish(ending_.asked() ? kPatienceAtAnEnd : Recorder::kPatience); });
     now("closing the window");
     if (!failure.empty()) throw InputError(failure);
 }
 
+/// Also when the window was moved to a display of another scale.
+void Viewer::wear_look() {
+    const Settings& settings = state_.settings;
+    gui_.wear({window_.scale(settings.ui_scale), settings.theme});
+    state_.fonts = gui_.fonts();
+    state_.scale = gui_.scale();
+}
+
 void Viewer::show_one_picture() {
+    wear_look();
     const WindowInput input = window_.take_input();
     beat();
     state_.in_front = input.focus.in_front();
@@ -175,9 +202,11 @@ void Viewer::show_one_picture() {
     take_keys(input);
     take_dropped(input.dropped);
     state_.window_width = static_cast<float>(window_.framebuffer_size().x);
+    state_.window_height = static_cast<float>(window_.framebuffer_size().y);
     const glm::ivec2 viewport = relief_viewport();
     move_hand(input, viewport);
     draw_scene(viewport);
+    if (wants_picture(PictureOf::relief)) hand_out(PictureOf::relief, read_framebuffer(viewport));
     beat();
     draw_panels(input.keys);
     beat();
@@ -201,7 +230,7 @@ void Viewer::take_news() {
     state_.touched = state_.touched || state_.haptic.touch.proxy.contact;
     if (!state_.grants && loop_) state_.grants = loop_->grants();
     recording_.take_news(state_);
-    for (double sent_newton{}; forces_->pop(sent_newton);) state_.forces.add(sent_newton);
+    for (TickStrip strip; strips_->pop(strip);) state_.strips.add(strip);
     state_.sound = sound_.state();
     state_.pictures_per_s = pace_.pictures_per_s();
     take_opened();
@@ -214,6 +243,9 @@ void Viewer::take_news() {
     playback_failure_ = failure;
     attempt([this] {
         while (const auto notice = screenshots_.take()) tell(*notice);
+    });
+    attempt([this] {
+        if (const auto notice = clip_.take_news(state_)) tell(*notice);
     });
     take_report();
 }
@@ -257,7 +289,7 @@ void Viewer::take_keys(const WindowInput& input) {
     if (as_recorded && !state_.as_recorded && !state_.replay) tell("Depth as recorded");
     state_.as_recorded = as_recorded;
     for (const KeyPress& press : input.keys) {
-        if (state_.dialog.shown) take_dialog_key(press);
+        if (takes_keys(state_.dialog) && state_.message.empty()) take_dialog_key(press);
         if (const auto action =
                 action_of_key(press.key, press.control, typing, press.repeated, press.shift))
             perform(*action);
@@ -289,10 +321,23 @@ std::optional<Answer> Viewer::perform_with_files(Action action) {
     }
 }
 
+std::optional<Answer> Viewer::perform_with_view(Action action) {
+    if (action == Action::copy_view) {
+        gui_.copy(text_of(camera_.view()));
+        return Answer{"View copied: Ctrl+V takes it again"};
+    }
+    if (action != Action::paste_view) return std::nullopt;
+    const auto view = view_in(gui_.copied());
+    if (!view) return Answer{"No view was copied: Ctrl+C copies one"};
+    explaining_.leave_camera();
+    camera_.set_view(*view);
+    return Answer{"View taken"};
+}
+
 void Viewer::perform(Action action) {
     SessionPlayer* const replay = replay_.player();
-    std::optional<Answer> answer;
-    answer = perform_with_files(action);
+    std::optional<Answer> answer = perform_with_files(action);
+    if (!answer) answer = perform_with_view(action);
     if (!answer) answer = explaining_.perform(action, state_, player_, replay);
     if (!answer && replay != nullptr) answer = perform_in_replay(action, *replay);
     if (!answer) answer = dibhr::perform(action, state_, player_);
@@ -305,20 +350,35 @@ void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {
     const FrameWindow& frames = player_.picture().front();
     shown_ = frames.at(frames.clock.playback_s(steady_clock::now()));
     if (state_.replay) shown_ = replay_.shown();
-    const Pointer pointer = window_.pointer();
+    Pointer pointer = window_.pointer();
+    const auto on_panes = place_on_panes(state_, pointer.position_px);
+    pointer.position_px.y -= panes_height(state_);  // the relief is below them
     PointerUse use =
         mouse_.use(pointer, input.wheel_steps, gui_.wants_pointer(), viewport, camera_);
     pressed_deeper_ = pressed_deeper_ || (use.pressed && use.wheel_steps != 0.0);
+    pointed_at_.reset();
+    const Camera::Ray ray = camera_.ray_under(pointer.position_px, viewport);
+    const bool measures = state_.ruler && !state_.explained;
+    if (use.over_relief && (measures || !use.pressed) && shown_.makes_surface())
+        pointed_at_ = surface_under(ray, shown_.drawn_surface(state_.shape(), state_.bump.get()));
+    if (on_panes && !gui_.wants_pointer() && !use.pressed) pointed_at_ = on_panes;
+    if (measures) {  // its clicks touch nothing
+        state_.ruler->press(use.pressed, pointed_at_);
+        use.pressed = false;
+    }
     // While the Falcon touches the mouse only points, so that it does not take over pressing.
     if (hand_.falcon != nullptr && !state_.haptic.hand.stand_in) use.pressed = false;
     if (state_.replay || hand_.mouse == nullptr || !shown_.makes_surface()) return;
     const DepthSurface surface = shown_.surface(state_.shape(), state_.bump.get());
-    const Camera::Ray ray = camera_.ray_under(pointer.position_px, viewport);
     hand_.mouse->target().publish(pointer_.target(ray, surface, use));
 }
 
 void Viewer::draw_panels(std::span<const KeyPress> pressed) {
     gui_.begin(pressed);
+    panes_.show(shown_, state_);
+    draw_panes(state_);
+    const glm::ivec2 viewport = relief_viewport();
+    draw_ruler(state_, camera_.clip_from_grid(static_cast<double>(viewport.x) / viewport.y));
     if (state_.settings.panels_visible) draw_panel_column(state_, player_, replay_.player());
     draw_bottom_bar(state_, player_, replay_.player());
     const auto fade = [](float& alpha) { alpha = std::max(0.0F, alpha - 0.03F); };
@@ -326,7 +386,7 @@ void Viewer::draw_panels(std::span<const KeyPress> pressed) {
     if (pressed_deeper_) fade(wheel_hint_alpha_);
     const bool mouse_touches = !state_.replay && hand_.mouse != nullptr &&
                                (hand_.falcon == nullptr || state_.haptic.hand.stand_in);
-    if (mouse_touches && state_.message.empty() && !state_.explained) {
+    if (mouse_touches && state_.message.empty() && !state_.explained && !state_.ruler) {
         draw_hint(state_, Hint::touch, hint_alpha_);
         const bool wonders = hint_alpha_ <= 0.0F && state_.haptic.touch.proxy.contact;
         if (wonders) draw_hint(state_, Hint::press_deeper, wheel_hint_alpha_);
@@ -336,7 +396,15 @@ void Viewer::draw_panels(std::span<const KeyPress> pressed) {
     draw_open_dialog(state_);
     draw_help_sheet(state_);
     draw_message_box(state_);
+    // What is drawn after that is seen, and not in pictures.
+    ColourImage picture;
+    const bool wanted = wants_picture(PictureOf::window);
+    const std::function<void()> read = [&] {
+        if (wanted) picture = read_framebuffer(window_.framebuffer_size());
+    };
+    draw_over_pictures(state_, read);
     gui_.end();
+    if (wanted) hand_out(PictureOf::window, std::move(picture));
 }
 
 void Viewer::draw_explained() {
@@ -352,7 +420,7 @@ void Viewer::carry_out_requests() {
     if (state_.replay) replay_.follow_panels(state_);
     if (const auto notice = browsing_.advance(state_)) tell(*notice);
     const Requests asked = std::exchange(state_.requests, {});
-    if (asked.open && !opening_.start(*asked.open)) tell("Still opening the last files");
+    if (asked.open) open(*asked.open);
     if (asked.meaning) open_again(*asked.meaning);
     if (asked.save_sidecar) attempt([&] { tell(save_sidecar()); });
     if (asked.bump) load_bump(*asked.bump);
@@ -367,10 +435,12 @@ void Viewer::carry_out_requests() {
     }
     if (asked.toggle_recording) start_or_stop_recording();
     if (asked.mark) tell(recording_.mark(state_));
-    if (asked.leave_replay && !opening_.start({state_.media.colour_path, state_.media.depth_path}))
-        tell("Still opening the last files");
+    if (asked.leave_replay) open({state_.media.colour_path, state_.media.depth_path});
     if (asked.action) perform(*asked.action);
-    if (asked.screenshot) screenshots_.save(read_framebuffer(window_.framebuffer_size()));
+    if (asked.screenshot) screenshots_.ask(PictureOf::window);
+    if (asked.screenshot_of_relief) screenshots_.ask(PictureOf::relief);
+    if (asked.toggle_clip) start_or_stop_clip(PictureOf::window);
+    if (asked.toggle_clip_of_relief) start_or_stop_clip(PictureOf::relief);
     if (asked.quit) window_.close();
 }
 
@@ -441,12 +511,40 @@ void Viewer::start_or_stop_recording() {
     }
 }
 
+void Viewer::start_or_stop_clip(PictureOf of) {
+    if (clip_.stopped()) {
+        tell("Still finishing the last clip");
+    } else if (clip_.active()) {
+        clip_.stop();
+        tell("Finishing the clip");
+    } else {
+        attempt([&] {
+            clip_.start(picture_name(state_) + ".mp4", ClipName::stands_beside, of);
+            state_.notice_until_s = 0.0;  // the sign tells it, which is not in the clip
+        });
+    }
+}
+
+bool Viewer::wants_picture(PictureOf of) const {
+    return screenshots_.wants(of) ||
+           (shown_.makes_surface() && clip_.wants(of, steady_clock::now()));
+}
+
+/// Of what was drawn up to now, to whoever wants it.
+void Viewer::hand_out(PictureOf of, ColourImage picture) {
+    const auto now = steady_clock::now();
+    if (screenshots_.wants(of)) screenshots_.save(picture, picture_name(state_));
+    if (shown_.makes_surface() && clip_.wants(of, now)) clip_.add(std::move(picture), now);
+}
+
 void Viewer::write_last_picture() {
     if (options_.screenshot.empty()) return;
     // Drawn again: what a buffer holds after it was shown is up to the driver.
-    draw_scene(relief_viewport());
-    draw_panels();
-    write_png(read_framebuffer(window_.framebuffer_size()), options_.screenshot);
+    const glm::ivec2 relief = relief_viewport();
+    draw_scene(relief);
+    const bool whole = options_.pictures_of == PictureOf::window;
+    if (whole) draw_panels();
+    write_png(read_framebuffer(whole ? window_.framebuffer_size() : relief), options_.screenshot);
 }
 
 void Viewer::tell(const std::string& notice) {
@@ -461,12 +559,29 @@ double Viewer::now_s() const {
 
 bool Viewer::over() {
     return ending_.asked() || window_.wants_to_close() ||
-           (options_.seconds && now_s() >= *options_.seconds);
+           (options_.seconds && now_s() >= *options_.seconds) ||
+           (!options_.clip.empty() && played_to_the_end());
+}
+
+/// And does not begin again.
+bool Viewer::played_to_the_end() const {
+    if (state_.replay) {
+        const SessionPlayback& at = state_.replay->playback;
+        return !at.playing && !at.looping &&
+               at.now_s >= (at.part ? std::min(at.part->to_s, at.end_s) : at.end_s);
+    }
+    const PlaybackStatus& at = state_.playback;
+    if (!at.open || at.playing || at.looping || state_.media.still || !(at.frames_per_s > 0.0))
+        return false;
+    const double end_s = at.part ? std::min(at.part->to_s, at.duration_s) : at.duration_s;
+    constexpr double kFramesBefore = 1.5;  // the last one is shown
+    return at.media_s + kFramesBefore / at.frames_per_s >= end_s;
 }
 
 glm::ivec2 Viewer::relief_viewport() const {
     glm::ivec2 size = window_.framebuffer_size();
     size.x -= static_cast<int>(panel_column_width(state_));
+    size.y -= static_cast<int>(panes_height(state_));
     return glm::max(size, glm::ivec2(1));
 }
 

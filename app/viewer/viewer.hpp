@@ -11,19 +11,24 @@
 
 #include "app/panels/viewer_state.hpp"
 #include "app/settings/command_options.hpp"
+#include "app/settings/file_memory.hpp"
 #include "app/settings/keys.hpp"
 #include "app/settings/settings.hpp"
 #include "app/sound/sound_output.hpp"
 #include "app/viewer/browsing.hpp"
+#include "app/viewer/clip.hpp"
+#include "app/viewer/errand.hpp"
 #include "app/viewer/explaining.hpp"
 #include "app/viewer/falcon.hpp"
 #include "app/viewer/files.hpp"
 #include "app/viewer/input.hpp"
+#include "app/viewer/panes.hpp"
 #include "app/viewer/recording.hpp"
 #include "app/viewer/replay.hpp"
 #include "app/viewer/reporting.hpp"
 #include "app/viewer/trace.hpp"
 #include "app/window/ending.hpp"
+#include "app/window/gui.hpp"
 #include "app/window/window.hpp"
 #include "core/error.hpp"
 #include "core/loop/haptic_tick.hpp"
@@ -39,27 +44,41 @@ struct ViewOptions {
     std::string device{"auto"};        ///< auto | falcon | falcon:SERIAL | mouse | goals:FILE
     std::filesystem::path firmware{};  ///< for a Falcon that has none; empty: the kept one
     std::filesystem::path record{};
-    std::filesystem::path screenshot{};  ///< the last picture, as PNG
-    std::optional<double> seconds{};     ///< leave after so long
-    bool sync{true};                     ///< --no-sync: do not wait for the display
-    std::optional<double> speed{};       ///< kSlowestSpeed .. kFastestSpeed
-    std::optional<bool> looping{};       ///< else a video begins again, a session stops
-    std::optional<double> end_s{};       ///< where what is played ends, from its begin
+    std::filesystem::path screenshot{};        ///< the last picture, as PNG
+    std::filesystem::path clip{};              ///< of all pictures, as MP4
+    PictureOf pictures_of{PictureOf::window};  ///< of those two; --no-panels: the relief
+    std::optional<double> seconds{};           ///< leave after so long
+    bool sync{true};                           ///< --no-sync: do not wait for the display
+    std::optional<double> speed{};             ///< kSlowestSpeed .. kFastestSpeed
+    std::optional<bool> resume{};              ///< else as in the settings
+    std::optional<bool> looping{};             ///< else a video begins again, a session stops
+    std::optional<double> end_s{};             ///< where what is played ends, from its begin
+    bool start_given{false};                   ///< by --start: nothing that is remembered
     bool full_screen{false};
-    bool any_media{false};  ///< replay: also over files that have changed
-    TouchRequest touch{};   ///< the command line's alone: its parameters beat a session's
-    Settings in_file{};     ///< as read; the window saves only what a person changed in it
-    Settings settings{};    ///< the same, the command line's values on top
+    bool size_given{false};  ///< by --size: exactly so large
+    bool any_media{false};   ///< replay: also over files that have changed
+    TouchRequest touch{};    ///< the command line's alone: its parameters beat a session's
+    Settings in_file{};      ///< as read; the window saves only what a person changed in it
+    Settings settings{};     ///< the same, the command line's values on top
 };
 
 /// What was opened before there was a window.
 struct ViewerParts {
     std::unique_ptr<Media> media{};
+    FileMemory memory{};                       ///< of the media
     std::unique_ptr<OpenedSession> session{};  ///< to be replayed, in place of media
     HandDevice hand{};
     Material material{};  ///< of the settings or the command line
     std::shared_ptr<const BumpMap> bump{};
     std::filesystem::path bump_file{};
+};
+
+/// The relief of whatever is opened.
+struct OwnRelief {
+    bool fits{true};
+    double relief_px{0.0};
+
+    bool operator==(const OwnRelief&) const = default;
 };
 
 class Viewer {
@@ -77,6 +96,7 @@ class Viewer {
 
   private:
     void show_one_picture();
+    void wear_look();
     void take_news();
     void notice_catching_up();
     void notice_standstill();
@@ -84,6 +104,7 @@ class Viewer {
     void take_keys(const WindowInput& input);
     void take_dialog_key(const KeyPress& press);
     [[nodiscard]] std::optional<Answer> perform_with_files(Action action);
+    [[nodiscard]] std::optional<Answer> perform_with_view(Action action);
     void perform(Action action);
     void take_dropped(const std::vector<std::filesystem::path>& files);
     void move_hand(const WindowInput& input, glm::ivec2 viewport);
@@ -94,7 +115,11 @@ class Viewer {
     void hand_over_settings();
     [[nodiscard]] CleaningOptions wanted_cleaning() const;
     void keep_settings();
-    void show_media(std::unique_ptr<Media> media, const OpenRequest& request);
+    void show_media(std::unique_ptr<Media> media, const OpenRequest& request,
+                    const FileMemory& memory);
+    void keep_memory();
+    void take_memory(const FileMemory& memory, const OpenRequest& request);
+    void forget_relief();
     void replay_session(std::unique_ptr<OpenedSession> session);
     void keep_recent(const RecentFile& opened);
     void show_title(const std::filesystem::path& file);
@@ -111,11 +136,16 @@ class Viewer {
     void take_material(const std::string& name);
     void keep_material(const std::string& name);
     void start_or_stop_recording();
+    void start_or_stop_clip(PictureOf of);
+    [[nodiscard]] bool wants_picture(PictureOf of) const;
+    void hand_out(PictureOf of, ColourImage picture);
     void beat();
     void beat_while_drawing();
     void finish();
     void close_without_display();
     void write_last_picture();
+    /// Says so where the last files are still being opened.
+    void open(const OpenRequest& request);
     void make_report(const std::filesystem::path& session);
     void take_report();
     void tell(const std::string& notice);
@@ -130,6 +160,7 @@ class Viewer {
     }
     [[nodiscard]] double now_s() const;
     [[nodiscard]] bool over();
+    [[nodiscard]] bool played_to_the_end() const;
     [[nodiscard]] glm::ivec2 relief_viewport() const;
 
     // In order of making; the loop goes first, so that no force is sent while the rest
@@ -145,14 +176,17 @@ class Viewer {
     PicturePace pace_;
     Camera camera_{};
     ReliefMouse mouse_{};
+    std::optional<Vec3> pointed_at_{};  // on what is drawn
     HandPointer pointer_{};
     ViewerState state_{};
     ViewerFalcon falcon_;
-    Opening opening_{};
+    Errand<Opened> opening_{};
     Screenshots screenshots_{};
+    ViewerClip clip_{};
     Reporting reporting_{};
     ViewerExplaining explaining_{};
     Browsing browsing_{};
+    ViewerPanes panes_{};
     SettingsKeeper keeper_;
     HapticSettings handed_{};
     CleaningOptions cleaning_handed_{};
@@ -161,16 +195,19 @@ class Viewer {
     float wheel_hint_alpha_{1.0F};
     bool pressed_deeper_{false};  // with the wheel, at least once
     TouchTrace trace_{};
-    std::string playback_failure_{};  // as told
-    std::uint64_t bounds_met_{0};     // as of the last picture
-    std::uint64_t standstills_{0};    // as told
+    std::filesystem::path remembered_{};        // the file that is shown; empty: none is to be
+    OwnRelief relief_shown_{};                  // that it was shown with
+    std::optional<OwnRelief> relief_before_{};  // when the file remembers its own
+    std::string playback_failure_{};            // as told
+    std::uint64_t bounds_met_{0};               // as of the last picture
+    std::uint64_t standstills_{0};              // as told
     double catching_up_until_s_{0.0};
     std::chrono::steady_clock::time_point start_{};
     std::optional<double> hang_after_s_{};  // for a test
     Player player_{};
     TripleBuffer<HapticSettings> haptic_settings_{};
     TripleBuffer<HapticState> haptic_state_{};
-    std::unique_ptr<ForceRing> forces_;
+    std::unique_ptr<StripRing> strips_;
     std::unique_ptr<TickRing> ticks_;
     SoundOutput sound_{};
     ViewerRecording recording_;

@@ -1,19 +1,14 @@
-// The window, through GLFW; Dear ImGui's context, fonts and theme.
+// The window, through GLFW.
 #include "app/window/window.hpp"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
-#include <backends/imgui_impl_glfw.h>
-#include <backends/imgui_impl_opengl3.h>
-#include <imgui.h>
-
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <new>
 #include <thread>
 #include <utility>
 
@@ -57,118 +52,39 @@ GLFWwindow* open_window(int width, int height, const std::string& title) {
     return glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
 }
 
-/// ImGui takes for granted that there is memory.
-void* allocate_or_throw(std::size_t bytes, void*) {
-    void* const memory = std::malloc(std::max<std::size_t>(bytes, 1));
-    if (memory == nullptr) throw std::bad_alloc();
-    return memory;
+/// A display may say anything.
+float usable_scale(double asked, float displays) {
+    const double scale = asked > 0.0 ? asked : static_cast<double>(displays);
+    if (!std::isfinite(scale) || scale <= 0.0) return 1.0F;
+    return static_cast<float>(std::clamp(scale, kSmallestUi, kLargestUi));
 }
 
-constexpr float kTextHeight_px = 13.5F;
-
-ImVec4 grey_blue(float lightness, float alpha = 1.0F) {
-    return {lightness * 0.94F, lightness * 0.98F, lightness * 1.04F, alpha};
+/// Text twice as large takes a window twice as large, where the display has room for it.
+glm::ivec2 grown(glm::ivec2 size, double asked) {
+    GLFWmonitor* const monitor = glfwGetPrimaryMonitor();
+    if (monitor == nullptr) return size;
+    float displays = 1.0F;
+    float vertical = 1.0F;
+    glfwGetMonitorContentScale(monitor, &displays, &vertical);
+    glm::ivec2 place{0};
+    glm::ivec2 room{0};
+    glfwGetMonitorWorkarea(monitor, &place.x, &place.y, &room.x, &room.y);
+    const glm::ivec2 wanted(glm::vec2(size) * usable_scale(asked, displays));
+    return glm::max(size, glm::min(wanted, room));
 }
-
-void set_spacing(ImGuiStyle& style, float scale) {
-    style.WindowPadding = {12.0F, 10.0F};
-    style.FramePadding = {8.0F, 3.0F};
-    style.ItemSpacing = {8.0F, 4.0F};
-    style.ItemInnerSpacing = {6.0F, 4.0F};
-    style.ScrollbarSize = 10.0F;
-    style.GrabMinSize = 8.0F;
-    style.WindowRounding = 0.0F;
-    style.ChildRounding = style.FrameRounding = style.GrabRounding = style.PopupRounding = 4.0F;
-    style.ScrollbarRounding = 5.0F;
-    style.WindowBorderSize = 0.0F;
-    style.FrameBorderSize = 0.0F;
-    style.ScaleAllSizes(scale);
-}
-
-void set_colours(ImGuiStyle& style) {
-    const ImVec4 accent{0.29F, 0.62F, 0.66F, 1.0F};
-    const ImVec4 accent_bright{0.39F, 0.74F, 0.78F, 1.0F};
-    ImVec4* colours = style.Colors;
-    colours[ImGuiCol_Text] = grey_blue(0.88F);
-    colours[ImGuiCol_TextDisabled] = grey_blue(0.60F);
-    colours[ImGuiCol_WindowBg] = grey_blue(0.095F);
-    colours[ImGuiCol_PopupBg] = grey_blue(0.13F, 0.98F);
-    colours[ImGuiCol_Border] = grey_blue(0.24F);
-    colours[ImGuiCol_FrameBg] = grey_blue(0.17F);
-    colours[ImGuiCol_FrameBgHovered] = grey_blue(0.22F);
-    colours[ImGuiCol_FrameBgActive] = grey_blue(0.25F);
-    colours[ImGuiCol_Header] = grey_blue(0.14F);
-    colours[ImGuiCol_HeaderHovered] = grey_blue(0.19F);
-    colours[ImGuiCol_HeaderActive] = grey_blue(0.22F);
-    colours[ImGuiCol_Button] = grey_blue(0.20F);
-    colours[ImGuiCol_ButtonHovered] = grey_blue(0.27F);
-    colours[ImGuiCol_ButtonActive] = grey_blue(0.32F);
-    // The value is written over it.
-    colours[ImGuiCol_SliderGrab] = {accent.x, accent.y, accent.z, 0.45F};
-    colours[ImGuiCol_SliderGrabActive] = accent;
-    colours[ImGuiCol_CheckMark] = accent_bright;
-    colours[ImGuiCol_Separator] = grey_blue(0.20F);
-    colours[ImGuiCol_ScrollbarBg] = grey_blue(0.095F);
-    colours[ImGuiCol_ScrollbarGrab] = grey_blue(0.24F);
-    colours[ImGuiCol_TitleBg] = colours[ImGuiCol_TitleBgActive] = grey_blue(0.14F);
-    colours[ImGuiCol_ModalWindowDimBg] = {0.0F, 0.0F, 0.0F, 0.45F};
-    colours[ImGuiCol_TextSelectedBg] = {accent.x, accent.y, accent.z, 0.4F};
-}
-
-/// The distribution's font when it is there; ImGui's own is a bitmap of 13 pixels.
-ImFont* load_font(const char* name, float height_px) {
-    const std::filesystem::path file =
-        std::filesystem::path("/usr/share/fonts/truetype/dejavu") / name;
-    if (!std::filesystem::exists(file)) return nullptr;
-    return ImGui::GetIO().Fonts->AddFontFromFileTTF(file.c_str(), height_px);
-}
-
-Fonts load_fonts(float scale) {
-    Fonts fonts{load_font("DejaVuSans.ttf", kTextHeight_px * scale),
-                load_font("DejaVuSans-Bold.ttf", kTextHeight_px * scale)};
-    if (fonts.text == nullptr) {
-        ImFontConfig sharp;
-        sharp.SizePixels = 13.0F * scale;
-        fonts.text = ImGui::GetIO().Fonts->AddFontDefault(&sharp);
-    }
-    if (fonts.heading == nullptr) fonts.heading = fonts.text;
-    return fonts;
-}
-
-#if IMGUI_VERSION_NUM < 18700
-/// Keys that count as down for as long as it lives.
-class LingeringKeys {
-  public:
-    explicit LingeringKeys(std::span<const KeyPress> pressed) {
-        bool* const down = ImGui::GetIO().KeysDown;
-        constexpr int kKeys = IM_ARRAYSIZE(ImGuiIO::KeysDown);
-        for (const KeyPress& press : pressed) {
-            if (press.key < 0 || press.key >= kKeys || down[press.key]) continue;
-            down[press.key] = true;
-            keys_.push_back(press.key);
-        }
-    }
-    ~LingeringKeys() {
-        for (const int key : keys_) ImGui::GetIO().KeysDown[key] = false;
-    }
-    LingeringKeys(const LingeringKeys&) = delete;
-    LingeringKeys& operator=(const LingeringKeys&) = delete;
-
-  private:
-    std::vector<int> keys_{};
-};
-#endif
 
 }  // namespace
 
-Window::Window(int width, int height, bool sync, const std::string& title) : size_{width, height} {
+Window::Window(const WindowSize& size, bool sync, const std::string& title)
+    : size_{size.width, size.height} {
     choose_display_server();
     if (glfwInit() != GLFW_TRUE) {
         throw DeviceError(
             "no display: set DISPLAY, or unset it and use ./app/run, which makes a virtual one");
     }
     when_display_goes(display_lost_);
-    window_ = open_window(width, height, title);
+    if (size.times) size_ = grown(size_, *size.times);
+    window_ = open_window(size_.x, size_.y, title);
     if (window_ == nullptr) {
         const char* reason = nullptr;
         glfwGetError(&reason);
@@ -266,11 +182,11 @@ glm::ivec2 Window::window_size() const {
     return size;
 }
 
-float Window::content_scale() const {
+float Window::scale(double asked) const {
     float x = 1.0F;
     float y = 1.0F;
     glfwGetWindowContentScale(window_, &x, &y);
-    return std::isfinite(x) && x > 0.5F ? x : 1.0F;
+    return usable_scale(asked, x);
 }
 
 void Window::set_title(const std::string& title) {
@@ -309,50 +225,6 @@ void PicturePace::wait() {
     pictures_per_s_ = pictures_ / age_s;
     pictures_ = 0;
     second_begin_ = Clock::now();
-}
-
-Gui::Gui(const Window& window) : scale_(window.content_scale()) {
-    IMGUI_CHECKVERSION();
-    ImGui::SetAllocatorFunctions(allocate_or_throw, [](void* memory, void*) { std::free(memory); });
-    ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr;
-    ImGui::StyleColorsDark();
-    set_spacing(ImGui::GetStyle(), scale_);
-    set_colours(ImGui::GetStyle());
-    fonts_ = load_fonts(scale_);
-    ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
-    ImGui_ImplOpenGL3_Init("#version 330");
-}
-
-Gui::~Gui() {
-    ImGui_ImplOpenGL3_Shutdown();
-    ImGui_ImplGlfw_Shutdown();
-    ImGui::DestroyContext();
-}
-
-void Gui::begin(std::span<const KeyPress> pressed) {
-    ImGui_ImplOpenGL3_NewFrame();
-    ImGui_ImplGlfw_NewFrame();
-#if IMGUI_VERSION_NUM < 18700
-    // It looks at what is down now: a key that came up again since the last picture would be lost.
-    const LingeringKeys lingering(pressed);
-#else
-    static_cast<void>(pressed);  // it has all of them in a queue
-#endif
-    ImGui::NewFrame();
-}
-
-void Gui::end() {
-    ImGui::Render();
-    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-}
-
-bool Gui::wants_pointer() const {
-    return ImGui::GetIO().WantCaptureMouse;
-}
-
-bool Gui::wants_keyboard() const {
-    return ImGui::GetIO().WantTextInput;
 }
 
 }  // namespace dibhr

@@ -1,18 +1,16 @@
-// The program's window with its OpenGL context, what people did in it, and Dear ImGui with the
-// program's calm dark look.
+// The program's window with its OpenGL context, and what people did in it.
 #pragma once
 
 #include <chrono>
 #include <filesystem>
 #include <functional>
 #include <glm/vec2.hpp>
-#include <span>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 struct GLFWwindow;
-struct ImFont;
 
 namespace dibhr {
 
@@ -57,11 +55,19 @@ struct Pointer {
     bool shift{false};
 };
 
+/// Of a window that is to be opened [screen units].
+struct WindowSize {
+    int width{0}, height{0};
+    /// As for Window::scale(): so many times as large, as far as the display has room; nothing:
+    /// exactly so large.
+    std::optional<double> times{};
+};
+
 /// One window with a current OpenGL 3.3 core context. Belongs to the thread that made it.
 class Window {
   public:
-    /// `width` x `height` pixels exactly. Throws DeviceError without a display or OpenGL 3.3.
-    Window(int width, int height, bool sync, const std::string& title);
+    /// Throws DeviceError without a display or OpenGL 3.3.
+    Window(const WindowSize& size, bool sync, const std::string& title);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
@@ -80,7 +86,8 @@ class Window {
     [[nodiscard]] bool holds(int key) const;
     [[nodiscard]] glm::ivec2 framebuffer_size() const;
     [[nodiscard]] glm::ivec2 window_size() const;  ///< when not on the full screen [screen units]
-    [[nodiscard]] float content_scale() const;     ///< 1 on an ordinary display
+    /// Of text and panels: `asked`, or, where that is 0, as the display says; 1 on an ordinary one.
+    [[nodiscard]] float scale(double asked) const;
     void set_title(const std::string& title);
     void toggle_full_screen();
     [[nodiscard]] bool full_screen() const;
@@ -123,34 +130,6 @@ class PicturePace {
     Clock::time_point second_begin_{};
     int pictures_{0};
     double pictures_per_s_{0.0};
-};
-
-/// Fonts at the display's scale; null: the built-in one.
-struct Fonts {
-    ImFont* text{nullptr};
-    ImFont* heading{nullptr};
-};
-
-/// Made after the window (it chains the window's callbacks), destroyed before it.
-class Gui {
-  public:
-    explicit Gui(const Window& window);
-    ~Gui();
-    Gui(const Gui&) = delete;
-    Gui& operator=(const Gui&) = delete;
-
-    /// A new picture; panels may be drawn until end(). `pressed` since the last one.
-    void begin(std::span<const KeyPress> pressed);
-    void end();  ///< draws them into the bound framebuffer
-
-    [[nodiscard]] bool wants_pointer() const;   ///< the cursor is over a panel, or dragging one
-    [[nodiscard]] bool wants_keyboard() const;  ///< a text field is being typed into
-    [[nodiscard]] const Fonts& fonts() const { return fonts_; }
-    [[nodiscard]] float scale() const { return scale_; }
-
-  private:
-    float scale_{1.0F};
-    Fonts fonts_{};
 };
 
 }  // namespace dibhr

@@ -52,9 +52,16 @@ void HapticTick::run(const TickTiming& timing, std::uint64_t late_ticks) noexcep
     state_.standstill = watch_.last();
     const DepthBlend pair = frames.at(frames.clock.playback_s(timing.begin));
     state_.touchable = pair.makes_surface();
+    const Touch before = state_.touch;
     TickRecord row = state_.touchable ? touch_surface(pair, settings, timing) : touch_nothing();
     row.settings = settings.version;
     if (settings.recording) record(row, timing);
+    // A goal that came from elsewhere went no way.
+    const double moved_s = row.from_zero || row.lets_go ? 0.0 : timing.dt_s;
+    TickStrip strip =
+        strip_of(before, state_.touch, moved_s, microseconds(timing.lateness), pitch_mm_);
+    if (!row.surface) strip.penetration_mm = 0.0F;  // what was touched last is gone
+    to_.strips.push(strip);
     let_hear(settings);
     count(timing, row.update_us);
     to_.state.publish(state_);
@@ -124,7 +131,6 @@ TickRecord HapticTick::touch_surface(const DepthBlend& pair, const HapticSetting
     to_.device.send(state_.touch.sent_force_newton);
     from_zero_ = false;
     state_.hand = hand;
-    to_.forces.push(glm::length(state_.touch.sent_force_newton));
     return {.update_us = update_us,
             .frames = frames_of(pair),
             .blend = pair.blend,

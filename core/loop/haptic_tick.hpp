@@ -15,6 +15,7 @@
 #include "core/haptics/touch.hpp"
 #include "core/loop/device.hpp"
 #include "core/loop/standstill.hpp"
+#include "core/loop/tick_strip.hpp"
 #include "core/realtime/spsc_ring.hpp"
 #include "core/realtime/tick_timer.hpp"
 #include "core/realtime/triple_buffer.hpp"
@@ -60,16 +61,13 @@ struct HapticState {
     [[nodiscard]] bool catching_up() const noexcept { return touchable && touch.proxy.bound_met; }
 };
 
-/// Of each tick the length of the force sent [N]: the strip chart.
-using ForceRing = SpscRing<double, 4096>;
-
 /// Where a loop gets its surface and leaves what it did. All must outlive it.
 struct HapticConnections {
     Device& device;
     TripleBuffer<FrameWindow>& frames;
     TripleBuffer<HapticSettings>& settings;
     TripleBuffer<HapticState>& state;
-    ForceRing& forces;
+    StripRing& strips;
     TickRing& ticks;  ///< for the recorder
     Heartbeats hearts{};
     /// Once true, no force is sent any more; null: never.

@@ -192,10 +192,10 @@ class Bench {
     TripleBuffer<FrameWindow> frames_{};
     TripleBuffer<HapticSettings> settings_{};
     TripleBuffer<HapticState> state_{};
-    std::unique_ptr<ForceRing> forces_{std::make_unique<ForceRing>()};
+    std::unique_ptr<StripRing> strips_{std::make_unique<StripRing>()};
     std::unique_ptr<TickRing> ticks_{std::make_unique<TickRing>()};
     HapticSettings handed_{};
-    HapticTick tick_{{arm_, frames_, settings_, state_, *forces_, *ticks_}};
+    HapticTick tick_{{arm_, frames_, settings_, state_, *strips_, *ticks_}};
     std::chrono::steady_clock::time_point start_{std::chrono::hours(1)};
 };
 

@@ -33,6 +33,7 @@ const std::vector<Room> kRooms{
     {"core/sound/", {"core/sound/", "core/haptics/", "core/realtime/"}},
     {"core/video/",
      {"core/video/", "core/files/", "core/haptics/", "core/realtime/", "core/error.hpp"}},
+    {"core/clip/", {"core/clip/", "core/files/", "core/video/", "core/error.hpp"}},
     {"core/surface_files/",
      {"core/surface_files/", "core/files/", "core/haptics/", "core/video/", "core/error.hpp"}},
     {"core/session/",

@@ -65,9 +65,9 @@ void record_session(const std::filesystem::path& file, const RecordedSession& wa
     TripleBuffer<FrameWindow> frames;
     TripleBuffer<HapticSettings> settings;
     TripleBuffer<HapticState> state;
-    const auto forces = std::make_unique<ForceRing>();
+    const auto strips = std::make_unique<StripRing>();
     const auto ticks = std::make_unique<TickRing>();
-    HapticTick tick({hand, frames, settings, state, *forces, *ticks});
+    HapticTick tick({hand, frames, settings, state, *strips, *ticks});
 
     SessionFacts facts = library_versions();
     facts["device"] = "a scripted hand";

@@ -91,3 +91,17 @@ TEST_CASE("Tab completes as far as there is one way to go on", "[folder]") {
     CHECK(completed(whole + "/readm", "/") == whole + "/readme.txt");
     CHECK(completed("gone/x", folder.path()) == "gone/x");
 }
+
+TEST_CASE("what is typed means a file that is there, from the folder on; else the chosen row",
+          "[folder]") {
+    const TemporaryFolder folder;
+    for (const char* name : {"one_color.mp4", "one_depth.mp4", "below/two.mp4"}) put(folder / name);
+    const Folder read = read_folder(folder.path());
+    const FolderEntry chosen{FileKind::video, folder / "one_color.mp4"};
+    CHECK(entry_meant(read, "one_depth.mp4", {}).name() == "one_color.mp4 + one_depth.mp4");
+    CHECK(entry_meant(read, "below/two.mp4", chosen).file == folder / "below/two.mp4");
+    CHECK(entry_meant(read, "below", {}).kind == FileKind::folder);
+    CHECK(entry_meant(read, (folder / "below").string(), {}).file == folder / "below");
+    CHECK(entry_meant(read, "one", chosen).file == chosen.file);
+    CHECK(entry_meant(read, "gone.mp4", {}).file == "gone.mp4");
+}

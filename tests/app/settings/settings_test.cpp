@@ -37,6 +37,7 @@ Settings unusual_settings() {
     settings.cleaning.own.fill_holes = false;
     settings.look.light = 0.125;
     settings.straight_view = true;
+    settings.screenshot_name.text = "shots/\"{file}\" 100%% {frame}";
     settings.max_force_newton = 2.5;
     settings.sound_volume = 0.25;
     settings.mute = true;
@@ -81,7 +82,8 @@ TEST_CASE("each setting that does not fit keeps its default and is told with fil
     const std::string wrong = GENERATE(
         "[touch]\nstiffness = -1.0", "[touch]\nstiffness = 'hard'", "[touch]\nsoftness = 1.0",
         "[touch]\nstiffness = nan", "[touch]\ndamping-cutoff = 801", "[window]\nwidth = 3",
-        "[panels]\nvideo = 1", "[cleaning]\nfill-holes = 0.5", "#\nflavour = 1", "#\ntouch = 3");
+        "[panels]\nvideo = 1", "[cleaning]\nfill-holes = 0.5", "#\nflavour = 1", "#\ntouch = 3",
+        "[window]\nscreenshot-name = \"%Q\"");
     CAPTURE(wrong);
     write_text(file, wrong + "\n[device]\nmax-force = 3.5\n");
     std::vector<std::string> warnings;
@@ -240,7 +242,8 @@ TEST_CASE("a key that changes how it plays, touches or looks says so", "[keys]")
         const bool of_program = binding.group == "Program";  // it opens something that is seen
         const bool told_elsewhere =
             binding.action == Action::record || binding.action == Action::mark ||
-            binding.action == Action::toggle_full_screen || binding.action == Action::explain;
+            binding.action == Action::toggle_full_screen || binding.action == Action::explain ||
+            binding.action == Action::copy_view || binding.action == Action::paste_view;
         if (of_program || told_elsewhere || binding.action == Action::show_as_recorded) continue;
         CAPTURE(std::string(binding.shown));
         const Answer answer = perform(binding.action, state, player);

@@ -50,6 +50,7 @@ class ExplainedScene {
     }
     ViewerState& state() { return state_; }
     [[nodiscard]] glm::dmat4 view() const { return camera_.clip_from_grid(1.5); }
+    void leave_camera() { explaining_.leave_camera(); }
     void finish() { explaining_.advance(blend(), state_, camera_, 0.0); }
 
   private:
@@ -140,6 +141,17 @@ TEST_CASE("at its end the view is as before, and Esc ends it after what lies on 
     CHECK_FALSE(scene.state().explained);
     CHECK(scene.view() == before);
     CHECK_FALSE(scene.press(Action::step_forward));
+}
+
+TEST_CASE("at its end the view stays where a person took it meanwhile", "[explain]") {
+    ExplainedScene scene;
+    scene.press(Action::explain);
+    scene.show();
+    const glm::dmat4 there = scene.view();
+    scene.leave_camera();
+    scene.press(Action::explain);
+    scene.finish();
+    CHECK(scene.view() == there);
 }
 
 TEST_CASE("without a surface nothing is explained, and it says so", "[explain]") {

@@ -1,10 +1,13 @@
 // Keys that move a video, typed into the real window; what is recorded tells where it went.
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <glm/geometric.hpp>
 #include <string>
 #include <vector>
 
+#include "app/settings/file_memory.hpp"
 #include "core/haptics/safety.hpp"
 #include "core/session/session.hpp"
 #include "core/video/media.hpp"
@@ -239,4 +242,65 @@ TEST_CASE(
     opened.erase(std::unique(opened.begin(), opened.end()), opened.end());
     CHECK(opened ==
           std::vector<std::string>{"long_depth.mkv", "other_depth.mkv", "still_depth.mkv"});
+}
+
+TEST_CASE("a copied view is taken again: the hand then touches where it did", "[playing]") {
+    const auto touched = [](const std::string& keys) {
+        const auto rows = played({"--start", "20", "--pause"},
+                                 "mousemove 200 260 sleep 0.3 key ctrl+c sleep 0.3 " + keys +
+                                     "mousedown 1 sleep 0.8 mouseup 1 ");
+        const auto first = std::find_if(rows.begin(), rows.end(),
+                                        [](const Row& row) { return row.surface && row.contact; });
+        REQUIRE(first < rows.end());
+        return first->proxy;
+    };
+    const std::string away = "click 4 click 4 click 4 click 4 sleep 0.3 ";
+    const Vec3 before = touched("");
+    const Vec3 elsewhere = touched(away);
+    const Vec3 again = touched(away + "key ctrl+v sleep 0.4 ");
+    CHECK(glm::length(elsewhere - before) > 2.0);
+    CHECK(glm::length(again - before) < 0.5);
+}
+
+TEST_CASE(
+    "a file is found again as it was left: relief and view, and, where it is wished, the moment",
+    "[playing]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    make_long_films(folder);
+    run_shell(
+        "ffmpeg -nostdin -v error -y -f lavfi -i \"color=gray:s=64x48:r=10:d=100,"
+        "format=gray,geq=lum='40+3*X'\" -c:v ffv1 '" +
+        (folder / "long_depth.mkv").string() + "'");  // a slope
+    const auto rows_of = [&](const std::vector<std::string>& options, const std::string& commands) {
+        static int taken = 0;
+        const std::string session = "hand" + std::to_string(++taken) + ".dibhr";
+        std::vector<std::string> arguments{"long_color.mkv", "--device",  "mouse",
+                                           "--record",       session,     "--size",
+                                           "640x480",        "--seconds", "30"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        Process viewer = desk.start_viewer(folder, arguments);
+        desk.act("search --sync --onlyvisible --name dibhr sleep 0.6 " + commands + "key q");
+        REQUIRE(viewer.wait() == 0);
+        return read_session(folder / session);
+    };
+    const auto touched = [](const std::vector<Row>& rows) {
+        const auto first = std::find_if(rows.begin(), rows.end(),
+                                        [](const Row& row) { return row.surface && row.contact; });
+        REQUIRE(first < rows.end());
+        return first->proxy;
+    };
+    const std::string press = "mousemove 200 260 sleep 0.3 mousedown 1 sleep 0.8 mouseup 1 ";
+    keep_memory(folder / "state/dibhr/files", folder / "long_color.mkv", {.relief_px = 30.0});
+    const Vec3 zoomed = touched(
+        rows_of({"--start", "50", "--pause", "--resume", "on"},
+                "mousemove 200 260 sleep 0.2 click 4 click 4 click 4 click 4 sleep 0.3 " + press));
+    const std::vector<Row> again = rows_of({"--pause", "--resume", "on"}, press);
+    CHECK(glm::length(touched(again) - zoomed) < 0.5);
+    CHECK_THAT(again.back().video_s, WithinAbs(50.0, 1.5 * kFrame_s));
+    const Vec3 other = touched(rows_of({"--pause", "--relief", "80"}, press));
+    CHECK(std::abs(other.z - zoomed.z) > 10.0);
+    const std::vector<Row> anew = rows_of({"--pause"}, press);  // 80 was for once
+    CHECK(glm::length(touched(anew) - zoomed) < 0.5);
+    CHECK_THAT(anew.back().video_s, WithinAbs(0.0, 1.5 * kFrame_s));
 }

@@ -1,10 +1,14 @@
 // Where the mouse points on the relief, and which of two dropped files is which.
+#include <chrono>
 #include <cmath>
+#include <future>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "app/viewer/errand.hpp"
 #include "app/viewer/files.hpp"
 #include "app/viewer/input.hpp"
 #include "app/viewer/trace.hpp"
@@ -137,14 +141,32 @@ TEST_CASE("of two dropped pictures the depth is known by its name, else by being
 TEST_CASE("opening in the background gives the words of the error, and can be tried again",
           "[opening]") {
     const TemporaryFolder folder;
-    Opening opening;
+    Errand<Opened> opening;
+    const OpenRequest request{folder / "nowhere.mp4", {}, false};
     for (int attempt = 0; attempt < 2; ++attempt) {
-        REQUIRE(opening.start({folder / "nowhere.mp4", {}, false}));
+        REQUIRE(opening.start([request] { return try_open(request); }));
         std::optional<Opened> opened;
         while (!opened) opened = opening.take();
         CHECK(opened->media == nullptr);
         CHECK(opened->failure.find("nowhere.mp4") != std::string::npos);
     }
+}
+
+TEST_CASE("work that never ends is left behind: nobody waits for it longer than a second",
+          "[opening]") {
+    const auto begin = std::chrono::steady_clock::now();
+    const auto let_go = std::make_shared<std::promise<void>>();
+    {
+        Errand<int> errand;
+        REQUIRE(errand.start([let_go] {
+            let_go->get_future().wait();
+            return 1;
+        }));
+        CHECK_FALSE(errand.start([] { return 2; }));
+        CHECK_FALSE(errand.take());
+    }
+    CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(1));
+    let_go->set_value();
 }
 
 TEST_CASE("a device that cannot be used says what to do", "[device]") {
@@ -172,4 +194,21 @@ TEST_CASE("a drag turns the view by its own way, not by how the pointer came to 
     };
     CHECK(eye_after({20.0, 400.0}) == eye_after({300.0, 200.0}));
     CHECK_FALSE(eye_after({300.0, 200.0}) == Camera().view_from_world());
+}
+
+TEST_CASE("a view goes over the clipboard as text, to the same bits, and nothing else is a view",
+          "[pointer]") {
+    const Camera::View view{.yaw_rad = 0.1,
+                            .pitch_rad = -1.0 / 3.0,
+                            .zoom = 2.7,
+                            .centre_in_world = {1e-7, -12.5, 100.0}};
+    const auto back = view_in(text_of(view));
+    REQUIRE(back);
+    CHECK(*back == view);
+    for (const char* text :
+         {"", "hello", "dibhr-view", "dibhr-view 1 2 3", "dibhr-view 0 0 0 1 1 1",
+          "dibhr-view nan 0 1 0 0 0", "view 0 0 1 0 0 0"}) {
+        CAPTURE(text);
+        CHECK_FALSE(view_in(text));
+    }
 }

@@ -5,12 +5,15 @@
 #include <cstddef>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "app/viewer/explaining.hpp"
 #include "app/viewer/recording.hpp"
+#include "app/viewer/replay.hpp"
 #include "core/error.hpp"
 #include "core/replay/session_player.hpp"
 #include "core/replay/session_replay.hpp"
@@ -95,6 +98,58 @@ TEST_CASE("a replay passes every tick once and in order, over exactly the frames
     CHECK_THAT(player.playback().now_s, WithinAbs(ticks.back().t_s, 1e-9));
     player.play();  // from the beginning again
     CHECK(arrival(player).tick.tick == ticks.front().tick);
+}
+
+TEST_CASE(
+    "Explain in a replay shows the next tick's update, and ends when the replay goes elsewhere",
+    "[player]") {
+    const Recorded recorded;
+    const std::vector<TickRecord> ticks = recorded.ticks();
+    const auto touching = std::find_if(ticks.begin(), ticks.end(), [](const TickRecord& tick) {
+        return tick.contact && tick.moves > 2;
+    });
+    REQUIRE(ticks.end() - touching > 10);
+    const TickRecord& next = *touching;
+    const TickRecord& before = *std::prev(touching);
+    ViewerState state;
+    Player player;
+    Camera camera;
+    ViewerReplay replay;
+    ViewerExplaining explaining;
+    replay.begin(recorded.open(), {}, state);
+    const auto show_until = [&](auto done) {
+        play_until(*replay.player(), [&](const auto&) {
+            replay.advance(state);
+            explaining.advance(replay.shown(), state, camera, 0.0);
+            return done();
+        });
+    };
+    replay.player()->pause();
+    replay.player()->seek(before.t_s);
+    show_until([&] { return state.replay->tick.tick == before.tick && state.haptic.touchable; });
+    const glm::dmat4 view = camera.clip_from_grid(1.5);
+
+    REQUIRE(explaining.perform(Action::explain, state, player, replay.player()));
+    show_until([&] { return !state.explained || !state.explained->waits; });
+    REQUIRE(state.explained);
+    CHECK(state.replay->tick.tick == next.tick);
+    CHECK(state.explained->update.result.position == next.proxy);
+    CHECK(state.explained->update.result.moves == next.moves);
+    CHECK(camera.clip_from_grid(1.5) != view);
+
+    SECTION("by a seek") {
+        replay.player()->seek(ticks.back().t_s);
+        show_until([&] { return state.replay->tick.tick == ticks.back().tick; });
+        const auto answer = explaining.perform(Action::explain, state, player, replay.player());
+        REQUIRE(answer);
+        CHECK(answer->words == "No update comes after this");
+    }
+    SECTION("by playing on") {
+        replay.player()->play();
+        show_until([&] { return state.replay->tick.tick != next.tick; });
+    }
+    CHECK_FALSE(state.explained);
+    CHECK(camera.clip_from_grid(1.5) == view);
 }
 
 TEST_CASE("a replay keeps the session's time", "[player]") {

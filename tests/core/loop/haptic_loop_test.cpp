@@ -165,7 +165,7 @@ TEST_CASE("a hand that presses with 3.8 N is not moved by a millimetre when para
     const bool dragged = GENERATE(false, true);
     Bench bench;
     HeldDevice held(6.0);
-    HapticTick tick({held, bench.frames, bench.settings, bench.state, *bench.forces, *bench.ticks});
+    HapticTick tick({held, bench.frames, bench.settings, bench.state, *bench.strips, *bench.ticks});
     bench.handed.limits.max_force_newton = 8.0;
     bench.hand_over();
     bench.frames.publish(flat_window(64, 48, 0));

@@ -63,11 +63,11 @@ struct Bench {
     TripleBuffer<FrameWindow> frames{};
     TripleBuffer<HapticSettings> settings{};
     TripleBuffer<HapticState> state{};
-    std::unique_ptr<ForceRing> forces{std::make_unique<ForceRing>()};
+    std::unique_ptr<StripRing> strips{std::make_unique<StripRing>()};
     std::unique_ptr<TickRing> ticks{std::make_unique<TickRing>()};
     HapticSettings handed{.recording = true};
 
-    HapticConnections connections() { return {hand, frames, settings, state, *forces, *ticks}; }
+    HapticConnections connections() { return {hand, frames, settings, state, *strips, *ticks}; }
     void hand_over() {
         ++handed.version;
         settings.publish(handed);

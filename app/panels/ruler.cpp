@@ -1,0 +1,71 @@
+// The ruler: two points on the relief and how far they are apart.
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+
+#include "app/panels/panels.hpp"
+#include "app/panels/widgets.hpp"
+#include "core/files/plain_text.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr ImU32 kRulerLine = IM_COL32(255, 236, 120, 255);
+constexpr ImU32 kRulerEdge = IM_COL32(0, 0, 0, 190);
+
+Vec3 end_place(const PixelShown& pixel) {
+    return {pixel.column, pixel.row, pixel.elevation_px};
+}
+
+/// How far apart in the file's own words; empty where nothing is known of that.
+std::string depth_between(const ViewerState& state, const PixelShown& a, const PixelShown& b) {
+    if (a.unseen || b.unseen) return "no data";
+    if (!state.media.meaning) return {};
+    const DepthMeaning& meaning = *state.media.meaning;
+    const double apart = std::abs(value_at(meaning, a.nearness) - value_at(meaning, b.nearness));
+    if (meaning.unit.value == DepthUnit::levels)
+        return formatted("%.1f levels of depth", apart / meaning.scale.value);
+    return short_text(apart, 4) + " " + std::string(name_of(meaning.unit.value)) + " of depth";
+}
+
+}  // namespace
+
+std::string ruler_text(const ViewerState& state) {
+    const std::vector<PixelShown>& ends = state.ruler->ends;
+    if (ends.empty()) return "Ruler   click two points (N ends it)";
+    if (ends.size() == 1) return "Ruler   click the other point";
+    const double apart_px = glm::distance(end_place(ends[0]), end_place(ends[1]));
+    const double pitch_mm = state.settings.touch.coupling.pixel_pitch_mm;
+    const std::string depth = depth_between(state, ends[0], ends[1]);
+    return formatted("Ruler   %.1f px, %.2f mm", apart_px, apart_px * pitch_mm) +
+           (depth.empty() ? "" : "   " + depth);
+}
+
+void draw_ruler(const ViewerState& state, const glm::dmat4& clip_from_grid) {
+    if (!state.ruler || state.explained) return;
+    const float top = panes_height(state);
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const ImVec2 size{display.x - panel_column_width(state), display.y - top};
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    std::vector<ImVec2> seen;
+    for (const PixelShown& end : state.ruler->ends) {
+        const glm::dvec4 clip = clip_from_grid * glm::dvec4(end_place(end), 1.0);
+        if (clip.w <= 0.0) return;
+        seen.push_back({static_cast<float>(0.5 + 0.5 * clip.x / clip.w) * size.x,
+                        top + static_cast<float>(0.5 - 0.5 * clip.y / clip.w) * size.y});
+    }
+    list.PushClipRect({0.0F, top}, {size.x, display.y});
+    const float thick = 1.5F * state.scale;
+    if (seen.size() == 2) {
+        list.AddLine(seen[0], seen[1], kRulerEdge, thick + 2.0F * state.scale);
+        list.AddLine(seen[0], seen[1], kRulerLine, thick);
+    }
+    for (const ImVec2 at : seen) {
+        list.AddCircleFilled(at, 5.0F * state.scale, kRulerEdge, 20);
+        list.AddCircleFilled(at, 4.0F * state.scale, kRulerLine, 20);
+    }
+    list.PopClipRect();
+}
+
+}  // namespace dibhr

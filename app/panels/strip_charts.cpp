@@ -1,0 +1,233 @@
+// Strip charts of the last seconds of touch, one under the other over one axis of time: they can
+// stand still, and are read off under the pointer.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "app/panels/panels.hpp"
+#include "app/panels/widgets.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr double kTicksPerSecond = 1000.0;
+constexpr float kHeight_lines = 5.0F;
+
+struct StripKind {
+    Strip strip;
+    const char* name;
+    const char* unit;
+    float least;  ///< the chart shows at least so much
+    const char* help;
+    bool ChartsShown::*shown;
+};
+
+constexpr std::array<StripKind, kStrips> kKinds{
+    {{Strip::force, "Force", "N", 0.5F, "Length of the force sent", &ChartsShown::force},
+     {Strip::penetration, "Penetration", "mm", 1.0F,
+      "How far the hand's point is from the proxy, in contact", &ChartsShown::penetration},
+     {Strip::speed, "Speed", "mm/s", 20.0F, "Of the hand's point, under the hand",
+      &ChartsShown::speed},
+     {Strip::energy, "Energy", "mJ", 1.0F,
+      "Given to the hand by the force, in sum; falling: the hand gives it", &ChartsShown::energy},
+     {Strip::lateness, "Lateness", "us", 100.0F, "Of each tick, after its deadline",
+      &ChartsShown::lateness}}};
+
+/// What a chart spans from bottom to top.
+struct Range {
+    float low{0.0F}, high{1.0F};
+};
+
+/// 1, 2 or 5 times a power of ten, not below `value`.
+float round_above(float value) {
+    const float power = std::pow(10.0F, std::floor(std::log10(value)));
+    for (const float times : {1.0F, 2.0F, 5.0F}) {
+        if (value <= times * power * 1.0001F) return times * power;
+    }
+    return 10.0F * power;
+}
+
+/// Round numbers that all values are between, 0 among them but for the energy, which is a sum.
+Range range_of(const StripHistory& strips, const StripKind& kind) {
+    const auto& values = strips.values[static_cast<std::size_t>(kind.strip)];
+    const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
+    if (kind.strip != Strip::energy) return {0.0F, round_above(std::max(*highest, kind.least))};
+    const float step = 0.5F * round_above(std::max(*highest - *lowest, kind.least));
+    const float low = step * std::floor(*lowest / step);
+    return {low, std::max(low + 2.0F * step, step * std::ceil(*highest / step))};
+}
+
+/// The part of a window that a chart is in.
+struct ChartFrame {
+    ImVec2 low{}, high{};  // upper left, lower right
+    Range range{};
+
+    [[nodiscard]] float width() const { return std::max(1.0F, high.x - low.x); }
+    [[nodiscard]] float y_of(float value) const {
+        const float part = (value - range.low) / (range.high - range.low);
+        return high.y - std::clamp(part, 0.0F, 1.0F) * (high.y - low.y);
+    }
+    [[nodiscard]] float x_of(double age_ticks) const {
+        return high.x - static_cast<float>(age_ticks / StripHistory::kTicks) * width();
+    }
+    [[nodiscard]] std::size_t age_at(float x) const {
+        const float part = std::clamp((high.x - x) / width(), 0.0F, 1.0F);
+        return std::min(static_cast<std::size_t>(part * StripHistory::kTicks),
+                        StripHistory::kTicks - 1);
+    }
+};
+
+/// One upright stroke a pixel column, from the lowest to the highest value in it: no peak is lost.
+void draw_values(ImDrawList& list, const StripHistory& strips, Strip strip,
+                 const ChartFrame& frame) {
+    const auto columns = static_cast<std::size_t>(frame.width());
+    const ImU32 colour = ImGui::GetColorU32(ImGuiCol_CheckMark);
+    for (std::size_t column = 0; column < columns; ++column) {
+        const std::size_t begin = column * StripHistory::kTicks / columns;
+        const std::size_t end = std::max(begin + 1, (column + 1) * StripHistory::kTicks / columns);
+        float low = strips.before(strip, StripHistory::kTicks - 1 - begin);
+        float high = low;
+        for (std::size_t k = begin + 1; k < end; ++k) {
+            const float value = strips.before(strip, StripHistory::kTicks - 1 - k);
+            low = std::min(low, value);
+            high = std::max(high, value);
+        }
+        const float x = frame.low.x + static_cast<float>(column);
+        list.AddRectFilled({x, frame.y_of(high) - 1.0F}, {x + 1.0F, frame.y_of(low) + 0.5F},
+                           colour);
+    }
+}
+
+std::string axis_number(float value) {
+    return formatted("%g", static_cast<double>(value));
+}
+
+/// Three numbers at the left of the frame.
+void draw_values_axis(ImDrawList& list, const ChartFrame& frame, float scale) {
+    const float text = ImGui::GetTextLineHeight();
+    const ImU32 quiet = ImGui::GetColorU32(ImGuiCol_TextDisabled);
+    const float middle = 0.5F * (frame.range.low + frame.range.high);
+    list.AddLine({frame.low.x, frame.y_of(middle)}, {frame.high.x, frame.y_of(middle)},
+                 ImGui::GetColorU32(ImGuiCol_Separator));
+    for (const float value : {frame.range.low, middle, frame.range.high}) {
+        const std::string words = axis_number(value);
+        const float width = ImGui::CalcTextSize(words.c_str()).x;
+        const float y = std::clamp(frame.y_of(value) - 0.5F * text, frame.low.y - 0.5F * text,
+                                   frame.high.y - text);
+        list.AddText({frame.low.x - width - 4.0F * scale, y}, quiet, words.c_str());
+    }
+}
+
+/// A line each second; in words where `words_y` is given.
+void draw_time_axis(ImDrawList& list, const ChartFrame& frame, std::optional<float> words_y) {
+    constexpr int kSeconds = static_cast<int>(StripHistory::kTicks / kTicksPerSecond);
+    for (int second = 0; second < kSeconds; ++second) {
+        const float x = frame.x_of(second * kTicksPerSecond);
+        list.AddLine({x, frame.low.y}, {x, frame.high.y}, ImGui::GetColorU32(ImGuiCol_Separator));
+        if (!words_y) continue;
+        const std::string words = second == 0 ? "now" : formatted("-%d s", second);
+        const float width = ImGui::CalcTextSize(words.c_str()).x;
+        list.AddText({second == 0 ? x - width : x - 0.5F * width, *words_y},
+                     ImGui::GetColorU32(ImGuiCol_TextDisabled), words.c_str());
+    }
+}
+
+/// What the chart is of, or, under the pointer, its value there.
+std::string words_of(const StripKind& kind, const StripHistory& strips,
+                     std::optional<std::size_t> age) {
+    if (!age) return formatted("%s [%s]", kind.name, kind.unit);
+    return formatted("%s %.3g %s, %.3f s ago", kind.name,
+                     static_cast<double>(strips.before(kind.strip, *age)), kind.unit,
+                     static_cast<double>(*age) / kTicksPerSecond);
+}
+
+/// The part of a chart that is left of the values' frame.
+float gutter() {
+    return 3.2F * ImGui::GetFontSize();
+}
+
+/// Words above, the values' frame, and under the last chart the time.
+void draw_chart(const StripKind& kind, const StripHistory& strips, float scale, bool last,
+                std::optional<std::size_t> age) {
+    const ImVec2 low = ImGui::GetCursorScreenPos();
+    const float line = ImGui::GetTextLineHeight();
+    const ImVec2 high{low.x + ImGui::GetContentRegionAvail().x, low.y + kHeight_lines * line};
+    const ChartFrame frame{{low.x + gutter(), low.y + 1.3F * line},
+                           {high.x - 4.0F * scale, high.y - (last ? 1.2F * line : 0.2F * line)},
+                           range_of(strips, kind)};
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_FrameBg), 3.0F * scale);
+    draw_values_axis(list, frame, scale);
+    draw_time_axis(list, frame, last ? std::optional(high.y - 1.05F * line) : std::nullopt);
+    draw_values(list, strips, kind.strip, frame);
+    if (age) {
+        const float x = frame.x_of(static_cast<double>(*age));
+        list.AddLine({x, frame.low.y}, {x, frame.high.y}, ImGui::GetColorU32(ImGuiCol_Text));
+    }
+    list.AddText({frame.low.x, low.y + 1.0F * scale},
+                 ImGui::GetColorU32(age ? ImGuiCol_Text : ImGuiCol_TextDisabled),
+                 words_of(kind, strips, age).c_str());
+    ImGui::Dummy({high.x - low.x, high.y - low.y});
+}
+
+/// In the upper right corner of the first chart.
+void draw_buttons(ViewerState& state, ImVec2 corner) {
+    const float gap = 2.0F * state.scale;
+    const char* const choose = "Charts";
+    const char* const hold = state.held_strips ? "Go on" : "Pause";
+    const auto width = [](const char* words) {
+        return ImGui::CalcTextSize(words).x + 2.0F * ImGui::GetStyle().FramePadding.x;
+    };
+    const ImVec2 below = ImGui::GetCursorScreenPos();
+    ImGui::SetCursorScreenPos(
+        {corner.x - width(choose) - width(hold) - 2.0F * gap, corner.y + gap});
+    if (ImGui::SmallButton(hold)) {
+        if (state.held_strips) {
+            state.held_strips.reset();
+        } else {
+            state.held_strips = state.strips;
+        }
+    }
+    explain("The charts stand still; the hand touches on");
+    ImGui::SameLine(0.0F, gap);
+    if (ImGui::SmallButton(choose)) ImGui::OpenPopup("charts");
+    explain("Which charts are drawn");
+    if (ImGui::BeginPopup("charts")) {
+        for (const StripKind& kind : kKinds) {
+            ImGui::Checkbox(kind.name, &(state.settings.charts.*kind.shown));
+            explain(kind.help);
+        }
+        ImGui::EndPopup();
+    }
+    ImGui::SetCursorScreenPos(below);
+}
+
+}  // namespace
+
+void draw_strip_charts(ViewerState& state) {
+    ImGui::PushID("charts");
+    const StripHistory& strips = state.held_strips ? *state.held_strips : state.strips;
+    ChartsShown& shown = state.settings.charts;
+    const auto is_shown = [&shown](const StripKind& kind) { return shown.*kind.shown; };
+    if (std::none_of(kKinds.begin(), kKinds.end(), is_shown)) shown.force = true;
+    const ImVec2 low = ImGui::GetCursorScreenPos();
+    const ImVec2 high{low.x + ImGui::GetContentRegionAvail().x, state.strips_end_y};
+    std::optional<std::size_t> age;
+    if (ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(low, high))
+        age =
+            ChartFrame{{low.x + gutter(), low.y}, {high.x - 4.0F * state.scale, high.y}, {}}.age_at(
+                ImGui::GetMousePos().x);
+    const auto last = std::find_if(kKinds.rbegin(), kKinds.rend(), is_shown);
+    for (const StripKind& kind : kKinds) {
+        if (is_shown(kind)) draw_chart(kind, strips, state.scale, &kind == &*last, age);
+    }
+    state.strips_end_y = ImGui::GetCursorScreenPos().y;
+    draw_buttons(state, {high.x, low.y});
+    ImGui::PopID();
+}
+
+}  // namespace dibhr

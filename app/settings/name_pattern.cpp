@@ -1,0 +1,103 @@
+// Placeholders of a pattern and what they stand for.
+#include "app/settings/name_pattern.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string_view>
+
+namespace dibhr {
+
+namespace {
+
+std::string padded(long long number, int digits) {
+    std::array<char, 24> text{};
+    std::snprintf(text.data(), text.size(), "%0*lld", digits, number);
+    return text.data();
+}
+
+std::string date_part(char letter, const std::tm& now) {
+    switch (letter) {
+        case 'Y':
+            return padded(now.tm_year + 1900, 4);
+        case 'm':
+            return padded(now.tm_mon + 1, 2);
+        case 'd':
+            return padded(now.tm_mday, 2);
+        case 'H':
+            return padded(now.tm_hour, 2);
+        case 'M':
+            return padded(now.tm_min, 2);
+        case 'S':
+            return padded(now.tm_sec, 2);
+        case '%':
+            return "%";
+        default:
+            return {};
+    }
+}
+
+/// "00m04.631s": in the order of time also when sorted by name.
+std::string time_part(double media_s) {
+    constexpr double kLongest_s = 1e9;
+    const long long ms = std::llround(1000.0 * std::clamp(media_s, 0.0, kLongest_s));
+    return padded(ms / 60000, 2) + "m" + padded(ms / 1000 % 60, 2) + "." + padded(ms % 1000, 3) +
+           "s";
+}
+
+/// A folder's separator in it would name a folder.
+std::string without_separators(std::string text) {
+    std::replace(text.begin(), text.end(), '/', '-');
+    return text;
+}
+
+constexpr std::string_view kFile = "{file}";
+constexpr std::string_view kTime = "{time}";
+constexpr std::string_view kFrame = "{frame}";
+
+/// The pattern's part at that place, a placeholder or a letter, and what it stands for; empty: it
+/// is no placeholder, though it looks like one.
+struct Part {
+    std::size_t length{1};
+    std::string text{};
+};
+
+Part part_at(std::string_view rest, const NameFacts& facts) {
+    if (rest[0] == '%') return {2, rest.size() > 1 ? date_part(rest[1], facts.now) : ""};
+    if (rest[0] != '{') return {1, std::string(1, rest[0])};
+    if (rest.starts_with(kFile)) return {kFile.size(), without_separators(facts.file)};
+    if (rest.starts_with(kTime)) return {kTime.size(), time_part(facts.media_s)};
+    if (rest.starts_with(kFrame)) return {kFrame.size(), padded(facts.frame, 6)};
+    return {};
+}
+
+}  // namespace
+
+std::string lacking_of(const NamePattern& pattern) {
+    const std::string& text = pattern.text;
+    const bool one_line = std::none_of(text.begin(), text.end(),
+                                       [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+    if (text.empty() || text.back() == '/' || !one_line) return "names no file";
+    const NameFacts any{.file = "file"};
+    std::string_view rest = text;
+    while (!rest.empty()) {
+        const Part part = part_at(rest, any);
+        if (part.text.empty())
+            return "has other placeholders than %Y %m %d %H %M %S %% {file} {time} {frame}";
+        rest.remove_prefix(part.length);
+    }
+    return {};
+}
+
+std::string name_from(const NamePattern& pattern, const NameFacts& facts) {
+    std::string name;
+    for (std::string_view rest = pattern.text; !rest.empty();) {
+        const Part part = part_at(rest, facts);
+        name += part.text;
+        rest.remove_prefix(std::min(part.length, rest.size()));
+    }
+    return name;
+}
+
+}  // namespace dibhr

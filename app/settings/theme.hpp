@@ -1,0 +1,26 @@
+// What colours the window has.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "core/haptics/words.hpp"
+
+namespace dibhr {
+
+enum class Theme : std::uint8_t { dark, light };
+
+inline constexpr std::array<Word<Theme>, 2> kThemeWords{
+    {{Theme::dark, "dark", "Dark"}, {Theme::light, "light", "Light"}}};
+static_assert(has_all_in_order(kThemeWords, Theme::light));
+
+[[nodiscard]] constexpr std::string_view name_of(Theme theme) noexcept {
+    return entry_of(kThemeWords, theme).name;
+}
+[[nodiscard]] constexpr std::optional<Theme> theme_named(std::string_view name) noexcept {
+    return value_named(kThemeWords, name);
+}
+
+}  // namespace dibhr

@@ -1,0 +1,83 @@
+// The window thread's end of a clip.
+#include "app/viewer/clip.hpp"
+
+#include <exception>
+#include <utility>
+
+#include "app/panels/widgets.hpp"
+#include "core/error.hpp"
+
+namespace dibhr {
+
+namespace {
+
+/// Thirty pictures a second, also of a window that shows sixty, and not quite as often.
+constexpr auto kLeastBetweenPictures = std::chrono::milliseconds(29);
+
+double seconds_between(ViewerClip::Clock::time_point begin, ViewerClip::Clock::time_point end) {
+    return std::chrono::duration<double>(end - begin).count();
+}
+
+}  // namespace
+
+ViewerClip::~ViewerClip() {
+    try {
+        finish(ClipEnd::at_once);
+    } catch (const std::exception&) {  // the error that ends the program is told, not this one
+        recorder_.reset();
+    }
+}
+
+void ViewerClip::start(const std::filesystem::path& file, ClipName name, PictureOf of) {
+    recorder_ = std::make_unique<ClipRecorder>(file, name);
+    file_ = file;
+    of_ = of;
+    begin_.reset();
+    end_.reset();
+}
+
+void ViewerClip::stop() {
+    if (!recorder_ || end_) return;
+    end_ = Clock::now();
+    recorder_->stop(*end_, ClipEnd::well);
+}
+
+bool ViewerClip::wants(PictureOf of, Clock::time_point now) const {
+    return recorder_ && of == of_ && (!begin_ || now - last_ >= kLeastBetweenPictures) &&
+           recorder_->wants_picture();
+}
+
+void ViewerClip::add(ColourImage picture, Clock::time_point now) {
+    if (!begin_) begin_ = now;
+    last_ = now;
+    recorder_->add(std::move(picture), now);
+}
+
+std::optional<std::string> ViewerClip::take_news(ViewerState& state) {
+    state.clip.reset();
+    if (!recorder_) return {};
+    const Clock::time_point now = end_.value_or(Clock::now());
+    const double length_s = begin_ ? seconds_between(*begin_, now) : 0.0;
+    if (!recorder_->done()) {
+        state.clip = ClipNews{file_, length_s, end_.has_value()};
+        return {};
+    }
+    const std::unique_ptr<ClipRecorder> over = std::move(recorder_);
+    try {
+        return "Saved " + over->result().string() + ", " + clock_text(length_s);
+    } catch (const InputError& error) {
+        if (failure_.empty()) failure_ = error.what();
+        throw;
+    }
+}
+
+void ViewerClip::finish(ClipEnd how) {
+    if (recorder_) {
+        recorder_->stop(Clock::now(), how);
+        const std::unique_ptr<ClipRecorder> over = std::move(recorder_);
+        static_cast<void>(over->result());
+    }
+    if (!failure_.empty()) throw InputError(failure_);
+}
+
+}  // namespace dibhr

@@ -1,0 +1,260 @@
+// Dear ImGui's context, fonts and theme.
+#include "app/window/gui.hpp"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <fontconfig/fontconfig.h>
+#include <imgui.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <new>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace dibhr {
+
+namespace {
+
+/// ImGui takes for granted that there is memory.
+void* allocate_or_throw(std::size_t bytes, void*) {
+    void* const memory = std::malloc(std::max<std::size_t>(bytes, 1));
+    if (memory == nullptr) throw std::bad_alloc();
+    return memory;
+}
+
+constexpr float kTextHeight_px = 13.5F;
+
+/// Greys with a touch of blue: less of it the lighter they are.
+ImVec4 grey_blue(float lightness, float alpha = 1.0F) {
+    const float tint = 0.05F * (1.0F - 0.85F * lightness);
+    return {lightness * (1.0F - 1.2F * tint), lightness * (1.0F - 0.4F * tint),
+            std::min(lightness * (1.0F + 0.8F * tint), 1.0F), alpha};
+}
+
+void set_spacing(ImGuiStyle& style, float scale) {
+    style.WindowPadding = {12.0F, 10.0F};
+    style.FramePadding = {8.0F, 3.0F};
+    style.ItemSpacing = {8.0F, 4.0F};
+    style.ItemInnerSpacing = {6.0F, 4.0F};
+    style.ScrollbarSize = 10.0F;
+    style.GrabMinSize = 8.0F;
+    style.WindowRounding = 0.0F;
+    style.ChildRounding = style.FrameRounding = style.GrabRounding = style.PopupRounding = 4.0F;
+    style.ScrollbarRounding = 5.0F;
+    style.WindowBorderSize = 0.0F;
+    style.FrameBorderSize = 0.0F;
+    style.ScaleAllSizes(scale);
+}
+
+/// What is drawn on what: the lightness of each, by theme.
+struct Shade {
+    float dark, light;
+};
+
+void set_colours(ImGuiStyle& style, Theme theme) {
+    const bool dark = theme == Theme::dark;
+    const auto grey = [dark](Shade shade, float alpha = 1.0F) {
+        return grey_blue(dark ? shade.dark : shade.light, alpha);
+    };
+    const ImVec4 accent =
+        dark ? ImVec4{0.29F, 0.62F, 0.66F, 1.0F} : ImVec4{0.16F, 0.56F, 0.61F, 1.0F};
+    const ImVec4 accent_text =
+        dark ? ImVec4{0.39F, 0.74F, 0.78F, 1.0F} : ImVec4{0.02F, 0.42F, 0.47F, 1.0F};
+    ImVec4* colours = style.Colors;
+    colours[ImGuiCol_Text] = grey({0.88F, 0.10F});
+    colours[ImGuiCol_TextDisabled] = grey({0.60F, 0.36F});
+    colours[ImGuiCol_WindowBg] = grey({0.095F, 0.93F});
+    colours[ImGuiCol_PopupBg] = grey({0.13F, 0.96F}, 0.98F);
+    colours[ImGuiCol_Border] = grey({0.24F, 0.74F});
+    colours[ImGuiCol_FrameBg] = grey({0.17F, 0.86F});
+    colours[ImGuiCol_FrameBgHovered] = grey({0.22F, 0.82F});
+    colours[ImGuiCol_FrameBgActive] = grey({0.25F, 0.78F});
+    colours[ImGuiCol_Header] = grey({0.14F, 0.88F});
+    colours[ImGuiCol_HeaderHovered] = grey({0.19F, 0.83F});
+    colours[ImGuiCol_HeaderActive] = grey({0.22F, 0.80F});
+    colours[ImGuiCol_Button] = grey({0.20F, 0.81F});
+    colours[ImGuiCol_ButtonHovered] = grey({0.27F, 0.75F});
+    colours[ImGuiCol_ButtonActive] = grey({0.32F, 0.69F});
+    // The value is written over it.
+    colours[ImGuiCol_SliderGrab] = {accent.x, accent.y, accent.z, 0.45F};
+    colours[ImGuiCol_SliderGrabActive] = accent;
+    colours[ImGuiCol_CheckMark] = accent_text;
+    colours[ImGuiCol_Separator] = grey({0.20F, 0.78F});
+    colours[ImGuiCol_ScrollbarBg] = grey({0.095F, 0.93F});
+    colours[ImGuiCol_ScrollbarGrab] = grey({0.24F, 0.74F});
+    colours[ImGuiCol_TitleBg] = colours[ImGuiCol_TitleBgActive] = grey({0.14F, 0.86F});
+    colours[ImGuiCol_ModalWindowDimBg] = {0.0F, 0.0F, 0.0F, 0.45F};
+    colours[ImGuiCol_TextSelectedBg] = {accent.x, accent.y, accent.z, 0.4F};
+}
+
+/// A font's file, and which of the fonts in it.
+struct FontFile {
+    std::string name{};
+    int number{0};
+};
+
+std::optional<FontFile> matched(FcPattern* wanted) {
+    FcConfigSubstitute(nullptr, wanted, FcMatchPattern);
+    FcDefaultSubstitute(wanted);
+    FcResult result = FcResultNoMatch;
+    FcPattern* const match = FcFontMatch(nullptr, wanted, &result);
+    if (match == nullptr) return std::nullopt;
+    FcChar8* name = nullptr;
+    FcChar8* format = nullptr;
+    FontFile file;
+    const bool known = FcPatternGetString(match, FC_FILE, 0, &name) == FcResultMatch &&
+                       FcPatternGetString(match, FC_FONTFORMAT, 0, &format) == FcResultMatch;
+    // Others make ImGui's reader stop the program.
+    const bool readable =
+        known && std::string_view(reinterpret_cast<const char*>(format)) == "TrueType";
+    if (readable) file.name = reinterpret_cast<const char*>(name);
+    FcPatternGetInteger(match, FC_INDEX, 0, &file.number);
+    FcPatternDestroy(match);
+    return readable ? std::optional(file) : std::nullopt;
+}
+
+/// The desktop's own font for text without serifs; nothing where fontconfig knows none.
+std::optional<FontFile> desktop_font(int weight) {
+    FcPattern* const wanted = FcPatternCreate();
+    FcPatternAddString(wanted, FC_FAMILY, reinterpret_cast<const FcChar8*>("sans-serif"));
+    FcPatternAddInteger(wanted, FC_WEIGHT, weight);
+    FcPatternAddInteger(wanted, FC_SLANT, FC_SLANT_ROMAN);
+    FcPatternAddBool(wanted, FC_SCALABLE, FcTrue);
+    FcPatternAddBool(wanted, FC_VARIABLE, FcFalse);
+    auto font = matched(wanted);
+    FcPatternDestroy(wanted);
+    return font;
+}
+
+/// What names of files are written with in Europe; other letters are shown as "?".
+constexpr ImWchar kLetters[] = {0x20,  0xFF,   0x100,  0x24F,  0x370,  0x3FF, 0x400,
+                                0x52F, 0x2010, 0x2027, 0x20A0, 0x20BF, 0};
+
+ImFont* load_font(int weight, float height_px) {
+    const auto file = desktop_font(weight);
+    if (!file || ::access(file->name.c_str(), R_OK) != 0) return nullptr;
+    ImFontConfig config;
+    config.FontNo = file->number & 0xFFFF;
+    return ImGui::GetIO().Fonts->AddFontFromFileTTF(file->name.c_str(), height_px, &config,
+                                                    kLetters);
+}
+
+Fonts load_fonts(float scale) {
+    Fonts fonts{load_font(FC_WEIGHT_REGULAR, kTextHeight_px * scale),
+                load_font(FC_WEIGHT_BOLD, kTextHeight_px * scale)};
+    if (fonts.text == nullptr) {
+        ImFontConfig sharp;
+        sharp.SizePixels = 13.0F * scale;
+        fonts.text = ImGui::GetIO().Fonts->AddFontDefault(&sharp);
+    }
+    if (fonts.heading == nullptr) fonts.heading = fonts.text;
+    return fonts;
+}
+
+void set_style(const GuiLook& look) {
+    ImGuiStyle& style = ImGui::GetStyle();
+    style = ImGuiStyle();
+    if (look.theme == Theme::dark) {
+        ImGui::StyleColorsDark();
+    } else {
+        ImGui::StyleColorsLight();
+    }
+    set_spacing(style, look.scale);
+    set_colours(style, look.theme);
+}
+
+#if IMGUI_VERSION_NUM < 18700
+/// Keys that count as down for as long as it lives.
+class LingeringKeys {
+  public:
+    explicit LingeringKeys(std::span<const KeyPress> pressed) {
+        bool* const down = ImGui::GetIO().KeysDown;
+        constexpr int kKeys = IM_ARRAYSIZE(ImGuiIO::KeysDown);
+        for (const KeyPress& press : pressed) {
+            if (press.key < 0 || press.key >= kKeys || down[press.key]) continue;
+            down[press.key] = true;
+            keys_.push_back(press.key);
+        }
+    }
+    ~LingeringKeys() {
+        for (const int key : keys_) ImGui::GetIO().KeysDown[key] = false;
+    }
+    LingeringKeys(const LingeringKeys&) = delete;
+    LingeringKeys& operator=(const LingeringKeys&) = delete;
+
+  private:
+    std::vector<int> keys_{};
+};
+#endif
+
+}  // namespace
+
+Gui::Gui(const Window& window, const GuiLook& look) : look_(look) {
+    IMGUI_CHECKVERSION();
+    ImGui::SetAllocatorFunctions(allocate_or_throw, [](void* memory, void*) { std::free(memory); });
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;
+    set_style(look_);
+    fonts_ = load_fonts(look_.scale);
+    ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
+    ImGui_ImplOpenGL3_Init("#version 330");
+}
+
+Gui::~Gui() {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+}
+
+void Gui::wear(const GuiLook& look) {
+    if (look == look_) return;
+    const bool other_size = look.scale != look_.scale;
+    look_ = look;
+    set_style(look_);
+    if (!other_size) return;
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui::GetIO().Fonts->Clear();
+    fonts_ = load_fonts(look_.scale);
+    ImGui_ImplOpenGL3_CreateFontsTexture();
+}
+
+void Gui::begin(std::span<const KeyPress> pressed) {
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+#if IMGUI_VERSION_NUM < 18700
+    // It looks at what is down now: a key that came up again since the last picture would be lost.
+    const LingeringKeys lingering(pressed);
+#else
+    static_cast<void>(pressed);  // it has all of them in a queue
+#endif
+    ImGui::NewFrame();
+}
+
+void Gui::end() {
+    ImGui::Render();
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+void Gui::copy(const std::string& text) {
+    ImGui::SetClipboardText(text.c_str());
+}
+
+std::string Gui::copied() const {
+    const char* const text = ImGui::GetClipboardText();
+    return text != nullptr ? text : "";
+}
+
+bool Gui::wants_pointer() const {
+    return ImGui::GetIO().WantCaptureMouse;
+}
+
+bool Gui::wants_keyboard() const {
+    return ImGui::GetIO().WantTextInput;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,38 @@
+// What the strip charts show of a tick.
+#pragma once
+
+#include <glm/geometric.hpp>
+
+#include "core/haptics/touch.hpp"
+#include "core/realtime/spsc_ring.hpp"
+
+namespace dibhr {
+
+struct TickStrip {
+    float force_newton{0.0F};      ///< length of what was sent
+    float penetration_mm{0.0F};    ///< of the goal, from the proxy; 0 out of contact
+    float speed_mm_per_s{0.0F};    ///< of the goal
+    float given_millijoule{0.0F};  ///< what the force sent before did on the hand's way since
+    float lateness_us{0.0F};       ///< after the tick's deadline
+};
+
+/// Of each tick one, for whoever draws them.
+using StripRing = SpscRing<TickStrip, 4096>;
+
+/// `before` is the tick before `now`, `dt_s` earlier; 0: there was none to move from.
+[[nodiscard]] inline TickStrip strip_of(const Touch& before, const Touch& now, double dt_s,
+                                        double lateness_us, double pitch_mm) noexcept {
+    TickStrip strip;
+    strip.force_newton = static_cast<float>(glm::length(now.sent_force_newton));
+    if (now.proxy.contact)
+        strip.penetration_mm =
+            static_cast<float>(pitch_mm * glm::length(now.proxy.position - now.goal));
+    strip.lateness_us = static_cast<float>(lateness_us);
+    if (!(dt_s > 0.0)) return strip;
+    const Vec3 way_mm = pitch_mm * (now.goal - before.goal);
+    strip.speed_mm_per_s = static_cast<float>(glm::length(way_mm) / dt_s);
+    strip.given_millijoule = static_cast<float>(glm::dot(before.sent_force_newton, way_mm));
+    return strip;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,65 @@
+// How the window looks: its theme and the size of its text, in pictures of the real window.
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "app/settings/settings.hpp"
+#include "core/video/media.hpp"
+#include "tests/app/program/desk.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+
+namespace {
+
+/// The last picture of a second of the sample.
+ColourImage shown_with(const TemporaryFolder& folder, std::vector<std::string> options) {
+    const Desk desk;
+    options.insert(options.end(),
+                   {"--device", "mouse", "--seconds", "1", "--screenshot", "look.png"});
+    Process viewer = desk.start_viewer(folder, options);
+    REQUIRE(viewer.wait() == 0);
+    return open_media(folder / "look.png", folder / "look.png")->next()->colour;
+}
+
+/// Mean of the three channels.
+int lightness(const ColourImage& picture, int x, int y) {
+    const std::size_t first =
+        3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.columns) +
+             static_cast<std::size_t>(x));
+    return (picture.rgb.at(first) + picture.rgb.at(first + 1) + picture.rgb.at(first + 2)) / 3;
+}
+
+/// Where the panels begin: their ground is one colour from top to bottom, the wall is not.
+int panels_begin(const ColourImage& picture) {
+    const int last = picture.columns - 40;  // left of the scroll bar
+    int x = last;
+    while (x > 0 && lightness(picture, x, 2) == lightness(picture, last, 2)) --x;
+    return x + 1;
+}
+
+}  // namespace
+
+TEST_CASE("the wall and the panels are dark or light, as the theme says", "[look]") {
+    const TemporaryFolder folder;
+    const ColourImage dark = shown_with(folder, {});
+    const ColourImage light = shown_with(folder, {"--theme", "light"});
+    for (const int x : {20, 1276}) {  // wall, panels
+        CHECK(lightness(dark, x, 790) < 70);
+        CHECK(lightness(light, x, 790) > 180);
+    }
+    // The command line's theme is for once.
+    CHECK(load_settings(folder / "config/dibhr/settings.toml").theme == Theme::dark);
+}
+
+TEST_CASE("text twice as large takes panels twice as wide, and a window no larger than the display",
+          "[look]") {
+    const TemporaryFolder folder;
+    const ColourImage usual = shown_with(folder, {});
+    const ColourImage larger = shown_with(folder, {"--ui-scale", "1.5"});
+    CHECK(usual.columns == 1280);
+    CHECK(larger.columns == 1280);  // of a display that is as wide
+    CHECK(usual.columns - panels_begin(usual) == 340);
+    CHECK(larger.columns - panels_begin(larger) == 510);
+}

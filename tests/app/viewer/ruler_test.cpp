@@ -1,0 +1,72 @@
+// Distances between two points on the relief.
+#include <optional>
+#include <string>
+
+#include "app/panels/panels.hpp"
+#include "tests/app/program/command_program.hpp"
+#include "tests/app/program/desk.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+
+TEST_CASE("a ruler says how far two points are apart, in pixels, under the hand and in the file",
+          "[ruler]") {
+    ViewerState state;
+    state.settings.touch.coupling.pixel_pitch_mm = 0.5;
+    state.ruler.emplace();
+    CHECK(contains(ruler_text(state), "click two points"));
+    state.ruler->ends = {{.column = 10, .row = 20, .nearness = 0.25, .elevation_px = 5.0}};
+    CHECK(contains(ruler_text(state), "the other point"));
+    state.ruler->ends.push_back({.column = 13, .row = 24, .nearness = 0.75, .elevation_px = 17.0});
+    CHECK(ruler_text(state) == "Ruler   13.0 px, 6.50 mm");
+    DepthMeaning meaning;
+    meaning.unit.value = DepthUnit::mm;
+    meaning.scale.value = 1.0;
+    meaning.range.value = {500.0, 1500.0};
+    state.media.meaning = meaning;
+    CHECK(contains(ruler_text(state), "500 mm of depth"));
+    state.ruler->ends[1].unseen = true;
+    CHECK(contains(ruler_text(state), "no data"));
+}
+
+TEST_CASE("each click of a ruler sets a point, and the third begins anew", "[ruler]") {
+    Ruler ruler;
+    const Vec3 first{1.0, 2.0, 3.0};
+    const Vec3 second{4.0, 5.0, 6.0};
+    for (int pictures = 0; pictures < 3; ++pictures) ruler.press(true, first);
+    CHECK(ruler.places.size() == 1);
+    ruler.press(false, second);
+    ruler.press(true, std::nullopt);
+    ruler.press(false, second);
+    CHECK(ruler.places.size() == 1);
+    ruler.press(true, second);
+    CHECK(ruler.places.size() == 2);
+    ruler.press(false, first);
+    ruler.press(true, second);
+    REQUIRE(ruler.places.size() == 1);
+    CHECK(ruler.places[0] == second);
+}
+
+TEST_CASE("a click of the ruler touches nothing, and one after it does", "[ruler]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    write_depth_png(folder / "slope_depth.png", 64, 48, 100, 2);
+    Process viewer =
+        desk.start_viewer(folder, {"slope_depth.png", "--raw-depth", "--device", "mouse", "--size",
+                                   "640x480", "--record", "hand.dibhr", "--seconds", "30"});
+    const std::string click = "mousedown 1 sleep 0.6 mouseup 1 sleep 0.4 ";
+    desk.act(
+        "search --sync --onlyvisible --name dibhr sleep 0.6 mousemove 170 240 sleep 0.4 key n "
+        "sleep 0.3 " +
+        click + "mousemove 190 250 sleep 0.2 " + click + "key m key n sleep 0.4 " + click +
+        "key q");
+    REQUIRE(viewer.wait() == 0);
+    int presses = 0;
+    bool before = false;
+    for (const Row& row : read_session(folder / "hand.dibhr")) {
+        if (row.pressed && !before) ++presses;
+        before = row.pressed;
+    }
+    CHECK(presses == 1);
+}
