@@ -276,6 +276,22 @@ GLuint BumpTexture::show(const BumpMap& bump, double size_px, const DepthImage& 
     return texture_.name();
 }
 
+GLuint HeightTexture::show(const std::shared_ptr<const TouchMaps>& maps, const ReliefGrid& grid) {
+    if (maps_.is(maps) && grid == grid_) return texture_.name();
+    const std::vector<float>& heights_px = maps->at_vertices.heights_px;
+    staged_.clear();
+    for (int j = 0; j < grid.rows(); ++j) {
+        const auto row = static_cast<std::size_t>(grid.image_j(j)) *
+                         static_cast<std::size_t>(grid.image_columns);
+        for (int i = 0; i < grid.columns(); ++i)
+            staged_.push_back(heights_px[row + static_cast<std::size_t>(grid.image_i(i))]);
+    }
+    texture_.upload(grid.columns(), grid.rows(), staged_.data());
+    maps_.set(maps);
+    grid_ = grid;
+    return texture_.name();
+}
+
 GLuint ColourTexture::show(const std::shared_ptr<const ColourImage>& image, int most_side,
                            bool mipmaps) {
     if (!image_.is(image)) {

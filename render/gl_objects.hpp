@@ -200,6 +200,19 @@ class BumpTexture {
     ReliefGrid grid_{};
 };
 
+/// Painted heights at every drawn vertex.
+class HeightTexture {
+  public:
+    /// Uploads when they are other maps than last time, or another grid; laid over its image.
+    GLuint show(const std::shared_ptr<const TouchMaps>& maps, const ReliefGrid& grid);
+
+  private:
+    GridTexture texture_{};
+    UploadedFrom<TouchMaps> maps_{};
+    ReliefGrid grid_{};
+    std::vector<float> staged_{};
+};
+
 /// The colour picture, filtered.
 class ColourTexture {
   public:

@@ -26,6 +26,7 @@ enum Unit : GLint {
     kTornUnit,
     kUnseenUnit,
     kBumpUnit,
+    kHeightsUnit,
     kColourUnit
 };
 
@@ -57,6 +58,8 @@ void ReliefPass::draw(const SceneContent& content, const glm::mat4& clip_from_wo
 
     Variant variant;
     variant.rough = content.bump != nullptr && content.shape.roughness_px != 0.0;
+    variant.painted = content.maps && content.maps->at_vertices.columns == image.columns &&
+                      content.maps->at_vertices.rows == image.rows;
     variant.textured = content.look.paint == ReliefPaint::video && content.colour &&
                        content.colour->colour && !content.colour->colour->rgb.empty();
     variant.by_depth = depth_colours(content.look.paint) != nullptr;
@@ -81,6 +84,7 @@ void ReliefPass::draw(const SceneContent& content, const glm::mat4& clip_from_wo
     Variant wall;
     wall.wall = true;
     wall.rough = variant.rough;
+    wall.painted = variant.painted;
     prepared(wall, content, clip_from_world);
     glBindVertexArray(wall_.get());
     glDrawArrays(GL_TRIANGLE_STRIP, 0, wall_count_);
@@ -138,6 +142,7 @@ void ReliefPass::bind_textures(const SceneContent& content, const Variant& varia
     const GLuint bump = variant.rough ? bump_.show(*content.bump, content.shape.bump_size_px,
                                                    *content.depth.from->drawn(), grid_)
                                       : 0;
+    const GLuint heights = variant.painted ? heights_.show(content.maps, grid_) : 0;
     const int most_side = limits_.software ? std::min(kMostColourSideSoftware, limits_.texture_side)
                                            : limits_.texture_side;
     GLuint colour = 0;
@@ -152,6 +157,7 @@ void ReliefPass::bind_textures(const SceneContent& content, const Variant& varia
     bind(kTornUnit, torn_.name());
     bind(kUnseenUnit, unseen);
     bind(kBumpUnit, bump);
+    bind(kHeightsUnit, heights);
     bind(kColourUnit, colour);
 }
 
@@ -163,6 +169,7 @@ const ShaderProgram& ReliefPass::prepared(const Variant& variant, const SceneCon
         if (variant.wall) defines += "#define WALL\n";
         if (variant.rim) defines += "#define RIM\n";
         if (variant.rough) defines += "#define ROUGH\n";
+        if (variant.painted) defines += "#define PAINTED\n";
         if (variant.textured) defines += "#define TEXTURED\n";
         if (variant.by_depth) defines += "#define BY_DEPTH\n";
         if (variant.unseen) defines += "#define UNSEEN\n";
@@ -180,6 +187,7 @@ const ShaderProgram& ReliefPass::prepared(const Variant& variant, const SceneCon
     program->set("torn", kTornUnit);
     program->set("unseen", kUnseenUnit);
     program->set("bump", kBumpUnit);
+    program->set("heights", kHeightsUnit);
     program->set("colour", kColourUnit);
     program->set("blend", static_cast<float>(std::clamp(content.depth.blend, 0.0, 1.0)));
     program->set("px_per_level", static_cast<float>(content.shape.relief_px / image.highest_level));

@@ -26,6 +26,7 @@ class ReliefPass {
         bool wall{false};
         bool rim{false};
         bool rough{false};
+        bool painted{false};
         bool textured{false};
         bool by_depth{false};
         bool silhouettes{false};
@@ -45,6 +46,7 @@ class ReliefPass {
     DepthTextures detail_{};  ///< as fine as can be, for the outlines
     UnseenTexture unseen_{};
     BumpTexture bump_{};
+    HeightTexture heights_{};
     ColourTexture colour_{};
     ColourTexture depth_colours_{};
     ReliefGrid grid_{};

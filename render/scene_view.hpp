@@ -62,6 +62,7 @@ struct SceneContent {
     const Frame* colour{nullptr};  ///< the frame whose colour is shown
     SurfaceShape shape{};
     const BumpMap* bump{nullptr};
+    std::shared_ptr<const TouchMaps> maps{};  ///< whose heights are drawn; null: none
     ReliefLook look{};
     bool light_wall{false};  ///< behind the relief; else a dark one
     Dent dent{};

@@ -102,7 +102,8 @@ SessionFramesOptions frames_options(const Session& session, const ReplayOptions&
     const CleaningOptions asked = touch.cleaning(parameters);
     SessionFramesOptions frames{.any_media = options.any_media,
                                 .bump = touch.given.bump_file(),
-                                .bump_size_px = parameters.shape.bump_size_px};
+                                .bump_size_px = parameters.shape.bump_size_px,
+                                .maps = touch.feels_maps()};
     if (touch.raw_depth || touch.preset) frames.cleaning = asked.preset;
     if (touch.finger_mm) frames.finger = asked.finger;
     return frames;

@@ -102,6 +102,7 @@ void write_felt_surface(const SurfaceOptions& options, SurfaceFormat format) {
     TouchParameters parameters = options.parameters;
     FrameReader reader(open_given(options, parameters));
     reader.set_cleaning(options.touch.cleaning(parameters, reader.description()));
+    reader.set_maps(options.touch.read_maps(reader.description()));
     const std::shared_ptr<const BumpMap> bump = options.touch.given.read_bumps();
     const std::vector<Frame> frames = frames_around(reader, options.time_s);
     const DepthBlend blend = depth_at(frames, options.time_s);

@@ -63,7 +63,8 @@ class TouchRun {
             print_warning(shown(options.depth) +
                           " is to be cut along the colour's edges, which touch does not look at: "
                           "its silhouettes are those of the depth alone");
-        return {std::move(media), options.video, cleaning};
+        std::shared_ptr<const TouchMaps> maps = options.touch.read_maps(media->description());
+        return {std::move(media), options.video, cleaning, std::move(maps)};
     }
 
     OutputRow update(const TimedGoal& goal) {

@@ -56,16 +56,6 @@ std::pair<int, int> parse_size(const std::string& text) {
     return {size[0], size[1]};
 }
 
-CLI::Option* add_on_off_option(CLI::App& app, const std::string& name, const std::string& help,
-                               std::optional<bool>& on) {
-    const auto take = [name, &on](const std::string& word) {
-        if (word != "on" && word != "off")
-            throw CLI::ValidationError(name, "'" + word + "' is neither on nor off");
-        on = word == "on";
-    };
-    return app.add_option_function<std::string>(name, take, help)->type_name("on|off");
-}
-
 /// How what is opened begins to play.
 void add_playing_options(CLI::App& app, ViewOptions& options) {
     add_number_option(app, "--start", 0.0, kLongestRun_s,

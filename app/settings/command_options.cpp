@@ -11,6 +11,7 @@
 #include "app/settings/settings.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/sidecar.hpp"
+#include "core/video/formats/touch_map_files.hpp"
 
 namespace dibhr {
 
@@ -161,6 +162,11 @@ void add_surface_options(CLI::App& app, TouchRequest& request) {
     app.add_option("--bump", request.given.bump,
                    "Bump map laid over the surface: an 8- or 16-bit image")
         ->type_name("IMAGE");
+    add_on_off_option(app, "--maps",
+                      "off: without the touch maps beside the recording, NAME_stiffness.png, "
+                      "NAME_friction.png and NAME_height.png",
+                      request.maps)
+        ->default_str("on");
     app.add_flag(
         "--raw-depth", request.raw_depth,
         "Depth as it is in the file: nothing cleaned or found out, relief 255 px and pitch "
@@ -198,7 +204,12 @@ Fingertip fingertip_of(double radius_mm, const TouchParameters& parameters) {
 }
 
 bool TouchRequest::asks_for_another_surface() const {
-    return !given.bump_file().empty() || raw_depth || preset || finger_mm;
+    return !given.bump_file().empty() || raw_depth || preset || finger_mm || !feels_maps();
+}
+
+std::shared_ptr<const TouchMaps> TouchRequest::read_maps(const MediaDescription& media) const {
+    if (!feels_maps()) return nullptr;
+    return read_touch_maps(media.depth_path, media.depth_columns, media.depth_rows);
 }
 
 CleaningOptions TouchRequest::cleaning(const TouchParameters& parameters,
@@ -334,6 +345,16 @@ CLI::Option* add_plot_format_option(CLI::App& app, std::vector<PlotFormat>& form
         ->delimiter(',')
         ->allow_extra_args(false)
         ->default_str("png");
+}
+
+CLI::Option* add_on_off_option(CLI::App& app, const std::string& name, const std::string& help,
+                               std::optional<bool>& on) {
+    const auto take = [name, &on](const std::string& word) {
+        if (word != "on" && word != "off")
+            throw CLI::ValidationError(name, "'" + word + "' is neither on nor off");
+        on = word == "on";
+    };
+    return app.add_option_function<std::string>(name, take, help)->type_name("on|off");
 }
 
 void add_algorithm_option(CLI::App& app, GivenParameters& given) {

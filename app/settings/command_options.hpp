@@ -63,6 +63,7 @@ struct TouchRequest {
     std::optional<CleaningPreset> preset{};  ///< --cleaning
     std::optional<double> finger_mm{};       ///< --finger
     DepthStatement depth{};                  ///< --near, --depth-unit and so on
+    std::optional<bool> maps{};              ///< --maps
 
     [[nodiscard]] DepthRequest depth_request() const;
     /// By what is no number of the touch: another bump map, cleaning or fingertip.
@@ -71,6 +72,10 @@ struct TouchRequest {
     /// says which finger.
     [[nodiscard]] CleaningOptions cleaning(const TouchParameters& parameters,
                                            const MediaDescription& media = {}) const;
+    /// What was painted on the recording is felt.
+    [[nodiscard]] bool feels_maps() const noexcept { return maps.value_or(true); }
+    /// The maps beside a media that are to be felt; null: none. Throws InputError.
+    [[nodiscard]] std::shared_ptr<const TouchMaps> read_maps(const MediaDescription& media) const;
 };
 
 /// A finger of that radius on a surface of these parameters.
@@ -87,6 +92,10 @@ void make_felt(TouchParameters& parameters);
 CLI::Option* add_number_option(CLI::App& app, const std::string& name, double lowest,
                                double highest, const std::string& help,
                                const std::function<void(double)>& take);
+
+/// --NAME on|off. `on` must outlive the parsing of `app`.
+CLI::Option* add_on_off_option(CLI::App& app, const std::string& name, const std::string& help,
+                               std::optional<bool>& on);
 
 /// The option of an entry of touch_numbers(): its name, range and default.
 CLI::Option* add_touch_option(CLI::App& app, const TouchNumber& number, const std::string& help,
@@ -106,8 +115,9 @@ CLI::Option* add_plot_format_option(CLI::App& app, std::vector<PlotFormat>& form
 /// --geometry and --intrinsics. `depth` must outlive the parsing of `app`.
 void add_depth_options(CLI::App& app, DepthStatement& depth);
 
-/// --material, --bump, --raw-depth, --cleaning, --finger, those of add_depth_options and the
-/// entries of touch_numbers() that shape a surface. `request` must outlive the parsing of `app`.
+/// --material, --bump, --maps, --raw-depth, --cleaning, --finger, those of add_depth_options and
+/// the entries of touch_numbers() that shape a surface. `request` must outlive the parsing of
+/// `app`.
 void add_shape_options(CLI::App& app, TouchRequest& request);
 
 /// The same, --friction and the other entries of touch_numbers().

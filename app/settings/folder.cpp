@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/settings/recent_files.hpp"
+#include "core/video/formats/touch_map_files.hpp"
 #include "core/video/media.hpp"
 #include "core/video/media_names.hpp"
 
@@ -32,6 +33,7 @@ FileKind kind_of(const fs::directory_entry& entry) {
     const fs::path& file = entry.path();
     if (lower_case(file.extension().string()) == ".dibhr") return FileKind::session;
     if (named_video(file) || is_bag(file)) return FileKind::video;
+    if (names_touch_map(file)) return FileKind::other;  // painted on a recording
     return named_picture(file) ? FileKind::picture : FileKind::other;
 }
 

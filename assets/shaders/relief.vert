@@ -1,7 +1,8 @@
 #version 330 core
 // The relief: one corner of the drawn grid, lifted by the two depth images, the blend and the bump map.
-// Defines: ROUGH (there is a bump map), WALL (the sides that close the relief; every second vertex is
-// on the ground), RIM (a layer at a silhouette: a corner as high and bright as another vertex).
+// Defines: ROUGH (there is a bump map), PAINTED (there are painted heights), WALL (the sides that close
+// the relief; every second vertex is on the ground), RIM (a layer at a silhouette: a corner as high and
+// bright as another vertex).
 
 layout(location = 0) in uvec2 corner;  // column and row in the drawn grid
 #ifdef RIM
@@ -13,6 +14,7 @@ out vec2 layer;  // elevation without bumps, tolerance
 uniform sampler2D depth_from;  // levels
 uniform sampler2D depth_to;
 uniform sampler2D bump;  // height in [0, 1]
+uniform sampler2D heights;  // px
 uniform float blend;
 uniform float px_per_level;
 uniform float roughness_px;
@@ -50,6 +52,9 @@ float elevation(ivec2 at) {
     float z = px_per_level * level(at) - pressed_in(at);
 #ifdef ROUGH
     z += roughness_px * texelFetch(bump, at, 0).r;
+#endif
+#ifdef PAINTED
+    z += texelFetch(heights, at, 0).r;
 #endif
     return z;
 }

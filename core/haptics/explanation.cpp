@@ -11,6 +11,7 @@
 #include "core/haptics/dibhr.hpp"
 #include "core/haptics/facet.hpp"
 #include "core/haptics/neighbours.hpp"
+#include "core/haptics/touch.hpp"
 
 namespace dibhr {
 
@@ -107,9 +108,10 @@ Proxy above(const DepthSurface& surface, Vec3 goal) {
 class Explainer {
   public:
     Explainer(const DepthSurface& surface, const Proxy& left, Vec3 goal, const Friction& friction)
-        : surface_(surface), asked_goal_(goal), friction_(friction) {
+        : surface_(surface), asked_goal_(goal) {
         const Vec3 goal_in_frame = surface.clamped_to_frame(surface.clamped_to_reach(goal));
         const Proxy proxy = fits(surface, left) ? left : above(surface, goal_in_frame);
+        friction_ = felt_friction(surface, proxy, surface.clamped_to_reach(goal), friction);
         walk_.resume(proxy, surface.columns(), surface.rows());
         update_.goal = goal_in_frame;
         update_.result = after(Dibhr::kMostMoves);

@@ -79,6 +79,8 @@ SafetyLimits held_limits(SafetyLimits limits, const DeviceLimits& device) noexce
     const double asked = limits.max_force_newton;
     limits.max_force_newton = asked > 0.0 ? std::min(asked, most.max_force_newton) : 0.0;
     limits.max_goal_speed_mm_per_ms = most.max_goal_speed_mm_per_ms;
+    limits.max_stiffness_newton_per_mm =
+        std::min(limits.max_stiffness_newton_per_mm, most.max_stiffness_newton_per_mm);
     limits.watched = limits.stability ? most.dynamics : DeviceDynamics{};
     return limits;
 }

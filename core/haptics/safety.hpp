@@ -17,6 +17,8 @@ struct SafetyLimits {
     double max_tick_s{0.020};              ///< a longer tick is late: no force
     /// A faster goal is a jump, not a hand (10 m/s) [image mm].
     double max_goal_speed_mm_per_ms{10.0};
+    /// Of a stiffness map; held_limits() makes it the device's.
+    double max_stiffness_newton_per_mm{10.0};
     /// The energy that rendering creates is to be taken out of a device that moves.
     bool stability{false};
     DeviceDynamics watched{};  ///< that device; held_limits() sets it

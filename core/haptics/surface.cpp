@@ -81,7 +81,7 @@ double height_between(const BumpMap& bump, const Between& x, const Between& y) n
 
 DepthSurface::DepthSurface(const DepthImage& from, const DepthImage& to, double blend,
                            SurfaceShape shape, const BumpMap* bump,
-                           const std::vector<std::uint8_t>* unseen) noexcept
+                           const std::vector<std::uint8_t>* unseen, const TouchMaps* maps) noexcept
     : from_(from.levels.data()),
       to_(to.levels.data()),
       columns_(from.columns),
@@ -92,12 +92,19 @@ DepthSurface::DepthSurface(const DepthImage& from, const DepthImage& to, double 
       roughness_px_(shape.roughness_px),
       bump_size_px_(shape.bump_size_px),
       bump_(shape.roughness_px == 0.0 ? nullptr : bump),
-      unseen_(unseen == nullptr ? nullptr : unseen->data()) {
+      unseen_(unseen == nullptr ? nullptr : unseen->data()),
+      maps_(maps) {
     assert(unseen == nullptr || unseen->size() == from.levels.size());
     if (bump_ != nullptr && is_stretched(*bump_, columns_, rows_, bump_size_px_)) {
         stretched_ = bump_->at_vertices.heights.data();
         assert(bump_->at_vertices.heights.size() == from.levels.size());
     }
+    if (maps_ != nullptr && maps_->at_vertices.columns == columns_ &&
+        maps_->at_vertices.rows == rows_) {
+        heights_ = maps_->at_vertices.heights_px.data();
+        assert(maps_->at_vertices.heights_px.size() == from.levels.size());
+    }
+    is_bare_ = bump_ == nullptr && heights_ == nullptr;
     assert(columns_ >= 2 && rows_ >= 2);
     assert(to.columns == columns_ && to.rows == rows_ && to.highest_level == highest_level_);
 }
@@ -113,6 +120,26 @@ bool DepthSurface::seen_at(double x, double y) const noexcept {
     const auto i = static_cast<std::size_t>(std::lround(p.x));
     const auto j = static_cast<std::size_t>(std::lround(p.y));
     return unseen_[j * static_cast<std::size_t>(columns_) + i] == 0;
+}
+
+double DepthSurface::felt_at(const TouchMap& map, double x, double y,
+                             double otherwise) const noexcept {
+    if (map.empty()) return otherwise;
+    const Vec3 p = clamped_to_frame({x, y, 0.0});
+    return felt_value(map, p.x, p.y, columns_, rows_, otherwise);
+}
+
+Friction DepthSurface::friction_at(double x, double y, Friction everywhere) const noexcept {
+    if (maps_ == nullptr || maps_->friction.empty()) return everywhere;
+    const double as_static = everywhere.static_coefficient;
+    const double ratio = as_static > 0.0 ? everywhere.dynamic_coefficient / as_static : 1.0;
+    const double here = felt_at(maps_->friction, x, y, as_static);
+    if (here == as_static) return everywhere;
+    return {here, ratio * here};
+}
+
+double DepthSurface::stiffness_at(double x, double y, double everywhere) const noexcept {
+    return maps_ == nullptr ? everywhere : felt_at(maps_->stiffness, x, y, everywhere);
 }
 
 double DepthSurface::bump_height(int i, int j) const noexcept {

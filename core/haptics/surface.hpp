@@ -1,4 +1,4 @@
-// The touchable surface at one moment: two depth images, a blend and a bump map.
+// The touchable surface at one moment: two depth images, a blend, a bump map and what was painted.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 
 #include "core/haptics/depth_image.hpp"
 #include "core/haptics/parameters.hpp"
+#include "core/haptics/touch_maps.hpp"
 #include "core/haptics/vec.hpp"
 
 namespace dibhr {
@@ -69,16 +70,17 @@ struct Primitive {
 }
 
 /// A view that owns nothing and costs nothing to make: elevations are evaluated when they are asked
-/// for, `relief * lerp(from, to, blend) / highest level + roughness * bump(u, v)`. The images
-/// and the bump map must outlive it and stay as they are; the images have the same size and highest
+/// for, `relief * lerp(from, to, blend) / highest level + roughness * bump(u, v) + height`. The
+/// images and maps must outlive it and stay as they are; the images have the same size and highest
 /// level, and are at least 2 x 2.
 class DepthSurface {
   public:
     /// `blend` in [0, 1] (clamped): 0 is `from`, 1 is `to`. `bump` may be null.
     /// `unseen`: 1 for every vertex where no surface was ever seen, row-major; null: seen all over.
+    /// `maps`: null: none; their heights count when they are laid over images of this size.
     DepthSurface(const DepthImage& from, const DepthImage& to, double blend, SurfaceShape shape,
-                 const BumpMap* bump = nullptr,
-                 const std::vector<std::uint8_t>* unseen = nullptr) noexcept;
+                 const BumpMap* bump = nullptr, const std::vector<std::uint8_t>* unseen = nullptr,
+                 const TouchMaps* maps = nullptr) noexcept;
 
     [[nodiscard]] int columns() const noexcept { return columns_; }
     [[nodiscard]] int rows() const noexcept { return rows_; }
@@ -91,8 +93,7 @@ class DepthSurface {
         if (to_ != from_) level += blend_ * (static_cast<double>(to_[k]) - level);
         // Dividing last keeps whole levels exact: relief * level / highest level.
         const double z = relief_px_ * level / highest_level_;
-        if (bump_ == nullptr) return z;
-        return z + roughness_px_ * (stretched_ == nullptr ? bump_height(i, j) : stretched_[k]);
+        return is_bare_ ? z : z + laid_on(i, j, k);
     }
 
     [[nodiscard]] bool has_bump() const noexcept { return bump_ != nullptr; }
@@ -105,6 +106,11 @@ class DepthSurface {
     /// Whether there was ever a surface at the vertex nearest to (x, y), clamped to the image
     /// rectangle.
     [[nodiscard]] bool seen_at(double x, double y) const noexcept;
+
+    /// Friction and stiffness [N/mm] at (x, y), clamped to the image rectangle: the maps', where
+    /// there are some, else these.
+    [[nodiscard]] Friction friction_at(double x, double y, Friction everywhere) const noexcept;
+    [[nodiscard]] double stiffness_at(double x, double y, double everywhere) const noexcept;
 
     /// The place of vertex (i, j).
     [[nodiscard]] Vec3 vertex_at(int i, int j) const noexcept { return {i, j, elevation(i, j)}; }
@@ -123,7 +129,8 @@ class DepthSurface {
     /// No vertex is higher than this [px], as long as no level exceeds the highest.
     [[nodiscard]] double ceiling() const noexcept {
         const double roughness = bump_ == nullptr ? 0.0 : std::max(roughness_px_, 0.0);
-        return std::max(relief_px_, 0.0) + roughness;
+        const double height = heights_ == nullptr ? 0.0 : maps_->at_vertices.highest_px;
+        return std::max(relief_px_, 0.0) + roughness + height;
     }
 
     /// (x, y) moved into the image rectangle [0, columns-1] x [0, rows-1]; z stays.
@@ -148,8 +155,19 @@ class DepthSurface {
         return static_cast<int>(std::clamp(along, 0.0, static_cast<double>(last)));
     }
 
+    /// What lies on the depth at vertex (i, j), the k-th [px].
+    [[nodiscard]] double laid_on(int i, int j, std::size_t k) const noexcept {
+        const double height = heights_ == nullptr ? 0.0 : static_cast<double>(heights_[k]);
+        if (bump_ == nullptr) return height;
+        const double bump = stretched_ == nullptr ? bump_height(i, j) : stretched_[k];
+        return heights_ == nullptr ? roughness_px_ * bump : roughness_px_ * bump + height;
+    }
+
     /// Bilinear height of the bump map at vertex (i, j), in [0, 1].
     [[nodiscard]] double bump_height(int i, int j) const noexcept;
+
+    [[nodiscard]] double felt_at(const TouchMap& map, double x, double y,
+                                 double otherwise) const noexcept;
 
     const float* from_{nullptr};
     const float* to_{nullptr};
@@ -163,6 +181,9 @@ class DepthSurface {
     const BumpMap* bump_{nullptr};
     const std::uint8_t* unseen_{nullptr};
     const double* stretched_{nullptr};  ///< the bump map's heights at the vertices, if known
+    const TouchMaps* maps_{nullptr};
+    const float* heights_{nullptr};  ///< the height map's at the vertices; null: none
+    bool is_bare_{true};             ///< neither bumps nor heights
 };
 
 /// Lays a bump map of that size (SurfaceShape::bump_size_px) over depth images of columns x rows,

@@ -21,6 +21,22 @@ Vec3 coupling_force(const Proxy& proxy, Vec3 goal, Vec3 goal_velocity,
            coupling.damping_newton_s_per_m * 1e-3 * mm * goal_velocity;
 }
 
+Friction felt_friction(const DepthSurface& surface, const Proxy& proxy, Vec3 goal,
+                       Friction everywhere) noexcept {
+    const Vec3& place = proxy.contact ? proxy.position : goal;
+    return surface.friction_at(place.x, place.y, everywhere);
+}
+
+Coupling felt_coupling(const DepthSurface& surface, const Proxy& proxy, Coupling everywhere,
+                       const SafetyLimits& limits) noexcept {
+    const double k = surface.stiffness_at(proxy.position.x, proxy.position.y,
+                                          everywhere.stiffness_newton_per_mm);
+    if (k == everywhere.stiffness_newton_per_mm) return everywhere;
+    everywhere.stiffness_newton_per_mm =
+        std::max(0.0, std::min(k, limits.max_stiffness_newton_per_mm));
+    return everywhere;
+}
+
 std::unique_ptr<ProxyAlgorithm> make_algorithm(Algorithm algorithm) {
     switch (algorithm) {
         case Algorithm::dibhr:
@@ -92,12 +108,13 @@ const Touch& TouchRenderer::update(const DepthSurface& surface, Vec3 hand,
 
     const double rise_px = limits.watched.moves() ? rise_under_proxy(surface) : 0.0;
     last_.goal = goal;
-    last_.proxy =
-        algorithms_[static_cast<std::size_t>(running_)]->update(surface, goal, parameters.friction);
+    last_.proxy = algorithms_[static_cast<std::size_t>(running_)]->update(
+        surface, goal, felt_friction(surface, last_.proxy, goal, parameters.friction));
     fade_unseen(surface, parameters.coupling.unseen_share, input.dt_s);
     if (felt_share_ == 0.0) last_.proxy.contact = false;
+    const Coupling coupling = felt_coupling(surface, last_.proxy, parameters.coupling, limits);
     last_.spring_force_newton =
-        felt_share_ * rendered_force(goal_step, rise_px, parameters.coupling, input, limits);
+        felt_share_ * rendered_force(goal_step, rise_px, coupling, input, limits);
     last_.sent_force_newton =
         safety_.limit(last_.spring_force_newton + input.device_force_newton, input, limits);
     passivity_.sent(last_.sent_force_newton - input.device_force_newton);

@@ -27,6 +27,16 @@ struct Touch {
 [[nodiscard]] Vec3 coupling_force(const Proxy& proxy, Vec3 goal, Vec3 goal_velocity,
                                   const Coupling& coupling) noexcept;
 
+/// What an update rubs with: the friction map's at the proxy that it begins with, or under the goal
+/// while that touches nothing; without a map the same as everywhere.
+[[nodiscard]] Friction felt_friction(const DepthSurface& surface, const Proxy& proxy, Vec3 goal,
+                                     Friction everywhere) noexcept;
+
+/// The spring and damper with the stiffness map's stiffness at the proxy, no stiffer than the
+/// device can stand; without a map the same as everywhere.
+[[nodiscard]] Coupling felt_coupling(const DepthSurface& surface, const Proxy& proxy,
+                                     Coupling everywhere, const SafetyLimits& limits) noexcept;
+
 /// The difference of two goals over time, through an adaptive window and a first-order low-pass. A
 /// device's coarse steps make the plain difference jump: a step of 0.06 mm in a millisecond is 60
 /// mm/s.

@@ -30,7 +30,8 @@ FramePair frames_of(const DepthBlend& pair) {
              .steady = steps.steady,
              .smooth_noise = steps.smooth_noise,
              .finger_px = from.cleaning.finger.radius_px,
-             .finger_relief_px = from.cleaning.finger.relief_px},
+             .finger_relief_px = from.cleaning.finger.relief_px,
+             .maps = from.maps ? from.maps->version : 0},
             from.index,
             to.index,
             from.media_s,
@@ -77,7 +78,8 @@ void HapticTick::notice_changes(const HapticSettings& settings,
     const double pitch_mm = settings.parameters.coupling.pixel_pitch_mm;
     const double bump_size_px = settings.parameters.shape.bump_size_px;
     const bool other_bumps = settings.bump.get() != bump_ || bump_size_px != bump_size_px_;
-    if (recording_begins || pitch_mm != pitch_mm_ || other_bumps ||
+    const TouchMaps* const maps = frames.count > 0 ? frames.frames[0].maps.get() : nullptr;
+    if (recording_begins || pitch_mm != pitch_mm_ || other_bumps || maps != maps_ ||
         frames.discontinuity != discontinuity_) {
         from_zero_ = true;
     }
@@ -85,6 +87,7 @@ void HapticTick::notice_changes(const HapticSettings& settings,
     pitch_mm_ = pitch_mm;
     bump_ = settings.bump.get();
     bump_size_px_ = bump_size_px;
+    maps_ = maps;
     discontinuity_ = frames.discontinuity;
 }
 

@@ -89,9 +89,9 @@ class HapticTick {
     void send_zero_force() noexcept;
 
   private:
-    /// What lets the force begin from zero: another scale of the hand, other bumps, a jump in the
-    /// video, and a recording, which begins as the program does so that it can be replayed. Other
-    /// settings glide.
+    /// What lets the force begin from zero: another scale of the hand, other bumps or maps, a jump
+    /// in the video, and a recording, which begins as the program does so that it can be replayed.
+    /// Other settings glide.
     void notice_changes(const HapticSettings& settings, const FrameWindow& frames) noexcept;
     /// Moves the proxy and sends the force; gives what they depended on, for record().
     [[nodiscard]] TickRecord touch_surface(const DepthBlend& pair, const HapticSettings& settings,
@@ -111,6 +111,7 @@ class HapticTick {
     double pitch_mm_{0.0};
     const BumpMap* bump_{nullptr};  // of the last tick, to be compared alone
     double bump_size_px_{0.0};
+    const TouchMaps* maps_{nullptr};  // likewise
     std::uint64_t discontinuity_{~0ull};
     std::optional<DeviceLimits> limits_{};  // what the hand of the last reading can stand
     bool from_zero_{true};

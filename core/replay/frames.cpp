@@ -15,6 +15,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/video/cleaning/surface_version.hpp"
 #include "core/video/depth/sidecar.hpp"
+#include "core/video/formats/touch_map_files.hpp"
 #include "core/video/picture_pattern.hpp"
 
 namespace dibhr {
@@ -129,6 +130,7 @@ SessionFrames::SessionFrames(const Session& session, const SessionFramesOptions&
         description_ = reader_of(first).description();
     }
     read_bumps(session);
+    if (options_.maps) read_maps(session);
 }
 
 void SessionFrames::find_videos(const Session& session) {
@@ -173,11 +175,44 @@ void SessionFrames::lay(std::shared_ptr<const BumpMap>& bump, double size_px) co
     stretch(bump, description_.depth_columns, description_.depth_rows, size_px);
 }
 
+void SessionFrames::read_maps(const Session& session) {
+    for (const SessionSource& each : session.sources()) {
+        const std::uint32_t version = each.source.maps;
+        if (version == 0 || maps_.contains(version)) continue;
+        std::vector<SessionMap> maps = session.maps_of(version);
+        if (maps.empty()) {
+            throw InputError(session.file().string() +
+                             ": does not hold the touch maps that were felt, as its recording was "
+                             "broken off; replay it with --maps off");
+        }
+        maps_.emplace(version, std::move(maps));
+    }
+}
+
+std::shared_ptr<const TouchMaps> SessionFrames::maps_of(const FrameSource& source,
+                                                        const MediaDescription& media) {
+    const auto kept = maps_.find(source.maps);
+    if (kept == maps_.end()) return nullptr;
+    if (decoded_maps_ && decoded_maps_->version == source.maps) return decoded_maps_;
+    auto maps = std::make_shared<TouchMaps>();
+    maps->version = source.maps;
+    for (const SessionMap& map : kept->second) {
+        const auto kind = touch_map_kind_named(map.kind);
+        if (!kind) continue;
+        maps->of(*kind) =
+            touch_map_in(map.png, {map.lowest, map.highest}, finder_.session().string());
+    }
+    dibhr::lay(*maps, media.depth_columns, media.depth_rows);
+    decoded_maps_ = std::move(maps);
+    return decoded_maps_;
+}
+
 Frame SessionFrames::frame(const FrameSource& source, double media_s) {
     if (const Kept* kept = find(source, media_s)) return kept->frame;
     Video& video = videos_[source.media];
     FrameReader& reader = reader_of(video);
     reader.set_cleaning(cleaning_for(source));
+    reader.set_maps(maps_of(source, reader.description()));
     const bool near_ahead =
         video.last_s && *video.last_s < media_s && media_s < *video.last_s + kNearAhead_s;
     std::optional<Frame> frame = near_ahead ? reader.after(*video.last_s) : reader.at(media_s);

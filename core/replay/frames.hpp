@@ -32,6 +32,7 @@ class SessionMediaFinder {
     /// its end. Throws InputError when there is none: which, and where to put it.
     [[nodiscard]] std::filesystem::path find(const SessionMedia& media, const std::string& what);
 
+    [[nodiscard]] const std::filesystem::path& session() const noexcept { return session_; }
     /// What was taken although it is not known to be the same, one sentence a file.
     [[nodiscard]] const std::string& warning() const noexcept { return warning_; }
     void warn(const std::string& sentence);
@@ -53,6 +54,7 @@ struct SessionFramesOptions {
     std::optional<Fingertip> finger{};
     std::filesystem::path bump{};  ///< instead of the recorded bump map; empty: the recorded one
     double bump_size_px{0.0};      ///< of that one; SurfaceShape::bump_size_px
+    bool maps{true};               ///< false: without the touch maps that were felt
 };
 
 /// Cleans frames as they were and keeps all of them as long as there is room: a video that repeats
@@ -88,6 +90,10 @@ class SessionFrames final : public RecordedFrames {
     void find_videos(const Session& session);
     void read_bumps(const Session& session);
     void lay(std::shared_ptr<const BumpMap>& bump, double size_px) const;
+    void read_maps(const Session& session);
+    /// Null: none were felt.
+    [[nodiscard]] std::shared_ptr<const TouchMaps> maps_of(const FrameSource& source,
+                                                           const MediaDescription& media);
     [[nodiscard]] FrameReader& reader_of(Video& video) const;
     [[nodiscard]] CleaningOptions cleaning_for(const FrameSource& source) const;
     [[nodiscard]] const Kept* find(const FrameSource& source, double media_s) const;
@@ -98,6 +104,8 @@ class SessionFrames final : public RecordedFrames {
     std::map<std::uint32_t, Video> videos_{};
     std::map<std::filesystem::path, std::shared_ptr<const BumpMap>> bumps_{};  // by recorded names
     std::shared_ptr<const BumpMap> other_bump_{};
+    std::map<std::uint32_t, std::vector<SessionMap>> maps_{};  // by their versions
+    std::shared_ptr<const TouchMaps> decoded_maps_{};          // the last that were asked for
     MediaDescription description_{};
     std::deque<Kept> kept_{};  // the oldest first
 };

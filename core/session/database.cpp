@@ -122,6 +122,11 @@ void Statement::cell(std::string_view text) noexcept {
                       SQLITE_TRANSIENT);
 }
 
+void Statement::bytes(std::string_view bytes) noexcept {
+    sqlite3_bind_blob(handle_.get(), ++cells_, bytes.data(), static_cast<int>(bytes.size()),
+                      SQLITE_TRANSIENT);
+}
+
 void Statement::cell(double value) noexcept {
     constexpr double kShortest = 1e9;  // in five bytes instead of eight
     const auto whole = std::abs(value) < kShortest ? static_cast<std::int64_t>(value) : 0;

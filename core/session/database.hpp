@@ -82,6 +82,8 @@ class Statement {
         integer(static_cast<std::int64_t>(value));
     }
     void cell(double value) noexcept;
+    /// What is no text.
+    void bytes(std::string_view bytes) noexcept;
     /// Nothing: no value.
     void cell(const std::optional<std::int64_t>& value) noexcept;
     /// Also a whole number as a real, where an integer means something else.

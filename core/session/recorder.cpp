@@ -375,6 +375,12 @@ void Recorder::media(std::uint32_t number, const std::filesystem::path& colour,
     });
 }
 
+void Recorder::maps(std::uint32_t version, std::vector<SessionMap> maps) {
+    implementation_->leave([version, maps = std::move(maps)](Implementation& writer) {
+        writer.session->add_maps(version, maps);
+    });
+}
+
 void Recorder::mark(const std::string& tag, const std::string& text) {
     implementation_->leave([moment = Clock::now(), tag, text](Implementation& writer) {
         writer.add_mark(moment, tag, text);

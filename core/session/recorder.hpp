@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/realtime/heartbeat.hpp"
 #include "core/session/tick_record.hpp"
@@ -39,7 +40,7 @@ class Recorder {
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
 
-    // The next four wait for no disk. Each counts for the ticks that are pushed after it.
+    // The next five wait for no disk. Each counts for the ticks that are pushed after it.
 
     /// Parameters that ticks may refer to from now on by their version.
     void parameters(const SessionParameters& parameters);
@@ -48,6 +49,8 @@ class Recorder {
     /// own once a tick touches them.
     void media(std::uint32_t number, const std::filesystem::path& colour,
                const std::filesystem::path& depth, const std::string& depth_meaning = {});
+    /// The touch maps that ticks refer to by that version. May come after them.
+    void maps(std::uint32_t version, std::vector<SessionMap> maps);
     /// Marks this moment.
     void mark(const std::string& tag, const std::string& text = {});
     /// Changes or adds a fact: "participant", "note".

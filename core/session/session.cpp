@@ -223,6 +223,30 @@ void Session::read_sources() {
     }
 }
 
+std::vector<SessionMap> Session::maps_of(std::uint32_t version) const {
+    constexpr std::size_t kMost_bytes = std::size_t{1} << 28;
+    std::vector<SessionMap> maps;
+    if (columns_of(reader_, "touch_map").empty()) return maps;  // of before there were maps
+    SessionReader::Query query(reader_,
+                               "SELECT kind, lowest, highest, png FROM touch_map WHERE version = " +
+                                   std::to_string(version) + " ORDER BY kind, part");
+    std::size_t bytes = 0;
+    while (query.next()) {
+        std::string kind = query.text(0);
+        if (maps.empty() || maps.back().kind != kind)
+            maps.push_back({std::move(kind), query.real(1), query.real(2), {}});
+        const std::string part = query.bytes(3);
+        bytes += part.size();
+        if (bytes > kMost_bytes) {
+            throw InputError(file().string() +
+                             ": holds larger touch maps than any recording has; choose a file that "
+                             "dibhr recorded");
+        }
+        maps.back().png += part;
+    }
+    return maps;
+}
+
 void Session::read_marks() {
     SessionReader::Query query(reader_, "SELECT t, tag, text FROM mark ORDER BY t, id");
     while (query.next()) {

@@ -39,6 +39,8 @@ class Session {
     [[nodiscard]] const std::vector<SessionSource>& sources() const noexcept { return sources_; }
     /// Null when there is none.
     [[nodiscard]] const SessionSource* source_of(const FrameSource& source) const noexcept;
+    /// The touch maps of that version; none: it does not hold them.
+    [[nodiscard]] std::vector<SessionMap> maps_of(std::uint32_t version) const;
     /// In order of time.
     [[nodiscard]] const std::vector<SessionMark>& marks() const noexcept { return marks_; }
 

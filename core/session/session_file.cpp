@@ -27,6 +27,8 @@ namespace {
 
 // A version that is held otherwise than before gets a number that no window hands out: 2^32 more.
 constexpr int kHeldAgainShift = 32;
+// A reader takes no larger value at once.
+constexpr std::size_t kMostMapBytes = std::size_t{1} << 19;
 // Large pages waste little at their ends.
 constexpr const char* kFileLayout =
     "PRAGMA page_size = 16384; PRAGMA journal_mode = WAL; PRAGMA wal_autocheckpoint = 0";
@@ -266,6 +268,22 @@ void SessionFile::know(const SessionParameters& parameters) {
 void SessionFile::know_media(std::uint32_t number, const std::filesystem::path& colour,
                              const std::filesystem::path& depth, const std::string& depth_meaning) {
     known_media_[number] = {colour, depth, depth_meaning};
+}
+
+void SessionFile::add_maps(std::uint32_t version, const std::vector<SessionMap>& maps) {
+    Statement insert(database_, "INSERT OR IGNORE INTO touch_map VALUES (?, ?, ?, ?, ?, ?)");
+    for (const SessionMap& map : maps) {
+        const std::string_view png = map.png;
+        for (std::size_t at = 0, part = 0; at < png.size(); at += kMostMapBytes, ++part) {
+            insert.cell(version);
+            insert.cell(map.kind);
+            insert.cell(part);
+            insert.cell(map.lowest);
+            insert.cell(map.highest);
+            insert.bytes(png.substr(at, kMostMapBytes));
+            insert.run();
+        }
+    }
 }
 
 void SessionFile::set_fact(const std::string& key, const std::string& value) {

@@ -38,6 +38,8 @@ class SessionFile {
     void know_media(std::uint32_t number, const std::filesystem::path& colour,
                     const std::filesystem::path& depth, const std::string& depth_meaning);
 
+    /// Of touch maps that ticks refer to by that version; once.
+    void add_maps(std::uint32_t version, const std::vector<SessionMap>& maps);
     void set_fact(const std::string& key, const std::string& value);
     void add_mark(const SessionMark& mark);
     void add_clock(std::int64_t t_ns, double utc_s, std::uint64_t dropped,

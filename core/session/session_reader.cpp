@@ -89,9 +89,14 @@ void SessionReader::check_tables() const {
                  "WHERE m.name IN " +
                      names + ")");
     Query view(*this, "SELECT sql FROM sqlite_master WHERE type = 'view' AND name = 'tick'");
+    // Recordings of before there were touch maps have no such table.
+    Query maps(
+        *this,
+        "SELECT count(*) FROM sqlite_master WHERE name = 'touch_map' AND NOT (type = 'table' "
+        "AND rootpage > 0)");
     const auto count = static_cast<std::int64_t>(session_tables().size());
-    if (!tables.next() || tables.integer(0) != count || !hidden.next() || hidden.integer(0) != 0 ||
-        !view.next() || view.text(0) != tick_view()) {
+    if (!maps.next() || maps.integer(0) != 0 || !tables.next() || tables.integer(0) != count ||
+        !hidden.next() || hidden.integer(0) != 0 || !view.next() || view.text(0) != tick_view()) {
         refuse("its tables are not those of a recording");
     }
 }
@@ -238,6 +243,13 @@ std::string SessionReader::Query::text(int column) const {
     const unsigned char* const text = sqlite3_column_text(statement_.get(), column);
     const int bytes = sqlite3_column_bytes(statement_.get(), column);
     return text == nullptr ? std::string{} : std::string(text, text + bytes);
+}
+
+std::string SessionReader::Query::bytes(int column) const {
+    const auto* const bytes =
+        static_cast<const char*>(sqlite3_column_blob(statement_.get(), column));
+    const int count = sqlite3_column_bytes(statement_.get(), column);
+    return bytes == nullptr ? std::string{} : std::string(bytes, bytes + count);
 }
 
 }  // namespace dibhr

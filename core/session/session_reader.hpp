@@ -60,6 +60,7 @@ class SessionReader::Query {
     [[nodiscard]] std::int64_t integer(int column) const noexcept;
     [[nodiscard]] Kind kind(int column) const noexcept;
     [[nodiscard]] std::string text(int column) const;
+    [[nodiscard]] std::string bytes(int column) const;
 
     [[nodiscard]] int columns() const noexcept;
     [[nodiscard]] std::string name(int column) const;

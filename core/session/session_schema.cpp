@@ -23,6 +23,8 @@ CREATE TABLE clock(t_ns INTEGER PRIMARY KEY, utc_s REAL, dropped INTEGER, high_w
 CREATE TABLE mark(id INTEGER PRIMARY KEY, t REAL, tag TEXT, text TEXT);
 CREATE TABLE cut(code INTEGER PRIMARY KEY, name TEXT);
 CREATE TABLE tick_column(name TEXT, unit TEXT, meaning TEXT);
+CREATE TABLE touch_map(version INTEGER, kind TEXT, part INTEGER, lowest REAL, highest REAL, png BLOB,
+  PRIMARY KEY(version, kind, part));
 )";
 
 std::string source_table() {

@@ -28,11 +28,13 @@ struct FrameSource {
     bool smooth_noise{false};
     double finger_px{0.0};         ///< the fingertip's radius; 0: a point
     double finger_relief_px{0.0};  ///< for which elevation of the highest level
+    std::uint32_t maps{0};  ///< version of the touch maps on them, as told to the recorder; 0: none
 
     bool operator==(const FrameSource&) const = default;
 };
 
-/// How they were cleaned, in the order of the columns of table `source`: visit(name, fact).
+/// How they were cleaned and what was painted, in the order of the columns of table `source`:
+/// visit(name, fact).
 template <typename Source, typename Visit>
 void visit_cleaning(Source& source, const Visit& visit) {
     visit("fill_holes", source.fill_holes);
@@ -44,6 +46,7 @@ void visit_cleaning(Source& source, const Visit& visit) {
     visit("smooth_noise", source.smooth_noise);
     visit("finger_px", source.finger_px);
     visit("finger_relief_px", source.finger_relief_px);
+    visit("maps", source.maps);
 }
 
 /// Two depth frames that a surface blends: named by their presentation times, which are exact; the
@@ -144,6 +147,7 @@ void visit_numbers(SessionParameters& parameters, const Visit& visit) {
     visit(std::string_view("watched_resolution_mm"), watched.resolution_mm);
     visit(std::string_view("watched_delay_s"), watched.delay_s);
     visit(std::string_view("watched_margin_newton_s_per_m"), watched.margin_newton_s_per_m);
+    visit(std::string_view("max_map_stiffness_newton_per_mm"), limits.max_stiffness_newton_per_mm);
 }
 
 /// What frames were made of.
@@ -152,6 +156,14 @@ struct SessionSource {
     SessionMedia colour{}, depth{};
     std::int64_t first_tick{0};
     std::string depth_meaning{};  ///< as a sidecar says it (TOML); empty: levels as in the file
+};
+
+/// A touch map that was felt, as it is kept in a session.
+struct SessionMap {
+    std::string kind{};  ///< "stiffness"
+    double lowest{0.0};  ///< value of its lowest level; of the highest:
+    double highest{1.0};
+    std::string png{};  ///< the bytes of its picture
 };
 
 /// A moment a person marked while recording.

@@ -17,8 +17,10 @@ constexpr double kShortestLap_s = 1e-4;  ///< a shorter one is taken for a file 
 
 }  // namespace
 
-DepthInTime::DepthInTime(std::unique_ptr<Media> media, bool moving, const CleaningOptions& cleaning)
+DepthInTime::DepthInTime(std::unique_ptr<Media> media, bool moving, const CleaningOptions& cleaning,
+                         std::shared_ptr<const TouchMaps> maps)
     : reader_(std::move(media)) {
+    reader_.set_maps(std::move(maps));
     const std::string name = reader_.description().depth_path.string();
     reader_.set_cleaning(cleaning);
     std::optional<Frame> first = reader_.at(0.0);

@@ -19,9 +19,10 @@ namespace dibhr {
 /// its last frame lasting as long as the one before it.
 class DepthInTime {
   public:
-    /// Reads the first frame and what it is cleaned with; not `moving`: that is all. Throws
-    /// InputError when there is none or it is smaller than 2 x 2.
-    DepthInTime(std::unique_ptr<Media> media, bool moving, const CleaningOptions& cleaning);
+    /// Reads the first frame and what it is cleaned with; not `moving`: that is all. `maps` lie on
+    /// every frame; null: none. Throws InputError when there is none or it is smaller than 2 x 2.
+    DepthInTime(std::unique_ptr<Media> media, bool moving, const CleaningOptions& cleaning,
+                std::shared_ptr<const TouchMaps> maps = nullptr);
 
     /// Goes on to `playback_s`, which must not fall from call to call. True when the video started
     /// again on the way. Throws InputError when the file breaks off.

@@ -323,6 +323,7 @@ Frame FrameReader::with_depth(Frame frame, const CleanedDepth& cleaned,
     frame.depth = cleaned.depth;
     frame.unseen = cleaned.unseen;
     frame.beneath = cleaned.beneath;
+    frame.maps = maps_;
     frame.cleaning = {steps, plan_.finger};
     return frame;
 }

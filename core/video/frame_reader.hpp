@@ -59,6 +59,9 @@ class FrameReader {
     /// From here on frames come cleaned so; those given out before are asked for again.
     void set_cleaning(const CleaningOptions& options);
 
+    /// From here on frames carry these; null: none.
+    void set_maps(std::shared_ptr<const TouchMaps> maps) { maps_ = std::move(maps); }
+
     [[nodiscard]] const MediaDescription& description() const { return media_.description(); }
     [[nodiscard]] const FrameCost& cost() const { return cost_; }
     /// How many frames after() has passed over.
@@ -155,6 +158,7 @@ class FrameReader {
     std::optional<Broken> broken_{};
     CleaningPlan plan_{};  ///< what the options mean for it
     bool planned_{false};
+    std::shared_ptr<const TouchMaps> maps_{};
     std::map<double, Kept> kept_{};       ///< by presentation time
     double wanted_s_{0.0};                ///< the frame that is, or was last, given out
     bool at_beginning_{true};             ///< the next frame is the first one

@@ -13,6 +13,7 @@
 
 #include "core/haptics/depth_image.hpp"
 #include "core/haptics/surface.hpp"
+#include "core/haptics/touch_maps.hpp"
 #include "core/video/cleaning/cleaning_options.hpp"
 
 namespace dibhr {
@@ -33,6 +34,8 @@ struct Frame {
     std::shared_ptr<const ColourImage> colour{};
     /// What a fingertip touches, of the same size; null: it is a point, and that is `depth`.
     std::shared_ptr<const DepthImage> beneath{};
+    /// What was painted on it; null: nothing.
+    std::shared_ptr<const TouchMaps> maps{};
     double time_s{0.0};        ///< on a playback timeline, which goes on across loops
     double media_s{0.0};       ///< presentation time in the file
     std::int64_t index{0};     ///< number of the frame in the file, from 0
@@ -85,12 +88,14 @@ struct DepthBlend {
     /// Of frames that make one. Valid as long as they are.
     [[nodiscard]] DepthSurface surface(const SurfaceShape& shape,
                                        const BumpMap* bump = nullptr) const noexcept {
-        return {*from->depth, *to->depth, blend, shape, bump, nearest().unseen.get()};
+        return {*from->depth,           *to->depth,      blend, shape, bump,
+                nearest().unseen.get(), from->maps.get()};
     }
     /// The same of what is drawn.
     [[nodiscard]] DepthSurface drawn_surface(const SurfaceShape& shape,
                                              const BumpMap* bump = nullptr) const noexcept {
-        return {*from->drawn(), *to->drawn(), blend, shape, bump, nearest().unseen.get()};
+        return {*from->drawn(), *to->drawn(),           blend,           shape,
+                bump,           nearest().unseen.get(), from->maps.get()};
     }
 };
 

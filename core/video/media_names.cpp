@@ -11,6 +11,7 @@
 #include <system_error>
 #include <vector>
 
+#include "core/video/formats/touch_map_files.hpp"
 #include "core/video/media.hpp"
 
 namespace dibhr {
@@ -153,7 +154,7 @@ std::optional<fs::path> of_same_subject(const fs::path& given, Fits fits) {
         const bool of_kind =
             is_folder(given) ? is_folder(*entry) : named_media(name) && is_file(*entry);
         if (!of_kind || name == given.filename() || name.string().starts_with('.') || !fits(name) ||
-            subject_of(name) != subject)
+            names_touch_map(folder / name) || subject_of(name) != subject)
             continue;
         if (!found || in_natural_order(name.string(), found->filename().string()))
             found = folder / name;

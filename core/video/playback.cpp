@@ -141,6 +141,12 @@ void Playback::set_cleaning(const CleaningOptions& options) {
     cleaning_ = options;
 }
 
+void Playback::set_maps(const std::shared_ptr<const TouchMaps>& maps) {
+    if (!is_open()) return;
+    reader_->set_maps(maps);
+    for (Frame& frame : frames_) frame.maps = maps;
+}
+
 /// All frames or none: no surface lies between two cleanings.
 void Playback::clean_again(const CleaningOptions& options) {
     reader_->set_cleaning(options);

@@ -35,6 +35,8 @@ class Playback {
     void set_part(const std::optional<MediaPart>& part);
     void set_speed(double speed, Time now);
     void set_cleaning(const CleaningOptions& options);
+    /// Lays them on all frames at once; null: none.
+    void set_maps(const std::shared_ptr<const TouchMaps>& maps);
 
     /// Leaves frames that are past, stops at the end. True when the window changed.
     bool advance(Time now);

@@ -22,9 +22,9 @@ namespace {
 
 using Time = Playback::Time;
 
-/// What a method asks of the player's thread. Of seeks in a row, and of cleanings, only the last
-/// one counts.
-enum class Kind { step, seek, cleaning };
+/// What a method asks of the player's thread. Of seeks in a row, of cleanings and of maps, only the
+/// last one counts.
+enum class Kind { step, seek, cleaning, maps };
 struct Command {
     std::function<void(Playback&, Time)> action{};
     Kind kind{Kind::step};
@@ -182,11 +182,13 @@ Player::~Player() {
     implementation_->thread.join();
 }
 
-void Player::play_media(std::unique_ptr<Media> media, std::uint32_t number) {
+void Player::play_media(std::unique_ptr<Media> media, std::uint32_t number,
+                        std::shared_ptr<const TouchMaps> maps) {
     // std::function wants to be copyable, hence shared; the reader moves on when the command runs.
     auto reader = std::make_shared<std::unique_ptr<FrameReader>>(std::make_unique<FrameReader>(
         std::move(media), number,
         ReadingHearts{&implementation_->decoding, &implementation_->heart}));
+    (*reader)->set_maps(std::move(maps));
     implementation_->ask({[reader](Playback& playback, Time now) {
         playback.open(std::move(*reader), now);
         // Else what the media before took stays with the program.
@@ -227,6 +229,12 @@ void Player::set_speed(double speed) {
 void Player::set_cleaning(const CleaningOptions& options) {
     implementation_->ask(
         {[options](Playback& playback, Time) { playback.set_cleaning(options); }, Kind::cleaning});
+}
+
+void Player::set_maps(std::shared_ptr<const TouchMaps> maps) {
+    implementation_->ask(
+        {[maps = std::move(maps)](Playback& playback, Time) { playback.set_maps(maps); },
+         Kind::maps});
 }
 
 PlaybackStatus Player::status() const {

@@ -45,8 +45,10 @@ class Player {
     Player(const Player&) = delete;
     Player& operator=(const Player&) = delete;
 
-    /// Takes an opened pair over, from its first frame, playing. Its frames carry `number`.
-    void play_media(std::unique_ptr<Media> media, std::uint32_t number = 0);
+    /// Takes an opened pair over, from its first frame, playing. Its frames carry `number`, and the
+    /// maps that lie on them.
+    void play_media(std::unique_ptr<Media> media, std::uint32_t number = 0,
+                    std::shared_ptr<const TouchMaps> maps = nullptr);
 
     void play();
     void pause();
@@ -57,6 +59,8 @@ class Player {
     void set_part(const std::optional<MediaPart>& part);
     void set_speed(double speed);  ///< kSlowestSpeed .. kFastestSpeed
     void set_cleaning(const CleaningOptions& options);
+    /// Lays them on the media that was given last; null: none.
+    void set_maps(std::shared_ptr<const TouchMaps> maps);
 
     [[nodiscard]] PlaybackStatus status() const;
     /// Of the thread that cleans and hands over, for as long as it lives.

@@ -92,7 +92,7 @@ const std::vector<Ownership> kOwnerships{
     {"X11/", {"app/window/"}},
     {"GLFW/", {"app/window/", "app/settings/keys.cpp"}},
     {"CLI/", {"app/settings/", "app/commands/"}},
-    {"toml", {"app/settings/", "core/video/depth/sidecar"}},
+    {"toml", {"app/settings/", "core/video/depth/sidecar", "core/video/formats/touch_map_files"}},
     {"pybind11/", {"app/python/"}},
     {"opencv2/", {"core/video/", "assets/"}},
     {"png.h", {"core/surface_files/"}},

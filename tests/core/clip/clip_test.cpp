@@ -208,20 +208,24 @@ TEST_CASE("a clip that falls behind drops pictures, never time, and waits for no
     ClipRecorder clip(file, ClipName::replaces);
     const ColourImage large = noisy(1280, 800, 1);
     const auto begin = ClipRecorder::Clock::now();
-    std::chrono::nanoseconds slowest{0};
+    constexpr int kPictures = 300;  // far more than can be encoded
+    std::vector<std::chrono::nanoseconds> took;
+    took.reserve(kPictures);
     int refused = 0;
-    for (int k = 0; k < 300; ++k) {  // far more than can be encoded
+    for (int k = 0; k < kPictures; ++k) {
         ColourImage picture = large;
         const auto before = ClipRecorder::Clock::now();
         if (!clip.wants_picture()) ++refused;
         clip.add(std::move(picture), begin + std::chrono::milliseconds(10 * k));
-        slowest = std::max(slowest, ClipRecorder::Clock::now() - before);
+        took.push_back(ClipRecorder::Clock::now() - before);
     }
     clip.stop(begin + std::chrono::seconds(3), ClipEnd::well);
     CHECK(clip.result() == file);
     CHECK(refused > 0);
-    CHECK(clip.encoded() < 300);
-    CHECK(slowest < std::chrono::milliseconds(100));
+    CHECK(clip.encoded() < kPictures);
+    // A machine that stands still for a moment holds up a few of them.
+    std::sort(took.begin(), took.end());
+    CHECK(took[kPictures * 95 / 100] < std::chrono::milliseconds(20));
     CHECK_THAT(length_s(folder, file), WithinAbs(3.0, kRounding_s));
     CHECK(times_s(folder, file).size() == clip.encoded());
 }

@@ -131,6 +131,41 @@ TEST_CASE("parameters, files and marks are kept with the tick that first used th
     CHECK(session.fact("started").size() == 20);
 }
 
+TEST_CASE("touch maps that were felt are kept whole, however large, by their version",
+          "[session][maps]") {
+    const SessionFolder folder;
+    std::string large(1'300'000, '\0');  // more than a reader takes at once
+    for (std::size_t k = 0; k < large.size(); ++k) large[k] = static_cast<char>(k * k / 7);
+    {
+        const auto ring = std::make_unique<TickRing>();
+        Recorder recorder(folder.file(), *ring, {});
+        TickRecord tick = tick_record(0);
+        tick.frames.source.maps = 3;
+        push(*ring, tick);
+        recorder.maps(3, {{"friction", 0.0, 2.0, large}, {"height", -32.0, 31.5, "small"}});
+        recorder.maps(3, {{"friction", 0.0, 2.0, "told again"}});
+        recorder.maps(4, {{"stiffness", 0.5, 1.0, "other"}});
+    }
+    const Session session(folder.file());
+    CHECK(session.sources().at(0).source.maps == 3);
+    const std::vector<SessionMap> maps = session.maps_of(3);
+    REQUIRE(maps.size() == 2);
+    CHECK(maps[0].kind == "friction");
+    CHECK(maps[0].png == large);
+    CHECK(maps[1].png == "small");
+    CHECK(maps[1].lowest == -32.0);
+    CHECK(maps[1].highest == 31.5);
+    CHECK(session.maps_of(4).at(0).kind == "stiffness");
+    CHECK(session.maps_of(5).empty());
+
+    // As recordings of before there were maps.
+    REQUIRE(change(folder.file(), "DROP TABLE touch_map"));
+    REQUIRE(change(folder.file(), "ALTER TABLE source DROP COLUMN maps"));
+    const Session old(folder.file());
+    CHECK(old.sources().at(0).source.maps == 0);
+    CHECK(old.maps_of(3).empty());
+}
+
 TEST_CASE("every tick has its wall time", "[session]") {
     const SessionFolder folder;
     const auto wall = [] {

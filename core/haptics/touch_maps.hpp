@@ -1,0 +1,112 @@
+// What differs from pixel to pixel: maps of stiffness, friction and height that lie over a depth
+// image and are felt there instead of, or on top of, what the panel says for all of it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/haptics/parameters.hpp"
+
+namespace dibhr {
+
+/// The values of the lowest and the highest level of a map, in its unit; linear in between.
+struct MapLimits {
+    double lowest{0.0};
+    double highest{1.0};
+
+    bool operator==(const MapLimits&) const = default;
+};
+
+/// What a map is of.
+enum class TouchMapKind { stiffness, friction, height };
+
+/// "stiffness", "friction" or "height": how its file and its column are called, the first two as
+/// the textures of glTF's MPEG_haptic_material are.
+[[nodiscard]] const char* name_of(TouchMapKind kind) noexcept;
+/// The kind of that name, or nothing.
+[[nodiscard]] std::optional<TouchMapKind> touch_map_kind_named(std::string_view name) noexcept;
+/// All of them, in the order of the enumeration.
+[[nodiscard]] std::span<const TouchMapKind> all_touch_map_kinds() noexcept;
+/// "N/mm", "" or "px".
+[[nodiscard]] const char* unit_of(TouchMapKind kind) noexcept;
+/// Stiffness 0 to 2 N/mm, friction 0 to 2, height -32 to 32 px.
+[[nodiscard]] MapLimits standard_limits(TouchMapKind kind) noexcept;
+
+/// One number a pixel, of its own resolution, stretched over the depth image: columns x rows,
+/// row-major. Without pixels there is no map.
+struct TouchMap {
+    /// How much of it is laid on a pixel: kWhole all, 0 nothing, where it is as if there were none.
+    struct Pixel {
+        std::uint16_t level{0};  ///< 0: the lowest, kWhole: the highest of `limits`
+        std::uint16_t cover{0};
+
+        bool operator==(const Pixel&) const = default;
+    };
+    static constexpr double kWhole = 65535.0;
+
+    int columns{0};
+    int rows{0};
+    MapLimits limits{};
+    std::vector<Pixel> pixels{};
+
+    [[nodiscard]] bool empty() const noexcept { return pixels.empty(); }
+    [[nodiscard]] Pixel& at(int i, int j) { return pixels[index(i, j)]; }
+    [[nodiscard]] const Pixel& at(int i, int j) const { return pixels[index(i, j)]; }
+    [[nodiscard]] double value_of(const Pixel& pixel) const noexcept {
+        return limits.lowest + (limits.highest - limits.lowest) * (pixel.level / kWhole);
+    }
+    /// The level that is nearest to a value, held in the limits.
+    [[nodiscard]] std::uint16_t level_of(double value) const noexcept;
+    /// Whether it lies anywhere at all.
+    [[nodiscard]] bool covers_anything() const noexcept;
+
+    bool operator==(const TouchMap&) const = default;
+
+  private:
+    [[nodiscard]] std::size_t index(int i, int j) const noexcept {
+        return static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) +
+               static_cast<std::size_t>(i);
+    }
+};
+
+/// One that covers nothing.
+[[nodiscard]] TouchMap bare_map(TouchMapKind kind, int columns, int rows);
+
+/// Bilinear, at (x, y) of a depth image of columns x rows [px], held at its border: the map's value
+/// where it covers, `otherwise` where it does not, and between them in proportion. Of a map as
+/// large as the image its pixels are the VERTEXes.
+[[nodiscard]] double felt_value(const TouchMap& map, double x, double y, int columns, int rows,
+                                double otherwise) noexcept;
+
+/// The maps of a recording. Immutable once frames carry them.
+struct TouchMaps {
+    TouchMap stiffness{};  ///< [N/mm] instead of Coupling::stiffness_newton_per_mm
+    TouchMap friction{};  ///< instead of Friction::static_coefficient; the dynamic one in its ratio
+    TouchMap height{};    ///< [px] on top of the elevation
+    /// Of the height map at every VERTEX of a depth image of one size; see lay().
+    struct AtVertices {
+        int columns{0};
+        int rows{0};
+        double highest_px{0.0};  ///< no height is greater; 0 or more
+        std::vector<float> heights_px{};
+    };
+    AtVertices at_vertices{};
+    /// Of those that a program has handed out; 0: none were.
+    std::uint32_t version{0};
+
+    [[nodiscard]] TouchMap& of(TouchMapKind kind) noexcept;
+    [[nodiscard]] const TouchMap& of(TouchMapKind kind) const noexcept;
+    [[nodiscard]] bool empty() const noexcept {
+        return stiffness.empty() && friction.empty() && height.empty();
+    }
+};
+
+/// Works the height map out at the VERTEXes of depth images of columns x rows: over others it is
+/// not felt. To be called again when it changes.
+void lay(TouchMaps& maps, int columns, int rows);
+
+}  // namespace dibhr
