@@ -109,10 +109,11 @@ void require_replay_options(const ViewOptions& options, const TouchRequest& touc
     const bool wrong = !options.open.depth.empty() || !options.record.empty() ||
                        touch.asks_for_another_surface() || touch.depth != DepthStatement{};
     if (!wrong) return;
-    throw UsageError(options.open.colour.string() +
-                     " is a session, which is replayed as it was recorded: leave away a depth "
-                     "file, --record, --material, --bump, --raw-depth, --cleaning, --finger and "
-                     "what depth means");
+    throw UsageError(
+        options.open.colour.string() +
+        " is a session, which is replayed as it was recorded: leave away a depth "
+        "file, --record, --material, --bump, --maps, --raw-depth, --cleaning, --finger and "
+        "what depth means");
 }
 
 void require_writable_folder(const fs::path& file, const char* option) {
@@ -205,6 +206,7 @@ void open_parts(const ViewOptions& options, ViewerParts& parts) {
     } else {
         parts.media = open_request(options.open);
         parts.memory = memory_of(*parts.media);
+        parts.maps = find_maps(parts.media->description());
         if (gives_relief(options.touch)) parts.memory.relief_px.reset();
         if (options.start_given || options.end_s || !options.clip.empty()) parts.memory.at_s = 0.0;
         print_warning(parts.media->description().notice);

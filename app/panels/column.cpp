@@ -40,6 +40,7 @@ void draw_panel_column(ViewerState& state, Player& player, SessionPlayer* replay
         draw_device_panel(state);
         draw_session_panel(state);
         draw_loop_panel(state);
+        draw_paint_panel(state);
     }
     ImGui::End();
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/panels/panels.hpp"
+#include "app/panels/relief_screen.hpp"
 #include "app/panels/widgets.hpp"
 #include "core/haptics/facet.hpp"
 #include "core/haptics/neighbours.hpp"
@@ -38,19 +39,12 @@ constexpr int kWidestNet = 90;  // of a wider one the lines would cover the reli
 /// Draws in grid space on top of the relief.
 class Blackboard {
   public:
-    Blackboard(const glm::dmat4& clip_from_grid, glm::dvec2 size, float scale)
-        : clip_from_grid_(clip_from_grid), size_(size), scale_(scale) {}
-
-    [[nodiscard]] std::optional<ImVec2> screen(Vec3 p) const {
-        const glm::dvec4 clip = clip_from_grid_ * glm::dvec4(p, 1.0);
-        if (clip.w <= 0.0) return std::nullopt;
-        return ImVec2(static_cast<float>((0.5 + 0.5 * clip.x / clip.w) * size_.x),
-                      static_cast<float>((0.5 - 0.5 * clip.y / clip.w) * size_.y));
-    }
+    Blackboard(const ViewerState& state, const glm::dmat4& clip_from_grid)
+        : screen_(state, clip_from_grid), scale_(state.scale) {}
 
     void line(Vec3 from, Vec3 to, ImU32 colour, float thick = 1.0F) const {
-        const auto a = screen(from);
-        const auto b = screen(to);
+        const auto a = screen_.at(from);
+        const auto b = screen_.at(to);
         if (a && b) list().AddLine(*a, *b, colour, thick * scale_);
     }
 
@@ -63,23 +57,23 @@ class Blackboard {
     }
 
     void triangle(const std::array<Vec3, 3>& corners, ImU32 fill, ImU32 border) const {
-        const auto a = screen(corners[0]);
-        const auto b = screen(corners[1]);
-        const auto c = screen(corners[2]);
+        const auto a = screen_.at(corners[0]);
+        const auto b = screen_.at(corners[1]);
+        const auto c = screen_.at(corners[2]);
         if (!a || !b || !c) return;
         list().AddTriangleFilled(*a, *b, *c, fill);
         list().AddTriangle(*a, *b, *c, border, 1.5F * scale_);
     }
 
     void dot(Vec3 at, float radius, ImU32 colour) const {
-        if (const auto p = screen(at)) {
+        if (const auto p = screen_.at(at)) {
             list().AddCircleFilled(*p, (radius + 1.5F) * scale_, kOutline, 24);
             list().AddCircleFilled(*p, radius * scale_, colour, 24);
         }
     }
 
     void ring(Vec3 at, float radius, ImU32 colour) const {
-        if (const auto p = screen(at)) {
+        if (const auto p = screen_.at(at)) {
             list().AddCircle(*p, radius * scale_, kOutline, 28, 5.0F * scale_);
             list().AddCircle(*p, radius * scale_, colour, 28, 3.0F * scale_);
         }
@@ -87,7 +81,7 @@ class Blackboard {
 
     /// Beside a place, readable on any picture.
     void word(Vec3 at, const char* text) const {
-        const auto p = screen(at);
+        const auto p = screen_.at(at);
         if (!p) return;
         const ImVec2 size = ImGui::CalcTextSize(text);
         const float gap = 12.0F * scale_;
@@ -101,8 +95,7 @@ class Blackboard {
   private:
     [[nodiscard]] static ImDrawList& list() { return *ImGui::GetBackgroundDrawList(); }
 
-    glm::dmat4 clip_from_grid_;
-    glm::dvec2 size_;
+    ReliefScreen screen_;
     float scale_;
 };
 
@@ -279,9 +272,7 @@ void draw_card(ViewerState& state) {
 void draw_explanation(ViewerState& state, const DepthSurface& surface,
                       const glm::dmat4& clip_from_grid) {
     if (!state.explained || state.explained->waits) return;
-    const ImVec2 display = ImGui::GetIO().DisplaySize;
-    const glm::dvec2 size(display.x - panel_column_width(state), display.y);
-    draw_on_relief(Blackboard(clip_from_grid, size, state.scale), surface, *state.explained);
+    draw_on_relief(Blackboard(state, clip_from_grid), surface, *state.explained);
     draw_card(state);
 }
 

@@ -71,6 +71,11 @@ void draw_panes(const ViewerState& state);
 /// Its points and its line, on the relief seen by that camera; nothing when it is off.
 void draw_ruler(const ViewerState& state, const glm::dmat4& clip_from_grid);
 
+/// The brush that lays touch maps on the relief.
+void draw_paint_panel(ViewerState& state);
+/// Its edge on the relief seen by that camera; nothing when it is off.
+void draw_brush(const ViewerState& state, const glm::dmat4& clip_from_grid);
+
 /// Over the relief: the force in numbers, notices; `now_s` counts from the start.
 void draw_overlay(const ViewerState& state, double now_s);
 

@@ -1,9 +1,9 @@
 // The ruler: two points on the relief and how far they are apart.
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/vec4.hpp>
 
 #include "app/panels/panels.hpp"
+#include "app/panels/relief_screen.hpp"
 #include "app/panels/widgets.hpp"
 #include "core/files/plain_text.hpp"
 
@@ -44,18 +44,15 @@ std::string ruler_text(const ViewerState& state) {
 
 void draw_ruler(const ViewerState& state, const glm::dmat4& clip_from_grid) {
     if (!state.ruler || state.explained) return;
-    const float top = panes_height(state);
-    const ImVec2 display = ImGui::GetIO().DisplaySize;
-    const ImVec2 size{display.x - panel_column_width(state), display.y - top};
+    const ReliefScreen screen(state, clip_from_grid);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     std::vector<ImVec2> seen;
     for (const PixelShown& end : state.ruler->ends) {
-        const glm::dvec4 clip = clip_from_grid * glm::dvec4(end_place(end), 1.0);
-        if (clip.w <= 0.0) return;
-        seen.push_back({static_cast<float>(0.5 + 0.5 * clip.x / clip.w) * size.x,
-                        top + static_cast<float>(0.5 - 0.5 * clip.y / clip.w) * size.y});
+        const auto at = screen.at(end_place(end));
+        if (!at) return;
+        seen.push_back(*at);
     }
-    list.PushClipRect({0.0F, top}, {size.x, display.y});
+    list.PushClipRect(screen.low(), screen.high());
     const float thick = 1.5F * state.scale;
     if (seen.size() == 2) {
         list.AddLine(seen[0], seen[1], kRulerEdge, thick + 2.0F * state.scale);

@@ -160,6 +160,7 @@ struct Requests {
     std::optional<std::string> material{};        ///< as material_called() takes it
     std::string keep_material{};  ///< what is felt, under that name; empty: not asked
     std::optional<std::filesystem::path> firmware{};
+    bool remove_paint{false};
     bool reset_view{false};
     bool toggle_recording{false};
     bool mark{false};
@@ -232,6 +233,32 @@ struct Ruler {
     void press(bool down, const std::optional<Vec3>& under);
 };
 
+/// What a brush lays on the relief, in the order of the panel.
+enum class BrushLays { material, stiffness, friction, height, nothing };
+inline constexpr std::array<Word<BrushLays>, 5> kBrushWords{
+    {{BrushLays::material, "material", "Material"},
+     {BrushLays::stiffness, "stiffness", "Stiffness"},
+     {BrushLays::friction, "friction", "Friction"},
+     {BrushLays::height, "height", "Height"},
+     {BrushLays::nothing, "nothing", "Nothing: take away"}}};
+static_assert(has_all_in_order(kBrushWords, BrushLays::nothing));
+
+struct Brush {
+    bool on{false};
+    BrushLays lays{BrushLays::material};
+    std::string material{"bark"};
+    double stiffness_newton_per_mm{1.0};
+    double friction{0.8};
+    double height_px{8.0};
+    double width{0.08};        ///< of the picture's width
+    double strength{1.0};      ///< 0 .. 1
+    std::vector<Vec3> ring{};  ///< its edge on the relief; empty: the pointer is beside it
+    std::string refusal{};     ///< why nothing can be painted; empty: it can
+    bool can_undo{false}, can_redo{false};
+    bool has_paint{false};             ///< there are maps
+    std::filesystem::path saved_as{};  ///< "cup_stiffness.png" and its like; empty: not kept
+};
+
 /// One update, looked at step by step.
 struct ExplainedNews {
     ExplainedUpdate update{};
@@ -270,8 +297,9 @@ struct ViewerState {
     std::optional<PixelShown> under_pointer{};  ///< nothing: it presses, or is beside the relief
     PanesShown panes{};
     std::optional<Ruler> ruler{};  ///< nothing: it is off
-    bool statistics{false};        ///< are shown over the relief
-    bool catching_up{false};       ///< the proxy is, or was a moment ago: long enough to be read
+    Brush brush{};
+    bool statistics{false};   ///< are shown over the relief
+    bool catching_up{false};  ///< the proxy is, or was a moment ago: long enough to be read
     std::optional<FalconNews> falcon{};  ///< nothing: no Falcon is looked for
     std::optional<RealtimeGrants> grants{};
     std::optional<RecordingNews> recording{};
@@ -291,6 +319,7 @@ struct ViewerState {
     bool touched{false};      ///< there has been a contact: the first hint has done its work
 
     bool show_device{false};   ///< the Falcon needs its person: the Device panel comes into sight
+    bool show_paint{false};    ///< the brush was taken by key: the Paint panel comes into sight
     bool show_session{false};  ///< recording began by key: the Session panel comes into sight
     bool help_open{false};
     std::string message{};        ///< shown in a box until it is closed

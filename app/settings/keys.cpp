@@ -53,6 +53,10 @@ constexpr KeyBinding kBindings[] = {
     {Action::toggle_sound, kTouch, "U", "Sound of touch off, on", "u"},
     {Action::mark, kTouch, "M", "Mark this moment of the recording", "m"},
     {Action::explain, kTouch, "E", "Explain an update step by step; end it", "e"},
+    {Action::toggle_brush, kTouch, "G", "Brush that paints materials on the relief; end it", "g"},
+    // Before that without Shift, which takes the same key.
+    on_control(with_shift({Action::redo, kTouch, "Ctrl+Shift+Z", "Paint again", "", {GLFW_KEY_Z}})),
+    on_control({Action::undo, kTouch, "Ctrl+Z", "Take back what was painted", "", {GLFW_KEY_Z}}),
     {Action::play_or_pause, kPlayback, "Space or P", "Play, pause", " p"},
     repeating(
         {Action::step_forward, kPlayback, ".", "One frame forward; in a replay, one tick", "."}),

@@ -317,6 +317,7 @@ std::vector<Setting> list_of(Settings& s) {
                               {"panels", "device", &s.panels.device},
                               {"panels", "session", &s.panels.session},
                               {"panels", "loop", &s.panels.loop},
+                              {"panels", "paint", &s.panels.paint},
                               {"touch", "algorithm", &s.touch.algorithm},
                               {"touch", "material", &s.material},
                               {"touch", "stability", &s.stability},

@@ -36,6 +36,7 @@ struct PanelsOpen {
     bool device{true};
     bool session{false};
     bool loop{false};
+    bool paint{false};
 
     bool operator==(const PanelsOpen&) const = default;
 };

@@ -82,6 +82,7 @@ SceneContent scene_content(const ViewerState& state, const DepthBlend& shown) {
     if (!shown.makes_surface()) return content;
     content.depth = shown;
     content.colour = shown.from;
+    content.maps = shown.from->maps;
     const DepthSurface surface = shown.surface(content.shape, content.bump);
     content.markers = markers_of(state, surface);
     content.markers.visible = content.markers.visible && !state.explained;
@@ -113,7 +114,8 @@ std::optional<PixelShown> pixel_at(Vec3 place, const ViewerState& state, const D
 void Viewer::take_opened() {
     if (auto opened = opening_.take()) {
         if (opened->media)
-            show_media(std::move(opened->media), opened->request, opened->memory);
+            show_media(std::move(opened->media), opened->request, opened->memory,
+                       std::move(opened->maps));
         if (opened->session) replay_session(std::move(opened->session));
         if (!opened->failure.empty()) {
             state_.message = opened->failure;
@@ -136,7 +138,7 @@ void Viewer::take_dropped(const std::vector<std::filesystem::path>& files) {
 }
 
 void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request,
-                        const FileMemory& memory) {
+                        const FileMemory& memory, FoundMaps maps) {
     explaining_.end(state_, camera_);
     if (!request.chosen) keep_memory();
     replay_.end(state_);
@@ -159,7 +161,13 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
     keep_recent(request.in_any_order && !request.depth.empty()
                     ? RecentFile{state_.media.colour_path, state_.media.depth_path}
                     : RecentFile{request.colour, request.depth});
-    player_.play_media(std::move(media), recording_.opened(state_.media));
+    if (!options_.touch.feels_maps())
+        maps = {nullptr, "Nothing is painted with --maps off: start dibhr without it"};
+    if (options_.touch.feels_maps() && !maps.refusal.empty())
+        state_.message = maps.refusal + "\n\nIt is touched without touch maps.";
+    player_.play_media(
+        std::move(media), recording_.opened(state_.media),
+        painting_.begin(std::move(maps), state_.media, remembered_file(state_.media).empty()));
     if (request.at_s > 0.0) player_.seek(request.at_s);
     if (request.paused) player_.pause();
     if (!request.chosen) take_memory(memory, request);
@@ -216,9 +224,11 @@ void Viewer::forget_relief() {
 }
 
 void Viewer::replay_session(std::unique_ptr<OpenedSession> session) {
+    painting_.hand_over(recording_);
     if (recording_.active()) tell(recording_.stop(state_));
     if (!session->frames.warning().empty()) tell(capitalised(session->frames.warning()));
     explaining_.end(state_, camera_);
+    painting_.end(state_);
     keep_memory();
     remembered_.clear();
     loop_.reset();  // the force goes to zero, and nobody touches
@@ -390,6 +400,11 @@ void Viewer::draw_scene(glm::ivec2 viewport) {
             if (const auto end = pixel_at(place, state_, shown_)) state_.ruler->ends.push_back(*end);
     }
     SceneContent content = scene_content(state_, shown_);
+    if (!state_.replay) content.maps = painting_.drawn();
+    if (state_.brush.on) {
+        content.look.paint = ReliefPaint::video;
+        content.colour = painting_.tinted(content.colour, state_);
+    }
     leave_trace(content.markers);
     scene_.draw(content, camera_, viewport);
 }

@@ -50,6 +50,10 @@ class Errand {
         return result_.get();
     }
 
+    void wait_until(std::chrono::steady_clock::time_point latest) const {
+        if (under_way()) result_.wait_until(latest);
+    }
+
   private:
     static constexpr auto kPatience = std::chrono::milliseconds(500);
 

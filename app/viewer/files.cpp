@@ -163,6 +163,7 @@ Opened try_open(const OpenRequest& request) {
         } else {
             opened.media = open_request(request);
             opened.memory = memory_of(*opened.media);
+            opened.maps = find_maps(opened.media->description());
         }
         return opened;
     } catch (const std::exception& error) {

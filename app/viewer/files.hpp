@@ -12,6 +12,7 @@
 #include "app/panels/viewer_state.hpp"
 #include "app/settings/file_memory.hpp"
 #include "app/settings/settings.hpp"
+#include "app/viewer/painting.hpp"
 #include "core/replay/session_player.hpp"
 #include "core/video/media.hpp"
 
@@ -75,6 +76,7 @@ struct Opened {
     OpenRequest request{};
     std::unique_ptr<Media> media{};
     FileMemory memory{};  ///< of the media
+    FoundMaps maps{};     ///< likewise
     std::unique_ptr<OpenedSession> session{};
     std::string failure{};
 };

@@ -85,6 +85,7 @@ void ViewerRecording::start(const std::filesystem::path& file, ViewerState& stat
     for (const MediaDescription& media : opened_) {
         tell_media(++number, media);
     }
+    if (!maps_.empty()) recorder_->maps(maps_version_, maps_);
     told_version_ = 0;
     falcon_serial_.clear();
     start_ = std::chrono::steady_clock::now();
@@ -127,6 +128,12 @@ void ViewerRecording::hand_over(const HapticSettings& settings,
                            .limits = settings.limits,
                            .force_enabled = settings.force_enabled,
                            .bump = {settings.bump ? bump_file : std::filesystem::path{}}});
+}
+
+void ViewerRecording::maps(std::uint32_t version, std::vector<SessionMap> maps) {
+    maps_version_ = version;
+    maps_ = std::move(maps);
+    if (recorder_) recorder_->maps(maps_version_, maps_);
 }
 
 std::string ViewerRecording::mark(ViewerState& state) {

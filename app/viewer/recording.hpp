@@ -33,6 +33,10 @@ class ViewerRecording {
     /// Parameters that the next tick will have; to be called before it gets them.
     void hand_over(const HapticSettings& settings, const std::filesystem::path& bump_file);
 
+    /// The touch maps that ticks refer to by that version; to be called once they are known, also
+    /// after the ticks.
+    void maps(std::uint32_t version, std::vector<SessionMap> maps);
+
     /// Marks this moment with the tag that was typed. A short notice.
     std::string mark(ViewerState& state);
 
@@ -60,6 +64,9 @@ class ViewerRecording {
     Heartbeat heart_{};                       // before the recorder, which beats it
     std::vector<MediaDescription> opened_{};  // what the frames' media numbers mean, from 1 on
     std::unique_ptr<Recorder> recorder_{};    // null: not recording
+    /// The last touch maps that were felt; a recording may begin with them.
+    std::uint32_t maps_version_{0};
+    std::vector<SessionMap> maps_{};
     std::uint64_t told_version_{0};           // of the parameters
     std::string participant_{}, note_{};      // as told
     std::string falcon_serial_{};             // known only when it has been found

@@ -2,8 +2,10 @@
 #include "app/viewer/viewer.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <numbers>
 #include <utility>
 
 #include "app/panels/falcon_state.hpp"
@@ -111,7 +113,7 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending)
     }
     state_.media = parts.media->description();
     if (!options.record.empty()) recording_.start(options.record, state_);
-    show_media(std::move(parts.media), options.open, parts.memory);
+    show_media(std::move(parts.media), options.open, parts.memory, std::move(parts.maps));
     play_as_asked(options, 0.0, player_);
 }
 
@@ -151,6 +153,7 @@ void Viewer::close_without_display() {
     keep_memory();
     attempt([this] { keeper_.finish(lasting_settings()); });
     attempt([this] { screenshots_.finish(); });
+    attempt([this] { painting_.finish(recording_); });
     attempt([this] { clip_.finish(ClipEnd::at_once); });
     attempt([this] { recording_.finish(kPatienceAtAnEnd); });
     hand_.device.reset();
@@ -177,6 +180,8 @@ void Viewer::finish() {
     try_to([this] { keeper_.finish(lasting_settings()); });
     now("writing pictures");
     try_to([this] { screenshots_.finish(); });
+    now("saving what was painted");
+    try_to([this] { painting_.finish(recording_); });
     now("finishing the clip");
     try_to([this] { clip_.finish(ending_.asked() ? ClipEnd::at_once : ClipEnd::well); });
     now("closing the recording");
@@ -247,6 +252,7 @@ void Viewer::take_news() {
     attempt([this] {
         if (const auto notice = clip_.take_news(state_)) tell(*notice);
     });
+    attempt([this] { painting_.take_news(state_, recording_); });
     take_report();
 }
 
@@ -334,10 +340,34 @@ std::optional<Answer> Viewer::perform_with_view(Action action) {
     return Answer{"View taken"};
 }
 
+std::optional<Answer> Viewer::perform_with_brush(Action action) {
+    Brush& brush = state_.brush;
+    if (action != Action::toggle_brush && action != Action::undo && action != Action::redo)
+        return std::nullopt;
+    if (state_.replay) return Answer{"A replay is felt as it was recorded: nothing is painted"};
+    if (!brush.refusal.empty()) return Answer{brush.refusal};
+    if (action == Action::toggle_brush) {
+        brush.on = !brush.on;
+        if (!brush.on) return Answer{"Brush off"};
+        if (state_.playback.playing) player_.pause();
+        state_.show_paint = true;
+        return Answer{"Brush: drag over the relief to paint"};
+    }
+    if (action == Action::undo) {
+        if (!brush.can_undo) return Answer{"Nothing is painted that could be taken back"};
+        painting_.undo(state_, player_);
+        return Answer{"Taken back: Ctrl+Shift+Z paints it again"};
+    }
+    if (!brush.can_redo) return Answer{"Nothing was taken back"};
+    painting_.redo(state_, player_);
+    return Answer{"Painted again"};
+}
+
 void Viewer::perform(Action action) {
     SessionPlayer* const replay = replay_.player();
     std::optional<Answer> answer = perform_with_files(action);
     if (!answer) answer = perform_with_view(action);
+    if (!answer) answer = perform_with_brush(action);
     if (!answer) answer = explaining_.perform(action, state_, player_, replay);
     if (!answer && replay != nullptr) answer = perform_in_replay(action, *replay);
     if (!answer) answer = dibhr::perform(action, state_, player_);
@@ -359,10 +389,14 @@ void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {
     pointed_at_.reset();
     const Camera::Ray ray = camera_.ray_under(pointer.position_px, viewport);
     const bool measures = state_.ruler && !state_.explained;
-    if (use.over_relief && (measures || !use.pressed) && shown_.makes_surface())
+    const bool paints = state_.brush.on && !state_.explained && !state_.replay;
+    if (use.over_relief && (measures || paints || !use.pressed) && shown_.makes_surface())
         pointed_at_ = surface_under(ray, shown_.drawn_surface(state_.shape(), state_.bump.get()));
     if (on_panes && !gui_.wants_pointer() && !use.pressed) pointed_at_ = on_panes;
-    if (measures) {  // its clicks touch nothing
+    if (paints) {
+        paint(use);
+        use.pressed = false;
+    } else if (measures) {  // its clicks touch nothing
         state_.ruler->press(use.pressed, pointed_at_);
         use.pressed = false;
     }
@@ -373,12 +407,33 @@ void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {
     hand_.mouse->target().publish(pointer_.target(ray, surface, use));
 }
 
+/// What it paints is not touched meanwhile.
+void Viewer::paint(const PointerUse& use) {
+    Brush& brush = state_.brush;
+    painting_.use(use.pressed, pointed_at_, shown_, state_, player_);
+    brush.ring.clear();
+    if (!pointed_at_ || !shown_.makes_surface()) return;
+    const DepthSurface surface = shown_.drawn_surface(state_.shape(), state_.bump.get());
+    const double radius_px = 0.5 * brush.width * surface.columns();
+    constexpr int kCorners = 48;
+    for (int k = 0; k < kCorners; ++k) {
+        const double angle = 2.0 * std::numbers::pi * k / kCorners;
+        const Vec3 at =
+            surface.clamped_to_frame({pointed_at_->x + radius_px * std::cos(angle),
+                                      pointed_at_->y + radius_px * std::sin(angle), 0.0});
+        brush.ring.emplace_back(at.x, at.y, surface.elevation_at(at.x, at.y));
+    }
+}
+
 void Viewer::draw_panels(std::span<const KeyPress> pressed) {
     gui_.begin(pressed);
     panes_.show(shown_, state_);
     draw_panes(state_);
     const glm::ivec2 viewport = relief_viewport();
-    draw_ruler(state_, camera_.clip_from_grid(static_cast<double>(viewport.x) / viewport.y));
+    const glm::dmat4 clip_from_grid =
+        camera_.clip_from_grid(static_cast<double>(viewport.x) / viewport.y);
+    draw_ruler(state_, clip_from_grid);
+    draw_brush(state_, clip_from_grid);
     if (state_.settings.panels_visible) draw_panel_column(state_, player_, replay_.player());
     draw_bottom_bar(state_, player_, replay_.player());
     const auto fade = [](float& alpha) { alpha = std::max(0.0F, alpha - 0.03F); };
@@ -386,7 +441,8 @@ void Viewer::draw_panels(std::span<const KeyPress> pressed) {
     if (pressed_deeper_) fade(wheel_hint_alpha_);
     const bool mouse_touches = !state_.replay && hand_.mouse != nullptr &&
                                (hand_.falcon == nullptr || state_.haptic.hand.stand_in);
-    if (mouse_touches && state_.message.empty() && !state_.explained && !state_.ruler) {
+    if (mouse_touches && state_.message.empty() && !state_.explained && !state_.ruler &&
+        !state_.brush.on) {
         draw_hint(state_, Hint::touch, hint_alpha_);
         const bool wonders = hint_alpha_ <= 0.0F && state_.haptic.touch.proxy.contact;
         if (wonders) draw_hint(state_, Hint::press_deeper, wheel_hint_alpha_);
@@ -428,6 +484,7 @@ void Viewer::carry_out_requests() {
     if (!asked.keep_material.empty()) keep_material(asked.keep_material);
     if (asked.firmware) attempt([&] { tell(falcon_.use_firmware(*asked.firmware, state_)); });
     if (!asked.report.empty()) make_report(asked.report);
+    if (asked.remove_paint) painting_.remove_all(state_, player_);
     if (asked.reset_view) frame_relief();
     if (asked.full_screen) {
         window_.toggle_full_screen();
@@ -498,6 +555,7 @@ void Viewer::start_or_stop_recording() {
     if (state_.replay) {
         tell("A replay is not recorded: open a video to touch");
     } else if (recording_.active()) {
+        painting_.hand_over(recording_);
         tell(recording_.stop(state_));
     } else if (handed_.recording) {
         state_.requests.toggle_recording = true;  // when the loop has seen the last one's end

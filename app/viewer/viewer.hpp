@@ -22,6 +22,7 @@
 #include "app/viewer/falcon.hpp"
 #include "app/viewer/files.hpp"
 #include "app/viewer/input.hpp"
+#include "app/viewer/painting.hpp"
 #include "app/viewer/panes.hpp"
 #include "app/viewer/recording.hpp"
 #include "app/viewer/replay.hpp"
@@ -66,6 +67,7 @@ struct ViewOptions {
 struct ViewerParts {
     std::unique_ptr<Media> media{};
     FileMemory memory{};                       ///< of the media
+    FoundMaps maps{};                          ///< likewise
     std::unique_ptr<OpenedSession> session{};  ///< to be replayed, in place of media
     HandDevice hand{};
     Material material{};  ///< of the settings or the command line
@@ -105,6 +107,8 @@ class Viewer {
     void take_dialog_key(const KeyPress& press);
     [[nodiscard]] std::optional<Answer> perform_with_files(Action action);
     [[nodiscard]] std::optional<Answer> perform_with_view(Action action);
+    [[nodiscard]] std::optional<Answer> perform_with_brush(Action action);
+    void paint(const PointerUse& use);
     void perform(Action action);
     void take_dropped(const std::vector<std::filesystem::path>& files);
     void move_hand(const WindowInput& input, glm::ivec2 viewport);
@@ -116,7 +120,7 @@ class Viewer {
     [[nodiscard]] CleaningOptions wanted_cleaning() const;
     void keep_settings();
     void show_media(std::unique_ptr<Media> media, const OpenRequest& request,
-                    const FileMemory& memory);
+                    const FileMemory& memory, FoundMaps maps);
     void keep_memory();
     void take_memory(const FileMemory& memory, const OpenRequest& request);
     void forget_relief();
@@ -187,6 +191,7 @@ class Viewer {
     ViewerExplaining explaining_{};
     Browsing browsing_{};
     ViewerPanes panes_{};
+    ViewerPainting painting_{};
     SettingsKeeper keeper_;
     HapticSettings handed_{};
     CleaningOptions cleaning_handed_{};

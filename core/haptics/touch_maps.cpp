@@ -43,6 +43,12 @@ PixelPair pixels_around(double place_px, int count, int pixels) noexcept {
     return {below, std::min(below + 1, pixels - 1), held - below};
 }
 
+double covering_value(const TouchMap& map, const TouchMap::Pixel& pixel,
+                      double otherwise) noexcept {
+    const double cover = pixel.cover / TouchMap::kWhole;
+    return cover * map.value_of(pixel) + (1.0 - cover) * otherwise;
+}
+
 }  // namespace
 
 const char* name_of(TouchMapKind kind) noexcept {
@@ -85,11 +91,7 @@ double felt_value(const TouchMap& map, double x, double y, int columns, int rows
                   double otherwise) noexcept {
     const PixelPair across = pixels_around(x, columns, map.columns);
     const PixelPair down = pixels_around(y, rows, map.rows);
-    const auto at = [&](int i, int j) {
-        const TouchMap::Pixel& pixel = map.at(i, j);
-        const double cover = pixel.cover / TouchMap::kWhole;
-        return cover * map.value_of(pixel) + (1.0 - cover) * otherwise;
-    };
+    const auto at = [&](int i, int j) { return covering_value(map, map.at(i, j), otherwise); };
     const auto along = [&](int j) {
         return (1.0 - across.share) * at(across.first, j) + across.share * at(across.second, j);
     };
@@ -111,10 +113,12 @@ void lay(TouchMaps& maps, int columns, int rows) {
     if (maps.height.empty()) return;
     TouchMaps::AtVertices laid{columns, rows, 0.0, {}};
     laid.heights_px.reserve(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+    const bool same_size = maps.height.columns == columns && maps.height.rows == rows;
     for (int j = 0; j < rows; ++j) {
         for (int i = 0; i < columns; ++i) {
-            const auto height =
-                static_cast<float>(felt_value(maps.height, i, j, columns, rows, 0.0));
+            const double felt = same_size ? covering_value(maps.height, maps.height.at(i, j), 0.0)
+                                          : felt_value(maps.height, i, j, columns, rows, 0.0);
+            const auto height = static_cast<float>(felt);
             laid.heights_px.push_back(height);
             laid.highest_px = std::max(laid.highest_px, static_cast<double>(height));
         }

@@ -1,0 +1,132 @@
+// The Paint panel: what a brush lays on the relief, how, and what to do with it; and its edge.
+#include <algorithm>
+#include <string>
+
+#include "app/panels/panels.hpp"
+#include "app/panels/relief_screen.hpp"
+#include "app/panels/widgets.hpp"
+#include "app/settings/keys.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr ImU32 kRing = IM_COL32(255, 255, 255, 235);
+constexpr ImU32 kRingEdge = IM_COL32(0, 0, 0, 190);
+
+void draw_material_row(ViewerState& state) {
+    std::vector<std::string> all = state.materials.shipped;
+    all.insert(all.end(), state.materials.own.begin(), state.materials.own.end());
+    std::vector<const char*> names;
+    names.reserve(all.size());
+    for (const std::string& name : all) names.push_back(name.c_str());
+    Brush& brush = state.brush;
+    int chosen = static_cast<int>(std::find(all.begin(), all.end(), brush.material) - all.begin());
+    if (index_row("Made of", names, chosen,
+                  "Its stiffness and friction, and its bumps as height where the brush goes", 0))
+        brush.material = all[static_cast<std::size_t>(chosen)];
+}
+
+/// What is laid where the brush goes.
+void draw_value_row(ViewerState& state) {
+    Brush& brush = state.brush;
+    const Brush standard;
+    const auto row = [](const char* label, const char* format, TouchMapKind kind, double usual,
+                        const char* help, double& value) {
+        const MapLimits limits = standard_limits(kind);
+        number_row({label, format, limits.lowest, limits.highest, usual, help}, value);
+        value = std::clamp(value, limits.lowest, limits.highest);
+    };
+    switch (brush.lays) {
+        case BrushLays::material:
+            return draw_material_row(state);
+        case BrushLays::stiffness:
+            return row(
+                "Stiffness", "%.2f N/mm", TouchMapKind::stiffness, standard.stiffness_newton_per_mm,
+                "Of the spring, instead of the Touch panel's", brush.stiffness_newton_per_mm);
+        case BrushLays::friction:
+            return row(
+                "Friction", "%.2f", TouchMapKind::friction, standard.friction,
+                "The static coefficient, instead of the Touch panel's; the dynamic one keeps "
+                "its ratio to it",
+                brush.friction);
+        case BrushLays::height:
+            return row("Height", "%.1f px", TouchMapKind::height, standard.height_px,
+                       "On top of the depth; below 0: pressed in", brush.height_px);
+        case BrushLays::nothing:
+            return quiet_text("Takes away what was painted, of all kinds.");
+    }
+}
+
+void draw_undo_buttons(ViewerState& state) {
+    const float third =
+        (ImGui::GetContentRegionAvail().x - 2.0F * ImGui::GetStyle().ItemSpacing.x) / 3.0F;
+    const auto button = [third](const char* label, bool enabled, const char* help) {
+        ImGui::BeginDisabled(!enabled);
+        const bool pressed = ImGui::Button(label, {third, 0.0F});
+        ImGui::EndDisabled();
+        explain(help);
+        return pressed;
+    };
+    if (button("Undo", state.brush.can_undo, "Takes back what was painted last (Ctrl+Z)"))
+        state.requests.action = Action::undo;
+    ImGui::SameLine();
+    if (button("Redo", state.brush.can_redo, "Paints it again (Ctrl+Shift+Z)"))
+        state.requests.action = Action::redo;
+    ImGui::SameLine();
+    if (button("Remove all", state.brush.has_paint, "All that is painted on this recording"))
+        state.requests.remove_paint = true;
+}
+
+}  // namespace
+
+void draw_paint_panel(ViewerState& state) {
+    const bool comes = state.show_paint;
+    if (!section(state, "Paint", state.settings.panels.paint, &state.show_paint)) return;
+    Brush& brush = state.brush;
+    if (!brush.refusal.empty()) return quiet_text(brush.refusal);
+    ImGui::PushID("paint");
+    bool on = brush.on;
+    if (ImGui::Checkbox("Brush", &on)) state.requests.action = Action::toggle_brush;
+    explain("The left mouse button paints on the relief instead of touching it (G)");
+    choice_row("Paints", kBrushWords, brush.lays,
+               "What lies where the brush goes, whatever the Touch panel says");
+    draw_value_row(state);
+    const Brush standard;
+    double percent = 100.0 * brush.width;
+    if (number_row({"Width", "%.1f %%", 0.5, 50.0, 100.0 * standard.width,
+                    "Of the brush, in the picture's width"},
+                   percent))
+        brush.width = std::clamp(percent / 100.0, 0.001, 1.0);
+    double strength = 100.0 * brush.strength;
+    if (number_row({"Strength", "%.0f %%", 1.0, 100.0, 100.0, "How much of it a stroke lays"},
+                   strength))
+        brush.strength = std::clamp(strength / 100.0, 0.0, 1.0);
+    draw_undo_buttons(state);
+    if (brush.saved_as.empty()) {
+        quiet_text("On the sample: gone when another recording is opened.");
+    } else if (brush.has_paint) {
+        quiet_text("Kept beside the recording, and found again: " +
+                   brush.saved_as.filename().string() + " and its like.");
+    }
+    if (comes) ImGui::SetScrollHereY(1.0F);  // all of it, not its first line
+    ImGui::PopID();
+}
+
+void draw_brush(const ViewerState& state, const glm::dmat4& clip_from_grid) {
+    const std::vector<Vec3>& ring = state.brush.ring;
+    if (!state.brush.on || state.explained || ring.empty()) return;
+    const ReliefScreen screen(state, clip_from_grid);
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.PushClipRect(screen.low(), screen.high());
+    for (const auto& [colour, thick] : {std::pair(kRingEdge, 3.5F), std::pair(kRing, 1.5F)}) {
+        for (std::size_t k = 0; k < ring.size(); ++k) {
+            const auto a = screen.at(ring[k]);
+            const auto b = screen.at(ring[(k + 1) % ring.size()]);
+            if (a && b) list.AddLine(*a, *b, colour, thick * state.scale);
+        }
+    }
+    list.PopClipRect();
+}
+
+}  // namespace dibhr

@@ -1,0 +1,355 @@
+// Strokes, what is undone, and who gets the maps: the player, the folder, the recording.
+#include "app/viewer/painting.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <utility>
+
+#include "app/settings/material.hpp"
+#include "core/error.hpp"
+#include "core/haptics/surface.hpp"
+#include "core/video/depth/colour_ramp.hpp"
+#include "core/video/formats/touch_map_files.hpp"
+
+namespace dibhr {
+
+namespace {
+
+/// What can be undone takes no more memory than that, but for the last stroke.
+constexpr std::size_t kMostUndo_bytes = std::size_t{256} << 20;
+constexpr auto kPatienceWithDisk = std::chrono::seconds(10);
+
+std::size_t bytes_of(const TouchMaps* maps) {
+    if (maps == nullptr) return 0;
+    std::size_t bytes = maps->at_vertices.heights_px.size() * sizeof(float);
+    for (const TouchMapKind kind : all_touch_map_kinds())
+        bytes += maps->of(kind).pixels.size() * sizeof(TouchMap::Pixel);
+    return bytes;
+}
+
+/// The maps that are worth a file.
+std::vector<SessionMap> encoded(const TouchMaps& maps) {
+    std::vector<SessionMap> all;
+    for (const TouchMapKind kind : all_touch_map_kinds()) {
+        const TouchMap& map = maps.of(kind);
+        if (!map.empty())
+            all.push_back({name_of(kind), map.limits.lowest, map.limits.highest, png_of(map)});
+    }
+    return all;
+}
+
+/// Heights of a material's bumps at every pixel [px].
+std::function<double(int, int)> bumps_of(const Material& material, const TouchParameters& as_laid,
+                                         const DepthImage& image) {
+    auto bump = std::make_shared<BumpMap>(
+        BumpMap{material.bumps->columns, material.bumps->rows, material.bumps->heights});
+    stretch(*bump, image.columns, image.rows, as_laid.shape.bump_size_px);
+    return [bump, columns = image.columns, roughness = as_laid.shape.roughness_px](int i, int j) {
+        return roughness *
+               bump->at_vertices
+                   .heights[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) +
+                            static_cast<std::size_t>(i)];
+    };
+}
+
+std::function<double(int, int)> everywhere(double value) {
+    return [value](int, int) { return value; };
+}
+
+/// Throws InputError for a material that there is not any more.
+std::vector<Lay> lays_of(const Brush& brush, const TouchParameters& felt, const DepthImage& image) {
+    switch (brush.lays) {
+        case BrushLays::stiffness:
+            return {{TouchMapKind::stiffness, everywhere(brush.stiffness_newton_per_mm)}};
+        case BrushLays::friction:
+            return {{TouchMapKind::friction, everywhere(brush.friction)}};
+        case BrushLays::height:
+            return {{TouchMapKind::height, everywhere(brush.height_px)}};
+        case BrushLays::nothing:
+            return {{TouchMapKind::stiffness}, {TouchMapKind::friction}, {TouchMapKind::height}};
+        case BrushLays::material:
+            break;
+    }
+    const Material material = material_called(brush.material);
+    TouchParameters laid = felt;
+    lay(material, laid);
+    return {
+        {TouchMapKind::stiffness, everywhere(laid.coupling.stiffness_newton_per_mm)},
+        {TouchMapKind::friction, everywhere(laid.friction.static_coefficient)},
+        {TouchMapKind::height, material.bumps ? bumps_of(material, laid, image) : everywhere(0.0)}};
+}
+
+/// The map whose values are shown; none: where anything lies.
+std::optional<TouchMapKind> shown_kind(BrushLays lays) {
+    switch (lays) {
+        case BrushLays::stiffness:
+            return TouchMapKind::stiffness;
+        case BrushLays::friction:
+            return TouchMapKind::friction;
+        case BrushLays::height:
+            return TouchMapKind::height;
+        case BrushLays::material:
+        case BrushLays::nothing:
+            break;
+    }
+    return std::nullopt;
+}
+
+/// Colours over a picture: of the map's values, or one where anything lies.
+class Tint {
+  public:
+    Tint(const TouchMaps& maps, BrushLays lays)
+        : maps_(maps), kind_(shown_kind(lays)), ramp_(colours_of(ColourRamp::viridis)) {}
+
+    [[nodiscard]] ColourImage over(const ColourImage& picture) const {
+        ColourImage tinted = picture;
+        for (const TouchMapKind kind : all_touch_map_kinds()) {
+            if (!kind_ || kind == *kind_) lay_over(maps_.of(kind), tinted);
+        }
+        return tinted;
+    }
+
+  private:
+    void lay_over(const TouchMap& map, ColourImage& picture) const {
+        if (map.empty()) return;
+        constexpr double kOfValues = 0.65;
+        constexpr double kOfAnything = 0.3;  // three maps lie on each other
+        const double most = kind_ ? kOfValues : kOfAnything;
+        std::size_t at = 0;
+        for (int j = 0; j < picture.rows; ++j) {
+            const int row = static_cast<int>(std::int64_t{j} * map.rows / picture.rows);
+            for (int i = 0; i < picture.columns; ++i, at += 3) {
+                const int column =
+                    static_cast<int>(std::int64_t{i} * map.columns / picture.columns);
+                const TouchMap::Pixel& pixel = map.at(column, row);
+                if (pixel.cover == 0) continue;
+                const double share = most * pixel.cover / TouchMap::kWhole;
+                for (std::size_t c = 0; c < 3; ++c) {
+                    const double under = picture.rgb[at + c];
+                    picture.rgb[at + c] = static_cast<std::uint8_t>(
+                        std::lround(under + share * (colour(pixel.level, c) - under)));
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] double colour(std::uint16_t level, std::size_t channel) const {
+        constexpr std::array<double, 3> kAnything{242.0, 140.0, 13.0};
+        if (!kind_) return kAnything[channel];
+        return ramp_.rgb[3 * static_cast<std::size_t>(level >> 8U) + channel];
+    }
+
+    const TouchMaps& maps_;
+    std::optional<TouchMapKind> kind_;
+    ColourImage ramp_;
+};
+
+}  // namespace
+
+FoundMaps find_maps(const MediaDescription& media) {
+    try {
+        return {read_touch_maps(media.depth_path, media.depth_columns, media.depth_rows), {}};
+    } catch (const std::exception& error) {
+        return {nullptr, error.what()};
+    }
+}
+
+std::shared_ptr<const TouchMaps> ViewerPainting::numbered(TouchMaps maps) {
+    maps.version = ++versions_;
+    lay(maps, columns_, rows_);
+    return std::make_shared<const TouchMaps>(std::move(maps));
+}
+
+std::shared_ptr<const TouchMaps> ViewerPainting::begin(FoundMaps found,
+                                                       const MediaDescription& media,
+                                                       bool is_sample) {
+    stroke_.reset();
+    const bool is_same = depth_ == media.depth_path && columns_ == media.depth_columns &&
+                         rows_ == media.depth_rows && refusal_.empty();
+    if (is_same) return maps_;
+    depth_ = media.depth_path;
+    columns_ = media.depth_columns;
+    rows_ = media.depth_rows;
+    is_sample_ = is_sample;
+    refusal_ = std::move(found.refusal);
+    before_.clear();
+    undone_.clear();
+    maps_.reset();
+    if (found.maps) maps_ = numbered(*found.maps);
+    if (maps_) to_write_.push_back({depth_, maps_, false});  // for recordings
+    return maps_;
+}
+
+void ViewerPainting::end(ViewerState& state) {
+    stroke_.reset();
+    depth_.clear();
+    maps_.reset();
+    before_.clear();
+    undone_.clear();
+    state.brush.on = false;
+    state.brush.ring.clear();
+    show_news(state);
+}
+
+void ViewerPainting::show_news(ViewerState& state) const {
+    Brush& brush = state.brush;
+    brush.refusal = refusal_;
+    brush.can_undo = !before_.empty();
+    brush.can_redo = !undone_.empty();
+    brush.has_paint = maps_ != nullptr;
+    brush.saved_as = is_sample_ || depth_.empty() ? std::filesystem::path{}
+                                                  : touch_map_file(depth_, TouchMapKind::stiffness);
+}
+
+void ViewerPainting::use(bool pressed, const std::optional<Vec3>& under, const DepthBlend& shown,
+                         ViewerState& state, Player& player) {
+    if (!pressed) end_stroke(state, player);
+    if (!pressed || !refusal_.empty() || !shown.makes_surface()) return;
+    if (!stroke_ && under) start_stroke(shown, state, player);
+    if (!stroke_ || !under) return;
+    stroke_->go_to(*under);
+    drawn_ = std::make_shared<const TouchMaps>(stroke_->maps());
+}
+
+void ViewerPainting::start_stroke(const DepthBlend& shown, ViewerState& state, Player& player) {
+    if (state.playback.playing) player.pause();
+    const DepthImage& image = *shown.from->depth;
+    if (image.columns != columns_ || image.rows != rows_) return;  // of the media before
+    const Brush& brush = state.brush;
+    try {
+        stroke_.emplace(maps_ ? *maps_ : TouchMaps{}, lays_of(brush, state.settings.touch, image),
+                        BrushTip{0.5 * brush.width * columns_, brush.strength}, columns_, rows_);
+    } catch (const InputError& error) {
+        state.message = error.what();
+        state.brush.on = false;
+    }
+}
+
+void ViewerPainting::end_stroke(ViewerState& state, Player& player) {
+    if (!stroke_) return;
+    before_.push_back(maps_);
+    undone_.clear();
+    std::size_t bytes = 0;
+    for (std::size_t k = before_.size(); k-- > 0;) {
+        bytes += bytes_of(before_[k].get());
+        if (bytes <= kMostUndo_bytes || k + 1 == before_.size()) continue;
+        before_.erase(before_.begin(), before_.begin() + static_cast<std::ptrdiff_t>(k) + 1);
+        break;
+    }
+    TouchMaps painted = stroke_->maps();
+    stroke_.reset();
+    for (const TouchMapKind kind : all_touch_map_kinds()) {
+        if (!painted.of(kind).covers_anything()) painted.of(kind) = {};
+    }
+    become(painted.empty() ? nullptr : numbered(std::move(painted)), state, player);
+}
+
+void ViewerPainting::become(std::shared_ptr<const TouchMaps> maps, ViewerState& state,
+                            Player& player) {
+    maps_ = std::move(maps);
+    drawn_.reset();
+    player.set_maps(maps_);
+    to_write_.push_back({depth_, maps_, !is_sample_});
+    show_news(state);
+}
+
+void ViewerPainting::undo(ViewerState& state, Player& player) {
+    if (stroke_ || before_.empty()) return;
+    undone_.push_back(maps_);
+    std::shared_ptr<const TouchMaps> maps = std::move(before_.back());
+    before_.pop_back();
+    become(std::move(maps), state, player);
+}
+
+void ViewerPainting::redo(ViewerState& state, Player& player) {
+    if (stroke_ || undone_.empty()) return;
+    before_.push_back(maps_);
+    std::shared_ptr<const TouchMaps> maps = std::move(undone_.back());
+    undone_.pop_back();
+    become(std::move(maps), state, player);
+}
+
+void ViewerPainting::remove_all(ViewerState& state, Player& player) {
+    if (stroke_ || !maps_ || !refusal_.empty()) return;
+    before_.push_back(maps_);
+    undone_.clear();
+    become(nullptr, state, player);
+}
+
+/// One after the other. Of those that nobody can have felt for long only the last one's files
+/// count, but a recording refers to each.
+void ViewerPainting::start_writing() {
+    if (to_write_.empty() || writing_.under_way()) return;
+    const ToWrite next = to_write_.front();
+    to_write_.erase(to_write_.begin());
+    const bool is_last = std::none_of(
+        to_write_.begin(), to_write_.end(),
+        [&](const ToWrite& later) { return later.to_files && later.depth == next.depth; });
+    writing_.start([next, to_files = next.to_files && is_last]() -> Written {
+        Written written;
+        try {
+            if (next.maps) {
+                written.version = next.maps->version;
+                written.encoded = encoded(*next.maps);
+            }
+            if (to_files) write_touch_maps(next.maps ? *next.maps : TouchMaps{}, next.depth);
+        } catch (const std::exception& error) {
+            written.failure = error.what();
+        }
+        return written;
+    });
+}
+
+void ViewerPainting::take_written(ViewerRecording& recording) {
+    auto written = writing_.take();
+    if (!written) return;
+    if (written->version > 0) recording.maps(written->version, std::move(written->encoded));
+    if (!written->failure.empty()) failure_ = written->failure;
+}
+
+void ViewerPainting::take_news(ViewerState& state, ViewerRecording& recording) {
+    show_news(state);
+    take_written(recording);
+    start_writing();
+    if (!failure_.empty()) throw InputError(std::exchange(failure_, {}));
+}
+
+void ViewerPainting::hand_over(ViewerRecording& recording) {
+    const auto latest = std::chrono::steady_clock::now() + kPatienceWithDisk;
+    while (writing_.under_way() || !to_write_.empty()) {
+        start_writing();
+        writing_.wait_until(latest);
+        take_written(recording);
+        if (std::chrono::steady_clock::now() > latest) return;
+    }
+}
+
+void ViewerPainting::finish(ViewerRecording& recording) {
+    hand_over(recording);
+    if (writing_.under_way()) failure_ = depth_.string() + ": what was painted could not be saved";
+    if (!failure_.empty()) throw InputError(std::exchange(failure_, {}));
+}
+
+std::shared_ptr<const TouchMaps> ViewerPainting::drawn() const {
+    return stroke_ && drawn_ ? drawn_ : maps_;
+}
+
+const Frame* ViewerPainting::tinted(const Frame* frame, const ViewerState& state) {
+    const std::shared_ptr<const TouchMaps> maps = drawn();
+    if (!state.brush.on || !maps || frame == nullptr || !frame->colour) return frame;
+    const bool is_same =
+        tinted_colour_ == frame->colour && tinted_maps_ == maps && tinted_lays_ == state.brush.lays;
+    if (!is_same) {
+        tinted_ = {};
+        tinted_.colour =
+            std::make_shared<const ColourImage>(Tint(*maps, state.brush.lays).over(*frame->colour));
+        tinted_colour_ = frame->colour;
+        tinted_maps_ = maps;
+        tinted_lays_ = state.brush.lays;
+    }
+    return &tinted_;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,210 @@
+// Painting on the relief: what a stroke lays, that it is felt, replayed, found again and removed.
+#include <cmath>
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <string>
+#include <vector>
+
+#include "app/viewer/map_stroke.hpp"
+#include "core/video/formats/touch_map_files.hpp"
+#include "tests/app/program/command_program.hpp"
+#include "tests/app/program/desk.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+using Catch::Matchers::WithinAbs;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kWide = 60;
+constexpr int kHigh = 40;
+
+Lay lays(TouchMapKind kind, double value) {
+    return {kind, [value](int, int) { return value; }};
+}
+
+double felt(const TouchMap& map, double x, double y) {
+    return felt_value(map, x, y, map.columns, map.rows, 0.5);
+}
+
+MapStroke stroke_of(const TouchMaps& before, Lay lay, const std::vector<Vec3>& places,
+                    double strength = 1.0) {
+    MapStroke stroke(before, {std::move(lay)}, {6.0, strength}, kWide, kHigh);
+    for (const Vec3& place : places) stroke.go_to(place);
+    return stroke;
+}
+
+/// The force along z [N] of a press at a pixel, as `dibhr touch` has it.
+double pressed_force(const TemporaryFolder& folder, int x, int y,
+                     const std::vector<std::string>& options = {}) {
+    const std::string at = std::to_string(x) + "," + std::to_string(y);
+    write_text(folder / "goals.csv", "t,x,y,z\n0," + at + ",300\n0.001," + at + ",110\n");
+    std::vector<std::string> arguments{"touch",   "--depth",   "cup_depth.png",
+                                       "--goals", "goals.csv", "--raw-depth"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProgramResult result = run_dibhr(folder, arguments);
+    REQUIRE(result.exit_code == 0);
+    const std::vector<std::string> rows = split(result.output, '\n');
+    return std::stod(split(rows.at(2), ',').at(9));
+}
+
+/// In the middle of what is painted.
+glm::ivec2 middle_of_paint(const TouchMap& map) {
+    glm::dvec2 sum{0.0};
+    double weight = 0.0;
+    for (int j = 0; j < map.rows; ++j) {
+        for (int i = 0; i < map.columns; ++i) {
+            sum += static_cast<double>(map.at(i, j).cover) * glm::dvec2(i, j);
+            weight += map.at(i, j).cover;
+        }
+    }
+    return glm::ivec2(sum / weight);
+}
+
+}  // namespace
+
+TEST_CASE("a stroke lays its value whole under the middle of the brush and nothing beyond its edge",
+          "[paint]") {
+    const TouchMaps painted =
+        stroke_of({}, lays(TouchMapKind::friction, 1.25), {{20, 20, 0}, {40, 20, 0}}).maps();
+    for (int i = 20; i <= 40; ++i) {
+        CHECK_THAT(felt(painted.friction, i, 20), WithinAbs(1.25, 2e-5));
+        CHECK_THAT(felt(painted.friction, i, 24), WithinAbs(1.25, 2e-5));  // 0.7 of the radius
+        CHECK(felt(painted.friction, i, 26) == 0.5);
+        CHECK(felt(painted.friction, i, 14) == 0.5);
+    }
+    double last = 1.25;
+    for (int j = 20; j <= 26; ++j) {
+        CHECK(felt(painted.friction, 30, j) <= last + 2e-5);
+        last = felt(painted.friction, 30, j);
+    }
+    CHECK(painted.stiffness.empty());
+    CHECK(painted.height.empty());
+}
+
+TEST_CASE("passing over a place again in one stroke lays no more, another stroke does", "[paint]") {
+    const Lay lay = lays(TouchMapKind::stiffness, 1.5);
+    const TouchMaps once = stroke_of({}, lay, {{20, 20, 0}, {30, 20, 0}}, 0.4).maps();
+    const TouchMaps twice =
+        stroke_of({}, lay, {{20, 20, 0}, {30, 20, 0}, {20, 20, 0}, {30, 20, 0}}, 0.4).maps();
+    CHECK(once.stiffness == twice.stiffness);
+    CHECK_THAT(felt(once.stiffness, 25, 20), WithinAbs(0.5 + 0.4 * 1.0, 1e-4));
+    const TouchMaps again = stroke_of(once, lay, {{20, 20, 0}, {30, 20, 0}}, 0.4).maps();
+    CHECK_THAT(felt(again.stiffness, 25, 20), WithinAbs(0.5 + 0.64 * 1.0, 1e-4));
+}
+
+TEST_CASE("nothing as paint takes away what lies there, and only there", "[paint]") {
+    TouchMaps maps =
+        stroke_of({}, lays(TouchMapKind::height, 9.0), {{10, 20, 0}, {50, 20, 0}}).maps();
+    const double before = felt_value(maps.height, 12, 20, kWide, kHigh, 0.0);
+    CHECK_THAT(before, WithinAbs(9.0, 1e-3));
+    CHECK_THAT(maps.at_vertices.heights_px.at(20 * kWide + 12), WithinAbs(9.0, 1e-3));
+    maps = stroke_of(maps, {TouchMapKind::height}, {{45, 20, 0}}).maps();
+    CHECK(felt_value(maps.height, 45, 20, kWide, kHigh, 0.0) == 0.0);
+    CHECK(felt_value(maps.height, 12, 20, kWide, kHigh, 0.0) == before);
+}
+
+TEST_CASE("a map of another resolution is painted over as it was felt", "[paint]") {
+    TouchMaps maps;
+    maps.friction = bare_map(TouchMapKind::friction, 6, 4);
+    for (int j = 0; j < 4; ++j) {
+        for (int i = 0; i < 6; ++i) {
+            maps.friction.at(i, j) = {maps.friction.level_of(0.2 * i),
+                                      static_cast<std::uint16_t>(i > 1 ? 65535 : 0)};
+        }
+    }
+    const TouchMaps painted =
+        stroke_of(maps, lays(TouchMapKind::friction, 2.0), {{55, 35, 0}}).maps();
+    CHECK_THAT(felt(painted.friction, 55, 35), WithinAbs(2.0, 2e-5));
+    for (int i = 0; i < 45; ++i) {
+        const double was = felt_value(maps.friction, i, 10, kWide, kHigh, 0.5);
+        CHECK_THAT(felt(painted.friction, i, 10), WithinAbs(was, 1e-4));
+    }
+}
+
+TEST_CASE("what is painted in the window is felt there, replayed to the same bits, found again",
+          "[paint]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    write_depth_png(folder / "cup_depth.png", 320, 240, 120);
+    const std::vector<std::string> options{
+        "cup_depth.png", "--raw-depth", "--device", "mouse",    "--no-sync", "--size",
+        "800x600",       "--seconds",   "60",       "--record", "a.dibhr"};
+    const double bare_newton = pressed_force(folder, 32, 24);
+    {
+        // The picture's middle is the relief's: left of the panels.
+        Process viewer = desk.start_viewer(folder, options);
+        desk.act(
+            "search --sync --onlyvisible --name dibhr sleep 1.5 mousemove 270 260 key g "
+            "sleep 0.5 mousedown 1 sleep 0.5 mousemove 280 262 sleep 0.5 mouseup 1 sleep 0.8 "
+            "key g sleep 0.4 mousedown 1 sleep 0.5 mousemove 250 260 sleep 0.5 mouseup 1 "
+            "sleep 0.4 key q");
+        REQUIRE(viewer.wait() == 0);
+    }
+    CHECK(fs::exists(folder / "cup_stiffness.png"));
+    CHECK(fs::exists(folder / "cup_friction.png"));
+    CHECK(fs::exists(folder / "cup_height.png"));
+    const auto maps = read_touch_maps(folder / "cup_depth.png", 320, 240);
+    REQUIRE(maps);
+    CHECK(maps->stiffness.covers_anything());
+    require_same_bits(folder, folder / "a.dibhr");
+    double most_newton = 0.0;
+    for (const Row& row : read_session(folder / "a.dibhr"))
+        most_newton = std::max(most_newton, row.spring_newton.z);
+    CHECK(most_newton > 0.0);
+
+    // Over the same files, and over those of somebody who removed the maps: a session has its own.
+    const glm::ivec2 painted = middle_of_paint(maps->stiffness);
+    CAPTURE(painted.x, painted.y);
+    CHECK(pressed_force(folder, painted.x, painted.y) > bare_newton + 0.01);
+    CHECK(pressed_force(folder, painted.x, painted.y, {"--maps", "off"}) == bare_newton);
+    CHECK(pressed_force(folder, 4, 4) == bare_newton);
+    for (const char* file : {"cup_stiffness.png", "cup_friction.png", "cup_height.png"})
+        fs::rename(folder / file, folder / (std::string(file) + ".away"));
+    require_same_bits(folder, folder / "a.dibhr");
+    CHECK(pressed_force(folder, 32, 24) == bare_newton);
+}
+
+TEST_CASE("what was painted is taken back with Ctrl+Z, files and all, and painted again",
+          "[paint]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    write_depth_png(folder / "cup_depth.png", 64, 48, 120);
+    const std::string stroke =
+        "search --sync --onlyvisible --name dibhr sleep 1.5 mousemove 270 260 key g sleep 0.5 "
+        "mousedown 1 sleep 0.5 mousemove 290 262 sleep 0.5 mouseup 1 sleep 0.8 ";
+    const std::vector<std::string> options{"cup_depth.png", "--raw-depth", "--device",
+                                           "mouse",         "--no-sync",   "--size",
+                                           "800x600",       "--seconds",   "60"};
+    {
+        Process viewer = desk.start_viewer(folder, options);
+        desk.act(stroke + "key ctrl+z sleep 0.4 key q");
+        REQUIRE(viewer.wait() == 0);
+    }
+    CHECK_FALSE(fs::exists(folder / "cup_stiffness.png"));
+    CHECK_FALSE(fs::exists(folder / "cup_maps.toml"));
+    {
+        Process viewer = desk.start_viewer(folder, options);
+        desk.act(stroke + "key ctrl+z sleep 0.4 key ctrl+shift+z sleep 0.4 key q");
+        REQUIRE(viewer.wait() == 0);
+    }
+    CHECK(read_touch_maps(folder / "cup_depth.png", 64, 48) != nullptr);
+}
+
+TEST_CASE("maps that cannot be read are told, and are not painted over", "[paint]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    write_depth_png(folder / "cup_depth.png", 64, 48, 120);
+    write_text(folder / "cup_stiffness.png", "somebody's work");
+    Process viewer = desk.start_viewer(folder, {"cup_depth.png", "--device", "mouse", "--no-sync",
+                                                "--size", "800x600", "--seconds", "60"});
+    desk.act(
+        "search --sync --onlyvisible --name dibhr sleep 1.5 key Escape sleep 0.3 mousemove "
+        "270 260 key g sleep 0.5 mousedown 1 sleep 0.5 mousemove 290 262 sleep 0.5 mouseup 1 "
+        "sleep 0.6 key q");
+    REQUIRE(viewer.wait() == 0);
+    CHECK(read_text(folder / "cup_stiffness.png") == "somebody's work");
+    CHECK_FALSE(fs::exists(folder / "cup_height.png"));
+}
