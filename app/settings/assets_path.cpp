@@ -12,12 +12,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path file_starting_with(const fs::path& folder, const std::string& stem) {
+fs::path sample_file(const fs::path& folder, const char* name) {
+    const fs::path file = folder / name;
     std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-        if (entry.path().stem() == stem) return entry.path();
-    }
-    throw InputError("the built-in sample has no " + stem + " file in " + folder.string() +
+    if (fs::is_regular_file(file, ignored)) return file;
+    throw InputError("the built-in sample has no " + std::string(name) + " in " + folder.string() +
                      ": install the program again, or name a colour and a depth file");
 }
 
@@ -39,7 +38,7 @@ fs::path assets_folder() {
 
 SampleFiles sample_files() {
     const auto folder = assets_folder() / "sample";
-    return {file_starting_with(folder, "color"), file_starting_with(folder, "depth")};
+    return {sample_file(folder, "color.mp4"), sample_file(folder, "depth.mp4")};
 }
 
 fs::path shipped_materials_folder() {

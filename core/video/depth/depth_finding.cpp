@@ -145,7 +145,8 @@ DepthScale find_scale(const Sources& sources, const DepthRequest& request) {
     hear(voices, meaning);
     if (auto& camera = meaning.intrinsics.value)
         camera = in_pixels(*camera, facts.columns, facts.rows);
-    guess(some_pictures(depth), facts.bits, meaning, voices);
+    // Pictures from all over a video take long to decode: only where something is left to guess.
+    if (!is_all_said(voices)) guess(some_pictures(depth), facts.bits, meaning, voices);
     require_range(meaning, facts.bits, facts.file);
     return {meaning, facts.bits};
 }

@@ -241,17 +241,29 @@ DepthRange guess_range(const std::vector<float>& levels, const DepthMeaning& mea
     return not_empty({value(near), value(far)}, meaning);
 }
 
+/// Whether anybody has said a fact of DepthStatement.
+auto said_by_any(const Voices& voices) {
+    return [&voices](auto fact) {
+        return std::any_of(voices.begin(), voices.end(),
+                           [&](const auto& voice) { return (voice.second.*fact).has_value(); });
+    };
+}
+
 }  // namespace
+
+bool is_all_said(const Voices& voices) {
+    const auto says = said_by_any(voices);
+    return says(&DepthStatement::no_data) && says(&DepthStatement::unit) &&
+           says(&DepthStatement::scale) && says(&DepthStatement::near) &&
+           says(&DepthStatement::range);
+}
 
 void guess(const std::vector<cv::Mat>& pictures, int bits, DepthMeaning& meaning,
            const Voices& voices) {
     std::vector<Lattice> lattices;
     lattices.reserve(pictures.size());
     for (const cv::Mat& picture : pictures) lattices.push_back(lattice_of(picture));
-    const auto says = [&voices](auto fact) {
-        return std::any_of(voices.begin(), voices.end(),
-                           [&](const auto& voice) { return (voice.second.*fact).has_value(); });
-    };
+    const auto says = said_by_any(voices);
     if (!says(&DepthStatement::no_data)) meaning.no_data.value = guess_no_data(lattices, bits);
     const std::vector<double>& no_data = meaning.no_data.value;
     const std::vector<float> levels = sorted_levels(lattices, no_data);

@@ -28,6 +28,9 @@ namespace dibhr {
 void guess(const std::vector<cv::Mat>& pictures, int bits, DepthMeaning& meaning,
            const Voices& voices);
 
+/// Whether nothing is left of all that to find out.
+[[nodiscard]] bool is_all_said(const Voices& voices);
+
 /// The share of pixels of the pictures that are no data by that meaning, in [0, 1].
 [[nodiscard]] double holes_share(const std::vector<cv::Mat>& pictures, const DepthMeaning& meaning);
 
