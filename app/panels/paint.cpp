@@ -109,7 +109,13 @@ void draw_paint_panel(ViewerState& state) {
         quiet_text("Kept beside the recording, and found again: " +
                    brush.saved_as.filename().string() + " and its like.");
     }
-    if (comes) ImGui::SetScrollHereY(1.0F);  // all of it, not its first line
+    // All of it, not its first line: the column knows its new height a picture later.
+    constexpr int kPicturesToScroll = 3;
+    if (comes) brush.scrolls = kPicturesToScroll;
+    if (brush.scrolls > 0) {
+        --brush.scrolls;
+        ImGui::SetScrollHereY(1.0F);
+    }
     ImGui::PopID();
 }
 

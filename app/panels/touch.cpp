@@ -119,7 +119,7 @@ void draw_bump(ViewerState& state) {
         if (state.bump) fact_row("Bump map", state.bump_file.filename().string());
         return;
     }
-    if (text_field("##bump", "Bump map: a grey picture", state.fields.bump,
+    if (text_field("##bump", "Bump map: a grey picture, or drop it here", state.fields.bump,
                    "Path of a picture laid over the surface as fine relief; Enter takes it")) {
         state.requests.bump = typed_path(state.fields.bump.data());
     }

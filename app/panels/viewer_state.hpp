@@ -252,6 +252,7 @@ struct Brush {
     double height_px{8.0};
     double width{0.08};        ///< of the picture's width
     double strength{1.0};      ///< 0 .. 1
+    int scrolls{0};            ///< pictures in which the panel still comes into sight
     std::vector<Vec3> ring{};  ///< its edge on the relief; empty: the pointer is beside it
     std::string refusal{};     ///< why nothing can be painted; empty: it can
     bool can_undo{false}, can_redo{false};

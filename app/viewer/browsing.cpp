@@ -35,17 +35,24 @@ fs::path sample_folder() try {
 Browsing::Browsing() : sample_folder_(sample_folder()) {}
 
 void Browsing::toggle(ViewerState& state) {
-    OpenDialog& dialog = state.dialog;
-    dialog.shown = !dialog.shown;
-    if (!dialog.shown) return;
-    dialog.sample_folder = sample_folder_;
-    dialog.move = 0;
-    dialog.enter = false;
+    if (state.dialog.shown) {
+        state.dialog.shown = false;
+        return;
+    }
     const fs::path shown = whole_path(shown_file(state));
     // Nobody keeps recordings beside the program's own.
     const bool is_sample = shown.parent_path() == sample_folder_;
-    go_to(is_sample ? whole_path(".") : shown.parent_path(), dialog);
-    dialog.chosen = shown;
+    show(is_sample ? whole_path(".") : shown.parent_path(), state);
+    state.dialog.chosen = shown;
+}
+
+void Browsing::show(const fs::path& folder, ViewerState& state) {
+    OpenDialog& dialog = state.dialog;
+    dialog.shown = true;
+    dialog.sample_folder = sample_folder_;
+    dialog.move = 0;
+    dialog.enter = false;
+    go_to(folder, dialog);
 }
 
 void Browsing::go_to(const fs::path& folder, OpenDialog& dialog) {

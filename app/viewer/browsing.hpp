@@ -21,6 +21,9 @@ class Browsing {
     /// Shows the dialog, or puts it away.
     void toggle(ViewerState& state);
 
+    /// Shows the dialog with what that folder holds.
+    void show(const std::filesystem::path& folder, ViewerState& state);
+
     /// The file after the one that is shown, or before it, in its folder: asked for when the folder
     /// has been read. False while it is still being read for the last one.
     [[nodiscard]] bool go_by(int entries, const ViewerState& state);

@@ -19,6 +19,7 @@
 #include "core/video/cleaning/fingertip.hpp"
 #include "core/video/depth/kept_choices.hpp"
 #include "core/video/depth/sidecar.hpp"
+#include "core/video/media_names.hpp"
 
 namespace dibhr {
 
@@ -117,7 +118,9 @@ void Viewer::take_opened() {
             show_media(std::move(opened->media), opened->request, opened->memory,
                        std::move(opened->maps));
         if (opened->session) replay_session(std::move(opened->session));
-        if (!opened->failure.empty()) {
+        if (opened->is_folder) {
+            browsing_.show(opened->request.colour, state_);
+        } else if (!opened->failure.empty()) {
             state_.message = opened->failure;
             show_depth_words(state_);  // those that are in force
         }
@@ -126,14 +129,20 @@ void Viewer::take_opened() {
 }
 
 void Viewer::take_dropped(const std::vector<std::filesystem::path>& files) {
+    // On the relief a picture is a recording, on the panels it is laid over the relief.
+    const bool over_panels = window_.pointer().position_px.x >= relief_viewport().x;
     if (files.size() == 1 && named_firmware(files.front())) {
         state_.requests.firmware = files.front();
     } else if (files.size() == 1 && files.front().extension() == ".toml") {
         state_.requests.material = files.front().string();
+    } else if (over_panels && files.size() == 1 && named_picture(files.front())) {
+        state_.requests.bump = files.front();
     } else if (const auto dropped = dropped_request(files)) {
         state_.requests.open = dropped;
     } else if (!files.empty()) {
-        state_.message = "drop one colour file, or a colour and a depth file together";
+        state_.message =
+            "Drop one colour file, a colour and a depth file together, a folder, a session, a "
+            "material, or onto the panels a picture as bump map.";
     }
 }
 

@@ -167,7 +167,8 @@ Opened try_open(const OpenRequest& request) {
         }
         return opened;
     } catch (const std::exception& error) {
-        return {.request = request, .failure = error.what()};
+        return {
+            .request = request, .failure = error.what(), .is_folder = is_folder(request.colour)};
     }
 }
 

@@ -79,6 +79,7 @@ struct Opened {
     FoundMaps maps{};     ///< likewise
     std::unique_ptr<OpenedSession> session{};
     std::string failure{};
+    bool is_folder{false};  ///< what failed is one: of recordings, not of pictures
 };
 
 /// The file whose memory is kept: colour, where there is a pair; empty for the program's own

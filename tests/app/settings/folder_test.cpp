@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "app/viewer/files.hpp"
+#include "tests/app/program/command_program.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -104,4 +106,23 @@ TEST_CASE("what is typed means a file that is there, from the folder on; else th
     CHECK(entry_meant(read, (folder / "below").string(), {}).file == folder / "below");
     CHECK(entry_meant(read, "one", chosen).file == chosen.file);
     CHECK(entry_meant(read, "gone.mp4", {}).file == "gone.mp4");
+}
+
+TEST_CASE("a folder that holds no pictures itself is told apart from a file that is none",
+          "[folder]") {
+    const TemporaryFolder folder;
+    fs::create_directories(folder / "recordings/monday");
+    write_text(folder / "recordings/notes.txt", "which jug?");
+    OpenRequest request{folder / "recordings"};
+    request.in_any_order = true;
+    CHECK(try_open(request).is_folder);
+    request.colour = folder / "recordings/notes.txt";
+    CHECK_FALSE(try_open(request).is_folder);
+    fs::create_directory(folder / "pictures");
+    write_depth_png(folder / "pictures/depth_000.png", 8, 6, 100);
+    request.colour = folder / "pictures";
+    const Opened opened = try_open(request);
+    CAPTURE(opened.failure);
+    CHECK(opened.media);
+    CHECK_FALSE(opened.is_folder);
 }
