@@ -154,6 +154,17 @@ bool has_assumed(const DepthMeaning& meaning) {
            meaning.packing.origin == Origin::assumed || meaning.code.origin == Origin::assumed;
 }
 
+/// The longest that has room [px].
+std::string depth_line(const DepthMeaning& meaning, float room) {
+    const std::string words = in_words(meaning);
+    if (!has_assumed(meaning)) return "Depth: " + words;
+    for (const char* how : {" (assumed: click to change)", " (assumed)"}) {
+        std::string line = "Depth: " + words + how;
+        if (ImGui::CalcTextSize(line.c_str()).x <= room) return line;
+    }
+    return "Depth assumed: " + words;
+}
+
 }  // namespace
 
 void draw_depth_rows(ViewerState& state) {
@@ -214,9 +225,7 @@ void show_depth_words(ViewerState& state) {
 
 void draw_depth_line(ViewerState& state) {
     if (!state.media.meaning) return;
-    const DepthMeaning& meaning = *state.media.meaning;
-    const std::string line =
-        "Depth: " + in_words(meaning) + (has_assumed(meaning) ? " (assumed: click to change)" : "");
+    const std::string line = depth_line(*state.media.meaning, ImGui::GetContentRegionAvail().x);
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
     ImGui::TextUnformatted(line.c_str());
     ImGui::PopStyleColor();

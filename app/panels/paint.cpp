@@ -105,9 +105,9 @@ void draw_paint_panel(ViewerState& state) {
     draw_undo_buttons(state);
     if (brush.saved_as.empty()) {
         quiet_text("On the sample: gone when another recording is opened.");
-    } else if (brush.has_paint) {
-        quiet_text("Kept beside the recording, and found again: " +
-                   brush.saved_as.filename().string() + " and its like.");
+    } else {
+        quiet_text("Kept beside the recording as " + brush.saved_as.filename().string() +
+                   " and its like, and found again.");
     }
     // All of it, not its first line: the column knows its new height a picture later.
     constexpr int kPicturesToScroll = 3;

@@ -413,6 +413,7 @@ void Viewer::draw_scene(glm::ivec2 viewport) {
     if (state_.brush.on) {
         content.look.paint = ReliefPaint::video;
         content.colour = painting_.tinted(content.colour, state_);
+        content.markers.visible = false;  // the hand does not touch, it paints
     }
     leave_trace(content.markers);
     scene_.draw(content, camera_, viewport);
