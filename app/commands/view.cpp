@@ -198,7 +198,7 @@ void take_parameters(const TouchRequest& touch, ViewerParts& parts, Settings& se
     touch.given.apply(settings.touch);
 }
 
-void open_parts(const ViewOptions& options, ViewerParts& parts) {
+void open_files(const ViewOptions& options, ViewerParts& parts) {
     if (names_session(options.open.colour)) {
         parts.session = std::make_unique<OpenedSession>(options.open.colour, options.any_media);
         print_warning(parts.session->session.warning());
@@ -210,6 +210,17 @@ void open_parts(const ViewOptions& options, ViewerParts& parts) {
         if (gives_relief(options.touch)) parts.memory.relief_px.reset();
         if (options.start_given || options.end_s || !options.clip.empty()) parts.memory.at_s = 0.0;
         print_warning(parts.media->description().notice);
+    }
+}
+
+void open_parts(const ViewOptions& options, ViewerParts& parts) {
+    try {
+        open_files(options, parts);
+    } catch (const InputError& error) {
+        // Whoever named no file did nothing wrong, and can open one.
+        if (!options.stays && !options.open.colour.empty()) throw;
+        parts.trouble = error.what();
+        print_error_line(parts.trouble);
     }
     parts.hand =
         make_hand_device(options.device, {options.settings.falcon.connection, options.firmware});
@@ -253,6 +264,8 @@ int run_view(CLI::App& app, const Arguments& arguments) {
                       [&options](double seconds) { options.seconds = seconds; })
         ->type_name("S");
     add_playing_options(app, options);
+    app.add_flag("--stay", options.stays,
+                 "Shows in the window what cannot be opened, and stays: as a desktop starts it");
     app.add_flag_function(
         "--no-sync", [&options](std::int64_t) { options.sync = false; },
         "Does not wait for the display");

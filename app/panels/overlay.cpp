@@ -368,6 +368,23 @@ void draw_hint(const ViewerState& state, Hint hint, float alpha) {
     centred_label(state, fits ? whole : brief, 0.0F, alpha);
 }
 
+void draw_nothing_open(ViewerState& state) {
+    const bool is_open = state.replay || !state.media.depth_path.empty();
+    if (is_open || state.opening || state.dialog.shown || !state.message.empty()) return;
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({0.5F * (display.x - panel_column_width(state)), 0.42F * display.y},
+                            ImGuiCond_Always, {0.5F, 0.5F});
+    ImGui::Begin("Nothing is open", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoBackground |
+                     ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_AlwaysAutoResize);
+    ImGui::TextUnformatted("Nothing is open.");
+    ImGui::TextDisabled("Drop a colour and a depth file here, a folder or a session, or");
+    ImGui::Spacing();
+    if (ImGui::Button("Open a recording (Ctrl+O)")) state.requests.action = Action::open_file;
+    ImGui::End();
+}
+
 void draw_message_box(ViewerState& state) {
     if (state.message.empty()) return;
     const ImVec2 display = ImGui::GetIO().DisplaySize;

@@ -93,6 +93,9 @@ void draw_hint(const ViewerState& state, Hint hint, float alpha);
 void draw_explanation(ViewerState& state, const DepthSurface& surface,
                       const glm::dmat4& clip_from_grid);
 
+/// What to do where nothing is open.
+void draw_nothing_open(ViewerState& state);
+
 /// The window's own dialog for opening files.
 void draw_open_dialog(ViewerState& state);
 

@@ -67,6 +67,7 @@ void draw_open(ViewerState& state) {
 }
 
 void draw_files(const MediaDescription& media) {
+    if (media.depth_path.empty()) return;  // nothing is open
     file_row("Colour", media.colour_path);
     file_row("Depth", media.depth_path);
     fact_row("Size", formatted("%d x %d", media.colour_columns, media.colour_rows));

@@ -10,6 +10,7 @@
 
 #include "app/panels/falcon_state.hpp"
 #include "app/panels/panels.hpp"
+#include "app/panels/widgets.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/surface.hpp"
 #include "render/drawing_threads.hpp"
@@ -109,6 +110,10 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending)
         play_as_asked(options, replay.playback().begin_s, replay);
         if (options.open.at_s > 0.0) replay.seek(replay.playback().begin_s + options.open.at_s);
         if (options.open.paused) replay.pause();
+        return;
+    }
+    if (!parts.media) {
+        state_.message = capitalised(parts.trouble);
         return;
     }
     state_.media = parts.media->description();
@@ -439,7 +444,8 @@ void Viewer::draw_panels(std::span<const KeyPress> pressed) {
     const auto fade = [](float& alpha) { alpha = std::max(0.0F, alpha - 0.03F); };
     if (state_.touched) fade(hint_alpha_);
     if (pressed_deeper_) fade(wheel_hint_alpha_);
-    const bool mouse_touches = !state_.replay && hand_.mouse != nullptr &&
+    const bool mouse_touches = shown_.makes_surface() && !state_.replay &&
+                               hand_.mouse != nullptr &&
                                (hand_.falcon == nullptr || state_.haptic.hand.stand_in);
     if (mouse_touches && state_.message.empty() && !state_.explained && !state_.ruler &&
         !state_.brush.on) {
@@ -448,6 +454,7 @@ void Viewer::draw_panels(std::span<const KeyPress> pressed) {
         if (wonders) draw_hint(state_, Hint::press_deeper, wheel_hint_alpha_);
     }
     draw_overlay(state_, now_s());
+    draw_nothing_open(state_);
     draw_explained();
     draw_open_dialog(state_);
     draw_help_sheet(state_);

@@ -56,6 +56,7 @@ struct ViewOptions {
     std::optional<double> end_s{};             ///< where what is played ends, from its begin
     bool start_given{false};                   ///< by --start: nothing that is remembered
     bool full_screen{false};
+    bool stays{false};       ///< also where what was named cannot be opened
     bool size_given{false};  ///< by --size: exactly so large
     bool any_media{false};   ///< replay: also over files that have changed
     TouchRequest touch{};    ///< the command line's alone: its parameters beat a session's
@@ -69,6 +70,7 @@ struct ViewerParts {
     FileMemory memory{};                       ///< of the media
     FoundMaps maps{};                          ///< likewise
     std::unique_ptr<OpenedSession> session{};  ///< to be replayed, in place of media
+    std::string trouble{};                     ///< why there is neither
     HandDevice hand{};
     Material material{};  ///< of the settings or the command line
     std::shared_ptr<const BumpMap> bump{};
