@@ -32,9 +32,11 @@ Coupling felt_coupling(const DepthSurface& surface, const Proxy& proxy, Coupling
     const double k = surface.stiffness_at(proxy.position.x, proxy.position.y,
                                           everywhere.stiffness_newton_per_mm);
     if (k == everywhere.stiffness_newton_per_mm) return everywhere;
-    everywhere.stiffness_newton_per_mm =
-        std::max(0.0, std::min(k, limits.max_stiffness_newton_per_mm));
-    return everywhere;
+    Coupling here = everywhere;
+    here.stiffness_newton_per_mm = std::max(0.0, std::min(k, limits.max_stiffness_newton_per_mm));
+    here.damping_newton_s_per_m = std::max(
+        here.damping_newton_s_per_m, needed_damping(here.stiffness_newton_per_mm, limits.watched));
+    return here;
 }
 
 std::unique_ptr<ProxyAlgorithm> make_algorithm(Algorithm algorithm) {

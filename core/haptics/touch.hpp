@@ -33,7 +33,7 @@ struct Touch {
                                      Friction everywhere) noexcept;
 
 /// The spring and damper with the stiffness map's stiffness at the proxy, no stiffer than the
-/// device can stand; without a map the same as everywhere.
+/// device can stand and damped as one needs that is watched; without a map the same as everywhere.
 [[nodiscard]] Coupling felt_coupling(const DepthSurface& surface, const Proxy& proxy,
                                      Coupling everywhere, const SafetyLimits& limits) noexcept;
 

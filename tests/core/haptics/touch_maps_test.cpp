@@ -76,6 +76,24 @@ TEST_CASE("a stiffness map is felt no stiffer than the device can stand", "[maps
     CHECK_THAT(touch.spring_force_newton.z, WithinAbs(0.75 * pressed_mm, 1e-9));
 }
 
+TEST_CASE("where a map is stiffer, a device that moves is damped as it needs it there", "[maps]") {
+    TouchMaps maps;
+    maps.stiffness = left_half(TouchMapKind::stiffness, 0.9);
+    const DepthImage image = test::flat(kSide, kSide, 100.0);
+    const DepthSurface surface(image, image, 0.0, {}, nullptr, nullptr, &maps);
+    SafetyLimits limits;
+    limits.watched = {.mass_kg = 0.15, .friction_newton_s_per_m = 1.0, .delay_s = 0.003};
+    const Coupling soft{.stiffness_newton_per_mm = 0.1};
+    Proxy proxy;
+    proxy.contact = true;
+    proxy.position = {5.0, 5.0, 100.0};
+    const Coupling stiff = felt_coupling(surface, proxy, soft, limits);
+    CHECK_THAT(stiff.stiffness_newton_per_mm, WithinAbs(0.9, 1e-4));
+    CHECK(stability_margin(stiff, limits.watched) >= limits.watched.margin_newton_s_per_m - 1e-9);
+    proxy.position.x = 30.0;
+    CHECK(felt_coupling(surface, proxy, soft, limits) == soft);
+}
+
 TEST_CASE("over a friction map the proxy lags by the cone of the pixel it is on", "[maps]") {
     TouchMaps maps;
     maps.friction = left_half(TouchMapKind::friction, 1.5);
