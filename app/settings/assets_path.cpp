@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 namespace {
 
 fs::path sample_file(const fs::path& folder, const char* name) {
-    const fs::path file = folder / name;
+    fs::path file = folder / name;
     std::error_code ignored;
     if (fs::is_regular_file(file, ignored)) return file;
     throw InputError("the built-in sample has no " + std::string(name) + " in " + folder.string() +
