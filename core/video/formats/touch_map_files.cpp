@@ -40,7 +40,7 @@ std::string ending_of(TouchMapKind kind) {
 /// "cup" of cup_depth.mp4, "depth" of depth.mp4, "take" of the folder take/.
 std::string recording_name(const fs::path& depth) {
     const fs::path place = depth.has_filename() ? depth : depth.parent_path();
-    const std::string stem = is_folder(place) ? place.filename().string() : place.stem().string();
+    std::string stem = is_folder(place) ? place.filename().string() : place.stem().string();
     const std::string small = lower_case(stem);
     constexpr std::string_view kWord = "depth";
     const std::size_t at = small.rfind(kWord);
