@@ -53,6 +53,7 @@ constexpr KeyBinding kBindings[] = {
     {Action::toggle_sound, kTouch, "U", "Sound of touch off, on", "u"},
     {Action::mark, kTouch, "M", "Mark this moment of the recording", "m"},
     {Action::explain, kTouch, "E", "Explain an update step by step; end it", "e"},
+    {Action::toggle_others, kTouch, "O", "Proxies of the other algorithms on, off", "o"},
     {Action::play_or_pause, kPlayback, "Space or P", "Play, pause", " p"},
     repeating(
         {Action::step_forward, kPlayback, ".", "One frame forward; in a replay, one tick", "."}),

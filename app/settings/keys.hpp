@@ -34,6 +34,7 @@ enum class Action {
     record,
     mark,
     explain,
+    toggle_others,
     reset_view,
     toggle_straight_view,
     show_as_recorded,

@@ -46,11 +46,6 @@ struct WalkedTick {
 /// Of each tick one, while somebody follows.
 using WalkedTickRing = SpscRing<WalkedTick, 1024>;
 
-struct AlgorithmProxy {
-    Algorithm algorithm{Algorithm::dibhr};
-    Proxy proxy{};
-};
-
 /// Walks every tick's goal, over the surface of that tick, through the algorithms that do not run.
 /// They begin where the running one's proxy is; again after ticks that were lost, or whose frames
 /// are not known. One thread, which is not the haptic one: it holds frames, and allocates.
