@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -30,6 +31,10 @@ constexpr glm::vec3 kTraceTint{0.45F, 0.74F, 1.0F};
 constexpr double kProxyRadius = 7.0;
 constexpr double kFingerRadius = 1.2;
 constexpr double kFingerContactRadius = 4.5;
+constexpr double kOtherRadius = 5.5;
+constexpr double kOtherStep = 2.2;  // of those at one place
+constexpr double kOtherLineRadius = 0.9;
+constexpr float kOtherLineOpacity = 0.8F;
 constexpr double kGoalRadius = 11.0;
 constexpr float kGoalHollow = 0.66F;
 constexpr double kCatchingUpRadius = 15.0;  // clear of the goal's ring when the proxy is there
@@ -46,6 +51,7 @@ constexpr double kHeadRadius = 7.5;
 
 constexpr double kNormalLength_px = 60.0;  // grid
 constexpr double kHeadLength_px = 16.0;    // grid; a short arrow has a shorter head
+constexpr double kSamePlace_px = 0.5;      // grid
 constexpr double kLeastForce_newton = 1e-3;
 constexpr double kLeastConeHeight_px = 0.5;
 
@@ -124,6 +130,24 @@ void add_finger(std::vector<MarkerStroke>& strokes, const TouchMarkers& touch, c
     }
 }
 
+/// Each with a line to the goal; of those at one place the first is the widest, and all are seen.
+void add_others(std::vector<MarkerStroke>& strokes, const TouchMarkers& touch, const Camera& camera,
+                double scale) {
+    const std::vector<OtherProxy>& others = touch.others;
+    for (auto other = others.begin(); other != others.end(); ++other) {
+        if (!is_finite(other->place)) continue;
+        const auto on_it = std::count_if(std::next(other), others.end(), [&](const OtherProxy& o) {
+            return glm::distance(o.place, other->place) < kSamePlace_px;
+        });
+        const double radius = kOtherRadius + kOtherStep * static_cast<double>(on_it);
+        const glm::vec4 at = ball(camera, other->place, radius * scale);
+        strokes.push_back({ball(camera, touch.goal, kOtherLineRadius * scale),
+                           ball(camera, other->place, kOtherLineRadius * scale),
+                           glm::vec4(other->tint, kOtherLineOpacity)});
+        strokes.push_back({at, at, glm::vec4(other->tint, 1.0F)});
+    }
+}
+
 constexpr int kConeSegments = 64;
 constexpr float kHiddenOpacity = 0.55F;  // of what lies behind the relief
 constexpr double kScaleHeight_px = 800.0;
@@ -164,6 +188,7 @@ std::vector<MarkerStroke> touch_strokes(const TouchMarkers& touch, const Camera&
         const glm::vec4 recorded = ball(camera, *touch.recorded_proxy, kProxyRadius * scale);
         strokes.push_back({recorded, recorded, kRecordedTint});
     }
+    add_others(strokes, touch, camera, scale);
     if (touch.finger_px > 0.0) add_finger(strokes, touch, camera, scale);
     if (touch.finger_contact && is_finite(*touch.finger_contact)) {
         const glm::vec4 at = ball(camera, *touch.finger_contact, kFingerContactRadius * scale);
@@ -174,7 +199,9 @@ std::vector<MarkerStroke> touch_strokes(const TouchMarkers& touch, const Camera&
         const glm::vec4 around = ball(camera, touch.proxy, kCatchingUpRadius * scale);
         strokes.push_back({around, around, kProxyTint, kCatchingUpHollow});
     }
-    strokes.push_back({proxy, proxy, kProxyTint});
+    const glm::vec4 tint =
+        touch.proxy_tint ? glm::vec4(*touch.proxy_tint, kProxyTint.a) : kProxyTint;
+    strokes.push_back({proxy, proxy, tint});
     return strokes;
 }
 

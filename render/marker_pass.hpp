@@ -28,8 +28,9 @@ struct MarkerStroke {
 /// Proxy: a blue ball. Goal: an orange ring. Spring: a thin grey line. Normal: a thin green line.
 /// Force: a yellow arrow from the proxy. Recorded proxy: a pale ball. While the proxy catches up
 /// it has a thin ring around it, and the line is dashed and there in the air too. A fingertip:
-/// three dashed circles around its ball, and a green ball where it touches. Nothing when the
-/// markers are not visible. `scale` 1 suits a picture 800 pixels high.
+/// three dashed circles around its ball, and a green ball where it touches. Another algorithm's
+/// proxy: a smaller ball and a line to the goal. Nothing when the markers are not
+/// visible. `scale` 1 suits a picture 800 pixels high.
 [[nodiscard]] std::vector<MarkerStroke> touch_strokes(const TouchMarkers& touch,
                                                       const Camera& camera, double scale);
 

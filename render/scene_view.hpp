@@ -1,6 +1,7 @@
 // Draws one picture of the scene: the textured relief, and the markers of the touch.
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -39,6 +40,12 @@ struct Dent {
     double shadow{0.0};  ///< 0: none, 1: black
 };
 
+/// The proxy that another algorithm would have. Grid space.
+struct OtherProxy {
+    Vec3 place{0.0};
+    glm::vec3 tint{1.0F};  ///< red, green, blue
+};
+
 /// What the hand does, for the markers. Grid space.
 struct TouchMarkers {
     bool visible{false};
@@ -51,7 +58,9 @@ struct TouchMarkers {
     double newton_per_px{0.02};  ///< length of the force arrow
     double most_newton{0.0};     ///< of the gauge around the proxy; 0: no gauge
     std::vector<TracePoint> trace{};
-    std::optional<Vec3> recorded_proxy{};  ///< of a session, when `proxy` is computed anew
+    std::optional<Vec3> recorded_proxy{};   ///< of a session, when `proxy` is computed anew
+    std::optional<glm::vec3> proxy_tint{};  ///< nothing: the proxy is blue
+    std::vector<OtherProxy> others{};
     double finger_px{0.0};                 ///< radius of the ball whose lowest point is `proxy`
     std::optional<Vec3> finger_contact{};  ///< where the ball touches what is drawn
 };

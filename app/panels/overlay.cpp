@@ -13,6 +13,7 @@
 #include "app/panels/widgets.hpp"
 #include "app/settings/keys.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/plot/axes.hpp"
 #include "render/relief_paint.hpp"
 
 namespace dibhr {
@@ -165,6 +166,47 @@ std::string pointer_text(const ViewerState& state) {
     return text + "   stands " + elevation_text(state, pixel);
 }
 
+/// An algorithm, and the colour of its proxy.
+struct AlgorithmLine {
+    ImU32 colour{0};
+    std::string text{};
+};
+
+/// The one that is felt first, and how far from its proxy those of the others are.
+std::vector<AlgorithmLine> side_by_side(const ViewerState& state) {
+    const auto line_of = [](Algorithm algorithm, const std::string& what) {
+        const SeriesLook look = look_of(algorithm);
+        const Ink ink = look.stroke.ink;
+        return AlgorithmLine{IM_COL32(ink.red, ink.green, ink.blue, 255), look.name + what};
+    };
+    const char* const shown = state.replay ? "   shown" : "   felt";
+    std::vector<AlgorithmLine> lines{line_of(state.settings.touch.algorithm, shown)};
+    const double pitch_mm = state.settings.touch.coupling.pixel_pitch_mm;
+    for (const AlgorithmProxy& other : state.others) {
+        const double apart_px =
+            glm::distance(other.proxy.position, state.haptic.touch.proxy.position);
+        lines.push_back(line_of(other.algorithm, formatted("   %.2f mm off", apart_px * pitch_mm)));
+    }
+    return lines;
+}
+
+/// On a ground of their own, each after its ball. How high they are.
+float draw_algorithms(const std::vector<AlgorithmLine>& lines, ImVec2 low) {
+    std::string text;
+    for (const AlgorithmLine& line : lines)
+        text += (text.empty() ? "      " : "\n      ") + line.text;
+    const float height = label(text, low, 1.0F);
+    const ImVec2 pad = ImGui::GetStyle().FramePadding;
+    const float line_height = ImGui::GetTextLineHeight();
+    ImVec2 middle{low.x + pad.x + 0.45F * line_height, low.y + pad.y + 0.5F * line_height};
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    for (const AlgorithmLine& line : lines) {
+        list.AddCircleFilled(middle, 0.38F * line_height, line.colour, 24);
+        middle.y += line_height;
+    }
+    return height;
+}
+
 /// What a legend says.
 struct Legend {
     static constexpr int kNumbers = 5;
@@ -245,6 +287,8 @@ void draw_upper_left(const ViewerState& state, float margin, float right) {
                       "Recording   " + clock_text(state.recording->time_s), low);
         low.y += 1.3F * ImGui::GetFrameHeight();
     }
+    if (!state.others.empty() && state.haptic.touchable && !state.explained)
+        low.y += draw_algorithms(side_by_side(state), low) + 0.3F * ImGui::GetFrameHeight();
     if (state.statistics) add(statistics_text(state));
     if (state.ruler && !state.explained) add(ruler_text(state));
     if (state.under_pointer && !state.explained) add(pointer_text(state));
@@ -260,6 +304,7 @@ constexpr Explained kMarks[] = {
     {"Orange ring", "The goal: where the hand is"},
     {"Blue ball", "The proxy: stays on the surface"},
     {"Pale ball", "In a replay: the proxy as recorded"},
+    {"Smaller balls", "Side by side: the other algorithms' proxies"},
     {"Line between", "The spring that pulls the hand"},
     {"Blue ring, dashed line", "The proxy is catching up with a jump"},
     {"Yellow arrow", "The force on the hand"},

@@ -173,6 +173,8 @@ void draw_touch_panel(ViewerState& state) {
     draw_numbers(TouchTopic::texture, state.settings.touch);
     if (!state.bump && !state.replay) quiet_text("Roughness needs a bump map to be felt.");
     draw_sound(state);
+    flag_row("Side by side", state.settings.others, Settings{}.others,
+             "Where the proxies of the other algorithms are, for the same goal (O)");
     ImGui::PopID();
 }
 

@@ -22,6 +22,7 @@
 #include "core/haptics/explanation.hpp"
 #include "core/loop/device.hpp"
 #include "core/loop/haptic_tick.hpp"
+#include "core/loop/other_proxies.hpp"
 #include "core/replay/session_player.hpp"
 #include "core/session/recorder.hpp"
 #include "core/video/media.hpp"
@@ -294,6 +295,7 @@ struct ViewerState {
     OpenRequest opened{};  ///< how it was opened
     PlaybackStatus playback{};
     HapticState haptic{};
+    std::vector<AlgorithmProxy> others{};  ///< for the same goal; empty: not asked for, or unknown
     std::optional<PixelShown> under_hand{};     ///< nothing: the hand is beside the picture
     std::optional<PixelShown> under_pointer{};  ///< nothing: it presses, or is beside the relief
     PanesShown panes{};

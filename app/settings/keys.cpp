@@ -57,6 +57,7 @@ constexpr KeyBinding kBindings[] = {
     // Before that without Shift, which takes the same key.
     on_control(with_shift({Action::redo, kTouch, "Ctrl+Shift+Z", "Paint again", "", {GLFW_KEY_Z}})),
     on_control({Action::undo, kTouch, "Ctrl+Z", "Take back what was painted", "", {GLFW_KEY_Z}}),
+    {Action::toggle_others, kTouch, "O", "Proxies of the other algorithms on, off", "o"},
     {Action::play_or_pause, kPlayback, "Space or P", "Play, pause", " p"},
     repeating(
         {Action::step_forward, kPlayback, ".", "One frame forward; in a replay, one tick", "."}),

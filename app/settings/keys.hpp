@@ -37,6 +37,7 @@ enum class Action {
     toggle_brush,
     undo,
     redo,
+    toggle_others,
     reset_view,
     toggle_straight_view,
     show_as_recorded,

@@ -346,6 +346,7 @@ std::vector<Setting> list_of(Settings& s) {
                              {"look", "trace", &s.look.trace},
                              {"look", "straight-view", &s.straight_view},
                              {"look", "panes", &s.panes},
+                             {"look", "others", &s.others},
                              {"playing", "resume", &s.resume},
                              {"charts", "force", &s.charts.force},
                              {"charts", "penetration", &s.charts.penetration},

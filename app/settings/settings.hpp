@@ -70,6 +70,7 @@ struct Settings {
     double finger_mm{0.0};         ///< radius of the fingertip
     ReliefLook look{};
     bool straight_view{false};
+    bool others{false};             ///< the proxies of the algorithms that do not run are shown
     bool panes{false};              ///< the colour picture and the depth above the relief
     NamePattern screenshot_name{};  ///< of pictures and clips
     bool resume{false};             ///< a video goes on where it was left

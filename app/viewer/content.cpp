@@ -16,6 +16,7 @@
 #include "core/error.hpp"
 #include "core/haptics/facet.hpp"
 #include "core/haptics/surface.hpp"
+#include "core/plot/axes.hpp"
 #include "core/video/cleaning/fingertip.hpp"
 #include "core/video/depth/kept_choices.hpp"
 #include "core/video/depth/sidecar.hpp"
@@ -29,6 +30,12 @@ Vec3 normal_at(const DepthSurface& surface, Vec3 p) {
     const Vec3 inside = surface.clamped_to_frame(p);
     const Facet facet(surface, surface.triangle_at(inside.x, inside.y));
     return glm::normalize(Vec3{-facet.slope_x(), -facet.slope_y(), 1.0});
+}
+
+/// As in every plot.
+glm::vec3 tint_of(Algorithm algorithm) {
+    const Ink ink = look_of(algorithm).stroke.ink;
+    return glm::vec3(ink.red, ink.green, ink.blue) / 255.0F;
 }
 
 /// Of a fingertip, whose ball rests on what is drawn.
@@ -56,6 +63,9 @@ TouchMarkers markers_of(const ViewerState& state, const DepthSurface& surface) {
     markers.most_newton =
         std::min(state.settings.max_force_newton, state.device.limits.max_force_newton);
     if (state.replay && state.replay->computed) markers.recorded_proxy = state.replay->tick.proxy;
+    if (!state.others.empty()) markers.proxy_tint = tint_of(state.settings.touch.algorithm);
+    for (const AlgorithmProxy& other : state.others)
+        markers.others.push_back({other.proxy.position, tint_of(other.algorithm)});
     return markers;
 }
 
@@ -394,7 +404,8 @@ void Viewer::start_loop() {
                            .recorder = &recording_.heart(),
                            .decoder = &player_.decoder_heart()},
                           &ending_.asked(),
-                          &sound_.ticks()});
+                          &sound_.ticks(),
+                          walked_.get()});
 }
 
 void Viewer::draw_scene(glm::ivec2 viewport) {

@@ -220,6 +220,10 @@ Answer perform(Action action, ViewerState& state, Player& player) {
             paint = static_cast<ReliefPaint>(next % kReliefPaintWords.size());
             return {entry_of(kReliefPaintWords, paint).label};
         }
+        case Action::toggle_others:
+            settings.others = !settings.others;
+            return {settings.others ? "Side by side: the other algorithms' proxies"
+                                    : "The running algorithm's proxy alone"};
         case Action::toggle_panes:
             settings.panes = !settings.panes;
             return {settings.panes ? "Colour and depth above" : "The relief alone"};

@@ -87,6 +87,7 @@ void ViewerReplay::end(ViewerState& state) {
     state.bump = std::exchange(bump_, nullptr);
     state.bump_file = bump_file_;
     state.haptic = {};
+    state.others.clear();
     state.strips = {};
 }
 
@@ -114,6 +115,7 @@ void ViewerReplay::show(const SessionMoment& moment, ViewerState& state) {
     state.replay->computed = moment.computed.has_value();
     state.haptic.touch = touch_of(moment);
     state.haptic.touchable = tick.surface;
+    state.others = moment.others;
     state.haptic.hand = {.goal_in_grid = tick.goal,
                          .buttons = tick.buttons,
                          .ready = tick.device_ready,
@@ -133,6 +135,7 @@ void ViewerReplay::show(const SessionMoment& moment, ViewerState& state) {
 }
 
 void ViewerReplay::follow_panels(ViewerState& state) {
+    player_->compare(state.settings.others);
     if (std::exchange(state.requests.as_recorded, false)) {
         chosen_.reset();
         state.settings.touch = recorded_;

@@ -93,6 +93,7 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending)
       hang_after_s_(hang_asked_for()),
       strips_(std::make_unique<StripRing>()),
       ticks_(std::make_unique<TickRing>()),
+      walked_(std::make_unique<WalkedTickRing>()),
       recording_(*ticks_, ending.words()) {
     if (software_) let_drawing_give_way();
     window_.on_display_loss([this] { close_without_display(); });
@@ -233,6 +234,7 @@ void Viewer::take_news() {
     state_.playback = player_.status();
     if (loop_) state_.haptic = haptic_state_.front();
     if (replay_.player() != nullptr) replay_.advance(state_);
+    follow_others();
     notice_catching_up();
     notice_standstill();
     if (const auto notice = falcon_.take_news(state_)) tell(*notice);
@@ -259,6 +261,16 @@ void Viewer::take_news() {
     });
     attempt([this] { painting_.take_news(state_, recording_); });
     take_report();
+}
+
+void Viewer::follow_others() {
+    if (state_.replay) return;
+    if (handed_.followed) {
+        others_.follow(*walked_, player_.picture(), handed_.bump);
+    } else {
+        others_.forget(*walked_);
+    }
+    state_.others = others_.proxies();
 }
 
 void Viewer::make_report(const std::filesystem::path& session) {
@@ -525,9 +537,15 @@ void Viewer::hand_over_settings() {
                       handed_.limits == limits && !falcon_.tuning_changed(state_) &&
                       handed_.force_enabled == force_enabled && handed_.bump == state_.bump;
     const bool recording = recording_.active();
-    if (!same || handed_.recording != recording) {
-        handed_ = {parameters,  limits,    force_enabled,
-                   state_.bump, recording, handed_.version + (same ? 0 : 1)};
+    const bool followed = state_.settings.others;
+    if (!same || handed_.recording != recording || handed_.followed != followed) {
+        handed_ = {parameters,
+                   limits,
+                   force_enabled,
+                   state_.bump,
+                   recording,
+                   followed,
+                   handed_.version + (same ? 0 : 1)};
         recording_.hand_over(handed_, state_.bump_file);
         haptic_settings_.publish(handed_);
     }

@@ -33,6 +33,7 @@
 #include "app/window/window.hpp"
 #include "core/error.hpp"
 #include "core/loop/haptic_tick.hpp"
+#include "core/loop/other_proxies.hpp"
 #include "device/hand_device.hpp"
 #include "render/camera.hpp"
 #include "render/scene_view.hpp"
@@ -102,6 +103,7 @@ class Viewer {
     void show_one_picture();
     void wear_look();
     void take_news();
+    void follow_others();
     void notice_catching_up();
     void notice_standstill();
     void take_opened();
@@ -216,6 +218,8 @@ class Viewer {
     TripleBuffer<HapticState> haptic_state_{};
     std::unique_ptr<StripRing> strips_;
     std::unique_ptr<TickRing> ticks_;
+    std::unique_ptr<WalkedTickRing> walked_;
+    OtherProxies others_{};
     SoundOutput sound_{};
     ViewerRecording recording_;
     ViewerReplay replay_{};

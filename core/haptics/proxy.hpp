@@ -21,6 +21,12 @@ struct Proxy {
     bool operator==(const Proxy&) const = default;
 };
 
+/// One of several side by side.
+struct AlgorithmProxy {
+    Algorithm algorithm{Algorithm::dibhr};
+    Proxy proxy{};
+};
+
 /// Where the proxy starts, how it follows a surface that moves, and where it goes on from when
 /// another algorithm brought it there. The walk is the algorithm's own, so that all can be run side
 /// by side. No allocation, lock, clock or exception in `update`.

@@ -64,6 +64,7 @@ void HapticTick::run(const TickTiming& timing, std::uint64_t late_ticks) noexcep
     if (!row.surface) strip.penetration_mm = 0.0F;  // what was touched last is gone
     to_.strips.push(strip);
     let_hear(settings);
+    let_follow(pair, settings, row);
     count(timing, row.update_us);
     to_.state.publish(state_);
 }
@@ -71,6 +72,7 @@ void HapticTick::run(const TickTiming& timing, std::uint64_t late_ticks) noexcep
 void HapticTick::notice_changes(const HapticSettings& settings,
                                 const FrameWindow& frames) noexcept {
     const bool recording_begins = settings.recording && !recording_;
+    reset_ = recording_begins;
     if (recording_begins) {
         renderer_.reset();
         state_.touch = {};
@@ -185,6 +187,28 @@ void HapticTick::let_hear(const HapticSettings& settings) noexcept {
                      .force_newton = glm::length(touch.sent_force_newton),
                      .contact = touch.proxy.contact,
                      .force_on = state_.touchable && may_act});
+}
+
+void HapticTick::let_follow(const DepthBlend& pair, const HapticSettings& settings,
+                            const TickRecord& row) noexcept {
+    if (to_.walked == nullptr || !settings.followed) return;
+    const TouchParameters& parameters = glide_.now().parameters;
+    WalkedTick walked{.tick = state_.ticks,
+                      .updates = row.surface && !row.goal_refused,
+                      .begins = reset_,
+                      .lets_go = row.lets_go,
+                      .algorithm = parameters.algorithm,
+                      .proxy = state_.touch.proxy,
+                      .goal = state_.touch.goal,
+                      .friction = parameters.friction,
+                      .blend = pair.blend,
+                      .shape = parameters.shape,
+                      .bump = settings.bump.get()};
+    if (row.surface) {
+        walked.from = mark_of(*pair.from);
+        walked.to = mark_of(*pair.to);
+    }
+    to_.walked->push(walked);
 }
 
 void HapticTick::count(const TickTiming& timing, double update_us) noexcept {

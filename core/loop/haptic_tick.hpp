@@ -14,6 +14,7 @@
 #include "core/haptics/safety.hpp"
 #include "core/haptics/touch.hpp"
 #include "core/loop/device.hpp"
+#include "core/loop/other_proxies.hpp"
 #include "core/loop/standstill.hpp"
 #include "core/loop/tick_strip.hpp"
 #include "core/realtime/spsc_ring.hpp"
@@ -32,6 +33,7 @@ struct HapticSettings {
     bool force_enabled{true};
     std::shared_ptr<const BumpMap> bump{};  ///< null: none
     bool recording{false};                  ///< every tick goes into the ring
+    bool followed{false};                   ///< for the other algorithms' proxies, too
     std::uint64_t version{0};               ///< counts changes, for the recorder
 };
 
@@ -72,7 +74,8 @@ struct HapticConnections {
     Heartbeats hearts{};
     /// Once true, no force is sent any more; null: never.
     const std::atomic<bool>* leaving{nullptr};
-    SoundRing* sound{nullptr};  ///< null: nobody listens
+    SoundRing* sound{nullptr};        ///< null: nobody listens
+    WalkedTickRing* walked{nullptr};  ///< for OtherProxies; null: nobody follows
 };
 
 /// One tick of the loop, without a thread: nothing in it allocates, locks, waits or throws.
@@ -102,6 +105,9 @@ class HapticTick {
     /// Adds what came of the tick.
     void record(TickRecord& row, const TickTiming& timing) noexcept;
     void let_hear(const HapticSettings& settings) noexcept;
+    /// Adds what others need to walk after this tick's goal.
+    void let_follow(const DepthBlend& pair, const HapticSettings& settings,
+                    const TickRecord& row) noexcept;
     void count(const TickTiming& timing, double update_us) noexcept;
 
     HapticConnections to_;
@@ -118,6 +124,7 @@ class HapticTick {
     bool force_off_pressed_{false};
     bool taken_off_{false};
     bool recording_{false};
+    bool reset_{false};  // in this tick, nothing was touched before
     StandstillWatch watch_{to_.hearts};
     bool standstill_{false};  // in this tick
     std::chrono::steady_clock::time_point start_{};

@@ -31,6 +31,14 @@ constexpr double kTicksAhead = 400.0;  // at speed 1; what is decoded meanwhile 
 constexpr std::size_t kBatch = 25;
 constexpr double kRunIn_s = 1.0;
 
+/// What is computed of each moment.
+struct ComputedRuns {
+    std::optional<TouchParameters> other{};  ///< through these parameters
+    bool algorithms{false};                  ///< through all algorithms, with the same parameters
+
+    [[nodiscard]] bool any() const noexcept { return other.has_value() || algorithms; }
+};
+
 /// The moments of a session, one after the other. One thread at a time, the opened session's.
 class SessionMoments {
   public:
@@ -39,13 +47,22 @@ class SessionMoments {
 
     /// The next moment will be the first tick at or after `from_s`. With `other` parameters, what
     /// they give is computed from a second earlier on, so that the proxy has found its place.
-    void begin(double from_s, const std::optional<TouchParameters>& other) {
+    void begin(double from_s, const ComputedRuns& runs) {
         std::vector<ParameterChange> changes;
+        const std::optional<TouchParameters>& other = runs.other;
         if (other) changes.push_back([other](TouchParameters& parameters) { parameters = *other; });
-        computes_ = other.has_value();
+        if (runs.algorithms) {
+            for (const Algorithm algorithm : all_algorithms()) {
+                changes.push_back([other, algorithm](TouchParameters& parameters) {
+                    if (other) parameters = *other;
+                    parameters.algorithm = algorithm;
+                });
+            }
+        }
+        runs_ = runs;
         from_s_ = from_s;
         replay_.emplace(opened_.session, opened_.frames, std::move(changes),
-                        computes_ ? from_s - kRunIn_s : from_s);
+                        runs.any() ? from_s - kRunIn_s : from_s);
     }
 
     /// Nothing after the last one, or when it was given up before the proxy had found its place.
@@ -74,16 +91,24 @@ class SessionMoments {
         moment.frames = frames_;
         moment.parameters = opened_.session.parameters_of(tick.settings);
         if (moment.parameters != nullptr) moment.bump = opened_.frames.bump(*moment.parameters);
-        if (computes_) {
-            moment.computed = replay_->touch(0);
-        }
+        if (runs_.other) moment.computed = replay_->touch(0);
+        if (runs_.algorithms && tick.surface) add_others(moment);
         return moment;
+    }
+
+    void add_others(SessionMoment& moment) const {
+        const TouchParameters& shown = runs_.other ? *runs_.other : moment.parameters->touch;
+        std::size_t run = runs_.other ? 1 : 0;
+        for (const Algorithm algorithm : all_algorithms()) {
+            const Proxy& proxy = replay_->touch(run++).proxy;
+            if (algorithm != shown.algorithm) moment.others.push_back({algorithm, proxy});
+        }
     }
 
     OpenedSession& opened_;
     std::optional<SessionReplay> replay_{};
     double from_s_{0.0};
-    bool computes_{false};
+    ComputedRuns runs_{};
     std::shared_ptr<const TouchedFrames> frames_{};  // of the last tick with a surface
 };
 
@@ -119,7 +144,7 @@ struct SessionPlayer::Implementation {
     struct Order {
         double from_s{0.0};
         std::optional<std::int64_t> before_tick{};  ///< instead: the tick before this one
-        std::optional<TouchParameters> other{};
+        ComputedRuns runs{};
         bool preview{false};  ///< what was recorded there is shown until the rest is computed
     };
 
@@ -221,7 +246,7 @@ struct SessionPlayer::Implementation {
     void go_on(double due_s, bool all_taken) {
         playback.now_s = std::clamp(due_s, playback.begin_s, playback.end_s);
         if (all_taken && playback.looping && playback.failure.empty()) {
-            go_to({lap_begins_s(), {}, other, true});
+            go_to({lap_begins_s(), {}, runs, true});
         } else if (all_taken) {
             playback.playing = false;
         } else if (playback.waiting && moment) {
@@ -263,13 +288,13 @@ struct SessionPlayer::Implementation {
 
     /// False at the end.
     bool read_on(std::vector<SessionMoment>& read) {
-        const bool preview = order && order->preview && order->other;
+        const bool preview = order && order->preview && order->runs.any();
         // After a jump one moment is enough to show.
         const std::size_t most = order ? 1 : kBatch;
         if (order) {
             if (order->before_tick) order->from_s = moments.time_before(*order->before_tick);
             order->before_tick.reset();
-            moments.begin(order->from_s, preview ? std::nullopt : order->other);
+            moments.begin(order->from_s, preview ? ComputedRuns{} : order->runs);
         }
         while (read.size() < most) {
             std::optional<SessionMoment> next = moments.next(superseded);
@@ -278,7 +303,7 @@ struct SessionPlayer::Implementation {
             read.push_back(std::move(*next));
         }
         order =
-            preview ? std::optional(Order{order->from_s, {}, order->other, false}) : std::nullopt;
+            preview ? std::optional(Order{order->from_s, {}, order->runs, false}) : std::nullopt;
         return true;
     }
 
@@ -303,7 +328,7 @@ struct SessionPlayer::Implementation {
     // The window's thread's.
     SessionPlayback playback{};
     std::optional<SessionMoment> moment{};
-    std::optional<TouchParameters> other{};
+    ComputedRuns runs{};
     std::optional<Order> next_jump{};
     Clock::time_point anchored{Clock::now()};
     double anchored_s{0.0};
@@ -349,7 +374,7 @@ void SessionPlayer::pause() {
 void SessionPlayer::seek(double t_s) {
     Implementation& here = *implementation_;
     const double within_s = std::clamp(t_s, here.playback.begin_s, here.playback.end_s);
-    here.go_to({within_s, {}, here.other, true});
+    here.go_to({within_s, {}, here.runs, true});
 }
 
 void SessionPlayer::step(int ticks) {
@@ -360,7 +385,7 @@ void SessionPlayer::step(int ticks) {
         here.steps += ticks;
         here.due_now = true;
     } else if (ticks < 0) {
-        here.go_to({here.playback.now_s, here.moment->tick.tick, here.other, true});
+        here.go_to({here.playback.now_s, here.moment->tick.tick, here.runs, true});
     }
 }
 
@@ -382,8 +407,15 @@ void SessionPlayer::set_speed(double speed) {
 
 void SessionPlayer::compute(const std::optional<TouchParameters>& other) {
     Implementation& here = *implementation_;
-    here.other = other;
-    here.go_to({here.playback.now_s, {}, other, false});
+    here.runs.other = other;
+    here.go_to({here.playback.now_s, {}, here.runs, false});
+}
+
+void SessionPlayer::compare(bool algorithms) {
+    Implementation& here = *implementation_;
+    if (here.runs.algorithms == algorithms) return;
+    here.runs.algorithms = algorithms;
+    here.go_to({here.playback.now_s, {}, here.runs, false});
 }
 
 void SessionPlayer::advance(const std::function<void(const SessionMoment&)>& passed) {

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/haptics/parameters.hpp"
 #include "core/replay/frames.hpp"
@@ -35,8 +36,9 @@ struct SessionMoment {
     std::shared_ptr<const TouchedFrames> frames{};  ///< the last there were; null before the first
     const SessionParameters* parameters{nullptr};   ///< the session's; null: not known
     std::shared_ptr<const BumpMap> bump{};
-    std::optional<Touch> computed{};  ///< through other parameters than the recorded ones
-    bool preview{false};              ///< the same tick comes again, computed
+    std::optional<Touch> computed{};       ///< through other parameters than the recorded ones
+    std::vector<AlgorithmProxy> others{};  ///< of the algorithms that this is not of, if asked for
+    bool preview{false};                   ///< the same tick comes again, computed
 };
 
 /// What the window shows of it. Times are those of the ticks.
@@ -71,6 +73,9 @@ class SessionPlayer {
     void set_speed(double speed);  ///< kSlowestSpeed .. kFastestSpeed
     /// What these parameters give is computed from now on; nothing: as recorded.
     void compute(const std::optional<TouchParameters>& other);
+    /// Whether the other algorithms' proxies are computed, too, from a second before the moment
+    /// where that is asked for or a jump ends.
+    void compare(bool algorithms);
 
     /// Once a picture: goes on to the last moment that is due and gives each one on the way to
     /// `passed`.

@@ -115,6 +115,35 @@ TEST_CASE(
 }
 
 TEST_CASE(
+    "another algorithm's proxy is a ball of its colour, and of those at one place all are seen") {
+    TouchMarkers touch = pressed();
+    const Camera camera = camera_640x480();
+    const std::size_t without = touch_strokes(touch, camera, 1.0).size();
+    const glm::vec3 red{0.8F, 0.3F, 0.0F}, green{0.0F, 0.6F, 0.4F}, purple{0.8F, 0.5F, 0.7F};
+    const Vec3 there = touch.proxy + Vec3{12.0, 0.0, 3.0};
+    touch.others = {{there, red},
+                    {touch.proxy - Vec3{9.0, 4.0, 0.0}, green},
+                    {there, purple},
+                    {Vec3{NAN, 0.0, 0.0}, red}};
+    touch.proxy_tint = glm::vec3{0.0F, 0.4F, 0.7F};
+    const std::vector<MarkerStroke> strokes = touch_strokes(touch, camera, 1.0);
+    CHECK(strokes.size() == without + 6);  // a ball and a line to the goal each
+    CHECK(glm::vec3(strokes.back().tint) == *touch.proxy_tint);
+    const auto ball_of = [&](const glm::vec3& tint, Vec3 place) {
+        const glm::vec3 middle(camera.world_from_grid(place));
+        const auto found = std::find_if(strokes.begin(), strokes.end(), [&](const MarkerStroke& s) {
+            return glm::vec3(s.tint) == tint && s.ball_a == s.ball_b &&
+                   glm::length(glm::vec3(s.ball_a) - middle) < 1e-3F;
+        });
+        REQUIRE(found != strokes.end());
+        return found;
+    };
+    CHECK(ball_of(red, there)->ball_a.w > ball_of(purple, there)->ball_a.w);
+    CHECK(ball_of(red, there) < ball_of(purple, there));  // drawn before it
+    CHECK(ball_of(green, touch.others[1].place)->ball_a.w == ball_of(purple, there)->ball_a.w);
+}
+
+TEST_CASE(
     "the force arrow starts at the proxy, points along the force and is as long as it is strong") {
     const TouchMarkers touch = pressed();
     const Camera camera = camera_640x480();

@@ -37,6 +37,7 @@ Settings unusual_settings() {
     settings.cleaning.own.fill_holes = false;
     settings.look.light = 0.125;
     settings.straight_view = true;
+    settings.others = true;
     settings.screenshot_name.text = "shots/\"{file}\" 100%% {frame}";
     settings.max_force_newton = 2.5;
     settings.sound_volume = 0.25;

@@ -1,9 +1,12 @@
 // How the window looks: its theme and the size of its text, in pictures of the real window.
 #include <cstddef>
+#include <cstdint>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "app/settings/settings.hpp"
+#include "core/plot/axes.hpp"
 #include "core/video/media.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/support/catch.hpp"
@@ -39,7 +42,51 @@ int panels_begin(const ColourImage& picture) {
     return x + 1;
 }
 
+/// How many pixels of the legend's corner are of this colour.
+int pixels_of(const ColourImage& picture, const Ink& ink) {
+    constexpr int kWide = 60;
+    constexpr int kHigh = 120;
+    int count = 0;
+    for (int y = 0; y < kHigh; ++y) {
+        for (int x = 0; x < kWide; ++x) {
+            const std::uint8_t* const at =
+                picture.rgb.data() + 3 * (static_cast<std::ptrdiff_t>(y) * picture.columns + x);
+            const auto near = [](int a, int b) { return std::abs(a - b) <= 4; };
+            count +=
+                near(at[0], ink.red) && near(at[1], ink.green) && near(at[2], ink.blue) ? 1 : 0;
+        }
+    }
+    return count;
+}
+
+/// The last picture of the sample, after `O` was pressed over it.
+ColourImage shown_after_o(const TemporaryFolder& folder, const std::string& algorithm) {
+    const Desk desk;
+    Process viewer =
+        desk.start_viewer(folder, {"--device", "mouse", "--seconds", "30", "--algorithm", algorithm,
+                                   "--screenshot", "look.png"});
+    desk.act(
+        "search --sync --onlyvisible --name dibhr mousemove 470 600 sleep 0.6 key o sleep 1.0 "
+        "key q");
+    REQUIRE(viewer.wait() == 0);
+    return open_media(folder / "look.png", folder / "look.png")->next()->colour;
+}
+
 }  // namespace
+
+TEST_CASE("a key names all algorithms in the colours of the plots, another press takes them away",
+          "[look]") {
+    const TemporaryFolder folder;
+    const ColourImage on = shown_after_o(folder, "pga");
+    CHECK(load_settings(folder / "config/dibhr/settings.toml").others);
+    const ColourImage off = shown_after_o(folder, "pga");
+    CHECK_FALSE(load_settings(folder / "config/dibhr/settings.toml").others);
+    for (const Algorithm algorithm : all_algorithms()) {
+        CAPTURE(name_of(algorithm));
+        CHECK(pixels_of(on, look_of(algorithm).stroke.ink) > 20);
+        CHECK(pixels_of(off, look_of(algorithm).stroke.ink) == 0);
+    }
+}
 
 TEST_CASE("the wall and the panels are dark or light, as the theme says", "[look]") {
     const TemporaryFolder folder;

@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "app/viewer/explaining.hpp"
@@ -254,6 +255,34 @@ TEST_CASE("the recorded parameters, computed again, give the recorded bits; othe
     CHECK((different == 0) == same);
     player.compute({});
     CHECK_FALSE(arrival(player).computed);
+}
+
+TEST_CASE("beside other parameters the recorded algorithm's proxy is where it was recorded",
+          "[player]") {
+    const Recorded recorded;
+    SessionPlayer player(recorded.open());
+    player.set_speed(4.0);
+    TouchParameters parameters = Session(recorded.folder / "mine.dibhr").parameters().front().touch;
+    const Algorithm recorded_algorithm = std::exchange(parameters.algorithm, Algorithm::pga);
+    REQUIRE(recorded_algorithm == Algorithm::dibhr);
+    player.compute(parameters);
+    player.compare(true);
+    std::size_t compared = 0;
+    for (const SessionMoment& moment : play_to_end(player)) {
+        // Halfway the recording's own friction changes.
+        if (moment.others.empty() || moment.tick.settings > 1) continue;
+        REQUIRE(moment.others.size() == all_algorithms().size() - 1);
+        CHECK(moment.others.front().algorithm == recorded_algorithm);
+        CHECK(same_bits(moment.others.front().proxy.position, moment.tick.proxy));
+        ++compared;
+    }
+    CHECK(compared > 400);
+    player.compute({});
+    const std::vector<AlgorithmProxy> others = arrival(player).others;
+    CHECK(others.size() == all_algorithms().size() - 1);
+    for (const AlgorithmProxy& other : others) CHECK(other.algorithm != recorded_algorithm);
+    player.compare(false);
+    CHECK(arrival(player).others.empty());
 }
 
 TEST_CASE("after a jump other parameters are computed from a second earlier, and shown when ready",
