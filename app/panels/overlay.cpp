@@ -297,13 +297,12 @@ void heading(const ViewerState& state, const std::string& text) {
 
 void draw_keys(const ViewerState& state) {
     std::string_view group;
-    for (const KeyBinding& binding : key_bindings()) {
-        if (binding.shown.empty()) continue;
-        if (binding.group != group) {
-            group = binding.group;
+    for (const KeyJob& job : key_jobs()) {
+        if (job.group != group) {
+            group = job.group;
             heading(state, std::string(group));
         }
-        row(std::string(binding.shown).c_str(), std::string(binding.help).c_str());
+        row(state.keys.names_for(job.action).c_str(), std::string(job.help).c_str());
     }
 }
 
@@ -314,13 +313,25 @@ namespace {
 /// Always in view, at the upper right of the relief, and never over what is said at its left.
 void draw_way_to_keys(const ViewerState& state, float margin) {
     constexpr float kFaint = 0.6F;
-    const std::string text = "Keys: ?   Panels: Tab";
+    const std::string help = state.keys.name_for(Action::toggle_help);
+    const std::string panels = state.keys.name_for(Action::toggle_panels);
+    const char* const between = help.empty() || panels.empty() ? "" : "   ";
+    const std::string text = (help.empty() ? "" : "Keys: " + help) + between +
+                             (panels.empty() ? "" : "Panels: " + panels);
+    if (text.empty()) return;
     const float width =
         ImGui::CalcTextSize(text.c_str()).x + 2.0F * ImGui::GetStyle().FramePadding.x;
     const float room = ImGui::GetIO().DisplaySize.x - panel_column_width(state);
     const float touching = ImGui::CalcTextSize(touch_text(state).c_str()).x;
     if (touching + width + 4.0F * margin < room)
         label(text, {room - width - margin, panes_height(state) + margin}, kFaint);
+}
+
+std::string clip_text(const ViewerState& state) {
+    if (state.clip->finishing) return "Finishing the clip";
+    const std::string key = state.keys.name_for(Action::take_clip);
+    return "Clip   " + clock_text(state.clip->time_s) +
+           (key.empty() ? "" : "   " + key + " ends it");
 }
 
 }  // namespace
@@ -350,10 +361,7 @@ void draw_over_pictures(const ViewerState& state, const std::function<void()>& d
     const float above_bar = ImGui::GetIO().DisplaySize.y - bottom_bar_height(state);
     constexpr float kLinesAboveBar = 4.4F;  // hints and notices are below
     const ImVec2 low{margin, above_bar - kLinesAboveBar * ImGui::GetFrameHeight()};
-    const std::string time = clock_text(state.clip->time_s);
-    red_dot_label(list,
-                  state.clip->finishing ? "Finishing the clip" : "Clip   " + time + "   F9 ends it",
-                  low);
+    red_dot_label(list, clip_text(state), low);
 }
 
 void draw_hint(const ViewerState& state, Hint hint, float alpha) {
@@ -379,7 +387,8 @@ void draw_message_box(ViewerState& state) {
                      ImGuiWindowFlags_NoSavedSettings);
     ImGui::TextWrapped("%s", state.message.c_str());
     ImGui::Spacing();
-    if (ImGui::Button("Close (Esc)")) open = false;
+    if (ImGui::Button(("Close" + state.keys.in_brackets(Action::close_topmost)).c_str()))
+        open = false;
     ImGui::End();
     if (!open) state.message.clear();
 }

@@ -152,7 +152,7 @@ void draw_sound(ViewerState& state) {
     }
     ImGui::SameLine();
     ImGui::Checkbox("Mute", &settings.mute);
-    explain("Touch makes no sound (U)");
+    explain("Touch makes no sound", state.keys, Action::toggle_sound);
 }
 
 }  // namespace
