@@ -396,12 +396,13 @@ KeyTable::KeyTable(std::span<const OwnKeys> own, std::vector<std::string>* compl
 
 std::string KeyTable::names_for(Action action) const {
     const std::vector<Key>& keys = keys_for(action);
+    if (keys.empty()) return "no key";
     std::string names;
     for (std::size_t k = 0; k < keys.size(); ++k) {
         if (k > 0) names += k + 1 < keys.size() ? ", " : " or ";
         names += name_of(keys[k]);
     }
-    if (!names.empty() && job_of(action).held) names += ", held";
+    if (job_of(action).held) names += ", held";
     return names;
 }
 

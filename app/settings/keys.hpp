@@ -120,7 +120,7 @@ class KeyTable {
         return keys_[static_cast<std::size_t>(action)];
     }
 
-    /// "Space or P", for the help sheet; empty: it has no key.
+    /// "Space or P", for the help sheet; "no key".
     [[nodiscard]] std::string names_for(Action action) const;
     /// The first of them, to be told elsewhere.
     [[nodiscard]] std::string name_for(Action action) const;
