@@ -12,6 +12,7 @@
 #include "app/commands/documentation.hpp"
 #include "app/commands/spelling.hpp"
 #include "app/settings/command_options.hpp"
+#include "app/settings/settings.hpp"
 #include "core/files/plain_text.hpp"
 
 namespace dibhr {
@@ -56,6 +57,7 @@ void print_help() {
     }
     std::cout
         << "\n  dibhr help COMMAND     the options of a command, as dibhr COMMAND --help\n"
+           "  dibhr help keys        what the viewer's keys do, and how to have others\n"
            "  dibhr help --man       all of it as a manual page, for man -l -\n"
            "  dibhr completion bash  for that shell, zsh or fish: source it\n"
            "  dibhr --version, -V    the version\n"
@@ -127,7 +129,7 @@ int run_completion(const Arguments& arguments) {
     return 0;
 }
 
-/// `dibhr help`, `dibhr help COMMAND`, and the manual page.
+/// `dibhr help`, `dibhr help COMMAND`, the keys, and the manual page.
 int run_help(const Arguments& about) {
     if (about.empty()) {
         print_help();
@@ -135,6 +137,10 @@ int run_help(const Arguments& about) {
     }
     if (about.front() == "--man") {
         std::cout << man_page(documented_commands());
+        return 0;
+    }
+    if (about.front() == "keys") {
+        std::cout << keys_help(KeyTable(load_settings(settings_path()).keys));
         return 0;
     }
     if (const Command* const command = command_called(about.front()))

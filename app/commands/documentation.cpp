@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
+#include <iomanip>
 #include <sstream>
 
 #include "app/settings/command_options.hpp"
@@ -11,6 +13,18 @@
 namespace dibhr {
 
 namespace {
+
+// Of a person's own keys.
+constexpr std::string_view kOwnKeys =
+    "A table [keys] in ~/.config/dibhr/settings.toml gives actions other keys than the usual ones:";
+constexpr std::string_view kOwnKeysExample =
+    "  [keys]\n"
+    "  play-or-pause = \"Space\"\n"
+    "  record = [\"F7\", \"Ctrl+R\"]\n"
+    "  toggle-sound = \"\"";
+constexpr std::string_view kOwnKeysRules =
+    "Keys are written as in this list, \"\" is none. A key given to one action is lost to another "
+    "that had it. F8 always takes the force off; force-off can have others beside it.";
 
 std::string replaced(std::string text, std::string_view what, std::string_view by) {
     for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size())
@@ -75,6 +89,20 @@ void add_option(std::ostringstream& page, const DocumentedOption& option) {
     page << '\n';
 }
 
+/// The table of keys, and how to have others.
+void add_keys(std::ostringstream& page) {
+    page << ".SH KEYS\n"
+         << troff(std::string(kOwnKeys)) << "\n.PP\n.nf\n"
+         << troff(std::string(kOwnKeysExample)) << "\n.fi\n.PP\n"
+         << troff(std::string(kOwnKeysRules)) << '\n';
+    const KeyTable keys;
+    for (const KeyJob& job : key_jobs()) {
+        page << ".TP\n\\fB" << troff(keys.names_for(job.action)) << "\\fR ("
+             << troff(std::string(job.name)) << ")\n"
+             << troff(std::string(job.help)) << '\n';
+    }
+}
+
 void add_command(std::ostringstream& page, const DocumentedCommand& command) {
     page << ".SS dibhr " << troff(command.name) << ' ' << troff(command.arguments) << '\n'
          << troff(command.summary) << ".\n";
@@ -131,7 +159,7 @@ std::string bash_completion(const std::vector<DocumentedCommand>& commands) {
            "    fi\n"
            "    COMPREPLY=()\n"
            "    case $command in\n"
-           "        help) COMPREPLY=($(compgen -W \"$commands\" -- \"$cur\")); return ;;\n"
+           "        help) COMPREPLY=($(compgen -W \"$commands keys\" -- \"$cur\")); return ;;\n"
            "        completion) COMPREPLY=($(compgen -W 'bash zsh fish' -- \"$cur\")); return ;;\n"
            "    esac\n"
            "    case $command:$prev in\n";
@@ -182,7 +210,7 @@ std::string zsh_completion(const std::vector<DocumentedCommand>& commands) {
               "        (( CURRENT-- ))\n"
               "    fi\n"
               "    case $command in\n"
-              "        help) _describe command commands ;;\n"
+              "        help) compadd keys; _describe command commands ;;\n"
               "        completion) _values shell bash zsh fish ;;\n";
     for (const DocumentedCommand& command : commands) {
         script << "        " << command.name << ")\n            _arguments";
@@ -221,7 +249,7 @@ std::string fish_completion(const std::vector<DocumentedCommand>& commands) {
               "complete -c dibhr -n '__fish_is_first_arg' -a completion -d 'A script for a shell'\n"
               "complete -c dibhr -f -n '__fish_seen_subcommand_from help' -a '"
            << names
-           << "'\n"
+           << " keys'\n"
               "complete -c dibhr -f -n '__fish_seen_subcommand_from completion' -a 'bash zsh "
               "fish'\n";
     for (const DocumentedCommand& command : commands) {
@@ -290,6 +318,7 @@ std::string man_page(const std::vector<DocumentedCommand>& commands) {
            "What is no command is what the viewer is to show.\n"
            ".SH COMMANDS\n";
     for (const DocumentedCommand& command : commands) add_command(page, command);
+    add_keys(page);
     page << ".SH EXIT STATUS\n"
             "0 on success, 1 on a failure it explains, 2 on bad usage.\n"
             ".SH FILES\n"
@@ -297,6 +326,24 @@ std::string man_page(const std::vector<DocumentedCommand>& commands) {
             ".TP\n\\fI~/.config/dibhr/materials\\fR\nMaterials of one's own.\n"
             ".TP\n\\fI~/.local/state/dibhr/recent\\fR\nFiles opened before.\n";
     return page.str();
+}
+
+std::string keys_help(const KeyTable& keys) {
+    std::size_t names = 0;
+    std::size_t shown = 0;
+    for (const KeyJob& job : key_jobs()) {
+        names = std::max(names, job.name.size());
+        shown = std::max(shown, keys.names_for(job.action).size());
+    }
+    std::ostringstream text;
+    text << std::left;
+    for (const KeyJob& job : key_jobs()) {
+        text << "  " << std::setw(static_cast<int>(names) + 2) << job.name
+             << std::setw(static_cast<int>(shown) + 2) << keys.names_for(job.action) << job.help
+             << '\n';
+    }
+    text << '\n' << kOwnKeys << '\n' << kOwnKeysExample << '\n' << kOwnKeysRules << '\n';
+    return text.str();
 }
 
 std::string completion_for(std::string_view shell, const std::vector<DocumentedCommand>& commands) {

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "app/settings/keys.hpp"
+
 namespace dibhr {
 
 /// An option or an argument, as a command declares it.
@@ -32,6 +34,9 @@ struct DocumentedCommand {
 
 /// In troff, with the macros of man(7).
 [[nodiscard]] std::string man_page(const std::vector<DocumentedCommand>& commands);
+
+/// What each key does, and how to have others.
+[[nodiscard]] std::string keys_help(const KeyTable& keys);
 
 /// A script for that shell: bash, zsh or fish. Throws UsageError for another one.
 [[nodiscard]] std::string completion_for(std::string_view shell,

@@ -77,7 +77,7 @@ void add_playing_options(CLI::App& app, ViewOptions& options) {
                       options.resume)
         ->default_str("off");
     app.add_flag("--pause", options.open.paused, "Stands still until it is told to play");
-    app.add_flag("--full-screen", options.full_screen, "Fills the screen (F11)");
+    app.add_flag("--full-screen", options.full_screen, "Fills the screen");
 }
 
 /// A person's own damping, instead of what the device needs.
@@ -299,12 +299,12 @@ int run_view(CLI::App& app, const Arguments& arguments) {
                if (!lacking.empty())
                    throw CLI::ValidationError("--screenshot-name", in_quotes(text) + " " + lacking);
            },
-           "How pictures (S) and clips (F9) are called, without ending: %Y %m %d %H %M %S, {file}, "
+           "How pictures and clips are called, without ending: %Y %m %d %H %M %S, {file}, "
            "{time} and {frame} of the video; a folder may stand before it")
         ->type_name("PATTERN")
         ->default_str(NamePattern{}.text);
     bool mute = false;
-    app.add_flag("--mute", mute, "Touch makes no sound (U)");
+    app.add_flag("--mute", mute, "Touch makes no sound");
     app.add_flag("--any-media", options.any_media,
                  "Replays a session also over files that have changed since");
     add_algorithm_option(app, touch.given);
@@ -324,7 +324,8 @@ int run_view(CLI::App& app, const Arguments& arguments) {
         "  dibhr view touch                       a file that is called like a command\n"
         "  dibhr color.mp4 --record mine.dibhr --seconds 20 --screenshot last.png\n"
         "  dibhr color.mp4 --start 12.5 --pause   one moment of it\n"
-        "  dibhr mine.dibhr --algorithm pga       what was recorded, through another algorithm");
+        "  dibhr mine.dibhr --algorithm pga       what was recorded, through another algorithm\n"
+        "Keys: dibhr help keys");
     if (!parse(app, arguments)) return 0;
     options.start_given = app.get_option("--start")->count() > 0;
     const std::string colour = options.open.colour.string();

@@ -37,21 +37,22 @@ std::string state_text(const ViewerState& state) {
 struct ForceSwitch {
     const char* text;
     ImVec4 ground;
-    const char* help;
+    std::string help;
 };
 
 ForceSwitch force_switch(const ViewerState& state) {
+    const std::string key = state.keys.in_brackets(Action::toggle_force);
     if (!state.force_enabled) {
         return {"Force is OFF###force",
                 {0.46F, 0.22F, 0.16F, 1.0F},
-                "Put the force on again; it rises slowly (F)"};
+                "Put the force on again; it rises slowly" + key};
     }
     if (waits_for_front(state)) {
         return {"Force waits###force",
                 {0.44F, 0.35F, 0.12F, 1.0F},
-                "It rises again when this window is in front. Take it off (F)"};
+                "It rises again when this window is in front. Take it off" + key};
     }
-    return {"Force is ON###force", {0.14F, 0.38F, 0.33F, 1.0F}, "Take the force off (F)"};
+    return {"Force is ON###force", {0.14F, 0.38F, 0.33F, 1.0F}, "Take the force off" + key};
 }
 
 }  // namespace
@@ -66,7 +67,7 @@ void draw_force_switch(ViewerState& state, float width) {
     ImGui::PushStyleColor(ImGuiCol_ButtonActive, raised);
     if (ImGui::Button(shown.text, {width, 0.0F})) state.force_enabled = !state.force_enabled;
     ImGui::PopStyleColor(4);
-    explain(shown.help);
+    explain(shown.help.c_str());
 }
 
 void draw_device_panel(ViewerState& state) {

@@ -208,7 +208,12 @@ void draw_on_relief(const Blackboard& board, const DepthSurface& surface,
 std::string words_of(const ViewerState& state) {
     const ExplainedNews& news = *state.explained;
     if (news.taken > 0) return text_of(news.update.steps[news.taken - 1]);
-    const std::string after = "Step with the arrows ( . and , ) or let it run slowly (Space).";
+    const KeyTable& keys = state.keys;
+    const std::string on = keys.name_for(Action::step_forward);
+    const std::string back = keys.name_for(Action::step_back);
+    const std::string steps = on.empty() || back.empty() ? "" : " ( " + on + " and " + back + " )";
+    const std::string after = "Step with the arrows" + steps + " or let it run slowly" +
+                              keys.in_brackets(Action::play_or_pause) + ".";
     if (news.held) return "The update begins here. " + after;
     return "What one update does, from where the proxy was to where you press: hold the left "
            "button to move the goal. " +
@@ -243,21 +248,23 @@ void draw_card(ViewerState& state) {
     ImGui::Begin("Explain", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
-    const auto does = [&state](Action action) { state.requests.action = action; };
-    if (icon_button("back", Icon::step_back, "One step back ( , )")) does(Action::step_back);
+    const auto button = [&state](const char* id, Icon icon, std::string help, Action action) {
+        help += state.keys.in_brackets(action);
+        if (icon_button(id, icon, help.c_str())) state.requests.action = action;
+    };
+    button("back", Icon::step_back, "One step back", Action::step_back);
     ImGui::SameLine(0.0F, 0.0F);
-    if (icon_button("run", news.runs ? Icon::pause : Icon::play, "Slow motion (Space)"))
-        does(Action::play_or_pause);
+    button("run", news.runs ? Icon::pause : Icon::play, "Slow motion", Action::play_or_pause);
     ImGui::SameLine(0.0F, 0.0F);
-    if (icon_button("on", Icon::step_forward, "One step on ( . )")) does(Action::step_forward);
+    button("on", Icon::step_forward, "One step on", Action::step_forward);
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
-    const char* const end = "End (E)";
+    const std::string end = "End" + state.keys.in_brackets(Action::explain);
     const float end_x =
-        width - ImGui::CalcTextSize(end).x - 3.0F * ImGui::GetStyle().WindowPadding.x;
+        width - ImGui::CalcTextSize(end.c_str()).x - 3.0F * ImGui::GetStyle().WindowPadding.x;
     ImGui::TextUnformatted(title_of(news, end_x - ImGui::GetCursorPosX()).c_str());
     ImGui::SameLine(end_x);
-    if (ImGui::SmallButton(end)) does(Action::explain);
+    if (ImGui::SmallButton(end.c_str())) state.requests.action = Action::explain;
     ImGui::TextWrapped("%s", words_of(state).c_str());
     // As high as for two lines: what is read does not jump.
     const float lines = ImGui::GetCursorPosY();

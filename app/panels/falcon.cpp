@@ -213,7 +213,7 @@ void draw_workspace(ViewerState& state) {
     explain("The scale at which the hand reaches the whole image");
     ImGui::SameLine();
     if (ImGui::Button("Centre the hand")) ++state.centred;
-    explain("Takes back what the clutch has shifted (C)");
+    explain("Takes back what the clutch has shifted", state.keys, Action::centre_workspace);
     draw_numbers(FalconTopic::workspace, state.settings.falcon);
 }
 

@@ -4,8 +4,9 @@
 #include <array>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <span>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "app/panels/falcon_state.hpp"
@@ -323,49 +324,118 @@ constexpr Explained kMouse[] = {
     {"Wheel", "Nearer, farther"},
 };
 
-void row(const char* left, const char* right) {
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(left);
-    ImGui::TableNextColumn();
-    ImGui::TextDisabled("%s", right);
+/// What belongs together on the help sheet.
+struct SheetGroup {
+    std::string title{};
+    std::vector<std::pair<std::string, std::string>> rows{};
+
+    /// With the heading.
+    [[nodiscard]] std::size_t lines() const { return rows.size() + 1; }
+};
+
+SheetGroup group_of(const char* title, std::span<const Explained> explained) {
+    SheetGroup group{title};
+    for (const Explained& one : explained) group.rows.emplace_back(one.what, one.help);
+    return group;
 }
 
-void heading(const ViewerState& state, const std::string& text) {
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::Spacing();
-    ImGui::PushFont(state.fonts.heading);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopFont();
+std::vector<SheetGroup> sheet_of(const KeyTable& keys) {
+    std::vector<SheetGroup> groups{group_of("Mouse", kMouse)};
+    for (const KeyJob& job : key_jobs()) {
+        if (groups.back().title != job.group) groups.push_back({std::string(job.group)});
+        groups.back().rows.emplace_back(keys.names_for(job.action), job.help);
+    }
+    groups.push_back(group_of("Marks", kMarks));
+    return groups;
 }
 
-void draw_keys(const ViewerState& state) {
-    std::string_view group;
-    for (const KeyBinding& binding : key_bindings()) {
-        if (binding.shown.empty()) continue;
-        if (binding.group != group) {
-            group = binding.group;
-            heading(state, std::string(group));
+/// How many of the groups are left of the others, so that both columns are as low as can be.
+std::size_t groups_at_left(std::span<const SheetGroup> groups) {
+    const auto lines = [](std::span<const SheetGroup> some) {
+        std::size_t sum = 0;
+        for (const SheetGroup& group : some) sum += group.lines();
+        return sum;
+    };
+    std::size_t best = 0;
+    std::size_t lowest = lines(groups);
+    for (std::size_t k = 1; k < groups.size(); ++k) {
+        const std::size_t height = std::max(lines(groups.first(k)), lines(groups.subspan(k)));
+        if (height < lowest) best = k;
+        lowest = std::min(lowest, height);
+    }
+    return best;
+}
+
+/// Widths of a column of the sheet [px].
+struct SheetWidths {
+    float keys{0.0F}, help{0.0F}, gap{0.0F};
+
+    [[nodiscard]] float column() const { return keys + gap + help; }
+};
+
+SheetWidths widths_of(std::span<const SheetGroup> groups) {
+    SheetWidths widths{.gap = ImGui::GetFontSize()};
+    for (const SheetGroup& group : groups) {
+        for (const auto& [what, help] : group.rows) {
+            widths.keys = std::max(widths.keys, ImGui::CalcTextSize(what.c_str()).x);
+            widths.help = std::max(widths.help, ImGui::CalcTextSize(help.c_str()).x);
         }
-        row(std::string(binding.shown).c_str(), std::string(binding.help).c_str());
+    }
+    return widths;
+}
+
+/// One line of text or, where that has no room, more; their height.
+float sheet_text(const std::string& text, ImVec2 place, float width) {
+    ImGui::SetCursorPos(place);
+    ImGui::PushTextWrapPos(place.x + width);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    return ImGui::GetItemRectSize().y;
+}
+
+/// One group under the other.
+void draw_sheet_column(const ViewerState& state, std::span<const SheetGroup> groups,
+                       const SheetWidths& widths, ImVec2 place) {
+    const float between = 0.25F * ImGui::GetFontSize();
+    const ImVec4 quiet = ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled);
+    for (const SheetGroup& group : groups) {
+        ImGui::PushFont(state.fonts.heading);
+        place.y += sheet_text(group.title, place, widths.column()) + between;
+        ImGui::PopFont();
+        for (const auto& [what, help] : group.rows) {
+            const float keys = sheet_text(what, place, widths.keys);
+            ImGui::PushStyleColor(ImGuiCol_Text, quiet);
+            const float said =
+                sheet_text(help, {place.x + widths.keys + widths.gap, place.y}, widths.help);
+            ImGui::PopStyleColor();
+            place.y += std::max(keys, said) + between;
+        }
+        place.y += 2.0F * between;
     }
 }
-
-}  // namespace
-
-namespace {
 
 /// Always in view, at the upper right of the relief, and never over what is said at its left.
 void draw_way_to_keys(const ViewerState& state, float margin) {
     constexpr float kFaint = 0.6F;
-    const std::string text = "Keys: ?   Panels: Tab";
+    const std::string help = state.keys.name_for(Action::toggle_help);
+    const std::string panels = state.keys.name_for(Action::toggle_panels);
+    const char* const between = help.empty() || panels.empty() ? "" : "   ";
+    const std::string text = (help.empty() ? "" : "Keys: " + help) + between +
+                             (panels.empty() ? "" : "Panels: " + panels);
+    if (text.empty()) return;
     const float width =
         ImGui::CalcTextSize(text.c_str()).x + 2.0F * ImGui::GetStyle().FramePadding.x;
     const float room = ImGui::GetIO().DisplaySize.x - panel_column_width(state);
     const float touching = ImGui::CalcTextSize(touch_text(state).c_str()).x;
     if (touching + width + 4.0F * margin < room)
         label(text, {room - width - margin, panes_height(state) + margin}, kFaint);
+}
+
+std::string clip_text(const ViewerState& state) {
+    if (state.clip->finishing) return "Finishing the clip";
+    const std::string key = state.keys.name_for(Action::take_clip);
+    return "Clip   " + clock_text(state.clip->time_s) +
+           (key.empty() ? "" : "   " + key + " ends it");
 }
 
 }  // namespace
@@ -395,10 +465,7 @@ void draw_over_pictures(const ViewerState& state, const std::function<void()>& d
     const float above_bar = ImGui::GetIO().DisplaySize.y - bottom_bar_height(state);
     constexpr float kLinesAboveBar = 4.4F;  // hints and notices are below
     const ImVec2 low{margin, above_bar - kLinesAboveBar * ImGui::GetFrameHeight()};
-    const std::string time = clock_text(state.clip->time_s);
-    red_dot_label(list,
-                  state.clip->finishing ? "Finishing the clip" : "Clip   " + time + "   F9 ends it",
-                  low);
+    red_dot_label(list, clip_text(state), low);
 }
 
 void draw_hint(const ViewerState& state, Hint hint, float alpha) {
@@ -426,7 +493,8 @@ void draw_nothing_open(ViewerState& state) {
     ImGui::TextUnformatted("Nothing is open.");
     ImGui::TextDisabled("Drop a colour and a depth file here, a folder or a session, or");
     ImGui::Spacing();
-    if (ImGui::Button("Open a recording (Ctrl+O)")) state.requests.action = Action::open_file;
+    if (ImGui::Button(("Open a recording" + state.keys.in_brackets(Action::open_file)).c_str()))
+        state.requests.action = Action::open_file;
     ImGui::End();
 }
 
@@ -441,27 +509,38 @@ void draw_message_box(ViewerState& state) {
                      ImGuiWindowFlags_NoSavedSettings);
     ImGui::TextWrapped("%s", state.message.c_str());
     ImGui::Spacing();
-    if (ImGui::Button("Close (Esc)")) open = false;
+    if (ImGui::Button(("Close" + state.keys.in_brackets(Action::close_topmost)).c_str()))
+        open = false;
     ImGui::End();
     if (!open) state.message.clear();
 }
 
 void draw_help_sheet(ViewerState& state) {
     if (!state.help_open) return;
+    const ImGuiStyle& style = ImGui::GetStyle();
     const ImVec2 display = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({display.x * 0.5F, display.y * 0.5F}, ImGuiCond_Appearing,
-                            {0.5F, 0.5F});
-    ImGui::Begin("Keys and mouse", &state.help_open,
-                 ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize |
-                     ImGuiWindowFlags_NoSavedSettings);
-    if (ImGui::BeginTable("sheet", 2, ImGuiTableFlags_SizingFixedFit)) {
-        heading(state, "Mouse");
-        for (const Explained& use : kMouse) row(use.what, use.help);
-        heading(state, "Marks");
-        for (const Explained& mark : kMarks) row(mark.what, mark.help);
-        draw_keys(state);
-        ImGui::EndTable();
+    const std::vector<SheetGroup> sheet = sheet_of(state.keys);
+    const std::span<const SheetGroup> groups(sheet);
+    SheetWidths widths = widths_of(groups);
+    const float around = 2.0F * style.WindowPadding.x + style.ScrollbarSize;
+    const float room = display.x - around - style.WindowPadding.x;
+    const float between = 2.0F * widths.gap;
+    const bool beside = 2.0F * widths.column() + between <= room;
+    if (widths.column() > room) {
+        widths.keys = std::min(widths.keys, 0.4F * room);
+        widths.help = room - widths.keys - widths.gap;
     }
+    const std::size_t left = beside ? groups_at_left(groups) : groups.size();
+    const float wide = widths.column() + (beside ? between + widths.column() : 0.0F);
+    ImGui::SetNextWindowPos({display.x * 0.5F, display.y * 0.5F}, ImGuiCond_Always, {0.5F, 0.5F});
+    ImGui::SetNextWindowSize({wide + around, 0.0F});
+    ImGui::Begin("Keys and mouse", &state.help_open,
+                 ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings);
+    const ImVec2 begin = ImGui::GetCursorPos();
+    draw_sheet_column(state, groups.first(left), widths, begin);
+    const ImVec2 second{begin.x + widths.column() + between, begin.y};
+    draw_sheet_column(state, groups.subspan(left), widths, second);
     ImGui::End();
 }
 

@@ -61,17 +61,19 @@ void draw_value_row(ViewerState& state) {
 void draw_undo_buttons(ViewerState& state) {
     const float third =
         (ImGui::GetContentRegionAvail().x - 2.0F * ImGui::GetStyle().ItemSpacing.x) / 3.0F;
-    const auto button = [third](const char* label, bool enabled, const char* help) {
+    const auto button = [third](const char* label, bool enabled, const std::string& help) {
         ImGui::BeginDisabled(!enabled);
         const bool pressed = ImGui::Button(label, {third, 0.0F});
         ImGui::EndDisabled();
-        explain(help);
+        explain(help.c_str());
         return pressed;
     };
-    if (button("Undo", state.brush.can_undo, "Takes back what was painted last (Ctrl+Z)"))
+    const KeyTable& keys = state.keys;
+    if (button("Undo", state.brush.can_undo,
+               "Takes back what was painted last" + keys.in_brackets(Action::undo)))
         state.requests.action = Action::undo;
     ImGui::SameLine();
-    if (button("Redo", state.brush.can_redo, "Paints it again (Ctrl+Shift+Z)"))
+    if (button("Redo", state.brush.can_redo, "Paints it again" + keys.in_brackets(Action::redo)))
         state.requests.action = Action::redo;
     ImGui::SameLine();
     if (button("Remove all", state.brush.has_paint, "All that is painted on this recording"))
@@ -88,7 +90,9 @@ void draw_paint_panel(ViewerState& state) {
     ImGui::PushID("paint");
     bool on = brush.on;
     if (ImGui::Checkbox("Brush", &on)) state.requests.action = Action::toggle_brush;
-    explain("The left mouse button paints on the relief instead of touching it (G)");
+    explain(("The left mouse button paints on the relief instead of touching it" +
+             state.keys.in_brackets(Action::toggle_brush))
+                .c_str());
     choice_row("Paints", kBrushWords, brush.lays,
                "What lies where the brush goes, whatever the Touch panel says");
     draw_value_row(state);

@@ -22,8 +22,8 @@ void draw_switch(ViewerState& state) {
         state.requests.toggle_recording = true;
     }
     if (on) ImGui::PopStyleColor();
-    explain(on ? "Closes the file (Ctrl+R)"
-               : "Every tick goes into a new file in the current folder (Ctrl+R)");
+    explain(on ? "Closes the file" : "Every tick goes into a new file in the current folder",
+            state.keys, Action::record);
 }
 
 void draw_progress(const RecordingNews& recording) {
@@ -46,13 +46,15 @@ void draw_about(TextFields& fields) {
 void draw_marks(ViewerState& state) {
     const ImGuiStyle& style = ImGui::GetStyle();
     const float button = ImGui::CalcTextSize("Mark").x + 2.0F * style.FramePadding.x;
+    const std::string key = state.keys.name_for(Action::mark);
+    const std::string or_key = key.empty() ? "" : ", or " + key + " while nothing is typed";
     const bool entered =
         text_field("##tag", "Tag of the next mark", state.fields.tag,
-                   "Enter, or M while nothing is typed, marks the moment with it", true,
+                   ("Enter" + or_key + ", marks the moment with it").c_str(), true,
                    ImGui::GetContentRegionAvail().x - button - style.ItemSpacing.x);
     ImGui::SameLine();
     if (ImGui::Button("Mark") || entered) state.requests.mark = true;
-    explain("Marks this moment (M)");
+    explain("Marks this moment", state.keys, Action::mark);
     const std::vector<SessionMark>& marks = state.recording->marks;
     const std::size_t first = marks.size() - std::min(marks.size(), kMarksShown);
     for (std::size_t k = marks.size(); k > first; --k) {
@@ -70,9 +72,15 @@ void draw_clip_button(ViewerState& state) {
         state.requests.toggle_clip = true;
     ImGui::EndDisabled();
     if (on) ImGui::PopStyleColor();
-    explain(on ? "Finishes its file (F9)"
-               : "What this window shows, as MP4 in the current folder (F9; Shift+F9: without "
-                 "panels)");
+    if (on) {
+        explain("Finishes its file", state.keys, Action::take_clip);
+        return;
+    }
+    const std::string without = state.keys.name_for(Action::take_clip_of_relief);
+    const std::string way = without.empty() ? "" : "; " + without + ": without panels";
+    explain(("What this window shows, as MP4 in the current folder" +
+             state.keys.in_brackets(Action::take_clip) + way)
+                .c_str());
 }
 
 void draw_session_panel(ViewerState& state) {

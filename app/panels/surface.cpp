@@ -82,10 +82,14 @@ void draw_surface_panel(ViewerState& state) {
     draw_under_hand(state);
     number_row({"Shading", "%.2f", 0.0, 1.0, standard.light, "0: flat colour, 1: strong"},
                settings.look.light);
+    const std::string next = state.keys.name_for(Action::next_paint);
+    const std::string one_by_one = next.empty() ? "" : " (" + next + ": one after the other)";
     choice_row("Painted with", kReliefPaintWords, settings.look.paint,
-               "Clay shows the shape; the depth's colours have a legend (D: one after the other)");
+               ("Clay shows the shape; the depth's colours have a legend" + one_by_one).c_str());
     flag_row("Colour and depth above", settings.panes, false,
-             "Both as pictures above the relief, with the proxy and the pointer on them (K)");
+             ("Both as pictures above the relief, with the proxy and the pointer on them" +
+              state.keys.in_brackets(Action::toggle_panes))
+                 .c_str());
     flag_row("Cut silhouettes", settings.look.discard_silhouettes, standard.discard_silhouettes,
              "Leaves out the stretched walls between near and far; they are still there to touch");
     ImGui::BeginDisabled(!settings.look.discard_silhouettes);
@@ -103,11 +107,11 @@ void draw_surface_panel(ViewerState& state) {
     ImGui::RadioButton("Perspective", &straight, 0);
     ImGui::SameLine();
     ImGui::RadioButton("Straight", &straight, 1);
-    explain("As the camera that recorded it (V)");
+    explain("As the camera that recorded it", state.keys, Action::toggle_straight_view);
     settings.straight_view = straight == 1;
     ImGui::SameLine();
     if (ImGui::Button("Reset view")) state.requests.reset_view = true;
-    explain("R");
+    explain(state.keys.name_for(Action::reset_view).c_str());
     choice_row("Window", kThemeWords, settings.theme, "The colours of the panels and the wall");
     draw_text_size(state);
     ImGui::PopID();

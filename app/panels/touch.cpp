@@ -152,7 +152,7 @@ void draw_sound(ViewerState& state) {
     }
     ImGui::SameLine();
     ImGui::Checkbox("Mute", &settings.mute);
-    explain("Touch makes no sound (U)");
+    explain("Touch makes no sound", state.keys, Action::toggle_sound);
 }
 
 }  // namespace
@@ -173,8 +173,9 @@ void draw_touch_panel(ViewerState& state) {
     draw_numbers(TouchTopic::texture, state.settings.touch);
     if (!state.bump && !state.replay) quiet_text("Roughness needs a bump map to be felt.");
     draw_sound(state);
-    flag_row("Side by side", state.settings.others, Settings{}.others,
-             "Where the proxies of the other algorithms are, for the same goal (O)");
+    const std::string others = "Where the proxies of the other algorithms are, for the same goal" +
+                               state.keys.in_brackets(Action::toggle_others);
+    flag_row("Side by side", state.settings.others, Settings{}.others, others.c_str());
     ImGui::PopID();
 }
 

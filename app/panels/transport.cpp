@@ -178,7 +178,7 @@ void begin_bottom_bar(const ViewerState& state, const char* name) {
 
 void draw_playback(const ViewerState& state, Player& player, float right_of_line) {
     const PlaybackStatus& playback = state.playback;
-    play_button(playback.playing, player);
+    play_button(playback.playing, player, state.keys);
     ImGui::SameLine();
     const TimeLineContents times{
         .now_s = playback.media_s, .length_s = playback.duration_s, .part = playback.part};
@@ -226,8 +226,10 @@ void draw_transport_bar(ViewerState& state, Player& player) {
 void draw_replay_bar(ViewerState& state, SessionPlayer& replay) {
     begin_bottom_bar(state, "Replay");
     const SessionPlayback& playback = state.replay->playback;
-    play_and_step_buttons(playback.playing, replay, "tick", 0.0F);
-    if (icon_button("loop", Icon::loop, "Start again at the end (L)", playback.looping)) {
+    play_and_step_buttons(playback.playing, replay, state.keys, "tick", 0.0F);
+    const std::string again =
+        "Start again at the end" + state.keys.in_brackets(Action::toggle_loop);
+    if (icon_button("loop", Icon::loop, again.c_str(), playback.looping)) {
         replay.set_looping(!playback.looping);
     }
     ImGui::SameLine();

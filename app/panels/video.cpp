@@ -50,8 +50,10 @@ void draw_recent(ViewerState& state) {
 void draw_open(ViewerState& state) {
     const bool from_colour =
         text_field("##colour", "Colour file, or session", state.fields.colour,
-                   "Path of a colour video or picture, or of a recorded session; Open without one "
-                   "shows what there is (Ctrl+O)");
+                   ("Path of a colour video or picture, or of a recorded session; Open without one "
+                    "shows what there is" +
+                    state.keys.in_brackets(Action::open_file))
+                       .c_str());
     const bool from_depth =
         text_field("##depth", "Depth file: found beside it", state.fields.depth,
                    "Empty: the file called like the colour file, with depth in place of color");
@@ -90,10 +92,10 @@ void tell_pace(const PlaybackStatus& playback) {
 
 void draw_playback(const ViewerState& state, Player& player) {
     const PlaybackStatus& playback = state.playback;
-    play_and_step_buttons(playback.playing, player, "frame");
+    play_and_step_buttons(playback.playing, player, state.keys, "frame");
     bool looping = playback.looping;
     if (ImGui::Checkbox("Loop", &looping)) player.set_looping(looping);
-    explain("Start again at the end (L)");
+    explain("Start again at the end", state.keys, Action::toggle_loop);
     fact_row("Time", clock_text(playback.media_s) + " of " + clock_text(playback.duration_s));
     fact_row("Frame", std::to_string(playback.frame + 1) + " of " +
                           std::to_string(std::max(playback.frames, playback.frame + 1)));
@@ -104,9 +106,12 @@ void draw_playback(const ViewerState& state, Player& player) {
 /// A step switched by hand makes all of them one's own choice, beginning with what is done now.
 void draw_cleaning(ViewerState& state) {
     CleaningOptions& cleaning = state.settings.cleaning;
+    const std::string held = state.keys.name_for(Action::show_as_recorded);
+    const std::string compared =
+        held.empty() ? "" : "; hold " + held + " to see and feel it as recorded";
     choice_row("Cleaning", kCleaningWords, cleaning.preset,
-               "What is done to the depth before it is drawn and touched (--cleaning); hold B to "
-               "see and feel it as recorded",
+               ("What is done to the depth before it is drawn and touched (--cleaning)" + compared)
+                   .c_str(),
                CleaningPreset::automatic);
     const bool by_sidecar = cleaning_on(state.media, cleaning).preset != cleaning.preset;
     if (!state.replay && !state.playback.cleaning.empty())

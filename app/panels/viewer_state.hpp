@@ -281,6 +281,7 @@ struct FalconNews {
 
 struct ViewerState {
     Settings settings{};  ///< live: panels write here, the next tick and picture use it
+    KeyTable keys{};      ///< with those of the settings
     bool force_enabled{true};
     std::uint32_t centred{0};  ///< counts the wishes to forget the clutch's shift
     std::shared_ptr<const BumpMap> bump{};

@@ -293,6 +293,10 @@ void place_next_tooltip() {
     }
 }
 
+void explain(const std::string& text, const KeyTable& keys, Action action) {
+    explain((text + keys.in_brackets(action)).c_str());
+}
+
 void explain(const char* text) {
     if (*text == '\0' || !ImGui::IsItemHovered()) return;
     place_next_tooltip();

@@ -107,6 +107,8 @@ void place_next_tooltip();
 
 /// The tooltip of the last item.
 void explain(const char* text);
+/// The same, and the key that does it.
+void explain(const std::string& text, const KeyTable& keys, Action action);
 
 /// Text that breaks at the panel's edge, in the quiet colour.
 void quiet_text(const std::string& text);
@@ -129,9 +131,9 @@ bool icon_button(const char* id, Icon icon, const char* help, bool lit = false);
 
 /// Play or pause, for a video or a session.
 template <typename AnyPlayer>
-void play_button(bool playing, AnyPlayer& player) {
-    if (icon_button("play", playing ? Icon::pause : Icon::play,
-                    playing ? "Pause (Space)" : "Play (Space)")) {
+void play_button(bool playing, AnyPlayer& player, const KeyTable& keys) {
+    const std::string help = (playing ? "Pause" : "Play") + keys.in_brackets(Action::play_or_pause);
+    if (icon_button("play", playing ? Icon::pause : Icon::play, help.c_str())) {
         playing ? player.pause() : player.play();
     }
 }
@@ -139,14 +141,15 @@ void play_button(bool playing, AnyPlayer& player) {
 /// Steps on both sides of it; `step` is what the player steps by, `gap` in pixels, negative: the
 /// usual.
 template <typename AnyPlayer>
-void play_and_step_buttons(bool playing, AnyPlayer& player, const std::string& step,
-                           float gap = -1.0F) {
-    if (icon_button("back", Icon::step_back, ("One " + step + " back ( , )").c_str()))
-        player.step(-1);
+void play_and_step_buttons(bool playing, AnyPlayer& player, const KeyTable& keys,
+                           const std::string& step, float gap = -1.0F) {
+    const std::string back = "One " + step + " back" + keys.in_brackets(Action::step_back);
+    const std::string forward = "One " + step + " forward" + keys.in_brackets(Action::step_forward);
+    if (icon_button("back", Icon::step_back, back.c_str())) player.step(-1);
     ImGui::SameLine(0.0F, gap);
-    play_button(playing, player);
+    play_button(playing, player, keys);
     ImGui::SameLine(0.0F, gap);
-    if (icon_button("forward", Icon::step_forward, ("One " + step + " forward ( . )").c_str())) {
+    if (icon_button("forward", Icon::step_forward, forward.c_str())) {
         player.step(1);
     }
     ImGui::SameLine(0.0F, gap);

@@ -1,40 +1,33 @@
-// The table of keys, and looking things up in it.
+// The table of keys, a person's own in it, and looking things up there.
 #include "app/settings/keys.hpp"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <iterator>
+#include <utility>
+
+#include "core/files/plain_text.hpp"
 
 namespace dibhr {
 
 namespace {
 
-constexpr KeyBinding while_typing(KeyBinding binding) {
-    binding.while_typing = true;
-    return binding;
+constexpr KeyJob while_typing(KeyJob job) {
+    job.while_typing = true;
+    return job;
 }
 
-constexpr KeyBinding with_control(KeyBinding binding) {
-    binding.with_control = true;
-    return while_typing(binding);
+constexpr KeyJob repeating(KeyJob job) {
+    job.repeats = true;
+    return job;
 }
 
-/// While a text field has the keyboard it takes them itself.
-constexpr KeyBinding on_control(KeyBinding binding) {
-    binding.with_control = true;
-    return binding;
-}
-
-constexpr KeyBinding with_shift(KeyBinding binding) {
-    binding.with_shift = true;
-    return binding;
-}
-
-constexpr KeyBinding repeating(KeyBinding binding) {
-    binding.repeats = true;
-    return binding;
+constexpr KeyJob while_held(KeyJob job) {
+    job.held = true;
+    return job;
 }
 
 // Headings of the help sheet.
@@ -43,149 +36,435 @@ constexpr const char* kPlayback = "Playback";
 constexpr const char* kView = "View";
 constexpr const char* kProgram = "Program";
 
-constexpr KeyBinding kBindings[] = {
-    {Action::toggle_force, kTouch, "F", "Force off, force on again", "f"},
-    while_typing(
-        {Action::force_off, kTouch, "F8", "Force off, whatever it was", "", {GLFW_KEY_F8}}),
-    {Action::centre_workspace, kTouch, "C", "Centre the Falcon's hand in the image", "c"},
-    with_control(
-        {Action::record, kTouch, "Ctrl+R", "Record what is touched, stop", "", {GLFW_KEY_R}}),
-    {Action::toggle_sound, kTouch, "U", "Sound of touch off, on", "u"},
-    {Action::mark, kTouch, "M", "Mark this moment of the recording", "m"},
-    {Action::explain, kTouch, "E", "Explain an update step by step; end it", "e"},
-    {Action::toggle_brush, kTouch, "G", "Brush that paints materials on the relief; end it", "g"},
-    // Before that without Shift, which takes the same key.
-    on_control(with_shift({Action::redo, kTouch, "Ctrl+Shift+Z", "Paint again", "", {GLFW_KEY_Z}})),
-    on_control({Action::undo, kTouch, "Ctrl+Z", "Take back what was painted", "", {GLFW_KEY_Z}}),
-    {Action::toggle_others, kTouch, "O", "Proxies of the other algorithms on, off", "o"},
-    {Action::play_or_pause, kPlayback, "Space or P", "Play, pause", " p"},
+constexpr KeyJob kJobs[] = {
+    {Action::toggle_force, "toggle-force", kTouch, "Force off, force on again", {"F"}},
+    while_typing({Action::force_off, "force-off", kTouch, "Force off, whatever it was", {"F8"}}),
+    {Action::centre_workspace,
+     "centre-workspace",
+     kTouch,
+     "Centre the Falcon's hand in the image",
+     {"C"}},
+    while_typing({Action::record, "record", kTouch, "Record what is touched, stop", {"Ctrl+R"}}),
+    {Action::toggle_sound, "toggle-sound", kTouch, "Sound of touch off, on", {"U"}},
+    {Action::mark, "mark", kTouch, "Mark this moment of the recording", {"M"}},
+    {Action::explain, "explain", kTouch, "Explain an update step by step; end it", {"E"}},
+    {Action::toggle_brush,
+     "toggle-brush",
+     kTouch,
+     "Brush that paints materials on the relief; end it",
+     {"G"}},
+    {Action::undo, "undo", kTouch, "Take back what was painted", {"Ctrl+Z"}},
+    {Action::redo, "redo", kTouch, "Paint it again", {"Ctrl+Shift+Z"}},
+    {Action::toggle_others,
+     "toggle-others",
+     kTouch,
+     "Proxies of the other algorithms on, off",
+     {"O"}},
+    {Action::play_or_pause, "play-or-pause", kPlayback, "Play, pause", {"Space", "P"}},
+    repeating({Action::step_forward,
+               "step-forward",
+               kPlayback,
+               "One frame forward; in a replay, one tick",
+               {"."}}),
+    repeating({Action::step_back,
+               "step-back",
+               kPlayback,
+               "One frame back; in a replay, one tick",
+               {","}}),
+    repeating({Action::seek_forward_little,
+               "seek-forward-little",
+               kPlayback,
+               "1 s forward",
+               {"Shift+Right"}}),
     repeating(
-        {Action::step_forward, kPlayback, ".", "One frame forward; in a replay, one tick", "."}),
-    repeating({Action::step_back, kPlayback, ",", "One frame back; in a replay, one tick", ","}),
-    // Before those without Shift, which take the same keys.
-    repeating(with_shift({Action::seek_forward_little,
-                          kPlayback,
-                          "Shift+Right",
-                          "1 s forward",
-                          "",
-                          {GLFW_KEY_RIGHT}})),
-    repeating(with_shift(
-        {Action::seek_back_little, kPlayback, "Shift+Left", "1 s back", "", {GLFW_KEY_LEFT}})),
-    repeating({Action::seek_forward, kPlayback, "Right", "5 s forward", "", {GLFW_KEY_RIGHT}}),
-    repeating({Action::seek_back, kPlayback, "Left", "5 s back", "", {GLFW_KEY_LEFT}}),
-    repeating({Action::seek_forward_far, kPlayback, "Up", "60 s forward", "", {GLFW_KEY_UP}}),
-    repeating({Action::seek_back_far, kPlayback, "Down", "60 s back", "", {GLFW_KEY_DOWN}}),
-    {Action::go_to_start, kPlayback, "Home", "To the start", "", {GLFW_KEY_HOME}},
-    {Action::go_to_end, kPlayback, "End", "To the last second", "", {GLFW_KEY_END}},
-    repeating({Action::slower, kPlayback, "[ or -", "Slower", "[-"}),
-    repeating({Action::faster, kPlayback, "] or +", "Faster", "]+="}),
-    {Action::half_speed, kPlayback, "{ or Page down", "Half the speed", "{", {GLFW_KEY_PAGE_DOWN}},
-    {Action::double_speed, kPlayback, "} or Page up", "Twice the speed", "}", {GLFW_KEY_PAGE_UP}},
-    {Action::normal_speed, kPlayback, "Backspace", "Normal speed", "", {GLFW_KEY_BACKSPACE}},
-    {Action::toggle_loop, kPlayback, "L", "Loop on, off", "l"},
-    {Action::loop_part, kPlayback, "A", "Loop from here; to here; all again", "a"},
-    {Action::reset_view, kView, "R", "Reset the view", "r"},
-    {Action::toggle_straight_view, kView, "V", "Straight view, perspective", "v"},
-    {Action::show_as_recorded,
+        {Action::seek_back_little, "seek-back-little", kPlayback, "1 s back", {"Shift+Left"}}),
+    repeating({Action::seek_forward, "seek-forward", kPlayback, "5 s forward", {"Right"}}),
+    repeating({Action::seek_back, "seek-back", kPlayback, "5 s back", {"Left"}}),
+    repeating({Action::seek_forward_far, "seek-forward-far", kPlayback, "60 s forward", {"Up"}}),
+    repeating({Action::seek_back_far, "seek-back-far", kPlayback, "60 s back", {"Down"}}),
+    {Action::go_to_start, "go-to-start", kPlayback, "To the start", {"Home"}},
+    {Action::go_to_end, "go-to-end", kPlayback, "To the last second", {"End"}},
+    repeating({Action::slower, "slower", kPlayback, "Slower", {"[", "-"}}),
+    repeating({Action::faster, "faster", kPlayback, "Faster", {"]", "+", "="}}),
+    {Action::half_speed, "half-speed", kPlayback, "Half the speed", {"{", "Page down"}},
+    {Action::double_speed, "double-speed", kPlayback, "Twice the speed", {"}", "Page up"}},
+    {Action::normal_speed, "normal-speed", kPlayback, "Normal speed", {"Backspace"}},
+    {Action::toggle_loop, "toggle-loop", kPlayback, "Loop on, off", {"L"}},
+    {Action::loop_part, "loop-part", kPlayback, "Loop from here; to here; all again", {"A"}},
+    {Action::reset_view, "reset-view", kView, "Reset the view", {"R"}},
+    {Action::toggle_straight_view,
+     "toggle-straight-view",
      kView,
-     "B, held",
-     "Depth as recorded, before cleaning",
-     "",
-     {GLFW_KEY_B}},
-    {Action::next_paint, kView, "D", "Colour of the video, clay, colours of the depth", "d"},
-    {Action::toggle_panes, kView, "K", "Colour and depth as pictures above the relief", "k"},
-    {Action::toggle_ruler, kView, "N", "Ruler between two clicks on the relief; end it", "n"},
-    {Action::toggle_statistics, kView, "I", "Statistics over the relief", "i"},
-    on_control(
-        {Action::copy_view, kView, "Ctrl+C", "Copy where the view is from", "", {GLFW_KEY_C}}),
-    on_control({Action::paste_view, kView, "Ctrl+V", "Take the copied view", "", {GLFW_KEY_V}}),
-    {Action::toggle_panels, kView, "Tab", "Hide the panels, show them", "", {GLFW_KEY_TAB}},
+     "Straight view, perspective",
+     {"V"}},
+    while_held({Action::show_as_recorded,
+                "show-as-recorded",
+                kView,
+                "Depth as recorded, before cleaning",
+                {"B"}}),
+    {Action::next_paint,
+     "next-paint",
+     kView,
+     "Colour of the video, clay, colours of the depth",
+     {"D"}},
+    {Action::toggle_panes,
+     "toggle-panes",
+     kView,
+     "Colour and depth as pictures above the relief",
+     {"K"}},
+    {Action::toggle_ruler,
+     "toggle-ruler",
+     kView,
+     "Ruler between two clicks on the relief; end it",
+     {"N"}},
+    {Action::toggle_statistics, "toggle-statistics", kView, "Statistics over the relief", {"I"}},
+    {Action::copy_view, "copy-view", kView, "Copy where the view is from", {"Ctrl+C"}},
+    {Action::paste_view, "paste-view", kView, "Take the copied view", {"Ctrl+V"}},
+    {Action::toggle_panels, "toggle-panels", kView, "Hide the panels, show them", {"Tab"}},
     while_typing(
-        {Action::toggle_full_screen, kView, "F11", "Full screen on, off", "", {GLFW_KEY_F11}}),
-    with_control({Action::open_file, kProgram, "Ctrl+O", "Open files", "", {GLFW_KEY_O}}),
-    with_control({Action::next_file,
+        {Action::toggle_full_screen, "toggle-full-screen", kView, "Full screen on, off", {"F11"}}),
+    while_typing({Action::open_file, "open-file", kProgram, "Open files", {"Ctrl+O"}}),
+    while_typing({Action::next_file,
+                  "next-file",
                   kProgram,
-                  "Ctrl+Page down",
                   "The next file of the folder",
-                  "",
-                  {GLFW_KEY_PAGE_DOWN}}),
-    with_control({Action::previous_file,
-                  kProgram,
-                  "Ctrl+Page up",
-                  "The file before it",
-                  "",
-                  {GLFW_KEY_PAGE_UP}}),
-    // Before those without Shift, which take the same keys.
-    while_typing(with_shift({Action::take_screenshot_of_relief,
-                             kProgram,
-                             "Shift+F12",
-                             "Save a picture without panels",
-                             "",
-                             {GLFW_KEY_F12}})),
-    while_typing(with_shift({Action::take_clip_of_relief,
-                             kProgram,
-                             "Shift+F9",
-                             "Save a clip without panels, end it",
-                             "",
-                             {GLFW_KEY_F9}})),
-    while_typing({Action::take_screenshot,
-                  kProgram,
-                  "S or F12",
-                  "Save a picture, by default into the current folder",
-                  "s",
-                  {GLFW_KEY_F12}}),
+                  {"Ctrl+Page down"}}),
     while_typing(
-        {Action::take_clip, kProgram, "F9", "Save a clip (MP4), end it", "", {GLFW_KEY_F9}}),
-    while_typing({Action::toggle_help, kProgram, "? or F1", "This sheet", "?h", {GLFW_KEY_F1}}),
-    while_typing({Action::close_topmost,
+        {Action::previous_file, "previous-file", kProgram, "The file before it", {"Ctrl+Page up"}}),
+    while_typing({Action::take_screenshot,
+                  "take-screenshot",
                   kProgram,
-                  "Esc",
+                  "Save a picture, by default into the current folder",
+                  {"S", "F12"}}),
+    while_typing({Action::take_screenshot_of_relief,
+                  "take-screenshot-of-relief",
+                  kProgram,
+                  "Save a picture without panels",
+                  {"Shift+F12"}}),
+    while_typing({Action::take_clip, "take-clip", kProgram, "Save a clip (MP4), end it", {"F9"}}),
+    while_typing({Action::take_clip_of_relief,
+                  "take-clip-of-relief",
+                  kProgram,
+                  "Save a clip without panels, end it",
+                  {"Shift+F9"}}),
+    while_typing({Action::toggle_help, "toggle-help", kProgram, "This sheet", {"?", "F1", "H"}}),
+    while_typing({Action::close_topmost,
+                  "close-topmost",
+                  kProgram,
                   "Close this sheet or a message",
-                  "",
-                  {GLFW_KEY_ESCAPE}}),
-    {Action::quit, kProgram, "Q or Ctrl+Q", "Quit", "q"},
-    with_control({Action::quit, kProgram, "", "", "", {GLFW_KEY_Q}}),
+                  {"Esc"}}),
+    while_typing({Action::quit, "quit", kProgram, "Quit", {"Q", "Ctrl+Q"}}),
 };
 
-unsigned lower_case(unsigned c) {
+static_assert(std::size(kJobs) == kActions);
+
+/// A key that types nothing, or a blank.
+struct NamedKey {
+    std::string_view name;
+    int code;
+};
+
+constexpr NamedKey kNamedKeys[] = {
+    {"Esc", GLFW_KEY_ESCAPE},      {"Enter", GLFW_KEY_ENTER},
+    {"Tab", GLFW_KEY_TAB},         {"Backspace", GLFW_KEY_BACKSPACE},
+    {"Insert", GLFW_KEY_INSERT},   {"Delete", GLFW_KEY_DELETE},
+    {"Right", GLFW_KEY_RIGHT},     {"Left", GLFW_KEY_LEFT},
+    {"Down", GLFW_KEY_DOWN},       {"Up", GLFW_KEY_UP},
+    {"Page up", GLFW_KEY_PAGE_UP}, {"Page down", GLFW_KEY_PAGE_DOWN},
+    {"Home", GLFW_KEY_HOME},       {"End", GLFW_KEY_END},
+    {"Pause", GLFW_KEY_PAUSE},     {"Print screen", GLFW_KEY_PRINT_SCREEN},
+    {"Menu", GLFW_KEY_MENU},       {"F1", GLFW_KEY_F1},
+    {"F2", GLFW_KEY_F2},           {"F3", GLFW_KEY_F3},
+    {"F4", GLFW_KEY_F4},           {"F5", GLFW_KEY_F5},
+    {"F6", GLFW_KEY_F6},           {"F7", GLFW_KEY_F7},
+    {"F8", GLFW_KEY_F8},           {"F9", GLFW_KEY_F9},
+    {"F10", GLFW_KEY_F10},         {"F11", GLFW_KEY_F11},
+    {"F12", GLFW_KEY_F12},         {"F13", GLFW_KEY_F13},
+    {"F14", GLFW_KEY_F14},         {"F15", GLFW_KEY_F15},
+    {"F16", GLFW_KEY_F16},         {"F17", GLFW_KEY_F17},
+    {"F18", GLFW_KEY_F18},         {"F19", GLFW_KEY_F19},
+    {"F20", GLFW_KEY_F20},         {"F21", GLFW_KEY_F21},
+    {"F22", GLFW_KEY_F22},         {"F23", GLFW_KEY_F23},
+    {"F24", GLFW_KEY_F24}};
+
+constexpr std::string_view kSpace = "Space";
+constexpr std::string_view kControl = "Ctrl+";
+constexpr std::string_view kShift = "Shift+";
+
+int lower_case(int c) {
     return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c;
 }
 
+int upper_case(int c) {
+    return c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c;
+}
+
+bool is_letter(int c) {
+    return lower_case(c) >= 'a' && lower_case(c) <= 'z';
+}
+
+/// "pageup", of whatever way to write it.
+std::string plain(std::string_view name) {
+    std::string letters;
+    for (const char c : name)
+        if (c != ' ') letters += static_cast<char>(lower_case(c));
+    return letters;
+}
+
+/// Takes `prefix` away from what is already plain(); false: it does not begin so.
+bool takes_away(std::string_view& text, std::string_view prefix) {
+    if (text.size() <= prefix.size() || !text.starts_with(plain(prefix))) return false;
+    text.remove_prefix(prefix.size());
+    return true;
+}
+
+/// The only character of a text in UTF-8 that can be typed and seen; nothing: it is none, or more.
+std::optional<int> only_character(std::string_view text) {
+    constexpr int kFirstSeen = 0x21;
+    constexpr int kDelete = 0x7F;
+    constexpr int kLastUnseen = 0xA0;
+    if (text.empty()) return std::nullopt;
+    const auto first = static_cast<std::uint8_t>(text.front());
+    const std::size_t bytes = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+    const bool amid = (first & 0xC0) == 0x80;  // of a character
+    if (amid || text.size() != bytes) return std::nullopt;
+    int code = bytes == 1 ? first : first & (0xFF >> (bytes + 1));
+    for (const char next : text.substr(1))
+        code = code << 6 | (static_cast<std::uint8_t>(next) & 0x3F);
+    const bool seen = code >= kFirstSeen && (code < kDelete || code > kLastUnseen);
+    return seen ? std::optional(lower_case(code)) : std::nullopt;
+}
+
+std::string in_utf8(int code) {
+    if (code < 0x80) return {static_cast<char>(code)};
+    std::string text;
+    int shift = code < 0x800 ? 6 : code < 0x10000 ? 12 : 18;
+    const int mark = shift == 6 ? 0xC0 : shift == 12 ? 0xE0 : 0xF0;
+    text += static_cast<char>(mark | code >> shift);
+    while (shift > 0) {
+        shift -= 6;
+        text += static_cast<char>(0x80 | (code >> shift & 0x3F));
+    }
+    return text;
+}
+
+/// GLFW's key that types a character by itself, on a keyboard from the United States; 0: none does.
+int key_typing(int character) {
+    constexpr std::string_view kOthers = " ',-./0123456789;=[\\]`";
+    const bool other = character > 0 && character < 0x80 &&
+                       kOthers.find(static_cast<char>(character)) != std::string_view::npos;
+    return is_letter(character) || other ? upper_case(character) : 0;
+}
+
+/// With Ctrl a key types nothing.
+std::optional<Key> character_key(int character, bool control, bool shift) {
+    if (control) {
+        const int code = key_typing(character);
+        return code != 0 ? std::optional(Key{code, false, true, shift}) : std::nullopt;
+    }
+    // With Shift, others type another character.
+    const bool one = !shift || is_letter(character) || character == ' ';
+    return one ? std::optional(Key{character, true, false, shift}) : std::nullopt;
+}
+
+/// GLFW's key to be looked at while it is down; 0: that cannot be.
+int held_code(const Key& key) {
+    if (key.control || key.shift) return 0;
+    return key.typed ? key_typing(key.code) : key.code;
+}
+
+/// A text field that has the keyboard takes it.
+bool edits_text(const Key& key) {
+    constexpr int kEditing[] = {GLFW_KEY_ENTER,  GLFW_KEY_TAB,  GLFW_KEY_BACKSPACE, GLFW_KEY_INSERT,
+                                GLFW_KEY_DELETE, GLFW_KEY_LEFT, GLFW_KEY_RIGHT,     GLFW_KEY_UP,
+                                GLFW_KEY_DOWN,   GLFW_KEY_HOME, GLFW_KEY_END};
+    constexpr int kWithControl[] = {GLFW_KEY_A, GLFW_KEY_C, GLFW_KEY_V,
+                                    GLFW_KEY_X, GLFW_KEY_Y, GLFW_KEY_Z};
+    const auto among = [&key](const auto& codes) {
+        return std::find(std::begin(codes), std::end(codes), key.code) != std::end(codes);
+    };
+    return key.typed || among(kEditing) || (key.control && among(kWithControl));
+}
+
+bool holds(const std::vector<Key>& keys, const Key& key) {
+    return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+const KeyJob* job_called(std::string_view name) {
+    const auto* const found = std::find_if(std::begin(kJobs), std::end(kJobs),
+                                           [name](const KeyJob& job) { return job.name == name; });
+    return found == std::end(kJobs) ? nullptr : found;
+}
+
+/// Takes the force off whatever else is wished for, also with Shift.
+bool is_kept_for_force_off(const Key& key) {
+    return !key.typed && key.code == GLFW_KEY_F8 && !key.control;
+}
+
+/// Entries of a person's own that can be.
+class Wishes {
+  public:
+    /// What the entry lacks; empty: nothing, and it is taken.
+    std::string take(const OwnKeys& entry) {
+        const KeyJob* const job = job_called(entry.action);
+        if (job == nullptr) return "is not an action: dibhr help keys lists them";
+        if (job->action == Action::force_off && entry.keys.empty())
+            return "cannot be without a key: F8 always takes the force off; leave the entry away";
+        std::vector<Key> keys;
+        for (const std::string& name : entry.keys) {
+            const std::optional<Key> key = key_called(name);
+            std::string lacking = lacking_of(key, *job);
+            if (!lacking.empty())
+                return "names " + in_quotes(name) + ", " + lacking + "; the usual keys stay";
+            if (!holds(keys, *key)) keys.push_back(*key);
+        }
+        own_[static_cast<std::size_t>(job->action)] = std::move(keys);
+        return {};
+    }
+
+    /// Of an action, for good.
+    [[nodiscard]] std::vector<Key> keys_for(const KeyJob& job) const {
+        const auto& own = own_[static_cast<std::size_t>(job.action)];
+        std::vector<Key> keys;
+        const bool usual = !own || job.action == Action::force_off;
+        for (const std::string_view name : job.standard) {
+            if (!usual || name.empty()) break;
+            const Key key = *key_called(name);
+            if (owner_of(key) == nullptr) keys.push_back(key);
+        }
+        if (own) keys.insert(keys.end(), own->begin(), own->end());
+        return keys;
+    }
+
+  private:
+    [[nodiscard]] std::string lacking_of(const std::optional<Key>& key, const KeyJob& job) const {
+        if (!key) return "which is no key: write one as dibhr help keys does, like Space or Ctrl+R";
+        if (job.held && held_code(*key) == 0)
+            return "which cannot be held: choose one key without Ctrl and Shift";
+        if (is_kept_for_force_off(*key) && job.action != Action::force_off)
+            return "which always takes the force off: choose another one";
+        const KeyJob* const owner = owner_of(*key);
+        if (owner != nullptr)
+            return "which is already for " + std::string(owner->name) + ": choose another one";
+        return {};
+    }
+
+    /// Whose own it is; null: nobody's.
+    [[nodiscard]] const KeyJob* owner_of(const Key& key) const {
+        for (const KeyJob& job : kJobs) {
+            const auto& own = own_[static_cast<std::size_t>(job.action)];
+            if (own && holds(*own, key)) return &job;
+        }
+        return nullptr;
+    }
+
+    std::array<std::optional<std::vector<Key>>, kActions> own_{};
+};
+
 }  // namespace
 
-std::span<const KeyBinding> key_bindings() {
-    return kBindings;
+std::optional<Key> key_called(std::string_view name) {
+    const std::string letters = plain(name);
+    std::string_view rest = letters;
+    const bool control = takes_away(rest, kControl);
+    const bool shift = takes_away(rest, kShift);
+    if (rest == plain(kSpace)) return character_key(' ', control, shift);
+    for (const NamedKey& named : kNamedKeys)
+        if (rest == plain(named.name)) return Key{named.code, false, control, shift};
+    const auto character = only_character(rest);
+    return character ? character_key(*character, control, shift) : std::nullopt;
 }
 
-int held_key(Action action) {
-    const auto* const found =
-        std::find_if(std::begin(kBindings), std::end(kBindings),
-                     [action](const KeyBinding& binding) { return binding.action == action; });
-    return found->keys[0];
+std::string name_of(const Key& key) {
+    std::string name;
+    if (key.control) name += kControl;
+    if (key.shift) name += kShift;
+    if (key.code == ' ') return name.append(kSpace);
+    const auto* const named =
+        std::find_if(std::begin(kNamedKeys), std::end(kNamedKeys),
+                     [&key](const NamedKey& one) { return one.code == key.code; });
+    if (!key.typed && named != std::end(kNamedKeys)) return name.append(named->name);
+    return name + in_utf8(upper_case(key.code));
 }
 
-std::optional<Action> action_of_character(unsigned character, bool repeated) {
-    const unsigned wanted = lower_case(character);
-    if (wanted > 0x7e) return {};
-    for (const KeyBinding& binding : kBindings) {
-        if (binding.characters.find(static_cast<char>(wanted)) != std::string_view::npos) {
-            return repeated && !binding.repeats ? std::nullopt : std::optional(binding.action);
-        }
+std::span<const KeyJob> key_jobs() {
+    return kJobs;
+}
+
+const KeyJob& job_of(Action action) {
+    return *std::find_if(std::begin(kJobs), std::end(kJobs),
+                         [action](const KeyJob& job) { return job.action == action; });
+}
+
+KeyTable::KeyTable(std::span<const OwnKeys> own, std::vector<std::string>* complaints) {
+    Wishes wishes;
+    for (const OwnKeys& entry : own) {
+        std::string lacking = wishes.take(entry);
+        if (complaints != nullptr) complaints->push_back(std::move(lacking));
     }
-    return {};
+    for (const KeyJob& job : kJobs)
+        keys_[static_cast<std::size_t>(job.action)] = wishes.keys_for(job);
 }
 
-std::optional<Action> action_of_key(int key, bool control, bool typing, bool repeated, bool shift) {
-    for (const KeyBinding& binding : kBindings) {
-        const bool bound = std::find(std::begin(binding.keys), std::end(binding.keys), key) !=
-                           std::end(binding.keys);
-        if (bound && key != 0 && binding.with_control == control &&
-            (shift || !binding.with_shift) && (binding.while_typing || !typing) &&
-            (binding.repeats || !repeated)) {
-            return binding.action;
-        }
+std::string KeyTable::names_for(Action action) const {
+    const std::vector<Key>& keys = keys_for(action);
+    if (keys.empty()) return "no key";
+    std::string names;
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+        if (k > 0) names += k + 1 < keys.size() ? ", " : " or ";
+        names += name_of(keys[k]);
     }
-    return {};
+    if (job_of(action).held) names += ", held";
+    return names;
+}
+
+std::string KeyTable::name_for(Action action) const {
+    const std::vector<Key>& keys = keys_for(action);
+    return keys.empty() ? std::string() : name_of(keys.front());
+}
+
+std::string KeyTable::in_brackets(Action action) const {
+    const std::string name = name_for(action);
+    if (name.empty()) return {};
+    const bool sign = name.size() == 1 && !is_letter(name.front());
+    const char* const gap = sign ? " " : "";  // a lone "." would be lost
+    return " (" + (gap + name) + gap + ")";
+}
+
+std::string KeyTable::told(Action action, std::string_view does) const {
+    const std::string name = name_for(action);
+    return name.empty() ? name : ": " + name + std::string(does);
+}
+
+std::vector<int> KeyTable::held_keys(Action action) const {
+    std::vector<int> codes;
+    for (const Key& key : keys_for(action)) codes.push_back(held_code(key));
+    return codes;
+}
+
+std::optional<Action> KeyTable::action_of(const Key& key) const {
+    for (const KeyJob& job : kJobs)
+        if (!job.held && holds(keys_for(job.action), key)) return job.action;
+    if (!key.shift) return std::nullopt;
+    Key alone = key;
+    alone.shift = false;
+    return action_of(alone);
+}
+
+std::optional<Action> KeyTable::action_of_character(unsigned character, bool repeated,
+                                                    bool shift) const {
+    const auto action = action_of({lower_case(static_cast<int>(character)), true, false, shift});
+    return action && (job_of(*action).repeats || !repeated) ? action : std::nullopt;
+}
+
+std::optional<Action> KeyTable::action_of_key(int key, bool control, bool typing, bool repeated,
+                                              bool shift) const {
+    const Key pressed{key, false, control, shift};
+    const auto action = action_of(pressed);
+    if (!action) return std::nullopt;
+    const KeyJob& job = job_of(*action);
+    const bool heard = !typing || (job.while_typing && !edits_text(pressed));
+    return heard && (job.repeats || !repeated) ? action : std::nullopt;
 }
 
 std::optional<ListKey> list_key(int key) {

@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -16,6 +17,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -31,6 +33,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::int64_t kVersion = 1;
+constexpr std::string_view kKeys = "keys";
 
 // What a value of the file lacks to be that setting; empty: nothing, and it is taken.
 
@@ -107,12 +110,45 @@ std::string take(const toml::node& node, const Setting&, ButtonAction& value) {
     return take_word(button_action_named(word), value, "is not what a button can do");
 }
 
+/// "Space", ["F8", "Ctrl+R"], or "" for none; nothing: it is not that.
+std::optional<std::vector<std::string>> key_names(const toml::node& node) {
+    std::vector<std::string> names;
+    if (const auto* const one = node.as_string()) {
+        if (!one->get().empty()) names.push_back(one->get());
+        return names;
+    }
+    const toml::array* const list = node.as_array();
+    if (list == nullptr) return std::nullopt;
+    for (const toml::node& entry : *list) {
+        if (!entry.is_string()) return std::nullopt;
+        names.push_back(entry.as_string()->get());
+    }
+    return names;
+}
+
+/// Whether the file can be written with that name as it is.
+bool is_bare(std::string_view name) {
+    return !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '-' || c == '_';
+    });
+}
+
 /// Takes values out of a parsed file; what does not fit is told with its line and left at its
 /// default.
 class Reading {
   public:
     Reading(const toml::table& root, const fs::path& file, std::vector<std::string>& warnings)
         : root_(root), file_(file), warnings_(warnings) {}
+
+    void take_keys(std::vector<OwnKeys>& keys) {
+        const toml::table* const table = root_[kKeys].as_table();
+        if (table == nullptr) return;
+        const std::vector<const toml::node*> nodes = take_key_names(*table, keys);
+        std::vector<std::string> complaints;
+        const KeyTable checked(keys, &complaints);
+        for (std::size_t k = 0; k < keys.size(); ++k)
+            if (!complaints[k].empty()) tell(*nodes[k], kKeys, keys[k].action, complaints[k]);
+    }
 
     void take_all(const std::vector<Setting>& settings) {
         for (const Setting& setting : settings) {
@@ -128,17 +164,45 @@ class Reading {
 
     void warn(const toml::node& node, std::string_view table, std::string_view name,
               const std::string& what) {
-        std::ostringstream text;
-        text << file_.string() << ":" << node.source().begin.line << ": ";
-        if (!table.empty()) text << table << ".";
-        text << name << " " << what << "; the default is kept";
-        warnings_.push_back(one_line(text.str()));  // a name may hold anything
+        tell(node, table, name, what + "; the default is kept");
     }
 
   private:
+    void tell(const toml::node& node, std::string_view table, std::string_view name,
+              const std::string& what) {
+        std::ostringstream text;
+        text << file_.string() << ":" << node.source().begin.line << ": ";
+        if (!table.empty()) text << table << ".";
+        text << name << " " << what;
+        warnings_.push_back(one_line(text.str()));  // a name may hold anything
+    }
+
+    /// In the order of the file, where of two wishes the first one holds. Their places in it.
+    std::vector<const toml::node*> take_key_names(const toml::table& table,
+                                                  std::vector<OwnKeys>& keys) {
+        std::vector<std::pair<std::string, const toml::node*>> entries;
+        for (const auto& [name, node] : table) entries.emplace_back(name.str(), &node);
+        std::stable_sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) {
+            return a.second->source().begin < b.second->source().begin;
+        });
+        std::vector<const toml::node*> taken;
+        for (const auto& [name, node] : entries) {
+            auto names = key_names(*node);
+            if (!is_bare(name)) {
+                tell(*node, kKeys, name, "is not an action: dibhr help keys lists them");
+            } else if (!names) {
+                warn(*node, kKeys, name, "is neither a key in quotes nor a list of them");
+            } else {
+                keys.push_back({name, std::move(*names)});
+                taken.push_back(node);
+            }
+        }
+        return taken;
+    }
+
     void tell_unknown() {
         for (const auto& [table, node] : root_) {
-            if (table == "version") continue;
+            if (table == "version" || (table == kKeys && node.is_table())) continue;
             const auto known = known_.find(table.str());
             if (!node.is_table() || known == known_.end()) {
                 warn(node, "", table.str(), "is not a setting");
@@ -187,6 +251,31 @@ std::string toml_text(Enum value) {
     return '"' + std::string(name_of(value)) + '"';
 }
 
+/// "" for none, one key as it is, more as a list.
+std::string toml_text(const OwnKeys& own) {
+    std::string text = own.action + " = ";
+    if (own.keys.empty()) return text + "\"\"\n";
+    if (own.keys.size() == 1 && !own.keys.front().empty())
+        return text + toml_text(own.keys.front()) + "\n";
+    const char* before = "[";
+    for (const std::string& key : own.keys) {
+        text += before;
+        text += toml_text(key);
+        before = ", ";
+    }
+    return text + "]\n";
+}
+
+/// Only where there are some.
+std::string toml_text(const std::vector<OwnKeys>& keys) {
+    std::string text;
+    for (const OwnKeys& own : keys) {
+        if (text.empty()) text = "\n[keys]\n";
+        text += toml_text(own);
+    }
+    return text;
+}
+
 /// The whole file but its head, a heading before each table.
 std::string toml_text(Settings settings) {
     std::string text;
@@ -198,7 +287,7 @@ std::string toml_text(Settings settings) {
                 std::visit([](const auto* value) { return toml_text(*value); }, setting.value) +
                 "\n";
     }
-    return text;
+    return text + toml_text(settings.keys);
 }
 
 std::string content_of(const fs::path& file) {
@@ -275,6 +364,7 @@ Settings load_settings(const fs::path& file, std::vector<std::string>& warnings)
         }
     }
     reading.take_all(list_of(settings));
+    reading.take_keys(settings.keys);
     keep_in_range(settings.touch);
     return settings;
 }
@@ -369,7 +459,7 @@ Settings changes_kept(Settings in_file, Settings started, Settings now) {
 bool same_settings(Settings a, Settings b) {
     const std::vector<Setting> first = list_of(a);
     const std::vector<Setting> second = list_of(b);
-    return std::equal(first.begin(), first.end(), second.begin(), same);
+    return a.keys == b.keys && std::equal(first.begin(), first.end(), second.begin(), same);
 }
 
 }  // namespace dibhr

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/settings/falcon_settings.hpp"
+#include "app/settings/keys.hpp"
 #include "app/settings/name_pattern.hpp"
 #include "app/settings/theme.hpp"
 #include "core/haptics/parameters.hpp"
@@ -80,6 +81,7 @@ struct Settings {
     double sound_volume{SoundChoice{}.volume};                 ///< 0 .. 1
     bool mute{false};                                          ///< no sound of touch
     FalconSettings falcon{};
+    std::vector<OwnKeys> keys{};  ///< as written, in that order, also what cannot be
 };
 
 /// $XDG_CONFIG_HOME/dibhr/settings.toml, or ~/.config/dibhr/settings.toml.
@@ -92,8 +94,8 @@ struct Settings {
 [[nodiscard]] DepthRequest usual_depth_request();
 
 /// The defaults when the file does not exist. An unknown or out-of-range setting keeps its default
-/// and is told once on stderr with file and line; a file that cannot be read or understood throws
-/// InputError.
+/// and is told once on stderr with file and line, and so is a key that cannot be; a file that
+/// cannot be read or understood throws InputError.
 [[nodiscard]] Settings load_settings(const std::filesystem::path& file);
 
 /// As load_settings, the warnings (one line each) given back instead of told.
@@ -114,7 +116,7 @@ struct Setting {
     double highest{0.0};
 };
 
-/// All of them, in the order of the file; to read or change what `settings` holds.
+/// All of them but the keys, in the order of the file; to read or change what `settings` holds.
 [[nodiscard]] std::vector<Setting> list_of(Settings& settings);
 
 /// `in_file`, with every value that differs between `started` and `now` taken from `now`.

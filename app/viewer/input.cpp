@@ -109,16 +109,20 @@ std::optional<MediaPart> next_part(const Course& course) {
     return MediaPart{from_s, std::max(to_s, from_s + kShortest_s)};
 }
 
-std::string said_of(const std::optional<MediaPart>& part, const Course& course) {
+std::string said_of(const std::optional<MediaPart>& part, const Course& course,
+                    const KeyTable& keys) {
     const auto at = [&course](double t_s) { return clock_text(t_s - course.begin_s); };
     if (!part) return "All is played again";
-    if (std::isinf(part->to_s)) return "Loop from " + at(part->from_s) + ": A again ends it here";
+    if (std::isinf(part->to_s))
+        return "Loop from " + at(part->from_s) +
+               keys.told(Action::loop_part, " again ends it here");
     return "Loop from " + at(part->from_s) + " to " + at(part->to_s);
 }
 
 /// What moves a video or a session; nothing when the action is not about that.
 template <typename AnyPlayer>
-std::optional<Answer> move(Action action, const Course& course, AnyPlayer& player) {
+std::optional<Answer> move(Action action, const Course& course, AnyPlayer& player,
+                           const KeyTable& keys) {
     const double end_s = std::max(course.begin_s, course.end_s);
     if (const double step_s = seek_step_s(action); std::abs(step_s) > 0.0) {
         player.seek(std::clamp(course.now_s + step_s, course.begin_s, end_s));
@@ -148,7 +152,7 @@ std::optional<Answer> move(Action action, const Course& course, AnyPlayer& playe
             const std::optional<MediaPart> part = next_part(course);
             player.set_part(part);
             if (part) player.set_looping(true);
-            return Answer{said_of(part, course)};
+            return Answer{said_of(part, course, keys)};
         }
         case Action::toggle_loop:
             player.set_looping(!course.looping);
@@ -186,7 +190,7 @@ Answer perform(Action action, ViewerState& state, Player& player) {
     if (const auto moved =
             move(action,
                  {now.playing, now.looping, now.part, now.speed, now.media_s, 0.0, now.duration_s},
-                 player)) {
+                 player, state.keys)) {
         return state.media.still ? Answer{"A still picture: nothing plays"} : *moved;
     }
     for (const auto& [asking, request] : kRequests) {
@@ -213,7 +217,9 @@ Answer perform(Action action, ViewerState& state, Player& player) {
             return {settings.straight_view ? "Straight view" : "Perspective"};
         case Action::toggle_panels:
             settings.panels_visible = !settings.panels_visible;
-            return {settings.panels_visible ? "Panels shown" : "Panels hidden: Tab shows them"};
+            return {settings.panels_visible
+                        ? "Panels shown"
+                        : "Panels hidden" + state.keys.told(Action::toggle_panels, " shows them")};
         case Action::next_paint: {
             ReliefPaint& paint = settings.look.paint;
             const std::size_t next = static_cast<std::size_t>(paint) + 1;
@@ -252,12 +258,13 @@ void Ruler::press(bool down, const std::optional<Vec3>& under) {
     places.push_back(*under);
 }
 
-std::optional<Answer> perform_in_replay(Action action, SessionPlayer& replay) {
+std::optional<Answer> perform_in_replay(Action action, SessionPlayer& replay,
+                                        const KeyTable& keys) {
     const SessionPlayback& now = replay.playback();
     if (auto moved =
             move(action,
                  {now.playing, now.looping, now.part, now.speed, now.now_s, now.begin_s, now.end_s},
-                 replay)) {
+                 replay, keys)) {
         return moved;
     }
     const bool of_a_hand = action == Action::toggle_force || action == Action::force_off ||

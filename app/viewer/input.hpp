@@ -26,7 +26,7 @@ struct Answer {
 Answer perform(Action action, ViewerState& state, Player& player);
 
 /// What moves a replay, and nothing else; nothing when the action is not about that.
-std::optional<Answer> perform_in_replay(Action action, SessionPlayer& replay);
+std::optional<Answer> perform_in_replay(Action action, SessionPlayer& replay, const KeyTable& keys);
 
 /// A view as text for the clipboard, and back; nothing: that text is no view.
 [[nodiscard]] std::string text_of(const Camera::View& view);

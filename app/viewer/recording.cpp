@@ -113,7 +113,8 @@ void ViewerRecording::break_off(ViewerState& state, const std::string& failure) 
     state.recording_trouble = failure;
     // What is felt from here on nobody could look up: whoever relies on it is to notice.
     state.force_enabled = false;
-    state.message = failure + ". The force is off until it is switched on again (F).";
+    state.message = failure + ". The force is off until it is switched on again" +
+                    state.keys.in_brackets(Action::toggle_force) + ".";
     if (failure_.empty()) failure_ = failure;
     leave();
     state.recording.reset();
@@ -137,7 +138,9 @@ void ViewerRecording::maps(std::uint32_t version, std::vector<SessionMap> maps) 
 }
 
 std::string ViewerRecording::mark(ViewerState& state) {
-    if (!recorder_) return "Nothing is recorded that could be marked: Ctrl+R begins";
+    if (!recorder_)
+        return "Nothing is recorded that could be marked" +
+               state.keys.told(Action::record, " begins");
     const char* typed = state.fields.tag.data();
     const std::string tag = *typed == '\0' ? kPlainTag : typed;
     recorder_->mark(tag);

@@ -86,7 +86,7 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending)
       gui_(window_, {window_.scale(options.settings.ui_scale), options.settings.theme}),
       software_(read_limits().software),
       pace_(shortest_picture(options.sync, software_)),
-      state_{.settings = options.settings},
+      state_{.settings = options.settings, .keys = KeyTable(options.settings.keys)},
       falcon_(hand_, state_),
       keeper_(options.in_file, options.settings, settings_path()),
       start_(steady_clock::now()),
@@ -306,20 +306,24 @@ void Viewer::notice_standstill() {
 }
 
 void Viewer::take_keys(const WindowInput& input) {
-    // A name typed right after Ctrl+O is no key, even before the field has the keyboard.
+    // A name typed right after the key that opens is none, even before the field has the keyboard.
     const bool typing = gui_.wants_keyboard() || state_.dialog.shown;
-    const bool as_recorded = !typing && window_.holds(held_key(Action::show_as_recorded));
+    const std::vector<int> held = state_.keys.held_keys(Action::show_as_recorded);
+    const bool as_recorded = !typing && std::any_of(held.begin(), held.end(),
+                                                    [this](int key) { return window_.holds(key); });
     if (as_recorded && !state_.as_recorded && !state_.replay) tell("Depth as recorded");
     state_.as_recorded = as_recorded;
     for (const KeyPress& press : input.keys) {
         if (takes_keys(state_.dialog) && state_.message.empty()) take_dialog_key(press);
-        if (const auto action =
-                action_of_key(press.key, press.control, typing, press.repeated, press.shift))
+        if (const auto action = state_.keys.action_of_key(press.key, press.control, typing,
+                                                          press.repeated, press.shift))
             perform(*action);
     }
     if (typing) return;
     for (const TypedCharacter& typed : input.characters) {
-        if (const auto action = action_of_character(typed.code, typed.repeated)) perform(*action);
+        if (const auto action =
+                state_.keys.action_of_character(typed.code, typed.repeated, typed.shift))
+            perform(*action);
     }
 }
 
@@ -347,11 +351,12 @@ std::optional<Answer> Viewer::perform_with_files(Action action) {
 std::optional<Answer> Viewer::perform_with_view(Action action) {
     if (action == Action::copy_view) {
         gui_.copy(text_of(camera_.view()));
-        return Answer{"View copied: Ctrl+V takes it again"};
+        return Answer{"View copied" + state_.keys.told(Action::paste_view, " takes it again")};
     }
     if (action != Action::paste_view) return std::nullopt;
     const auto view = view_in(gui_.copied());
-    if (!view) return Answer{"No view was copied: Ctrl+C copies one"};
+    if (!view)
+        return Answer{"No view was copied" + state_.keys.told(Action::copy_view, " copies one")};
     explaining_.leave_camera();
     camera_.set_view(*view);
     return Answer{"View taken"};
@@ -373,7 +378,7 @@ std::optional<Answer> Viewer::perform_with_brush(Action action) {
     if (action == Action::undo) {
         if (!brush.can_undo) return Answer{"Nothing is painted that could be taken back"};
         painting_.undo(state_, player_);
-        return Answer{"Taken back: Ctrl+Shift+Z paints it again"};
+        return Answer{"Taken back" + state_.keys.told(Action::redo, " paints it again")};
     }
     if (!brush.can_redo) return Answer{"Nothing was taken back"};
     painting_.redo(state_, player_);
@@ -386,7 +391,7 @@ void Viewer::perform(Action action) {
     if (!answer) answer = perform_with_view(action);
     if (!answer) answer = perform_with_brush(action);
     if (!answer) answer = explaining_.perform(action, state_, player_, replay);
-    if (!answer && replay != nullptr) answer = perform_in_replay(action, *replay);
+    if (!answer && replay != nullptr) answer = perform_in_replay(action, *replay, state_.keys);
     if (!answer) answer = dibhr::perform(action, state_, player_);
     if (!answer->place && answer->words.empty()) return;
     tell(answer->words);

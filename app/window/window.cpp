@@ -115,8 +115,8 @@ void Window::collect_events() {
     glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned character) {
         WindowInput& input = input_of(window);
         // GLFW tells a character right after the key that typed it.
-        const bool repeated = !input.keys.empty() && input.keys.back().repeated;
-        input.characters.push_back({character, repeated});
+        const KeyPress by = input.keys.empty() ? KeyPress{} : input.keys.back();
+        input.characters.push_back({character, by.repeated, by.shift});
     });
     glfwSetScrollCallback(
         window_, [](GLFWwindow* window, double, double up) { input_of(window).wheel_steps += up; });

@@ -25,6 +25,7 @@ struct KeyPress {
 struct TypedCharacter {
     unsigned code{0};  ///< Unicode code point
     bool repeated{false};
+    bool shift{false};
 };
 
 /// Whether people work in the window, as the display server has told it.

@@ -1,5 +1,7 @@
 // settings.toml: every number in its range whatever the file holds, every warning one line, and
-// what was read comes back from the file that the program writes.
+// what was read comes back from the file that the program writes, as do wishes for keys that cannot
+// be, which a person is told of until he mends them.
+#include <algorithm>
 #include <string>
 #include <type_traits>
 #include <variant>
@@ -44,8 +46,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         save_settings(settings, path);
         warnings.clear();
         const Settings again = load_with(path, warnings);
-        test::require_rule(warnings.empty() && same_settings(settings, again),
-                           "what the program wrote it reads without a word");
+        const bool of_keys =
+            std::all_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+                return warning.find(": keys.") != std::string::npos;
+            });
+        test::require_rule(of_keys && same_settings(settings, again),
+                           "what the program wrote it reads as it was");
     });
     return 0;
 }

@@ -4,8 +4,13 @@
 
 #include <filesystem>
 #include <iterator>
+#include <optional>
+#include <set>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "app/commands/documentation.hpp"
 #include "app/panels/viewer_state.hpp"
 #include "app/settings/keys.hpp"
 #include "app/settings/settings.hpp"
@@ -42,7 +47,16 @@ Settings unusual_settings() {
     settings.max_force_newton = 2.5;
     settings.sound_volume = 0.25;
     settings.mute = true;
+    settings.keys = {{"play-or-pause", {"Space"}},
+                     {"mark", {"F7", "Shift+\"", "\\"}},
+                     {"toggle-sound", {}},
+                     {"no-action", {"F5", "no\nkey"}}};
     return settings;
+}
+
+std::optional<Action> pressed(const KeyTable& keys, const Key& key) {
+    return key.typed ? keys.action_of_character(static_cast<unsigned>(key.code), false, key.shift)
+                     : keys.action_of_key(key.code, key.control, false, false, key.shift);
 }
 
 }  // namespace
@@ -53,7 +67,7 @@ TEST_CASE("settings come back exactly as they were saved", "[settings]") {
     save_settings(unusual_settings(), file);
     std::vector<std::string> warnings;
     CHECK(same_settings(load_settings(file, warnings), unusual_settings()));
-    CHECK(warnings.empty());
+    CHECK(warnings.size() == 2);  // of its keys
     CHECK(std::distance(std::filesystem::directory_iterator(file.parent_path()), {}) == 1);
 }
 
@@ -167,31 +181,144 @@ TEST_CASE("only what a person changed in the window gets into the file", "[setti
 }
 
 TEST_CASE("no key does two things, and every job is on the help sheet", "[keys]") {
-    for (const KeyBinding& one : key_bindings()) {
-        for (const char c : one.characters) {
-            CAPTURE(c);
-            CHECK(action_of_character(static_cast<unsigned>(c)) == one.action);
+    const KeyTable keys;
+    std::set<Action> actions;
+    std::set<std::string_view> names;
+    for (const KeyJob& job : key_jobs()) {
+        CAPTURE(std::string(job.name));
+        CHECK_FALSE(job.help.empty());
+        CHECK_FALSE(keys.keys_for(job.action).empty());
+        CHECK(job_of(job.action).name == job.name);
+        actions.insert(job.action);
+        names.insert(job.name);
+        for (const Key& key : keys.keys_for(job.action)) {
+            CAPTURE(name_of(key));
+            if (!job.held) CHECK(pressed(keys, key) == job.action);
         }
-        for (const int key : one.keys) {
-            CAPTURE(key);
-            if (key == 0) continue;
-            CHECK(action_of_key(key, one.with_control, false, false, one.with_shift) == one.action);
+    }
+    CHECK(actions.size() == kActions);
+    CHECK(names.size() == kActions);
+}
+
+TEST_CASE("a key is read as it is written, capital or small, and as nothing else", "[keys]") {
+    for (const KeyJob& job : key_jobs()) {
+        const KeyTable keys;
+        for (const Key& key : keys.keys_for(job.action)) {
+            CAPTURE(name_of(key));
+            CHECK(key_called(name_of(key)) == key);
         }
-        bool shown = false;
-        for (const KeyBinding& other : key_bindings()) {
-            shown = shown ||
-                    (other.action == one.action && !other.shown.empty() && !other.help.empty());
-        }
-        CHECK(shown);
+    }
+    for (const std::string name : {"Ctrl+Shift+F12", "Page up", "Shift+Page down", "F24", "Shift+G",
+                                   "Ctrl+[", "+", "#", "Ctrl+Shift+Space", "\u00e4", "\u0444"}) {
+        CAPTURE(name);
+        const auto key = key_called(name);
+        REQUIRE(key);
+        CHECK(name_of(*key) == name);
+    }
+    CHECK(key_called("ctrl + r") == key_called("Ctrl+R"));
+    CHECK(key_called("pageUp") == key_called("Page up"));
+    CHECK(key_called("g") == key_called("G"));
+    for (const char* const wrong :
+         {"", " ", "Spcae", "Ctrl+", "Shift+", "Alt+X", "F0", "F25", "Shift+[", "Ctrl+{",
+          "Shift+Ctrl+R", "ab", "\n", "\xc3", "\xa4"}) {
+        CAPTURE(wrong);
+        CHECK_FALSE(key_called(wrong));
     }
 }
 
+TEST_CASE("a person's own keys take the place of the usual ones, and are lost to what had them",
+          "[keys]") {
+    const std::vector<OwnKeys> own{{"play-or-pause", {"F5", "F"}},
+                                   {"toggle-sound", {}},
+                                   {"mark", {"Shift+L"}},
+                                   {"show-as-recorded", {"F6"}},
+                                   {"record", {"ctrl+shift+r"}}};
+    std::vector<std::string> complaints;
+    const KeyTable keys(own, &complaints);
+    CHECK(complaints == std::vector<std::string>(own.size()));
+    CHECK(pressed(keys, *key_called("F5")) == Action::play_or_pause);
+    CHECK(pressed(keys, *key_called("F")) == Action::play_or_pause);
+    CHECK_FALSE(pressed(keys, *key_called("Space")));
+    CHECK_FALSE(pressed(keys, *key_called("U")));
+    CHECK(keys.names_for(Action::toggle_force) == "no key");
+    CHECK(keys.names_for(Action::toggle_sound) == "no key");
+    CHECK(keys.names_for(Action::play_or_pause) == "F5 or F");
+    CHECK(pressed(keys, *key_called("Shift+L")) == Action::mark);
+    CHECK(pressed(keys, *key_called("L")) == Action::toggle_loop);
+    CHECK(keys.held_keys(Action::show_as_recorded) == std::vector<int>{GLFW_KEY_F6});
+    CHECK(pressed(keys, *key_called("Ctrl+Shift+R")) == Action::record);
+    CHECK_FALSE(pressed(keys, *key_called("Ctrl+R")));
+    CHECK(pressed(keys, *key_called("S")) == Action::take_screenshot);
+}
+
+TEST_CASE("wherever a key is named it is the person's own, and none where there is none",
+          "[keys]") {
+    Player player;
+    ViewerState state;
+    state.keys = KeyTable(std::vector<OwnKeys>{{"toggle-panels", {"F4"}}, {"loop-part", {}}});
+    CHECK(perform(Action::toggle_panels, state, player).words == "Panels hidden: F4 shows them");
+    CHECK(perform(Action::loop_part, state, player).words == "Loop from 00:00.000");
+    CHECK(state.keys.in_brackets(Action::toggle_panels) == " (F4)");
+    CHECK(state.keys.in_brackets(Action::step_forward) == " ( . )");
+    CHECK(state.keys.in_brackets(Action::loop_part).empty());
+    CHECK(contains(keys_help(state.keys), "F4"));
+}
+
+TEST_CASE("a wish for a key that cannot be is told with file and line, and the rest holds",
+          "[keys]") {
+    const TemporaryFolder folder;
+    const auto file = folder / "settings.toml";
+    const auto [wrong, said] = GENERATE(table<std::string, std::string>(
+        {{"plai = \"F5\"", "keys.plai is not an action: dibhr help keys lists them"},
+         {"\"a b\" = \"F5\"", "keys.a b is not an action: dibhr help keys lists them"},
+         {"mark = \"Spcae\"",
+          "keys.mark names 'Spcae', which is no key: write one as dibhr help keys does, like "
+          "Space or Ctrl+R; the usual keys stay"},
+         {"mark = [\"F5\", \"\"]",
+          "keys.mark names '', which is no key: write one as dibhr help keys does, like Space or "
+          "Ctrl+R; the usual keys stay"},
+         {"mark = \"F7\"",
+          "keys.mark names 'F7', which is already for record: choose another one; the usual keys "
+          "stay"},
+         {"mark = \"Shift+F8\"",
+          "keys.mark names 'Shift+F8', which always takes the force off: choose another one; the "
+          "usual keys stay"},
+         {"show-as-recorded = \"Ctrl+B\"",
+          "keys.show-as-recorded names 'Ctrl+B', which cannot be held: choose one key without "
+          "Ctrl and Shift; the usual keys stay"},
+         {"force-off = \"\"",
+          "keys.force-off cannot be without a key: F8 always takes the force off; leave the entry "
+          "away"},
+         {"mark = 5",
+          "keys.mark is neither a key in quotes nor a list of them; the default is kept"}}));
+    CAPTURE(wrong);
+    write_text(file,
+               "[keys]\nrecord = \"F7\"\n" + wrong + "\nquit = \"F10\"\n[sound]\nmute = true\n");
+    std::vector<std::string> warnings;
+    const Settings settings = load_settings(file, warnings);
+    CHECK(warnings == std::vector<std::string>{file.string() + ":3: " + said});
+    CHECK(settings.mute);
+    const KeyTable keys(settings.keys);
+    CHECK(keys.names_for(Action::record) == "F7");
+    CHECK(keys.names_for(Action::quit) == "F10");
+    CHECK(keys.names_for(Action::mark) == "M");
+    CHECK(keys.names_for(Action::show_as_recorded) == "B, held");
+    // It stays in the file until it is mended.
+    save_settings(settings, file);
+    CHECK(same_settings(load_settings(file, warnings), settings));
+}
+
 TEST_CASE("one key takes the force off, also while text is typed, and never puts it on", "[keys]") {
-    bool reachable = false;
-    for (const KeyBinding& binding : key_bindings()) {
-        if (binding.action == Action::force_off) reachable = reachable || binding.while_typing;
-    }
-    CHECK(reachable);
+    const std::vector<OwnKeys> own = GENERATE(
+        std::vector<OwnKeys>{}, std::vector<OwnKeys>{{"mark", {"F8"}}, {"quit", {"Shift+F8"}}},
+        std::vector<OwnKeys>{{"force-off", {}}},
+        std::vector<OwnKeys>{{"force-off", {"X"}}, {"record", {"f8"}}});
+    const KeyTable keys(own);
+    for (const bool shift : {false, true})
+        for (const bool typing : {false, true})
+            CHECK(keys.action_of_key(GLFW_KEY_F8, false, typing, false, shift) ==
+                  Action::force_off);
+    CHECK(keys.name_for(Action::force_off) == "F8");
     Player player;
     ViewerState state;
     perform(Action::force_off, state, player);
@@ -200,21 +327,35 @@ TEST_CASE("one key takes the force off, also while text is typed, and never puts
     CHECK_FALSE(state.force_enabled);
 }
 
+TEST_CASE("what a text field takes does nothing else while it has the keyboard", "[keys]") {
+    const KeyTable keys(std::vector<OwnKeys>{
+        {"record", {"Delete", "F7", "Ctrl+V"}}, {"toggle-help", {"Left"}}, {"mark", {"F6"}}});
+    const auto typing = [&keys](int key, bool control) {
+        return keys.action_of_key(key, control, true);
+    };
+    CHECK(typing(GLFW_KEY_F7, false) == Action::record);
+    CHECK_FALSE(typing(GLFW_KEY_DELETE, false));
+    CHECK_FALSE(typing(GLFW_KEY_V, true));
+    CHECK_FALSE(typing(GLFW_KEY_LEFT, false));
+    CHECK_FALSE(typing(GLFW_KEY_F6, false));
+    CHECK(keys.action_of_key(GLFW_KEY_DELETE, false, false) == Action::record);
+}
+
 TEST_CASE("a key held down does not switch anything again and again", "[keys]") {
-    CHECK(action_of_character('F') == Action::toggle_force);
-    CHECK_FALSE(action_of_character('F', true));
-    CHECK_FALSE(action_of_character('s', true));
-    CHECK(action_of_character('.', true) == Action::step_forward);
+    const KeyTable keys;
+    CHECK(keys.action_of_character('F') == Action::toggle_force);
+    CHECK_FALSE(keys.action_of_character('F', true));
+    CHECK_FALSE(keys.action_of_character('s', true));
+    CHECK(keys.action_of_character('.', true) == Action::step_forward);
 }
 
 TEST_CASE("Shift makes a seek small, and takes nothing from the other keys", "[keys]") {
-    const auto pressed = [](int key, bool shift) {
-        return action_of_key(key, false, false, false, shift);
-    };
-    CHECK(pressed(GLFW_KEY_RIGHT, false) == Action::seek_forward);
-    CHECK(pressed(GLFW_KEY_RIGHT, true) == Action::seek_forward_little);
-    CHECK(pressed(GLFW_KEY_LEFT, true) == Action::seek_back_little);
-    CHECK(pressed(GLFW_KEY_F8, true) == Action::force_off);
+    const KeyTable keys;
+    CHECK(keys.action_of_key(GLFW_KEY_RIGHT, false, false) == Action::seek_forward);
+    CHECK(pressed(keys, *key_called("Shift+Right")) == Action::seek_forward_little);
+    CHECK(pressed(keys, *key_called("Shift+Left")) == Action::seek_back_little);
+    CHECK(pressed(keys, *key_called("Shift+F8")) == Action::force_off);
+    CHECK(keys.action_of_character('?', false, true) == Action::toggle_help);
 }
 
 TEST_CASE("the speed goes by a tenth or by two, within bounds, and never past the normal one",
@@ -239,15 +380,15 @@ TEST_CASE("the speed goes by a tenth or by two, within bounds, and never past th
 TEST_CASE("a key that changes how it plays, touches or looks says so", "[keys]") {
     Player player;
     ViewerState state;
-    for (const KeyBinding& binding : key_bindings()) {
-        const bool of_program = binding.group == "Program";  // it opens something that is seen
+    for (const KeyJob& job : key_jobs()) {
+        const bool of_program = job.group == "Program";  // it opens something that is seen
         const bool told_elsewhere =
-            binding.action == Action::record || binding.action == Action::mark ||
-            binding.action == Action::toggle_full_screen || binding.action == Action::explain ||
-            binding.action == Action::copy_view || binding.action == Action::paste_view;
-        if (of_program || told_elsewhere || binding.action == Action::show_as_recorded) continue;
-        CAPTURE(std::string(binding.shown));
-        const Answer answer = perform(binding.action, state, player);
+            job.action == Action::record || job.action == Action::mark ||
+            job.action == Action::toggle_full_screen || job.action == Action::explain ||
+            job.action == Action::copy_view || job.action == Action::paste_view;
+        if (of_program || told_elsewhere || job.action == Action::show_as_recorded) continue;
+        CAPTURE(std::string(job.name));
+        const Answer answer = perform(job.action, state, player);
         CHECK((answer.place || !answer.words.empty()));
     }
     state.media.still = true;

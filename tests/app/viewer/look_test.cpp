@@ -72,6 +72,24 @@ ColourImage shown_after_o(const TemporaryFolder& folder, const std::string& algo
     return open_media(folder / "look.png", folder / "look.png")->next()->colour;
 }
 
+/// The part of a window of that size that the help sheet is in, once the wheel was turned over it.
+std::vector<unsigned char> help_sheet(const std::string& size, const std::string& wheel) {
+    const Desk desk;
+    const TemporaryFolder folder;
+    Process viewer = desk.start_viewer(
+        folder, {"--device", "mouse", "--pause", "--size", size, "--screenshot", "look.png"});
+    desk.act("search --sync --onlyvisible --name dibhr sleep 0.6 key question mousemove 400 300 " +
+             wheel + "sleep 0.5 key q");
+    REQUIRE(viewer.wait() == 0);
+    const ColourImage picture =
+        open_media(folder / "look.png", folder / "look.png")->next()->colour;
+    std::vector<unsigned char> part;
+    for (int y = 120; y < picture.rows - 100; ++y)
+        for (int x = 180; x < 600; ++x)
+            part.push_back(static_cast<unsigned char>(lightness(picture, x, y)));
+    return part;
+}
+
 }  // namespace
 
 TEST_CASE("a key names all algorithms in the colours of the plots, another press takes them away",
@@ -86,6 +104,13 @@ TEST_CASE("a key names all algorithms in the colours of the plots, another press
         CHECK(pixels_of(on, look_of(algorithm).stroke.ink) > 20);
         CHECK(pixels_of(off, look_of(algorithm).stroke.ink) == 0);
     }
+}
+
+TEST_CASE("the help sheet shows all keys at once, and scrolls in a window that is too small",
+          "[look]") {
+    const std::string down = "click --repeat 20 5 ";
+    CHECK(help_sheet("1280x800", "") == help_sheet("1280x800", down));
+    CHECK(help_sheet("800x600", "") != help_sheet("800x600", down));
 }
 
 TEST_CASE("the wall and the panels are dark or light, as the theme says", "[look]") {

@@ -13,6 +13,7 @@
 #include "core/video/media.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/text.hpp"
 
 namespace fs = std::filesystem;
 using namespace dibhr;
@@ -33,10 +34,13 @@ void make_long_films(const TemporaryFolder& folder) {
 }
 
 /// What is recorded while these keys are typed.
-std::vector<Row> played(const std::vector<std::string>& options, const std::string& commands) {
+std::vector<Row> played(const std::vector<std::string>& options, const std::string& commands,
+                        const std::string& settings = {}) {
     const Desk desk;
     const TemporaryFolder folder;
     make_long_films(folder);
+    fs::create_directories(folder / "config/dibhr");
+    write_text(folder / "config/dibhr/settings.toml", settings);
     std::vector<std::string> arguments{"long_color.mkv", "--raw-depth", "--device", "mouse",
                                        "--record",       "hand.dibhr",  "--size",   "640x480",
                                        "--seconds",      "30"};
@@ -79,6 +83,23 @@ TEST_CASE("arrows seek by 5, 1 and 60 seconds, Home and End to the start and the
     }
     std::vector<double> held = held_moments(played({}, commands));
     const std::vector<double> wanted{0.0, 60.0, 65.0, 66.0, 65.0, 60.0, 0.0, 99.0};
+    if (held.size() > wanted.size()) held.erase(held.begin());  // where it was paused
+    CAPTURE(held);
+    REQUIRE(held.size() == wanted.size());
+    for (std::size_t k = 0; k < wanted.size(); ++k)
+        CHECK_THAT(held[k], WithinAbs(wanted[k], 1.5 * kFrame_s));
+}
+
+TEST_CASE("own keys move the video, and are lost to what had them", "[playing]") {
+    const std::string own =
+        "[keys]\nplay-or-pause = [\"F5\", \"Z\"]\nseek-forward-far = \"L\"\ngo-to-end = "
+        "\"Shift+L\"\n"
+        "seek-forward = \"Home\"\ngo-to-start = \"Ctrl+G\"\n";
+    std::string commands = "key F5 sleep 0.3 ";
+    for (const char* key : {"ctrl+g", "space", "l", "Up", "Home", "End", "shift+l", "ctrl+g"})
+        commands += std::string("key ") + key + " sleep 0.7 ";
+    std::vector<double> held = held_moments(played({}, commands, own));
+    const std::vector<double> wanted{0.0, 60.0, 65.0, 99.0, 0.0};
     if (held.size() > wanted.size()) held.erase(held.begin());  // where it was paused
     CAPTURE(held);
     REQUIRE(held.size() == wanted.size());
