@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -226,6 +228,15 @@ void open_parts(const ViewOptions& options, ViewerParts& parts) {
         make_hand_device(options.device, {options.settings.falcon.connection, options.firmware});
 }
 
+/// Whether nobody is left in a disk that stands still, or in a large file that is being opened; by
+/// a signal the program ends before Ending's patience does.
+bool come_home(const Errands& errands, Ending& ending) {
+    constexpr std::chrono::milliseconds kPatience{500};
+    constexpr std::chrono::milliseconds kPatienceAtSignal{100};
+    ending.words().doing("waiting for a file");
+    return errands.come_home(ending.asked() ? kPatienceAtSignal : kPatience);
+}
+
 }  // namespace
 
 int run_view(CLI::App& app, const Arguments& arguments) {
@@ -367,8 +378,18 @@ int run_view(CLI::App& app, const Arguments& arguments) {
     if (!names_session(options.open.colour)) take_sample_for_nothing(options.open);
     open_parts(options, parts);
     words.doing("opening the window");
-    Viewer viewer(options, std::move(parts), ending);
-    viewer.run();
+    Errands errands;
+    try {
+        Viewer viewer(options, std::move(parts), ending, errands);
+        viewer.run();
+    } catch (const Error& error) {
+        if (come_home(errands, ending)) throw;
+        print_error_line(error.what());
+        _exit(EXIT_FAILURE);
+    }
+    // No destructor and no handler of exit(): they would take away what an errand still uses. All
+    // that is to last is saved, and the device is closed.
+    if (!come_home(errands, ending)) _exit(EXIT_SUCCESS);
     return 0;
 }
 

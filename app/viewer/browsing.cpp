@@ -32,7 +32,13 @@ fs::path sample_folder() try {
 
 }  // namespace
 
-Browsing::Browsing() : sample_folder_(sample_folder()) {}
+Browsing::Browsing(Errands& errands)
+    : sample_folder_(sample_folder()),
+      folder_(errands),
+      completion_(errands),
+      typed_(errands),
+      preview_(errands),
+      neighbours_(errands) {}
 
 void Browsing::toggle(ViewerState& state) {
     if (state.dialog.shown) {

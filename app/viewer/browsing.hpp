@@ -16,7 +16,8 @@ namespace dibhr {
 
 class Browsing {
   public:
-    Browsing();
+    /// `errands` outlive it.
+    explicit Browsing(Errands& errands);
 
     /// Shows the dialog, or puts it away.
     void toggle(ViewerState& state);
@@ -52,11 +53,11 @@ class Browsing {
     ColourTexture texture_{};
     int by_{0};
     int entered_in_{0};  // OpenDialog::line: another one asks for nothing any more
-    Errand<Folder> folder_{};
-    Errand<Completion> completion_{};
-    Errand<FolderEntry> typed_{};
-    Errand<Read> preview_{};
-    Errand<Folder> neighbours_{};
+    Errand<Folder> folder_;
+    Errand<Completion> completion_;
+    Errand<FolderEntry> typed_;
+    Errand<Read> preview_;
+    Errand<Folder> neighbours_;
 };
 
 }  // namespace dibhr

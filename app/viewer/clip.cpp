@@ -2,6 +2,7 @@
 #include "app/viewer/clip.hpp"
 
 #include <exception>
+#include <string>
 #include <utility>
 
 #include "app/panels/widgets.hpp"
@@ -13,6 +14,10 @@ namespace {
 
 /// Thirty pictures a second, also of a window that shows sixty, and not quite as often.
 constexpr auto kLeastBetweenPictures = std::chrono::milliseconds(29);
+
+/// Of an hour's clip the copy takes some seconds; a disk that stands still takes for ever.
+constexpr std::chrono::seconds kPatience{60};
+constexpr std::chrono::seconds kPatienceAtOnce{5};
 
 double seconds_between(ViewerClip::Clock::time_point begin, ViewerClip::Clock::time_point end) {
     return std::chrono::duration<double>(end - begin).count();
@@ -71,11 +76,24 @@ std::optional<std::string> ViewerClip::take_news(ViewerState& state) {
     }
 }
 
+void ViewerClip::wait_for(std::unique_ptr<ClipRecorder> over, ClipEnd how) {
+    const std::chrono::seconds patience = how == ClipEnd::well ? kPatience : kPatienceAtOnce;
+    if (over->done_within(patience)) {
+        static_cast<void>(over->result());
+        return;
+    }
+    static_cast<void>(over.release());  // its thread, which nothing can end, still uses it
+    errands_.give_one_up();
+    throw InputError(file_.string() + ": the clip is not finished after " +
+                     std::to_string(patience.count()) +
+                     " s, what there is of it is beside it, called .part: see whether its disk "
+                     "still answers");
+}
+
 void ViewerClip::finish(ClipEnd how) {
     if (recorder_) {
         recorder_->stop(Clock::now(), how);
-        const std::unique_ptr<ClipRecorder> over = std::move(recorder_);
-        static_cast<void>(over->result());
+        wait_for(std::move(recorder_), how);
     }
     if (!failure_.empty()) throw InputError(failure_);
 }

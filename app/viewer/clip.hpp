@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/panels/viewer_state.hpp"
+#include "app/viewer/errand.hpp"
 #include "core/clip/clip_recorder.hpp"
 
 namespace dibhr {
@@ -16,7 +17,8 @@ class ViewerClip {
   public:
     using Clock = ClipRecorder::Clock;
 
-    ViewerClip() = default;
+    /// `errands` outlive it.
+    explicit ViewerClip(Errands& errands) : errands_(errands) {}
     /// What there is of a clip is kept when an error ends the program.
     ~ViewerClip();
     ViewerClip(const ViewerClip&) = delete;
@@ -39,10 +41,14 @@ class ViewerClip {
     /// once, when it broke off.
     [[nodiscard]] std::optional<std::string> take_news(ViewerState& state);
 
-    /// At the end of the program: waits for the file. Throws InputError when a clip broke off.
+    /// At the end of the program: waits for the file, not for ever. Throws InputError when a clip
+    /// broke off, or is not finished after that.
     void finish(ClipEnd how);
 
   private:
+    void wait_for(std::unique_ptr<ClipRecorder> over, ClipEnd how);
+
+    Errands& errands_;
     std::unique_ptr<ClipRecorder> recorder_{};  // null: no clip
     std::filesystem::path file_{};
     PictureOf of_{PictureOf::window};

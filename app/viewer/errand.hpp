@@ -1,23 +1,59 @@
 // Work away from the window's thread, which never waits for it.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <future>
 #include <optional>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace dibhr {
 
-/// One piece of work at a time, on a thread of its own. At the end it is waited for a little: a
-/// disk that answers no more does not keep the program from leaving.
+/// All who are on an errand, also those that nobody hears of any more: the end of the program must
+/// not take away what they still use. For one thread.
+class Errands {
+  public:
+    Errands() = default;
+    Errands(const Errands&) = delete;
+    Errands& operator=(const Errands&) = delete;
+
+    /// To be kept by somebody's thread, which sets it at its exit.
+    [[nodiscard]] std::promise<void> one_leaves() {
+        std::erase_if(abroad_, [](const auto& one) { return is_home(one, {}); });
+        std::promise<void> end;
+        abroad_.push_back(end.get_future());
+        return end;
+    }
+
+    /// Somebody who was waited for long enough, and is not coming.
+    void give_one_up() { given_up_ = true; }
+
+    /// Waits at most so long. Whether all have ended, with their threads: else the program may only
+    /// end without destructors and handlers of exit(), by _exit().
+    [[nodiscard]] bool come_home(std::chrono::milliseconds patience) const {
+        const auto until = std::chrono::steady_clock::now() + patience;
+        return !given_up_ && std::all_of(abroad_.begin(), abroad_.end(),
+                                         [until](const auto& one) { return is_home(one, until); });
+    }
+
+  private:
+    static bool is_home(const std::future<void>& one, std::chrono::steady_clock::time_point until) {
+        return one.wait_until(until) == std::future_status::ready;
+    }
+
+    std::vector<std::future<void>> abroad_{};
+    bool given_up_{false};
+};
+
+/// One piece of work at a time, on a thread of its own, which nobody waits for but Errands: a disk
+/// that answers no more does not keep the program from leaving.
 template <typename Result>
 class Errand {
   public:
-    Errand() = default;
-    ~Errand() {
-        if (under_way()) result_.wait_for(kPatience);
-    }
+    /// `all` outlives it.
+    explicit Errand(Errands& all) : all_(all) {}
     Errand(const Errand&) = delete;
     Errand& operator=(const Errand&) = delete;
 
@@ -37,7 +73,8 @@ class Errand {
     void start_anew(Work work) {
         std::packaged_task<Result()> task(std::move(work));
         std::future<Result> result = task.get_future();
-        std::thread([task = std::move(task)]() mutable {
+        std::thread([task = std::move(task), end = all_.one_leaves()]() mutable {
+            end.set_value_at_thread_exit();
             task.make_ready_at_thread_exit();
         }).detach();
         result_ = std::move(result);
@@ -55,8 +92,7 @@ class Errand {
     }
 
   private:
-    static constexpr auto kPatience = std::chrono::milliseconds(500);
-
+    Errands& all_;
     std::future<Result> result_{};
 };
 

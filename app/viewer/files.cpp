@@ -74,8 +74,8 @@ std::string picture_name(const ViewerState& state) {
     return whole_path(name_from(state.settings.screenshot_name, facts)).string();
 }
 
-void Screenshots::save(ColourImage picture, const std::string& name) {
-    asked_.reset();
+void Screenshots::save(PictureOf of, ColourImage picture, const std::string& name) {
+    asked_.erase(of);
     const auto write = [picture = std::move(picture), file = name + ".png"] {
         return "Saved " + write_new_png(picture, file).string();
     };

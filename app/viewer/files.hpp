@@ -6,6 +6,7 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -29,11 +30,11 @@ namespace dibhr {
 class Screenshots {
   public:
     /// The next picture that is drawn is to be saved.
-    void ask(PictureOf of) { asked_ = of; }
-    [[nodiscard]] bool wants(PictureOf of) const { return asked_ == of; }
+    void ask(PictureOf of) { asked_.insert(of); }
+    [[nodiscard]] bool wants(PictureOf of) const { return asked_.contains(of); }
 
     /// Begins to write what was asked for into a new file of that name, or with a number after it.
-    void save(ColourImage picture, const std::string& name);
+    void save(PictureOf of, ColourImage picture, const std::string& name);
 
     /// What came of one that is done, for a notice. Throws InputError, once a picture.
     [[nodiscard]] std::optional<std::string> take();
@@ -42,7 +43,7 @@ class Screenshots {
     void finish();
 
   private:
-    std::optional<PictureOf> asked_{};
+    std::set<PictureOf> asked_{};
     std::vector<std::future<std::string>> writing_{};
 };
 

@@ -78,7 +78,7 @@ WindowSize asked_size(const ViewOptions& options) {
 
 }  // namespace
 
-Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending)
+Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Errands& errands)
     : options_(options),
       ending_(ending),
       hand_(std::move(parts.hand)),
@@ -88,6 +88,9 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending)
       pace_(shortest_picture(options.sync, software_)),
       state_{.settings = options.settings, .keys = KeyTable(options.settings.keys)},
       falcon_(hand_, state_),
+      opening_(errands),
+      clip_(errands),
+      browsing_(errands),
       keeper_(options.in_file, options.settings, settings_path()),
       start_(steady_clock::now()),
       hang_after_s_(hang_asked_for()),
@@ -180,6 +183,7 @@ void Viewer::finish() {
     };
     now("writing the last picture");
     try_to([this] { write_last_picture(); });
+    try_to([this] { take_last_screenshot(); });
     now("saving the settings");
     explaining_.end(state_, camera_);
     keep_memory();
@@ -216,17 +220,23 @@ void Viewer::show_one_picture() {
     state_.window_height = static_cast<float>(window_.framebuffer_size().y);
     const glm::ivec2 viewport = relief_viewport();
     move_hand(input, viewport);
-    draw_scene(viewport);
-    if (wants_picture(PictureOf::relief)) hand_out(PictureOf::relief, read_framebuffer(viewport));
-    beat();
-    draw_panels(input.keys);
-    beat();
+    draw_picture(input);
     carry_out_requests();
     hand_over_settings();
     keep_settings();
     if (software_) beat_while_drawing();
     window_.show_picture();
     require_graphics();
+    beat();
+}
+
+/// The relief and all that is over it, for whoever wants to save it, too.
+void Viewer::draw_picture(const WindowInput& input) {
+    const glm::ivec2 viewport = relief_viewport();
+    draw_scene(viewport);
+    if (wants_picture(PictureOf::relief)) hand_out(PictureOf::relief, read_framebuffer(viewport));
+    beat();
+    draw_panels(input.keys);
     beat();
 }
 
@@ -621,7 +631,7 @@ bool Viewer::wants_picture(PictureOf of) const {
 /// Of what was drawn up to now, to whoever wants it.
 void Viewer::hand_out(PictureOf of, ColourImage picture) {
     const auto now = steady_clock::now();
-    if (screenshots_.wants(of)) screenshots_.save(picture, picture_name(state_));
+    if (screenshots_.wants(of)) screenshots_.save(of, picture, picture_name(state_));
     if (shown_.makes_surface() && clip_.wants(of, now)) clip_.add(std::move(picture), now);
 }
 
@@ -633,6 +643,12 @@ void Viewer::write_last_picture() {
     const bool whole = options_.pictures_of == PictureOf::window;
     if (whole) draw_panels();
     write_png(read_framebuffer(whole ? window_.framebuffer_size() : relief), options_.screenshot);
+}
+
+/// Asked for in the picture in which the end was.
+void Viewer::take_last_screenshot() {
+    if (screenshots_.wants(PictureOf::window) || screenshots_.wants(PictureOf::relief))
+        draw_picture();
 }
 
 void Viewer::tell(const std::string& notice) {

@@ -88,8 +88,8 @@ struct OwnRelief {
 
 class Viewer {
   public:
-    /// Opens the window and starts the loop. `ending` must outlive it. Throws Error.
-    Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending);
+    /// Opens the window and starts the loop. `ending` and `errands` must outlive it. Throws Error.
+    Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Errands& errands);
     /// From here on a display that goes away finds nothing left to close.
     ~Viewer() { window_.on_display_loss({}); }
     Viewer(const Viewer&) = delete;
@@ -117,6 +117,7 @@ class Viewer {
     void take_dropped(const std::vector<std::filesystem::path>& files);
     void move_hand(const WindowInput& input, glm::ivec2 viewport);
     void draw_scene(glm::ivec2 viewport);
+    void draw_picture(const WindowInput& input = {});
     void draw_panels(std::span<const KeyPress> pressed = {});
     void draw_explained();
     void carry_out_requests();
@@ -152,6 +153,7 @@ class Viewer {
     void finish();
     void close_without_display();
     void write_last_picture();
+    void take_last_screenshot();
     /// Says so where the last files are still being opened.
     void open(const OpenRequest& request);
     void make_report(const std::filesystem::path& session);
@@ -188,12 +190,12 @@ class Viewer {
     HandPointer pointer_{};
     ViewerState state_{};
     ViewerFalcon falcon_;
-    Errand<Opened> opening_{};
+    Errand<Opened> opening_;
     Screenshots screenshots_{};
-    ViewerClip clip_{};
+    ViewerClip clip_;
     Reporting reporting_{};
     ViewerExplaining explaining_{};
-    Browsing browsing_{};
+    Browsing browsing_;
     ViewerPanes panes_{};
     ViewerPainting painting_{};
     SettingsKeeper keeper_;

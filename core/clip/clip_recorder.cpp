@@ -58,8 +58,11 @@ void ClipRecorder::stop(Clock::time_point end, ClipEnd how) {
 }
 
 bool ClipRecorder::done() const {
-    return !result_.valid() ||
-           result_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    return done_within(std::chrono::milliseconds(0));
+}
+
+bool ClipRecorder::done_within(std::chrono::milliseconds patience) const {
+    return !result_.valid() || result_.wait_for(patience) == std::future_status::ready;
 }
 
 std::uint64_t ClipRecorder::encoded() const {

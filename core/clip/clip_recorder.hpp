@@ -35,6 +35,8 @@ class ClipRecorder {
 
     /// The clip is whole, or broke off; it may break off before it is stopped, too.
     [[nodiscard]] bool done() const;
+    /// Waits at most so long for that. Until then it must not be destroyed by who cannot wait.
+    [[nodiscard]] bool done_within(std::chrono::milliseconds patience) const;
     /// Waits for that. The name that the file has; once. Throws InputError when it broke off.
     std::filesystem::path result() { return result_.get(); }
 

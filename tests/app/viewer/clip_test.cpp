@@ -169,6 +169,16 @@ TEST_CASE("pictures and clips are called as the pattern says, and replace none",
     CHECK(read_text(folder / "film_color 000001.png") == "before");
 }
 
+TEST_CASE("pictures asked for right before the end are saved", "[clip]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    make_films(folder);
+    Process viewer = desk.start_viewer(folder, film_and({"--seconds", "30"}));
+    desk.act(std::string(kMeet) + "key --delay 0 s shift+F12 q");
+    REQUIRE(viewer.wait() == 0);
+    CHECK(saved(folder, ".png").size() == 2);
+}
+
 TEST_CASE("a clip that cannot be written is told in one line, and the program goes on", "[clip]") {
     const Desk desk;
     const TemporaryFolder folder;

@@ -16,6 +16,7 @@
 #include "device/hand_device.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/eventually.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -141,7 +142,8 @@ TEST_CASE("of two dropped pictures the depth is known by its name, else by being
 TEST_CASE("opening in the background gives the words of the error, and can be tried again",
           "[opening]") {
     const TemporaryFolder folder;
-    Errand<Opened> opening;
+    Errands errands;
+    Errand<Opened> opening(errands);
     const OpenRequest request{folder / "nowhere.mp4", {}, false};
     for (int attempt = 0; attempt < 2; ++attempt) {
         REQUIRE(opening.start([request] { return try_open(request); }));
@@ -152,21 +154,29 @@ TEST_CASE("opening in the background gives the words of the error, and can be tr
     }
 }
 
-TEST_CASE("work that never ends is left behind: nobody waits for it longer than a second",
+TEST_CASE("work that never ends is left behind, which whoever ends the program is told",
           "[opening]") {
     const auto begin = std::chrono::steady_clock::now();
+    Errands errands;
+    CHECK(errands.come_home(std::chrono::milliseconds(0)));
     const auto let_go = std::make_shared<std::promise<void>>();
     {
-        Errand<int> errand;
+        Errand<int> errand(errands);
         REQUIRE(errand.start([let_go] {
             let_go->get_future().wait();
             return 1;
         }));
         CHECK_FALSE(errand.start([] { return 2; }));
         CHECK_FALSE(errand.take());
+        errand.start_anew([] { return 2; });  // nobody hears of the first one any more
+        CHECK(eventually([&] { return errand.take() == 2; }));
     }
-    CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(1));
+    CHECK_FALSE(errands.come_home(std::chrono::milliseconds(50)));
+    CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(5));
     let_go->set_value();
+    CHECK(errands.come_home(std::chrono::seconds(20)));
+    errands.give_one_up();
+    CHECK_FALSE(errands.come_home(std::chrono::milliseconds(0)));
 }
 
 TEST_CASE("a device that cannot be used says what to do", "[device]") {

@@ -132,6 +132,51 @@ TEST_CASE("a window's thread that loops for ever holds no force, nor the program
     CHECK(seconds_of_standstills(read_session(at.folder / "hand.dibhr")) > 0.2);
 }
 
+TEST_CASE("a file that is opened from a disk that stands still does not hold up the end",
+          "[ways out]") {
+    const Stall stall("z_color");
+    const Desk desk;
+    const TemporaryFolder folder;
+    run_shell(
+        folder,
+        "for name in a z; do for kind in color depth; do ffmpeg -nostdin -v error -y -f lavfi "
+        "-i color=gray:s=64x48:r=10:d=2 -c:v ffv1 ${name}_$kind.mkv; done; done");
+    std::vector<std::string> host = stall.environment();
+    host.insert(host.begin(), "env");
+    Process viewer = desk.start_viewer(
+        folder, {"a_color.mkv", "--device", "mouse", "--size", "320x240", "--screenshot", "a.png"},
+        host);
+    desk.act("search --sync --onlyvisible --name dibhr sleep 0.6");
+    stall.begin();
+    desk.act("search --name dibhr key ctrl+Next sleep 1");
+    const auto asked = Clock::now();
+    desk.act("search --name dibhr key q");
+    CHECK(viewer.wait() == 0);
+    CHECK(seconds_since(asked) < 2.0);
+    CHECK(read_text(folder / "errors.txt").empty());
+    CHECK(std::filesystem::exists(folder / "a.png"));
+}
+
+TEST_CASE("a clip on a disk that stands still does not hold up the end for ever", "[ways out]") {
+    const Stall stall("all.mp4");
+    const Desk desk;
+    const TemporaryFolder folder;
+    std::vector<std::string> host = stall.environment();
+    host.insert(host.begin(), "env");
+    Process viewer = desk.start_viewer(
+        folder, {"--device", "mouse", "--size", "320x240", "--clip", "all.mp4"}, host);
+    desk.act("search --sync --onlyvisible --name dibhr sleep 2");
+    stall.begin();
+    desk.act("search --name dibhr sleep 0.5");
+    const auto killed = Clock::now();
+    desk.kill();
+    CHECK(viewer.wait() == 1);
+    CHECK(seconds_since(killed) < 9.0);
+    CHECK(
+        contains(read_text(folder / "errors.txt"),
+                 "all.mp4: the clip is not finished after 5 s, what there is of it is beside it"));
+}
+
 TEST_CASE("a second signal ends a program that hangs at once", "[ways out]") {
     const Desk desk;
     const TemporaryFolder folder;
