@@ -266,6 +266,11 @@ BenchResults measure() {
 int run_bench(CLI::App& app, const Arguments& arguments) {
     std::filesystem::path file;
     add_file(app, "--json", file, "Writes the numbers as JSON; - is standard output");
+    app.footer(
+        "Examples:\n"
+        "  dibhr bench\n"
+        "  dibhr bench --json bench.json\n"
+        "  dibhr bench --json - | jq .loops");
     if (!parse(app, arguments)) return 0;
     std::optional<OutputFile> json;
     if (!file.empty()) json.emplace(file);  // before the work: an unwritable file is said at once

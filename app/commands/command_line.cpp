@@ -1,12 +1,15 @@
 // The table of commands; what is no command is shown by the viewer.
 #include "app/commands/command_line.hpp"
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <sstream>
 #include <string_view>
 
 #include "app/commands/documentation.hpp"
@@ -14,6 +17,7 @@
 #include "app/settings/command_options.hpp"
 #include "app/settings/settings.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/files/terminal.hpp"
 
 namespace dibhr {
 namespace {
@@ -46,28 +50,42 @@ constexpr std::array kCommands{
             run_bench},
 };
 
+/// Bold at a terminal: what stands at the begin of a line and ends with a colon.
+std::string with_bold_headings(const std::string& help) {
+    constexpr std::array<std::string_view, 4> kHeadings{
+        "Usage:", "Positionals:", "Options:", "Examples:"};
+    std::istringstream lines(help);
+    std::string text;
+    for (std::string line; std::getline(lines, line); text.append(line).append("\n")) {
+        for (const std::string_view heading : kHeadings)
+            if (line.starts_with(heading))
+                line.replace(0, heading.size(), painted(heading, Paint::heading, STDOUT_FILENO));
+    }
+    return text;
+}
+
 void print_help() {
-    std::cout << "Touch recorded 3D video: colour and depth shown as a moving relief that a hand "
-                 "feels.\n\nUsage:\n";
+    std::ostringstream help;
+    help << "Touch recorded 3D video: colour and depth shown as a moving relief that a hand "
+            "feels.\n\nUsage:\n";
     for (const Command& command : kCommands) {
         constexpr int kUsageWidth = 58;
         const std::string name = command.name == "view" ? "[view]" : std::string(command.name);
-        std::cout << "  dibhr " << std::left << std::setw(kUsageWidth)
-                  << name + ' ' + std::string(command.arguments) << command.summary << '\n';
+        help << "  dibhr " << std::left << std::setw(kUsageWidth)
+             << name + ' ' + std::string(command.arguments) << command.summary << '\n';
     }
-    std::cout
-        << "\n  dibhr help COMMAND     the options of a command, as dibhr COMMAND --help\n"
-           "  dibhr help keys        what the viewer's keys do, and how to have others\n"
-           "  dibhr help --man       all of it as a manual page, for man -l -\n"
-           "  dibhr completion bash  for that shell, zsh or fish: source it\n"
-           "  dibhr --version, -V    the version\n"
-           "\nExamples:\n"
-           "  dibhr                                the built-in sample, touched by the mouse\n"
-           "  dibhr color.mp4 depth.mp4            a colour and a depth video\n"
-           "  dibhr color.mp4                      the depth video beside it is found\n"
-           "  dibhr mine.dibhr                     a recorded session moves by itself\n"
-           "  dibhr touch --depth depth.png --goals goals.csv --out touched.csv\n"
-           "\nEnds with 0 on success, 1 on a failure it explains, 2 on bad usage.\n";
+    help << "\n  dibhr help COMMAND     the options of a command, as dibhr COMMAND --help\n"
+            "  dibhr help --man       all of it as a manual page, for man -l -\n"
+            "  dibhr completion bash  for that shell, zsh or fish: source it\n"
+            "  dibhr --version, -V    the version\n"
+            "\nExamples:\n"
+            "  dibhr                                the built-in sample, touched by the mouse\n"
+            "  dibhr color.mp4 depth.mp4            a colour and a depth video\n"
+            "  dibhr color.mp4                      the depth video beside it is found\n"
+            "  dibhr mine.dibhr                     a recorded session moves by itself\n"
+            "  dibhr touch --depth depth.png --goals goals.csv --out touched.csv\n"
+            "\nEnds with 0 on success, 1 on a failure it explains, 2 on bad usage.\n";
+    std::cout << with_bold_headings(help.str());
 }
 
 const Command* command_called(const std::string& name) {
@@ -178,7 +196,7 @@ bool parse(CLI::App& app, const Arguments& arguments) {
         app.parse(Arguments(arguments.rbegin(), arguments.rend()));
         return true;
     } catch (const CLI::CallForHelp&) {
-        std::cout << app.help();
+        std::cout << with_bold_headings(app.help());
         return false;
     } catch (const CLI::ParseError& error) {
         const std::string unknown = unknown_option(app, arguments);

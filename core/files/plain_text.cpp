@@ -1,6 +1,8 @@
 // Text and numbers as the program writes them.
 #include "core/files/plain_text.hpp"
 
+#include <unistd.h>
+
 extern "C" {
 #include <libavutil/base64.h>
 }
@@ -12,6 +14,8 @@ extern "C" {
 #include <cstdint>
 #include <iostream>
 #include <utility>
+
+#include "core/files/terminal.hpp"
 
 namespace dibhr {
 
@@ -52,6 +56,11 @@ std::size_t letter_bytes(std::string_view text, std::size_t k) {
 
 bool is_control(unsigned byte) {
     return byte < 0x20U || byte == 0x7FU;
+}
+
+void print_line(std::string_view head, Paint paint, std::string_view sentence) {
+    while (!sentence.empty() && sentence.back() == '\n') sentence.remove_suffix(1);
+    std::cerr << painted(head, paint, STDERR_FILENO) << ' ' << one_line(sentence) << '\n';
 }
 
 }  // namespace
@@ -150,12 +159,11 @@ void append_number(std::string& text, double value) {
 }
 
 void print_error_line(std::string_view message) {
-    while (!message.empty() && message.back() == '\n') message.remove_suffix(1);
-    std::cerr << "dibhr: " << one_line(message) << '\n';
+    print_line("dibhr:", Paint::error, message);
 }
 
 void print_warning(std::string_view sentence) {
-    if (!sentence.empty()) print_error_line("warning: " + std::string(sentence));
+    if (!sentence.empty()) print_line("dibhr: warning:", Paint::warning, sentence);
 }
 
 }  // namespace dibhr

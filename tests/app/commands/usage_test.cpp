@@ -192,6 +192,44 @@ TEST_CASE("help and version answer on standard output", "[usage]") {
     CHECK(run_dibhr(folder, {"help", "nothing"}).exit_code == 2);
 }
 
+TEST_CASE("the help of every command ends with examples of it", "[usage]") {
+    for (const std::string command : {"view", "touch", "surface", "experiment", "replay", "export",
+                                      "report", "info", "devices", "bench"}) {
+        CAPTURE(command);
+        const TemporaryFolder folder;
+        const std::string help = run_dibhr(folder, {"help", command}).output;
+        const std::size_t examples = help.find("\nExamples:\n");
+        REQUIRE(examples != std::string::npos);
+        CHECK(help.find("  dibhr " + (command == "view" ? "" : command), examples) !=
+              std::string::npos);
+    }
+}
+
+TEST_CASE("headings and errors are coloured at a terminal only, and not with NO_COLOR", "[usage]") {
+    const TemporaryFolder folder;
+    // Both streams, one after the other.
+    const std::string said = " " DIBHR_PROGRAM " help bench; " DIBHR_PROGRAM " info none.mp4";
+    const auto at_terminal = [&](const std::string& environment) {
+        run_shell(folder,
+                  environment + " script -qc '" + said + "' /dev/null >said.txt </dev/null");
+        return read_text(folder / "said.txt");
+    };
+    const std::string coloured = at_terminal("env -u NO_COLOR TERM=xterm");
+    CHECK(contains(coloured, "\x1b[1mExamples:\x1b[0m"));
+    CHECK(contains(coloured, "\x1b[1mUsage:\x1b[0m dibhr bench"));
+    CHECK(contains(coloured, "\x1b[1;31mdibhr:\x1b[0m 'none.mp4'"));
+    for (const std::string environment : {"NO_COLOR=1 TERM=xterm", "env -u NO_COLOR TERM=dumb"}) {
+        const std::string plain = at_terminal(environment);
+        CHECK(contains(plain, "Examples:"));
+        CHECK(contains(plain, "dibhr: 'none.mp4'"));
+        CHECK_FALSE(contains(plain, "\x1b"));
+    }
+    CHECK(contains(at_terminal("NO_COLOR= TERM=xterm"), "\x1b[1mExamples:\x1b[0m"));
+    run_shell(folder, "(" + said + "; true) >said.txt 2>&1");  // no terminal
+    CHECK(contains(read_text(folder / "said.txt"), "dibhr: 'none.mp4'"));
+    CHECK_FALSE(contains(read_text(folder / "said.txt"), "\x1b"));
+}
+
 TEST_CASE("a mistyped command or option is told what it may have meant", "[usage]") {
     const auto said = [](const std::vector<std::string>& arguments) -> std::string {
         try {
