@@ -80,14 +80,24 @@ void draw_files(const MediaDescription& media) {
     if (!media.notice.empty()) quiet_text(capitalised(media.notice));
 }
 
-/// Frames that this machine is too slow for are passed over, and that is told.
-void tell_pace(const PlaybackStatus& playback) {
+bool passes_frames_over(const PlaybackStatus& playback) {
     constexpr double kAll = 0.97;
-    if (!playback.playing || !(playback.shown_per_s < kAll * playback.frames_per_s)) return;
-    quiet_text(
-        formatted("This machine is too slow for it: %.0f of %.0f frames a second are shown%s",
-                  playback.shown_per_s, playback.frames_per_s,
-                  playback.waits ? ", and later than they should be" : ", in their time"));
+    return playback.playing && playback.shown_per_s < kAll * playback.frames_per_s;
+}
+
+/// With how many are shown, where this machine is too slow for all. A line of its own would come
+/// and go with each hiccup, and move what is below from under a hand that is about to click on it.
+void draw_frame(const PlaybackStatus& playback) {
+    std::string value = std::to_string(playback.frame + 1) + " of " +
+                        std::to_string(std::max(playback.frames, playback.frame + 1));
+    const bool slow = passes_frames_over(playback);
+    if (slow) value += formatted(", %.0f of %.0f/s", playback.shown_per_s, playback.frames_per_s);
+    fact_row("Frame", value);
+    if (!slow) return;
+    explain(playback.waits ? "This machine is too slow for all frames: these many are shown in a "
+                             "second, and later than they should be"
+                           : "This machine is too slow for all frames: these many are shown in a "
+                             "second, in their time");
 }
 
 void draw_playback(const ViewerState& state, Player& player) {
@@ -97,10 +107,8 @@ void draw_playback(const ViewerState& state, Player& player) {
     if (ImGui::Checkbox("Loop", &looping)) player.set_looping(looping);
     explain("Start again at the end", state.keys, Action::toggle_loop);
     fact_row("Time", clock_text(playback.media_s) + " of " + clock_text(playback.duration_s));
-    fact_row("Frame", std::to_string(playback.frame + 1) + " of " +
-                          std::to_string(std::max(playback.frames, playback.frame + 1)));
+    draw_frame(playback);
     speed_row(playback.speed, player);
-    tell_pace(playback);
 }
 
 /// A step switched by hand makes all of them one's own choice, beginning with what is done now.
