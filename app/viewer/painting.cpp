@@ -19,7 +19,6 @@ namespace {
 
 /// What can be undone takes no more memory than that, but for the last stroke.
 constexpr std::size_t kMostUndo_bytes = std::size_t{256} << 20;
-constexpr auto kPatienceWithDisk = std::chrono::seconds(10);
 
 std::size_t bytes_of(const TouchMaps* maps) {
     if (maps == nullptr) return 0;
@@ -316,8 +315,8 @@ void ViewerPainting::take_news(ViewerState& state, ViewerRecording& recording) {
     if (!failure_.empty()) throw InputError(std::exchange(failure_, {}));
 }
 
-void ViewerPainting::hand_over(ViewerRecording& recording) {
-    const auto latest = std::chrono::steady_clock::now() + kPatienceWithDisk;
+void ViewerPainting::hand_over(ViewerRecording& recording, std::chrono::milliseconds patience) {
+    const auto latest = std::chrono::steady_clock::now() + patience;
     while (writing_.under_way() || !to_write_.empty()) {
         start_writing();
         writing_.wait_until(latest);
@@ -326,8 +325,8 @@ void ViewerPainting::hand_over(ViewerRecording& recording) {
     }
 }
 
-void ViewerPainting::finish(ViewerRecording& recording) {
-    hand_over(recording);
+void ViewerPainting::finish(ViewerRecording& recording, std::chrono::milliseconds patience) {
+    hand_over(recording, patience);
     if (writing_.under_way()) failure_ = depth_.string() + ": what was painted could not be saved";
     if (!failure_.empty()) throw InputError(std::exchange(failure_, {}));
 }

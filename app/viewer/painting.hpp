@@ -2,6 +2,7 @@
 // kept.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -28,7 +29,8 @@ struct FoundMaps {
 
 class ViewerPainting {
   public:
-    ViewerPainting() = default;
+    /// `errands` outlive it.
+    explicit ViewerPainting(Errands& errands) : writing_(errands) {}
     ViewerPainting(const ViewerPainting&) = delete;
     ViewerPainting& operator=(const ViewerPainting&) = delete;
 
@@ -52,10 +54,10 @@ class ViewerPainting {
     /// Once a picture: how it is, into `state`; what is felt, into the recording. Throws InputError
     /// when the maps could not be saved, once.
     void take_news(ViewerState& state, ViewerRecording& recording);
-    /// Before a recording ends: it gets the maps that it refers to.
-    void hand_over(ViewerRecording& recording);
+    /// Before a recording ends: it gets the maps that it refers to. Waits for the disk so long.
+    void hand_over(ViewerRecording& recording, std::chrono::milliseconds patience = kPatience);
     /// At the end of the program: saves what is not saved. Throws InputError.
-    void finish(ViewerRecording& recording);
+    void finish(ViewerRecording& recording, std::chrono::milliseconds patience = kPatience);
 
     /// What is drawn: also a stroke that has not ended. Null: nothing is painted.
     [[nodiscard]] std::shared_ptr<const TouchMaps> drawn() const;
@@ -63,6 +65,8 @@ class ViewerPainting {
     [[nodiscard]] const Frame* tinted(const Frame* frame, const ViewerState& state);
 
   private:
+    static constexpr std::chrono::milliseconds kPatience{10'000};
+
     /// Maps as a recorder and the folder take them.
     struct Written {
         std::uint32_t version{0};
@@ -94,7 +98,7 @@ class ViewerPainting {
         bool to_files{false};
     };
     std::vector<ToWrite> to_write_{};
-    Errand<Written> writing_{};
+    Errand<Written> writing_;
     std::string failure_{};  // to be told
     // What the tint was made of.
     Frame tinted_{};

@@ -91,6 +91,7 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
       opening_(errands),
       clip_(errands),
       browsing_(errands),
+      painting_(errands),
       keeper_(options.in_file, options.settings, settings_path()),
       start_(steady_clock::now()),
       hang_after_s_(hang_asked_for()),
@@ -162,7 +163,7 @@ void Viewer::close_without_display() {
     keep_memory();
     attempt([this] { keeper_.finish(lasting_settings()); });
     attempt([this] { screenshots_.finish(); });
-    attempt([this] { painting_.finish(recording_); });
+    attempt([this] { painting_.finish(recording_, kPatienceAtAnEnd); });
     attempt([this] { clip_.finish(ClipEnd::at_once); });
     attempt([this] { recording_.finish(kPatienceAtAnEnd); });
     hand_.device.reset();
@@ -191,7 +192,10 @@ void Viewer::finish() {
     now("writing pictures");
     try_to([this] { screenshots_.finish(); });
     now("saving what was painted");
-    try_to([this] { painting_.finish(recording_); });
+    try_to([this] {
+        ending_.asked() ? painting_.finish(recording_, kPatienceAtAnEnd)
+                        : painting_.finish(recording_);
+    });
     now("finishing the clip");
     try_to([this] { clip_.finish(ending_.asked() ? ClipEnd::at_once : ClipEnd::well); });
     now("closing the recording");

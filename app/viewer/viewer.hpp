@@ -197,7 +197,7 @@ class Viewer {
     ViewerExplaining explaining_{};
     Browsing browsing_;
     ViewerPanes panes_{};
-    ViewerPainting painting_{};
+    ViewerPainting painting_;
     SettingsKeeper keeper_;
     HapticSettings handed_{};
     CleaningOptions cleaning_handed_{};
