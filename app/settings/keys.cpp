@@ -47,7 +47,7 @@ constexpr KeyBinding kBindings[] = {
     {Action::toggle_force, kTouch, "F", "Force off, force on again", "f"},
     while_typing(
         {Action::force_off, kTouch, "F8", "Force off, whatever it was", "", {GLFW_KEY_F8}}),
-    {Action::centre_workspace, kTouch, "C", "Centre the Falcon's hand in the image", "c"},
+    {Action::centre_workspace, kTouch, "C", "Centre the device's hand in the image", "c"},
     with_control(
         {Action::record, kTouch, "Ctrl+R", "Record what is touched, stop", "", {GLFW_KEY_R}}),
     {Action::toggle_sound, kTouch, "U", "Sound of touch off, on", "u"},
