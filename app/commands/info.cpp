@@ -1,6 +1,7 @@
 // `dibhr info`: describes media and session files.
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <initializer_list>
 #include <iomanip>
 #include <iostream>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "core/error.hpp"
 #include "core/files/json.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/haptics/parameters.hpp"
 #include "core/replay/frames.hpp"
 #include "core/report/report_words.hpp"
 #include "core/session/session.hpp"
@@ -37,29 +39,55 @@ void print_media(std::string_view name, const SessionMedia& media) {
                media.file.string() + (media.sha256.empty() ? "" : ", SHA-256 " + media.sha256));
 }
 
+/// In this order, as far as they are there.
+void print_and_drop(std::initializer_list<std::string_view> names, SessionFacts& facts) {
+    for (const std::string_view name : names) {
+        const auto fact = facts.find(std::string(name));
+        if (fact == facts.end()) continue;
+        print_fact(name, fact->second);
+        facts.erase(fact);
+    }
+}
+
+bool is_file(const SessionFacts::value_type& fact) {
+    return fact.first == "colour" || fact.first == "depth";
+}
+
+/// How long, how many ticks, and what was marked on the way.
+void print_extent(const Session& session) {
+    print_fact("duration", number_text(session.end_s() - session.begin_s(), 3) + " s");
+    print_fact("ticks", std::to_string(session.rows()));
+    print_fact("late ticks", std::to_string(late_ticks(session.reader())));
+    if (session.missing() > 0) print_fact("missing ticks", std::to_string(session.missing()));
+    for (const SessionMark& mark : session.marks()) {
+        print_fact("mark", number_text(mark.t_s - session.begin_s(), 3) + " s  " + mark.tag +
+                               (mark.text.empty() ? "" : ": " + mark.text));
+    }
+}
+
+/// What a person wants to know first comes first: what was touched, when and how long, with what
+/// and with which parameters.
 void describe_session(const fs::path& file) {
     const Session session(file);
     session.check();
     print_warning(session.warning());
     std::cout << one_line(file.string()) << '\n';
     print_fact("kind", "dibhr session");
-    print_fact("rows", std::to_string(session.rows()));
-    print_fact("duration", number_text(session.end_s() - session.begin_s(), 3) + " s");
-    if (session.missing() > 0) print_fact("missing rows", std::to_string(session.missing()));
+    const HandTicks hand = hand_ticks(session.reader());
+    SessionFacts facts = facts_of_hand(session.facts(), hand);
     for (const SessionSource& source : session.sources()) {
         print_media("colour", source.colour);
         print_media("depth", source.depth);
     }
-    for (const SessionMark& mark : session.marks()) {
-        print_fact("mark", number_text(mark.t_s - session.begin_s(), 3) + " s  " + mark.tag +
-                               (mark.text.empty() ? "" : ": " + mark.text));
-    }
-    for (const auto& [name, value] : session.facts()) {
-        const bool told = !session.sources().empty() && (name == "colour" || name == "depth");
-        if (told) continue;
-        print_fact(name,
-                   name == "device" ? device_text(value, hand_ticks(session.reader())) : value);
-    }
+    if (!session.sources().empty()) std::erase_if(facts, is_file);
+    print_and_drop({"colour", "depth", "started", "participant", "note"}, facts);
+    print_extent(session);
+    if (const auto device = facts.find("device"); device != facts.end())
+        device->second = device_text(device->second, hand);
+    print_and_drop({"device", "algorithm"}, facts);
+    for (const TouchNumber& number : touch_numbers()) print_and_drop({number.name}, facts);
+    print_and_drop({"bump", "material", "cleaning", "finger", "max-force", "stability"}, facts);
+    for (const auto& [name, value] : facts) print_fact(name, value);
 }
 
 void describe_partner(const fs::path& file) {

@@ -178,9 +178,10 @@ std::string difference_of(const Session& session, const Run& run) {
     std::ostringstream text;
     text << session.file().string() << ": " << run.name << " differs from the recording in "
          << run.comparison.differing() << " of " << session.rows() << " ticks, first in tick "
-         << first.tick << " at " << first.t_s << " s: proxy " << text_of(first.proxy)
-         << " instead of " << text_of(first.recorded_proxy) << ", force sent "
-         << text_of(first.sent_newton) << " instead of " << text_of(first.recorded_newton);
+         << session.count_of(first.tick) << " at " << first.t_s - session.begin_s() << " s: proxy "
+         << text_of(first.proxy) << " instead of " << text_of(first.recorded_proxy)
+         << ", force sent " << text_of(first.sent_newton) << " instead of "
+         << text_of(first.recorded_newton);
     if (session.missing() > 0) {
         text << "; " << session.missing()
              << " ticks are missing in it, so that it cannot be "

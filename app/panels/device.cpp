@@ -78,7 +78,7 @@ void draw_device_panel(ViewerState& state) {
         draw_falcon_state(state);
     } else {
         fact_row("Device", state.falcon ? "mouse" : state.device.name);
-        if (state.falcon) quiet_text("A Novint Falcon takes over as soon as it is plugged in.");
+        if (state.falcon) quiet_text("A force device takes over as soon as it is plugged in.");
     }
     fact_row("State", state_text(state));
     draw_force_switch(state, -1.0F);

@@ -96,7 +96,7 @@ std::string place_text(const ViewerState& state) {
     if (state.replay) {
         const SessionPlayback& at = state.replay->playback;
         return clock_text(at.now_s - at.begin_s) + " of " + clock_text(at.end_s - at.begin_s) +
-               ", tick " + std::to_string(state.replay->tick.tick);
+               ", tick " + std::to_string(state.replay->tick_count);
     }
     const PlaybackStatus& at = state.playback;
     return clock_text(at.media_s) + " of " + clock_text(at.duration_s) + ", frame " +

@@ -29,7 +29,7 @@ void draw_about(const ReplayNews& replay) {
 void draw_moment(const ViewerState& state) {
     const ReplayNews& replay = *state.replay;
     const Touch& touch = state.haptic.touch;
-    fact_row("Tick", std::to_string(replay.tick.tick));
+    fact_row("Tick", std::to_string(replay.tick_count));
     fact_row("Video", replay.tick.surface ? clock_text(replay.tick.video_s) + ", frame " +
                                                 std::to_string(replay.tick.frames.from_frame + 1)
                                           : "no surface");

@@ -211,6 +211,7 @@ struct ReplayNews {
     std::vector<SessionMark> marks{};  ///< times as the ticks'
     SessionPlayback playback{};
     TickRecord tick{};                     ///< as recorded
+    std::int64_t tick_count{0};            ///< its number as people count: from 0
     bool computes{false};                  ///< other parameters were chosen
     bool computed{false};                  ///< what is shown was computed through them
     const ContactBand* contacts{nullptr};  ///< null: not yet summed up

@@ -42,7 +42,7 @@ constexpr KeyJob kJobs[] = {
     {Action::centre_workspace,
      "centre-workspace",
      kTouch,
-     "Centre the Falcon's hand in the image",
+     "Centre the device's hand in the image",
      {"C"}},
     while_typing({Action::record, "record", kTouch, "Record what is touched, stop", {"Ctrl+R"}}),
     {Action::toggle_sound, "toggle-sound", kTouch, "Sound of touch off, on", {"U"}},

@@ -112,6 +112,7 @@ void ViewerReplay::advance(ViewerState& state) {
 void ViewerReplay::show(const SessionMoment& moment, ViewerState& state) {
     const TickRecord& tick = moment.tick;
     state.replay->tick = tick;
+    state.replay->tick_count = moment.count;
     state.replay->computed = moment.computed.has_value();
     state.haptic.touch = touch_of(moment);
     state.haptic.touchable = tick.surface;

@@ -88,6 +88,7 @@ class SessionMoments {
         if (replay_->frames()) frames_ = replay_->frames();
         SessionMoment moment;
         moment.tick = tick;
+        moment.count = opened_.session.count_of(tick.tick);
         moment.frames = frames_;
         moment.parameters = opened_.session.parameters_of(tick.settings);
         if (moment.parameters != nullptr) moment.bump = opened_.frames.bump(*moment.parameters);

@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <future>
@@ -33,6 +34,7 @@ struct OpenedSession {
 /// One tick, and what was seen and felt in it.
 struct SessionMoment {
     TickRecord tick{};
+    std::int64_t count{0};                          ///< of the tick, as people count: from 0
     std::shared_ptr<const TouchedFrames> frames{};  ///< the last there were; null before the first
     const SessionParameters* parameters{nullptr};   ///< the session's; null: not known
     std::shared_ptr<const BumpMap> bump{};

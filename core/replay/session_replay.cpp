@@ -62,7 +62,7 @@ void SessionReplay::take_parameters() {
     parameters_ = session_.parameters_of(tick_.settings);
     if (parameters_ == nullptr) {
         throw InputError(session_.file().string() + ": does not say with which parameters tick " +
-                         std::to_string(tick_.tick) +
+                         std::to_string(session_.count_of(tick_.tick)) +
                          " was felt; it can be exported, but not replayed");
     }
     bump_ = frames_.bump(*parameters_);
@@ -77,7 +77,7 @@ void SessionReplay::take_frames() {
     if (touched_ && pair_ == wanted) return;
     if (session_.source_of(wanted.source) == nullptr) {
         throw InputError(session_.file().string() + ": does not say which video tick " +
-                         std::to_string(tick_.tick) +
+                         std::to_string(session_.count_of(tick_.tick)) +
                          " touched; it can be exported, but not replayed");
     }
     // Mostly, the frame that was blended into is the next one to start from.
@@ -86,7 +86,7 @@ void SessionReplay::take_frames() {
     Frame to = wanted.to_s == wanted.from_s ? from : frames_.frame(wanted.source, wanted.to_s);
     if (!DepthBlend{&from, &to}.makes_surface()) {
         throw InputError(session_.file().string() + ": the frames at tick " +
-                         std::to_string(tick_.tick) +
+                         std::to_string(session_.count_of(tick_.tick)) +
                          " make no surface; give back the video that was recorded");
     }
     touched_ = std::make_shared<const TouchedFrames>(TouchedFrames{std::move(from), std::move(to)});

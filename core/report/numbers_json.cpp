@@ -87,9 +87,9 @@ Json media_json(const SessionMedia& media) {
             {"sha256", media.sha256.empty() ? Json() : Json(utf8_text(media.sha256))}};
 }
 
-Json source_json(const SessionSource& source) {
+Json source_json(const Session& session, const SessionSource& source) {
     Json json{{"media", source.source.media},
-              {"first_tick", source.first_tick},
+              {"first_tick", session.count_of(source.first_tick)},
               {"colour", media_json(source.colour)},
               {"depth", media_json(source.depth)}};
     visit_cleaning(source.source, [&json](std::string_view name, const auto& fact) {
@@ -98,9 +98,9 @@ Json source_json(const SessionSource& source) {
     return json;
 }
 
-Json parameters_json(SessionParameters parameters) {
+Json parameters_json(const Session& session, SessionParameters parameters) {
     Json json{{"version", parameters.version},
-              {"first_tick", parameters.first_tick},
+              {"first_tick", session.count_of(parameters.first_tick)},
               {"algorithm", name_of(parameters.touch.algorithm)}};
     visit_numbers(parameters, [&json](std::string_view column, double number) {
         json[std::string(column)] = number;
@@ -164,10 +164,13 @@ std::string json_of(const SessionReport& report) {
          {"ticks", ticks_json(numbers.ticks)},
          {"episodes", episodes_json(report)},
          {"heat_maps", list_of(report.maps, map_json)},
-         {"parameters", list_of(session.parameters(), parameters_json)},
-         {"sources", list_of(session.sources(), source_json)},
+         {"parameters",
+          list_of(session.parameters(),
+                  [&](const SessionParameters& p) { return parameters_json(session, p); })},
+         {"sources", list_of(session.sources(),
+                             [&](const SessionSource& s) { return source_json(session, s); })},
          {"marks", list_of(session.marks(), mark_json)},
-         {"facts", texts_json(session.facts())},
+         {"facts", texts_json(facts_of_hand(session.facts(), hand_of(numbers.ticks)))},
          {"definitions", texts_json(meanings)}});
 }
 

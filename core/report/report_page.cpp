@@ -298,9 +298,8 @@ std::string files_section(const SessionReport& report) {
 std::string facts_section(const SessionReport& report) {
     std::vector<Cells> rows{{"file", html_text(report.session.file().filename().string())},
                             {"ticks", std::to_string(report.session.rows())}};
-    const TickCounts& ticks = report.numbers.ticks;
-    const HandTicks hand{ticks.all - ticks.without_surface, ticks.stand_in};
-    for (const auto& [key, value] : report.session.facts()) {
+    const HandTicks hand = hand_of(report.numbers.ticks);
+    for (const auto& [key, value] : facts_of_hand(report.session.facts(), hand)) {
         if (key == "note" || key == "participant") continue;
         const std::string text = key == "device" ? device_text(value, hand) : value;
         rows.push_back({html_text(key), "<span class=\"text\">" + html_text(text) + "</span>"});

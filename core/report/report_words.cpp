@@ -39,6 +39,10 @@ std::string milliseconds(double seconds) {
     return number_text(1000.0 * seconds, 0) + " ms";
 }
 
+bool is_mouse_alone(const HandTicks& hand) {
+    return hand.stand_in > 0 && hand.stand_in >= hand.all;
+}
+
 }  // namespace
 
 std::string percent_text(double share) {
@@ -96,7 +100,8 @@ std::vector<std::string> remarks_of(const SessionReport& report) {
     say(ticks.missing, " between the first and the last were not recorded.");
     say(ticks.without_surface, " had no surface to touch.");
     say(ticks.device_not_ready, " had no device that was ready.");
-    say(ticks.stand_in, " were the mouse's, for a device that was not ready.");
+    say(is_mouse_alone(hand_of(ticks)) ? 0 : ticks.stand_in,
+        " were the mouse's, for a device that was not ready.");
     say(ticks.goal_refused, " had a place of the hand that was no number; the one before stood.");
     say(ticks.catching_up, " ended before the proxy had caught up with its goal.");
     say(ticks.late, " began late, a millisecond or more after the deadline; the worst " +
@@ -164,12 +169,25 @@ std::vector<Definition> definitions() {
 
 std::string device_text(const std::string& device, const HandTicks& hand) {
     if (hand.stand_in <= 0) return device;
-    if (hand.stand_in >= hand.all) return "mouse";
+    if (is_mouse_alone(hand)) return "mouse";
     constexpr double kLeast = 0.1;  // percent; not none, and not all
     const double percent =
         100.0 * static_cast<double>(hand.stand_in) / static_cast<double>(hand.all);
     return device + "; the mouse stood in for " +
            number_text(std::clamp(percent, kLeast, 100.0 - kLeast), 1) + " % of the ticks";
+}
+
+HandTicks hand_of(const TickCounts& ticks) {
+    return {ticks.all - ticks.without_surface, ticks.stand_in};
+}
+
+SessionFacts facts_of_hand(SessionFacts facts, const HandTicks& hand) {
+    if (!is_mouse_alone(hand)) return facts;
+    std::erase_if(facts, [](const auto& fact) {
+        return fact.first.starts_with("falcon-") || fact.first.starts_with("device-");
+    });
+    if (const auto device = facts.find("device"); device != facts.end()) device->second = "mouse";
+    return facts;
 }
 
 }  // namespace dibhr

@@ -36,4 +36,11 @@ struct Definition {
 /// "Novint Falcon 1234; the mouse stood in for 37.2 % of the ticks". At least 0.1 % if any.
 [[nodiscard]] std::string device_text(const std::string& device, const HandTicks& hand);
 
+/// Of a session's ticks.
+[[nodiscard]] HandTicks hand_of(const TickCounts& ticks);
+
+/// Of a session: without what is said of a device that nobody touched with, where the mouse stood
+/// in for all of it.
+[[nodiscard]] SessionFacts facts_of_hand(SessionFacts facts, const HandTicks& hand);
+
 }  // namespace dibhr

@@ -148,8 +148,6 @@ class TouchedPlaces {
 /// A tick stands for the time until the next one, and for no more than this: a program that was
 /// stopped did not touch (as SafetyLimits::max_tick_s, after which there is no force).
 inline constexpr double kLongestTick_s = 0.020;
-/// A tick that begins so much after its deadline is late: a whole period, as in the loop itself.
-inline constexpr double kLate_us = 1000.0;
 
 inline constexpr std::size_t kSafetyCuts = static_cast<std::size_t>(kLastSafetyCut) + 1;
 

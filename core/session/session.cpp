@@ -313,6 +313,12 @@ HandTicks hand_ticks(const SessionReader& reader) {
     return {query.integer(0), query.integer(1)};
 }
 
+std::int64_t late_ticks(const SessionReader& reader) {
+    SessionReader::Query query(
+        reader, "SELECT sum(lateness_us >= " + std::to_string(kLate_us) + ") FROM tick");
+    return query.next() ? query.integer(0) : 0;
+}
+
 Session::Ticks::Ticks(const Session& session)
     : query_(session.reader_, ticks_from(session.reader_, session.first_tick_)) {}
 

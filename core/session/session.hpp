@@ -50,6 +50,11 @@ class Session {
     /// How many ticks are missing between the first and the last.
     [[nodiscard]] std::int64_t missing() const noexcept { return missing_; }
 
+    /// As people count: from 0, the session's first one.
+    [[nodiscard]] std::int64_t count_of(std::int64_t tick) const noexcept {
+        return tick - first_tick_;
+    }
+
     /// For questions of one's own to the tables that README.md describes.
     [[nodiscard]] const SessionReader& reader() const noexcept { return reader_; }
 
@@ -88,6 +93,11 @@ struct HandTicks {
 
 /// Looks at every tick. Throws InputError for a damaged file.
 [[nodiscard]] HandTicks hand_ticks(const SessionReader& reader);
+
+/// A tick that begins so much after its deadline is late: a whole period, as in the loop itself.
+inline constexpr double kLate_us = 1000.0;
+/// How many were. Looks at every tick. Throws InputError for a damaged file.
+[[nodiscard]] std::int64_t late_ticks(const SessionReader& reader);
 
 /// The ticks in order of time; must not outlive its session.
 class Session::Ticks {

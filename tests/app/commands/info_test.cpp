@@ -113,6 +113,33 @@ TEST_CASE("info describes a session file", "[info]") {
     CHECK(names_in(folder.path()) == std::vector<std::string>{"mine.dibhr"});
 }
 
+TEST_CASE("info says of a session what people want to know first", "[info]") {
+    const TemporaryFolder folder;
+    write_depth_png(folder / "color.png", 64, 48, 20, 3);
+    write_depth_png(folder / "depth.png", 32, 24, 100, 1);
+    record_session(folder / "mine.dibhr",
+                   {.colour = folder / "color.png", .depth = folder / "depth.png"});
+    run_shell(folder,
+              "sqlite3 mine.dibhr \"INSERT OR REPLACE INTO session VALUES('algorithm', 'dibhr'), "
+              "('stiffness', '0.5'), ('device', 'mouse'), ('a-fact', 'of no interest'); "
+              "UPDATE tick_data SET lateness = 0; "
+              "UPDATE tick_data SET lateness = 1500000 WHERE tick % 100 = 3\"");
+    const ProgramResult result = run_dibhr(folder, {"info", "mine.dibhr"});
+    INFO(result.output << result.errors);
+    REQUIRE(result.exit_code == 0);
+    CHECK(says(result, "late ticks        10\n"));
+    std::size_t last = 0;
+    for (const std::string name : {"colour", "depth", "started", "duration", "ticks", "late ticks",
+                                   "device", "algorithm", "stiffness", "a-fact", "row_count"}) {
+        CAPTURE(name);
+        const std::size_t at = result.output.find("\n  " + name + " ");
+        REQUIRE(at != std::string::npos);
+        CHECK(at > last);
+        CHECK(result.output.find("\n  " + name + " ", at + 1) == std::string::npos);  // said once
+        last = at;
+    }
+}
+
 TEST_CASE("info says for how much of a session the mouse stood in", "[info]") {
     const int stand_in = GENERATE(0, 1, 372, 1000);
     const TemporaryFolder folder;

@@ -260,6 +260,10 @@ TEST_CASE("a result that is not the recorded one is told, with where it begins",
     CHECK(is_one_line(result.errors));
     CHECK(contains(result.errors, "mine.dibhr: dibhr differs from the recording in 1 of 1000"));
     CHECK(contains(result.errors, "first in tick "));
+
+    // Ticks and times are counted from the session's first, wherever the loop's began.
+    run_shell(folder, "sqlite3 mine.dibhr 'UPDATE tick_data SET tick = tick + 5000, t = t + 40'");
+    CHECK(run_dibhr(folder, {"replay", "mine.dibhr"}).errors == result.errors);
 }
 
 TEST_CASE("a difference is told with the libraries that are not those of the recording",

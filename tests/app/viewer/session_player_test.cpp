@@ -257,6 +257,19 @@ TEST_CASE("the recorded parameters, computed again, give the recorded bits; othe
     CHECK_FALSE(arrival(player).computed);
 }
 
+TEST_CASE("people count ticks from 0, the session's first, wherever the loop's began", "[player]") {
+    const Recorded recorded;
+    run_shell(recorded.folder, "sqlite3 mine.dibhr 'UPDATE tick_data SET tick = tick + 5000'");
+    SessionPlayer player(recorded.open());
+    player.set_speed(4.0);
+    std::int64_t count = 0;
+    for (const SessionMoment& moment : play_to_end(player)) {
+        REQUIRE(moment.count == count++);
+        REQUIRE(moment.tick.tick == moment.count + 5000);
+    }
+    CHECK(count == static_cast<std::int64_t>(recorded.ticks().size()));
+}
+
 TEST_CASE("beside other parameters the recorded algorithm's proxy is where it was recorded",
           "[player]") {
     const Recorded recorded;

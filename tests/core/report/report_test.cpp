@@ -240,6 +240,27 @@ TEST_CASE("the page says for how much of the session the mouse stood in", "[repo
     CHECK(json_at(folder / "out/report.json", "$.facts.device") == "Novint Falcon 1234");
 }
 
+TEST_CASE("of a session of the mouse alone the report speaks of no Falcon and of no stand-in",
+          "[report]") {
+    const TemporaryFolder folder;
+    MadeSession made = two_touches();
+    made.facts["device"] = "Novint Falcon";
+    made.facts["falcon-serial"] = "";
+    made.facts["device-max-stiffness"] = "1";
+    for (TickRecord& tick : made.ticks) tick.stand_in = true;
+    record(folder / "a.dibhr", made);
+    report(folder / "a.dibhr", folder / "out");
+    for (const char* const name : {"out/report.html", "out/report.json"}) {
+        const std::string text = read_text(folder / name);
+        CAPTURE(name);
+        CHECK(contains(text, "mouse"));
+        for (const char* const word : {"Falcon", "falcon", "stood in", "for a device"})
+            CHECK_FALSE(contains(text, word));
+    }
+    CHECK(json_at(folder / "out/report.json", "$.facts.device") == "mouse");
+    CHECK(json_at(folder / "out/report.json", "$.parameters[0].first_tick") == "0");
+}
+
 TEST_CASE("what speaks against a picture is said, and the picture stays", "[report]") {
     const TemporaryFolder folder;
     record(folder / "a.dibhr", two_touches());
