@@ -1,8 +1,8 @@
 // How the window looks: its theme and the size of its text, in pictures of the real window.
 #include <cstddef>
-#include <filesystem>
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 #include <vector>
 
