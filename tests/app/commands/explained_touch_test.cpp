@@ -59,16 +59,16 @@ std::string printed(double value) {
 }
 
 /// One output row by the names of its columns.
-using Row = std::map<std::string, std::string>;
+using OutputLine = std::map<std::string, std::string>;
 
-std::vector<Row> rows_of(const std::string& csv) {
+std::vector<OutputLine> output_of(const std::string& csv) {
     const std::vector<std::string> lines = split(csv, '\n');
     const std::vector<std::string> columns = split(lines.front(), ',');
-    std::vector<Row> rows;
+    std::vector<OutputLine> rows;
     for (std::size_t n = 1; n + 1 < lines.size(); ++n) {
         const std::vector<std::string> values = split(lines[n], ',');
         REQUIRE(values.size() == columns.size());
-        Row& row = rows.emplace_back();
+        OutputLine& row = rows.emplace_back();
         for (std::size_t c = 0; c < columns.size(); ++c) row[columns[c]] = values[c];
     }
     return rows;
@@ -101,13 +101,13 @@ std::size_t compare(const TemporaryFolder& folder, const std::filesystem::path& 
     const ProgramResult result = run_dibhr(folder, words);
     REQUIRE(result.exit_code == 0);
 
-    const std::vector<Row> rows = rows_of(result.output);
+    const std::vector<OutputLine> rows = output_of(result.output);
     REQUIRE(rows.size() == goals.size());
     Proxy proxy;
     proxy.position = goals.front();
     std::size_t steps = 0;
     for (std::size_t k = 1; k < rows.size(); ++k) {
-        Row row = rows[k];
+        OutputLine row = rows[k];
         CAPTURE(depth, k);
         const ExplainedUpdate explained = explain(surface, proxy, goals[k], friction);
         const Proxy& last =
