@@ -158,6 +158,26 @@ std::vector<Row> read_session(const fs::path& file) {
     return rows;
 }
 
+std::vector<double> held_moments(const std::vector<Row>& rows) {
+    constexpr double kLong_s = 0.25;
+    std::vector<double> held;
+    double since_s = 0.0;
+    double at_s = -1.0;
+    bool told = false;
+    for (const Row& row : rows) {
+        if (!row.surface) continue;
+        if (row.video_s < at_s || row.video_s > at_s) {
+            at_s = row.video_s;
+            since_s = row.t_s;
+            told = false;
+        } else if (!told && row.t_s - since_s > kLong_s) {
+            held.push_back(at_s);
+            told = true;
+        }
+    }
+    return held;
+}
+
 void run_shell(const std::string& command) {
     INFO(command);
     REQUIRE(std::system(command.c_str()) == 0);

@@ -81,6 +81,9 @@ struct Row {
 
 [[nodiscard]] std::vector<Row> read_session(const std::filesystem::path& file);
 
+/// Moments of the video that were held for longer than a quarter of a second, one after the other.
+[[nodiscard]] std::vector<double> held_moments(const std::vector<Row>& rows);
+
 /// Runs a command line in a shell; fails the test when it fails.
 void run_shell(const std::string& command);
 

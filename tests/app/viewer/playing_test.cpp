@@ -51,27 +51,6 @@ std::vector<Row> played(const std::vector<std::string>& options, const std::stri
     return read_session(folder / "hand.dibhr");
 }
 
-/// Moments of the video that were held for long, one after the other.
-std::vector<double> held_moments(const std::vector<Row>& rows) {
-    constexpr double kLong_s = 0.25;
-    std::vector<double> held;
-    double since_s = 0.0;
-    double at_s = -1.0;
-    bool told = false;
-    for (const Row& row : rows) {
-        if (!row.surface) continue;
-        if (row.video_s < at_s || row.video_s > at_s) {
-            at_s = row.video_s;
-            since_s = row.t_s;
-            told = false;
-        } else if (!told && row.t_s - since_s > kLong_s) {
-            held.push_back(at_s);
-            told = true;
-        }
-    }
-    return held;
-}
-
 }  // namespace
 
 TEST_CASE("arrows seek by 5, 1 and 60 seconds, Home and End to the start and the last second",

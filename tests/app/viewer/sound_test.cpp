@@ -16,6 +16,7 @@
 
 #include "app/sound/sound_output.hpp"
 #include "tests/app/program/desk.hpp"
+#include "tests/app/program/sound_file.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/eventually.hpp"
 #include "tests/support/text.hpp"
@@ -27,37 +28,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kRate_hz = 48'000;
 constexpr const char* kMeet = "search --sync --onlyvisible --name dibhr sleep 0.4 ";
 constexpr const char* kPress = "mousemove 400 560 sleep 1 mousedown 1 sleep 0.6 ";
-const std::vector<std::string> kIntoFile{"env", "SDL_AUDIODRIVER=disk",
-                                         "SDL_DISKAUDIOFILE=sound.raw"};
 
 std::string drag(int way) {
     std::string commands;
     for (int step = 0; step < 50; ++step)
         commands += "mousemove_relative -- " + std::to_string(way) + " 0 sleep 0.012 ";
     return commands;
-}
-
-std::vector<float> samples_of(const fs::path& file) {
-    const std::string bytes = read_text(file);
-    std::vector<float> samples(bytes.size() / sizeof(float));
-    std::memcpy(samples.data(), bytes.data(), samples.size() * sizeof(float));
-    return samples;
-}
-
-/// Of the samples whether each tenth of a second holds a sound.
-std::vector<bool> heard_tenths(const std::vector<float>& samples) {
-    std::vector<bool> heard;
-    for (std::size_t k = 0; k < samples.size(); k += kRate_hz / 10) {
-        const auto begin = samples.begin() + static_cast<std::ptrdiff_t>(k);
-        const auto end =
-            begin + std::min<std::ptrdiff_t>(kRate_hz / 10, std::distance(begin, samples.end()));
-        heard.push_back(
-            std::any_of(begin, end, [](float sample) { return std::abs(sample) > 1e-4F; }));
-    }
-    return heard;
 }
 
 /// Sets a variable of the environment for a while.
@@ -100,7 +78,7 @@ TEST_CASE("what is touched in the window is heard, and nothing once the force is
     Process viewer = desk.start_viewer(folder,
                                        {"--device", "mouse", "--material", "wood", "--pause",
                                         "--record", "hand.dibhr", "--seconds", "30"},
-                                       kIntoFile);
+                                       sounding_into_file());
     desk.act(kMeet + std::string(kPress) + drag(2));
     desk.act("key f sleep 0.3 " + drag(-2) + drag(2) + "key q");
     REQUIRE(viewer.wait() == 0);
@@ -128,7 +106,8 @@ TEST_CASE("a window that is muted opens no sound device until its key is pressed
     const Desk desk;
     const TemporaryFolder folder;
     Process viewer = desk.start_viewer(
-        folder, {"--device", "mouse", "--mute", "--seconds", "30", "--size", "640x480"}, kIntoFile);
+        folder, {"--device", "mouse", "--mute", "--seconds", "30", "--size", "640x480"},
+        sounding_into_file());
     desk.act(kMeet + std::string("sleep 1"));
     CHECK_FALSE(fs::exists(folder / "sound.raw"));
     CHECK(read_text(folder / "errors.txt").empty());
