@@ -37,11 +37,11 @@ const std::string kScrollPanels = "mousemove 1110 640 sleep 0.2 click --repeat 3
 // Where the buttons stand: the first one in the panels as they are at first, by a few pixels higher
 // or lower with the fonts, the others at their end.
 const std::string kBark = click(1063, 430);
-const std::string kReplayIt = click(1026, 707);
-const std::string kReport = click(1182, 707);
+const std::string kReplayIt = click(1026, 680);
+const std::string kReport = click(1182, 680);
 const std::string kFrictionToZero =
-    "mousemove 1121 437 sleep 0.3 mousedown 1 sleep 0.3 mousemove 1090 437 sleep 0.3 "
-    "mousemove 1040 437 sleep 0.3 mouseup 1 ";
+    "mousemove 1121 414 sleep 0.3 mousedown 1 sleep 0.3 mousemove 1090 414 sleep 0.3 "
+    "mousemove 1040 414 sleep 0.3 mouseup 1 ";
 const std::string kOpenLastOfFolder =
     "key Escape key ctrl+o sleep 0.8 key --repeat 12 --delay 30 Down sleep 0.3 key Return ";
 const std::string kPress = "mousemove 300 420 sleep 0.6 mousedown 1 sleep 0.4 ";
