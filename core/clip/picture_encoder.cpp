@@ -118,8 +118,8 @@ void PictureEncoder::Free::operator()(SwsContext* scaler) const {
 }
 
 PictureEncoder::PictureEncoder(int columns, int rows)
-    : frame_(av_frame_alloc()), packet_(av_packet_alloc()) {
-    if (frame_ == nullptr || packet_ == nullptr) throw std::bad_alloc();
+    : picture_(av_frame_alloc()), frame_(av_frame_alloc()), packet_(av_packet_alloc()) {
+    if (picture_ == nullptr || frame_ == nullptr || packet_ == nullptr) throw std::bad_alloc();
     for (const char* const name : kEncoders)
         if (codec_ == nullptr) codec_.reset(opened(name, even(columns), even(rows)));
     if (codec_ == nullptr) {
@@ -136,6 +136,23 @@ PictureEncoder::PictureEncoder(int columns, int rows)
 
 PictureEncoder::~PictureEncoder() = default;
 
+/// Where the scaler may read it, which takes whole vectors: beyond a row's end, and beyond the last
+/// one's.
+const AVFrame& PictureEncoder::padded(const ColourImage& picture) {
+    AVFrame& frame = *picture_;
+    if (frame.width != picture.columns || frame.height != picture.rows) {
+        av_frame_unref(&frame);
+        frame.format = AV_PIX_FMT_RGB24;
+        frame.width = picture.columns;
+        frame.height = picture.rows;
+        if (av_frame_get_buffer(&frame, 0) < 0) throw std::bad_alloc();
+    }
+    const int row = 3 * picture.columns;
+    av_image_copy_plane(frame.data[0], frame.linesize[0], picture.rgb.data(), row, row,
+                        picture.rows);
+    return frame;
+}
+
 /// Draws the picture into frame_.
 void PictureEncoder::place(const ColourImage& picture) {
     AVFrame& frame = *frame_;
@@ -149,16 +166,14 @@ void PictureEncoder::place(const ColourImage& picture) {
     const int* const colours = sws_getCoefficients(SWS_CS_ITU709);
     constexpr int kOne = 1 << 16;
     sws_setColorspaceDetails(scaler_.get(), colours, 1, colours, 0, 0, kOne, kOne);
-    const std::array<const std::uint8_t*, 4> from{picture.rgb.data()};
-    const std::array<int, 4> from_stride{3 * picture.columns};
+    const AVFrame& from = padded(picture);
     const auto start = [&](std::size_t plane, int subsampling) {
         return frame.data[plane] +
                std::ptrdiff_t{frame.linesize[plane]} * (place.top / subsampling) +
                place.left / subsampling;
     };
     const std::array<std::uint8_t*, 4> to{start(0, 1), start(1, 2), start(2, 2)};
-    sws_scale(scaler_.get(), from.data(), from_stride.data(), 0, picture.rows, to.data(),
-              frame.linesize);
+    sws_scale(scaler_.get(), from.data, from.linesize, 0, from.height, to.data(), frame.linesize);
 }
 
 void PictureEncoder::encode(const ColourImage& picture, std::int64_t shown_ms, const Sink& sink) {

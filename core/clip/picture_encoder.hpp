@@ -38,6 +38,7 @@ class PictureEncoder {
     [[nodiscard]] const AVCodecContext& codec() const { return *codec_; }
 
   private:
+    const AVFrame& padded(const ColourImage& picture);
     void place(const ColourImage& picture);
     void take_packets(const Sink& sink);
 
@@ -49,7 +50,8 @@ class PictureEncoder {
         void operator()(SwsContext* scaler) const;
     };
     std::unique_ptr<AVCodecContext, Free> codec_;
-    std::unique_ptr<AVFrame, Free> frame_;
+    std::unique_ptr<AVFrame, Free> picture_;  // as it came
+    std::unique_ptr<AVFrame, Free> frame_;    // as it is encoded
     std::unique_ptr<AVPacket, Free> packet_;
     std::unique_ptr<SwsContext, Free> scaler_{};
 };

@@ -33,7 +33,7 @@ TEST_CASE("threads of the program race for nothing while a hand touches and is r
     const TemporaryFolder folder;
     write_press(folder / "goals.csv");
     Process viewer = desk.start_viewer(
-        folder, {"--device", "goals:goals.csv", "--record", "touch.dibhr", "--seconds", "5"});
+        folder, {"--device", "goals:goals.csv", "--record", "touch.dibhr", "--seconds", "10"});
     CHECK(viewer.wait() == 0);  // 66 after a report
     CHECK(read_text(folder / "errors.txt") == "");
     const auto rows = read_session(folder / "touch.dibhr");
