@@ -17,6 +17,9 @@ constexpr std::size_t kMostVerticesSoftware = 50'000;  // llvmpipe: 0.15 us a tr
 constexpr std::size_t kMostDetail = 1'000'000;         // of the images that outlines follow
 constexpr int kMostColourSideSoftware = 2048;          // an upload costs processor time there
 constexpr double kGroundDepth = 0.03;                  // of the image's width, below level 0
+// As dark, or as light, as the wall behind it: a line around the picture would be seen first.
+constexpr glm::vec3 kDarkSide{0.125F, 0.130F, 0.140F};
+constexpr glm::vec3 kLightSide{0.64F, 0.65F, 0.67F};
 
 enum Unit : GLint {
     kDepthFromUnit,
@@ -188,6 +191,7 @@ const ShaderProgram& ReliefPass::prepared(const Variant& variant, const SceneCon
     program->set("unseen", kUnseenUnit);
     program->set("bump", kBumpUnit);
     program->set("heights", kHeightsUnit);
+    program->set("side", content.light_wall ? kLightSide : kDarkSide);
     program->set("colour", kColourUnit);
     program->set("blend", static_cast<float>(std::clamp(content.depth.blend, 0.0, 1.0)));
     program->set("px_per_level", static_cast<float>(content.shape.relief_px / image.highest_level));

@@ -25,13 +25,13 @@ uniform sampler2D colour;  // BY_DEPTH: one row, from far to near
 uniform float relief_px;
 uniform int detail_step;
 uniform ivec2 image;
+uniform vec3 side;  // WALL: its colour in full light
 uniform vec4 dent;  // column, row, radius [px]
 uniform float shadow;  // of the proxy, where it is on the surface; 0: none
 
 out vec4 pixel;
 
 const vec3 kClay = vec3(0.70, 0.66, 0.61);
-const vec3 kWall = vec3(0.125, 0.130, 0.140);
 const float kBackside = 0.35;  // seen from behind, as through a gap
 const float kShadowReach = 1.3;  // of the dent's radius
 
@@ -64,7 +64,7 @@ vec3 not_seen(vec3 body) {
 
 void main() {
 #ifdef WALL
-    pixel = vec4(kWall * (0.45 + 0.55 * shade), 1.0);
+    pixel = vec4(side * (0.45 + 0.55 * shade), 1.0);
 #else
 #ifdef RIM
     vec2 at = in_detail(textureSize(detail_from, 0));
