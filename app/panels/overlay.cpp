@@ -21,16 +21,10 @@ namespace dibhr {
 
 namespace {
 
-ImU32 with_alpha(ImGuiCol colour, float alpha) {
-    ImVec4 value = ImGui::GetStyleColorVec4(colour);
-    value.w *= alpha;
-    return ImGui::GetColorU32(value);
-}
-
 void draw_ground(ImVec2 low, ImVec2 size, float alpha,
                  ImDrawList& list = *ImGui::GetBackgroundDrawList()) {
-    list.AddRectFilled(low, {low.x + size.x, low.y + size.y}, with_alpha(ImGuiCol_PopupBg, alpha),
-                       5.0F);
+    list.AddRectFilled(low, {low.x + size.x, low.y + size.y},
+                       ImGui::GetColorU32(ImGuiCol_PopupBg, alpha), 5.0F);
 }
 
 /// Text on a rounded ground, so that it can be read over any picture; broken into lines that wide
@@ -42,7 +36,8 @@ float label(const std::string& text, ImVec2 low, float alpha, float widest = 0.0
     const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
     draw_ground(low, {size.x + 2.0F * pad.x, size.y + 2.0F * pad.y}, 0.8F * alpha, list);
     list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {low.x + pad.x, low.y + pad.y},
-                 with_alpha(ImGuiCol_Text, alpha), text.c_str(), nullptr, std::max(wrap, 0.0F));
+                 ImGui::GetColorU32(ImGuiCol_Text, alpha), text.c_str(), nullptr,
+                 std::max(wrap, 0.0F));
     return size.y + 2.0F * pad.y;
 }
 
@@ -58,8 +53,8 @@ void draw_banner(const ViewerState& state, const std::string& text) {
     draw_ground({low.x - pad.x, low.y - pad.y}, {size.x + 2.0F * pad.x, size.y + 2.0F * pad.y},
                 0.88F);
     ImGui::GetBackgroundDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(), low,
-                                            with_alpha(ImGuiCol_Text, 1.0F), text.c_str(), nullptr,
-                                            wrap);
+                                            ImGui::GetColorU32(ImGuiCol_Text), text.c_str(),
+                                            nullptr, wrap);
 }
 
 void centred_label(const ViewerState& state, const std::string& text, float lines_above_bar,
@@ -261,7 +256,7 @@ float draw_legend(const ViewerState& state, float margin) {
     const ImVec2 low{room - inner - 2.0F * margin, panes_height(state) + 4.0F * margin};
     draw_ground(low, {inner + margin, height + 3.5F * line}, 0.8F);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    const ImU32 text = with_alpha(ImGuiCol_Text, 1.0F);
+    const ImU32 text = ImGui::GetColorU32(ImGuiCol_Text);
     const float left = low.x + 0.5F * margin;
     const float top = low.y + 2.2F * line;
     list.AddText({left, low.y + 0.4F * line}, text, legend.unit.c_str());

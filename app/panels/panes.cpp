@@ -10,9 +10,8 @@ namespace dibhr {
 
 namespace {
 
-constexpr float kPaneGap = 6.0F;        // layout pixels
-constexpr float kMostOfHeight = 0.36F;  // the relief keeps the larger part
-constexpr ImU32 kUnderPanes = IM_COL32(20, 21, 24, 255);
+constexpr float kPaneGap = 6.0F;                          // layout pixels
+constexpr float kMostOfHeight = 0.36F;                    // the relief keeps the larger part
 constexpr ImU32 kProxyDot = IM_COL32(64, 156, 255, 255);  // as the ball on the relief
 constexpr ImU32 kRoundMark = IM_COL32(0, 0, 0, 200);
 constexpr ImU32 kPointerMark = IM_COL32(255, 255, 255, 230);
@@ -66,7 +65,8 @@ void draw_pane(const ViewerState& state, const PaneRect& pane, std::uintptr_t te
     const ImVec2 pad = ImGui::GetStyle().FramePadding;
     const ImVec2 text = ImGui::CalcTextSize(name);
     const ImVec2 ground{pane.low.x + text.x + 2.0F * pad.x, high.y - text.y - pad.y};
-    list.AddRectFilled({pane.low.x, ground.y}, {ground.x, high.y}, IM_COL32(12, 13, 15, 170));
+    list.AddRectFilled({pane.low.x, ground.y}, {ground.x, high.y},
+                       ImGui::GetColorU32(ImGuiCol_PopupBg, 0.7F));
     list.AddText({pane.low.x + pad.x, ground.y + 0.5F * pad.y}, ImGui::GetColorU32(ImGuiCol_Text),
                  name);
     list.PopClipRect();
@@ -105,7 +105,7 @@ void draw_panes(const ViewerState& state) {
     if (!shows_panes(state)) return;
     const float room = state.window_width - panel_column_width(state);
     ImGui::GetBackgroundDrawList()->AddRectFilled({0.0F, 0.0F}, {room, panes_height(state)},
-                                                  kUnderPanes);
+                                                  ImGui::GetColorU32(ImGuiCol_WindowBg));
     const std::array<PaneRect, 2> panes = pane_rects(state);
     draw_pane(state, panes[0], state.panes.colour, "Colour");
     draw_pane(state, panes[1], state.panes.depth,

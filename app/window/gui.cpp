@@ -75,6 +75,7 @@ void set_colours(ImGuiStyle& style, Theme theme) {
     colours[ImGuiCol_FrameBgHovered] = grey({0.22F, 0.82F});
     colours[ImGuiCol_FrameBgActive] = grey({0.25F, 0.78F});
     colours[ImGuiCol_Header] = grey({0.14F, 0.88F});
+    colours[ImGuiCol_TableHeaderBg] = grey({0.17F, 0.86F});
     colours[ImGuiCol_HeaderHovered] = grey({0.19F, 0.83F});
     colours[ImGuiCol_HeaderActive] = grey({0.22F, 0.80F});
     colours[ImGuiCol_Button] = grey({0.20F, 0.81F});
