@@ -17,9 +17,12 @@ constexpr ImU32 kRingEdge = IM_COL32(0, 0, 0, 190);
 void draw_material_row(ViewerState& state) {
     std::vector<std::string> all = state.materials.shipped;
     all.insert(all.end(), state.materials.own.begin(), state.materials.own.end());
+    std::vector<std::string> spoken;
+    spoken.reserve(all.size());
+    for (const std::string& name : all) spoken.push_back(spoken_name(name));
     std::vector<const char*> names;
     names.reserve(all.size());
-    for (const std::string& name : all) names.push_back(name.c_str());
+    for (const std::string& name : spoken) names.push_back(name.c_str());
     Brush& brush = state.brush;
     int chosen = static_cast<int>(std::find(all.begin(), all.end(), brush.material) - all.begin());
     if (index_row("Made of", names, chosen,

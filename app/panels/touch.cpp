@@ -68,15 +68,9 @@ void draw_stability(ViewerState& state) {
                                : formatted("takes out %.1f mW", energy.taken_out_mw));
 }
 
-/// Of a material's file name, for a person.
-std::string spoken(std::string name) {
-    std::replace(name.begin(), name.end(), '-', ' ');
-    return capitalised(name);
-}
-
 /// One of the row, lit when it is the chosen one; where it does not fit, on the next line.
 void draw_material(ViewerState& state, const std::string& name, const char* help) {
-    const std::string label = spoken(name.empty() ? std::string(kAsRecorded) : name);
+    const std::string label = spoken_name(name.empty() ? std::string(kAsRecorded) : name);
     const ImGuiStyle& style = ImGui::GetStyle();
     const float width = ImGui::CalcTextSize(label.c_str()).x + 2.0F * style.FramePadding.x;
     if (!name.empty()) {  // not the first

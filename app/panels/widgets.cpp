@@ -379,6 +379,11 @@ std::string capitalised(std::string line) {
     return line;
 }
 
+std::string spoken_name(std::string name) {
+    std::replace(name.begin(), name.end(), '-', ' ');
+    return capitalised(std::move(name));
+}
+
 std::string formatted(const char* format, ...) {
     char text[512];
     std::va_list values;

@@ -176,6 +176,9 @@ Id texture_id(std::uintptr_t name) {
 /// A line for stderr as a sentence for the window: with a capital letter.
 std::string capitalised(std::string line);
 
+/// "as-recorded" as "As recorded": a file's name without its ending, for a person.
+[[nodiscard]] std::string spoken_name(std::string name);
+
 /// printf into a string.
 [[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
 
