@@ -77,15 +77,25 @@ struct Place {
     int left, top, columns, rows;
 };
 
-Place place_in(const AVFrame& frame, const ColourImage& picture) {
+Place place_in(const AVFrame& frame, const AVFrame& picture) {
     const double scale =
-        std::min(1.0 * frame.width / picture.columns, 1.0 * frame.height / picture.rows);
+        std::min(1.0 * frame.width / picture.width, 1.0 * frame.height / picture.height);
     const auto side = [scale](int pixels, int most) {
         return std::min(even(static_cast<int>(std::lround(scale * pixels))), most);
     };
-    const int columns = side(picture.columns, frame.width);
-    const int rows = side(picture.rows, frame.height);
+    const int columns = side(picture.width, frame.width);
+    const int rows = side(picture.height, frame.height);
     return {(frame.width - columns) / 2 & ~1, (frame.height - rows) / 2 & ~1, columns, rows};
+}
+
+/// With room beyond its rows and after the last one: the scaler reads and writes whole vectors.
+void give_buffer(AVFrame& frame, AVPixelFormat format, int columns, int rows) {
+    if (frame.width == columns && frame.height == rows) return;
+    av_frame_unref(&frame);
+    frame.format = format;
+    frame.width = columns;
+    frame.height = rows;
+    if (av_frame_get_buffer(&frame, 0) < 0) throw std::bad_alloc();
 }
 
 void paint_black(AVFrame& frame) {
@@ -118,8 +128,11 @@ void PictureEncoder::Free::operator()(SwsContext* scaler) const {
 }
 
 PictureEncoder::PictureEncoder(int columns, int rows)
-    : picture_(av_frame_alloc()), frame_(av_frame_alloc()), packet_(av_packet_alloc()) {
-    if (picture_ == nullptr || frame_ == nullptr || packet_ == nullptr) throw std::bad_alloc();
+    : picture_(av_frame_alloc()),
+      scaled_(av_frame_alloc()),
+      frame_(av_frame_alloc()),
+      packet_(av_packet_alloc()) {
+    if (!picture_ || !scaled_ || !frame_ || !packet_) throw std::bad_alloc();
     for (const char* const name : kEncoders)
         if (codec_ == nullptr) codec_.reset(opened(name, even(columns), even(rows)));
     if (codec_ == nullptr) {
@@ -128,28 +141,31 @@ PictureEncoder::PictureEncoder(int columns, int rows)
                          " pixels: this libavcodec has neither an H.264 nor an MPEG-4 encoder for "
                          "it; install the distribution's full libavcodec");
     }
-    frame_->format = AV_PIX_FMT_YUV420P;
-    frame_->width = codec_->width;
-    frame_->height = codec_->height;
-    if (av_frame_get_buffer(frame_.get(), 0) < 0) throw std::bad_alloc();
+    give_buffer(*frame_, AV_PIX_FMT_YUV420P, codec_->width, codec_->height);
 }
 
 PictureEncoder::~PictureEncoder() = default;
 
-/// Where the scaler may read it, which takes whole vectors: beyond a row's end, and beyond the last
-/// one's.
-const AVFrame& PictureEncoder::padded(const ColourImage& picture) {
+/// The picture as it came, less its last row or column where their number is odd.
+const AVFrame& PictureEncoder::copied(const ColourImage& picture) {
     AVFrame& frame = *picture_;
-    if (frame.width != picture.columns || frame.height != picture.rows) {
-        av_frame_unref(&frame);
-        frame.format = AV_PIX_FMT_RGB24;
-        frame.width = picture.columns;
-        frame.height = picture.rows;
-        if (av_frame_get_buffer(&frame, 0) < 0) throw std::bad_alloc();
-    }
-    const int row = 3 * picture.columns;
-    av_image_copy_plane(frame.data[0], frame.linesize[0], picture.rgb.data(), row, row,
-                        picture.rows);
+    give_buffer(frame, AV_PIX_FMT_RGB24, even(picture.columns), even(picture.rows));
+    av_image_copy_plane(frame.data[0], frame.linesize[0], picture.rgb.data(), 3 * picture.columns,
+                        3 * frame.width, frame.height);
+    return frame;
+}
+
+const AVFrame& PictureEncoder::scaled(const AVFrame& from, int columns, int rows) {
+    AVFrame& frame = *scaled_;
+    give_buffer(frame, AV_PIX_FMT_YUV420P, columns, rows);
+    scaler_.reset(sws_getCachedContext(scaler_.release(), from.width, from.height, AV_PIX_FMT_RGB24,
+                                       columns, rows, AV_PIX_FMT_YUV420P, SWS_BILINEAR, nullptr,
+                                       nullptr, nullptr));
+    if (scaler_ == nullptr) throw cannot_encode();
+    const int* const colours = sws_getCoefficients(SWS_CS_ITU709);
+    constexpr int kOne = 1 << 16;
+    sws_setColorspaceDetails(scaler_.get(), colours, 1, colours, 0, 0, kOne, kOne);
+    sws_scale(scaler_.get(), from.data, from.linesize, 0, from.height, frame.data, frame.linesize);
     return frame;
 }
 
@@ -157,23 +173,18 @@ const AVFrame& PictureEncoder::padded(const ColourImage& picture) {
 void PictureEncoder::place(const ColourImage& picture) {
     AVFrame& frame = *frame_;
     if (av_frame_make_writable(&frame) < 0) throw std::bad_alloc();
-    const Place place = place_in(frame, picture);
+    const AVFrame& from = copied(picture);
+    const Place place = place_in(frame, from);
+    const AVFrame& placed = scaled(from, place.columns, place.rows);
     if (place.columns != frame.width || place.rows != frame.height) paint_black(frame);
-    scaler_.reset(sws_getCachedContext(
-        scaler_.release(), picture.columns, picture.rows, AV_PIX_FMT_RGB24, place.columns,
-        place.rows, AV_PIX_FMT_YUV420P, SWS_BILINEAR, nullptr, nullptr, nullptr));
-    if (scaler_ == nullptr) throw cannot_encode();
-    const int* const colours = sws_getCoefficients(SWS_CS_ITU709);
-    constexpr int kOne = 1 << 16;
-    sws_setColorspaceDetails(scaler_.get(), colours, 1, colours, 0, 0, kOne, kOne);
-    const AVFrame& from = padded(picture);
-    const auto start = [&](std::size_t plane, int subsampling) {
-        return frame.data[plane] +
-               std::ptrdiff_t{frame.linesize[plane]} * (place.top / subsampling) +
-               place.left / subsampling;
-    };
-    const std::array<std::uint8_t*, 4> to{start(0, 1), start(1, 2), start(2, 2)};
-    sws_scale(scaler_.get(), from.data, from.linesize, 0, from.height, to.data(), frame.linesize);
+    for (std::size_t plane = 0; plane < 3; ++plane) {
+        const int subsampling = plane == 0 ? 1 : 2;
+        av_image_copy_plane(frame.data[plane] +
+                                std::ptrdiff_t{frame.linesize[plane]} * (place.top / subsampling) +
+                                place.left / subsampling,
+                            frame.linesize[plane], placed.data[plane], placed.linesize[plane],
+                            place.columns / subsampling, place.rows / subsampling);
+    }
 }
 
 void PictureEncoder::encode(const ColourImage& picture, std::int64_t shown_ms, const Sink& sink) {

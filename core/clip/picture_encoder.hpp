@@ -38,7 +38,8 @@ class PictureEncoder {
     [[nodiscard]] const AVCodecContext& codec() const { return *codec_; }
 
   private:
-    const AVFrame& padded(const ColourImage& picture);
+    const AVFrame& copied(const ColourImage& picture);
+    const AVFrame& scaled(const AVFrame& from, int columns, int rows);
     void place(const ColourImage& picture);
     void take_packets(const Sink& sink);
 
@@ -50,7 +51,8 @@ class PictureEncoder {
         void operator()(SwsContext* scaler) const;
     };
     std::unique_ptr<AVCodecContext, Free> codec_;
-    std::unique_ptr<AVFrame, Free> picture_;  // as it came
+    std::unique_ptr<AVFrame, Free> picture_;  // as it came, cut to even numbers
+    std::unique_ptr<AVFrame, Free> scaled_;   // as it is placed
     std::unique_ptr<AVFrame, Free> frame_;    // as it is encoded
     std::unique_ptr<AVPacket, Free> packet_;
     std::unique_ptr<SwsContext, Free> scaler_{};
