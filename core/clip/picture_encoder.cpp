@@ -188,6 +188,7 @@ void PictureEncoder::place(const ColourImage& picture) {
 }
 
 void PictureEncoder::encode(const ColourImage& picture, std::int64_t shown_ms, const Sink& sink) {
+    if (std::min(picture.columns, picture.rows) < 2) return;
     place(picture);
     frame_->pts = shown_ms;
     if (avcodec_send_frame(codec_.get(), frame_.get()) < 0) throw cannot_encode();

@@ -30,7 +30,8 @@ class PictureEncoder {
     PictureEncoder& operator=(const PictureEncoder&) = delete;
 
     /// A picture of another size is scaled into the video's, between black borders where it has
-    /// another shape. `shown_ms` is later than that of the picture before. Throws InputError.
+    /// another shape; one of less than 2 pixels a side, as of a window made that small, is left
+    /// out. `shown_ms` is later than that of the picture before. Throws InputError.
     void encode(const ColourImage& picture, std::int64_t shown_ms, const Sink& sink);
     /// Gives what is still on its way; nothing may be encoded afterwards.
     void drain(const Sink& sink);

@@ -13,6 +13,7 @@
 
 #include "core/haptics/depth_image.hpp"
 #include "core/haptics/surface.hpp"
+#include "core/haptics/surface_motion.hpp"
 #include "core/haptics/touch_maps.hpp"
 #include "core/video/cleaning/cleaning_options.hpp"
 
@@ -36,6 +37,8 @@ struct Frame {
     std::shared_ptr<const DepthImage> beneath{};
     /// What was painted on it; null: nothing.
     std::shared_ptr<const TouchMaps> maps{};
+    /// Of the depth image's pixels until the next frame; null: nothing is known of it.
+    std::shared_ptr<const MotionField> motion{};
     double time_s{0.0};        ///< on a playback timeline, which goes on across loops
     double media_s{0.0};       ///< presentation time in the file
     std::int64_t index{0};     ///< number of the frame in the file, from 0

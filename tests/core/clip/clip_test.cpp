@@ -182,6 +182,17 @@ TEST_CASE("a picture of another size keeps its shape, between black borders", "[
     }
 }
 
+TEST_CASE("a picture with nothing in it leaves the one before it", "[clip]") {
+    const TemporaryFolder folder;
+    const fs::path file = folder / "view.mp4";
+    const auto [columns, rows] = GENERATE(std::pair{0, 0}, std::pair{1, 90}, std::pair{90, 0});
+    ClipFile clip(file, ClipName::replaces);
+    clip.add(plain(160, 90, {20, 200, 20}), 0.0);
+    clip.add(plain(columns, rows, {200, 20, 20}), 0.1);
+    clip.finish(0.5, ClipEnd::well);
+    CHECK(last_picture(folder, file, 160, 90).level(80, 45, 1) > 180);
+}
+
 TEST_CASE("what is written of a clip plays before it is finished", "[clip]") {
     const TemporaryFolder folder;
     ClipFile clip(folder / "view.mp4", ClipName::replaces);
