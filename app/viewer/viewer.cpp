@@ -407,6 +407,7 @@ void Viewer::perform(Action action) {
     if (!answer) answer = explaining_.perform(action, state_, player_, replay);
     if (!answer && replay != nullptr) answer = perform_in_replay(action, *replay, state_.keys);
     if (!answer) answer = dibhr::perform(action, state_, player_);
+    state_.playback = player_.status();  // the next key of this picture goes on from here
     if (!answer->place && answer->words.empty()) return;
     tell(answer->words);
     state_.notice_of_place = answer->place;

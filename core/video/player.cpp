@@ -30,10 +30,32 @@ struct Command {
     Kind kind{Kind::step};
 };
 
+/// What was asked for: the status tells it at once, so that who asks again goes on from there.
+struct Asked {
+    std::optional<double> media_s{}, speed{};
+    std::optional<bool> playing{}, looping{};
+    std::optional<std::optional<MediaPart>> part{};
+
+    void replace(const Asked& newer) {
+        if (newer.media_s) media_s = newer.media_s;
+        if (newer.speed) speed = newer.speed;
+        if (newer.playing) playing = newer.playing;
+        if (newer.looping) looping = newer.looping;
+        if (newer.part) part = newer.part;
+    }
+    void tell(PlaybackStatus& status) const {
+        status.media_s = media_s.value_or(status.media_s);
+        status.speed = speed.value_or(status.speed);
+        status.playing = playing.value_or(status.playing);
+        status.looping = looping.value_or(status.looping);
+        if (part) status.part = *part;
+    }
+};
+
 }  // namespace
 
 struct Player::Implementation {
-    void ask(Command command);
+    void ask(Command command, const Asked& change = {});
     void run();
 
     bool wait_for_work(std::vector<Command>& taken);
@@ -55,6 +77,7 @@ struct Player::Implementation {
     std::mutex mutex{};
     std::condition_variable asked{};
     std::vector<Command> commands{};
+    Asked asked_for{};  ///< by commands whose outcome is not published yet
     PlaybackStatus status{};
     FrameWindow shown{};  ///< as last published, for the time line
     std::optional<double> sought_s{};
@@ -63,9 +86,10 @@ struct Player::Implementation {
     std::thread thread{};
 };
 
-void Player::Implementation::ask(Command command) {
+void Player::Implementation::ask(Command command, const Asked& change) {
     {
         const std::lock_guard lock(mutex);
+        asked_for.replace(change);
         if (command.kind != Kind::step && !commands.empty() && commands.back().kind == command.kind)
             commands.pop_back();
         commands.push_back(std::move(command));
@@ -143,6 +167,7 @@ void Player::Implementation::publish() {
     const Time published = std::chrono::steady_clock::now();
     picture.publish(window);
     const std::lock_guard lock(mutex);
+    if (commands.empty()) asked_for = {};
     shown = window;
     sought_s = playback.sought_s();
     status.failure = failure;
@@ -197,33 +222,40 @@ void Player::play_media(std::unique_ptr<Media> media, std::uint32_t number,
 }
 
 void Player::play() {
-    implementation_->ask({[](Playback& playback, Time now) { playback.play(now); }});
+    implementation_->ask({[](Playback& playback, Time now) { playback.play(now); }},
+                         {.playing = true});
 }
 
 void Player::pause() {
-    implementation_->ask({[](Playback& playback, Time now) { playback.pause(now); }});
+    implementation_->ask({[](Playback& playback, Time now) { playback.pause(now); }},
+                         {.playing = false});
 }
 
 void Player::seek(double media_s) {
     implementation_->ask(
-        {[media_s](Playback& playback, Time now) { playback.seek(media_s, now); }, Kind::seek});
+        {[media_s](Playback& playback, Time now) { playback.seek(media_s, now); }, Kind::seek},
+        {.media_s = media_s});
 }
 
 void Player::step(int frames) {
-    implementation_->ask({[frames](Playback& playback, Time now) { playback.step(frames, now); }});
+    implementation_->ask({[frames](Playback& playback, Time now) { playback.step(frames, now); }},
+                         {.playing = false});
 }
 
 void Player::set_looping(bool looping) {
-    implementation_->ask({[looping](Playback& playback, Time) { playback.set_looping(looping); }});
+    implementation_->ask({[looping](Playback& playback, Time) { playback.set_looping(looping); }},
+                         {.looping = looping});
 }
 
 void Player::set_part(const std::optional<MediaPart>& part) {
-    implementation_->ask({[part](Playback& playback, Time) { playback.set_part(part); }});
+    implementation_->ask({[part](Playback& playback, Time) { playback.set_part(part); }},
+                         {.part = part});
 }
 
 void Player::set_speed(double speed) {
     implementation_->ask(
-        {[speed](Playback& playback, Time now) { playback.set_speed(speed, now); }});
+        {[speed](Playback& playback, Time now) { playback.set_speed(speed, now); }},
+        {.speed = speed});
 }
 
 void Player::set_cleaning(const CleaningOptions& options) {
@@ -243,7 +275,7 @@ PlaybackStatus Player::status() const {
     const FrameWindow& shown = implementation_->shown;
     const double moment_s = shown.clock.playback_s(std::chrono::steady_clock::now());
     const DepthBlend pair = shown.at(moment_s);
-    if (pair.from == nullptr) return status;
+    if (pair.from == nullptr) return status;  // nothing to ask anything of
     // Between two frames the media time moves on, up to the end of the file at the loop's seam.
     const double lasts_s = pair.to->media_s < pair.from->media_s
                                ? pair.to->time_s - pair.from->time_s
@@ -251,6 +283,7 @@ PlaybackStatus Player::status() const {
     const double passed_s = pair.blend * lasts_s;
     status.frame = pair.from->index;
     status.media_s = implementation_->sought_s.value_or(pair.from->media_s + passed_s);
+    implementation_->asked_for.tell(status);
     return status;
 }
 

@@ -62,6 +62,7 @@ class Player {
     /// Lays them on the media that was given last; null: none.
     void set_maps(std::shared_ptr<const TouchMaps> maps);
 
+    /// As it is shown, with what was asked for since: who asks again goes on from there.
     [[nodiscard]] PlaybackStatus status() const;
     /// Of the thread that cleans and hands over, for as long as it lives.
     [[nodiscard]] const Heartbeat& heart() const noexcept;

@@ -1,6 +1,7 @@
 // Keys that move a video, typed into the real window; what is recorded tells where it went.
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstddef>
 #include <filesystem>
 #include <glm/geometric.hpp>
@@ -67,6 +68,38 @@ TEST_CASE("arrows seek by 5, 1 and 60 seconds, Home and End to the start and the
     REQUIRE(held.size() == wanted.size());
     for (std::size_t k = 0; k < wanted.size(); ++k)
         CHECK_THAT(held[k], WithinAbs(wanted[k], 1.5 * kFrame_s));
+}
+
+TEST_CASE("every press counts, as short as it is, also of many between two pictures", "[playing]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    make_long_films(folder);
+    Process viewer = desk.start_viewer(
+        folder, {"long_color.mkv", "--raw-depth", "--device", "mouse", "--record", "hand.dibhr",
+                 "--size", "640x480", "--seconds", "30", "--pause"});
+    desk.act("search --sync --onlyvisible --name dibhr sleep 0.6");
+    const auto press = [](const std::string& key) {
+        return "keydown " + key + " sleep 0.012 keyup " + key + " sleep 0.05 ";
+    };
+    // No picture is drawn while it stands still.
+    viewer.send(SIGSTOP);
+    desk.act(press("Right") + press("Up") + press("Right") + press("Right"));
+    viewer.send(SIGCONT);
+    desk.act("sleep 0.7");
+    for (int k = 0; k < 10; ++k) {  // ten pictures a second
+        viewer.send(SIGSTOP);
+        desk.act(k % 2 == 0 ? press("shift+Left") : "sleep 0.06");
+        viewer.send(SIGCONT);
+        desk.act("sleep 0.04");
+    }
+    desk.act("sleep 0.7 key q");
+    REQUIRE(viewer.wait() == 0);
+    const std::vector<double> held = held_moments(read_session(folder / "hand.dibhr"));
+    CAPTURE(held);
+    REQUIRE(held.size() >= 3);
+    CHECK_THAT(held.front(), WithinAbs(0.0, 1.5 * kFrame_s));
+    CHECK_THAT(held[1], WithinAbs(75.0, 1.5 * kFrame_s));
+    CHECK_THAT(held.back(), WithinAbs(70.0, 1.5 * kFrame_s));
 }
 
 TEST_CASE("own keys move the video, and are lost to what had them", "[playing]") {

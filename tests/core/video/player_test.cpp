@@ -73,6 +73,28 @@ TEST_CASE("a player without a media shows nothing and ends", "[player]") {
     CHECK(player.haptics().front().count == 0);
 }
 
+TEST_CASE("what was asked for is told at once, whatever the reading still takes", "[player]") {
+    Player player;
+    player.play_media(clip().open());
+    player.pause();
+    REQUIRE(rests_on(player, 0));
+    for (int k = 1; k <= 5; ++k) {
+        player.seek(player.status().media_s + 0.2);
+        CHECK_THAT(player.status().media_s, WithinAbs(0.2 * k, 1e-9));
+    }
+    REQUIRE(rests_on(player, 25));
+    player.set_speed(2.0);
+    CHECK_THAT(player.status().speed, WithinAbs(2.0, 1e-12));
+    player.play();
+    CHECK(player.status().playing);
+    player.step(1);
+    CHECK_FALSE(player.status().playing);
+    player.set_looping(false);
+    CHECK_FALSE(player.status().looping);
+    player.set_part(MediaPart{0.2, 0.4});
+    CHECK(player.status().part == MediaPart{0.2, 0.4});
+}
+
 TEST_CASE("both readers see the media play: depth and colour of the same frame", "[player]") {
     Player player;
     player.play_media(clip().open());
