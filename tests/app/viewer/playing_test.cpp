@@ -260,13 +260,14 @@ TEST_CASE(
             fs::copy_file(folder / ("long" + of), folder / (name + of));
     }
     Process viewer = desk.start_viewer(folder, {"films/long_color.mkv", "--raw-depth", "--device",
-                                                "mouse", "--record", "hand.dibhr"});
+                                                "mouse", "--record", "hand.dibhr", "--seconds",
+                                                "60"});
     desk.act(
         "search --sync --onlyvisible --name dibhr sleep 0.8 "
         "mousemove 970 97 sleep 0.3 mousedown 1 sleep 0.1 mouseup 1 sleep 0.8 "  // Open
         "mousemove 350 280 sleep 0.3 mousedown 1 sleep 0.1 mouseup 1 sleep 0.1 "
         "mousedown 1 sleep 0.1 mouseup 1 sleep 1.5 mousemove 300 600 "
-        "key ctrl+Next sleep 1.5 key q");
+        "key ctrl+Next sleep 1.5 key ctrl+q");
     REQUIRE(viewer.wait() == 0);
     std::vector<std::string> opened;
     const Session session(folder / "hand.dibhr");
