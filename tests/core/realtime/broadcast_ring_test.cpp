@@ -69,6 +69,7 @@ TEST_CASE("a producer waits for no listener, and no value comes torn, twice or b
     std::array<std::uint64_t, 3> wrong{};
     std::atomic<int> ready{0};
     std::vector<std::thread> listeners;
+    listeners.reserve(wrong.size());
     for (std::uint64_t& found : wrong) {
         listeners.emplace_back([&ring, &found, &ready] {
             Ring::Listener listener(ring);
