@@ -7,7 +7,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <type_traits>
 
 namespace dibhr {
@@ -23,8 +22,7 @@ class BroadcastRing {
   public:
     /// Producer only.
     void push(const T& value) noexcept {
-        std::array<std::uint64_t, kWords> words{};
-        std::memcpy(words.data(), &value, sizeof(T));
+        const auto words = std::bit_cast<Words>(value);
         const auto w = written_.load(std::memory_order_relaxed);
         Slot& slot = slots_[w & (N - 1)];
         // Whoever sees a word of this value sees that all before it were written, too.
@@ -46,7 +44,7 @@ class BroadcastRing {
                 const auto written = ring_->written_.load(std::memory_order_acquire);
                 if (written == next_) return false;
                 if (written - next_ >= N) skip_to(written - N / 2);
-                std::array<std::uint64_t, kWords> words{};
+                Words words{};
                 const Slot& slot = ring_->slots_[next_ & (N - 1)];
                 for (std::size_t k = 0; k < kWords; ++k)
                     words[k] = slot[k].load(std::memory_order_acquire);
@@ -74,6 +72,7 @@ class BroadcastRing {
 
   private:
     static constexpr std::size_t kWords = sizeof(T) / sizeof(std::uint64_t);
+    using Words = std::array<std::uint64_t, kWords>;
     using Slot = std::array<std::atomic<std::uint64_t>, kWords>;
 
     std::array<Slot, N> slots_{};
