@@ -1,5 +1,6 @@
 // Game pads that SDL pretends to have, and what the real output does to their motors.
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <memory>
@@ -84,9 +85,13 @@ class VirtualPad {
         return !all.empty() && (all.back().low != 0 || all.back().high != 0);
     }
 
+    /// Answers nothing any more, as a driver that hangs.
+    void hang(bool hang) { hangs_ = hang; }
+
   private:
     static int SDLCALL take(void* self, Uint16 low, Uint16 high) {
         VirtualPad& pad = *static_cast<VirtualPad*>(self);
+        while (pad.hangs_) std::this_thread::sleep_for(milliseconds(1));
         const std::lock_guard lock(pad.mutex_);
         pad.told_.push_back({Clock::now(), low, high});
         return 0;
@@ -95,6 +100,7 @@ class VirtualPad {
     SDL_JoystickID id_{-1};
     mutable std::mutex mutex_{};
     std::vector<Told> told_{};  // under the mutex
+    std::atomic<bool> hangs_{false};
 };
 
 /// The real output, and ticks for it as the loop pushes them, a millisecond each.
@@ -222,6 +228,28 @@ TEST_CASE("all pads rumble that can, but those whose voice coils move with the s
     touching.output.choose({}, true, true);
     CHECK(touching.rub_until([&] { return !coils.turns() && motors.turns(); }));
     CHECK(silent.told().empty());
+}
+
+TEST_CASE("a pad that hangs holds up neither who touches nor the end", "[pads]") {
+    const Variable bus("DBUS_SESSION_BUS_ADDRESS", "disabled:");
+    const Joysticks joysticks;
+    VirtualPad pad("Virtual pad");
+    std::shared_ptr<TouchSource> source;
+    Clock::time_point left{};
+    {
+        Touching touching;
+        source = touching.source;
+        REQUIRE(touching.finds(1));
+        REQUIRE(touching.rub_until([&] { return pad.turns(); }));
+        pad.hang(true);
+        touching.push(100, kAir);
+        touching.output.choose({}, true, false);
+        left = Clock::now();
+    }
+    CHECK(ms_between(left, Clock::now()) < 1500.0);
+    pad.hang(false);
+    CHECK(eventually([&] { return source.use_count() == 1; }));  // its thread has gone, too
+    CHECK_FALSE(pad.turns());
 }
 
 TEST_CASE("what is pressed on a pad goes nowhere, and signals are left to the program", "[pads]") {
