@@ -19,7 +19,6 @@ constexpr Uint16 kBlock = 256;  // 5 ms: a tap is heard as it is felt
 // Through PulseAudio SDL means front, centre and bass by four channels; by six it means the same
 // everywhere, and the rear pair is the last. A device that has four gives four.
 constexpr int kCoilChannels = 6;
-constexpr int kFewestCoilChannels = 4;
 
 }  // namespace
 

@@ -9,8 +9,6 @@ namespace dibhr {
 
 namespace {
 
-constexpr int kFewest = 4;  // a pad with two has a loudspeaker only
-
 // The second is what the first firmware of a DualSense calls itself; a DualShock 4 does, too, and
 // has two channels.
 constexpr std::array<std::string_view, 2> kPads{"DualSense", "Wireless Controller"};
@@ -18,7 +16,7 @@ constexpr std::array<std::string_view, 2> kPads{"DualSense", "Wireless Controlle
 }  // namespace
 
 bool has_voice_coils(std::string_view device, int channels) noexcept {
-    if (channels != 0 && channels < kFewest) return false;
+    if (channels != 0 && channels < kFewestCoilChannels) return false;
     return std::any_of(kPads.begin(), kPads.end(), [device](std::string_view pad) {
         return device.find(pad) != std::string_view::npos;
     });
@@ -26,7 +24,7 @@ bool has_voice_coils(std::string_view device, int channels) noexcept {
 
 void spread_to_rear(std::span<const float> mono, std::span<float> frames, int channels) noexcept {
     std::fill(frames.begin(), frames.end(), 0.0F);
-    if (channels < kFewest) return;
+    if (channels < kFewestCoilChannels) return;
     const auto step = static_cast<std::size_t>(channels);
     const std::size_t count = std::min(mono.size(), frames.size() / step);
     for (std::size_t k = 0; k < count; ++k)

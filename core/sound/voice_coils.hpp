@@ -6,6 +6,8 @@
 
 namespace dibhr {
 
+inline constexpr int kFewestCoilChannels = 4;  ///< a pad with two has a loudspeaker only
+
 /// Whether a sound device of that name and so many channels (0: not known) moves voice coils.
 /// See app/sound/README.md for the pads and where their names come from.
 [[nodiscard]] bool has_voice_coils(std::string_view device, int channels) noexcept;
