@@ -316,6 +316,9 @@ int run_view(CLI::App& app, const Arguments& arguments) {
         ->default_str(NamePattern{}.text);
     bool mute = false;
     app.add_flag("--mute", mute, "Touch makes no sound");
+    std::optional<bool> game_pad;
+    add_on_off_option(app, "--game-pad", "Game pads rumble with what is touched", game_pad)
+        ->default_str("on");
     app.add_flag("--any-media", options.any_media,
                  "Replays a session also over files that have changed since");
     add_algorithm_option(app, touch.given);
@@ -361,6 +364,7 @@ int run_view(CLI::App& app, const Arguments& arguments) {
     if (ui_scale) settings.ui_scale = *ui_scale;
     if (theme) settings.theme = *theme;
     if (mute) settings.mute = true;
+    if (game_pad) settings.game_pad = *game_pad;
     if (screenshot_name) settings.screenshot_name = *screenshot_name;
     if (stability) settings.stability = *stability;
     if (options.resume) settings.resume = *options.resume;

@@ -149,6 +149,30 @@ void draw_sound(ViewerState& state) {
     explain("Touch makes no sound", state.keys, Action::toggle_sound);
 }
 
+std::string pads_in_words(const PadNews& pads, bool coils_move) {
+    if (pads.state == PadNews::State::no_session)
+        return "not looked for: no desktop session has been started";
+    if (pads.found.empty()) return "none found";
+    std::string words;
+    for (const FoundPad& pad : pads.found) {
+        const char* does = pad.has_coils && coils_move ? "voice coils"
+                           : pad.rumbles               ? "rumble"
+                                                       : "cannot rumble";
+        words += (words.empty() ? "" : "\n") + pad.name + ": " + does;
+    }
+    return words;
+}
+
+void draw_game_pad(ViewerState& state) {
+    if (state.replay) return;
+    Settings& settings = state.settings;
+    flag_row("Game pad", settings.game_pad, Settings{}.game_pad,
+             "It rumbles with what is touched, also while muted; it does not move the hand "
+             "(--game-pad)");
+    if (state.pads.state != PadNews::State::off)
+        beside_flag(pads_in_words(state.pads, state.moves_coils));
+}
+
 }  // namespace
 
 void draw_touch_panel(ViewerState& state) {
@@ -167,6 +191,7 @@ void draw_touch_panel(ViewerState& state) {
     draw_numbers(TouchTopic::texture, state.settings.touch);
     if (!state.bump && !state.replay) quiet_text("Roughness needs a bump map to be felt.");
     draw_sound(state);
+    draw_game_pad(state);
     const std::string others = "Where the proxies of the other algorithms are, for the same goal" +
                                state.keys.in_brackets(Action::toggle_others);
     flag_row("Side by side", state.settings.others, Settings{}.others, others.c_str());

@@ -17,6 +17,7 @@
 #include "app/settings/material.hpp"
 #include "app/settings/recent_files.hpp"
 #include "app/settings/settings.hpp"
+#include "app/sound/pad_output.hpp"
 #include "app/sound/sound_output.hpp"
 #include "app/window/gui.hpp"
 #include "core/haptics/explanation.hpp"
@@ -317,6 +318,8 @@ struct ViewerState {
     std::optional<StripHistory> held_strips{};  ///< the charts stand still
     float strips_end_y{0.0F};                   ///< where they ended in the last picture [px]
     SoundOutput::State sound{SoundOutput::State::quiet};
+    bool moves_coils{false};  ///< of a game pad
+    PadNews pads{};
     double pictures_per_s{0.0};
     bool in_front{true};  ///< the window; false: people work in another one
     bool opening{false};

@@ -209,6 +209,11 @@ bool flag_row(const char* label, bool& value, bool standard, const char* help) {
     return value != before;
 }
 
+void beside_flag(const std::string& text) {
+    ImGui::SameLine(ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x * kLabelShare);
+    quiet_text(text);
+}
+
 bool index_row(const char* label, std::span<const char* const> names, int& chosen, const char* help,
                int standard) {
     const int before = chosen;

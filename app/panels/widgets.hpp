@@ -53,6 +53,9 @@ enum class Dragged { nothing, done, put_back };
 /// Label and tick box, and the arrow. True when it changed.
 bool flag_row(const char* label, bool& value, bool standard, const char* help);
 
+/// Quiet text beside a flag_row of the standard value, under the values of the rows above.
+void beside_flag(const std::string& text);
+
 /// Label, a list to choose from, and an arrow back to the `standard` entry. True when the choice
 /// changed.
 bool index_row(const char* label, std::span<const char* const> names, int& chosen, const char* help,

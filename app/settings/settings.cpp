@@ -419,8 +419,9 @@ std::vector<Setting> list_of(Settings& s) {
     }
     list.push_back(
         {"device", "max-force", &s.max_force_newton, 0.0, DeviceLimits{}.max_force_newton});
-    list.insert(list.end(),
-                {{"sound", "volume", &s.sound_volume, 0.0, 1.0}, {"sound", "mute", &s.mute}});
+    list.insert(list.end(), {{"sound", "volume", &s.sound_volume, 0.0, 1.0},
+                             {"sound", "mute", &s.mute},
+                             {"sound", "game-pad", &s.game_pad}});
     add_falcon(list, s.falcon);
     list.insert(list.end(), {{"cleaning", "preset", &s.cleaning.preset},
                              {"cleaning", "finger", &s.finger_mm, 0.0, kThickestFinger_mm}});

@@ -80,6 +80,7 @@ struct Settings {
     double max_force_newton{SafetyLimits{}.max_force_newton};  ///< 0 .. 8
     double sound_volume{SoundChoice{}.volume};                 ///< 0 .. 1
     bool mute{false};                                          ///< no sound of touch
+    bool game_pad{true};                                       ///< rumbles, when there is one
     FalconSettings falcon{};
     std::vector<OwnKeys> keys{};  ///< as written, in that order, also what cannot be
 };

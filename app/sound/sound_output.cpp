@@ -1,93 +1,77 @@
-// SDL's audio, and the thread that opens and closes it: a sound server may take its time to
-// answer, or never do.
+// The thread that opens and closes sound devices: a sound server may take its time to answer, or
+// never do.
 #include "app/sound/sound_output.hpp"
 
 #define SDL_MAIN_HANDLED  // main stays as it is
 #include <SDL.h>
-#include <alsa/asoundlib.h>
 
 #include <atomic>
-#include <chrono>
-#include <condition_variable>
-#include <cstddef>
-#include <mutex>
 #include <optional>
-#include <span>
+#include <string>
+#include <utility>
 
+#include "app/sound/sound_stream.hpp"
+#include "app/sound/wishes.hpp"
 #include "core/realtime/triple_buffer.hpp"
 
 namespace dibhr {
 
 namespace {
 
-constexpr int kRate_hz = 48'000;
-constexpr Uint16 kBlock = 256;  // 5 ms: a tap is heard as it is felt
 constexpr double kLook_s = 0.5;
 constexpr double kTryAgain_s = 5.0;
-constexpr auto kPatience = std::chrono::milliseconds(500);
 
-/// A machine without a sound card is none that misses something.
-void say_nothing(const char*, int, const char*, int, const char*, ...) {}
-
-/// What a device is given to play.
+/// What devices are given to play.
 struct Heard {
-    SoundRing ticks{};
-    TripleBuffer<SoundChoice> choices{};  // the window thread's and SDL's audio thread's
+    explicit Heard(std::shared_ptr<TouchSource> from) : source(std::move(from)) {}
+
+    std::shared_ptr<TouchSource> source;
+    // The window thread's and SDL's audio threads'.
+    TripleBuffer<SoundChoice> by_speaker{};
+    TripleBuffer<SoundChoice> by_coils{};
 };
 
-/// A device that is open, or was to be.
+/// SDL's audio, and the devices that are open, or were to be.
 class Playing {
   public:
-    explicit Playing(Heard& heard) : heard_(heard) {
-        SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // those are the program's
-        SDL_SetHint(SDL_HINT_APP_NAME, "dibhr");
-        SDL_SetHint(SDL_HINT_AUDIO_DEVICE_STREAM_NAME, "Touch");
-        snd_lib_error_set_handler(say_nothing);
+    Playing(Heard& heard, SoundOutput::Wish wish) : heard_(heard), wish_(wish) {
+        const SdlTurn::Taken turn(heard.source->sdl);
         // Not SDL_InitSubSystem, which looks for D-Bus, and may copy the whole process for that.
         if (SDL_AudioInit(nullptr) != 0) return;
         initialised_ = true;
-        for (SoundTick past; heard.ticks.pop(past);) continue;  // nobody listened
-        SDL_AudioSpec wanted{};
-        wanted.freq = kRate_hz;
-        wanted.format = AUDIO_F32SYS;
-        wanted.channels = 1;
-        wanted.samples = kBlock;
-        wanted.callback = &Playing::fill;
-        wanted.userdata = this;
-        SDL_AudioSpec given{};
-        device_ =
-            SDL_OpenAudioDevice(nullptr, 0, &wanted, &given, SDL_AUDIO_ALLOW_FREQUENCY_CHANGE);
-        if (device_ == 0) return;
-        sound_.emplace(given.freq);
-        SDL_PauseAudioDevice(device_, 0);
+        if (wish.speaker) speaker_.emplace(heard.source->ticks, heard.by_speaker);
+        if (const auto device = new_coils()) {
+            coils_.emplace(device->c_str(), heard.source->ticks, heard.by_coils);
+            refused_ = !coils_->plays();
+        }
     }
     ~Playing() {
-        if (device_ != 0) SDL_CloseAudioDevice(device_);
+        const SdlTurn::Taken turn(heard_.source->sdl);
+        coils_.reset();
+        speaker_.reset();
         if (initialised_) SDL_AudioQuit();
     }
     Playing(const Playing&) = delete;
     Playing& operator=(const Playing&) = delete;
 
-    /// False when there was none, or it has been pulled out.
+    /// False when there was no speaker, or something has been pulled out.
     [[nodiscard]] bool goes_on() const {
-        return device_ != 0 && SDL_GetAudioDeviceStatus(device_) == SDL_AUDIO_PLAYING;
+        return initialised_ && (!wish_.speaker || (speaker_ && speaker_->plays())) &&
+               (!coils_ || refused_ || coils_->plays());
+    }
+    [[nodiscard]] bool moves_coils() const { return coils_ && coils_->plays(); }
+    /// Those that have come since.
+    [[nodiscard]] std::optional<std::string> new_coils() const {
+        return wish_.coils && !coils_ ? voice_coil_device() : std::nullopt;
     }
 
   private:
-    /// SDL's audio thread.
-    static void fill(void* self, Uint8* bytes, int count) {
-        Playing& playing = *static_cast<Playing*>(self);
-        TouchSound& sound = *playing.sound_;
-        sound.choose(playing.heard_.choices.front());
-        for (SoundTick tick; playing.heard_.ticks.pop(tick);) sound.add(tick);
-        sound.render(
-            {reinterpret_cast<float*>(bytes), static_cast<std::size_t>(count) / sizeof(float)});
-    }
-
     Heard& heard_;
+    SoundOutput::Wish wish_;
     bool initialised_{false};
-    SDL_AudioDeviceID device_{0};
-    std::optional<TouchSound> sound_{};  // SDL's audio thread's, once it plays
+    std::optional<SoundStream> speaker_{};
+    std::optional<SoundStream> coils_{};
+    bool refused_{false};  // the coils have, which is no reason to open everything anew
 };
 
 }  // namespace
@@ -95,98 +79,68 @@ class Playing {
 /// What the thread does, and all that it needs for it.
 class SoundOutput::Work {
   public:
-    void run();
-    void mute(bool mute);
-    /// Asks it to leave; false when it has not done so in time.
-    [[nodiscard]] bool ends();
+    explicit Work(const std::shared_ptr<TouchSource>& source) : heard(source) {}
 
-    Heard heard{};
+    void run();
+
+    Heard heard;
+    Wishes<Wish> wishes{};
     std::atomic<State> state{State::quiet};
+    std::atomic<bool> moves_coils{false};
 
   private:
-    /// False when the thread is to leave.
-    [[nodiscard]] bool wait_for_sound();
-    /// Waits so long, or until no sound is wanted any more: then false.
-    [[nodiscard]] bool goes_on_for(double longest_s);
-
-    std::mutex mutex_{};
-    std::condition_variable changed_{};
-    // Under the mutex.
-    bool mute_{true};
-    bool leaving_{false};
-    bool left_{false};
+    /// Until something else is wanted, or a device comes or goes.
+    enum class End { other_wish, lost, new_coils };
+    [[nodiscard]] End play(const Wish& wish);
 };
 
 void SoundOutput::Work::run() {
-    while (wait_for_sound()) {
-        bool wanted = true;
-        {
-            const Playing playing(heard);
-            while (wanted && playing.goes_on()) {
-                state = State::playing;
-                wanted = goes_on_for(kLook_s);
-            }
-        }
-        state = wanted ? State::no_device : State::quiet;
-        if (wanted && !goes_on_for(kTryAgain_s)) state = State::quiet;
+    while (const auto wish = wishes.wait()) {
+        const End end = play(*wish);
+        moves_coils = false;
+        state = end == End::lost && wish->speaker ? State::no_device : State::quiet;
+        if (end == End::lost && !wishes.holds_for(*wish, kTryAgain_s)) state = State::quiet;
     }
     SDL_TLSCleanup();  // what it keeps of a thread that is not its own
-    const std::lock_guard lock(mutex_);
-    left_ = true;
-    changed_.notify_all();
+    wishes.say_left();
 }
 
-void SoundOutput::Work::mute(bool mute) {
-    const std::lock_guard lock(mutex_);
-    if (mute_ == mute) return;
-    mute_ = mute;
-    changed_.notify_all();
+SoundOutput::Work::End SoundOutput::Work::play(const Wish& wish) {
+    const Playing playing(heard, wish);
+    while (playing.goes_on()) {
+        state = wish.speaker ? State::playing : State::quiet;
+        moves_coils = playing.moves_coils();
+        if (!wishes.holds_for(wish, kLook_s)) return End::other_wish;
+        if (playing.new_coils()) return End::new_coils;
+    }
+    return End::lost;
 }
 
-bool SoundOutput::Work::ends() {
-    std::unique_lock lock(mutex_);
-    leaving_ = true;
-    changed_.notify_all();
-    return changed_.wait_for(lock, kPatience, [this] { return left_; });
+SoundOutput::SoundOutput(const std::shared_ptr<TouchSource>& source)
+    : work_(std::make_shared<Work>(source)) {
+    teach_sdl_manners();
+    thread_ = std::thread([work = work_] { work->run(); });
 }
-
-bool SoundOutput::Work::wait_for_sound() {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return leaving_ || !mute_; });
-    return !leaving_;
-}
-
-bool SoundOutput::Work::goes_on_for(double longest_s) {
-    std::unique_lock lock(mutex_);
-    return !changed_.wait_for(lock, std::chrono::duration<double>(longest_s),
-                              [this] { return leaving_ || mute_; });
-}
-
-SoundOutput::SoundOutput()
-    : work_(std::make_shared<Work>()), thread_([work = work_] { work->run(); }) {}
 
 SoundOutput::~SoundOutput() {
-    if (work_->ends()) {
-        thread_.join();
-    } else {
-        thread_.detach();
-    }
+    work_->wishes.leave(thread_);
 }
 
-SoundRing& SoundOutput::ticks() noexcept {
-    return work_->heard.ticks;
-}
-
-void SoundOutput::choose(const SoundChoice& choice, bool mute) {
+void SoundOutput::choose(const SoundChoice& choice, Wish wish) {
     if (!(choice == chosen_)) {
         chosen_ = choice;
-        work_->heard.choices.publish(choice);
+        work_->heard.by_speaker.publish(choice);
+        work_->heard.by_coils.publish({.material = choice.material});
     }
-    work_->mute(mute);
+    work_->wishes.wish(wish);
 }
 
 SoundOutput::State SoundOutput::state() const noexcept {
     return work_->state.load(std::memory_order_relaxed);
+}
+
+bool SoundOutput::moves_coils() const noexcept {
+    return work_->moves_coils.load(std::memory_order_relaxed);
 }
 
 }  // namespace dibhr

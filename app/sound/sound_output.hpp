@@ -1,11 +1,11 @@
-// Plays the sound of touch through whatever the machine has to play it, away from all other
-// threads.
+// Plays the sound of touch through whatever the machine has to play it, and through the voice
+// coils of a game pad, away from all other threads.
 #pragma once
 
 #include <memory>
 #include <thread>
 
-#include "core/sound/sound_tick.hpp"
+#include "app/sound/touch_source.hpp"
 #include "core/sound/touch_sound.hpp"
 
 namespace dibhr {
@@ -16,20 +16,27 @@ class SoundOutput {
   public:
     enum class State { quiet, playing, no_device };  ///< quiet: muted, or about to play
 
-    /// Muted at first.
-    SoundOutput();
+    /// What is to be open. Nothing at first.
+    struct Wish {
+        bool speaker{false};  ///< false: muted
+        bool coils{false};    ///< a game pad with voice coils, once it shows as a sound device
+
+        bool operator==(const Wish&) const = default;
+    };
+
+    explicit SoundOutput(const std::shared_ptr<TouchSource>& source);
     /// Waits half a second for a sound server at most: one that hangs is left alone.
     ~SoundOutput();
     SoundOutput(const SoundOutput&) = delete;
     SoundOutput& operator=(const SoundOutput&) = delete;
 
-    /// The haptic loop's end. It must be still before this is destroyed.
-    [[nodiscard]] SoundRing& ticks() noexcept;
+    /// The window thread's: what the next samples are made of. The volume is the speaker's.
+    void choose(const SoundChoice& choice, Wish wish);
 
-    /// The window thread's: what the next samples are made of.
-    void choose(const SoundChoice& choice, bool mute);
-
+    /// Of the speaker.
     [[nodiscard]] State state() const noexcept;
+    /// Whether voice coils move now.
+    [[nodiscard]] bool moves_coils() const noexcept;
 
   private:
     class Work;

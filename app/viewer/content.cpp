@@ -404,7 +404,7 @@ void Viewer::start_loop() {
                            .recorder = &recording_.heart(),
                            .decoder = &player_.decoder_heart()},
                           &ending_.asked(),
-                          &sound_.ticks(),
+                          &touch_source_->ticks,
                           walked_.get()});
 }
 

@@ -258,6 +258,8 @@ void Viewer::take_news() {
     recording_.take_news(state_);
     for (TickStrip strip; strips_->pop(strip);) state_.strips.add(strip);
     state_.sound = sound_.state();
+    state_.moves_coils = sound_.moves_coils();
+    state_.pads = pads_.news();
     state_.pictures_per_s = pace_.pictures_per_s();
     take_opened();
     const std::string& failure =
@@ -540,9 +542,18 @@ void Viewer::carry_out_requests() {
     if (asked.quit) window_.close();
 }
 
+/// To the ear, and to the hands that hold a game pad. A replay is not touched.
+void Viewer::let_touch_out() {
+    const Settings& settings = state_.settings;
+    const bool to_pads = settings.game_pad && !state_.replay;
+    sound_.choose(
+        {state_.material.sound, settings.sound_volume},
+        {.speaker = !settings.mute && !state_.replay, .coils = to_pads && state_.pads.has_coils()});
+    pads_.choose(state_.material.sound, to_pads, sound_.moves_coils());
+}
+
 void Viewer::hand_over_settings() {
-    sound_.choose({state_.material.sound, state_.settings.sound_volume},
-                  state_.settings.mute || state_.replay);
+    let_touch_out();
     if (state_.replay) return;
     fit_to_media();
     stretch(state_.bump, state_.media.depth_columns, state_.media.depth_rows,

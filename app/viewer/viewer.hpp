@@ -14,7 +14,9 @@
 #include "app/settings/file_memory.hpp"
 #include "app/settings/keys.hpp"
 #include "app/settings/settings.hpp"
+#include "app/sound/pad_output.hpp"
 #include "app/sound/sound_output.hpp"
+#include "app/sound/touch_source.hpp"
 #include "app/viewer/browsing.hpp"
 #include "app/viewer/clip.hpp"
 #include "app/viewer/errand.hpp"
@@ -121,6 +123,7 @@ class Viewer {
     void draw_panels(std::span<const KeyPress> pressed = {});
     void draw_explained();
     void carry_out_requests();
+    void let_touch_out();
     void hand_over_settings();
     [[nodiscard]] CleaningOptions wanted_cleaning() const;
     void keep_settings();
@@ -222,7 +225,9 @@ class Viewer {
     std::unique_ptr<TickRing> ticks_;
     std::unique_ptr<WalkedTickRing> walked_;
     OtherProxies others_{};
-    SoundOutput sound_{};
+    std::shared_ptr<TouchSource> touch_source_{std::make_shared<TouchSource>()};
+    SoundOutput sound_{touch_source_};
+    PadOutput pads_{touch_source_};
     ViewerRecording recording_;
     ViewerReplay replay_{};
     std::unique_ptr<HapticLoop> loop_;  // null in a replay: no hand is read, no force is sent

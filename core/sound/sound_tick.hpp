@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/haptics/vec.hpp"
-#include "core/realtime/spsc_ring.hpp"
+#include "core/realtime/broadcast_ring.hpp"
 
 namespace dibhr {
 
@@ -16,7 +16,8 @@ struct SoundTick {
     bool force_on{false};  ///< false: nothing may be felt, and so nothing is heard
 };
 
-/// Full while nobody listens, which costs a tick nothing.
-using SoundRing = SpscRing<SoundTick, 1024>;
+/// For speakers and game pads alike: how many listen costs a tick nothing.
+using SoundRing = BroadcastRing<SoundTick, 1024>;
+using SoundListener = SoundRing::Listener;
 
 }  // namespace dibhr

@@ -3,20 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace dibhr {
 
 namespace {
 
-constexpr double kLowestTexture_hz = 30.0;  // slower is the shape of things
-constexpr double kForceHeard_per_newton = 0.9;
-constexpr double kHeightHeard_per_mm = 0.6;
-constexpr double kLoudestTexture = 0.6;  // over an edge the force may leap by newtons
-constexpr double kFirmlyPressed_newton = 0.5;
-
-constexpr double kScrapingHeard = 0.8;
-constexpr double kHalfScraping_mm_per_s = 60.0;  // at which it is half as loud as it gets
 constexpr double kLowestScraping_hz = 150.0;
 constexpr double kHighestScraping = 0.4;  // of the rate
 
@@ -55,9 +46,7 @@ SoundChoice held(SoundChoice choice) noexcept {
 }  // namespace
 
 TouchSound::TouchSound(double rate_hz) noexcept
-    : rate_hz_(held(rate_hz, 8000.0, 192'000.0)),
-      force_(kLowestTexture_hz, rate_hz_),
-      height_(kLowestTexture_hz, rate_hz_) {
+    : rate_hz_(held(rate_hz, 8000.0, 192'000.0)), texture_(rate_hz_) {
     tune_resonances();
 }
 
@@ -113,10 +102,8 @@ void TouchSound::advance() noexcept {
 void TouchSound::reach(const HeardTick& tick) noexcept {
     impulse_ += tick.tap;
     burst_ = std::max(burst_, tick.tap);
-    const double firmly = std::min(1.0, tick.force_newton / kFirmlyPressed_newton);
-    const double speed = tick.speed_mm_per_s;
-    scraping_ = firmly * speed / (speed + kHalfScraping_mm_per_s);
-    hiss_.tune(std::clamp(speed / choice_.material.grain_mm, kLowestScraping_hz,
+    scraping_ = scraping_of(tick);
+    hiss_.tune(std::clamp(tick.speed_mm_per_s / choice_.material.grain_mm, kLowestScraping_hz,
                           kHighestScraping * rate_hz_),
                rate_hz_);
 }
@@ -130,7 +117,7 @@ double TouchSound::next_sample() noexcept {
         be_quiet();
         return 0.0;
     }
-    const double texture = next_texture();
+    const double texture = texture_.next(ticks_.between(at_ - HeardTicks::kLookAhead_ticks));
     burst_ = audible(burst_ - burst_ / (kBurst_s * rate_hz_));
     const double hiss =
         kScrapingHeard * choice_.material.hiss * hiss_.next((scraping_ + burst_) * noise());
@@ -141,24 +128,12 @@ double TouchSound::next_sample() noexcept {
     return gate_ * std::tanh(kGain * volume_ * (texture + hiss + kTapHeard * ringing));
 }
 
-double TouchSound::next_texture() noexcept {
-    const HeardTick felt = ticks_.between(at_ - HeardTicks::kLookAhead_ticks);
-    if (std::exchange(opens_, false)) rest_ = felt;
-    const double firmly = std::clamp(felt.force_newton / kFirmlyPressed_newton, 0.0, 1.0);
-    const double rubbing =
-        kForceHeard_per_newton * force_.next(felt.force_newton - rest_.force_newton) +
-        kHeightHeard_per_mm * firmly * height_.next(felt.height_mm - rest_.height_mm);
-    return kLoudestTexture * std::tanh(rubbing / kLoudestTexture);
-}
-
 /// What rang before the force went off is not heard when it is on again.
 void TouchSound::be_quiet() noexcept {
     for (Resonance& resonance : resonances_) resonance.be_quiet();
-    force_.be_quiet();
-    height_.be_quiet();
+    texture_.be_quiet();
     hiss_.be_quiet();
     impulse_ = burst_ = scraping_ = 0.0;
-    opens_ = true;
     volume_ = choice_.volume * choice_.material.loudness;
 }
 

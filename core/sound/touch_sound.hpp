@@ -8,6 +8,7 @@
 
 #include "core/sound/filters.hpp"
 #include "core/sound/heard_ticks.hpp"
+#include "core/sound/rubbing.hpp"
 
 namespace dibhr {
 
@@ -60,7 +61,6 @@ class TouchSound {
     void reach(const HeardTick& tick) noexcept;
     [[nodiscard]] double noise() noexcept;
     [[nodiscard]] double next_sample() noexcept;
-    [[nodiscard]] double next_texture() noexcept;
     void be_quiet() noexcept;
 
     double rate_hz_;
@@ -76,11 +76,9 @@ class TouchSound {
     double burst_{0.0};     ///< level of the noise of an impact
     double scraping_{0.0};  ///< level of that of sliding
     double volume_{0.0};
-    bool opens_{true};  ///< the gate
-    HeardTick rest_{};  ///< where force and height were then: being there is no sound
     std::uint32_t random_{0x9E3779B9U};
     std::array<Resonance, 4> resonances_{};
-    HighPass force_, height_;
+    Texture texture_;
     BandPass hiss_{};
 };
 

@@ -7,10 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@
 #include "tests/support/catch.hpp"
 #include "tests/support/eventually.hpp"
 #include "tests/support/text.hpp"
+#include "tests/support/variable.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -38,17 +40,23 @@ std::string drag(int way) {
     return commands;
 }
 
-/// Sets a variable of the environment for a while.
-class Variable {
-  public:
-    Variable(const char* name, const char* value) : name_(name) { ::setenv(name, value, 1); }
-    ~Variable() { ::unsetenv(name_); }
-    Variable(const Variable&) = delete;
-    Variable& operator=(const Variable&) = delete;
+/// Starts the viewer with a game pad, whose motors write into pad.txt of its folder.
+std::vector<std::string> holding_a_pad() {
+    return {"env", "LD_PRELOAD=" VIRTUAL_PAD, "VIRTUAL_PAD=pad.txt"};
+}
 
-  private:
-    const char* name_;
+/// What a pad's motors were told.
+struct Told {
+    int low{0};
+    int high{0};
 };
+
+std::vector<Told> motors_told(const fs::path& file) {
+    std::vector<Told> all;
+    std::ifstream lines(file);
+    for (Told told; lines >> told.low >> told.high;) all.push_back(told);
+    return all;
+}
 
 /// A sound server that takes calls and never answers.
 class SilentServer {
@@ -100,6 +108,43 @@ TEST_CASE("what is touched in the window is heard, and nothing once the force is
         way_px += glm::distance(row->proxy, (row - 1)->proxy);
     }
     CHECK(way_px > 20.0);
+}
+
+TEST_CASE("a game pad rumbles with what is touched in the window, muted or not, until force off",
+          "[sound]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    Process viewer = desk.start_viewer(
+        folder, {"--device", "mouse", "--material", "wood", "--pause", "--mute", "--seconds", "30"},
+        holding_a_pad());
+    desk.act(kMeet + std::string(kPress) + drag(2));
+    const auto touched = motors_told(folder / "pad.txt");
+    CHECK(std::any_of(touched.begin(), touched.end(), [](auto told) { return told.low > 0; }));
+    CHECK(std::any_of(touched.begin(), touched.end(), [](auto told) { return told.high > 0; }));
+    desk.act("key f sleep 0.3");
+    const auto stopped = motors_told(folder / "pad.txt");
+    REQUIRE_FALSE(stopped.empty());
+    CHECK(stopped.back().low + stopped.back().high == 0);
+    desk.act(drag(-2) + "sleep 0.1");
+    CHECK(motors_told(folder / "pad.txt").size() == stopped.size());
+    desk.act("key f sleep 1 " + drag(2) + "key q");
+    CHECK(viewer.wait() == 0);
+    const auto at_the_end = motors_told(folder / "pad.txt");
+    CHECK(at_the_end.size() > stopped.size());
+    CHECK(at_the_end.back().low + at_the_end.back().high == 0);
+    CHECK(read_text(folder / "errors.txt").empty());
+}
+
+TEST_CASE("with --game-pad off no pad is touched, and the word is not kept", "[sound]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    Process viewer = desk.start_viewer(
+        folder, {"--device", "mouse", "--pause", "--game-pad", "off", "--seconds", "30"},
+        holding_a_pad());
+    desk.act(kMeet + std::string(kPress) + drag(2) + "key q");
+    CHECK(viewer.wait() == 0);
+    CHECK_FALSE(fs::exists(folder / "pad.txt"));
+    CHECK_FALSE(contains(read_text(folder / "config/dibhr/settings.toml"), "game-pad = false"));
 }
 
 TEST_CASE("a window that is muted opens no sound device until its key is pressed", "[sound]") {
@@ -154,25 +199,32 @@ TEST_CASE("a sound server that never answers holds up neither the window nor its
 
 TEST_CASE("a sound device is opened when it is wanted, and that there is none is told", "[sound]") {
     using State = SoundOutput::State;
+    constexpr SoundOutput::Wish kHeard{.speaker = true};
     SECTION("a device that plays") {
         const Variable driver("SDL_AUDIODRIVER", "dummy");
-        SoundOutput output;
+        SoundOutput output(std::make_shared<TouchSource>());
         CHECK(output.state() == State::quiet);
         for (int k = 0; k < 3; ++k) {
-            output.choose({}, false);
+            output.choose({}, kHeard);
             CHECK(eventually([&] { return output.state() == State::playing; }));
-            output.ticks().push({});
-            CHECK(eventually([&] { return output.ticks().size() == 0; }));
-            output.choose({}, true);
+            CHECK_FALSE(output.moves_coils());
+            output.choose({}, {});
             CHECK(eventually([&] { return output.state() == State::quiet; }));
         }
     }
+    SECTION("a pad with voice coils that shows no sound device") {
+        const Variable driver("SDL_AUDIODRIVER", "dummy");
+        SoundOutput output(std::make_shared<TouchSource>());
+        output.choose({}, {.speaker = true, .coils = true});
+        CHECK(eventually([&] { return output.state() == State::playing; }));
+        CHECK_FALSE(output.moves_coils());
+    }
     SECTION("none") {
         const Variable driver("SDL_AUDIODRIVER", "nonsense");
-        SoundOutput output;
-        output.choose({}, false);
+        SoundOutput output(std::make_shared<TouchSource>());
+        output.choose({}, kHeard);
         CHECK(eventually([&] { return output.state() == State::no_device; }));
-        output.choose({}, true);
+        output.choose({}, {});
         CHECK(eventually([&] { return output.state() == State::quiet; }));
     }
 }

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/core/loop/loop_bench.hpp"
+#include "tests/core/sound/touched_plane.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/support/catch.hpp"
 
@@ -35,8 +35,8 @@ class Listener {
     explicit Listener(const SoundChoice& choice = {}) { sound_.choose(choice); }
 
     /// What came in a span of time, and the blocks that were filled in it.
-    void hear(SoundRing& ring, double span_s = 0.001) {
-        for (SoundTick tick; ring.pop(tick);) sound_.add(tick);
+    void hear(SoundListener& ticks, double span_s = 0.001) {
+        for (SoundTick tick; ticks.pop(tick);) sound_.add(tick);
         now_s_ += span_s;
         while (static_cast<double>(samples.size() + kBlock) <= now_s_ * kRate_hz) {
             samples.resize(samples.size() + kBlock);
@@ -105,45 +105,18 @@ double peak_hz(std::span<const float> samples, double highest_hz = 3000.0) {
     return best_hz;
 }
 
-/// The real tick, over a plane that may have a bump every `period_px`, heard by a listener.
-struct Touching {
-    explicit Touching(double period_px = 0.0, const SoundChoice& choice = {}) : listener(choice) {
-        bench.frames.publish(flat_window(4096, 16, 0));
-        bench.hand.goal = {20.0, 8.0, 130.0};
-        if (period_px > 0.0) {
-            BumpMap wave{64, 1, {}};
-            for (int k = 0; k < 64; ++k)
-                wave.heights.push_back(
-                    static_cast<float>(0.5 + 0.5 * std::cos(2.0 * std::numbers::pi * k / 64.0)));
-            bench.handed.bump = std::make_shared<const BumpMap>(wave);
-            bench.handed.parameters.shape.bump_size_px = period_px;
-            bench.handed.parameters.shape.roughness_px = 3.0;
-        }
-        bench.hand_over();
+/// A touched plane, heard by a listener.
+struct Touching : TouchedPlane {
+    explicit Touching(double period_px = 0.0, const SoundChoice& choice = {})
+        : TouchedPlane(period_px), listener(choice) {}
+    void pass(int count, Vec3 px_per_s = Vec3{0.0}) {
+        TouchedPlane::pass(count, px_per_s, [this] { listener.hear(ticks); });
     }
-    HapticConnections with_sound() {
-        HapticConnections connections = bench.connections();
-        connections.sound = ring.get();
-        return connections;
-    }
-    void pass(int ticks, Vec3 px_per_s = Vec3{0.0}) {
-        for (int k = 0; k < ticks; ++k) {
-            bench.hand.goal += 0.001 * px_per_s;
-            run_ticks(tick, 1);
-            listener.hear(*ring);
-        }
-    }
-    /// From above, and until the force has risen.
     void press() {
-        pass(50);
-        pass(100, {0.0, 0.0, -400.0});
-        pass(700);
+        TouchedPlane::press([this] { listener.hear(ticks); });
     }
 
-    Bench bench{};
-    std::unique_ptr<SoundRing> ring{std::make_unique<SoundRing>()};
     Listener listener;
-    HapticTick tick{with_sound()};
 };
 
 }  // namespace
@@ -306,7 +279,8 @@ TEST_CASE("neither a tick that is heard nor its sound allocates, also when nobod
     touching.listener.samples.reserve(100'000);
     CHECK(allocations_in([&] { touching.pass(300, {1600.0, 0.0, 0.0}); }) == 0);
     CHECK(allocations_in([&] { run_ticks(touching.tick, 2000); }) == 0);
-    CHECK(touching.ring->dropped() > 0);
+    touching.pass(1);
+    CHECK(touching.ticks.missed() > 0);
 }
 
 TEST_CASE("whatever ticks, materials and blocks come, samples are in [-1, 1]", "[sound]") {
@@ -363,19 +337,20 @@ TEST_CASE("the same ticks sound the same, bit for bit", "[sound]") {
 TEST_CASE("a device whose clock goes otherwise is neither late nor without sound", "[sound]") {
     const double drift = GENERATE(0.998, 1.0, 1.002);
     CAPTURE(drift);
-    SoundRing ring;
+    const auto ring = std::make_unique<SoundRing>();
+    SoundListener ticks(*ring);
     Listener listener;
     const auto tick = [](bool contact) {
         return SoundTick{{0.0, 0.0, contact ? 0.0 : 5.0}, contact ? 1.0 : 0.0, contact, true};
     };
     for (int k = 0; k < 60'000; ++k) {
-        ring.push(tick(false));
-        listener.hear(ring, 0.001 * drift);
+        ring->push(tick(false));
+        listener.hear(ticks, 0.001 * drift);
     }
     const double contact_s = listener.now_s();
     for (int k = 0; k < 60; ++k) {
-        ring.push(tick(true));
-        listener.hear(ring, 0.001 * drift);
+        ring->push(tick(true));
+        listener.hear(ticks, 0.001 * drift);
     }
     CHECK(loudest(listener.between(contact_s - 1.0, contact_s - 0.001)) < kHeard);
     CHECK(loudest(listener.between(contact_s, contact_s + 0.016)) > kHeard);
@@ -385,7 +360,8 @@ TEST_CASE("when ticks stay away the sound fades, and comes back with them", "[so
     Touching touching(8.0);
     touching.press();
     touching.pass(300, {1600.0, 0.0, 0.0});
-    SoundRing none;
+    const auto silent = std::make_unique<SoundRing>();
+    SoundListener none(*silent);
     const double stopped_s = touching.listener.now_s();
     for (int k = 0; k < 200; ++k) touching.listener.hear(none);
     const double back_s = touching.listener.now_s();

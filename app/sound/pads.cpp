@@ -1,0 +1,109 @@
+// SDL's joysticks.
+#include "app/sound/pads.hpp"
+
+#define SDL_MAIN_HANDLED  // main stays as it is
+#include <SDL.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
+
+namespace dibhr {
+
+namespace {
+
+constexpr std::size_t kMostPads = 8;
+constexpr Uint16 kSony = 0x054c;
+constexpr Uint16 kDualSense = 0x0ce6;
+constexpr Uint16 kDualSenseEdge = 0x0df2;
+constexpr Uint32 kLasts_ms = 1000;  // it is told again long before
+constexpr double kSteps = 64.0;     // a pad need not hear of smaller changes
+
+bool is_set(const char* variable) {
+    const char* value = std::getenv(variable);
+    return value != nullptr && *value != '\0';
+}
+
+Uint16 motor(double strength) {
+    return static_cast<Uint16>(std::lround(std::round(kSteps * strength) / kSteps * 65535.0));
+}
+
+bool has_coils(SDL_Joystick* joystick) {
+    const Uint16 product = SDL_JoystickGetProduct(joystick);
+    return SDL_JoystickGetVendor(joystick) == kSony &&
+           (product == kDualSense || product == kDualSenseEdge);
+}
+
+/// Reads what the pads say, so that SDL sees them come and go, and forgets it.
+void read_pads() {
+    SDL_JoystickUpdate();
+    SDL_FlushEvents(SDL_FIRSTEVENT, SDL_LASTEVENT);
+}
+
+}  // namespace
+
+bool pads_would_copy_process() {
+    if (is_set("DBUS_SESSION_BUS_ADDRESS") || !is_set("DISPLAY")) return false;
+    std::error_code failed;
+    return !is_set("XDG_RUNTIME_DIR") ||
+           !std::filesystem::exists(std::filesystem::path(std::getenv("XDG_RUNTIME_DIR")) / "bus",
+                                    failed);
+}
+
+Pads::Pads(TouchSource& source) : source_(source) {
+    const SdlTurn::Taken turn(source.sdl);
+    initialised_ = SDL_InitSubSystem(SDL_INIT_JOYSTICK) == 0;
+}
+
+Pads::~Pads() {
+    turn({}, false);
+    const SdlTurn::Taken turn(source_.sdl);
+    for (const Pad& pad : pads_) SDL_JoystickClose(pad.joystick);
+    if (initialised_) SDL_QuitSubSystem(SDL_INIT_JOYSTICK);
+}
+
+void Pads::look() {
+    if (!initialised_) return;
+    read_pads();
+    std::erase_if(pads_, [](const Pad& pad) {
+        if (SDL_JoystickGetAttached(pad.joystick) == SDL_TRUE) return false;
+        SDL_JoystickClose(pad.joystick);
+        return true;
+    });
+    for (int k = 0; k < SDL_NumJoysticks() && pads_.size() < kMostPads; ++k) {
+        const SDL_JoystickID id = SDL_JoystickGetDeviceInstanceID(k);
+        if (std::none_of(pads_.begin(), pads_.end(), [id](const Pad& pad) { return pad.id == id; }))
+            open(k);
+    }
+}
+
+void Pads::open(int index) {
+    SDL_Joystick* joystick = SDL_JoystickOpen(index);
+    if (joystick == nullptr) return;
+    const char* name = SDL_JoystickName(joystick);
+    pads_.push_back({.joystick = joystick,
+                     .id = SDL_JoystickInstanceID(joystick),
+                     .found = {.name = name == nullptr ? "Game pad" : name,
+                               .rumbles = SDL_JoystickHasRumble(joystick) == SDL_TRUE,
+                               .has_coils = has_coils(joystick)}});
+}
+
+void Pads::turn(Rumble rumble, bool coils_move) {
+    if (pads_.empty()) return;
+    read_pads();
+    for (const Pad& pad : pads_) {
+        if (!pad.found.rumbles) continue;
+        const Rumble own = coils_move && pad.found.has_coils ? Rumble{} : rumble;
+        SDL_JoystickRumble(pad.joystick, motor(own.low), motor(own.high), kLasts_ms);
+    }
+}
+
+std::vector<FoundPad> Pads::found() const {
+    std::vector<FoundPad> found;
+    for (const Pad& pad : pads_) found.push_back(pad.found);
+    return found;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,89 @@
+// SDL's audio devices.
+#include "app/sound/sound_stream.hpp"
+
+#define SDL_MAIN_HANDLED  // main stays as it is
+#include <SDL.h>
+
+#include <cstddef>
+#include <span>
+
+#include "core/sound/voice_coils.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr int kRate_hz = 48'000;
+constexpr Uint16 kBlock = 256;  // 5 ms: a tap is heard as it is felt
+
+// Through PulseAudio SDL means front, centre and bass by four channels; by six it means the same
+// everywhere, and the rear pair is the last. A device that has four gives four.
+constexpr int kCoilChannels = 6;
+
+}  // namespace
+
+SoundStream::SoundStream(const SoundRing& ticks, TripleBuffer<SoundChoice>& choices)
+    : ticks_(ticks), choices_(choices) {
+    open(nullptr, 1, SDL_AUDIO_ALLOW_FREQUENCY_CHANGE);
+}
+
+SoundStream::SoundStream(const char* device, const SoundRing& ticks,
+                         TripleBuffer<SoundChoice>& choices)
+    : ticks_(ticks), choices_(choices) {
+    open(device, kCoilChannels, SDL_AUDIO_ALLOW_FREQUENCY_CHANGE | SDL_AUDIO_ALLOW_CHANNELS_CHANGE);
+}
+
+SoundStream::~SoundStream() {
+    if (device_ != 0) SDL_CloseAudioDevice(device_);
+}
+
+void SoundStream::open(const char* device, int channels, int allowed_changes) {
+    SDL_AudioSpec wanted{};
+    wanted.freq = kRate_hz;
+    wanted.format = AUDIO_F32SYS;
+    wanted.channels = static_cast<Uint8>(channels);
+    wanted.samples = kBlock;
+    wanted.callback = &SoundStream::fill;
+    wanted.userdata = this;
+    SDL_AudioSpec given{};
+    device_ = SDL_OpenAudioDevice(device, 0, &wanted, &given, allowed_changes);
+    if (device_ == 0) return;
+    if (channels > 1 && given.channels < kFewestCoilChannels) return;  // it stays silent
+    channels_ = given.channels;
+    mono_.resize(given.samples);
+    sound_.emplace(given.freq);
+    SDL_PauseAudioDevice(device_, 0);
+}
+
+bool SoundStream::plays() const {
+    return device_ != 0 && SDL_GetAudioDeviceStatus(device_) == SDL_AUDIO_PLAYING;
+}
+
+/// SDL's audio thread.
+void SoundStream::fill(void* self, std::uint8_t* bytes, int count) {
+    SoundStream& stream = *static_cast<SoundStream*>(self);
+    TouchSound& sound = *stream.sound_;
+    sound.choose(stream.choices_.front());
+    for (SoundTick tick; stream.ticks_.pop(tick);) sound.add(tick);
+    const std::span<float> frames(reinterpret_cast<float*>(bytes),
+                                  static_cast<std::size_t>(count) / sizeof(float));
+    if (stream.channels_ == 1) {
+        sound.render(frames);
+        return;
+    }
+    stream.mono_.resize(frames.size() / static_cast<std::size_t>(stream.channels_));
+    sound.render(stream.mono_);
+    spread_to_rear(stream.mono_, frames, stream.channels_);
+}
+
+std::optional<std::string> voice_coil_device() {
+    for (int k = 0; k < SDL_GetNumAudioDevices(0); ++k) {
+        const char* name = SDL_GetAudioDeviceName(k, 0);
+        SDL_AudioSpec preferred{};  // no channels where they are not known before it is open
+        if (SDL_GetAudioDeviceSpec(k, 0, &preferred) != 0) preferred.channels = 0;
+        if (name != nullptr && has_voice_coils(name, preferred.channels)) return name;
+    }
+    return std::nullopt;
+}
+
+}  // namespace dibhr

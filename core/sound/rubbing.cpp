@@ -1,0 +1,47 @@
+// Texture and scraping.
+#include "core/sound/rubbing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dibhr {
+
+namespace {
+
+constexpr double kLowestTexture_hz = 30.0;  // slower is the shape of things
+constexpr double kForceHeard_per_newton = 0.9;
+constexpr double kHeightHeard_per_mm = 0.6;
+constexpr double kLoudestTexture = 0.6;
+constexpr double kFirmlyPressed_newton = 0.5;
+constexpr double kHalfScraping_mm_per_s = 60.0;  // at which it is half as loud as it gets
+
+double firmness_of(const HeardTick& tick) noexcept {
+    return std::clamp(tick.force_newton / kFirmlyPressed_newton, 0.0, 1.0);
+}
+
+}  // namespace
+
+double scraping_of(const HeardTick& tick) noexcept {
+    const double speed = tick.speed_mm_per_s;
+    return firmness_of(tick) * speed / (speed + kHalfScraping_mm_per_s);
+}
+
+Texture::Texture(double rate_hz) noexcept
+    : force_(kLowestTexture_hz, rate_hz), height_(kLowestTexture_hz, rate_hz) {}
+
+double Texture::next(const HeardTick& felt) noexcept {
+    if (std::exchange(begins_, false)) rest_ = felt;
+    const double rubbing =
+        kForceHeard_per_newton * force_.next(felt.force_newton - rest_.force_newton) +
+        kHeightHeard_per_mm * firmness_of(felt) * height_.next(felt.height_mm - rest_.height_mm);
+    return kLoudestTexture * std::tanh(rubbing / kLoudestTexture);
+}
+
+void Texture::be_quiet() noexcept {
+    force_.be_quiet();
+    height_.be_quiet();
+    begins_ = true;
+}
+
+}  // namespace dibhr

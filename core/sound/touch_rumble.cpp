@@ -1,0 +1,71 @@
+// Envelopes of what touch sounds like.
+#include "core/sound/touch_rumble.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dibhr {
+
+namespace {
+
+constexpr double kPatience_s = 0.02;
+constexpr double kKnock_ticks = 25.0;      // a motor needs some time to be felt at all
+constexpr double kSlowForce_ticks = 30.0;  // a hand presses more slowly
+constexpr double kRubbed_ticks = 15.0;
+constexpr double kKnockFelt = 1.2;
+constexpr double kJoltFelt_per_newton = 0.25;
+constexpr double kRubbingFelt = 3.0;
+constexpr double kUnfelt = 0.02;  // no motor turns for it
+
+double share_of(double value) noexcept {
+    return std::isfinite(value) ? std::clamp(value, 0.0, 1.0) : 0.0;
+}
+
+double strength(double felt) noexcept {
+    const double strength = std::tanh(felt);
+    return strength < kUnfelt ? 0.0 : strength;
+}
+
+}  // namespace
+
+TouchRumble::TouchRumble() noexcept : loudness_(0.0), hiss_(0.0), texture_(kSoundTicks_hz) {
+    choose({});
+}
+
+void TouchRumble::choose(const SoundMaterial& material) noexcept {
+    loudness_ = share_of(material.loudness);
+    hiss_ = share_of(material.hiss);
+}
+
+void TouchRumble::add(const SoundTick& tick) noexcept {
+    unheard_s_ = 0.0;
+    ticks_.add(tick);
+    if (ticks_.force_on()) {
+        feel(ticks_.at(ticks_.newest()));
+    } else {
+        be_quiet();
+    }
+}
+
+void TouchRumble::feel(const HeardTick& tick) noexcept {
+    knock_ = std::max(tick.tap, knock_ - knock_ / kKnock_ticks);
+    slow_newton_ += (tick.force_newton - slow_newton_) / kSlowForce_ticks;
+    jolt_newton_ = std::abs(tick.force_newton - slow_newton_);
+    rubbed_ = std::max(std::abs(texture_.next(tick)), rubbed_ - rubbed_ / kRubbed_ticks);
+    scraping_ = scraping_of(tick);
+}
+
+Rumble TouchRumble::after(double span_s) noexcept {
+    unheard_s_ += span_s;
+    if (unheard_s_ > kPatience_s) be_quiet();
+    const double rubbing = rubbed_ + kScrapingHeard * hiss_ * scraping_;
+    return {.low = strength(kKnockFelt * knock_ + kJoltFelt_per_newton * jolt_newton_),
+            .high = strength(kRubbingFelt * loudness_ * rubbing)};
+}
+
+void TouchRumble::be_quiet() noexcept {
+    texture_.be_quiet();
+    knock_ = slow_newton_ = jolt_newton_ = rubbed_ = scraping_ = 0.0;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,292 @@
+// Game pads that SDL pretends to have, and what the real output does to their motors.
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#define SDL_MAIN_HANDLED
+#include <SDL.h>
+
+#include "app/sound/pad_output.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/eventually.hpp"
+#include "tests/support/variable.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+constexpr Uint16 kSony = 0x054c;
+constexpr Uint16 kDualSense = 0x0ce6;
+
+/// What a pad's motors were told, and when.
+struct Told {
+    Clock::time_point at{};
+    int low{0};
+    int high{0};
+};
+
+/// SDL's joysticks for a test of its own.
+class Joysticks {
+  public:
+    Joysticks() {
+        teach_sdl_manners();
+        REQUIRE(SDL_InitSubSystem(SDL_INIT_JOYSTICK) == 0);
+    }
+    ~Joysticks() { SDL_QuitSubSystem(SDL_INIT_JOYSTICK); }
+    Joysticks(const Joysticks&) = delete;
+    Joysticks& operator=(const Joysticks&) = delete;
+};
+
+/// A pad, plugged in from construction to destruction.
+class VirtualPad {
+  public:
+    explicit VirtualPad(const char* name, Uint16 product = 0, bool rumbles = true) {
+        SDL_VirtualJoystickDesc description{};
+        description.version = SDL_VIRTUAL_JOYSTICK_DESC_VERSION;
+        description.type = SDL_JOYSTICK_TYPE_GAMECONTROLLER;
+        description.naxes = 6;
+        description.nbuttons = 15;
+        description.vendor_id = product != 0 ? kSony : Uint16{0};
+        description.product_id = product;
+        description.name = name;
+        description.userdata = this;
+        if (rumbles) description.Rumble = &VirtualPad::take;
+        const int index = SDL_JoystickAttachVirtualEx(&description);
+        REQUIRE(index >= 0);
+        id_ = SDL_JoystickGetDeviceInstanceID(index);
+    }
+    ~VirtualPad() {
+        for (int k = 0; k < SDL_NumJoysticks(); ++k)
+            if (SDL_JoystickGetDeviceInstanceID(k) == id_) SDL_JoystickDetachVirtual(k);
+    }
+    VirtualPad(const VirtualPad&) = delete;
+    VirtualPad& operator=(const VirtualPad&) = delete;
+
+    [[nodiscard]] std::vector<Told> told() const {
+        const std::lock_guard lock(mutex_);
+        return told_;
+    }
+    void forget() {
+        const std::lock_guard lock(mutex_);
+        told_.clear();
+    }
+    [[nodiscard]] bool turns() const {
+        const auto all = told();
+        return !all.empty() && (all.back().low != 0 || all.back().high != 0);
+    }
+
+    /// Answers nothing any more, as a driver that hangs.
+    void hang(bool hang) { hangs_ = hang; }
+
+  private:
+    static int SDLCALL take(void* self, Uint16 low, Uint16 high) {
+        VirtualPad& pad = *static_cast<VirtualPad*>(self);
+        while (pad.hangs_) std::this_thread::sleep_for(milliseconds(1));
+        const std::lock_guard lock(pad.mutex_);
+        pad.told_.push_back({Clock::now(), low, high});
+        return 0;
+    }
+
+    SDL_JoystickID id_{-1};
+    mutable std::mutex mutex_{};
+    std::vector<Told> told_{};  // under the mutex
+    std::atomic<bool> hangs_{false};
+};
+
+/// The real output, and ticks for it as the loop pushes them, a millisecond each.
+struct Touching {
+    Touching() { output.choose({}, true, false); }
+
+    void push(int ticks, const SoundTick& tick) {
+        for (int k = 0; k < ticks; ++k) {
+            next = std::max(next + milliseconds(1), Clock::now() - milliseconds(5));
+            std::this_thread::sleep_until(next);
+            source->ticks.push(tick);
+        }
+    }
+    /// Rubs to and fro, for as long as nobody is satisfied.
+    template <typename Condition>
+    [[nodiscard]] bool rub_until(const Condition& is_so) {
+        for (int k = 0; k < 10'000 && !is_so(); ++k)
+            push(1, {{0.0, 0.0, k % 8 < 4 ? 0.0 : 0.3}, k % 8 < 4 ? 1.0 : 2.0, true, true});
+        return is_so();
+    }
+    [[nodiscard]] bool finds(std::size_t pads) const {
+        return eventually([&] { return output.news().found.size() == pads; });
+    }
+
+    std::shared_ptr<TouchSource> source{std::make_shared<TouchSource>()};
+    PadOutput output{source};
+    Clock::time_point next{Clock::now()};
+};
+
+constexpr SoundTick kAir{Vec3{0.0, 0.0, 5.0}, 0.0, false, true};
+constexpr SoundTick kTouch{Vec3{0.0}, 1.0, true, true};
+constexpr SoundTick kOff{Vec3{0.0}, 0.0, true, false};
+
+double ms_between(Clock::time_point from, Clock::time_point to) {
+    return std::chrono::duration<double, std::milli>(to - from).count();
+}
+
+double middle_of(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+}  // namespace
+
+TEST_CASE("a tap rumbles a pad within 30 ms, and force off stops it within 30", "[pads]") {
+    const Variable bus("DBUS_SESSION_BUS_ADDRESS", "disabled:");
+    const Joysticks joysticks;
+    VirtualPad pad("Virtual pad");
+    Touching touching;
+    REQUIRE(touching.finds(1));
+    std::vector<double> taps_ms;
+    std::vector<double> stops_ms;
+    for (int k = 0; k < 7; ++k) {  // the machine may be busy with something else for one
+        touching.push(100 + 3 * k, kAir);
+        REQUIRE_FALSE(pad.turns());
+        pad.forget();
+        const auto tapped = Clock::now();
+        touching.push(50, kTouch);
+        const auto rumbled = pad.told();
+        REQUIRE_FALSE(rumbled.empty());
+        CHECK(rumbled.front().low > 3000);
+        taps_ms.push_back(ms_between(tapped, rumbled.front().at));
+        REQUIRE(pad.turns());
+        const auto off = Clock::now();
+        touching.push(50, kOff);
+        REQUIRE_FALSE(pad.turns());
+        stops_ms.push_back(ms_between(off, pad.told().back().at));
+    }
+    CAPTURE(taps_ms, stops_ms);
+    CHECK(middle_of(taps_ms) < 30.0);
+    CHECK(middle_of(stops_ms) < 30.0);
+}
+
+TEST_CASE("a pad that is pulled out is no error, and it or another is found again", "[pads]") {
+    const Variable bus("DBUS_SESSION_BUS_ADDRESS", "disabled:");
+    const Joysticks joysticks;
+    Touching touching;
+    CHECK(touching.finds(0));
+    for (const char* name : {"First", "Second"}) {
+        VirtualPad pad(name);
+        const FoundPad found{.name = name, .rumbles = true, .has_coils = false};
+        CHECK(eventually([&] { return touching.output.news().found == std::vector{found}; }));
+        CHECK(touching.rub_until([&] { return pad.turns(); }));
+    }
+    CHECK(touching.rub_until([&] { return touching.output.news().found.empty(); }));
+}
+
+TEST_CASE("the motors stop when pads are switched off, when ticks stay away, and at the end",
+          "[pads]") {
+    const Variable bus("DBUS_SESSION_BUS_ADDRESS", "disabled:");
+    const Joysticks joysticks;
+    VirtualPad pad("Virtual pad");
+    {
+        Touching touching;
+        REQUIRE(touching.finds(1));
+        REQUIRE(touching.rub_until([&] { return pad.turns(); }));
+        CHECK(eventually([&] { return !pad.turns(); }));  // no tick comes
+        REQUIRE(touching.rub_until([&] { return pad.turns(); }));
+        touching.output.choose({}, false, false);
+        CHECK(eventually([&] { return !pad.turns(); }));
+        CHECK(eventually([&] { return touching.output.news() == PadNews{}; }));
+        pad.forget();
+        touching.push(50, kTouch);
+        CHECK(pad.told().empty());
+        touching.output.choose({}, true, false);
+        REQUIRE(touching.finds(1));
+        REQUIRE(touching.rub_until([&] { return pad.turns(); }));
+    }
+    CHECK_FALSE(pad.turns());
+}
+
+TEST_CASE("all pads rumble that can, but those whose voice coils move with the sound", "[pads]") {
+    const Variable bus("DBUS_SESSION_BUS_ADDRESS", "disabled:");
+    const Joysticks joysticks;
+    const VirtualPad coils("DualSense", kDualSense);
+    const VirtualPad motors("Other");
+    const VirtualPad silent("Still", 0, false);
+    Touching touching;
+    REQUIRE(touching.finds(3));
+    const PadNews news = touching.output.news();
+    CHECK(news.has_coils());
+    CHECK(std::count_if(news.found.begin(), news.found.end(),
+                        [](const FoundPad& found) { return found.rumbles; }) == 2);
+    CHECK(touching.rub_until([&] { return coils.turns() && motors.turns(); }));
+    touching.output.choose({}, true, true);
+    CHECK(touching.rub_until([&] { return !coils.turns() && motors.turns(); }));
+    CHECK(silent.told().empty());
+}
+
+TEST_CASE("a pad that hangs holds up neither who touches nor the end", "[pads]") {
+    const Variable bus("DBUS_SESSION_BUS_ADDRESS", "disabled:");
+    const Joysticks joysticks;
+    VirtualPad pad("Virtual pad");
+    std::shared_ptr<TouchSource> source;
+    Clock::time_point left{};
+    {
+        Touching touching;
+        source = touching.source;
+        REQUIRE(touching.finds(1));
+        REQUIRE(touching.rub_until([&] { return pad.turns(); }));
+        pad.hang(true);
+        touching.push(100, kAir);
+        touching.output.choose({}, true, false);
+        left = Clock::now();
+    }
+    CHECK(ms_between(left, Clock::now()) < 1500.0);
+    pad.hang(false);
+    CHECK(eventually([&] { return source.use_count() == 1; }));  // its thread has gone, too
+    CHECK_FALSE(pad.turns());
+}
+
+TEST_CASE("what is pressed on a pad goes nowhere, and signals are left to the program", "[pads]") {
+    const Variable bus("DBUS_SESSION_BUS_ADDRESS", "disabled:");
+    struct sigaction before {};
+    REQUIRE(sigaction(SIGINT, nullptr, &before) == 0);
+    const Joysticks joysticks;
+    const VirtualPad pad("Virtual pad");
+    Touching touching;
+    REQUIRE(touching.finds(1));
+    SDL_Joystick* own = SDL_JoystickOpen(0);
+    REQUIRE(own != nullptr);
+    for (int k = 0; k < 20; ++k) {
+        SDL_JoystickSetVirtualButton(own, 0, static_cast<Uint8>(k % 2));
+        SDL_JoystickSetVirtualAxis(own, 0, static_cast<Sint16>(1000 * k));
+        touching.push(15, kAir);
+    }
+    SDL_JoystickClose(own);
+    CHECK(eventually([] {
+        return SDL_PeepEvents(nullptr, 0, SDL_PEEKEVENT, SDL_FIRSTEVENT, SDL_LASTEVENT) == 0;
+    }));
+    struct sigaction after {};
+    REQUIRE(sigaction(SIGINT, nullptr, &after) == 0);
+    CHECK(before.sa_handler == after.sa_handler);
+}
+
+TEST_CASE("where SDL would copy the process to start a D-Bus, no pad is looked for", "[pads]") {
+    const Variable bus("DBUS_SESSION_BUS_ADDRESS", nullptr);
+    const Variable runtime("XDG_RUNTIME_DIR", nullptr);
+    {
+        const Variable display("DISPLAY", nullptr);
+        CHECK_FALSE(pads_would_copy_process());  // the library starts none, either
+    }
+    const Variable display("DISPLAY", ":77");
+    CHECK(pads_would_copy_process());
+    PadOutput output(std::make_shared<TouchSource>());
+    output.choose({}, true, false);
+    CHECK(eventually([&] { return output.news().state == PadNews::State::no_session; }));
+    CHECK(SDL_WasInit(SDL_INIT_JOYSTICK) == 0);
+}

@@ -1,0 +1,35 @@
+// A variable of the environment, changed for a while.
+#pragma once
+
+#include <cstdlib>
+#include <optional>
+#include <string>
+
+namespace dibhr::test {
+
+/// Until its end. No other thread may look at the environment meanwhile.
+class Variable {
+  public:
+    /// `value`: null takes it away.
+    Variable(const char* name, const char* value) : name_(name) {
+        if (const char* before = std::getenv(name)) before_ = before;
+        set(value);
+    }
+    ~Variable() { set(before_ ? before_->c_str() : nullptr); }
+    Variable(const Variable&) = delete;
+    Variable& operator=(const Variable&) = delete;
+
+  private:
+    void set(const char* value) const {
+        if (value == nullptr) {
+            ::unsetenv(name_);
+        } else {
+            ::setenv(name_, value, 1);
+        }
+    }
+
+    const char* name_;
+    std::optional<std::string> before_{};
+};
+
+}  // namespace dibhr::test
