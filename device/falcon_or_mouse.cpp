@@ -12,15 +12,21 @@ const DeviceSpecification& FalconOrMouse::specification() const noexcept {
     return falcon_.specification();
 }
 
+HandReading FalconOrMouse::unread() const noexcept {
+    return of_mouse(mouse_.unread());
+}
+
 HandReading FalconOrMouse::read(const HandContext& context) noexcept {
     HandReading reading = falcon_.read(context);
     const bool changed = std::exchange(falcon_touches_, falcon_.in_hand()) != falcon_.in_hand();
-    if (!falcon_touches_) {
-        reading = mouse_.read(context);
-        reading.stand_in = true;
-        reading.limits = mouse_.specification().limits;
-    }
+    if (!falcon_touches_) reading = of_mouse(mouse_.read(context));
     reading.taken_over = reading.taken_over || changed;
+    return reading;
+}
+
+HandReading FalconOrMouse::of_mouse(HandReading reading) const noexcept {
+    reading.stand_in = true;
+    reading.limits = mouse_.specification().limits;
     return reading;
 }
 

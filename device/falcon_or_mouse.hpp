@@ -14,6 +14,7 @@ class FalconOrMouse final : public Device {
     FalconOrMouse(falcon::ConnectionOptions options, falcon::FirmwareImage firmware);
 
     [[nodiscard]] const DeviceSpecification& specification() const noexcept override;
+    [[nodiscard]] HandReading unread() const noexcept override;
     HandReading read(const HandContext& context) noexcept override;
     void send(Vec3 force_newton) noexcept override;
 
@@ -21,6 +22,8 @@ class FalconOrMouse final : public Device {
     [[nodiscard]] MouseHand& mouse() noexcept { return mouse_; }
 
   private:
+    [[nodiscard]] HandReading of_mouse(HandReading reading) const noexcept;
+
     falcon::FalconDevice falcon_;
     MouseHand mouse_{};
     bool falcon_touches_{false};

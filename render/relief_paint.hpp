@@ -19,8 +19,8 @@ enum class ReliefPaint : std::uint8_t { video, clay, turbo, viridis, grey };
 inline constexpr std::array<Word<ReliefPaint>, 5> kReliefPaintWords{
     {{ReliefPaint::video, "video", "Colour of the video"},
      {ReliefPaint::clay, "clay", "Clay"},
-     {ReliefPaint::turbo, "turbo", "Depth, Turbo"},
-     {ReliefPaint::viridis, "viridis", "Depth, Viridis"},
+     {ReliefPaint::turbo, "turbo", "Depth, turbo"},
+     {ReliefPaint::viridis, "viridis", "Depth, viridis"},
      {ReliefPaint::grey, "grey", "Depth, grey"}}};
 static_assert(has_all_in_order(kReliefPaintWords, ReliefPaint::grey));
 

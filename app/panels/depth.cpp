@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <vector>
 
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
@@ -156,13 +157,19 @@ bool has_assumed(const DepthMeaning& meaning) {
 
 /// The longest that has room [px].
 std::string depth_line(const DepthMeaning& meaning, float room) {
-    const std::string words = in_words(meaning);
-    if (!has_assumed(meaning)) return "Depth: " + words;
-    for (const char* how : {" (assumed: click to change)", " (assumed)"}) {
-        std::string line = "Depth: " + words + how;
-        if (ImGui::CalcTextSize(line.c_str()).x <= room) return line;
+    const std::string whole = "Depth: " + in_words(meaning);
+    std::vector<std::string> lines;
+    if (has_assumed(meaning)) {
+        lines = {whole + " (assumed: click to change)", whole + " (assumed)",
+                 "Depth assumed: click to change"};
+    } else {
+        lines = {whole, "Depth: click to see what it means"};
     }
-    return "Depth assumed: " + words;
+    const auto fits = [room](const std::string& line) {
+        return ImGui::CalcTextSize(line.c_str()).x <= room;
+    };
+    const auto found = std::find_if(lines.begin(), lines.end(), fits);
+    return found == lines.end() ? lines.back() : *found;
 }
 
 }  // namespace
@@ -185,7 +192,7 @@ void draw_depth_rows(ViewerState& state) {
               scale_in, &DepthStatement::scale, fields.depth_scale, state);
     const DepthRange& range = known.range.value;
     typed_row({"Range", "NEAR:FAR in that unit, as in 480:4210 (--depth-range)",
-               with_origin(short_text(range.near, 4) + ":" + short_text(range.far, 4),
+               with_origin(short_text(range.near, 5) + ":" + short_text(range.far, 5),
                            known.range.origin)},
               range_in, &DepthStatement::range, fields.depth_range, state);
     typed_row({"No data", "levels that mean nothing, as in 0,65535, or none (--no-data)",

@@ -96,10 +96,12 @@ void draw_device_panel(ViewerState& state) {
     state.settings.max_force_newton =
         std::clamp(state.settings.max_force_newton, 0.0, state.device.limits.max_force_newton);
     const Touch& touch = state.haptic.touch;
-    fact_row("Goal", point_text(touch.goal));
-    fact_row("Proxy", point_text(touch.proxy.position));
-    fact_row("Force", formatted("%.2f N", glm::length(touch.sent_force_newton)));
-    if (touch.cut != SafetyCut::none) fact_row("Cut", name_of(touch.cut));
+    fact_row("Goal", point_text(touch.goal), "Where the hand is: column, row and elevation");
+    fact_row("Proxy", point_text(touch.proxy.position),
+             "The point that stays on the surface; the spring pulls the hand to it");
+    fact_row("Force", formatted("%.2f N", glm::length(touch.sent_force_newton)),
+             "What is sent to the hand");
+    if (touch.cut != SafetyCut::none) fact_row("Cut", name_of(touch.cut), "Why no force is sent");
     if (has_falcon) draw_falcon_settings(state);
     ImGui::PopID();
 }

@@ -79,6 +79,14 @@ class Blackboard {
         }
     }
 
+    /// Whether words beside both would be side by side, or one below the other.
+    [[nodiscard]] bool are_apart(Vec3 one, Vec3 other) const {
+        const auto a = screen_.at(one);
+        const auto b = screen_.at(other);
+        const ImVec2 word = ImGui::CalcTextSize("proxy");
+        return !a || !b || std::abs(a->y - b->y) > word.y || std::abs(a->x - b->x) > 1.5F * word.x;
+    }
+
     /// Beside a place, readable on any picture.
     void word(Vec3 at, const char* text) const {
         const auto p = screen_.at(at);
@@ -197,11 +205,12 @@ void draw_on_relief(const Blackboard& board, const DepthSurface& surface,
                      kGoal);
     }
     draw_path(board, news);
-    board.ring(update.goal, 9.0F, kGoal);
-    board.word(update.goal, "goal");
     const Vec3 proxy = last != nullptr ? last->after.position : update.start.position;
+    const bool apart = board.are_apart(proxy, update.goal);  // else one word would hide the other
+    board.ring(update.goal, 9.0F, kGoal);
+    if (apart) board.word(update.goal, "goal");
     board.dot(proxy, 6.0F, kProxy);
-    board.word(proxy, "proxy");
+    board.word(proxy, apart ? "proxy" : "proxy, goal");
 }
 
 /// What to read: of the last step that was taken.

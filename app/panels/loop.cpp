@@ -12,21 +12,32 @@ void draw_loop_panel(ViewerState& state) {
     const HapticState& haptic = state.haptic;
     const LoopSecond& second = haptic.second;
     draw_strip_charts(state);
-    fact_row("Rate", formatted("%.1f per second", second.rate_hz));
-    fact_row("Worst tick", formatted("%.3f ms late (last second)", second.worst_lateness_ms));
+    fact_row("Rate", formatted("%.1f per second", second.rate_hz),
+             "Ticks of the haptic loop; it is to have 1000 in a second");
+    fact_row("Worst tick", formatted("%.3f ms late (last second)", second.worst_lateness_ms),
+             "How long after its time the latest tick began");
     fact_row("Late ticks",
-             std::to_string(haptic.late_ticks) + " of " + std::to_string(haptic.ticks));
+             std::to_string(haptic.late_ticks) + " of " + std::to_string(haptic.ticks),
+             "Those that began after the next one's time");
     fact_row("Update",
-             formatted("%.2f us, worst %.1f us", second.update_us, second.worst_update_us));
-    fact_row("Moves", formatted("%.2f per update", second.moves));
+             formatted("%.2f us, worst %.1f us", second.update_us, second.worst_update_us),
+             "How long the algorithm takes to find proxy and force");
+    fact_row("Moves", formatted("%.2f per update", second.moves),
+             "Triangles, edges and vertices that the proxy visits on its way");
     if (haptic.bounds_met > 0) {
-        fact_row("Catching up", std::to_string(haptic.bounds_met) + " of " +
-                                    std::to_string(haptic.ticks) + " ticks");
+        fact_row(
+            "Catching up",
+            std::to_string(haptic.bounds_met) + " of " + std::to_string(haptic.ticks) + " ticks",
+            "Those that ended before the proxy had followed a jump to its end");
     }
-    fact_row("Decoding", formatted("%.1f ms a frame", state.playback.decode_ms));
-    fact_row("Pictures", formatted("%.0f per second", state.pictures_per_s));
-    fact_row("Priority", state.grants ? state.grants->priority.answer : "asking");
-    fact_row("Memory lock", state.grants ? state.grants->memory_lock.answer : "asking");
+    fact_row("Decoding", formatted("%.1f ms a frame", state.playback.decode_ms),
+             "Reading and cleaning a frame of the video");
+    fact_row("Pictures", formatted("%.0f per second", state.pictures_per_s),
+             "How often this window is drawn");
+    fact_row("Priority", state.grants ? state.grants->priority.answer : "asking",
+             "Whether the system lets the haptic loop go before other programs");
+    fact_row("Memory lock", state.grants ? state.grants->memory_lock.answer : "asking",
+             "Whether the system keeps the program's memory from being moved to the disk");
     ImGui::PopID();
 }
 

@@ -221,7 +221,8 @@ void draw_rows(ViewerState& state, ImVec2 size) {
     const float em = ImGui::GetFontSize();
     const bool wide = size.x > 26.0F * em;
     if (!ImGui::BeginTable("rows", wide ? 3 : 1, kTable, size)) return;
-    ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthStretch);
+    // With a weight: one of the names' own would leave no room to a long one.
+    ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthStretch, 1.0F);
     if (wide) {
         ImGui::TableSetupColumn("Size", ImGuiTableColumnFlags_WidthFixed, 4.6F * em);
         ImGui::TableSetupColumn("Changed", ImGuiTableColumnFlags_WidthFixed, 9.0F * em);
@@ -284,7 +285,7 @@ void draw_preview(const ViewerState& state, const FolderEntry* chosen, ImVec2 si
                             name_of(chosen->kind));
         if (of_chosen && !preview.words.empty()) quiet_text(preview.words);
     } else {
-        quiet_text("Choose a recording: colour and depth of one are one row.");
+        quiet_text("Choose a recording. Its colour and its depth are one row.");
     }
     ImGui::EndChild();
 }

@@ -2,6 +2,7 @@
 // that tells what went wrong, and the help sheet.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <span>
@@ -21,10 +22,24 @@ namespace dibhr {
 
 namespace {
 
+constexpr float kGround = 0.92F;  // what is below must not be read with it
+
 void draw_ground(ImVec2 low, ImVec2 size, float alpha,
                  ImDrawList& list = *ImGui::GetBackgroundDrawList()) {
     list.AddRectFilled(low, {low.x + size.x, low.y + size.y},
                        ImGui::GetColorU32(ImGuiCol_PopupBg, alpha), 5.0F);
+}
+
+float wrap_of(float widest) {
+    const float pad = ImGui::GetStyle().FramePadding.x;
+    return widest > 0.0F ? std::max(widest - 2.0F * pad, 1.0F) : -1.0F;
+}
+
+/// Of a label, with its ground.
+ImVec2 label_size(const std::string& text, float widest = 0.0F) {
+    const ImVec2 pad = ImGui::GetStyle().FramePadding;
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap_of(widest));
+    return {size.x + 2.0F * pad.x, size.y + 2.0F * pad.y};
 }
 
 /// Text on a rounded ground, so that it can be read over any picture; broken into lines that wide
@@ -32,17 +47,17 @@ void draw_ground(ImVec2 low, ImVec2 size, float alpha,
 float label(const std::string& text, ImVec2 low, float alpha, float widest = 0.0F,
             ImDrawList& list = *ImGui::GetBackgroundDrawList()) {
     const ImVec2 pad = ImGui::GetStyle().FramePadding;
-    const float wrap = widest > 0.0F ? std::max(widest - 2.0F * pad.x, 1.0F) : -1.0F;
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
-    draw_ground(low, {size.x + 2.0F * pad.x, size.y + 2.0F * pad.y}, 0.8F * alpha, list);
+    const ImVec2 size = label_size(text, widest);
+    draw_ground(low, size, kGround * alpha, list);
     list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {low.x + pad.x, low.y + pad.y},
                  ImGui::GetColorU32(ImGuiCol_Text, alpha), text.c_str(), nullptr,
-                 std::max(wrap, 0.0F));
-    return size.y + 2.0F * pad.y;
+                 std::max(wrap_of(widest), 0.0F));
+    return size.y;
 }
 
-/// What the Falcon lacks, at the top in the middle of the relief, as wide as there is room.
-void draw_banner(const ViewerState& state, const std::string& text) {
+/// What the Falcon lacks, in the middle of the relief below what is touched, as wide as there is
+/// room. Where it ends.
+float draw_banner(const ViewerState& state, const std::string& text) {
     const float room = ImGui::GetIO().DisplaySize.x - panel_column_width(state);
     const ImGuiStyle& style = ImGui::GetStyle();
     const float wrap =
@@ -51,22 +66,25 @@ void draw_banner(const ViewerState& state, const std::string& text) {
     const ImVec2 pad = style.WindowPadding;
     const ImVec2 low{(room - size.x) * 0.5F, panes_height(state) + 3.2F * ImGui::GetFrameHeight()};
     draw_ground({low.x - pad.x, low.y - pad.y}, {size.x + 2.0F * pad.x, size.y + 2.0F * pad.y},
-                0.88F);
+                kGround);
     ImGui::GetBackgroundDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(), low,
                                             ImGui::GetColorU32(ImGuiCol_Text), text.c_str(),
                                             nullptr, wrap);
+    return low.y + size.y + pad.y;
 }
 
 void centred_label(const ViewerState& state, const std::string& text, float lines_above_bar,
                    float alpha) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float line = ImGui::GetFrameHeight();
-    const float bar = bottom_bar_height(state);
     const float width = display.x - panel_column_width(state);
+    const float widest = width - 24.0F * state.scale;
+    const ImVec2 size = label_size(text, widest);
+    const float below = label_size({}).y;  // as one line is: more of them grow upwards
     label(text,
-          {(width - ImGui::CalcTextSize(text.c_str()).x) * 0.5F,
-           display.y - bar - (1.4F + lines_above_bar) * line},
-          alpha);
+          {(width - size.x) * 0.5F,
+           display.y - bottom_bar_height(state) - (1.4F + lines_above_bar) * line + below - size.y},
+          alpha, widest);
 }
 
 /// Whether something is recorded is seen at a glance, also from afar.
@@ -119,21 +137,21 @@ std::vector<std::string> statistics_of(const ViewerState& state) {
     std::vector<std::string> lines;
     const MediaDescription& media = state.media;
     const PlaybackStatus& playback = state.playback;
-    lines.push_back(formatted("Pictures %.0f per second, relief %d x %d, colour %d x %d",
-                              state.pictures_per_s, media.depth_columns, media.depth_rows,
-                              media.colour_columns, media.colour_rows));
+    lines.push_back(formatted("Relief %d x %d, colour %d x %d", media.depth_columns,
+                              media.depth_rows, media.colour_columns, media.colour_rows));
+    lines.push_back(formatted("Pictures %.0f per second", state.pictures_per_s));
     if (!state.replay && !media.still) {
-        lines.push_back(formatted("Video %.0f of %.0f frames per second, decoding %.1f ms a frame",
-                                  playback.shown_per_s, playback.frames_per_s, playback.decode_ms));
+        lines.back() +=
+            formatted(", video %.0f of %.0f", playback.shown_per_s, playback.frames_per_s);
+        lines.push_back(formatted("Decoding %.1f ms a frame", playback.decode_ms));
     }
-    lines.push_back("At " + place_text(state));
+    if (state.replay || !media.still) lines.push_back("At " + place_text(state));
     if (!state.replay) {
         const LoopSecond& second = state.haptic.second;
-        lines.push_back(formatted("Touch %.1f ticks per second, worst %.3f ms late", second.rate_hz,
-                                  second.worst_lateness_ms));
-        lines.push_back(formatted("Late ticks %s of %s",
+        lines.push_back(formatted("Ticks %.1f per second, late %s of %s", second.rate_hz,
                                   std::to_string(state.haptic.late_ticks).c_str(),
                                   std::to_string(state.haptic.ticks).c_str()));
+        lines.push_back(formatted("Worst tick %.3f ms late", second.worst_lateness_ms));
         lines.push_back(formatted("Update %.2f us, worst %.1f us, %.1f moves", second.update_us,
                                   second.worst_update_us, second.moves));
     }
@@ -154,12 +172,14 @@ std::string statistics_text(const ViewerState& state) {
     return text;
 }
 
-/// What the pointer is on.
-std::string pointer_text(const ViewerState& state) {
+/// What the pointer is on; where that is no line, in two.
+std::string pointer_text(const ViewerState& state, float widest) {
     const PixelShown& pixel = *state.under_pointer;
     std::string text = formatted("Pixel %d, %d", pixel.column, pixel.row);
     if (const std::string depth = depth_text(state, pixel); !depth.empty()) text += "   " + depth;
-    return text + "   stands " + elevation_text(state, pixel);
+    const std::string elevation = "stands " + elevation_text(state, pixel);
+    const bool fits = label_size(text + "   " + elevation).x <= widest;
+    return text + (fits ? "   " : "\n") + elevation;
 }
 
 /// An algorithm, and the colour of its proxy.
@@ -221,9 +241,10 @@ Legend legend_of(const ViewerState& state) {
     legend.unit = meaning.unit.value == DepthUnit::levels
                       ? "level"
                       : std::string(name_of(meaning.unit.value));
+    const int digits = depth_digits(meaning);
     for (std::size_t k = 0; k < legend.numbers.size(); ++k) {
         const double nearness = static_cast<double>(k) / (Legend::kNumbers - 1);
-        legend.numbers[k] = short_text(value_at(meaning, nearness), 4);
+        legend.numbers[k] = decimal(value_at(meaning, nearness), digits);
         legend.width = std::max(legend.width, ImGui::CalcTextSize(legend.numbers[k].c_str()).x);
     }
     return legend;
@@ -243,18 +264,27 @@ void draw_colours(const ColourImage& colours, ImVec2 low, ImVec2 high) {
     }
 }
 
-/// Which colour is how far, at the right of the relief. Where it begins, or the relief ends.
+/// Where the bar below the relief begins.
+float bar_top(const ViewerState& state) {
+    return ImGui::GetIO().DisplaySize.y - bottom_bar_height(state);
+}
+
+/// Which colour is how far, at the right of the relief, down to the bar at most. Where it begins,
+/// or the relief ends.
 float draw_legend(const ViewerState& state, float margin) {
     const float room = ImGui::GetIO().DisplaySize.x - panel_column_width(state);
     const Legend legend = legend_of(state);
     if (!legend.colours) return room;
     const float line = ImGui::GetTextLineHeight();
-    const float height = 10.0F * line;
+    const float above = panes_height(state) + 4.0F * margin;
+    const float room_below = bar_top(state) - margin - above - 3.5F * line;
+    const float height = std::min(10.0F * line, room_below);
+    if (height < Legend::kNumbers * line) return room;
     const float bar = 0.9F * line;
     const float unit = ImGui::CalcTextSize(legend.unit.c_str()).x;
     const float inner = std::max(bar + 0.5F * margin + legend.width, unit);
-    const ImVec2 low{room - inner - 2.0F * margin, panes_height(state) + 4.0F * margin};
-    draw_ground(low, {inner + margin, height + 3.5F * line}, 0.8F);
+    const ImVec2 low{room - inner - 2.0F * margin, above};
+    draw_ground(low, {inner + margin, height + 3.5F * line}, kGround);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const ImU32 text = ImGui::GetColorU32(ImGuiCol_Text);
     const float left = low.x + 0.5F * margin;
@@ -269,15 +299,25 @@ float draw_legend(const ViewerState& state, float margin) {
     return low.x;
 }
 
-/// One label under the other, up to `right`; those that come and go by themselves are the last.
+/// One label under the other, up to `right` and down to the bar: of what has no room the last lines
+/// are left out. Those that come and go by themselves are the last. A banner is below what is
+/// touched.
 void draw_upper_left(const ViewerState& state, float margin, float right) {
     ImVec2 low{margin, panes_height(state) + margin};
     const float widest = right - 2.0F * margin;
-    const auto add = [&low, widest](const std::string& text) {
+    const float bottom = bar_top(state);
+    const auto add = [&low, widest, bottom](std::string text) {
+        while (low.y + label_size(text, widest).y > bottom) {
+            const std::size_t last = text.rfind('\n');
+            if (last == std::string::npos) return;
+            text.resize(last);
+        }
         low.y += label(text, low, 1.0F, widest) + 0.3F * ImGui::GetFrameHeight();
     };
     if (state.replay) add(replay_text(*state.replay));
     add(touch_text(state));
+    if (const std::string banner = falcon_banner(state); !banner.empty())
+        low.y = draw_banner(state, capitalised(banner)) + 0.3F * ImGui::GetFrameHeight();
     if (state.recording) {
         red_dot_label(*ImGui::GetBackgroundDrawList(),
                       "Recording   " + clock_text(state.recording->time_s), low);
@@ -287,7 +327,7 @@ void draw_upper_left(const ViewerState& state, float margin, float right) {
         low.y += draw_algorithms(side_by_side(state), low) + 0.3F * ImGui::GetFrameHeight();
     if (state.statistics) add(statistics_text(state));
     if (state.ruler && !state.explained) add(ruler_text(state));
-    if (state.under_pointer && !state.explained) add(pointer_text(state));
+    if (state.under_pointer && !state.explained) add(pointer_text(state, widest));
     if (state.catching_up) add("Catching up");
 }
 
@@ -439,9 +479,6 @@ void draw_overlay(const ViewerState& state, double now_s) {
     const float margin = 12.0F * state.scale;
     draw_way_to_keys(state, margin);
     draw_upper_left(state, margin, draw_legend(state, margin));
-    if (const std::string banner = falcon_banner(state); !banner.empty()) {
-        draw_banner(state, capitalised(banner));
-    }
     if (now_s < state.notice_until_s) {
         const double left_s = state.notice_until_s - now_s;
         const std::string text = state.notice_of_place ? place_text(state) : state.notice;

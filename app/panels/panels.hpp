@@ -26,6 +26,9 @@ void draw_surface_panel(ViewerState& state);
 /// "0.512 m (level 173.0)"; empty where nothing is known of that.
 [[nodiscard]] std::string elevation_text(const ViewerState& state, const PixelShown& pixel);
 [[nodiscard]] std::string depth_text(const ViewerState& state, const PixelShown& pixel);
+/// As many digits after the point for all of a depth's values, in its unit, so that a quarter of
+/// its range has two.
+[[nodiscard]] int depth_digits(const DepthMeaning& meaning);
 void draw_touch_panel(ViewerState& state);
 void draw_device_panel(ViewerState& state);
 void draw_loop_panel(ViewerState& state);

@@ -13,15 +13,24 @@ namespace {
 
 constexpr std::size_t kMarksShown = 5;
 constexpr double kBytesPerMegabyte = 1e6;
-constexpr ImU32 kRecordingColour = IM_COL32(140, 41, 36, 255);
+constexpr int kRecordingColours = 4;
+
+/// Of a button that ends what goes on; readable in every theme.
+void push_recording_colours() {
+    const ImU32 raised = IM_COL32(168, 49, 43, 255);
+    ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32(255, 255, 255, 255));
+    ImGui::PushStyleColor(ImGuiCol_Button, IM_COL32(140, 41, 36, 255));
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, raised);
+    ImGui::PushStyleColor(ImGuiCol_ButtonActive, raised);
+}
 
 void draw_switch(ViewerState& state) {
     const bool on = state.recording.has_value();
-    if (on) ImGui::PushStyleColor(ImGuiCol_Button, kRecordingColour);
+    if (on) push_recording_colours();
     if (ImGui::Button(on ? "Stop recording###record" : "Record###record", {half_width(), 0.0F})) {
         state.requests.toggle_recording = true;
     }
-    if (on) ImGui::PopStyleColor();
+    if (on) ImGui::PopStyleColor(kRecordingColours);
     explain(on ? "Closes the file" : "Every tick goes into a new file in the current folder",
             state.keys, Action::record);
 }
@@ -66,12 +75,12 @@ void draw_marks(ViewerState& state) {
 
 void draw_clip_button(ViewerState& state) {
     const bool on = state.clip && !state.clip->finishing;
-    if (on) ImGui::PushStyleColor(ImGuiCol_Button, kRecordingColour);
+    if (on) push_recording_colours();
     ImGui::BeginDisabled(state.clip && state.clip->finishing);
     if (ImGui::Button(on ? "End the clip###clip" : "Save a clip###clip", {-1.0F, 0.0F}))
         state.requests.toggle_clip = true;
     ImGui::EndDisabled();
-    if (on) ImGui::PopStyleColor();
+    if (on) ImGui::PopStyleColor(kRecordingColours);
     if (on) {
         explain("Finishes its file", state.keys, Action::take_clip);
         return;

@@ -1,5 +1,6 @@
 // The Surface panel: the shape of the relief, how it is drawn, and from where.
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "app/panels/panels.hpp"
@@ -14,7 +15,10 @@ namespace {
 void draw_shape(ViewerState& state) {
     Settings& settings = state.settings;
     const TouchParameters before = settings.touch;
-    draw_numbers(TouchTopic::shape, settings.touch);
+    TouchParameters usual;  // what fits is not to be put back
+    if (settings.fit_relief) usual.shape.relief_px = before.shape.relief_px;
+    if (settings.fit_pitch) usual.coupling.pixel_pitch_mm = before.coupling.pixel_pitch_mm;
+    draw_numbers(TouchTopic::shape, settings.touch, usual);
     const TouchParameters& now = settings.touch;
     if (now.shape.relief_px != before.shape.relief_px) settings.fit_relief = false;
     if (now.coupling.pixel_pitch_mm != before.coupling.pixel_pitch_mm) settings.fit_pitch = false;
@@ -33,8 +37,9 @@ void draw_under_hand(const ViewerState& state) {
     }
     const PixelShown& here = *state.under_hand;
     fact_row("Under the hand", formatted("pixel %d, %d", here.column, here.row));
-    fact_row("Stands", elevation_text(state, here));
-    if (here.unseen || state.media.meaning) fact_row("Depth", depth_text(state, here));
+    fact_row("Stands", elevation_text(state, here), "How high, over the farthest depth");
+    if (here.unseen || state.media.meaning)
+        fact_row("Depth", depth_text(state, here), "As the file has it");
 }
 
 /// No slider: it would grow under the hand that drags it.
@@ -62,6 +67,14 @@ std::string elevation_text(const ViewerState& state, const PixelShown& pixel) {
     return formatted("%.1f px, %.2f mm", pixel.elevation_px, pixel.elevation_px * pitch_mm);
 }
 
+int depth_digits(const DepthMeaning& meaning) {
+    constexpr double kSteps = 4.0;
+    constexpr double kMost = 6.0;
+    const double step = std::abs(value_at(meaning, 1.0) - value_at(meaning, 0.0)) / kSteps;
+    if (!(step > 0.0)) return 0;
+    return static_cast<int>(std::clamp(std::ceil(-std::log10(step)) + 1.0, 0.0, kMost));
+}
+
 std::string depth_text(const ViewerState& state, const PixelShown& pixel) {
     if (pixel.unseen) return "no data";
     if (!state.media.meaning) return {};
@@ -69,8 +82,8 @@ std::string depth_text(const ViewerState& state, const PixelShown& pixel) {
     const double value = value_at(meaning, pixel.nearness);
     std::string level = formatted("level %.1f", value / meaning.scale.value);
     if (meaning.unit.value == DepthUnit::levels) return level;
-    return short_text(value, 5) + " " + std::string(name_of(meaning.unit.value)) + " (" + level +
-           ")";
+    return decimal(value, depth_digits(meaning) + 1) + " " +
+           std::string(name_of(meaning.unit.value)) + " (" + level + ")";
 }
 
 void draw_surface_panel(ViewerState& state) {
@@ -112,7 +125,8 @@ void draw_surface_panel(ViewerState& state) {
     ImGui::SameLine();
     if (ImGui::Button("Reset view")) state.requests.reset_view = true;
     explain(state.keys.name_for(Action::reset_view).c_str());
-    choice_row("Window", kThemeWords, settings.theme, "The colours of the panels and the wall");
+    choice_row("Theme", kThemeWords, settings.theme,
+               "The colours of the panels and the wall (--theme)");
     draw_text_size(state);
     ImGui::PopID();
 }

@@ -53,19 +53,25 @@ void draw_stability(ViewerState& state) {
     if (felt == held_coupling(settings.touch.coupling, limits_of_hand(state))) {
         draw_numbers(TouchTopic::damper, settings.touch);
     } else {
-        fact_row("Damping", formatted("%.1f N s/m below %.0f Hz", felt.damping_newton_s_per_m,
-                                      felt.damping_cutoff_hz));
+        fact_row("Damping",
+                 formatted("%.1f N s/m below %.0f Hz", felt.damping_newton_s_per_m,
+                           felt.damping_cutoff_hz),
+                 "A force against the hand's speed, as much as this device needs");
     }
     const double margin = stability_margin(felt, hand);
-    fact_row("Stability margin", formatted("%+.1f N s/m", margin));
+    fact_row("Stability margin", formatted("%+.1f N s/m", margin),
+             "By how much the hand is damped more than the spring drives it; below 0 it swings");
     if (margin < 0.0) trouble_text("A light or free grip swings: damp more, or be less stiff.");
     const EnergyFlow& energy = state.haptic.touch.energy;
     fact_row("Energy",
-             formatted("video %.1f, created %.1f mW", energy.from_video_mw, energy.created_mw));
+             formatted("video %.1f, created %.1f mW", energy.from_video_mw, energy.created_mw),
+             "What the moving video does to the hand, and what rendering adds by itself");
     constexpr double kNoticed_mw = 0.05;
-    fact_row("Controller", energy.taken_out_mw < kNoticed_mw
-                               ? "quiet"
-                               : formatted("takes out %.1f mW", energy.taken_out_mw));
+    fact_row("Controller",
+             energy.taken_out_mw < kNoticed_mw
+                 ? "quiet"
+                 : formatted("takes out %.1f mW", energy.taken_out_mw),
+             "Of the energy that rendering adds");
 }
 
 /// One of the row, lit when it is the chosen one; where it does not fit, on the next line.

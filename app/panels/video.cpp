@@ -70,7 +70,11 @@ void draw_open(ViewerState& state) {
 
 void draw_files(const MediaDescription& media) {
     if (media.depth_path.empty()) return;  // nothing is open
-    file_row("Colour", media.colour_path);
+    if (media.colour_path.empty()) {
+        fact_row("Colour", "none: depth alone");
+    } else {
+        file_row("Colour", media.colour_path);
+    }
     file_row("Depth", media.depth_path);
     fact_row("Size", formatted("%d x %d", media.colour_columns, media.colour_rows));
     fact_row("Depth size",
@@ -122,9 +126,11 @@ void draw_cleaning(ViewerState& state) {
                    .c_str(),
                CleaningPreset::automatic);
     const bool by_sidecar = cleaning_on(state.media, cleaning).preset != cleaning.preset;
-    if (!state.replay && !state.playback.cleaning.empty())
+    if (!state.replay && !state.playback.cleaning.empty()) {
         quiet_text((by_sidecar ? "By the sidecar: " + state.playback.cleaning
                                : capitalised(state.playback.cleaning)));
+        explain("What is done, and how much the depth was found to shake, from near to far");
+    }
     const double said_mm = finger_mm_on(state.media, 0.0);
     const std::string unless_chosen =
         said_mm > 0.0 ? short_text(said_mm) + " mm (sidecar)" : "a point";
@@ -165,7 +171,8 @@ void draw_video_panel(ViewerState& state, Player* player) {
     ImGui::PushID("video");
     draw_open(state);
     draw_files(state.media);
-    if (player != nullptr && !state.media.still) draw_playback(state, *player);
+    const bool plays = state.opening || !state.media.depth_path.empty();
+    if (player != nullptr && plays && !state.media.still) draw_playback(state, *player);
     if (player != nullptr && part("Depth")) draw_depth_rows(state);
     ImGui::BeginDisabled(player == nullptr);  // a replay shows what was touched
     draw_cleaning(state);

@@ -19,6 +19,7 @@ namespace dibhr {
 namespace {
 
 constexpr float kLabelShare = 0.40F;  // of a row's width
+constexpr float kTooltip_em = 22.0F;  // its text is no wider
 
 /// Of a warning, readable on the theme's ground.
 ImU32 trouble_colour() {
@@ -114,6 +115,22 @@ void draw_icon(ImDrawList& list, Icon icon, ImVec2 centre, float r, ImU32 colour
     }
 }
 
+/// A name that would take more than two lines of that width, without some of its middle.
+std::string on_two_lines(const std::string& name, float width) {
+    const auto is_within = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
+    std::string text = name;
+    for (std::size_t less = 4; less < name.size(); less += 4) {
+        const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, width);
+        if (size.y < 2.5F * ImGui::GetTextLineHeight()) break;
+        std::size_t begin = (name.size() - less) / 2;
+        std::size_t end = begin + less;
+        while (begin > 0 && is_within(name[begin])) --begin;  // letters stay whole
+        while (end < name.size() && is_within(name[end])) ++end;
+        text = name.substr(0, begin) + "..." + name.substr(end);
+    }
+    return text;
+}
+
 /// The slider ends where people work; a typed number may go on to the option's own end.
 double slider_end(const TouchNumber& option, double standard) {
     return std::min(option.highest, standard > 0.0 ? 4.0 * standard : option.highest / 4.0);
@@ -127,9 +144,8 @@ std::string format_of(const TouchNumber& option, double end) {
     return option.unit.empty() ? digits : std::string(digits) + " " + std::string(option.unit);
 }
 
-void draw_number(const TouchNumber& option, TouchParameters& parameters) {
-    const double standard = option.standard();
-    const double end = slider_end(option, standard);
+void draw_number(const TouchNumber& option, TouchParameters& parameters, TouchParameters& usual) {
+    const double end = slider_end(option, option.standard());
     const std::string label(option.label);
     const std::string format = format_of(option, end);
     const std::string help = std::string(option.help) + " (--" + std::string(option.name) + ")";
@@ -137,7 +153,7 @@ void draw_number(const TouchNumber& option, TouchParameters& parameters) {
                     .format = format.c_str(),
                     .lowest = option.lowest,
                     .highest = end,
-                    .standard = standard,
+                    .standard = option.in(usual),
                     .help = help.c_str(),
                     .zero = option.zero},
                    option.in(parameters))) {
@@ -271,30 +287,38 @@ bool button_or_drop(const char* label, bool enabled, const char* dropped, float 
     return pressed;
 }
 
-void fact_row(const char* label, const std::string& value) {
+void fact_row(const char* label, const std::string& value, const char* help) {
     const float begin = ImGui::GetCursorPosX();
     const float width = ImGui::GetContentRegionAvail().x;
     ImGui::TextDisabled("%s", label);
+    explain(help);
     ImGui::SameLine(begin + width * kLabelShare);
     ImGui::PushTextWrapPos(begin + width);
     ImGui::TextUnformatted(value.c_str());
     ImGui::PopTextWrapPos();
+    explain(help);
 }
 
 void file_row(const char* label, const std::filesystem::path& file) {
-    fact_row(label, file.filename().string());
-    explain(file.c_str());
+    const float width = ImGui::GetContentRegionAvail().x * (1.0F - kLabelShare);
+    fact_row(label, on_two_lines(file.filename().string(), width), file.c_str());
 }
 
 void place_next_tooltip() {
     const ImVec2 window = ImGui::GetWindowPos();
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float gap = ImGui::GetStyle().ItemSpacing.x;
-    if (window.x > gap) {
-        ImGui::SetNextWindowPos({window.x - gap, ImGui::GetItemRectMin().y}, ImGuiCond_Always,
-                                {1.0F, 0.0F});
+    const float widest =
+        kTooltip_em * ImGui::GetFontSize() + 2.0F * ImGui::GetStyle().WindowPadding.x;
+    // The nearer to the display's edge, the more of it is on the other side.
+    if (window.x > widest + gap) {
+        const float y = ImGui::GetItemRectMin().y;
+        ImGui::SetNextWindowPos({window.x - gap, y}, ImGuiCond_Always,
+                                {1.0F, std::clamp(y / display.y, 0.0F, 1.0F)});
     } else {
-        ImGui::SetNextWindowPos({ImGui::GetIO().MousePos.x, window.y - gap}, ImGuiCond_Always,
-                                {0.5F, 1.0F});
+        const float x = ImGui::GetIO().MousePos.x;
+        ImGui::SetNextWindowPos({x, window.y - gap}, ImGuiCond_Always,
+                                {std::clamp(x / display.x, 0.0F, 1.0F), 1.0F});
     }
 }
 
@@ -306,7 +330,7 @@ void explain(const char* text) {
     if (*text == '\0' || !ImGui::IsItemHovered()) return;
     place_next_tooltip();
     ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 22.0F);
+    ImGui::PushTextWrapPos(ImGui::GetFontSize() * kTooltip_em);
     ImGui::TextUnformatted(text);
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
@@ -416,9 +440,9 @@ std::string clock_text(double seconds) {
                      milliseconds % 1000);
 }
 
-void draw_numbers(TouchTopic topic, TouchParameters& parameters) {
+void draw_numbers(TouchTopic topic, TouchParameters& parameters, TouchParameters usual) {
     for (const TouchNumber& option : touch_numbers()) {
-        if (option.topic == topic) draw_number(option, parameters);
+        if (option.topic == topic) draw_number(option, parameters, usual);
     }
 }
 

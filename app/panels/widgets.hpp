@@ -93,14 +93,15 @@ void report_button(ViewerState& state, const std::filesystem::path& session);
 /// is left free [px]. True when it was pressed.
 bool button_or_drop(const char* label, bool enabled, const char* dropped, float beside = 0.0F);
 
-/// A row for each touch parameter of that topic, with its label, unit, range and help.
-void draw_numbers(TouchTopic topic, TouchParameters& parameters);
+/// A row for each touch parameter of that topic, with its label, unit, range and help; the small
+/// arrow puts back what is `usual`.
+void draw_numbers(TouchTopic topic, TouchParameters& parameters, TouchParameters usual = {});
 
 /// With so many digits after the point, and no sign where they are all 0.
 [[nodiscard]] std::string decimal(double value, int digits);
 
-/// A name and a value to read.
-void fact_row(const char* label, const std::string& value);
+/// A name and a value to read, and what they mean.
+void fact_row(const char* label, const std::string& value, const char* help = "");
 
 /// The same for a file: its name, and the whole path as a tooltip.
 void file_row(const char* label, const std::filesystem::path& file);

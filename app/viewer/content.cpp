@@ -117,7 +117,7 @@ std::optional<PixelShown> pixel_at(Vec3 place, const ViewerState& state, const D
     const DepthSurface surface = shown.drawn_surface(state.shape(), state.bump.get());
     const auto& unseen = shown.nearest().unseen;
     return PixelShown{i, j, depth.at(i, j) / depth.highest_level, surface.elevation_at(i, j),
-                     unseen && (*unseen)[depth.index(i, j)] != 0};
+                      unseen && (*unseen)[depth.index(i, j)] != 0};
 }
 
 }  // namespace
@@ -389,23 +389,23 @@ void Viewer::keep_material(const std::string& name) {
 
 void Viewer::start_loop() {
     hand_over_settings();
-    haptic_state_.publish(HapticState{});  // what the loop before it did is past
+    // What the loop before it did is past.
+    haptic_state_.publish(HapticState{.hand = hand_.device->unread()});
     standstills_ = 0;
     heart_.beat();
-    loop_ = std::make_unique<HapticLoop>(
-        HapticConnections{*hand_.device,
-                          player_.haptics(),
-                          haptic_settings_,
-                          haptic_state_,
-                          *strips_,
-                          *ticks_,
-                          {.window = &heart_,
-                           .video = &player_.heart(),
-                           .recorder = &recording_.heart(),
-                           .decoder = &player_.decoder_heart()},
-                          &ending_.asked(),
-                          &touch_source_->ticks,
-                          walked_.get()});
+    loop_ = std::make_unique<HapticLoop>(HapticConnections{*hand_.device,
+                                                           player_.haptics(),
+                                                           haptic_settings_,
+                                                           haptic_state_,
+                                                           *strips_,
+                                                           *ticks_,
+                                                           {.window = &heart_,
+                                                            .video = &player_.heart(),
+                                                            .recorder = &recording_.heart(),
+                                                            .decoder = &player_.decoder_heart()},
+                                                           &ending_.asked(),
+                                                           &touch_source_->ticks,
+                                                           walked_.get()});
 }
 
 void Viewer::draw_scene(glm::ivec2 viewport) {
@@ -417,7 +417,8 @@ void Viewer::draw_scene(glm::ivec2 viewport) {
     if (state_.ruler) {
         state_.ruler->ends.clear();
         for (const Vec3& place : state_.ruler->places)
-            if (const auto end = pixel_at(place, state_, shown_)) state_.ruler->ends.push_back(*end);
+            if (const auto end = pixel_at(place, state_, shown_))
+                state_.ruler->ends.push_back(*end);
     }
     SceneContent content = scene_content(state_, shown_);
     if (!state_.replay) content.maps = painting_.drawn();

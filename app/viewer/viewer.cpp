@@ -102,6 +102,7 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
     if (software_) let_drawing_give_way();
     window_.on_display_loss([this] { close_without_display(); });
     state_.device = hand_.device->specification();
+    state_.haptic.hand = hand_.device->unread();
     state_.bump = std::move(parts.bump);
     state_.bump_file = std::move(parts.bump_file);
     state_.material = std::move(parts.material);
@@ -478,8 +479,7 @@ void Viewer::draw_panels(std::span<const KeyPress> pressed) {
     const auto fade = [](float& alpha) { alpha = std::max(0.0F, alpha - 0.03F); };
     if (state_.touched) fade(hint_alpha_);
     if (pressed_deeper_) fade(wheel_hint_alpha_);
-    const bool mouse_touches = shown_.makes_surface() && !state_.replay &&
-                               hand_.mouse != nullptr &&
+    const bool mouse_touches = shown_.makes_surface() && !state_.replay && hand_.mouse != nullptr &&
                                (hand_.falcon == nullptr || state_.haptic.hand.stand_in);
     if (mouse_touches && state_.message.empty() && !state_.explained && !state_.ruler &&
         !state_.brush.on) {

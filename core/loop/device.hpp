@@ -54,6 +54,8 @@ class Device {
   public:
     virtual ~Device() = default;
     [[nodiscard]] virtual const DeviceSpecification& specification() const noexcept = 0;
+    /// What is known of the hand before there is a surface to read it over.
+    [[nodiscard]] virtual HandReading unread() const noexcept { return {.ready = false}; }
     virtual HandReading read(const HandContext& context) noexcept = 0;
     /// Force on the hand [N], axes of grid space.
     virtual void send(Vec3 force_newton) noexcept = 0;

@@ -41,7 +41,9 @@ FramePair frames_of(const DepthBlend& pair) {
 
 }  // namespace
 
-HapticTick::HapticTick(const HapticConnections& connections) : to_(connections) {}
+HapticTick::HapticTick(const HapticConnections& connections) : to_(connections) {
+    state_.hand = to_.device.unread();
+}
 
 void HapticTick::run(const TickTiming& timing, std::uint64_t late_ticks) noexcept {
     if (state_.ticks == 0) start_ = second_begin_ = timing.begin;

@@ -39,7 +39,7 @@ figcaption { margin-top: .4rem; max-width: 60rem; }
 .pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 24rem), 1fr)); gap: 0 1.5rem; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; font-size: .9rem; font-variant-numeric: tabular-nums; }
-th, td { text-align: left; vertical-align: top; padding: .3rem .7rem; border-bottom: 1px solid var(--line); }
+th, td { text-align: left; vertical-align: top; padding: .3rem .45rem; border-bottom: 1px solid var(--line); }
 th { color: var(--quiet); font-weight: 600; }
 tbody tr:nth-child(even) { background: var(--stripe); }
 code { font-size: .85em; overflow-wrap: anywhere; }
@@ -92,7 +92,7 @@ std::string remarks_html(const SessionReport& report) {
         items += "<li class=\"text\">" + html_text(remark) + "</li>\n";
     }
     if (items.empty()) return {};
-    return "<section>\n<h2>To mind</h2>\n<ul>\n" + items + "</ul>\n</section>\n";
+    return "<section>\n<h2>Worth knowing</h2>\n<ul>\n" + items + "</ul>\n</section>\n";
 }
 
 std::string opening_html(const SessionReport& report) {

@@ -76,8 +76,10 @@ std::string in_words(const CleaningOptions& options, const CleaningPlan& plan) {
         return short_text(std::round(kReliefOfWords_px * 100.0 * static_cast<double>(noise)) /
                           100.0);
     };
-    return words + ", noise " + px(plan.noise.at(1.0F)) + " px near, " + px(plan.noise.at(0.0F)) +
-           " far" + (plan.noise.of_scale ? ", a scale a frame" : "");
+    const std::string near = px(plan.noise.at(1.0F));
+    const std::string far = px(plan.noise.at(0.0F));
+    return words + ", noise " + near + (far == near ? "" : " to " + far) + " px" +
+           (plan.noise.of_scale ? ", a scale a frame" : "");
 }
 
 void CleaningChain::fill_holes(DepthImage& image, std::span<const HeldLevel> held,

@@ -120,10 +120,20 @@ double value_at(const DepthMeaning& meaning, double nearness) {
     return on_the_line(unit, far + nearness * (near - far));  // its own inverse
 }
 
+namespace {
+
+/// An end of a range: "4.21", "480", "10720".
+std::string end_text(double value) {
+    constexpr double kTooLong = 1e4;  // for four digits: it would be written as 1.072e+04
+    return std::abs(value) < kTooLong ? short_text(value, 4) : number_text(value, 0);
+}
+
+}  // namespace
+
 std::string in_words(const DepthMeaning& meaning) {
     std::string words;
     const DepthRange& range = meaning.range.value;
-    const std::string ends = short_text(range.near, 4) + " to " + short_text(range.far, 4);
+    const std::string ends = end_text(range.near) + " to " + end_text(range.far);
     switch (meaning.unit.value) {
         case DepthUnit::levels:
             words = "levels " + ends;
@@ -139,9 +149,12 @@ std::string in_words(const DepthMeaning& meaning) {
             break;
     }
     words += ", near is " + std::string(name_of(meaning.near.value));
-    if (meaning.no_data.value.empty()) return words;
-    words += ", no data is";
-    for (const double level : meaning.no_data.value) words += " " + short_text(level);
+    const std::vector<double>& nothing = meaning.no_data.value;
+    for (std::size_t k = 0; k < nothing.size(); ++k) {
+        const bool is_last = k + 1 == nothing.size();
+        words += k == 0 ? ", no data is " : is_last ? " and " : ", ";
+        words += short_text(nothing[k]);
+    }
     return words;
 }
 

@@ -172,7 +172,7 @@ void hear(const Voices& voices, DepthMeaning& meaning);
 /// the nearest.
 [[nodiscard]] double value_at(const DepthMeaning& meaning, double nearness);
 
-/// In one line, for a person: "16-bit millimetres, near is dark, 480 to 4210 mm, 0 is no data".
+/// In one line, for a person: "distance 480 to 4210 mm, near is dark, no data is 0 and 65535".
 [[nodiscard]] std::string in_words(const DepthMeaning& meaning);
 
 /// The names of what was assumed, as `info` lists them: "near", "unit", "scale", "range", ...

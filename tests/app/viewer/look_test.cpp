@@ -1,4 +1,5 @@
 // How the window looks: its theme and the size of its text, in pictures of the real window.
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -11,6 +12,7 @@
 #include "core/video/media.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/text.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -58,6 +60,34 @@ int pixels_of(const ColourImage& picture, const Ink& ink) {
         }
     }
     return count;
+}
+
+struct Lightnesses {
+    int darkest{255}, lightest{0};
+};
+
+/// Of the letters on the button that ends a recording, which is dark red: of what stands between
+/// two pixels of it.
+Lightnesses on_red_button(const ColourImage& picture) {
+    const auto is_red = [&picture](int x, int y) {
+        const std::uint8_t* const at =
+            picture.rgb.data() + 3 * (static_cast<std::ptrdiff_t>(y) * picture.columns + x);
+        return at[0] > 120 && at[0] < 180 && at[1] < 60 && at[2] < 60;
+    };
+    Lightnesses seen;
+    const int begin = panels_begin(picture);
+    for (int y = 0; y < picture.rows; ++y) {
+        int last = -1;
+        for (int x = begin; x < picture.columns; ++x) {
+            if (!is_red(x, y)) continue;
+            for (int letter = last + 1; last >= 0 && letter < x; ++letter) {
+                seen.darkest = std::min(seen.darkest, lightness(picture, letter, y));
+                seen.lightest = std::max(seen.lightest, lightness(picture, letter, y));
+            }
+            last = x;
+        }
+    }
+    return seen;
 }
 
 /// The last picture of the sample, after `O` was pressed over it.
@@ -127,6 +157,19 @@ TEST_CASE("the wall and the panels are dark or light, as the theme says", "[look
     }
     // The command line's theme is for once.
     CHECK(load_settings(folder / "config/dibhr/settings.toml").theme == Theme::dark);
+}
+
+TEST_CASE("the button that ends a recording is written white in every theme", "[look]") {
+    const std::string theme = GENERATE("dark", "light");
+    CAPTURE(theme);
+    const TemporaryFolder folder;
+    std::filesystem::create_directories(folder / "config/dibhr");
+    write_text(folder / "config/dibhr/settings.toml",
+               "[panels]\nvideo = false\ntouch = false\nsession = true\n");
+    const ColourImage picture = shown_with(folder, {"--theme", theme, "--record", "hand.dibhr"});
+    const Lightnesses letters = on_red_button(picture);
+    CHECK(letters.lightest > 200);
+    CHECK(letters.darkest > 60);
 }
 
 TEST_CASE("text twice as large takes panels twice as wide, and a window no larger than the display",

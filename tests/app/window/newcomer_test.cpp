@@ -36,7 +36,7 @@ std::string click(int x, int y) {
 const std::string kScrollPanels = "mousemove 1110 640 sleep 0.2 click --repeat 30 --delay 20 5 ";
 // Where the buttons stand: the first one in the panels as they are at first, by a few pixels higher
 // or lower with the fonts, the others at their end.
-const std::string kBark = click(1063, 430);
+const std::string kBark = click(1063, 424);
 const std::string kReplayIt = click(1026, 680);
 const std::string kReport = click(1182, 680);
 const std::string kFrictionToZero =

@@ -121,6 +121,17 @@ TEST_CASE("levels that are no data, and what is not finite, are NaN", "[scale]")
     }
 }
 
+TEST_CASE("a line says what depth means, and which levels mean nothing one by one", "[scale]") {
+    DepthMeaning meaning = meaning_of(DepthUnit::mm, {480.0, 4210.0});
+    CHECK(in_words(meaning).starts_with("distance 480 to 4210 mm, near is "));
+    meaning.range.value = {0.42, 65535.0};
+    CHECK(in_words(meaning).starts_with("distance 0.42 to 65535 mm, "));
+    meaning.no_data.value = {0.0, 65535.0};
+    CHECK(in_words(meaning).ends_with(", no data is 0 and 65535"));
+    meaning.no_data.value = {0.0, 2047.0, 65535.0};
+    CHECK(in_words(meaning).ends_with(", no data is 0, 2047 and 65535"));
+}
+
 TEST_CASE("a step of integer levels is a step of 1, and a millimetre one where there are enough",
           "[scale]") {
     CHECK(DepthScale(meaning_of(DepthUnit::levels, {200.0, 100.0}), 8).highest_level() == 100.0);

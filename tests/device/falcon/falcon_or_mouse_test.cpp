@@ -31,6 +31,8 @@ bool press_of_the_mouse_moves_the_goal(TickingHand& loop) {
 TEST_CASE("without a Falcon the mouse touches from the first tick on", "[falcon_or_mouse]") {
     const UsbBench bus;
     TickingHand loop(ConnectionOptions{}, FirmwareImage{});
+    CHECK(loop.device.unread().stand_in);
+    CHECK(loop.device.unread().limits == loop.device.mouse().specification().limits);
     loop.tick();
     CHECK(loop.reading.ready);
     CHECK(loop.reading.stand_in);
