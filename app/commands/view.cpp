@@ -314,6 +314,19 @@ int run_view(CLI::App& app, const Arguments& arguments) {
            "{time} and {frame} of the video; a folder may stand before it")
         ->type_name("PATTERN")
         ->default_str(NamePattern{}.text);
+    std::optional<OpenWith> open_with;
+    app.add_option_function<std::string>(
+           "--open-dialog",
+           [&open_with](const std::string& name) {
+               open_with = open_with_named(name);
+               if (!open_with)
+                   throw CLI::ValidationError("--open-dialog",
+                                              "'" + name + "' is none of auto, desktop, window");
+           },
+           "What files are chosen in: auto (the desktop's dialog where there is a desktop), "
+           "desktop, window (its own, with pairs and previews)")
+        ->type_name("NAME")
+        ->default_str("auto");
     bool mute = false;
     app.add_flag("--mute", mute, "Touch makes no sound");
     app.add_flag("--any-media", options.any_media,
@@ -360,6 +373,7 @@ int run_view(CLI::App& app, const Arguments& arguments) {
     take_parameters(touch, parts, settings);
     if (ui_scale) settings.ui_scale = *ui_scale;
     if (theme) settings.theme = *theme;
+    if (open_with) settings.open_with = *open_with;
     if (mute) settings.mute = true;
     if (screenshot_name) settings.screenshot_name = *screenshot_name;
     if (stability) settings.stability = *stability;

@@ -91,6 +91,7 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
       opening_(errands),
       clip_(errands),
       browsing_(errands),
+      desktop_(errands),
       painting_(errands),
       keeper_(options.in_file, options.settings, settings_path()),
       start_(steady_clock::now()),
@@ -157,6 +158,7 @@ void Viewer::beat_while_drawing() {
 /// Ends what goes on, and writes what is to last, without the window.
 void Viewer::close_without_display() {
     ending_.words().doing("closing without a display");
+    desktop_.call_off();
     state_.message.clear();
     loop_.reset();
     explaining_.end(state_, camera_);
@@ -260,6 +262,7 @@ void Viewer::take_news() {
     state_.sound = sound_.state();
     state_.pictures_per_s = pace_.pictures_per_s();
     take_opened();
+    take_desktop_answer();
     const std::string& failure =
         state_.replay ? state_.replay->playback.failure : state_.playback.failure;
     if (!failure.empty() && failure != playback_failure_) {
@@ -351,6 +354,9 @@ void Viewer::take_dialog_key(const KeyPress& press) {
 std::optional<Answer> Viewer::perform_with_files(Action action) {
     switch (action) {
         case Action::open_file:
+            return open_by_dialog();
+        case Action::open_file_in_window:
+            desktop_.call_off();
             browsing_.toggle(state_);
             return Answer{};
         case Action::next_file:
@@ -475,8 +481,7 @@ void Viewer::draw_panels(std::span<const KeyPress> pressed) {
     const auto fade = [](float& alpha) { alpha = std::max(0.0F, alpha - 0.03F); };
     if (state_.touched) fade(hint_alpha_);
     if (pressed_deeper_) fade(wheel_hint_alpha_);
-    const bool mouse_touches = shown_.makes_surface() && !state_.replay &&
-                               hand_.mouse != nullptr &&
+    const bool mouse_touches = shown_.makes_surface() && !state_.replay && hand_.mouse != nullptr &&
                                (hand_.falcon == nullptr || state_.haptic.hand.stand_in);
     if (mouse_touches && state_.message.empty() && !state_.explained && !state_.ruler &&
         !state_.brush.on) {

@@ -17,6 +17,7 @@
 #include "app/sound/sound_output.hpp"
 #include "app/viewer/browsing.hpp"
 #include "app/viewer/clip.hpp"
+#include "app/viewer/desktop_dialog.hpp"
 #include "app/viewer/errand.hpp"
 #include "app/viewer/explaining.hpp"
 #include "app/viewer/falcon.hpp"
@@ -115,6 +116,8 @@ class Viewer {
     void paint(const PointerUse& use);
     void perform(Action action);
     void take_dropped(const std::vector<std::filesystem::path>& files);
+    [[nodiscard]] Answer open_by_dialog();
+    void take_desktop_answer();
     void move_hand(const WindowInput& input, glm::ivec2 viewport);
     void draw_scene(glm::ivec2 viewport);
     void draw_picture(const WindowInput& input = {});
@@ -196,6 +199,7 @@ class Viewer {
     Reporting reporting_{};
     ViewerExplaining explaining_{};
     Browsing browsing_;
+    DesktopDialog desktop_;
     ViewerPanes panes_{};
     ViewerPainting painting_;
     SettingsKeeper keeper_;

@@ -47,6 +47,7 @@ Settings unusual_settings() {
     settings.max_force_newton = 2.5;
     settings.sound_volume = 0.25;
     settings.mute = true;
+    settings.open_with = OpenWith::desktop;
     settings.keys = {{"play-or-pause", {"Space"}},
                      {"mark", {"F7", "Shift+\"", "\\"}},
                      {"toggle-sound", {}},
