@@ -78,9 +78,11 @@ WindowSize asked_size(const ViewOptions& options) {
 
 }  // namespace
 
-Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Errands& errands)
+Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Errands& errands,
+               ToldLog& log)
     : options_(options),
       ending_(ending),
+      log_(log),
       hand_(std::move(parts.hand)),
       window_(asked_size(options), options.sync, "dibhr"),
       gui_(window_, {window_.scale(options.settings.ui_scale), options.settings.theme}),
@@ -93,7 +95,7 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
       browsing_(errands),
       desktop_(errands),
       painting_(errands),
-      keeper_(options.in_file, options.settings, settings_path()),
+      keeper_(options.in_file, options.settings, options.settings_file),
       start_(steady_clock::now()),
       hang_after_s_(hang_asked_for()),
       strips_(std::make_unique<StripRing>()),
@@ -176,6 +178,7 @@ void Viewer::finish() {
     const auto now = [this](const char* what) { ending_.words().doing(what); };
     now("taking the force off");
     if (loop_) loop_->stop();  // no force is sent any more when files are written
+    keep_lateness();
     std::string failure;
     const auto try_to = [&failure](auto&& step) {
         try {
@@ -230,6 +233,7 @@ void Viewer::show_one_picture() {
     carry_out_requests();
     hand_over_settings();
     keep_settings();
+    keep_told();
     if (software_) beat_while_drawing();
     window_.show_picture();
     require_graphics();
@@ -660,7 +664,27 @@ void Viewer::take_last_screenshot() {
         draw_picture();
 }
 
+/// Messages are set wherever something goes wrong.
+void Viewer::keep_told() {
+    if (state_.message != message_kept_) log_.keep("message", state_.message);
+    message_kept_ = state_.message;
+    attempt([this] { log_.write(); });
+}
+
+/// Of a loop that has ended.
+void Viewer::keep_lateness() {
+    if (!loop_) return;
+    const TickSchedule& schedule = loop_->timer().schedule();
+    const double worst_ms =
+        std::chrono::duration<double, std::milli>(schedule.lateness().worst()).count();
+    log_.keep("ticks", std::to_string(schedule.ticks()) + ", late " +
+                           std::to_string(schedule.late_ticks()) + ", the worst by " +
+                           number_text(worst_ms, 3) + " ms");
+}
+
 void Viewer::tell(const std::string& notice) {
+    const bool shown = notice == state_.notice && now_s() < state_.notice_until_s;
+    if (!shown) log_.keep("told", notice);
     state_.notice = notice;
     state_.notice_of_place = false;
     state_.notice_until_s = now_s() + kNoticeTime_s;

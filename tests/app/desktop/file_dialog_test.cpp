@@ -25,10 +25,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-const FileQuestion kQuestion{.title = "Open a recording",
-                             .folder = "/a folder/of mine",
-                             .filters = {{"Recordings", {"*.mp4", "*.MP4"}}, {"All files", {"*"}}},
-                             .x11_window = 0x2a0000f};
+const FileQuestion question_asked{
+    .title = "Open a recording",
+    .folder = "/a folder/of mine",
+    .filters = {{"Recordings", {"*.mp4", "*.MP4"}}, {"All files", {"*"}}},
+    .x11_window = 0x2a0000f};
 
 /// A variable of this process, as it was afterwards.
 class Variable {
@@ -60,7 +61,7 @@ Asked ask(const PortalManner& manner) {
     const CallOff off;
     const auto begin = Clock::now();
     Asked asked;
-    asked.answer = ask_portal(kQuestion, off);
+    asked.answer = ask_portal(question_asked, off);
     asked.taken = Clock::now() - begin;
     if (!manner.replies) static_cast<void>(eventually([&] { return portal.asked().closed; }));
     asked.portal = portal.asked();
@@ -91,7 +92,7 @@ FileAnswer ask(const Helpers& helpers, const std::string& desktop = "GNOME") {
     const Variable path("PATH", helpers.path());
     const Variable kind("XDG_CURRENT_DESKTOP", desktop);
     const CallOff off;
-    return ask_helper(kQuestion, off);
+    return ask_helper(question_asked, off);
 }
 
 }  // namespace
@@ -107,8 +108,8 @@ TEST_CASE("the portal is asked for files, over the window, and gives those that 
     CHECK(asked.answer.files ==
           std::vector<fs::path>{"/tmp/a film\xc3\xa4.mp4", "/tmp/line\nbreak.png"});
     CHECK(asked.portal.parent == "x11:2a0000f");
-    CHECK(asked.portal.title == kQuestion.title);
-    CHECK(asked.portal.folder == kQuestion.folder);
+    CHECK(asked.portal.title == question_asked.title);
+    CHECK(asked.portal.folder == question_asked.folder);
     CHECK(asked.portal.filters == std::vector<std::string>{"Recordings", "All files"});
     CHECK(asked.portal.patterns == std::vector<std::string>{"*.mp4", "*.MP4", "*"});
     CHECK(asked.portal.multiple);
@@ -135,15 +136,15 @@ TEST_CASE("a portal that is missing, refuses, goes away or does not answer is no
     {
         const SessionBus empty;
         const Variable address("DBUS_SESSION_BUS_ADDRESS", empty.address());
-        CHECK(ask_portal(kQuestion, off).of == FileAnswer::Of::nobody);
+        CHECK(ask_portal(question_asked, off).of == FileAnswer::Of::nobody);
         empty.stop();
         const auto begin = Clock::now();
-        CHECK(ask_portal(kQuestion, off).of == FileAnswer::Of::nobody);
+        CHECK(ask_portal(question_asked, off).of == FileAnswer::Of::nobody);
         CHECK(Clock::now() - begin < 4s);
     }
     for (const char* const wrong : {"disabled:", "unix:path=/gone", "nonsense", "unix:"}) {
         const Variable address("DBUS_SESSION_BUS_ADDRESS", wrong);
-        CHECK(ask_portal(kQuestion, off).of == FileAnswer::Of::nobody);
+        CHECK(ask_portal(question_asked, off).of == FileAnswer::Of::nobody);
     }
 }
 
@@ -152,7 +153,8 @@ TEST_CASE("a question that is called off closes its dialog at once", "[dialog]")
     const Portal portal(bus, {.answers = false});
     const Variable address("DBUS_SESSION_BUS_ADDRESS", bus.address());
     const CallOff off;
-    auto answer = std::async(std::launch::async, [&off] { return ask_portal(kQuestion, off); });
+    auto answer =
+        std::async(std::launch::async, [&off] { return ask_portal(question_asked, off); });
     REQUIRE(eventually([&] { return portal.asked().times == 1; }));
     std::this_thread::sleep_for(50ms);
     const auto begin = Clock::now();
@@ -235,7 +237,8 @@ TEST_CASE("a helper that hangs is ended when the question is called off, with al
     const Variable path("PATH", helpers.path());
     const Variable kind("XDG_CURRENT_DESKTOP", "");
     const CallOff off;
-    auto answer = std::async(std::launch::async, [&off] { return ask_helper(kQuestion, off); });
+    auto answer =
+        std::async(std::launch::async, [&off] { return ask_helper(question_asked, off); });
     REQUIRE(eventually([&] { return fs::exists(told) && !read_text(told).empty(); }));
     const auto begin = Clock::now();
     off.call_off();
