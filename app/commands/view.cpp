@@ -15,11 +15,13 @@
 #include <system_error>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "app/commands/command_line.hpp"
 #include "app/settings/assets_path.hpp"
 #include "app/settings/command_options.hpp"
 #include "app/settings/folder.hpp"
+#include "app/viewer/told_log.hpp"
 #include "app/viewer/viewer.hpp"
 #include "app/window/crash_handler.hpp"
 #include "app/window/ending.hpp"
@@ -36,6 +38,23 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kLongestRun_s = 1e6;
+constexpr std::chrono::milliseconds kPatienceWithLog{50};
+
+/// On stderr and in the log.
+void warn(const std::string& sentence, ToldLog& log) {
+    print_warning(sentence);
+    log.keep("warning", sentence);
+}
+
+Settings read_settings(const fs::path& file, ToldLog& log) {
+    std::vector<std::string> warnings;
+    Settings settings = load_settings(file, warnings);
+    for (const std::string& warning : warnings) {
+        print_error_line(warning);
+        log.keep("warning", warning);
+    }
+    return settings;
+}
 
 /// "1280x800" and nothing else.
 std::pair<int, int> parse_size(const std::string& text) {
@@ -172,7 +191,7 @@ void take_fitting(const TouchRequest& touch, Settings& settings) {
 }
 
 /// What the surface is made of: as the command line says, else as it was when the window closed.
-Material chosen_material(const GivenParameters& given, Settings& settings) try {
+Material chosen_material(const GivenParameters& given, Settings& settings, ToldLog& log) try {
     if (!given.material && !given.bump.empty()) settings.material.clear();
     Material material;
     if (given.material) {
@@ -184,13 +203,14 @@ Material chosen_material(const GivenParameters& given, Settings& settings) try {
     }
     return material;
 } catch (const InputError& error) {
-    print_warning(error.what());
+    warn(error.what(), log);
     settings.material.clear();
     return {};
 }
 
-void take_parameters(const TouchRequest& touch, ViewerParts& parts, Settings& settings) {
-    parts.material = chosen_material(touch.given, settings);
+void take_parameters(const TouchRequest& touch, ViewerParts& parts, Settings& settings,
+                     ToldLog& log) {
+    parts.material = chosen_material(touch.given, settings, log);
     parts.bump_file = parts.material.map;
     parts.bump = parts.material.bumps;
     if (!touch.given.bump.empty()) {
@@ -200,24 +220,24 @@ void take_parameters(const TouchRequest& touch, ViewerParts& parts, Settings& se
     touch.given.apply(settings.touch);
 }
 
-void open_files(const ViewOptions& options, ViewerParts& parts) {
+void open_files(const ViewOptions& options, ViewerParts& parts, ToldLog& log) {
     if (names_session(options.open.colour)) {
         parts.session = std::make_unique<OpenedSession>(options.open.colour, options.any_media);
-        print_warning(parts.session->session.warning());
-        print_warning(parts.session->frames.warning());
+        warn(parts.session->session.warning(), log);
+        warn(parts.session->frames.warning(), log);
     } else {
         parts.media = open_request(options.open);
         parts.memory = memory_of(*parts.media);
         parts.maps = find_maps(parts.media->description());
         if (gives_relief(options.touch)) parts.memory.relief_px.reset();
         if (options.start_given || options.end_s || !options.clip.empty()) parts.memory.at_s = 0.0;
-        print_warning(parts.media->description().notice);
+        warn(parts.media->description().notice, log);
     }
 }
 
-void open_parts(const ViewOptions& options, ViewerParts& parts) {
+void open_parts(const ViewOptions& options, ViewerParts& parts, ToldLog& log) {
     try {
-        open_files(options, parts);
+        open_files(options, parts, log);
     } catch (const InputError& error) {
         // Whoever named no file did nothing wrong, and can open one.
         if (!options.stays && !options.open.colour.empty()) throw;
@@ -314,6 +334,26 @@ int run_view(CLI::App& app, const Arguments& arguments) {
            "{time} and {frame} of the video; a folder may stand before it")
         ->type_name("PATTERN")
         ->default_str(NamePattern{}.text);
+    add_file(app, "--settings", options.settings_file,
+             "Settings read and kept there, in place of ~/.config/dibhr/settings.toml (below "
+             "XDG_CONFIG_HOME, where that is set); one that is not there yet begins as usual");
+    fs::path log_file;
+    add_file(app, "--log-file", log_file,
+             "Keeps there what is told, with its time, behind what the file has: notices, "
+             "messages, errors, late ticks");
+    std::optional<OpenWith> open_with;
+    app.add_option_function<std::string>(
+           "--open-dialog",
+           [&open_with](const std::string& name) {
+               open_with = open_with_named(name);
+               if (!open_with)
+                   throw CLI::ValidationError("--open-dialog",
+                                              "'" + name + "' is none of auto, desktop, window");
+           },
+           "What files are chosen in: auto (the desktop's dialog where there is a desktop), "
+           "desktop, window (its own, with pairs and previews)")
+        ->type_name("NAME")
+        ->default_str("auto");
     bool mute = false;
     app.add_flag("--mute", mute, "Touch makes no sound");
     std::optional<bool> game_pad;
@@ -357,40 +397,47 @@ int run_view(CLI::App& app, const Arguments& arguments) {
     LastWords words;
     const CrashHandler crash(words, &falcon::Guardian::alarm);
     Ending ending(words);
-    options.in_file = options.settings = load_settings(settings_path());
-    Settings& settings = options.settings;
-    ViewerParts parts;
-    take_parameters(touch, parts, settings);
-    if (ui_scale) settings.ui_scale = *ui_scale;
-    if (theme) settings.theme = *theme;
-    if (mute) settings.mute = true;
-    if (game_pad) settings.game_pad = *game_pad;
-    if (screenshot_name) settings.screenshot_name = *screenshot_name;
-    if (stability) settings.stability = *stability;
-    if (options.resume) settings.resume = *options.resume;
-    if (gives_damping(touch.given)) settings.damping_as_needed = false;
-    options.size_given = size.has_value();
-    if (size) std::tie(settings.width, settings.height) = *size;
-    if (touch.preset) settings.cleaning.preset = *touch.preset;
-    if (touch.raw_depth) settings.cleaning.preset = CleaningPreset::raw;
-    if (touch.finger_mm) settings.finger_mm = *touch.finger_mm;
-    take_fitting(touch, settings);
-    options.touch = touch;
-    options.open.request = touch.depth_request();
-    require_writable_outputs(options);
-    words.doing("opening the files");
-    if (!names_session(options.open.colour)) take_sample_for_nothing(options.open);
-    open_parts(options, parts);
-    words.doing("opening the window");
+    options.settings_file = whole_path(options.settings_file);
     Errands errands;
+    ToldLog log(log_file.empty() ? log_file : whole_path(log_file), errands);
+    log.keep("begin", std::string("dibhr ") + DIBHR_VERSION);
     try {
-        Viewer viewer(options, std::move(parts), ending, errands);
+        options.in_file = options.settings = read_settings(options.settings_file, log);
+        Settings& settings = options.settings;
+        ViewerParts parts;
+        take_parameters(touch, parts, settings, log);
+        if (ui_scale) settings.ui_scale = *ui_scale;
+        if (theme) settings.theme = *theme;
+        if (open_with) settings.open_with = *open_with;
+        if (mute) settings.mute = true;
+        if (game_pad) settings.game_pad = *game_pad;
+        if (screenshot_name) settings.screenshot_name = *screenshot_name;
+        if (stability) settings.stability = *stability;
+        if (options.resume) settings.resume = *options.resume;
+        if (gives_damping(touch.given)) settings.damping_as_needed = false;
+        options.size_given = size.has_value();
+        if (size) std::tie(settings.width, settings.height) = *size;
+        if (touch.preset) settings.cleaning.preset = *touch.preset;
+        if (touch.raw_depth) settings.cleaning.preset = CleaningPreset::raw;
+        if (touch.finger_mm) settings.finger_mm = *touch.finger_mm;
+        take_fitting(touch, settings);
+        options.touch = touch;
+        options.open.request = touch.depth_request();
+        require_writable_outputs(options);
+        words.doing("opening the files");
+        if (!names_session(options.open.colour)) take_sample_for_nothing(options.open);
+        open_parts(options, parts, log);
+        words.doing("opening the window");
+        Viewer viewer(options, std::move(parts), ending, errands, log);
         viewer.run();
     } catch (const Error& error) {
+        log.keep("error", error.what());
+        log.finish(kPatienceWithLog);
         if (come_home(errands, ending)) throw;
         print_error_line(error.what());
         _exit(EXIT_FAILURE);
     }
+    log.finish(kPatienceWithLog);
     // No destructor and no handler of exit(): they would take away what an errand still uses. All
     // that is to last is saved, and the device is closed.
     if (!come_home(errands, ending)) _exit(EXIT_SUCCESS);

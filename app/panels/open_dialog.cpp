@@ -293,6 +293,11 @@ void draw_preview(const ViewerState& state, const FolderEntry* chosen, ImVec2 si
 void draw_buttons(ViewerState& state, const FolderEntry* chosen) {
     OpenDialog& dialog = state.dialog;
     ImGui::Checkbox("All files", &dialog.all_files);
+    constexpr float kAllInARow_em = 36.0F;  // else it is on the Video panel, beside the last files
+    if (ImGui::GetContentRegionAvail().x > kAllInARow_em * ImGui::GetFontSize()) {
+        ImGui::SameLine();
+        desktop_dialog_box(state.settings.open_with);
+    }
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const float width = 6.5F * ImGui::GetFontSize();
     ImGui::SameLine(ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - 2.0F * width - gap);

@@ -44,6 +44,7 @@ void draw_recent(ViewerState& state) {
     ImGui::Separator();
     ImGui::Checkbox("Go on where it was left", &state.settings.resume);
     explain("A video that is opened again goes on at the moment at which it was closed");
+    desktop_dialog_box(state.settings.open_with);
     ImGui::EndPopup();
 }
 

@@ -230,6 +230,13 @@ void beside_flag(const std::string& text) {
     quiet_text(text);
 }
 
+void desktop_dialog_box(OpenWith& with) {
+    bool asks = with != OpenWith::window;
+    if (ImGui::Checkbox("The desktop's dialog", &asks))
+        with = asks ? OpenWith::automatic : OpenWith::window;
+    explain("Files are chosen in the desktop's own dialog, where there is one (--open-dialog)");
+}
+
 bool index_row(const char* label, std::span<const char* const> names, int& chosen, const char* help,
                int standard) {
     const int before = chosen;

@@ -133,6 +133,9 @@ enum class Icon { play, pause, step_back, step_forward, loop, put_back };
 /// A square button with a drawn icon and a tooltip; a lit one says that what it stands for is on.
 bool icon_button(const char* id, Icon icon, const char* help, bool lit = false);
 
+/// Whether Ctrl+O asks the desktop.
+void desktop_dialog_box(OpenWith& with);
+
 /// Play or pause, for a video or a session.
 template <typename AnyPlayer>
 void play_button(bool playing, AnyPlayer& player, const KeyTable& keys) {

@@ -2,7 +2,9 @@
 #include "app/settings/folder.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -21,17 +23,20 @@ bool is_hidden(const fs::path& file) {
     return file.filename().string().starts_with('.');
 }
 
+constexpr std::string_view kSessionEnding = ".dibhr";
+constexpr std::array<std::string_view, 3> kBagEndings{".mcap", ".db3", ".bag"};
+
 /// Of ROS.
 bool is_bag(const fs::path& file) {
     const std::string ending = lower_case(file.extension().string());
-    return ending == ".mcap" || ending == ".db3" || ending == ".bag";
+    return std::find(kBagEndings.begin(), kBagEndings.end(), ending) != kBagEndings.end();
 }
 
 FileKind kind_of(const fs::directory_entry& entry) {
     std::error_code unknown;
     if (entry.is_directory(unknown)) return FileKind::folder;
     const fs::path& file = entry.path();
-    if (lower_case(file.extension().string()) == ".dibhr") return FileKind::session;
+    if (lower_case(file.extension().string()) == kSessionEnding) return FileKind::session;
     if (named_video(file) || is_bag(file)) return FileKind::video;
     if (names_touch_map(file)) return FileKind::other;  // painted on a recording
     return named_picture(file) ? FileKind::picture : FileKind::other;
@@ -137,6 +142,14 @@ Folder read_folder(const fs::path& path) {
     std::sort(folder.entries.begin(), folder.entries.end(), comes_before);
     join_pairs(folder.entries);
     return folder;
+}
+
+std::vector<std::string> endings_that_open() {
+    std::vector<std::string> endings{std::string(kSessionEnding)};
+    endings.insert(endings.end(), video_endings().begin(), video_endings().end());
+    endings.insert(endings.end(), kBagEndings.begin(), kBagEndings.end());
+    endings.insert(endings.end(), picture_endings().begin(), picture_endings().end());
+    return endings;
 }
 
 bool can_be_opened(const FolderEntry& entry) noexcept {

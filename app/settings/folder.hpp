@@ -35,6 +35,9 @@ struct Folder {
 /// Reads it; nothing hidden. Takes the disk's time: not for the window's thread.
 [[nodiscard]] Folder read_folder(const std::filesystem::path& path);
 
+/// How the names of files end that the program opens: ".mp4", in small letters.
+[[nodiscard]] std::vector<std::string> endings_that_open();
+
 /// Whether it is what the program opens: all but `other`.
 [[nodiscard]] bool can_be_opened(const FolderEntry& entry) noexcept;
 

@@ -124,6 +124,11 @@ constexpr KeyJob kJobs[] = {
     while_typing(
         {Action::toggle_full_screen, "toggle-full-screen", kView, "Full screen on, off", {"F11"}}),
     while_typing({Action::open_file, "open-file", kProgram, "Open files", {"Ctrl+O"}}),
+    while_typing({Action::open_file_in_window,
+                  "open-file-in-window",
+                  kProgram,
+                  "Open files in this window, with previews",
+                  {"Ctrl+Shift+O"}}),
     while_typing({Action::next_file,
                   "next-file",
                   kProgram,

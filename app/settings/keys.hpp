@@ -59,6 +59,7 @@ enum class Action {
     take_clip,
     take_clip_of_relief,
     open_file,
+    open_file_in_window,
     next_file,
     previous_file,
     toggle_help,

@@ -105,6 +105,11 @@ std::string take(const toml::node& node, const Setting&, Theme& value) {
     return take_word(theme_named(word), value, "is not the name of a theme");
 }
 
+std::string take(const toml::node& node, const Setting&, OpenWith& value) {
+    const auto word = node.value<std::string_view>().value_or("");
+    return take_word(open_with_named(word), value, "is none of auto, desktop and window");
+}
+
 std::string take(const toml::node& node, const Setting&, ButtonAction& value) {
     const auto word = node.value<std::string_view>().value_or("");
     return take_word(button_action_named(word), value, "is not what a button can do");
@@ -401,6 +406,7 @@ std::vector<Setting> list_of(Settings& s) {
                               {"window", "theme", &s.theme},
                               {"window", "panels-visible", &s.panels_visible},
                               {"window", "screenshot-name", &s.screenshot_name},
+                              {"window", "open-dialog", &s.open_with},
                               {"panels", "video", &s.panels.video},
                               {"panels", "surface", &s.panels.surface},
                               {"panels", "touch", &s.panels.touch},

@@ -11,6 +11,7 @@
 #include "app/settings/falcon_settings.hpp"
 #include "app/settings/keys.hpp"
 #include "app/settings/name_pattern.hpp"
+#include "app/settings/open_with.hpp"
 #include "app/settings/theme.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/safety.hpp"
@@ -74,8 +75,9 @@ struct Settings {
     bool others{false};             ///< the proxies of the algorithms that do not run are shown
     bool panes{false};              ///< the colour picture and the depth above the relief
     NamePattern screenshot_name{};  ///< of pictures and clips
-    bool resume{false};             ///< a video goes on where it was left
-    bool fit_relief{true};          ///< to the media, whenever one is opened
+    OpenWith open_with{OpenWith::automatic};
+    bool resume{false};     ///< a video goes on where it was left
+    bool fit_relief{true};  ///< to the media, whenever one is opened
     bool fit_pitch{true};
     double max_force_newton{SafetyLimits{}.max_force_newton};  ///< 0 .. 8
     double sound_volume{SoundChoice{}.volume};                 ///< 0 .. 1
@@ -111,7 +113,7 @@ struct Setting {
     std::string_view table;
     std::string_view name;
     std::variant<bool*, int*, double*, std::string*, NamePattern*, Algorithm*, CleaningPreset*,
-                 ButtonAction*, ReliefPaint*, Theme*>
+                 ButtonAction*, ReliefPaint*, Theme*, OpenWith*>
         value;
     double lowest{0.0};  ///< of a number
     double highest{0.0};

@@ -45,11 +45,14 @@ void Browsing::toggle(ViewerState& state) {
         state.dialog.shown = false;
         return;
     }
-    const fs::path shown = whole_path(shown_file(state));
+    show(first_folder(state), state);
+    state.dialog.chosen = whole_path(shown_file(state));
+}
+
+fs::path Browsing::first_folder(const ViewerState& state) const {
+    const fs::path folder = whole_path(shown_file(state)).parent_path();
     // Nobody keeps recordings beside the program's own.
-    const bool is_sample = shown.parent_path() == sample_folder_;
-    show(is_sample ? whole_path(".") : shown.parent_path(), state);
-    state.dialog.chosen = shown;
+    return folder == sample_folder_ ? whole_path(".") : folder;
 }
 
 void Browsing::show(const fs::path& folder, ViewerState& state) {

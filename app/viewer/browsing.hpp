@@ -22,6 +22,9 @@ class Browsing {
     /// Shows the dialog, or puts it away.
     void toggle(ViewerState& state);
 
+    /// Where whoever opens files begins to look: the folder of what is shown.
+    [[nodiscard]] std::filesystem::path first_folder(const ViewerState& state) const;
+
     /// Shows the dialog with what that folder holds.
     void show(const std::filesystem::path& folder, ViewerState& state);
 

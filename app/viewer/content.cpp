@@ -102,6 +102,27 @@ SceneContent scene_content(const ViewerState& state, const DepthBlend& shown) {
     return content;
 }
 
+constexpr const char* kDesktopAsks = "Choose in the desktop's dialog";
+
+std::string desktop_words(const ViewerState& state) {
+    return kDesktopAsks + state.keys.told(Action::open_file_in_window, " opens one in this window");
+}
+
+/// What a person gives to be opened; false: not so many.
+bool take_files(const std::vector<std::filesystem::path>& files, ViewerState& state) {
+    const bool one = files.size() == 1;
+    if (one && named_firmware(files.front())) {
+        state.requests.firmware = files.front();
+    } else if (one && files.front().extension() == ".toml") {
+        state.requests.material = files.front().string();
+    } else {
+        const auto request = dropped_request(files);
+        if (request) state.requests.open = request;
+        return request.has_value();
+    }
+    return true;
+}
+
 /// Whose levels are meant.
 const std::filesystem::path& depth_file(const MediaDescription& media) {
     return media.depth_path.empty() ? media.colour_path : media.depth_path;
@@ -139,20 +160,43 @@ void Viewer::take_opened() {
 }
 
 void Viewer::take_dropped(const std::vector<std::filesystem::path>& files) {
+    if (files.empty()) return;
     // On the relief a picture is a recording, on the panels it is laid over the relief.
     const bool over_panels = window_.pointer().position_px.x >= relief_viewport().x;
-    if (files.size() == 1 && named_firmware(files.front())) {
-        state_.requests.firmware = files.front();
-    } else if (files.size() == 1 && files.front().extension() == ".toml") {
-        state_.requests.material = files.front().string();
-    } else if (over_panels && files.size() == 1 && named_picture(files.front())) {
+    if (over_panels && files.size() == 1 && named_picture(files.front())) {
         state_.requests.bump = files.front();
-    } else if (const auto dropped = dropped_request(files)) {
-        state_.requests.open = dropped;
-    } else if (!files.empty()) {
+    } else if (!take_files(files, state_)) {
         state_.message =
             "Drop one colour file, a colour and a depth file together, a folder, a session, a "
             "material, or onto the panels a picture as bump map.";
+    }
+}
+
+Answer Viewer::open_by_dialog() {
+    const OpenWith with = state_.settings.open_with;
+    const bool of_desktop =
+        with == OpenWith::desktop || (with == OpenWith::automatic && has_desktop());
+    if (!desktop_.open() && (!of_desktop || state_.dialog.shown)) {
+        browsing_.toggle(state_);
+        return {};
+    }
+    if (!desktop_.open()) desktop_.ask(browsing_.first_folder(state_), window_.x11_window());
+    return {desktop_words(state_)};
+}
+
+/// Says for as long as it is open why nothing happens here.
+void Viewer::take_desktop_answer() {
+    const auto answer = desktop_.take();
+    const bool told = state_.notice.starts_with(kDesktopAsks) && now_s() < state_.notice_until_s;
+    if (desktop_.open() && (told || now_s() >= state_.notice_until_s)) tell(desktop_words(state_));
+    if (!desktop_.open() && told) state_.notice_until_s = now_s();
+    if (!answer) return;
+    if (answer->of == FileAnswer::Of::nobody) {
+        if (state_.settings.open_with == OpenWith::desktop)
+            tell("The desktop shows no dialog: this is the window's own");
+        if (!state_.dialog.shown) browsing_.toggle(state_);
+    } else if (answer->of == FileAnswer::Of::chosen && !take_files(answer->files, state_)) {
+        state_.message = "Choose one file, or a colour and a depth file together.";
     }
 }
 

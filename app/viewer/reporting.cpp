@@ -2,21 +2,18 @@
 #include "app/viewer/reporting.hpp"
 
 #include <fcntl.h>
-#include <spawn.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
-#include <csignal>
 #include <cstddef>
-#include <vector>
+#include <string_view>
 
+#include "app/desktop/program.hpp"
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
-
-extern "C" char** environ;  // NOLINT(readability-redundant-declaration): glibc's needs _GNU_SOURCE
 
 namespace dibhr {
 
@@ -25,32 +22,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kPolitely = 10;  // nice(2): the hand's and the window's threads come first
-
-/// Starts a program whose stderr goes to that descriptor; 0: it could not be started.
-pid_t started(std::vector<std::string> words, int error_descriptor) {
-    std::vector<char*> arguments;
-    arguments.reserve(words.size() + 1);
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    posix_spawn_file_actions_t files;
-    ::posix_spawn_file_actions_init(&files);
-    ::posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    ::posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    ::posix_spawn_file_actions_adddup2(&files, error_descriptor, STDERR_FILENO);
-    // It may be ended, whatever this thread leaves to others.
-    posix_spawnattr_t manner;
-    sigset_t none;
-    ::sigemptyset(&none);
-    ::posix_spawnattr_init(&manner);
-    ::posix_spawnattr_setsigmask(&manner, &none);
-    ::posix_spawnattr_setflags(&manner, POSIX_SPAWN_SETSIGMASK);
-    pid_t child = 0;
-    const int failed =
-        ::posix_spawnp(&child, arguments[0], &files, &manner, arguments.data(), environ);
-    ::posix_spawnattr_destroy(&manner);
-    ::posix_spawn_file_actions_destroy(&files);
-    return failed == 0 ? child : 0;
-}
 
 /// "dibhr: what went wrong": what, without the program's name.
 std::string sentence_in(const std::string& errors) {
@@ -69,8 +40,9 @@ bool Reporting::start(const fs::path& session) {
     std::array<int, 2> errors{};
     if (::pipe2(errors.data(), O_CLOEXEC | O_NONBLOCK) != 0)
         throw InputError("no report can be made: too many files are open");
-    const pid_t child = started(
-        {"/proc/self/exe", "report", session.string(), "--out", folder.string()}, errors[1]);
+    const pid_t child =
+        start_program({"/proc/self/exe", "report", session.string(), "--out", folder.string()},
+                      {.errors = errors[1]});
     ::close(errors[1]);
     if (child == 0) {
         ::close(errors[0]);
@@ -114,15 +86,13 @@ Reporting::~Reporting() {
 }
 
 void show_in_browser(const fs::path& page) {
-    const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
     // The shell ends at once, whenever the browser does.
-    const pid_t shell =
-        started({"sh", "-c", "command -v xdg-open > /dev/null && xdg-open \"$1\" 2> /dev/null &",
-                 "sh", page.string()},
-                nowhere);
+    const pid_t shell = start_program(
+        {"sh", "-c", "command -v xdg-open > /dev/null && xdg-open \"$1\" 2> /dev/null &", "sh",
+         page.string()},
+        {});
     int status = 0;
     while (shell > 0 && ::waitpid(shell, &status, 0) < 0 && errno == EINTR) continue;
-    if (nowhere >= 0) ::close(nowhere);
 }
 
 }  // namespace dibhr

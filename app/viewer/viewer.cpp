@@ -78,9 +78,11 @@ WindowSize asked_size(const ViewOptions& options) {
 
 }  // namespace
 
-Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Errands& errands)
+Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Errands& errands,
+               ToldLog& log)
     : options_(options),
       ending_(ending),
+      log_(log),
       hand_(std::move(parts.hand)),
       window_(asked_size(options), options.sync, "dibhr"),
       gui_(window_, {window_.scale(options.settings.ui_scale), options.settings.theme}),
@@ -91,8 +93,9 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
       opening_(errands),
       clip_(errands),
       browsing_(errands),
+      desktop_(errands),
       painting_(errands),
-      keeper_(options.in_file, options.settings, settings_path()),
+      keeper_(options.in_file, options.settings, options.settings_file),
       start_(steady_clock::now()),
       hang_after_s_(hang_asked_for()),
       strips_(std::make_unique<StripRing>()),
@@ -158,6 +161,7 @@ void Viewer::beat_while_drawing() {
 /// Ends what goes on, and writes what is to last, without the window.
 void Viewer::close_without_display() {
     ending_.words().doing("closing without a display");
+    desktop_.call_off();
     state_.message.clear();
     loop_.reset();
     explaining_.end(state_, camera_);
@@ -175,6 +179,7 @@ void Viewer::finish() {
     const auto now = [this](const char* what) { ending_.words().doing(what); };
     now("taking the force off");
     if (loop_) loop_->stop();  // no force is sent any more when files are written
+    keep_lateness();
     std::string failure;
     const auto try_to = [&failure](auto&& step) {
         try {
@@ -229,6 +234,7 @@ void Viewer::show_one_picture() {
     carry_out_requests();
     hand_over_settings();
     keep_settings();
+    keep_told();
     if (software_) beat_while_drawing();
     window_.show_picture();
     require_graphics();
@@ -263,6 +269,7 @@ void Viewer::take_news() {
     state_.pads = pads_.news();
     state_.pictures_per_s = pace_.pictures_per_s();
     take_opened();
+    take_desktop_answer();
     const std::string& failure =
         state_.replay ? state_.replay->playback.failure : state_.playback.failure;
     if (!failure.empty() && failure != playback_failure_) {
@@ -354,6 +361,9 @@ void Viewer::take_dialog_key(const KeyPress& press) {
 std::optional<Answer> Viewer::perform_with_files(Action action) {
     switch (action) {
         case Action::open_file:
+            return open_by_dialog();
+        case Action::open_file_in_window:
+            desktop_.call_off();
             browsing_.toggle(state_);
             return Answer{};
         case Action::next_file:
@@ -667,7 +677,27 @@ void Viewer::take_last_screenshot() {
         draw_picture();
 }
 
+/// Messages are set wherever something goes wrong.
+void Viewer::keep_told() {
+    if (state_.message != message_kept_) log_.keep("message", state_.message);
+    message_kept_ = state_.message;
+    attempt([this] { log_.write(); });
+}
+
+/// Of a loop that has ended.
+void Viewer::keep_lateness() {
+    if (!loop_) return;
+    const TickSchedule& schedule = loop_->timer().schedule();
+    const double worst_ms =
+        std::chrono::duration<double, std::milli>(schedule.lateness().worst()).count();
+    log_.keep("ticks", std::to_string(schedule.ticks()) + ", late " +
+                           std::to_string(schedule.late_ticks()) + ", the worst by " +
+                           number_text(worst_ms, 3) + " ms");
+}
+
 void Viewer::tell(const std::string& notice) {
+    const bool shown = notice == state_.notice && now_s() < state_.notice_until_s;
+    if (!shown) log_.keep("told", notice);
     state_.notice = notice;
     state_.notice_of_place = false;
     state_.notice_until_s = now_s() + kNoticeTime_s;

@@ -19,6 +19,7 @@
 #include "app/sound/touch_source.hpp"
 #include "app/viewer/browsing.hpp"
 #include "app/viewer/clip.hpp"
+#include "app/viewer/desktop_dialog.hpp"
 #include "app/viewer/errand.hpp"
 #include "app/viewer/explaining.hpp"
 #include "app/viewer/falcon.hpp"
@@ -29,6 +30,7 @@
 #include "app/viewer/recording.hpp"
 #include "app/viewer/replay.hpp"
 #include "app/viewer/reporting.hpp"
+#include "app/viewer/told_log.hpp"
 #include "app/viewer/trace.hpp"
 #include "app/window/ending.hpp"
 #include "app/window/gui.hpp"
@@ -63,8 +65,9 @@ struct ViewOptions {
     bool size_given{false};  ///< by --size: exactly so large
     bool any_media{false};   ///< replay: also over files that have changed
     TouchRequest touch{};    ///< the command line's alone: its parameters beat a session's
-    Settings in_file{};      ///< as read; the window saves only what a person changed in it
-    Settings settings{};     ///< the same, the command line's values on top
+    std::filesystem::path settings_file{settings_path()};  ///< where they are kept
+    Settings in_file{};   ///< as read; the window saves only what a person changed in it
+    Settings settings{};  ///< the same, the command line's values on top
 };
 
 /// What was opened before there was a window.
@@ -90,8 +93,10 @@ struct OwnRelief {
 
 class Viewer {
   public:
-    /// Opens the window and starts the loop. `ending` and `errands` must outlive it. Throws Error.
-    Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Errands& errands);
+    /// Opens the window and starts the loop. `ending`, `errands` and `log` must outlive it. Throws
+    /// Error.
+    Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Errands& errands,
+           ToldLog& log);
     /// From here on a display that goes away finds nothing left to close.
     ~Viewer() { window_.on_display_loss({}); }
     Viewer(const Viewer&) = delete;
@@ -117,6 +122,8 @@ class Viewer {
     void paint(const PointerUse& use);
     void perform(Action action);
     void take_dropped(const std::vector<std::filesystem::path>& files);
+    [[nodiscard]] Answer open_by_dialog();
+    void take_desktop_answer();
     void move_hand(const WindowInput& input, glm::ivec2 viewport);
     void draw_scene(glm::ivec2 viewport);
     void draw_picture(const WindowInput& input = {});
@@ -162,6 +169,8 @@ class Viewer {
     void make_report(const std::filesystem::path& session);
     void take_report();
     void tell(const std::string& notice);
+    void keep_told();
+    void keep_lateness();
     /// Takes a step; its failure goes into the message box, and the program goes on.
     template <typename Step>
     void attempt(const Step& step) {
@@ -180,7 +189,9 @@ class Viewer {
     // ends.
     ViewOptions options_;
     Ending& ending_;
-    Heartbeat heart_{};  // of the window's thread and the display
+    ToldLog& log_;
+    std::string message_kept_{};  // in the log
+    Heartbeat heart_{};           // of the window's thread and the display
     HandDevice hand_;
     Window window_;
     Gui gui_;
@@ -199,6 +210,7 @@ class Viewer {
     Reporting reporting_{};
     ViewerExplaining explaining_{};
     Browsing browsing_;
+    DesktopDialog desktop_;
     ViewerPanes panes_{};
     ViewerPainting painting_;
     SettingsKeeper keeper_;

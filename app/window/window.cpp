@@ -17,6 +17,10 @@
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 
+// Of GLFW's glfw3native.h, which brings X11's macros; weak, since a GLFW that was built for Wayland
+// alone has none.
+extern "C" [[gnu::weak]] unsigned long glfwGetX11Window(GLFWwindow*);  // NOLINT: its name
+
 namespace dibhr {
 
 namespace {
@@ -187,6 +191,10 @@ float Window::scale(double asked) const {
     float y = 1.0F;
     glfwGetWindowContentScale(window_, &x, &y);
     return usable_scale(asked, x);
+}
+
+unsigned long Window::x11_window() const {
+    return glfwGetX11Window == nullptr ? 0 : glfwGetX11Window(window_);
 }
 
 void Window::set_title(const std::string& title) {

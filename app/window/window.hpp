@@ -97,6 +97,9 @@ class Window {
     /// Wayland nothing is asked.)
     void meet_display() const { static_cast<void>(framebuffer_size()); }
 
+    /// As the X server knows it; 0: there is none.
+    [[nodiscard]] unsigned long x11_window() const;
+
     [[nodiscard]] GLFWwindow* handle() const { return window_; }
 
   private:

@@ -128,6 +128,20 @@ std::string percent_encoded(std::string_view path) {
     return encoded;
 }
 
+std::string percent_decoded(std::string_view text) {
+    constexpr int kSixteen = 16;
+    std::string decoded;
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        const char* const digits = text.data() + k + 1;
+        unsigned char byte = 0;
+        const bool coded = text[k] == '%' && k + 2 < text.size() &&
+                           std::from_chars(digits, digits + 2, byte, kSixteen).ptr == digits + 2;
+        decoded += coded ? static_cast<char>(byte) : text[k];
+        if (coded) k += 2;
+    }
+    return decoded;
+}
+
 std::string base64_text(std::string_view bytes) {
     const auto size = static_cast<int>(bytes.size());
     std::string text(AV_BASE64_SIZE(bytes.size()), '\0');

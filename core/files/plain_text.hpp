@@ -25,6 +25,9 @@ namespace dibhr {
 /// A path as a `file:` address takes it (RFC 3986, section 2.1).
 [[nodiscard]] std::string percent_encoded(std::string_view path);
 
+/// And back: of any such address. A "%" that does not stand before two digits stays.
+[[nodiscard]] std::string percent_decoded(std::string_view text);
+
 /// Bytes as a `data:` address takes them (RFC 4648, section 4).
 [[nodiscard]] std::string base64_text(std::string_view bytes);
 

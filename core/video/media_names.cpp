@@ -175,6 +175,14 @@ bool is_folder(const fs::path& place) {
     return fs::is_directory(place, ignored);
 }
 
+std::span<const std::string_view> picture_endings() noexcept {
+    return kPictureEndings;
+}
+
+std::span<const std::string_view> video_endings() noexcept {
+    return kVideoEndings;
+}
+
 bool named_picture(const fs::path& file) {
     return ends_as(file, kPictureEndings);
 }

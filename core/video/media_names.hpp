@@ -3,7 +3,9 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 
 namespace dibhr {
 
@@ -12,6 +14,10 @@ namespace dibhr {
 
 /// Whether there is a folder of that name.
 [[nodiscard]] bool is_folder(const std::filesystem::path& place);
+
+/// How names of pictures and of videos end: ".png", in small letters.
+[[nodiscard]] std::span<const std::string_view> picture_endings() noexcept;
+[[nodiscard]] std::span<const std::string_view> video_endings() noexcept;
 
 /// Whether the name ends as a picture's does.
 [[nodiscard]] bool named_picture(const std::filesystem::path& file);

@@ -72,6 +72,16 @@ TEST_CASE("what the program opens is told from what it does not", "[folder]") {
                                          FileKind::picture, FileKind::other, FileKind::video});
 }
 
+TEST_CASE("a file of every ending that opens is listed as one that can be opened", "[folder]") {
+    const TemporaryFolder folder;
+    const std::vector<std::string> endings = endings_that_open();
+    for (const std::string& ending : endings) put(folder / ("take" + ending));
+    const Folder read = read_folder(folder.path());
+    CHECK(endings.size() > 20);
+    CHECK(read.entries.size() == endings.size());
+    CHECK(std::all_of(read.entries.begin(), read.entries.end(), can_be_opened));
+}
+
 TEST_CASE("a folder that cannot be read says so in a line, and names itself", "[folder]") {
     const TemporaryFolder folder;
     const Folder read = read_folder(folder / "gone");

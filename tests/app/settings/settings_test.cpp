@@ -48,6 +48,7 @@ Settings unusual_settings() {
     settings.sound_volume = 0.25;
     settings.mute = true;
     settings.game_pad = false;
+    settings.open_with = OpenWith::desktop;
     settings.keys = {{"play-or-pause", {"Space"}},
                      {"mark", {"F7", "Shift+\"", "\\"}},
                      {"toggle-sound", {}},

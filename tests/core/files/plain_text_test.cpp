@@ -31,6 +31,10 @@ TEST_CASE("a text is shown on one line, cut short where it is too long", "[files
 
 TEST_CASE("a path in an address keeps its letters, whatever they mean there", "[files]") {
     CHECK(percent_encoded("/a b/50%?#\xc3\xbc.db3") == "/a%20b/50%25%3f%23%c3%bc.db3");
+    std::string all;
+    for (int byte = 0; byte < 256; ++byte) all += static_cast<char>(byte);
+    CHECK(percent_decoded(percent_encoded(all)) == all);
+    CHECK(percent_decoded("100%, %4, %zz, %2F%e4") == "100%, %4, %zz, /\xe4");
 }
 
 TEST_CASE("base64 gives the standard's own examples", "[files]") {  // RFC 4648, section 10

@@ -1,0 +1,186 @@
+// kdialog, zenity and qarma: a program that asks, and prints what was chosen.
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstddef>
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/desktop/file_dialog.hpp"
+#include "app/desktop/program.hpp"
+
+namespace dibhr {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kPoliteTime = std::chrono::milliseconds(50);  // after SIGTERM
+constexpr int kLook_ms = 5;
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string line;
+    for (const std::string& word : words) line += (line.empty() ? "" : " ") + word;
+    return line;
+}
+
+/// qarma's, too.
+std::vector<std::string> zenity(const std::string& name, const FileQuestion& question) {
+    std::vector<std::string> words{name,
+                                   "--file-selection",
+                                   "--multiple",
+                                   "--separator=\n",
+                                   "--title=" + question.title,
+                                   "--filename=" + question.folder.string() + "/"};
+    for (const FileFilter& filter : question.filters)
+        words.push_back("--file-filter=" + filter.name + " | " + joined(filter.patterns));
+    return words;
+}
+
+std::vector<std::string> kdialog(const FileQuestion& question) {
+    std::string filters;
+    for (const FileFilter& filter : question.filters) {
+        if (!filters.empty()) filters += '\n';
+        filters += filter.name + " (" + joined(filter.patterns) + ")";
+    }
+    std::vector<std::string> words{"kdialog", "--title", question.title, "--multiple",
+                                   "--separate-output"};
+    if (question.x11_window != 0) {
+        words.emplace_back("--attach");
+        words.push_back(std::to_string(question.x11_window));
+    }
+    words.insert(words.end(), {"--getopenfilename", question.folder.string(), filters});
+    return words;
+}
+
+/// In the order in which they fit the desktop.
+std::vector<std::vector<std::string>> helpers_for(const FileQuestion& question) {
+    const char* const desktop = std::getenv("XDG_CURRENT_DESKTOP");
+    const bool kde =
+        desktop != nullptr && std::string_view(desktop).find("KDE") != std::string_view::npos;
+    std::vector<std::vector<std::string>> helpers{zenity("zenity", question),
+                                                  zenity("qarma", question)};
+    helpers.insert(kde ? helpers.begin() : helpers.end(), kdialog(question));
+    return helpers;
+}
+
+/// One a line. A name may hold a line break, but no path goes on with a slash after one.
+std::vector<std::filesystem::path> paths_in(std::string printed) {
+    constexpr std::string_view kNext = "\n/";
+    if (printed.ends_with('\n')) printed.pop_back();
+    std::vector<std::filesystem::path> files;
+    while (!printed.empty()) {
+        const std::size_t end = printed.find(kNext);
+        files.emplace_back(printed.substr(0, end));
+        printed.erase(0, end == std::string::npos ? end : end + 1);
+    }
+    return files;
+}
+
+/// A helper that asks, ended at the latest by the destructor.
+class Asking {
+  public:
+    explicit Asking(std::vector<std::string> words) {
+        std::array<int, 2> ends{};
+        if (::pipe2(ends.data(), O_CLOEXEC) != 0) return;
+        child_ = start_program(std::move(words), {.output = ends[1]});
+        ::close(ends[1]);
+        printed_end_ = ends[0];
+    }
+    ~Asking() {
+        if (printed_end_ >= 0) ::close(printed_end_);
+        end();
+    }
+    Asking(const Asking&) = delete;
+    Asking& operator=(const Asking&) = delete;
+
+    [[nodiscard]] bool started() const { return child_ != 0; }
+
+    /// All that it prints; false: called off.
+    [[nodiscard]] bool read_all(const CallOff& off, std::string& printed) const {
+        std::array<pollfd, 2> events{pollfd{printed_end_, POLLIN, 0},
+                                     pollfd{off.descriptor(), POLLIN, 0}};
+        while (true) {
+            if (::poll(events.data(), events.size(), -1) < 0 && errno == EINTR) continue;
+            if (off.called_off()) return false;
+            std::array<char, 4096> piece{};
+            const ssize_t count = ::read(printed_end_, piece.data(), piece.size());
+            if (count == 0) return true;
+            if (count > 0) printed.append(piece.data(), static_cast<std::size_t>(count));
+        }
+    }
+
+    /// waitpid()'s, when it has ended; nothing: called off.
+    [[nodiscard]] std::optional<int> status(const CallOff& off) {
+        while (!off.called_off()) {
+            if (const auto ended = take_status()) return ended;
+            pollfd event{off.descriptor(), POLLIN, 0};
+            ::poll(&event, 1, kLook_ms);
+        }
+        return std::nullopt;
+    }
+
+  private:
+    std::optional<int> take_status() {
+        int status = 0;
+        if (::waitpid(child_, &status, WNOHANG) != child_) return std::nullopt;
+        child_ = 0;
+        return status;
+    }
+
+    /// With whatever it has started.
+    void end() {
+        if (child_ == 0) return;
+        ::kill(-child_, SIGTERM);
+        const auto latest = Clock::now() + kPoliteTime;
+        while (Clock::now() < latest) {
+            if (take_status()) return;
+            ::poll(nullptr, 0, kLook_ms);
+        }
+        ::kill(-child_, SIGKILL);
+        int status = 0;
+        while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) continue;
+        child_ = 0;
+    }
+
+    pid_t child_{0};
+    int printed_end_{-1};
+};
+
+FileAnswer ask_one(const std::vector<std::string>& words, const CallOff& off) {
+    const auto begin = Clock::now();
+    Asking helper(words);
+    if (!helper.started()) return {};
+    std::string printed;
+    if (!helper.read_all(off, printed)) return {FileAnswer::Of::cancelled};
+    const auto status = helper.status(off);
+    if (!status) return {FileAnswer::Of::cancelled};
+    if (!WIFEXITED(*status)) return {};
+    if (WEXITSTATUS(*status) != 0) {  // 1 for Cancel, and for a display that it cannot open
+        const bool person = Clock::now() - begin >= kQuickestPerson;
+        return {person ? FileAnswer::Of::cancelled : FileAnswer::Of::nobody};
+    }
+    FileAnswer answer{FileAnswer::Of::chosen, paths_in(printed)};
+    if (answer.files.empty()) answer.of = FileAnswer::Of::cancelled;
+    return answer;
+}
+
+}  // namespace
+
+FileAnswer ask_helper(const FileQuestion& question, const CallOff& off) {
+    for (const std::vector<std::string>& words : helpers_for(question)) {
+        FileAnswer answer = ask_one(words, off);
+        if (answer.of != FileAnswer::Of::nobody) return answer;
+    }
+    return {};
+}
+
+}  // namespace dibhr

@@ -1,0 +1,279 @@
+// The file chooser of the desktop's portal (XDG Desktop Portal, org.freedesktop.portal.FileChooser
+// and .Request): asked over the session bus, it answers with a signal.
+#include <poll.h>
+#include <systemd/sd-bus.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "app/desktop/file_dialog.hpp"
+#include "core/files/plain_text.hpp"
+
+namespace dibhr {
+
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+using Deadline = std::optional<SteadyClock::time_point>;  // nothing: a person has time
+
+constexpr const char* kPortal = "org.freedesktop.portal.Desktop";
+constexpr const char* kPortalPath = "/org/freedesktop/portal/desktop";
+constexpr const char* kChooser = "org.freedesktop.portal.FileChooser";
+constexpr const char* kRequest = "org.freedesktop.portal.Request";
+constexpr const char* kToken = "dibhr";  // each question has a connection of its own
+constexpr const char* kPortalGone =
+    "type='signal',sender='org.freedesktop.DBus',member='NameOwnerChanged',"
+    "arg0='org.freedesktop.portal.Desktop',arg2=''";
+constexpr std::chrono::seconds kPortalPatience{2};  // for its word that it will ask
+
+struct LeaveBus {
+    void operator()(sd_bus* bus) const { sd_bus_close_unref(bus); }
+};
+struct LeaveMessage {
+    void operator()(sd_bus_message* message) const { sd_bus_message_unref(message); }
+};
+using Bus = std::unique_ptr<sd_bus, LeaveBus>;
+using Message = std::unique_ptr<sd_bus_message, LeaveMessage>;
+
+Bus open_bus() {
+    sd_bus* bus = nullptr;
+    if (sd_bus_open_user(&bus) < 0) return nullptr;
+    return Bus(bus);
+}
+
+/// From now on, at least 0.
+int milliseconds_to(SteadyClock::time_point time) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(time - SteadyClock::now());
+    return static_cast<int>(std::clamp<std::int64_t>(left.count(), 0, 1'000'000));
+}
+
+/// Until the bus has something to do, or the question is called off.
+void wait_for_bus(sd_bus* bus, const CallOff& off, const Deadline& latest) {
+    const auto events = static_cast<short>(sd_bus_get_events(bus));
+    std::array<pollfd, 2> waited{pollfd{sd_bus_get_fd(bus), events, 0},
+                                 pollfd{off.descriptor(), POLLIN, 0}};
+    int wait_ms = latest ? milliseconds_to(*latest) : -1;
+    std::uint64_t due_us = UINT64_MAX;  // of the monotonic clock, as that of the deadline
+    if (sd_bus_get_timeout(bus, &due_us) >= 0 && due_us != UINT64_MAX) {
+        const int due_ms = milliseconds_to(
+            SteadyClock::time_point(std::chrono::microseconds(static_cast<std::int64_t>(due_us))));
+        wait_ms = wait_ms < 0 ? due_ms : std::min(wait_ms, due_ms);
+    }
+    ::poll(waited.data(), waited.size(), wait_ms);
+}
+
+/// Lets the bus work until `done`; false: it is too late, the bus is lost, or it was called off.
+template <typename Done>
+bool run_until(sd_bus* bus, const CallOff& off, const Deadline& latest, const Done& done) {
+    while (!done()) {
+        const int worked = sd_bus_process(bus, nullptr);
+        if (worked < 0 || off.called_off()) return false;
+        if (worked > 0) continue;
+        if (latest && SteadyClock::now() >= *latest) return false;
+        wait_for_bus(bus, off, latest);
+    }
+    return true;
+}
+
+/// "file:///home/me/a%20film.mp4"; another address as it is.
+std::filesystem::path path_of(const std::string& address) {
+    constexpr std::string_view kFile = "file://";
+    if (!address.starts_with(kFile)) return address;
+    const std::size_t path = address.find('/', kFile.size());  // after the name of the machine
+    if (path == std::string::npos) return address;
+    return percent_decoded(std::string_view(address).substr(path));
+}
+
+/// What is known of one question; its static members are the bus's callbacks.
+struct PortalQuestion {
+    std::string request{};                                               ///< the path of its object
+    bool accepted{false}, refused{false}, answered{false}, gone{false};  ///< gone: the portal
+    std::uint32_t response{0};  ///< 0: chosen, 1: cancelled, 2: ended in another way
+    std::vector<std::filesystem::path> files{};
+
+    static int on_reply(sd_bus_message* reply, void* self, sd_bus_error* /*error*/) {
+        auto& question = *static_cast<PortalQuestion*>(self);
+        const char* path = nullptr;
+        question.accepted = sd_bus_message_is_method_error(reply, nullptr) == 0 &&
+                            sd_bus_message_read(reply, "o", &path) > 0;
+        question.refused = !question.accepted;
+        if (question.refused || question.request == path) return 0;
+        question.request = path;  // of portals before version 0.9
+        question.refused = !question.listen(sd_bus_message_get_bus(reply));
+        return 0;
+    }
+
+    static int on_gone(sd_bus_message* /*signal*/, void* self, sd_bus_error* /*error*/) {
+        static_cast<PortalQuestion*>(self)->gone = true;
+        return 0;
+    }
+
+    /// For its answer, of which nobody else knows the path.
+    bool listen(sd_bus* bus) {
+        return sd_bus_match_signal_async(bus, nullptr, nullptr, request.c_str(), kRequest,
+                                         "Response", &on_response, nullptr, this) >= 0;
+    }
+
+    static int on_response(sd_bus_message* signal, void* self, sd_bus_error* /*error*/) {
+        auto& question = *static_cast<PortalQuestion*>(self);
+        question.answered = true;
+        if (sd_bus_message_read(signal, "u", &question.response) < 0) question.response = 2;
+        question.read_files(signal);
+        return 0;
+    }
+
+    /// "uris" of the results.
+    void read_files(sd_bus_message* signal) {
+        if (sd_bus_message_enter_container(signal, 'a', "{sv}") <= 0) return;
+        while (sd_bus_message_enter_container(signal, 'e', "sv") > 0) {
+            const char* name = nullptr;
+            const bool read = sd_bus_message_read(signal, "s", &name) > 0;
+            if (read && std::string_view(name) == "uris") {
+                read_addresses(signal);
+            } else {
+                sd_bus_message_skip(signal, "v");
+            }
+            if (sd_bus_message_exit_container(signal) < 0) return;
+        }
+    }
+
+    void read_addresses(sd_bus_message* signal) {
+        if (sd_bus_message_enter_container(signal, 'v', "as") <= 0) return;
+        if (sd_bus_message_enter_container(signal, 'a', "s") < 0) return;
+        const char* address = nullptr;
+        while (sd_bus_message_read(signal, "s", &address) > 0) files.push_back(path_of(address));
+        sd_bus_message_exit_container(signal);
+        sd_bus_message_exit_container(signal);
+    }
+};
+
+/// The path that a request of that connection and token has, so that its answer is not missed.
+std::string expected_request(sd_bus* bus) {
+    const char* name = nullptr;
+    if (sd_bus_get_unique_name(bus, &name) < 0) return {};
+    std::string sender(name + 1);  // ":1.42"
+    std::replace(sender.begin(), sender.end(), '.', '_');
+    return std::string(kPortalPath) + "/request/" + sender + "/" + kToken;
+}
+
+int append_filter(sd_bus_message* call, const FileFilter& filter) {
+    constexpr std::uint32_t kPattern = 0;
+    int failed = sd_bus_message_open_container(call, 'r', "sa(us)");
+    failed = std::min(failed, sd_bus_message_append(call, "s", filter.name.c_str()));
+    failed = std::min(failed, sd_bus_message_open_container(call, 'a', "(us)"));
+    for (const std::string& pattern : filter.patterns)
+        failed = std::min(failed, sd_bus_message_append(call, "(us)", kPattern, pattern.c_str()));
+    failed = std::min(failed, sd_bus_message_close_container(call));
+    return std::min(failed, sd_bus_message_close_container(call));
+}
+
+int append_filters(sd_bus_message* call, const FileQuestion& question) {
+    int failed = sd_bus_message_open_container(call, 'e', "sv");
+    failed = std::min(failed, sd_bus_message_append(call, "s", "filters"));
+    failed = std::min(failed, sd_bus_message_open_container(call, 'v', "a(sa(us))"));
+    failed = std::min(failed, sd_bus_message_open_container(call, 'a', "(sa(us))"));
+    for (const FileFilter& filter : question.filters)
+        failed = std::min(failed, append_filter(call, filter));
+    for (int k = 0; k < 3; ++k) failed = std::min(failed, sd_bus_message_close_container(call));
+    return failed;
+}
+
+/// A string of bytes with its zero.
+int append_folder(sd_bus_message* call, const std::filesystem::path& folder) {
+    int failed = sd_bus_message_open_container(call, 'e', "sv");
+    failed = std::min(failed, sd_bus_message_append(call, "s", "current_folder"));
+    failed = std::min(failed, sd_bus_message_open_container(call, 'v', "ay"));
+    failed = std::min(
+        failed, sd_bus_message_append_array(call, 'y', folder.c_str(), folder.native().size() + 1));
+    for (int k = 0; k < 2; ++k) failed = std::min(failed, sd_bus_message_close_container(call));
+    return failed;
+}
+
+/// Not modal: the force can be taken off in the window meanwhile.
+int append_options(sd_bus_message* call, const FileQuestion& question) {
+    int failed = sd_bus_message_open_container(call, 'a', "{sv}");
+    failed = std::min(failed, sd_bus_message_append(call, "{sv}", "handle_token", "s", kToken));
+    failed = std::min(failed, sd_bus_message_append(call, "{sv}", "multiple", "b", 1));
+    failed = std::min(failed, sd_bus_message_append(call, "{sv}", "modal", "b", 0));
+    failed = std::min(failed, append_filters(call, question));
+    failed = std::min(failed, append_folder(call, question.folder));
+    return std::min(failed, sd_bus_message_close_container(call));
+}
+
+std::string parent_of(const FileQuestion& question) {
+    if (question.x11_window == 0) return {};
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "x11:%lx", question.x11_window);
+    return text.data();
+}
+
+/// Sends it, to be answered by on_reply().
+bool send_question(sd_bus* bus, const FileQuestion& question, PortalQuestion& asked) {
+    sd_bus_message* made = nullptr;
+    if (sd_bus_message_new_method_call(bus, &made, kPortal, kPortalPath, kChooser, "OpenFile") < 0)
+        return false;
+    const Message call(made);
+    int failed =
+        sd_bus_message_append(made, "ss", parent_of(question).c_str(), question.title.c_str());
+    failed = std::min(failed, append_options(made, question));
+    const std::chrono::microseconds patience = kPortalPatience;
+    return failed >= 0 && sd_bus_call_async(bus, nullptr, made, &PortalQuestion::on_reply, &asked,
+                                            static_cast<std::uint64_t>(patience.count())) >= 0;
+}
+
+/// Also where it has not answered: it may be only slow.
+void close_request(sd_bus* bus, const PortalQuestion& asked) {
+    sd_bus_message* made = nullptr;
+    if (sd_bus_message_new_method_call(bus, &made, kPortal, asked.request.c_str(), kRequest,
+                                       "Close") < 0)
+        return;
+    const Message call(made);
+    sd_bus_message_set_expect_reply(made, 0);
+    sd_bus_message_set_auto_start(made, 0);
+    if (sd_bus_send(bus, made, nullptr) >= 0) sd_bus_flush(bus);
+}
+
+FileAnswer answer_of(PortalQuestion& asked, SteadyClock::duration taken) {
+    if (asked.response == 0 && !asked.files.empty())
+        return {FileAnswer::Of::chosen, std::move(asked.files)};
+    // A dialog that its person closes may end "in another way", too.
+    const bool refused = asked.response != 1 && taken < kQuickestPerson;
+    return {refused ? FileAnswer::Of::nobody : FileAnswer::Of::cancelled};
+}
+
+/// Asks, and waits for the person. False: there is no answer.
+bool hear_answer(sd_bus* bus, const FileQuestion& question, const CallOff& off,
+                 PortalQuestion& asked) {
+    const auto ready = [bus] { return sd_bus_is_ready(bus) > 0; };
+    if (!run_until(bus, off, SteadyClock::now() + kPortalPatience, ready)) return false;
+    asked.request = expected_request(bus);
+    const bool sent = sd_bus_add_match_async(bus, nullptr, kPortalGone, &PortalQuestion::on_gone,
+                                             nullptr, &asked) >= 0 &&
+                      asked.listen(bus) && send_question(bus, question, asked);
+    const auto replied = [&asked] { return asked.accepted || asked.refused || asked.answered; };
+    const auto ended = [&asked] { return asked.answered || asked.refused || asked.gone; };
+    return sent && run_until(bus, off, SteadyClock::now() + kPortalPatience, replied) &&
+           run_until(bus, off, {}, ended) && asked.answered;
+}
+
+}  // namespace
+
+FileAnswer ask_portal(const FileQuestion& question, const CallOff& off) {
+    const Bus bus = open_bus();
+    if (!bus) return {};
+    const auto begin = SteadyClock::now();
+    PortalQuestion asked;
+    if (hear_answer(bus.get(), question, off, asked))
+        return answer_of(asked, SteadyClock::now() - begin);
+    if (!asked.request.empty() && !asked.gone) close_request(bus.get(), asked);
+    return {off.called_off() ? FileAnswer::Of::cancelled : FileAnswer::Of::nobody};
+}
+
+}  // namespace dibhr

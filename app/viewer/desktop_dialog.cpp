@@ -1,0 +1,48 @@
+// Asks the desktop on an errand, which outlives whoever sent it until the dialog is gone.
+#include "app/viewer/desktop_dialog.hpp"
+
+#include <utility>
+
+#include "app/settings/folder.hpp"
+
+namespace dibhr {
+
+namespace {
+
+/// Portals and helpers mind capitals.
+std::vector<std::string> patterns_of_recordings() {
+    std::vector<std::string> patterns;
+    for (const std::string& ending : endings_that_open()) {
+        std::string large = ending;
+        for (char& c : large)
+            if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+        patterns.push_back("*" + ending);
+        patterns.push_back("*" + large);
+    }
+    return patterns;
+}
+
+}  // namespace
+
+void DesktopDialog::ask(const std::filesystem::path& folder, unsigned long x11_window) {
+    off_ = std::make_shared<CallOff>();
+    const FileQuestion question{
+        .title = "Open a recording, or colour and depth together",
+        .folder = folder,
+        .filters = {{"Recordings", patterns_of_recordings()}, {"All files", {"*"}}},
+        .x11_window = x11_window};
+    asking_.start_anew([question, off = off_] { return ask_desktop(question, *off); });
+}
+
+std::optional<FileAnswer> DesktopDialog::take() {
+    if (!open()) return std::nullopt;
+    auto answer = asking_.take();
+    if (answer) off_.reset();
+    return answer;
+}
+
+void DesktopDialog::call_off() {
+    if (const auto off = std::exchange(off_, nullptr)) off->call_off();
+}
+
+}  // namespace dibhr

@@ -1,0 +1,250 @@
+// The desktop's dialog, asked through a portal and through helper programs as they are, may be, and
+// should not be.
+#include "app/desktop/file_dialog.hpp"
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <future>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/app/program/session_bus.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/eventually.hpp"
+#include "tests/support/text.hpp"
+
+namespace fs = std::filesystem;
+using namespace dibhr;
+using namespace dibhr::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+const FileQuestion question_asked{
+    .title = "Open a recording",
+    .folder = "/a folder/of mine",
+    .filters = {{"Recordings", {"*.mp4", "*.MP4"}}, {"All files", {"*"}}},
+    .x11_window = 0x2a0000f};
+
+/// A variable of this process, as it was afterwards.
+class Variable {
+  public:
+    Variable(const char* name, const std::string& value) : name_(name) {
+        if (const char* const before = std::getenv(name)) before_ = before;
+        ::setenv(name, value.c_str(), 1);
+    }
+    ~Variable() { before_.empty() ? ::unsetenv(name_) : ::setenv(name_, before_.c_str(), 1); }
+    Variable(const Variable&) = delete;
+    Variable& operator=(const Variable&) = delete;
+
+  private:
+    const char* name_;
+    std::string before_{};
+};
+
+/// A bus on which a portal answers, and what comes of asking it.
+struct Asked {
+    FileAnswer answer{};
+    PortalAsked portal{};
+    Clock::duration taken{};
+};
+
+Asked ask(const PortalManner& manner) {
+    const SessionBus bus;
+    const Portal portal(bus, manner);
+    const Variable address("DBUS_SESSION_BUS_ADDRESS", bus.address());
+    const CallOff off;
+    const auto begin = Clock::now();
+    Asked asked;
+    asked.answer = ask_portal(question_asked, off);
+    asked.taken = Clock::now() - begin;
+    if (!manner.replies) static_cast<void>(eventually([&] { return portal.asked().closed; }));
+    asked.portal = portal.asked();
+    return asked;
+}
+
+/// A folder of programs that are called so, in front of the machine's.
+class Helpers {
+  public:
+    void add(const std::string& name, const std::string& script) {
+        const fs::path file = folder_ / "bin" / name;
+        fs::create_directories(file.parent_path());
+        write_text(file, "#!/bin/sh\n" + script);
+        fs::permissions(file, fs::perms::owner_all);
+    }
+    [[nodiscard]] fs::path file(const char* name) const { return folder_ / name; }
+    [[nodiscard]] std::string path() const { return (folder_ / "bin").string() + ":/usr/bin:/bin"; }
+    /// Prints its arguments, one between brackets, into a file.
+    [[nodiscard]] std::string writes_arguments() const {
+        return "for word; do printf '[%s]' \"$word\"; done > '" + file("words").string() + "'\n";
+    }
+
+  private:
+    TemporaryFolder folder_{};
+};
+
+FileAnswer ask(const Helpers& helpers, const std::string& desktop = "GNOME") {
+    const Variable path("PATH", helpers.path());
+    const Variable kind("XDG_CURRENT_DESKTOP", desktop);
+    const CallOff off;
+    return ask_helper(question_asked, off);
+}
+
+}  // namespace
+
+TEST_CASE("the portal is asked for files, over the window, and gives those that were chosen",
+          "[dialog]") {
+    const bool old = GENERATE(false, true);
+    const Asked asked =
+        ask({.old = old,
+             .addresses = {"file:///tmp/a%20film%C3%A4.mp4", "file://host/tmp/line%0Abreak.png"},
+             .after = old ? 200ms : 0ms});  // before, it would not be listened to
+    CHECK(asked.answer.of == FileAnswer::Of::chosen);
+    CHECK(asked.answer.files ==
+          std::vector<fs::path>{"/tmp/a film\xc3\xa4.mp4", "/tmp/line\nbreak.png"});
+    CHECK(asked.portal.parent == "x11:2a0000f");
+    CHECK(asked.portal.title == question_asked.title);
+    CHECK(asked.portal.folder == question_asked.folder);
+    CHECK(asked.portal.filters == std::vector<std::string>{"Recordings", "All files"});
+    CHECK(asked.portal.patterns == std::vector<std::string>{"*.mp4", "*.MP4", "*"});
+    CHECK(asked.portal.multiple);
+    CHECK_FALSE(asked.portal.modal);  // F8 in the window takes the force off meanwhile
+    CHECK_FALSE(asked.portal.closed);
+}
+
+TEST_CASE("a person who cancels has answered, a portal that gives up at once has not", "[dialog]") {
+    CHECK(ask({.response = 1}).answer.of == FileAnswer::Of::cancelled);
+    CHECK(ask({.response = 2, .after = 500ms}).answer.of == FileAnswer::Of::cancelled);
+    CHECK(ask({.response = 2}).answer.of == FileAnswer::Of::nobody);
+    CHECK(ask({.response = 0}).answer.of == FileAnswer::Of::nobody);  // and nothing chosen
+}
+
+TEST_CASE("a portal that is missing, refuses, goes away or does not answer is not waited for",
+          "[dialog]") {
+    CHECK(ask({.refuses = true}).answer.of == FileAnswer::Of::nobody);
+    CHECK(ask({.after = 400ms, .vanishes = true}).answer.of == FileAnswer::Of::nobody);
+    const Asked mute = ask({.replies = false});
+    CHECK(mute.answer.of == FileAnswer::Of::nobody);
+    CHECK(mute.taken < 4s);
+    CHECK(mute.portal.closed);  // should it be slow, and not deaf
+    const CallOff off;
+    {
+        const SessionBus empty;
+        const Variable address("DBUS_SESSION_BUS_ADDRESS", empty.address());
+        CHECK(ask_portal(question_asked, off).of == FileAnswer::Of::nobody);
+        empty.stop();
+        const auto begin = Clock::now();
+        CHECK(ask_portal(question_asked, off).of == FileAnswer::Of::nobody);
+        CHECK(Clock::now() - begin < 4s);
+    }
+    for (const char* const wrong : {"disabled:", "unix:path=/gone", "nonsense", "unix:"}) {
+        const Variable address("DBUS_SESSION_BUS_ADDRESS", wrong);
+        CHECK(ask_portal(question_asked, off).of == FileAnswer::Of::nobody);
+    }
+}
+
+TEST_CASE("a question that is called off closes its dialog at once", "[dialog]") {
+    const SessionBus bus;
+    const Portal portal(bus, {.answers = false});
+    const Variable address("DBUS_SESSION_BUS_ADDRESS", bus.address());
+    const CallOff off;
+    auto answer =
+        std::async(std::launch::async, [&off] { return ask_portal(question_asked, off); });
+    REQUIRE(eventually([&] { return portal.asked().times == 1; }));
+    std::this_thread::sleep_for(50ms);
+    const auto begin = Clock::now();
+    off.call_off();
+    CHECK(answer.get().of == FileAnswer::Of::cancelled);
+    CHECK(Clock::now() - begin < 1s);
+    CHECK(eventually([&] { return portal.asked().closed; }));
+}
+
+TEST_CASE("without a session bus, and from another machine, there is no desktop", "[dialog]") {
+    const Variable here("SSH_CONNECTION", "");
+    const Variable folder("XDG_RUNTIME_DIR", "/nowhere");
+    {
+        const Variable address("DBUS_SESSION_BUS_ADDRESS", "unix:path=/run/user/1000/bus");
+        CHECK(has_desktop());
+        const Variable afar("SSH_CONNECTION", "10.0.0.1 5000 10.0.0.2 22");
+        CHECK_FALSE(has_desktop());
+    }
+    for (const char* const none : {"", "disabled:"}) {
+        const Variable address("DBUS_SESSION_BUS_ADDRESS", none);
+        CHECK_FALSE(has_desktop());
+    }
+    const TemporaryFolder runtime;
+    write_text(runtime / "bus", "");
+    const Variable address("DBUS_SESSION_BUS_ADDRESS", "");
+    const Variable usual("XDG_RUNTIME_DIR", runtime.path().string());
+    CHECK(has_desktop());
+}
+
+TEST_CASE("zenity is asked without a shell, and gives paths with blanks and line breaks",
+          "[dialog]") {
+    Helpers helpers;
+    helpers.add("zenity",
+                helpers.writes_arguments() +
+                    "printf '/a b/$HOME.mp4\\n/tmp/two\\nlines.png\\n/tmp/\"c\".png\\n'\n");
+    const FileAnswer answer = ask(helpers);
+    CHECK(answer.of == FileAnswer::Of::chosen);
+    CHECK(answer.files ==
+          std::vector<fs::path>{"/a b/$HOME.mp4", "/tmp/two\nlines.png", "/tmp/\"c\".png"});
+    CHECK(read_text(helpers.file("words")) ==
+          "[--file-selection][--multiple][--separator=\n][--title=Open a recording]"
+          "[--filename=/a folder/of mine/][--file-filter=Recordings | *.mp4 *.MP4]"
+          "[--file-filter=All files | *]");
+}
+
+TEST_CASE("kdialog is asked on KDE, and where there is no other", "[dialog]") {
+    Helpers helpers;
+    helpers.add("kdialog", helpers.writes_arguments() + "echo /tmp/k.mp4\n");
+    CHECK(ask(helpers, "Openbox").files == std::vector<fs::path>{"/tmp/k.mp4"});
+    helpers.add("zenity", "echo /tmp/z.mp4\n");
+    CHECK(ask(helpers, "XFCE").files == std::vector<fs::path>{"/tmp/z.mp4"});
+    CHECK(ask(helpers, "KDE").files == std::vector<fs::path>{"/tmp/k.mp4"});
+    CHECK(read_text(helpers.file("words")) ==
+          "[--title][Open a recording][--multiple][--separate-output][--attach][44040207]"
+          "[--getopenfilename][/a folder/of mine]"
+          "[Recordings (*.mp4 *.MP4)\nAll files (*)]");
+}
+
+TEST_CASE("a helper's person may cancel; one that cannot show itself leaves it to the next",
+          "[dialog]") {
+    Helpers helpers;
+    helpers.add("kdialog", "exit 254\n");
+    helpers.add("qarma", "kill -SEGV $$\n");
+    helpers.add("zenity", "sleep 0.5; exit 1\n");
+    CHECK(ask(helpers).of == FileAnswer::Of::cancelled);
+    helpers.add("zenity", "exit 0\n");
+    CHECK(ask(helpers).of == FileAnswer::Of::cancelled);
+    helpers.add("zenity", "exit 1\n");
+    CHECK(ask(helpers).of == FileAnswer::Of::nobody);
+    helpers.add("qarma", "echo /tmp/q.mp4\n");
+    CHECK(ask(helpers).files == std::vector<fs::path>{"/tmp/q.mp4"});
+}
+
+TEST_CASE("a helper that hangs is ended when the question is called off, with all it has started",
+          "[dialog]") {
+    Helpers helpers;
+    const fs::path told = helpers.file("told");
+    const std::string stubborn = GENERATE("", "trap '' TERM\n", "exec >&-\n");
+    helpers.add("zenity", stubborn + "sleep 1000 & echo $! > '" + told.string() + "'\nwait\n");
+    const Variable path("PATH", helpers.path());
+    const Variable kind("XDG_CURRENT_DESKTOP", "");
+    const CallOff off;
+    auto answer =
+        std::async(std::launch::async, [&off] { return ask_helper(question_asked, off); });
+    REQUIRE(eventually([&] { return fs::exists(told) && !read_text(told).empty(); }));
+    const auto begin = Clock::now();
+    off.call_off();
+    CHECK(answer.get().of == FileAnswer::Of::cancelled);
+    CHECK(Clock::now() - begin < 1s);
+    const std::string child = read_text(told);
+    const fs::path words = "/proc/" + child.substr(0, child.find('\n')) + "/cmdline";
+    CHECK(eventually([&words] { return read_text(words).empty(); }));
+}
