@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "app/settings/estimators.hpp"
 #include "app/settings/falcon_settings.hpp"
 #include "app/settings/keys.hpp"
 #include "app/settings/name_pattern.hpp"
@@ -81,7 +82,8 @@ struct Settings {
     double sound_volume{SoundChoice{}.volume};                 ///< 0 .. 1
     bool mute{false};                                          ///< no sound of touch
     FalconSettings falcon{};
-    std::vector<OwnKeys> keys{};  ///< as written, in that order, also what cannot be
+    std::vector<OwnKeys> keys{};          ///< as written, in that order, also what cannot be
+    std::vector<Estimator> estimators{};  ///< as written, in that order
 };
 
 /// $XDG_CONFIG_HOME/dibhr/settings.toml, or ~/.config/dibhr/settings.toml.
