@@ -21,6 +21,7 @@
 #include "core/error.hpp"
 #include "core/estimate/depth_cache.hpp"
 #include "core/estimate/depth_estimate.hpp"
+#include "core/estimate/estimator_command.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/media.hpp"
 
@@ -178,7 +179,10 @@ int make_depth(const DepthOptions& options) {
         keep_estimator(kept);
     }
     const auto made = watched(request);
-    if (!made) throw InputError("cancelled: what is done is kept; run it again to go on");
+    if (!made)
+        throw InputError(EstimatorCommand(request.command).takes_frames()
+                             ? "cancelled: what is done is kept; run it again to go on from there"
+                             : "cancelled: nothing is kept, as it takes {input} and no {frames}");
     const fs::path depth =
         options.out.empty() ? made->depth : copy_depth(*made, options.colour, options.out);
     std::cout << one_line(depth.string()) << '\n';

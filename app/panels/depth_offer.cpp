@@ -1,4 +1,5 @@
 // A video of colour alone: the button that has depth made for it, and how that goes.
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -17,10 +18,13 @@ void ask_for(ViewerState& state, DepthWish wish) {
 
 void draw_making(ViewerState& state, const DepthOffer& offer) {
     const EstimateProgress& now = *offer.progress;
-    const bool known = now.step != EstimateStep::estimating || now.counted;
-    ImGui::ProgressBar(known ? static_cast<float>(now.share()) : 0.0F, {-1.0F, 0.0F},
-                       known ? nullptr : "");
-    ImGui::TextUnformatted(offer.ending ? "ending" : in_words(now).c_str());
+    if (now.step != EstimateStep::estimating || now.counted) {
+        ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImGui::GetColorU32(ImGuiCol_SliderGrab));
+        ImGui::ProgressBar(static_cast<float>(now.share()), {-1.0F, 0.0F},
+                           formatted("%.0f %%", 100.0 * now.share()).c_str());
+        ImGui::PopStyleColor();
+    }
+    ImGui::TextUnformatted(offer.ending ? "Ending" : capitalised(in_words(now)).c_str());
     if (!now.said.empty()) {
         ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
         const std::string said = one_line(now.said, 70);
@@ -63,9 +67,13 @@ void draw_depth_offer(ViewerState& state) {
     const float relief_width = display.x - panel_column_width(state);
     ImGui::SetNextWindowPos({0.5F * relief_width, panes_height(state) + 0.08F * display.y},
                             ImGuiCond_Always, {0.5F, 0.0F});
-    ImGui::SetNextWindowSize({ImGui::GetFontSize() * 30.0F, 0.0F});
-    const std::string title = (offer.depth.empty() ? "Colour alone: " : "Depth is made: ") +
-                              one_line(offer.colour.filename().string(), 40) + "###depth offer";
+    const float em = ImGui::GetFontSize();
+    ImGui::SetNextWindowSize({std::max(std::min(30.0F * em, relief_width - em), 8.0F * em), 0.0F});
+    const char* const what = offer.progress        ? "Making depth: "
+                             : offer.depth.empty() ? "Colour alone: "
+                                                   : "Depth is made: ";
+    const std::string title =
+        what + one_line(offer.colour.filename().string(), 40) + "###depth offer";
     ImGui::Begin(title.c_str(), nullptr,
                  ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);

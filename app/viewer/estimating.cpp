@@ -31,8 +31,9 @@ EstimateMade make(const EstimateRequest& request, EstimateWatch& watch) {
 bool ViewerEstimating::offer(const fs::path& colour, ViewerState& state) {
     if (making_.under_way()) return false;
     DepthOffer offer{.colour = colour,
-                     .words = "There is no depth in it or beside it. Open it together with its "
-                              "depth file, or let an estimator make it."};
+                     .words =
+                         "There is no depth in it or beside it. Open it together with its "
+                         "depth file, or let an estimator make it."};
     for (const Estimator& one : state.settings.estimators) offer.estimators.push_back(one.name);
     state.depth_offer = std::move(offer);
     return true;

@@ -35,12 +35,6 @@ void write_frame(const cv::Mat& picture, const fs::path& file) {
                          ": make room for them, or let XDG_CACHE_HOME name a folder that has some");
 }
 
-std::string frame_name(std::size_t number) {
-    char name[32];
-    std::snprintf(name, sizeof name, "%06zu.png", number);
-    return name;
-}
-
 template <typename Take>
 ColourFrames read_all(const fs::path& colour, const std::atomic<bool>& stop, const FramesTold& tell,
                       const Take& take) {
@@ -69,6 +63,12 @@ ColourFrames read_all(const fs::path& colour, const std::atomic<bool>& stop, con
 
 }  // namespace
 
+std::string frame_name(std::size_t number) {
+    char name[32];
+    std::snprintf(name, sizeof name, "%06zu", number);
+    return name;
+}
+
 double ColourFrames::interval_s() const noexcept {
     return count() < 2 ? 1.0 : times_s.back() / static_cast<double>(count() - 1);
 }
@@ -85,7 +85,7 @@ ColourFrames write_colour_frames(const fs::path& colour, const fs::path& folder,
     fs::remove_all(folder, failed);
     fs::create_directories(folder, failed);  // what fails is told by the first picture
     return read_all(colour, stop, tell, [&](const cv::Mat& picture, std::size_t number) {
-        if (!without.contains(number)) write_frame(picture, folder / frame_name(number));
+        if (!without.contains(number)) write_frame(picture, folder / (frame_name(number) + ".png"));
     });
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <set>
+#include <string>
 #include <vector>
 
 namespace dibhr {
@@ -23,6 +24,9 @@ struct ColourFrames {
     [[nodiscard]] double interval_s() const noexcept;
 };
 
+/// "000001" is the first: the name of its picture without its ending.
+[[nodiscard]] std::string frame_name(std::size_t number);
+
 /// How often what takes long is told: frames done, of about so many.
 using FramesTold = std::function<void(std::size_t done, std::size_t of)>;
 
@@ -31,8 +35,8 @@ using FramesTold = std::function<void(std::size_t done, std::size_t of)>;
                                               const std::atomic<bool>& stop,
                                               const FramesTold& tell);
 
-/// The same, and writes its pictures into the folder, which is emptied first: 000001.png the first;
-/// without those whose numbers are in `without`.
+/// The same, and writes its pictures into the folder as PNG, which is emptied first; without those
+/// whose numbers are in `without`.
 [[nodiscard]] ColourFrames write_colour_frames(const std::filesystem::path& colour,
                                                const std::filesystem::path& folder,
                                                const std::set<std::size_t>& without,

@@ -106,12 +106,24 @@ class Run {
             progress.done = before_ + *told;
             progress.counted = true;
         }
-        const std::size_t new_ones = progress.done - std::min(progress.done, before_);
-        if (new_ones > 0)
-            progress.left_s = progress.elapsed_s / static_cast<double>(new_ones) *
-                              static_cast<double>(frames_ - progress.done);
+        progress.left_s = left_s(progress);
         watch_.tell(progress);
     }
+
+    /// As fast as from the first new frame on: before it a model was loaded.
+    std::optional<double> left_s(const EstimateProgress& now) {
+        if (now.done <= before_) return std::nullopt;
+        if (first_.done == 0) first_ = {now.done, now.elapsed_s};
+        if (now.done <= first_.done) return std::nullopt;
+        const double each_s =
+            (now.elapsed_s - first_.at_s) / static_cast<double>(now.done - first_.done);
+        return each_s * static_cast<double>(frames_ - now.done);
+    }
+
+    struct FirstOnes {
+        std::size_t done{0};
+        double at_s{0.0};
+    };
 
     const EstimateFolder& folder_;
     std::size_t frames_;
@@ -121,6 +133,7 @@ class Run {
     SpokenProgress spoken_{};
     std::size_t before_{0};  ///< frames that were there already
     std::size_t done_{0};
+    FirstOnes first_{};
     std::uintmax_t bytes_{0};
     steady_clock::time_point begun_{steady_clock::now()};
     steady_clock::time_point alive_{begun_}, looked_{begun_};
@@ -173,6 +186,7 @@ class Estimation {
         std::error_code failed;
         if (command_.takes_frames()) {
             done_ = whole_outputs(folder_->output());
+            if (done_.empty()) fs::remove_all(folder_->output(), failed);
             colour_ = write_colour_frames(request_.colour, folder_->frames(), done_,
                                           watch_.stopped(), tell);
         } else {

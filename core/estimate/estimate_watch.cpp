@@ -23,15 +23,13 @@ std::string clock_text(double seconds) {
 }  // namespace
 
 std::string in_words(const EstimateProgress& now) {
-    const std::string percent =
-        now.of == 0 ? "" : ", " + std::to_string(std::lround(100.0 * now.share())) + " %";
     switch (now.step) {
         case EstimateStep::looking:
             return "looking at the video";
         case EstimateStep::giving_frames:
-            return "reading its frames" + percent;
+            return "reading its frames";
         case EstimateStep::checking:
-            return "checking the depth" + percent;
+            return "checking the depth";
         case EstimateStep::estimating:
             break;
     }
@@ -45,6 +43,7 @@ std::string in_words(const EstimateProgress& now) {
 void EstimateWatch::stop_at_once() noexcept {
     stop_ = true;
     const std::scoped_lock lock(mutex_);
+    at_once_ = true;
     if (group_ > 0) ::kill(-group_, SIGKILL);
 }
 
@@ -61,7 +60,7 @@ EstimateProgress EstimateWatch::progress() const {
 void EstimateWatch::runs(pid_t group) {
     const std::scoped_lock lock(mutex_);
     group_ = group;
-    if (group_ > 0 && stop_) ::kill(-group_, SIGTERM);
+    if (group_ > 0 && at_once_) ::kill(-group_, SIGKILL);
 }
 
 }  // namespace dibhr

@@ -51,6 +51,7 @@ class EstimateWatch {
     mutable std::mutex mutex_{};  ///< of all below
     EstimateProgress progress_{};
     pid_t group_{0};
+    bool at_once_{false};
 };
 
 }  // namespace dibhr

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/estimate/colour_frames.hpp"
 #include "core/video/media.hpp"
 #include "core/video/media_names.hpp"
 
@@ -182,6 +183,7 @@ std::set<std::size_t> whole_outputs(const fs::path& folder) {
     std::vector<std::pair<fs::file_time_type, std::size_t>> newest;
     std::set<std::size_t> whole;
     for (const auto& [number, file] : row) {
+        if (file.filename().string().find(frame_name(number)) == std::string::npos) return {};
         std::error_code gone;
         newest.emplace_back(fs::last_write_time(file, gone), number);
         whole.insert(number);

@@ -21,7 +21,8 @@ using NumberedOutputs = std::map<std::size_t, std::filesystem::path>;
 [[nodiscard]] NumberedOutputs row_so_far(const std::filesystem::path& folder);
 
 /// The numbers in that row whose pictures are whole: the newest, which a crash may have cut, are
-/// read, and removed where they cannot be.
+/// read, and removed where they cannot be. None where they are not called by the frames' own names
+/// (frame_name): they count anew in each run.
 [[nodiscard]] std::set<std::size_t> whole_outputs(const std::filesystem::path& folder);
 
 /// All bytes in the folder: they grow while something is written.

@@ -1,9 +1,7 @@
 // `dibhr depth` as people and scripts use it, with small programs in place of an estimator.
-#include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <string>
-#include <thread>
+#include <system_error>
 #include <vector>
 
 #include "tests/app/program/command_program.hpp"
@@ -131,14 +129,20 @@ TEST_CASE("wrong use ends with 2, a failure with 1, each in a line", "[depth]") 
 
 TEST_CASE("Ctrl+C ends the estimator, and the next run goes on", "[depth]") {
     const Home home;
-    home.write_estimator("slow", "sleep 0.3");
+    home.write_estimator("slow", "[ $n = 000004.png ] && [ ! -e '" + (home.folder / "go").string() +
+                                     "' ] && sleep 60");
     const std::string cache = "XDG_CACHE_HOME=" + (home.folder / "cache").string();
     const std::string config = "XDG_CONFIG_HOME=" + home.folder.path().string();
     const std::string with = (home.folder / "slow").string() + " {frames} {output}";
     const std::vector<std::string> words{DIBHR_PROGRAM, "depth",
                                          (home.folder / "clip.mp4").string(), "--with", with};
     const auto under_way = [&] {
-        return contains(home.depth({"--list"}).output, ": 3 of 12 frames");
+        std::error_code changed;
+        for (const auto& entry : fs::recursive_directory_iterator(home.folder / "cache", changed))
+            if (entry.path().filename() == "000003.png" &&
+                entry.path().parent_path().filename() == "output")
+                return true;
+        return false;
     };
     {
         Process slow(words, {cache, config}, home.folder / "errors.txt");
@@ -148,6 +152,8 @@ TEST_CASE("Ctrl+C ends the estimator, and the next run goes on", "[depth]") {
     }
     CHECK(contains(read_text(home.folder / "errors.txt"), "cancelled"));
     CHECK(home.starts() == 1);
+    CHECK(contains(home.depth({"--list"}).output, ": 3 of 12 frames"));
+    write_text(home.folder / "go", "");
     CHECK(home.depth({words[2], "--with", with}).exit_code == 0);
     CHECK(home.starts() == 2);
 }

@@ -124,7 +124,6 @@ Process Desk::start_viewer(const TemporaryFolder& folder, const std::vector<std:
                     "SDL_AUDIODRIVER=dummy", "DBUS_SESSION_BUS_ADDRESS=disabled:",
                     "XDG_CONFIG_HOME=" + (folder / "config").string(),
                     "XDG_DATA_HOME=" + (folder / "data").string(),
-                    "XDG_CACHE_HOME=" + (folder / "cache").string(),
                     "XDG_STATE_HOME=" + (folder / "state").string()},
                    folder / "errors.txt");
 }
