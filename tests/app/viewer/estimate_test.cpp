@@ -46,10 +46,10 @@ struct Home {
         write_text(folder / "config/dibhr/settings.toml",
                    "[estimators]\nmine = \"" + here + "/estimator {frames} {output}\"\n");
     }
-    [[nodiscard]] Process view(const Desk& desk) const {
-        return desk.start_viewer(folder,
-                                 {"slope_depth.png", "--record", "hand.dibhr", "--device", "mouse",
-                                  "--size", "1280x800", "--seconds", "240"},
+    [[nodiscard]] Process view(const Desk& desk, std::vector<std::string> arguments) const {
+        arguments.insert(arguments.end(),
+                         {"--device", "mouse", "--size", "1280x800", "--seconds", "240"});
+        return desk.start_viewer(folder, arguments,
                                  {"/usr/bin/env", "XDG_CACHE_HOME=" + (folder / "cache").string()});
     }
     /// Whether such a file of the estimator's, or of what was made of it, is kept.
@@ -93,7 +93,7 @@ TEST_CASE("a video of colour alone is touched with depth that is made in the win
           "[estimate_window]") {
     const Desk desk;
     const Home home;
-    Process viewer = home.view(desk);
+    Process viewer = home.view(desk, {"slope_depth.png", "--record", "hand.dibhr"});
     open_clip(desk);
     REQUIRE(begins(desk, kMake, [&] { return home.keeps("said.txt"); }));
     // What was open is touched meanwhile.
@@ -118,13 +118,12 @@ TEST_CASE("depth that is being made is cancelled in the window, or ends with it,
           "[estimate_window]") {
     const Desk desk;
     const Home home;
-    Process viewer = home.view(desk);
+    Process viewer = home.view(desk, {"clip.mp4", "--stay"});
     const auto waits = [&] { return home.keeps("000003.png") && home.keeps("said.txt"); };
     const auto runs = [&] {
         const std::string pid = read_text(home.folder / "pid");
         return !pid.empty() && ::kill(std::stoi(pid), 0) == 0;
     };
-    open_clip(desk);
     REQUIRE(begins(desk, kMake, runs));
     REQUIRE(eventually(waits, kPatience));
     CHECK(begins(desk, kCancel, [&] { return !runs(); }));
@@ -134,5 +133,5 @@ TEST_CASE("depth that is being made is cancelled in the window, or ends with it,
     REQUIRE(viewer.wait() == 0);
     CHECK(eventually([&] { return !runs(); }, kPatience));
     CHECK(home.keeps("000003.png"));
-    CHECK(read_text(home.folder / "errors.txt").empty());
+    CHECK(contains(read_text(home.folder / "errors.txt"), "'clip.mp4' needs a depth file"));
 }
