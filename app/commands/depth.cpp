@@ -216,7 +216,7 @@ int run_depth(CLI::App& app, const Arguments& arguments) {
         ->default_str("600");
     app.add_flag("--list", options.lists, "What is kept, of COLOR or all");
     app.add_flag("--forget", options.forgets, "Removes what is kept, of COLOR or all");
-    add_depth_options(app, options.meaning);
+    add_level_options(app, options.meaning);
     app.footer(
         "The depth is kept by the content of the video and the command: the second time it is "
         "there "

@@ -68,7 +68,8 @@ std::optional<EstimateRecord> record_in(const fs::path& folder) try {
     record.colour.times_s = json.at("times_s").get<std::vector<double>>();
     record.command = json.at("command");
     record.depth = json.at("depth");
-    record.made = statement_in(json.at("made"), kRecord);
+    record.levels = statement_in(json.at("levels"), kRecord);
+    record.said = statement_in(json.at("said"), kRecord);
     const bool whole =
         !record.colour.times_s.empty() && record.colour.columns > 0 && record.colour.rows > 0;
     return whole ? std::optional(record) : std::nullopt;
@@ -110,11 +111,12 @@ std::optional<EstimateRecord> EstimateFolder::record() const {
 
 void EstimateFolder::keep(const EstimateRecord& record) const {
     const ColourFrames& colour = record.colour;
-    const Json json{{"version", kVersion},       {"colour", colour.file.string()},
-                    {"columns", colour.columns}, {"rows", colour.rows},
-                    {"still", colour.still},     {"start_s", colour.start_s},
-                    {"times_s", colour.times_s}, {"command", record.command},
-                    {"depth", record.depth},     {"made", toml_of(record.made)}};
+    const Json json{{"version", kVersion},         {"colour", colour.file.string()},
+                    {"columns", colour.columns},   {"rows", colour.rows},
+                    {"still", colour.still},       {"start_s", colour.start_s},
+                    {"times_s", colour.times_s},   {"command", record.command},
+                    {"depth", record.depth},       {"levels", toml_of(record.levels)},
+                    {"said", toml_of(record.said)}};
     OutputFile out(path_ / kRecord);
     out.write(json_text(json));
     out.commit();

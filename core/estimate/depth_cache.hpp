@@ -17,8 +17,9 @@ namespace dibhr {
 struct EstimateRecord {
     ColourFrames colour{};
     std::string command{};
-    std::string depth{};    ///< name of the finished file; empty: it is on its way
-    DepthStatement made{};  ///< scale and no data, as they were written
+    DepthStatement said{};    ///< of the estimator's numbers, the last time
+    std::string depth{};      ///< name of the finished file; empty: it is on its way
+    DepthStatement levels{};  ///< of that file, as write_depth() gives it
 };
 
 /// The folder of one estimation. What is in it goes with a new one of the same only when it is

@@ -157,6 +157,21 @@ std::string how_far(const EstimatorCommand& command, const EstimateFolder& folde
     return words;
 }
 
+/// What the levels of the finished file mean: those of the estimator, which `said` is of, became
+/// `levels`.
+DepthStatement meaning_of(const DepthStatement& said, const DepthStatement& levels) {
+    DepthStatement meaning = said;
+    if (!meaning.unit) meaning.unit = DepthUnit::levels;
+    const bool distance = meaning.unit == DepthUnit::m || meaning.unit == DepthUnit::mm;
+    if (!meaning.near) meaning.near = distance ? NearLevels::dark : NearLevels::bright;
+    meaning.scale = said.scale.value_or(1.0) * levels.scale.value_or(1.0);
+    if (levels.no_data) meaning.no_data = levels.no_data;
+    if (!meaning.no_data) meaning.no_data.emplace();
+    meaning.packing = DepthPacking::separate;
+    meaning.code = DepthCode::grey;
+    return meaning;
+}
+
 /// Looks, runs, checks and keeps; of one request.
 class Estimation {
   public:
@@ -227,37 +242,28 @@ class Estimation {
     }
 
     std::optional<DepthEstimate> written() {
-        const DepthWritten written =
-            write_depth(folder_->output(), colour_, said(), folder_->path(), watch_.stopped(),
-                        teller(watch_, EstimateStep::checking));
+        const DepthWritten written = write_depth(
+            folder_->output(), colour_, request_.meaning.unit.value_or(DepthUnit::levels),
+            folder_->path(), watch_.stopped(), teller(watch_, EstimateStep::checking));
         if (written.file.empty()) return std::nullopt;
-        const EstimateRecord record{.colour = colour_,
-                                    .command = command_.text(),
-                                    .depth = written.file.filename().string(),
-                                    .made = written.meaning};
-        folder_->keep(record);
+        const DepthEstimate made = opened({.colour = colour_,
+                                           .command = command_.text(),
+                                           .depth = written.file.filename().string(),
+                                           .levels = written.levels},
+                                          false);
         folder_->drop_work();
-        return opened(record, false);
+        return made;
     }
 
-    [[nodiscard]] DepthStatement said() const {
+    /// What is said of it now, else the last time, goes into a sidecar.
+    DepthEstimate opened(EstimateRecord record, bool kept_before) {
         DepthStatement said = request_.meaning;
-        if (!said.unit) said.unit = DepthUnit::levels;
-        const bool distance = said.unit == DepthUnit::m || said.unit == DepthUnit::mm;
-        if (!said.near) said.near = distance ? NearLevels::dark : NearLevels::bright;
-        return said;
-    }
-
-    /// What is said of it now, in a sidecar; how its levels were written stays.
-    DepthEstimate opened(const EstimateRecord& record, bool kept_before) {
+        said.fill_in(record.said);
+        record.said = said;
+        record.colour.file = fs::absolute(request_.colour);
+        folder_->keep(record);
         const fs::path depth = folder_->path() / record.depth;
-        DepthStatement meaning = record.made;
-        if (request_.meaning != DepthStatement{}) {
-            meaning.near = said().near;
-            meaning.unit = said().unit;
-            if (request_.meaning.range) meaning.range = request_.meaning.range;
-        }
-        write_sidecar(depth, meaning);
+        write_sidecar(depth, meaning_of(said, record.levels));
         return {depth, record.colour.count(), kept_before};
     }
 

@@ -137,42 +137,35 @@ Survey surveyed(const DepthOutput& output, const ColourFrames& colour,
     return survey;
 }
 
-/// From the numbers of the estimator to levels of a file: (number - zero) / step + first.
+/// From the numbers of the estimator to levels of a file: (number - zero) / step.
 struct LevelRule {
-    double zero{0.0}, step{1.0}, first{0.0};
+    double zero{0.0}, step{1.0};
     int bits{16};
     bool marks_holes{false};  ///< as level 0
-    double scale{1.0};        ///< one level of the file in the unit
 };
 
-/// Of distances finer than needed, of relative numbers as fine as can be.
+/// Relative numbers may be below 0: then the farthest is 0. Of distances finer than needed, so that
+/// a sky takes nothing from what is near.
 LevelRule rule_for_numbers(const Survey& survey, DepthUnit unit) {
     constexpr double kMillimetre_m = 0.001;
     LevelRule rule{.marks_holes = true};
-    if (unit == DepthUnit::levels) {
-        rule.zero = survey.lowest;
-        rule.step = (survey.highest - survey.lowest) / (kMostLevels - 1.0);
-        rule.first = 1.0;
-        return rule;
-    }
-    rule.step = std::max(survey.highest, std::numeric_limits<double>::min()) / kMostLevels;
-    const double fine = unit == DepthUnit::m ? kMillimetre_m : 1.0;
-    if (unit == DepthUnit::m || unit == DepthUnit::mm) rule.step = std::min(rule.step, fine);
-    rule.scale = rule.step;
+    rule.zero = std::min(survey.lowest, 0.0);
+    rule.step = (survey.highest - rule.zero) / kMostLevels;
+    if (unit == DepthUnit::m) rule.step = std::min(rule.step, kMillimetre_m);
+    if (unit == DepthUnit::mm) rule.step = std::min(rule.step, 1.0);
     return rule;
 }
 
 LevelRule rule_for(const Survey& survey, DepthUnit unit) {
     if (survey.bits == kRealBits) return rule_for_numbers(survey, unit);
     if (survey.bits <= 8) return {.bits = 8};
-    return {.step = highest_level(survey.bits) / kMostLevels,
-            .scale = highest_level(survey.bits) / kMostLevels};
+    return {.step = highest_level(survey.bits) / kMostLevels};
 }
 
 cv::Mat levels_by(const LevelRule& rule, const cv::Mat& picture) {
     const cv::Mat numbers = numbers_of(picture);
     cv::Mat levels;
-    numbers.convertTo(levels, CV_64F, 1.0 / rule.step, rule.first - rule.zero / rule.step);
+    numbers.convertTo(levels, CV_64F, 1.0 / rule.step, -rule.zero / rule.step);
     if (rule.marks_holes) {
         levels = cv::max(levels, 1.0);
         levels.setTo(0.0, ~finite_in(numbers));
@@ -211,27 +204,23 @@ bool write_video(PictureSource& source, const LevelRule& rule, const Survey& sur
     return true;
 }
 
-DepthStatement meaning_of(const DepthStatement& said, const LevelRule& rule) {
-    DepthStatement meaning = said;
-    meaning.scale = rule.scale * said.scale.value_or(1.0);
-    if (rule.marks_holes) meaning.no_data = std::vector<double>{0.0};
-    if (!meaning.no_data) meaning.no_data.emplace();
-    meaning.packing = DepthPacking::separate;
-    meaning.code = DepthCode::grey;
-    return meaning;
+DepthStatement statement_of(const LevelRule& rule) {
+    DepthStatement levels{.scale = rule.step};
+    if (rule.marks_holes) levels.no_data = std::vector<double>{0.0};
+    return levels;
 }
 
 }  // namespace
 
-DepthWritten write_depth(const fs::path& output, const ColourFrames& colour,
-                         const DepthStatement& said, const fs::path& target,
-                         const std::atomic<bool>& stop, const FramesTold& tell) {
+DepthWritten write_depth(const fs::path& output, const ColourFrames& colour, DepthUnit unit,
+                         const fs::path& target, const std::atomic<bool>& stop,
+                         const FramesTold& tell) {
     std::string refusal;
     for (const DepthOutput& form : depth_outputs(output)) {
         try {
             const Survey survey = surveyed(form, colour, stop, tell);
             if (stop) return {};
-            const LevelRule rule = rule_for(survey, said.unit.value_or(DepthUnit::levels));
+            const LevelRule rule = rule_for(survey, unit);
             const auto source = form.open();
             const fs::path file = target / (colour.still ? "depth.png" : "depth.mkv");
             if (colour.still)
@@ -240,7 +229,7 @@ DepthWritten write_depth(const fs::path& output, const ColourFrames& colour,
                               file);
             else if (!write_video(*source, rule, survey, colour, file, stop, tell))
                 return {};
-            return {file, meaning_of(said, rule)};
+            return {file, statement_of(rule)};
         } catch (const InputError& error) {
             const std::string why = error.what();
             const bool own = why.starts_with("the ");

@@ -14,16 +14,16 @@ namespace dibhr {
 /// into the folder `target`: depth.mkv, or of a still picture depth.png. It fits when it has as
 /// many frames, or is a video that lasts as long, and the colour's shape within 2 %; and it says
 /// something: it is not painted, and not the same everywhere. 8 and 16 bits stay to the bit, real
-/// numbers become 16 bits. `said`: what is known of the levels.
+/// numbers become 16 bits, of distances (`unit`) in steps of a millimetre or less.
 struct DepthWritten {
     std::filesystem::path file{};
-    DepthStatement meaning{};  ///< of its levels, `said` and what became of them
+    DepthStatement levels{};  ///< scale: the estimator's number that one is; no data where there is
 };
 
 /// Throws InputError: what does not fit, of the likeliest form. Nothing is written where `stop`
 /// becomes true: the file's name is empty.
 [[nodiscard]] DepthWritten write_depth(const std::filesystem::path& output,
-                                       const ColourFrames& colour, const DepthStatement& said,
+                                       const ColourFrames& colour, DepthUnit unit,
                                        const std::filesystem::path& target,
                                        const std::atomic<bool>& stop, const FramesTold& tell);
 

@@ -4,6 +4,7 @@
 #include <system_error>
 #include <vector>
 
+#include "app/settings/settings.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/support/catch.hpp"
@@ -98,6 +99,30 @@ TEST_CASE("an estimator is named once, and is then the one that is taken", "[dep
     CHECK(home.starts() == 2);
     check_refused(home.depth({"clip.mp4", "--with", "other"}), 2,
                   "nor the name of an estimator (mine)");
+}
+
+TEST_CASE("estimators in the settings come back as they were, and one that cannot be is told",
+          "[depth]") {
+    const TemporaryFolder folder;
+    const fs::path file = folder / "settings.toml";
+    write_text(file,
+               "[estimators]\nb = \"run \\\"it\\\" {input} {output}\"\n"
+               "a = { command = 'm {frames} {output}', unit = \"m\", scale = 0.5 }\n"
+               "c = 7\nd = { command = \"x\", unit = \"ells\" }\n\"e f\" = \"x\"\n");
+    std::vector<std::string> warnings;
+    const Settings settings = load_settings(file, warnings);
+    const std::vector<Estimator> wanted{
+        {"b", "run \"it\" {input} {output}", {}},
+        {"a", "m {frames} {output}", {.unit = DepthUnit::m, .scale = 0.5}}};
+    CHECK(settings.estimators == wanted);
+    REQUIRE(warnings.size() == 3);
+    CHECK(contains(warnings[0], ":4: estimators.c is neither a command in quotes nor a table"));
+    CHECK(contains(warnings[1], ":5: estimators.d is not understood: "));
+    CHECK(contains(warnings[2], ":6: estimators.e f is not a name of letters"));
+    save_settings(settings, file);
+    warnings.clear();
+    CHECK(load_settings(file, warnings).estimators == wanted);
+    CHECK(warnings.empty());
 }
 
 TEST_CASE("what is kept is listed, and goes when it is asked to", "[depth]") {

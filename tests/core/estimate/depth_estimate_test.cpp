@@ -268,6 +268,8 @@ TEST_CASE("a program that is not there, or no program, is told by its name", "[e
     CHECK(contains(bench.failure(request), "there is no program 'no-such-estimator'"));
     request.command = "'" + bench.clip().string() + "' {input} {output}";
     CHECK(contains(bench.failure(request), "cannot be executed; make it executable (chmod +x)"));
+    write_text(bench.program(), "#!/no/such/python\n");
+    CHECK(contains(bench.failure(), "(#!) is not there"));
     request = bench.request();
     request.colour = bench.home / "none.mp4";
     CHECK(contains(bench.failure(request), "none.mp4'"));
@@ -339,6 +341,30 @@ TEST_CASE("of several forms the finest is taken, and numbers become levels in th
                    WithinAbs(1.0 + 0.25 * i, 0.0006));
     CHECK(frame->depth.at(7, 5) == 0.0F);
     CHECK(media.meaning->no_data.value == std::vector<double>{0.0});
+}
+
+TEST_CASE("what numbers mean can be said later, and stays said", "[estimate]") {
+    Bench bench(by_frames("cp numbers.pfm \"$out/${name%.png}.pfm\""));
+    cv::Mat metres(24, 32, CV_32F);
+    for (int j = 0; j < metres.rows; ++j)
+        for (int i = 0; i < metres.cols; ++i)
+            metres.at<float>(j, i) = 2.0F + 0.125F * static_cast<float>(i);
+    REQUIRE(cv::imwrite((bench.home / "numbers.pfm").string(), metres));
+    const auto meaning = [&](const DepthStatement& said) {
+        EstimateRequest request = bench.request();
+        request.meaning = said;
+        const auto made = estimate_depth(request, bench.watch);
+        REQUIRE(made);
+        const DepthMeaning known = *describe_media(made->depth).meaning;
+        const double metre = levels_of(made->depth).front().level * known.scale.value;
+        CHECK_THAT(metre, WithinAbs(2.375 * said.scale.value_or(1.0), 0.001));
+        return known;
+    };
+    CHECK(meaning({}).unit.value == DepthUnit::levels);
+    CHECK(meaning({.unit = DepthUnit::m}).near.value == NearLevels::dark);
+    CHECK(meaning({}).unit.value == DepthUnit::m);
+    CHECK(meaning({.scale = 2.0}).unit.value == DepthUnit::m);
+    CHECK(bench.starts() == 1);
 }
 
 TEST_CASE("pictures squeezed to a network's sides are stretched to the colour's shape",
