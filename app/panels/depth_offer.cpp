@@ -54,7 +54,6 @@ void draw_making_button(ViewerState& state, DepthOffer& offer) {
     const std::string& name = offer.estimators[static_cast<std::size_t>(offer.chosen)];
     if (ImGui::Button(("Make depth with " + name + "###make").c_str()))
         ask_for(state, DepthWish::make);
-    explain("Runs it as a program of its own; what is open goes on meanwhile");
     ImGui::SameLine();
 }
 

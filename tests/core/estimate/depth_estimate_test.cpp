@@ -355,7 +355,7 @@ TEST_CASE("what numbers mean can be said later, and stays said", "[estimate]") {
         request.meaning = said;
         const auto made = estimate_depth(request, bench.watch);
         REQUIRE(made);
-        const DepthMeaning known = *describe_media(made->depth).meaning;
+        DepthMeaning known = *describe_media(made->depth).meaning;
         const double metre = levels_of(made->depth).front().level * known.scale.value;
         CHECK_THAT(metre, WithinAbs(2.375 * said.scale.value_or(1.0), 0.001));
         return known;
