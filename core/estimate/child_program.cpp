@@ -94,6 +94,10 @@ std::string in_words(const ChildEnd& end) {
            ")";
 }
 
+void give_way(pid_t who) noexcept {
+    ::setpriority(PRIO_PROCESS, static_cast<id_t>(who), kPolitely);
+}
+
 ChildProgram::ChildProgram(std::vector<std::string> words, ChildManner manner) {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0)
@@ -107,8 +111,7 @@ ChildProgram::ChildProgram(std::vector<std::string> words, ChildManner manner) {
         refuse(program, failed);
     }
     ::fcntl(words_end_, F_SETFL, O_NONBLOCK);
-    if (manner == ChildManner::polite)
-        ::setpriority(PRIO_PROCESS, static_cast<id_t>(child_), kPolitely);
+    if (manner == ChildManner::polite) give_way(child_);
 }
 
 ChildProgram::~ChildProgram() {

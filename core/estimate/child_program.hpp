@@ -24,6 +24,10 @@ struct ChildEnd {
 /// How much it gives way to others.
 enum class ChildManner { ordinary, polite };
 
+/// From here on that process, or thread, and what it starts give way to others; 0: the thread that
+/// calls.
+void give_way(pid_t who) noexcept;
+
 class ChildProgram {
   public:
     /// So long it may take to end when it is asked to.

@@ -47,7 +47,7 @@ class Run {
           said_file_(folder.said(), std::ios::binary | std::ios::trunc),
           child_(command.words({fs::absolute(request.colour), folder.frames(), folder.output()}),
                  request.manner) {
-        before_ = row_so_far(folder_.output()).size();
+        before_ = std::min(row_so_far(folder_.output()).size(), frames_);
         watch_.runs(child_.group());
     }
     ~Run() { watch_.runs(0); }
@@ -288,6 +288,7 @@ void copy_whole(const fs::path& from, const fs::path& to) {
 }  // namespace
 
 std::optional<DepthEstimate> estimate_depth(const EstimateRequest& request, EstimateWatch& watch) {
+    if (request.manner == ChildManner::polite) give_way(0);  // and the decoder's threads
     try {
         return Estimation(request, watch).made();
     } catch (const fs::filesystem_error& error) {

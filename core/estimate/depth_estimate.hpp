@@ -20,9 +20,9 @@ struct EstimateRequest {
     /// near where bright, as those of most estimators are.
     DepthStatement meaning{};
     std::filesystem::path cache{};
-    double patience_s{600.0};  ///< without any sign of life
-    bool again{false};         ///< whatever is kept
-    ChildManner manner{ChildManner::ordinary};
+    double patience_s{600.0};                   ///< without any sign of life
+    bool again{false};                          ///< whatever is kept
+    ChildManner manner{ChildManner::ordinary};  ///< of the estimator, and of the thread that waits
 };
 
 struct DepthEstimate {
