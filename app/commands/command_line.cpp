@@ -36,6 +36,8 @@ constexpr std::array kCommands{
             "The core alone, head-less, over a stream of goals", run_touch},
     Command{"surface", "COLOR [DEPTH] [--time S] --out FILE",
             "The surface as it is felt: .pfm (px), .png (16 bit), .ply or .stl (mm)", run_surface},
+    Command{"depth", "COLOR [--with \"COMMAND {input} {output}\"]",
+            "Depth for a colour video, by an estimator you have installed", run_depth},
     Command{"experiment", "[linear|circle|human|all|sweep]",
             "The paper's table, all algorithms side by side", run_experiment},
     Command{"replay", "SESSION [--algorithm NAME]... [--csv FILE]",

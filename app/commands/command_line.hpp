@@ -41,6 +41,8 @@ int run_view(CLI::App& app, const Arguments& arguments);
 int run_touch(CLI::App& app, const Arguments& arguments);
 /// A surface at one moment as a file of another form. Prints its size and how high it is.
 int run_surface(CLI::App& app, const Arguments& arguments);
+/// Depth for a colour video by an estimator, or what is kept of such. Prints where it is.
+int run_depth(CLI::App& app, const Arguments& arguments);
 /// Whether the runs that change nothing gave the recorded bits, and a table of all runs. 1 when
 /// those bits differ.
 int run_replay(CLI::App& app, const Arguments& arguments);

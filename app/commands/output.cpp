@@ -87,14 +87,16 @@ ProgressBar::~ProgressBar() {
     if (shown_percent_ >= 0) std::cerr << "\r\x1b[K" << std::flush;
 }
 
-void ProgressBar::show(double share) {
+void ProgressBar::show(double share, const std::string& beside) {
     if (!on_terminal_ || std::chrono::steady_clock::now() - begin_ < kPatience) return;
     const int percent = static_cast<int>(100.0 * std::clamp(share, 0.0, 1.0));
-    if (percent == shown_percent_) return;
+    if (percent == shown_percent_ && beside == shown_beside_) return;
     shown_percent_ = percent;
+    shown_beside_ = beside;
     const auto full = static_cast<std::size_t>(percent * kWidth / 100);
     std::cerr << '\r' << title_ << " [" << std::string(full, '#') << std::string(kWidth - full, '.')
-              << "] " << percent << " %" << std::flush;
+              << "] " << percent << " %" << (beside.empty() ? "" : "  ") << beside
+              << (beside.empty() ? "" : "\x1b[K") << std::flush;
 }
 
 }  // namespace dibhr

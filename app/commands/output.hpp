@@ -63,13 +63,14 @@ class ProgressBar {
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
 
-    /// `share` of the work that is done, 0 to 1.
-    void show(double share);
+    /// `share` of the work that is done, 0 to 1; `beside` the bar in words.
+    void show(double share, const std::string& beside = {});
 
   private:
     std::string title_;
     std::chrono::steady_clock::time_point begin_;
     int shown_percent_{-1};
+    std::string shown_beside_{};
     bool on_terminal_{false};
 };
 

@@ -28,6 +28,7 @@
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/replay/session_player.hpp"
+#include "core/video/depth/depth_missing.hpp"
 #include "core/video/frame_window.hpp"
 #include "device/falcon/guardian.hpp"
 
@@ -241,6 +242,7 @@ void open_parts(const ViewOptions& options, ViewerParts& parts, ToldLog& log) {
     } catch (const InputError& error) {
         // Whoever named no file did nothing wrong, and can open one.
         if (!options.stays && !options.open.colour.empty()) throw;
+        parts.lacks_depth = dynamic_cast<const DepthMissing*>(&error) != nullptr;
         parts.trouble = error.what();
         print_error_line(parts.trouble);
     }

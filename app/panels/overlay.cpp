@@ -514,7 +514,9 @@ void draw_hint(const ViewerState& state, Hint hint, float alpha) {
 
 void draw_nothing_open(ViewerState& state) {
     const bool is_open = state.replay || !state.media.depth_path.empty();
-    if (is_open || state.opening || state.dialog.shown || !state.message.empty()) return;
+    if (is_open || state.opening || state.dialog.shown || !state.message.empty() ||
+        state.depth_offer)
+        return;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({0.5F * (display.x - panel_column_width(state)), 0.42F * display.y},
                             ImGuiCond_Always, {0.5F, 0.5F});

@@ -99,6 +99,9 @@ void draw_explanation(ViewerState& state, const DepthSurface& surface,
 /// What to do where nothing is open.
 void draw_nothing_open(ViewerState& state);
 
+/// Over the relief, which goes on: a video of colour alone, and the depth that is made for it.
+void draw_depth_offer(ViewerState& state);
+
 /// The window's own dialog for opening files.
 void draw_open_dialog(ViewerState& state);
 

@@ -20,6 +20,7 @@
 #include "app/sound/pad_output.hpp"
 #include "app/sound/sound_output.hpp"
 #include "app/window/gui.hpp"
+#include "core/estimate/estimate_watch.hpp"
 #include "core/haptics/explanation.hpp"
 #include "core/loop/device.hpp"
 #include "core/loop/haptic_tick.hpp"
@@ -153,6 +154,9 @@ struct OpenDialog {
     return dialog.shown && (dialog.in_front || dialog.asks_for_keyboard > 0);
 }
 
+/// What a person wants of depth that can be made for a video of colour alone.
+enum class DepthWish { make, cancel, open, close };
+
 /// What a panel asks the viewer to do after the picture.
 struct Requests {
     std::optional<OpenRequest> open{};
@@ -162,6 +166,7 @@ struct Requests {
     std::optional<std::string> material{};        ///< as material_called() takes it
     std::string keep_material{};  ///< what is felt, under that name; empty: not asked
     std::optional<std::filesystem::path> firmware{};
+    std::optional<DepthWish> depth{};  ///< of a video of colour alone
     bool remove_paint{false};
     bool reset_view{false};
     bool toggle_recording{false};
@@ -203,6 +208,17 @@ struct ClipNews {
 struct PanesShown {
     std::uintptr_t colour{0};  ///< names of OpenGL textures; 0: nothing to see
     std::uintptr_t depth{0};
+};
+
+/// Depth for a video of colour alone: to be made, being made, or made.
+struct DepthOffer {
+    std::filesystem::path colour{};
+    std::string words{};  ///< why it cannot be opened as it is, or what went wrong; empty: neither
+    std::vector<std::string> estimators{};       ///< names to choose from; none: it cannot be made
+    int chosen{0};                               ///< of them
+    std::optional<EstimateProgress> progress{};  ///< nothing: it is not being made
+    bool ending{false};                          ///< it was cancelled, and is on its way
+    std::filesystem::path depth{};  ///< made, while something else was opened; empty: not yet
 };
 
 /// What the window shows of a replay.
@@ -309,10 +325,11 @@ struct ViewerState {
     std::optional<FalconNews> falcon{};  ///< nothing: no Falcon is looked for
     std::optional<RealtimeGrants> grants{};
     std::optional<RecordingNews> recording{};
-    std::string recording_trouble{};        ///< why the last recording broke off
-    std::filesystem::path recorded_file{};  ///< the last one; empty: none yet
-    std::optional<ClipNews> clip{};         ///< nothing: no clip is made
-    std::optional<ReplayNews> replay{};     ///< nothing: a hand touches
+    std::string recording_trouble{};          ///< why the last recording broke off
+    std::filesystem::path recorded_file{};    ///< the last one; empty: none yet
+    std::optional<ClipNews> clip{};           ///< nothing: no clip is made
+    std::optional<ReplayNews> replay{};       ///< nothing: a hand touches
+    std::optional<DepthOffer> depth_offer{};  ///< nothing: no video lacks depth
     std::optional<ExplainedNews> explained{};
     StripHistory strips{};
     std::optional<StripHistory> held_strips{};  ///< the charts stand still

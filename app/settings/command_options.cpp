@@ -366,7 +366,7 @@ void add_algorithm_option(CLI::App& app, GivenParameters& given) {
         ->default_str("dibhr");
 }
 
-void add_depth_options(CLI::App& app, DepthStatement& depth) {
+void add_level_options(CLI::App& app, DepthStatement& depth) {
     add_word_option(app, "--near", kNearLevels, depth.near, "Which levels are near");
     add_word_option(app, "--depth-unit", kDepthUnits, depth.unit,
                     "What a level times its scale is");
@@ -379,6 +379,10 @@ void add_depth_options(CLI::App& app, DepthStatement& depth) {
                     "reaches");
     add_fact_option(app, "--no-data", depth.no_data, levels_in, "LEVELS",
                     "is not a list of up to 64 levels like 0,65535", "Levels that mean nothing");
+}
+
+void add_depth_options(CLI::App& app, DepthStatement& depth) {
+    add_level_options(app, depth);
     add_word_option(app, "--packing", kDepthPackings, depth.packing,
                     "Where colour and depth are, colour first");
     add_word_option(app, "--depth-code", kDepthCodes, depth.code, "How a picture holds depth");

@@ -111,8 +111,12 @@ void add_algorithms_option(CLI::App& app, std::vector<Algorithm>& algorithms);
 /// none is given.
 CLI::Option* add_plot_format_option(CLI::App& app, std::vector<PlotFormat>& formats);
 
-/// --near, --depth-unit, --depth-scale, --depth-range, --no-data, --packing, --depth-code,
-/// --geometry and --intrinsics. `depth` must outlive the parsing of `app`.
+/// --near, --depth-unit, --depth-scale, --depth-range and --no-data: what levels are, wherever they
+/// stand. `depth` must outlive the parsing of `app`.
+void add_level_options(CLI::App& app, DepthStatement& depth);
+
+/// The same, --packing, --depth-code, --geometry, --intrinsics and --registration. `depth` must
+/// outlive the parsing of `app`.
 void add_depth_options(CLI::App& app, DepthStatement& depth);
 
 /// --material, --bump, --maps, --raw-depth, --cleaning, --finger, those of add_depth_options and

@@ -25,6 +25,7 @@
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/parameters.hpp"
+#include "core/video/depth/sidecar.hpp"
 
 namespace dibhr {
 
@@ -34,6 +35,7 @@ namespace {
 
 constexpr std::int64_t kVersion = 1;
 constexpr std::string_view kKeys = "keys";
+constexpr std::string_view kEstimators = "estimators";
 
 // What a value of the file lacks to be that setting; empty: nothing, and it is taken.
 
@@ -138,6 +140,41 @@ bool is_bare(std::string_view name) {
     });
 }
 
+/// A command, or a table of one and of what is said of its depth. What it lacks to be an
+/// estimator; empty: nothing.
+std::string take(const toml::node& node, Estimator& estimator) {
+    constexpr const char* kLacking = "is neither a command in quotes nor a table with one";
+    if (const auto command = node.value_exact<std::string>()) {
+        estimator.command = *command;
+        return {};
+    }
+    const toml::table* const table = node.as_table();
+    const auto command =
+        table == nullptr ? std::nullopt : (*table)["command"].value_exact<std::string>();
+    if (!command) return kLacking;
+    toml::table rest = *table;
+    rest.erase("command");
+    std::ostringstream facts;
+    facts << toml::table{{"depth", rest}};
+    try {
+        estimator.meaning = statement_in(facts.str(), "it");
+    } catch (const InputError& error) {
+        return std::string("is not understood: ") + error.what();
+    }
+    estimator.command = *command;
+    return {};
+}
+
+/// The entries of a table in the order of the file.
+std::vector<std::pair<std::string, const toml::node*>> in_order(const toml::table& table) {
+    std::vector<std::pair<std::string, const toml::node*>> entries;
+    for (const auto& [name, node] : table) entries.emplace_back(name.str(), &node);
+    std::stable_sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) {
+        return a.second->source().begin < b.second->source().begin;
+    });
+    return entries;
+}
+
 /// Takes values out of a parsed file; what does not fit is told with its line and left at its
 /// default.
 class Reading {
@@ -153,6 +190,20 @@ class Reading {
         const KeyTable checked(keys, &complaints);
         for (std::size_t k = 0; k < keys.size(); ++k)
             if (!complaints[k].empty()) tell(*nodes[k], kKeys, keys[k].action, complaints[k]);
+    }
+
+    void take_estimators(std::vector<Estimator>& estimators) {
+        const toml::table* const table = root_[kEstimators].as_table();
+        if (table == nullptr) return;
+        for (const auto& [name, node] : in_order(*table)) {
+            Estimator estimator{.name = name};
+            const std::string lacking = is_bare(name) ? take(*node, estimator)
+                                                      : "is not a name of letters, digits, - and _";
+            if (lacking.empty())
+                estimators.push_back(std::move(estimator));
+            else
+                tell(*node, kEstimators, name, lacking);
+        }
     }
 
     void take_all(const std::vector<Setting>& settings) {
@@ -185,13 +236,8 @@ class Reading {
     /// In the order of the file, where of two wishes the first one holds. Their places in it.
     std::vector<const toml::node*> take_key_names(const toml::table& table,
                                                   std::vector<OwnKeys>& keys) {
-        std::vector<std::pair<std::string, const toml::node*>> entries;
-        for (const auto& [name, node] : table) entries.emplace_back(name.str(), &node);
-        std::stable_sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) {
-            return a.second->source().begin < b.second->source().begin;
-        });
         std::vector<const toml::node*> taken;
-        for (const auto& [name, node] : entries) {
+        for (const auto& [name, node] : in_order(table)) {
             auto names = key_names(*node);
             if (!is_bare(name)) {
                 tell(*node, kKeys, name, "is not an action: dibhr help keys lists them");
@@ -207,7 +253,8 @@ class Reading {
 
     void tell_unknown() {
         for (const auto& [table, node] : root_) {
-            if (table == "version" || (table == kKeys && node.is_table())) continue;
+            const bool has_names = table == kKeys || table == kEstimators;  // of a person's own
+            if (table == "version" || (has_names && node.is_table())) continue;
             const auto known = known_.find(table.str());
             if (!node.is_table() || known == known_.end()) {
                 warn(node, "", table.str(), "is not a setting");
@@ -292,7 +339,10 @@ std::string toml_text(Settings settings) {
                 std::visit([](const auto* value) { return toml_text(*value); }, setting.value) +
                 "\n";
     }
-    return text + toml_text(settings.keys);
+    text += toml_text(settings.keys);
+    if (!settings.estimators.empty()) text += "\n[estimators]\n";
+    for (const Estimator& estimator : settings.estimators) text += toml_of(estimator);
+    return text;
 }
 
 std::string content_of(const fs::path& file) {
@@ -370,6 +420,7 @@ Settings load_settings(const fs::path& file, std::vector<std::string>& warnings)
     }
     reading.take_all(list_of(settings));
     reading.take_keys(settings.keys);
+    reading.take_estimators(settings.estimators);
     keep_in_range(settings.touch);
     return settings;
 }
@@ -466,7 +517,8 @@ Settings changes_kept(Settings in_file, Settings started, Settings now) {
 bool same_settings(Settings a, Settings b) {
     const std::vector<Setting> first = list_of(a);
     const std::vector<Setting> second = list_of(b);
-    return a.keys == b.keys && std::equal(first.begin(), first.end(), second.begin(), same);
+    return a.keys == b.keys && a.estimators == b.estimators &&
+           std::equal(first.begin(), first.end(), second.begin(), same);
 }
 
 }  // namespace dibhr

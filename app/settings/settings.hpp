@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "app/settings/estimators.hpp"
 #include "app/settings/falcon_settings.hpp"
 #include "app/settings/keys.hpp"
 #include "app/settings/name_pattern.hpp"
@@ -84,7 +85,8 @@ struct Settings {
     bool mute{false};                                          ///< no sound of touch
     bool game_pad{true};                                       ///< rumbles, when there is one
     FalconSettings falcon{};
-    std::vector<OwnKeys> keys{};  ///< as written, in that order, also what cannot be
+    std::vector<OwnKeys> keys{};          ///< as written, in that order, also what cannot be
+    std::vector<Estimator> estimators{};  ///< as written, in that order
 };
 
 /// $XDG_CONFIG_HOME/dibhr/settings.toml, or ~/.config/dibhr/settings.toml.

@@ -151,6 +151,8 @@ void Viewer::take_opened() {
         if (opened->session) replay_session(std::move(opened->session));
         if (opened->is_folder) {
             browsing_.show(opened->request.colour, state_);
+        } else if (opened->lacks_depth && estimating_.offer(opened->request.colour, state_)) {
+            show_depth_words(state_);
         } else if (!opened->failure.empty()) {
             state_.message = opened->failure;
             show_depth_words(state_);  // those that are in force

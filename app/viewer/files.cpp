@@ -12,6 +12,7 @@
 
 #include "app/settings/assets_path.hpp"
 #include "core/error.hpp"
+#include "core/video/depth/depth_missing.hpp"
 #include "core/video/media.hpp"
 #include "core/video/media_names.hpp"
 
@@ -166,6 +167,8 @@ Opened try_open(const OpenRequest& request) {
             opened.maps = find_maps(opened.media->description());
         }
         return opened;
+    } catch (const DepthMissing& error) {
+        return {.request = request, .failure = error.what(), .lacks_depth = true};
     } catch (const std::exception& error) {
         return {
             .request = request, .failure = error.what(), .is_folder = is_folder(request.colour)};

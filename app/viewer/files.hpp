@@ -80,7 +80,8 @@ struct Opened {
     FoundMaps maps{};     ///< likewise
     std::unique_ptr<OpenedSession> session{};
     std::string failure{};
-    bool is_folder{false};  ///< what failed is one: of recordings, not of pictures
+    bool is_folder{false};    ///< what failed is one: of recordings, not of pictures
+    bool lacks_depth{false};  ///< what failed is colour alone
 };
 
 /// The file whose memory is kept: colour, where there is a pair; empty for the program's own

@@ -92,6 +92,7 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
       falcon_(hand_, state_),
       opening_(errands),
       clip_(errands),
+      estimating_(errands),
       browsing_(errands),
       desktop_(errands),
       painting_(errands),
@@ -122,7 +123,8 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
         return;
     }
     if (!parts.media) {
-        state_.message = capitalised(parts.trouble);
+        const bool offered = parts.lacks_depth && estimating_.offer(options.open.colour, state_);
+        if (!offered) state_.message = capitalised(parts.trouble);
         return;
     }
     state_.media = parts.media->description();
@@ -164,6 +166,7 @@ void Viewer::close_without_display() {
     desktop_.call_off();
     state_.message.clear();
     loop_.reset();
+    estimating_.end();
     explaining_.end(state_, camera_);
     keep_memory();
     attempt([this] { keeper_.finish(lasting_settings()); });
@@ -180,6 +183,7 @@ void Viewer::finish() {
     now("taking the force off");
     if (loop_) loop_->stop();  // no force is sent any more when files are written
     keep_lateness();
+    estimating_.end();
     std::string failure;
     const auto try_to = [&failure](auto&& step) {
         try {
@@ -285,6 +289,7 @@ void Viewer::take_news() {
     });
     attempt([this] { painting_.take_news(state_, recording_); });
     take_report();
+    if (const auto made = estimating_.take_news(state_)) open(*made);
 }
 
 void Viewer::follow_others() {
@@ -500,6 +505,7 @@ void Viewer::draw_panels(std::span<const KeyPress> pressed) {
     draw_overlay(state_, now_s());
     draw_nothing_open(state_);
     draw_explained();
+    draw_depth_offer(state_);
     draw_open_dialog(state_);
     draw_help_sheet(state_);
     draw_message_box(state_);
@@ -535,6 +541,9 @@ void Viewer::carry_out_requests() {
     if (!asked.keep_material.empty()) keep_material(asked.keep_material);
     if (asked.firmware) attempt([&] { tell(falcon_.use_firmware(*asked.firmware, state_)); });
     if (!asked.report.empty()) make_report(asked.report);
+    if (asked.depth) {
+        if (const auto made = estimating_.perform(*asked.depth, state_)) open(*made);
+    }
     if (asked.remove_paint) painting_.remove_all(state_, player_);
     if (asked.reset_view) frame_relief();
     if (asked.full_screen) {

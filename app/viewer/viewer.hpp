@@ -21,6 +21,7 @@
 #include "app/viewer/clip.hpp"
 #include "app/viewer/desktop_dialog.hpp"
 #include "app/viewer/errand.hpp"
+#include "app/viewer/estimating.hpp"
 #include "app/viewer/explaining.hpp"
 #include "app/viewer/falcon.hpp"
 #include "app/viewer/files.hpp"
@@ -77,6 +78,7 @@ struct ViewerParts {
     FoundMaps maps{};                          ///< likewise
     std::unique_ptr<OpenedSession> session{};  ///< to be replayed, in place of media
     std::string trouble{};                     ///< why there is neither
+    bool lacks_depth{false};                   ///< it is that there is colour alone
     HandDevice hand{};
     Material material{};  ///< of the settings or the command line
     std::shared_ptr<const BumpMap> bump{};
@@ -207,6 +209,7 @@ class Viewer {
     Errand<Opened> opening_;
     Screenshots screenshots_{};
     ViewerClip clip_;
+    ViewerEstimating estimating_;
     Reporting reporting_{};
     ViewerExplaining explaining_{};
     Browsing browsing_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/video/depth/depth_missing.hpp"
 #include "core/video/depth/hue_code.hpp"
 #include "core/video/formats/array_file.hpp"
 #include "core/video/formats/ros_bag.hpp"
@@ -227,9 +228,11 @@ bool is_depth(const fs::path& place, const PictureGuess& look) {
 }
 
 [[noreturn]] void refuse_without_depth(const fs::path& colour, const std::string& looked_for) {
-    throw InputError(shown(colour) +
-                     " needs a depth file beside it: give one as the second file (looked for " +
-                     looked_for + "), or say how the depth is in it with --packing");
+    throw DepthMissing(shown(colour) +
+                       " needs a depth file beside it: give one as the second file (looked for " +
+                       looked_for +
+                       "), say how the depth is in it with --packing, or let an estimator make it "
+                       "(dibhr help depth)");
 }
 
 /// Colour pictures of a folder, a list or a pattern, or a file of colour, and the place of the

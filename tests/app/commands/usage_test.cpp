@@ -175,7 +175,8 @@ TEST_CASE("help and version answer on standard output", "[usage]") {
     const ProgramResult help = run_dibhr(folder, {"--help"});
     CHECK(help.exit_code == 0);
     CHECK(help.errors.empty());
-    for (const std::string command : {"view", "touch", "surface", "info", "devices", "bench"}) {
+    for (const std::string command :
+         {"view", "touch", "surface", "depth", "info", "devices", "bench"}) {
         INFO(command);
         CHECK(help.output.find(command) != std::string::npos);
         const ProgramResult its_help = run_dibhr(folder, {command, "--help"});
@@ -193,8 +194,8 @@ TEST_CASE("help and version answer on standard output", "[usage]") {
 }
 
 TEST_CASE("the help of every command ends with examples of it", "[usage]") {
-    for (const std::string command : {"view", "touch", "surface", "experiment", "replay", "export",
-                                      "report", "info", "devices", "bench"}) {
+    for (const std::string command : {"view", "touch", "surface", "depth", "experiment", "replay",
+                                      "export", "report", "info", "devices", "bench"}) {
         CAPTURE(command);
         const TemporaryFolder folder;
         const std::string help = run_dibhr(folder, {"help", command}).output;

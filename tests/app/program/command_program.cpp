@@ -49,6 +49,7 @@ ProgramResult run_dibhr(const TemporaryFolder& folder, const std::vector<std::st
         ::unsetenv("WAYLAND_DISPLAY");
         ::setenv("XDG_CONFIG_HOME", folder.path().c_str(), 1);
         ::setenv("XDG_DATA_HOME", folder.path().c_str(), 1);
+        ::setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1);
         if (::chdir(folder.path().c_str()) == 0) ::execv(argv[0], argv.data());
         ::_exit(127);
     }

@@ -1,0 +1,248 @@
+// `dibhr depth`: depth for a colour video, by an estimator that a person has installed.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <filesystem>
+#include <future>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "app/commands/command_line.hpp"
+#include "app/commands/output.hpp"
+#include "app/settings/command_options.hpp"
+#include "app/settings/estimators.hpp"
+#include "app/settings/settings.hpp"
+#include "app/window/signals.hpp"
+#include "core/error.hpp"
+#include "core/estimate/depth_cache.hpp"
+#include "core/estimate/depth_estimate.hpp"
+#include "core/estimate/estimator_command.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/video/media.hpp"
+
+namespace dibhr {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kLongestPatience_s = 1e6;
+
+struct DepthOptions {
+    fs::path colour{};
+    fs::path out{};
+    std::string with{};  ///< a command, or the name of an estimator in the settings
+    std::string name{};  ///< to keep the command under
+    double patience_s{EstimateRequest{}.patience_s};
+    bool again{false};
+    bool view{false};
+    bool lists{false};
+    bool forgets{false};
+    DepthStatement meaning{};
+};
+
+bool is_command(const std::string& text) {
+    return text.find('{') != std::string::npos;
+}
+
+std::string names_of(const std::vector<Estimator>& estimators) {
+    std::string names;
+    for (const Estimator& one : estimators) names += (names.empty() ? "" : ", ") + one.name;
+    return names;
+}
+
+/// As the command line says, else the first of the settings.
+Estimator chosen_estimator(const DepthOptions& options, const std::vector<Estimator>& known) {
+    if (is_command(options.with)) return {.name = options.name, .command = options.with};
+    if (options.with.empty()) {
+        if (!known.empty()) return known.front();
+        throw UsageError("no estimator is known. " + how_to_have_an_estimator());
+    }
+    if (const Estimator* const one = estimator_called(known, options.with)) return *one;
+    throw UsageError("--with " + in_quotes(options.with) +
+                     " is neither a command with {input} or {frames} and {output} nor the name of "
+                     "an estimator" +
+                     (known.empty() ? "" : " (" + names_of(known) + ")"));
+}
+
+/// Also in place of one of that name.
+void keep_estimator(Estimator estimator) {
+    const bool bare = !estimator.name.empty() &&
+                      estimator.name.find_first_not_of(
+                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_") ==
+                          std::string::npos;
+    if (!bare)
+        throw UsageError("--as " + in_quotes(estimator.name) +
+                         " is not a name of letters, digits, - and _");
+    Settings settings = load_settings(settings_path());
+    std::erase_if(settings.estimators,
+                  [&estimator](const Estimator& one) { return one.name == estimator.name; });
+    settings.estimators.push_back(std::move(estimator));
+    save_settings(settings, settings_path());
+}
+
+/// Waits for it, shows how it goes, and ends it when a signal asks for that.
+std::optional<DepthEstimate> watched(const EstimateRequest& request) {
+    constexpr std::chrono::milliseconds kPause{50};
+    EndingSignals signals;  // before the thread, which is not to take them
+    EstimateWatch watch;
+    auto made = std::async(std::launch::async, [&] { return estimate_depth(request, watch); });
+    ProgressBar bar(one_line(request.colour.filename().string()));
+    while (made.wait_for(kPause) != std::future_status::ready) {
+        if (signals.arrived()) watch.stop();
+        const EstimateProgress now = watch.progress();
+        bar.show(now.share(), in_words(now));
+    }
+    return made.get();
+}
+
+std::string size_text(std::uintmax_t bytes) {
+    return short_text(static_cast<double>(bytes) / 1e6, 3) + " MB";
+}
+
+std::string told(const KeptEstimate& kept) {
+    const EstimateRecord& record = kept.record;
+    if (record.command.empty())
+        return one_line(kept.folder.string()) + ": nothing of use, " + size_text(kept.bytes);
+    const std::string all = std::to_string(record.colour.count());
+    const std::string frames = record.depth.empty()
+                                   ? std::to_string(kept.frames_there) + " of " + all + " frames"
+                                   : all + (record.colour.count() == 1 ? " frame" : " frames");
+    return one_line(record.colour.file.string()) + ": " + frames + ", " + size_text(kept.bytes) +
+           ", by " + one_line(record.command);
+}
+
+/// Of that colour, or all of an empty one.
+std::vector<KeptEstimate> kept_of(const fs::path& colour) {
+    std::vector<KeptEstimate> all = kept_estimates(depth_cache_path());
+    std::erase_if(all, [&colour](const KeptEstimate& kept) {
+        std::error_code gone;
+        const fs::path whole = fs::absolute(colour, gone).lexically_normal();
+        return !colour.empty() && kept.record.colour.file.lexically_normal() != whole;
+    });
+    return all;
+}
+
+int list_kept(const fs::path& colour) {
+    std::uintmax_t bytes = 0;
+    for (const KeptEstimate& kept : kept_of(colour)) {
+        std::cout << told(kept) << '\n';
+        bytes += kept.bytes;
+    }
+    std::cout << size_text(bytes) << " in " << one_line(depth_cache_path().string()) << '\n';
+    return 0;
+}
+
+int forget_kept(const fs::path& colour) {
+    std::uintmax_t bytes = 0;
+    for (const KeptEstimate& kept : kept_of(colour)) {
+        if (forget_estimate(kept))
+            bytes += kept.bytes;
+        else
+            print_warning("another dibhr is making the depth of " +
+                          kept.record.colour.file.string() + ": it stays");
+    }
+    std::cout << size_text(bytes) << " removed\n";
+    return 0;
+}
+
+void require_options(const DepthOptions& options) {
+    const bool keeps = options.lists || options.forgets;
+    if (options.colour.empty() && !keeps)
+        throw UsageError("COLOR is required: the video to make depth for (see dibhr depth --help)");
+    if (!options.name.empty() && !is_command(options.with))
+        throw UsageError("--as names the command of --with: give that, too");
+}
+
+int open_viewer(const fs::path& colour, const fs::path& depth) {
+    CLI::App app("", "dibhr view");
+    return run_view(app, {colour.string(), depth.string()});
+}
+
+int make_depth(const DepthOptions& options) {
+    const Estimator estimator =
+        chosen_estimator(options, load_settings(settings_path()).estimators);
+    EstimateRequest request{.colour = options.colour,
+                            .command = estimator.command,
+                            .meaning = options.meaning,
+                            .cache = depth_cache_path(),
+                            .patience_s = options.patience_s,
+                            .again = options.again};
+    request.meaning.fill_in(estimator.meaning);
+    if (!options.name.empty()) {
+        Estimator kept = estimator;
+        kept.meaning = request.meaning;
+        keep_estimator(kept);
+    }
+    const auto made = watched(request);
+    if (!made)
+        throw InputError(EstimatorCommand(request.command).takes_frames()
+                             ? "cancelled: what is done is kept; run it again to go on from there"
+                             : "cancelled: nothing is kept, as it takes {input} and no {frames}");
+    const fs::path depth =
+        options.out.empty() ? made->depth : copy_depth(*made, options.colour, options.out);
+    std::cout << one_line(depth.string()) << '\n';
+    if (options.view) return open_viewer(options.colour, depth);
+    return 0;
+}
+
+}  // namespace
+
+int run_depth(CLI::App& app, const Arguments& arguments) {
+    DepthOptions options;
+    add_file(app, "COLOR", options.colour, "Colour video, picture or folder of pictures", "");
+    app.add_option("--with", options.with,
+                   "The estimator: a command, started without a shell, with {input} (the file) or "
+                   "{frames} (a folder of its frames, as PNG) and {output} (a folder to fill; "
+                   "{output.mp4}: a file); or its NAME in the table [estimators] of the settings; "
+                   "else the first one there")
+        ->type_name("COMMAND");
+    app.add_option("--as", options.name, "Keeps the command in the settings under that name")
+        ->type_name("NAME");
+    add_file(app, "--out", options.out,
+             "Copies the depth there: a name that ends in .mkv (of a picture .png), or a folder, "
+             "as NAME_depth.mkv; beside the colour it is found with it",
+             "FILE");
+    app.add_flag("--view", options.view, "Opens both in the viewer");
+    app.add_flag("--again", options.again, "Makes it anew, whatever is kept");
+    add_number_option(app, "--patience", 1.0, kLongestPatience_s,
+                      "Ends an estimator that shows no sign of life for so many seconds",
+                      [&options](double seconds) { options.patience_s = seconds; })
+        ->type_name("S")
+        ->default_str("600");
+    app.add_flag("--list", options.lists, "What is kept, of COLOR or all");
+    app.add_flag("--forget", options.forgets, "Removes what is kept, of COLOR or all");
+    add_level_options(app, options.meaning);
+    app.footer(
+        "The depth is kept by the content of the video and the command: the second time it is "
+        "there "
+        "at once.\nCtrl+C ends the estimator; with {frames} the next run goes on with the frames "
+        "that lack.\nUnless --depth-unit says else its numbers are relative, near where bright.\n\n"
+        "Examples:\n"
+        "  dibhr depth clip.mp4 --with \"env -C ~/Depth-Anything-V2 python run.py --encoder vits "
+        "--img-path {frames} --outdir {output} --pred-only --grayscale\" --as depth-anything\n"
+        "  dibhr depth clip.mp4 --with \"env -C ~/Video-Depth-Anything python run.py --encoder "
+        "vits --input_video {input} --output_dir {output} --save_npz\" --as video-depth\n"
+        "  dibhr depth clip.mp4 --with \"env -C ~/MiDaS python run.py --input_path {frames} "
+        "--output_path {output} --grayscale\" --as midas\n"
+        "  dibhr depth clip.mp4 --with \"depth-pro-run -i {frames} -o {output} --skip-display\" "
+        "--depth-unit m --as depth-pro\n"
+        "  dibhr depth clip.mp4 --with \"env -C ~/Marigold python script/depth/run.py "
+        "--input_rgb_dir {frames} --output_dir {output}\" --near dark --as marigold\n"
+        "  dibhr depth clip.mp4 --with \"env -C ~/DepthCrafter python run.py --video-path {input} "
+        "--save-folder {output} --process-length -1\" --as depth-crafter\n"
+        "  dibhr depth clip.mp4 --view                    by the first of [estimators]\n"
+        "  dibhr depth clip.mp4 --with midas --out .      clip_depth.mkv\n"
+        "  dibhr depth --list");
+    if (!parse(app, arguments)) return 0;
+    require_options(options);
+    if (options.lists) return list_kept(options.colour);
+    if (options.forgets) return forget_kept(options.colour);
+    return make_depth(options);
+}
+
+}  // namespace dibhr

@@ -1,0 +1,97 @@
+// A video of colour alone: the button that has depth made for it, and how that goes.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "app/panels/panels.hpp"
+#include "app/panels/widgets.hpp"
+#include "app/settings/estimators.hpp"
+#include "core/files/plain_text.hpp"
+
+namespace dibhr {
+
+namespace {
+
+void ask_for(ViewerState& state, DepthWish wish) {
+    state.requests.depth = wish;
+}
+
+void draw_making(ViewerState& state, const DepthOffer& offer) {
+    const EstimateProgress& now = *offer.progress;
+    if (now.step != EstimateStep::estimating || now.counted) {
+        ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImGui::GetColorU32(ImGuiCol_SliderGrab));
+        ImGui::ProgressBar(static_cast<float>(now.share()), {-1.0F, 0.0F},
+                           formatted("%.0f %%", 100.0 * now.share()).c_str());
+        ImGui::PopStyleColor();
+    }
+    ImGui::TextUnformatted(offer.ending ? "Ending" : capitalised(in_words(now)).c_str());
+    if (!now.said.empty()) {
+        ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+        const std::string said = one_line(now.said, 70);
+        ImGui::TextUnformatted(said.c_str());
+        ImGui::PopStyleColor();
+    }
+    ImGui::Spacing();
+    ImGui::BeginDisabled(offer.ending);
+    if (ImGui::Button("Cancel")) ask_for(state, DepthWish::cancel);
+    ImGui::EndDisabled();
+}
+
+void draw_choice(DepthOffer& offer) {
+    if (offer.estimators.size() < 2) return;
+    std::vector<const char*> names;
+    names.reserve(offer.estimators.size());
+    for (const std::string& name : offer.estimators) names.push_back(name.c_str());
+    index_row("Estimator", names, offer.chosen, "As the settings name them, in [estimators]", 0);
+}
+
+void draw_making_button(ViewerState& state, DepthOffer& offer) {
+    if (offer.estimators.empty()) {
+        quiet_text(how_to_have_an_estimator() + ".");
+        return;
+    }
+    draw_choice(offer);
+    const std::string& name = offer.estimators[static_cast<std::size_t>(offer.chosen)];
+    if (ImGui::Button(("Make depth with " + name + "###make").c_str()))
+        ask_for(state, DepthWish::make);
+    ImGui::SameLine();
+}
+
+}  // namespace
+
+void draw_depth_offer(ViewerState& state) {
+    if (!state.depth_offer || state.dialog.shown || !state.message.empty()) return;
+    DepthOffer& offer = *state.depth_offer;
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float relief_width = display.x - panel_column_width(state);
+    ImGui::SetNextWindowPos({0.5F * relief_width, panes_height(state) + 0.08F * display.y},
+                            ImGuiCond_Always, {0.5F, 0.0F});
+    const float em = ImGui::GetFontSize();
+    ImGui::SetNextWindowSize({std::max(std::min(30.0F * em, relief_width - em), 8.0F * em), 0.0F});
+    const char* const what = offer.progress        ? "Making depth: "
+                             : offer.depth.empty() ? "Colour alone: "
+                                                   : "Depth is made: ";
+    const std::string title =
+        what + one_line(offer.colour.filename().string(), 40) + "###depth offer";
+    ImGui::Begin(title.c_str(), nullptr,
+                 ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
+    if (offer.progress) {
+        draw_making(state, offer);
+        ImGui::End();
+        return;
+    }
+    if (!offer.words.empty()) ImGui::TextWrapped("%s", capitalised(offer.words).c_str());
+    ImGui::Spacing();
+    if (!offer.depth.empty()) {
+        if (ImGui::Button("Open it")) ask_for(state, DepthWish::open);
+        ImGui::SameLine();
+    } else {
+        draw_making_button(state, offer);
+    }
+    if (ImGui::Button(("Close" + state.keys.in_brackets(Action::close_topmost)).c_str()))
+        ask_for(state, DepthWish::close);
+    ImGui::End();
+}
+
+}  // namespace dibhr

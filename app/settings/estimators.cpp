@@ -1,0 +1,45 @@
+// Names, lines and places of depth estimators.
+#include "app/settings/estimators.hpp"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+
+#include "core/video/depth/sidecar.hpp"
+
+namespace dibhr {
+
+namespace fs = std::filesystem;
+
+const Estimator* estimator_called(std::span<const Estimator> estimators, const std::string& name) {
+    const auto found = std::find_if(estimators.begin(), estimators.end(),
+                                    [&name](const Estimator& one) { return one.name == name; });
+    return found == estimators.end() ? nullptr : &*found;
+}
+
+std::string toml_of(const Estimator& estimator) {
+    std::ostringstream command;
+    command << toml::value<std::string>(estimator.command);
+    if (estimator.meaning == DepthStatement{}) return estimator.name + " = " + command.str() + "\n";
+    std::string line = estimator.name + " = { command = " + command.str();
+    std::istringstream facts(toml_of(estimator.meaning));
+    for (std::string fact; std::getline(facts, fact);)
+        if (!fact.empty() && fact.front() != '[') line += ", " + fact;
+    return line + " }\n";
+}
+
+std::string how_to_have_an_estimator() {
+    return "Name one that you have installed in the settings, or with dibhr depth COLOR --with "
+           "\"COMMAND\" --as NAME (dibhr help depth has the commands of some)";
+}
+
+fs::path depth_cache_path() {
+    const char* const folder = std::getenv("XDG_CACHE_HOME");
+    if (folder != nullptr && *folder == '/') return fs::path(folder) / "dibhr" / "depth";
+    const char* const home = std::getenv("HOME");
+    return fs::path(home != nullptr ? home : "/") / ".cache" / "dibhr" / "depth";
+}
+
+}  // namespace dibhr

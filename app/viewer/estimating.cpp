@@ -1,0 +1,109 @@
+// An errand, and what is seen of it.
+#include "app/viewer/estimating.hpp"
+
+#include <cstddef>
+#include <exception>
+#include <utility>
+
+#include "app/settings/estimators.hpp"
+#include "core/files/plain_text.hpp"
+
+namespace dibhr {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path& file_shown(const ViewerState& state) {
+    return state.replay ? state.replay->file : state.media.colour_path;
+}
+
+EstimateMade make(const EstimateRequest& request, EstimateWatch& watch) {
+    try {
+        return {estimate_depth(request, watch), {}};
+    } catch (const std::exception& error) {
+        return {{}, error.what()};
+    }
+}
+
+}  // namespace
+
+bool ViewerEstimating::offer(const fs::path& colour, ViewerState& state) {
+    if (making_.under_way()) return false;
+    DepthOffer offer{.colour = colour,
+                     .words =
+                         "There is no depth in it or beside it. Open it together with its "
+                         "depth file, or let an estimator make it."};
+    for (const Estimator& one : state.settings.estimators) offer.estimators.push_back(one.name);
+    state.depth_offer = std::move(offer);
+    return true;
+}
+
+void ViewerEstimating::start(ViewerState& state) {
+    DepthOffer& offer = *state.depth_offer;
+    const auto chosen = static_cast<std::size_t>(offer.chosen);
+    if (chosen >= state.settings.estimators.size()) return;
+    const Estimator& estimator = state.settings.estimators[chosen];
+    const EstimateRequest request{.colour = offer.colour,
+                                  .command = estimator.command,
+                                  .meaning = estimator.meaning,
+                                  .cache = depth_cache_path(),
+                                  .manner = ChildManner::polite};
+    const auto watch = std::make_shared<EstimateWatch>();
+    if (!making_.start([request, watch] { return make(request, *watch); })) return;
+    watch_ = watch;
+    open_before_ = file_shown(state);
+    offer.words.clear();
+    offer.progress.emplace();
+}
+
+std::optional<OpenRequest> ViewerEstimating::perform(DepthWish wish, ViewerState& state) {
+    if (!state.depth_offer) return {};
+    switch (wish) {
+        case DepthWish::make:
+            start(state);
+            return {};
+        case DepthWish::cancel:
+            if (watch_) watch_->stop();
+            state.depth_offer->ending = true;
+            return {};
+        case DepthWish::open:
+            return opened(state);
+        case DepthWish::close:
+            state.depth_offer.reset();
+            return {};
+    }
+    return {};
+}
+
+std::optional<OpenRequest> ViewerEstimating::opened(ViewerState& state) {
+    OpenRequest request{state.depth_offer->colour, state.depth_offer->depth};
+    state.depth_offer.reset();
+    return request;
+}
+
+std::optional<OpenRequest> ViewerEstimating::take_news(ViewerState& state) {
+    if (!state.depth_offer || !watch_) return {};
+    DepthOffer& offer = *state.depth_offer;
+    if (making_.under_way()) offer.progress = watch_->progress();
+    const auto made = making_.take();
+    if (!made) return {};
+    watch_.reset();
+    offer.progress.reset();
+    const bool cancelled = std::exchange(offer.ending, false);
+    if (!made->depth) {
+        offer.words = cancelled && made->failure.empty()
+                          ? "Cancelled; what is done is kept for the next time."
+                          : made->failure;
+        return {};
+    }
+    offer.depth = made->depth->depth;
+    if (file_shown(state) != open_before_) return {};
+    return opened(state);
+}
+
+void ViewerEstimating::end() {
+    if (watch_) watch_->stop_at_once();
+}
+
+}  // namespace dibhr

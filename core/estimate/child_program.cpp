@@ -1,0 +1,161 @@
+// posix_spawn, a pipe, and signals to a group.
+#include "core/estimate/child_program.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <string_view>
+#include <thread>
+
+#include "core/error.hpp"
+#include "core/files/plain_text.hpp"
+
+extern "C" char** environ;  // NOLINT(readability-redundant-declaration): glibc's needs _GNU_SOURCE
+
+namespace dibhr {
+
+namespace {
+
+constexpr int kPolitely = 10;  // nice(2)
+
+/// The words, and null at their end, as exec takes them.
+std::vector<char*> as_pointers(std::vector<std::string>& words) {
+    std::vector<char*> pointers;
+    pointers.reserve(words.size() + 1);
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    return pointers;
+}
+
+/// This program's own, and that Python is not to keep back what it prints.
+std::vector<std::string> environment() {
+    constexpr std::string_view kUnbuffered = "PYTHONUNBUFFERED=";
+    std::vector<std::string> all;
+    for (char** entry = environ; *entry != nullptr; ++entry)
+        if (!std::string_view(*entry).starts_with(kUnbuffered)) all.emplace_back(*entry);
+    all.push_back(std::string(kUnbuffered) + "1");
+    return all;
+}
+
+[[noreturn]] void refuse(const std::string& program, int why) {
+    const std::string name = in_quotes(program, 200);
+    if (why == ENOENT && ::access(program.c_str(), F_OK) == 0)
+        throw InputError("the estimator cannot be started: the program that the first line of " +
+                         name + " names (#!) is not there; install it, or mend that line");
+    if (why == ENOENT)
+        throw InputError("the estimator cannot be started: there is no program " + name +
+                         "; install it, or write its whole path into the command");
+    if (why == EACCES || why == ENOEXEC)
+        throw InputError("the estimator cannot be started: " + name +
+                         " cannot be executed; make it executable (chmod +x), or name the program "
+                         "that runs it before it");
+    throw InputError("the estimator cannot be started: " + name + " (" + std::strerror(why) + ")");
+}
+
+/// 0, or why it could not be started.
+int start(std::vector<std::string> words, int output, pid_t& child) {
+    posix_spawn_file_actions_t files;
+    ::posix_spawn_file_actions_init(&files);
+    ::posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    ::posix_spawn_file_actions_adddup2(&files, output, STDOUT_FILENO);
+    ::posix_spawn_file_actions_adddup2(&files, output, STDERR_FILENO);
+    posix_spawnattr_t manner;
+    ::posix_spawnattr_init(&manner);
+    sigset_t signals;
+    ::sigemptyset(&signals);
+    ::posix_spawnattr_setsigmask(&manner, &signals);  // it may be ended
+    ::sigaddset(&signals, SIGPIPE);
+    ::posix_spawnattr_setsigdefault(&manner, &signals);
+    ::posix_spawnattr_setpgroup(&manner, 0);
+    ::posix_spawnattr_setflags(
+        &manner, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+    std::vector<std::string> variables = environment();
+    const int failed = ::posix_spawnp(&child, words.front().c_str(), &files, &manner,
+                                      as_pointers(words).data(), as_pointers(variables).data());
+    ::posix_spawnattr_destroy(&manner);
+    ::posix_spawn_file_actions_destroy(&files);
+    return failed;
+}
+
+}  // namespace
+
+std::string in_words(const ChildEnd& end) {
+    if (end.signal == 0) return "ended with " + std::to_string(end.exit_code);
+    return "was ended by signal " + std::to_string(end.signal) + " (" + ::strsignal(end.signal) +
+           ")";
+}
+
+void give_way(pid_t who) noexcept {
+    ::setpriority(PRIO_PROCESS, static_cast<id_t>(who), kPolitely);
+}
+
+ChildProgram::ChildProgram(std::vector<std::string> words, ChildManner manner) {
+    std::array<int, 2> ends{};
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0)
+        throw InputError("the estimator cannot be started: too many files are open");
+    const std::string program = words.front();
+    const int failed = start(std::move(words), ends[1], child_);
+    ::close(ends[1]);
+    words_end_ = ends[0];
+    if (failed != 0) {
+        ::close(words_end_);
+        refuse(program, failed);
+    }
+    ::fcntl(words_end_, F_SETFL, O_NONBLOCK);
+    if (manner == ChildManner::polite) give_way(child_);
+}
+
+ChildProgram::~ChildProgram() {
+    ::kill(-child_, SIGKILL);
+    if (!end_) ::waitpid(child_, nullptr, 0);
+    if (words_end_ >= 0) ::close(words_end_);
+}
+
+std::string ChildProgram::written(std::chrono::milliseconds patience) {
+    if (words_end_ < 0) {
+        if (!end_) std::this_thread::sleep_for(patience);
+        return {};
+    }
+    pollfd reading{words_end_, POLLIN, 0};
+    ::poll(&reading, 1, static_cast<int>(patience.count()));
+    std::string text;
+    std::array<char, 4096> piece{};
+    ssize_t count = 0;
+    while ((count = ::read(words_end_, piece.data(), piece.size())) > 0)
+        text.append(piece.data(), static_cast<std::size_t>(count));
+    if (count == 0) {
+        ::close(words_end_);
+        words_end_ = -1;
+    }
+    return text;
+}
+
+std::optional<ChildEnd> ChildProgram::ended() {
+    int status = 0;
+    if (!end_ && ::waitpid(child_, &status, WNOHANG) == child_) {
+        const bool killed = WIFSIGNALED(status);
+        end_ = killed ? ChildEnd{0, WTERMSIG(status)} : ChildEnd{WEXITSTATUS(status), 0};
+    }
+    return end_;
+}
+
+void ChildProgram::end() {
+    ::kill(-child_, SIGTERM);
+    const auto latest = std::chrono::steady_clock::now() + kGrace;
+    while (!ended() && std::chrono::steady_clock::now() < latest)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    ::kill(-child_, SIGKILL);
+    int status = 0;
+    if (!end_ && ::waitpid(child_, &status, 0) == child_) end_ = ChildEnd{0, SIGKILL};
+}
+
+}  // namespace dibhr

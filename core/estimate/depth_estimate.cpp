@@ -1,0 +1,317 @@
+// The steps of an estimation, one after the other.
+#include "core/estimate/depth_estimate.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <memory>
+#include <system_error>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/estimate/colour_frames.hpp"
+#include "core/estimate/depth_cache.hpp"
+#include "core/estimate/depth_result.hpp"
+#include "core/estimate/estimator_command.hpp"
+#include "core/estimate/estimator_output.hpp"
+#include "core/estimate/spoken_progress.hpp"
+#include "core/files/content_hash.hpp"
+#include "core/files/output_file.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/video/depth/sidecar.hpp"
+#include "core/video/layouts.hpp"
+#include "core/video/media.hpp"
+#include "core/video/media_names.hpp"
+
+namespace dibhr {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using std::chrono::steady_clock;
+
+double seconds_since(steady_clock::time_point begin) {
+    return std::chrono::duration<double>(steady_clock::now() - begin).count();
+}
+
+/// One run of the estimator, watched until it ends.
+class Run {
+  public:
+    Run(const EstimateRequest& request, const EstimateFolder& folder,
+        const EstimatorCommand& command, std::size_t frames, EstimateWatch& watch)
+        : folder_(folder),
+          frames_(frames),
+          watch_(watch),
+          patience_s_(request.patience_s),
+          said_file_(folder.said(), std::ios::binary | std::ios::trunc),
+          child_(command.words({fs::absolute(request.colour), folder.frames(), folder.output()}),
+                 request.manner) {
+        before_ = std::min(row_so_far(folder_.output()).size(), frames_);
+        watch_.runs(child_.group());
+    }
+    ~Run() { watch_.runs(0); }
+    Run(const Run&) = delete;
+    Run& operator=(const Run&) = delete;
+
+    /// How it ended; nothing when it was stopped. Throws InputError when it shows no sign of life.
+    std::optional<ChildEnd> watched() {
+        constexpr std::chrono::milliseconds kPause{50};
+        constexpr double kLookAgain_s = 0.25;
+        while (true) {
+            const auto ended = child_.ended();
+            take_words(child_.written(ended ? std::chrono::milliseconds(0) : kPause));
+            if (watch_.stopped()) {
+                child_.end();
+                return std::nullopt;
+            }
+            if (ended) return ended;
+            if (seconds_since(looked_) >= kLookAgain_s) look();
+        }
+    }
+
+    [[nodiscard]] const std::string& last_line() const { return spoken_.last_line(); }
+
+  private:
+    void take_words(const std::string& text) {
+        if (text.empty()) return;
+        said_file_ << text << std::flush;
+        spoken_.take(text);
+        alive_ = steady_clock::now();
+        tell();
+    }
+
+    /// At what there is in its folder.
+    void look() {
+        looked_ = steady_clock::now();
+        done_ = std::min(row_so_far(folder_.output()).size(), frames_);
+        const std::uintmax_t bytes = bytes_in(folder_.output());
+        if (std::exchange(bytes_, bytes) != bytes) alive_ = looked_;
+        tell();
+        if (seconds_since(alive_) < patience_s_) return;
+        child_.end();
+        throw InputError("the estimator showed no sign of life for " + short_text(patience_s_) +
+                         " s and was ended");
+    }
+
+    void tell() {
+        EstimateProgress progress{.step = EstimateStep::estimating,
+                                  .done = done_,
+                                  .of = frames_,
+                                  .counted = done_ > 0,
+                                  .elapsed_s = seconds_since(begun_),
+                                  .said = spoken_.last_line()};
+        const auto told = spoken_.done_of(frames_ - before_);
+        if (told && before_ + *told > progress.done) {
+            progress.done = before_ + *told;
+            progress.counted = true;
+        }
+        progress.left_s = left_s(progress);
+        watch_.tell(progress);
+    }
+
+    /// As fast as from the first new frame on: before it a model was loaded.
+    std::optional<double> left_s(const EstimateProgress& now) {
+        if (now.done <= before_) return std::nullopt;
+        if (first_.done == 0) first_ = {now.done, now.elapsed_s};
+        if (now.done <= first_.done) return std::nullopt;
+        const double each_s =
+            (now.elapsed_s - first_.at_s) / static_cast<double>(now.done - first_.done);
+        return each_s * static_cast<double>(frames_ - now.done);
+    }
+
+    struct FirstOnes {
+        std::size_t done{0};
+        double at_s{0.0};
+    };
+
+    const EstimateFolder& folder_;
+    std::size_t frames_;
+    EstimateWatch& watch_;
+    double patience_s_;
+    std::ofstream said_file_;
+    SpokenProgress spoken_{};
+    std::size_t before_{0};  ///< frames that were there already
+    std::size_t done_{0};
+    FirstOnes first_{};
+    std::uintmax_t bytes_{0};
+    steady_clock::time_point begun_{steady_clock::now()};
+    steady_clock::time_point alive_{begun_}, looked_{begun_};
+    ChildProgram child_;
+};
+
+FramesTold teller(EstimateWatch& watch, EstimateStep step) {
+    return [&watch, step](std::size_t done, std::size_t of) {
+        watch.tell({.step = step, .done = done, .of = of});
+    };
+}
+
+/// Where a person looks after a failure.
+std::string how_far(const EstimatorCommand& command, const EstimateFolder& folder,
+                    std::size_t frames) {
+    const std::size_t done = row_so_far(folder.output()).size();
+    if (done == 0 || done >= frames) return "";
+    std::string words = " at frame " + std::to_string(done + 1) + " of " + std::to_string(frames);
+    if (command.takes_frames())
+        words += "; " + std::to_string(done) + " are kept: run it again to go on from there";
+    return words;
+}
+
+/// What the levels of the finished file mean: those of the estimator, which `said` is of, became
+/// `levels`.
+DepthStatement meaning_of(const DepthStatement& said, const DepthStatement& levels) {
+    DepthStatement meaning = said;
+    if (!meaning.unit) meaning.unit = DepthUnit::levels;
+    const bool distance = meaning.unit == DepthUnit::m || meaning.unit == DepthUnit::mm;
+    if (!meaning.near) meaning.near = distance ? NearLevels::dark : NearLevels::bright;
+    meaning.scale = said.scale.value_or(1.0) * levels.scale.value_or(1.0);
+    if (levels.no_data) meaning.no_data = levels.no_data;
+    if (!meaning.no_data) meaning.no_data.emplace();
+    meaning.packing = DepthPacking::separate;
+    meaning.code = DepthCode::grey;
+    return meaning;
+}
+
+/// Looks, runs, checks and keeps; of one request.
+class Estimation {
+  public:
+    Estimation(const EstimateRequest& request, EstimateWatch& watch)
+        : request_(request), watch_(watch), command_(request.command) {
+        if (request_.colour.empty() || (!names_pictures(request_.colour)))
+            require_readable(request_.colour);
+    }
+
+    std::optional<DepthEstimate> made() {
+        const auto sum = sha256_of_file(request_.colour, watch_.stopped());
+        if (!sum) return std::nullopt;
+        folder_ = std::make_unique<EstimateFolder>(request_.cache, *sum, command_.text());
+        if (request_.again) folder_->empty();
+        const auto before = folder_->record();
+        if (before && !before->depth.empty() && fs::exists(folder_->path() / before->depth))
+            return opened(*before, true);
+        if (!has_frames()) return std::nullopt;
+        if (!all_there() && !run()) return std::nullopt;
+        return written();
+    }
+
+  private:
+    /// False when it was stopped. What is done already is not given again.
+    bool has_frames() {
+        const FramesTold tell = teller(watch_, EstimateStep::giving_frames);
+        std::error_code failed;
+        if (command_.takes_frames()) {
+            done_ = whole_outputs(folder_->output());
+            if (done_.empty()) fs::remove_all(folder_->output(), failed);
+            colour_ = write_colour_frames(request_.colour, folder_->frames(), done_,
+                                          watch_.stopped(), tell);
+        } else {
+            fs::remove_all(folder_->output(), failed);
+            colour_ = read_colour_frames(request_.colour, watch_.stopped(), tell);
+        }
+        if (watch_.stopped()) return false;
+        colour_.file = fs::absolute(request_.colour);
+        fs::create_directories(folder_->output(), failed);
+        folder_->keep({.colour = colour_, .command = command_.text()});
+        return true;
+    }
+
+    [[nodiscard]] bool all_there() const {
+        return command_.takes_frames() && done_.size() >= colour_.count();
+    }
+
+    /// False when it was stopped.
+    bool run() {
+        Run run(request_, *folder_, command_, colour_.count(), watch_);
+        std::string failure;
+        try {
+            const auto end = run.watched();
+            if (!end) return false;
+            if (!end->well()) failure = "the estimator " + in_words(*end);
+        } catch (const InputError& error) {
+            failure = error.what();
+        }
+        const bool complete =
+            command_.takes_frames() && whole_outputs(folder_->output()).size() >= colour_.count();
+        if (failure.empty() || complete) return true;
+        failure += how_far(command_, *folder_, colour_.count());
+        if (!run.last_line().empty())
+            failure += "; it said last: " + in_quotes(run.last_line(), 160);
+        if (fs::exists(folder_->said()) && fs::file_size(folder_->said()) > 0)
+            failure += "; all it said is in " + folder_->said().string();
+        throw InputError(failure);
+    }
+
+    std::optional<DepthEstimate> written() {
+        const DepthWritten written = write_depth(
+            folder_->output(), colour_, request_.meaning.unit.value_or(DepthUnit::levels),
+            folder_->path(), watch_.stopped(), teller(watch_, EstimateStep::checking));
+        if (written.file.empty()) return std::nullopt;
+        const DepthEstimate made = opened({.colour = colour_,
+                                           .command = command_.text(),
+                                           .depth = written.file.filename().string(),
+                                           .levels = written.levels},
+                                          false);
+        folder_->drop_work();
+        return made;
+    }
+
+    /// What is said of it now, else the last time, goes into a sidecar.
+    DepthEstimate opened(EstimateRecord record, bool kept_before) {
+        DepthStatement said = request_.meaning;
+        said.fill_in(record.said);
+        record.said = said;
+        record.colour.file = fs::absolute(request_.colour);
+        folder_->keep(record);
+        const fs::path depth = folder_->path() / record.depth;
+        write_sidecar(depth, meaning_of(said, record.levels));
+        return {depth, record.colour.count(), kept_before};
+    }
+
+    const EstimateRequest& request_;
+    EstimateWatch& watch_;
+    EstimatorCommand command_;
+    std::unique_ptr<EstimateFolder> folder_{};
+    std::set<std::size_t> done_{};
+    ColourFrames colour_{};
+};
+
+void copy_whole(const fs::path& from, const fs::path& to) {
+    std::ifstream in(from, std::ios::binary);
+    OutputFile out(to);
+    std::string piece(std::size_t{1} << 20, '\0');
+    while (in.read(piece.data(), static_cast<std::streamsize>(piece.size())) || in.gcount() > 0)
+        out.write({piece.data(), static_cast<std::size_t>(in.gcount())});
+    if (!in.eof()) throw InputError(shown(from) + " cannot be read: make the depth again");
+    out.commit();
+}
+
+}  // namespace
+
+std::optional<DepthEstimate> estimate_depth(const EstimateRequest& request, EstimateWatch& watch) {
+    if (request.manner == ChildManner::polite) give_way(0);  // and the decoder's threads
+    try {
+        return Estimation(request, watch).made();
+    } catch (const fs::filesystem_error& error) {
+        throw InputError(one_line(error.what()) + ": make it readable");
+    }
+}
+
+fs::path copy_depth(const DepthEstimate& estimate, const fs::path& colour, const fs::path& out) {
+    const fs::path ending = estimate.depth.extension();
+    fs::path target = out;
+    const bool into_folder = is_folder(out) || !out.has_filename();
+    if (into_folder) {
+        fs::path name = colour.has_filename() ? colour : colour.parent_path();
+        target = out / (name.stem().string() + "_depth" + ending.string());
+    }
+    if (target.extension() != ending)
+        throw InputError("the depth is written as " + ending.string() + ": let the name " +
+                         shown(target) + " end so, or give a folder");
+    std::error_code failed;
+    if (into_folder) fs::create_directories(out, failed);
+    copy_whole(estimate.depth, target);
+    if (const auto meaning = read_sidecar(estimate.depth)) write_sidecar(target, *meaning);
+    return target;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,66 @@
+// Words for it, and the end of a group.
+#include "core/estimate/estimate_watch.hpp"
+
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+
+namespace dibhr {
+
+namespace {
+
+/// "0:12", "1:02:03"
+std::string clock_text(double seconds) {
+    const auto all = static_cast<long>(std::lround(std::max(seconds, 0.0)));
+    char text[32];
+    if (all >= 3600)
+        std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", all / 3600, all / 60 % 60, all % 60);
+    else
+        std::snprintf(text, sizeof text, "%ld:%02ld", all / 60, all % 60);
+    return text;
+}
+
+}  // namespace
+
+std::string in_words(const EstimateProgress& now) {
+    switch (now.step) {
+        case EstimateStep::looking:
+            return "looking at the video";
+        case EstimateStep::giving_frames:
+            return "reading its frames";
+        case EstimateStep::checking:
+            return "checking the depth";
+        case EstimateStep::estimating:
+            break;
+    }
+    std::string words = "estimating";
+    if (now.counted && now.done < now.of)
+        words += " frame " + std::to_string(now.done + 1) + " of " + std::to_string(now.of);
+    if (now.left_s) return words + ", " + clock_text(*now.left_s) + " left";
+    return words + ", " + clock_text(now.elapsed_s);
+}
+
+void EstimateWatch::stop_at_once() noexcept {
+    stop_ = true;
+    const std::scoped_lock lock(mutex_);
+    at_once_ = true;
+    if (group_ > 0) ::kill(-group_, SIGKILL);
+}
+
+void EstimateWatch::tell(const EstimateProgress& progress) {
+    const std::scoped_lock lock(mutex_);
+    progress_ = progress;
+}
+
+EstimateProgress EstimateWatch::progress() const {
+    const std::scoped_lock lock(mutex_);
+    return progress_;
+}
+
+void EstimateWatch::runs(pid_t group) {
+    const std::scoped_lock lock(mutex_);
+    group_ = group;
+    if (group_ > 0 && at_once_) ::kill(-group_, SIGKILL);
+}
+
+}  // namespace dibhr
