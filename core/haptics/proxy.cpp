@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "core/haptics/collision.hpp"
 #include "core/haptics/facet.hpp"
@@ -20,12 +21,37 @@ constexpr int kMostCells = 400;
 /// Nearer to a grid line than this is on it [px]: even up a cliff of 255 px it is no step.
 constexpr double kOnGrid_px = 1e-12;
 
+/// A material point that goes up or down more steeply than this was taken for one of another thing,
+/// in front of it or behind.
+constexpr double kSteepestCarried = 8.0;
+/// What is looked at on its way: half of what a cliff needs to be seen for one.
+constexpr double kCarriedPiece_px = 0.5;
+
+/// Whether the surface has no cliff between two places, seen from above.
+bool is_one_surface(const DepthSurface& surface, Vec2 from, Vec2 to) noexcept {
+    constexpr double kRoundOff_px = 1e-9;
+    const double length = glm::length(to - from);
+    const double pieces = std::ceil(length / kCarriedPiece_px);
+    const double most_px = kSteepestCarried * length / pieces + kRoundOff_px;
+    double last = surface.elevation_at(from.x, from.y);
+    for (double k = 1.0; k <= pieces; ++k) {
+        const Vec2 at = from + k / pieces * (to - from);
+        const double here = surface.elevation_at(at.x, at.y);
+        if (std::abs(here - last) > most_px) return false;
+        last = here;
+    }
+    return true;
+}
+
 }  // namespace
 
 const Proxy& ProxyAlgorithm::update(const DepthSurface& surface, Vec3 goal,
-                                    const Friction& friction) noexcept {
+                                    const Friction& friction, const SurfaceMotion& given) noexcept {
     const Vec3 goal_in_frame = surface.clamped_to_frame(surface.clamped_to_reach(goal));
+    const SurfaceMotion motion = given.over(surface.columns(), surface.rows());
+    carried_px_ = Vec2(0.0);
     if (started_ && surface.columns() == columns_ && surface.rows() == rows_) {
+        if (proxy_.contact && motion.goes_on()) carry(surface, motion);
         follow_surface(surface);
     } else {
         start_above(surface, goal_in_frame);
@@ -34,6 +60,7 @@ const Proxy& ProxyAlgorithm::update(const DepthSurface& surface, Vec3 goal,
     proxy_.bound_met = false;
     walk(surface, goal_in_frame, friction, proxy_);
     proxy_.position = surface.clamped_to_frame(proxy_.position);  // of round-off at the border
+    stand_on_material(motion);
     return proxy_;
 }
 
@@ -43,6 +70,25 @@ void ProxyAlgorithm::start_above(const DepthSurface& surface, Vec3 goal) noexcep
     columns_ = surface.columns();
     rows_ = surface.rows();
     started_ = true;
+}
+
+void ProxyAlgorithm::carry(const DepthSurface& surface, const SurfaceMotion& motion) noexcept {
+    Vec3& p = proxy_.position;
+    const Vec2 here(p);
+    const Vec2 step = material_.step_from(here, motion);
+    if (step == Vec2(0.0) || !(glm::length(step) <= motion.farthest_px())) return;
+    const Vec2 there(surface.clamped_to_frame({here + step, p.z}));
+    if (there == here || !is_one_surface(surface, here, there)) return;
+    carried_px_ = there - here;
+    p = {there, p.z};
+    proxy_.active = surface.triangle_at(p.x, p.y);
+}
+
+void ProxyAlgorithm::stand_on_material(const SurfaceMotion& motion) noexcept {
+    if (proxy_.contact)
+        material_.stand_at(Vec2(proxy_.position), motion);
+    else
+        material_.forget();
 }
 
 void ProxyAlgorithm::follow_surface(const DepthSurface& surface) noexcept {
