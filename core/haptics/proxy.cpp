@@ -60,13 +60,17 @@ const Proxy& ProxyAlgorithm::update(const DepthSurface& surface, Vec3 goal,
     proxy_.bound_met = false;
     walk(surface, goal_in_frame, friction, proxy_);
     proxy_.position = surface.clamped_to_frame(proxy_.position);  // of round-off at the border
-    stand_on_material(motion);
+    if (proxy_.contact)
+        material_.stand_at(Vec2(proxy_.position), motion);
+    else
+        material_.forget();
     return proxy_;
 }
 
 void ProxyAlgorithm::start_above(const DepthSurface& surface, Vec3 goal) noexcept {
     proxy_ = Proxy{};
     proxy_.position = {goal.x, goal.y, std::max(goal.z, surface.elevation_at(goal.x, goal.y))};
+    material_.forget();
     columns_ = surface.columns();
     rows_ = surface.rows();
     started_ = true;
@@ -82,13 +86,6 @@ void ProxyAlgorithm::carry(const DepthSurface& surface, const SurfaceMotion& mot
     carried_px_ = there - here;
     p = {there, p.z};
     proxy_.active = surface.triangle_at(p.x, p.y);
-}
-
-void ProxyAlgorithm::stand_on_material(const SurfaceMotion& motion) noexcept {
-    if (proxy_.contact)
-        material_.stand_at(Vec2(proxy_.position), motion);
-    else
-        material_.forget();
 }
 
 void ProxyAlgorithm::follow_surface(const DepthSurface& surface) noexcept {

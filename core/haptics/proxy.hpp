@@ -51,14 +51,17 @@ class ProxyAlgorithm {
     /// Goes on from where another algorithm left its proxy, on the surface it left it on.
     void resume(const ProxyAlgorithm& other) noexcept { *this = other; }
 
-    /// Goes on from a proxy as an update left it on a surface of that size, in that motion.
+    /// The material point under the proxy.
+    [[nodiscard]] const MaterialPoint& material() const noexcept { return material_; }
+
+    /// Goes on from a proxy as an update left it on a surface of that size, on that point of it.
     void resume(const Proxy& proxy, int columns, int rows,
-                const SurfaceMotion& motion = {}) noexcept {
+                const MaterialPoint& material = {}) noexcept {
         proxy_ = proxy;
         columns_ = columns;
         rows_ = rows;
         started_ = true;
-        stand_on_material(motion.over(columns, rows));
+        material_ = material;
     }
 
   protected:
@@ -71,7 +74,6 @@ class ProxyAlgorithm {
     void start_above(const DepthSurface& surface, Vec3 goal) noexcept;
     void carry(const DepthSurface& surface, const SurfaceMotion& motion) noexcept;
     void follow_surface(const DepthSurface& surface) noexcept;
-    void stand_on_material(const SurfaceMotion& motion) noexcept;
 
     Proxy proxy_{};
     MaterialPoint material_{};  // under it, while it is in contact

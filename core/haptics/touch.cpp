@@ -122,6 +122,7 @@ const Touch& TouchRenderer::update(const DepthSurface& surface, Vec3 hand,
         last_.cut = safety_.last_cut();
         return last_;
     }
+    motion_ = carrying(given, parameters, input);
     const Vec3 goal = surface.clamped_to_reach(hand);
     const Vec3 goal_step = started_ ? goal - last_.goal : Vec3(0.0);
     input.goal_step_mm = glm::length(goal_step) * parameters.coupling.pixel_pitch_mm;
@@ -130,12 +131,11 @@ const Touch& TouchRenderer::update(const DepthSurface& surface, Vec3 hand,
     started_ = true;
 
     const Proxy before = last_.proxy;
-    const SurfaceMotion motion = carrying(given, parameters, input);
     ProxyAlgorithm& algorithm = *algorithms_[static_cast<std::size_t>(running_)];
     last_.goal = goal;
     last_.proxy = algorithm.update(
-        surface, goal, felt_friction(surface, before, goal, parameters.friction), motion);
-    Steps steps{.goal = goal_step, .carries = before.contact && motion.goes_on()};
+        surface, goal, felt_friction(surface, before, goal, parameters.friction), motion_);
+    Steps steps{.goal = goal_step, .carries = before.contact && motion_.goes_on()};
     if (steps.carries || limits.watched.moves())
         steps.rise = rise_under(surface, before, algorithm.carried_px());
     last_.carried = steps.carries ? Vec3(algorithm.carried_px(), steps.rise) : Vec3(0.0);

@@ -1,6 +1,7 @@
 // One haptic update as one sentence: goal -> proxy -> spring force -> safe force.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -84,6 +85,14 @@ class TouchRenderer {
                         SafetyInput input, const SafetyLimits& limits,
                         const SurfaceMotion& motion = {}) noexcept;
 
+    /// What was to carry the proxy in the last update that was made; its field need not be there
+    /// any more.
+    [[nodiscard]] const SurfaceMotion& motion() const noexcept { return motion_; }
+    /// The material point under the proxy after it.
+    [[nodiscard]] const MaterialPoint& material() const noexcept {
+        return algorithms_[static_cast<std::size_t>(running_)]->material();
+    }
+
     /// Forgets everything: the next update is as the first one. No allocation.
     void reset() noexcept;
 
@@ -121,6 +130,7 @@ class TouchRenderer {
     PassivityControl passivity_{};
     SafetyStage safety_{};
     Touch last_{};
+    SurfaceMotion motion_{};
     double felt_share_{1.0};  ///< of the force: less where no surface was ever seen
     bool goes_on_{false};     ///< the next update goes on from the last one: it may carry
     bool started_{false};
