@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "core/haptics/collision.hpp"
 #include "core/haptics/facet.hpp"
@@ -27,20 +28,20 @@ constexpr double kSteepestCarried = 8.0;
 /// What is looked at on its way: half of what a cliff needs to be seen for one.
 constexpr double kCarriedPiece_px = 0.5;
 
-/// Whether the surface has no cliff between two places, seen from above.
-bool is_one_surface(const DepthSurface& surface, Vec2 from, Vec2 to) noexcept {
+/// The elevation at the second of two places, if there is no cliff between them, seen from above.
+std::optional<double> elevation_beyond(const DepthSurface& surface, Vec2 from, Vec2 to) noexcept {
     constexpr double kRoundOff_px = 1e-9;
     const double length = glm::length(to - from);
     const double pieces = std::ceil(length / kCarriedPiece_px);
     const double most_px = kSteepestCarried * length / pieces + kRoundOff_px;
     double last = surface.elevation_at(from.x, from.y);
     for (double k = 1.0; k <= pieces; ++k) {
-        const Vec2 at = from + k / pieces * (to - from);
+        const Vec2 at = k < pieces ? from + k / pieces * (to - from) : to;
         const double here = surface.elevation_at(at.x, at.y);
-        if (std::abs(here - last) > most_px) return false;
+        if (std::abs(here - last) > most_px) return std::nullopt;
         last = here;
     }
-    return true;
+    return last;
 }
 
 }  // namespace
@@ -49,10 +50,12 @@ const Proxy& ProxyAlgorithm::update(const DepthSurface& surface, Vec3 goal,
                                     const Friction& friction, const SurfaceMotion& given) noexcept {
     const Vec3 goal_in_frame = surface.clamped_to_frame(surface.clamped_to_reach(goal));
     const SurfaceMotion motion = given.over(surface.columns(), surface.rows());
-    carried_px_ = Vec2(0.0);
+    carried_px_ = Vec3(0.0);
     if (started_ && surface.columns() == columns_ && surface.rows() == rows_) {
-        if (proxy_.contact && motion.goes_on()) carry(surface, motion);
-        follow_surface(surface);
+        const Vec3 before = proxy_.position;
+        const bool goes_along = proxy_.contact && motion.goes_on();
+        if (!goes_along || !carry(surface, motion)) follow_surface(surface);
+        if (goes_along) carried_px_ = proxy_.position - before;
     } else {
         start_above(surface, goal_in_frame);
     }
@@ -76,16 +79,18 @@ void ProxyAlgorithm::start_above(const DepthSurface& surface, Vec3 goal) noexcep
     started_ = true;
 }
 
-void ProxyAlgorithm::carry(const DepthSurface& surface, const SurfaceMotion& motion) noexcept {
+bool ProxyAlgorithm::carry(const DepthSurface& surface, const SurfaceMotion& motion) noexcept {
     Vec3& p = proxy_.position;
     const Vec2 here(p);
     const Vec2 step = material_.step_from(here, motion);
-    if (step == Vec2(0.0) || !(glm::length(step) <= motion.farthest_px())) return;
+    if (step == Vec2(0.0) || !(glm::length(step) <= motion.farthest_px())) return false;
     const Vec2 there(surface.clamped_to_frame({here + step, p.z}));
-    if (there == here || !is_one_surface(surface, here, there)) return;
-    carried_px_ = there - here;
-    p = {there, p.z};
+    if (there == here) return false;
+    const std::optional<double> elevation = elevation_beyond(surface, here, there);
+    if (!elevation) return false;
+    p = {there, *elevation};
     proxy_.active = surface.triangle_at(p.x, p.y);
+    return true;
 }
 
 void ProxyAlgorithm::follow_surface(const DepthSurface& surface) noexcept {

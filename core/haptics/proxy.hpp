@@ -42,8 +42,9 @@ class ProxyAlgorithm {
     const Proxy& update(const DepthSurface& surface, Vec3 goal, const Friction& friction,
                         const SurfaceMotion& motion = {}) noexcept;
 
-    /// How far the last update carried the proxy in the picture plane, before anything else [px].
-    [[nodiscard]] Vec2 carried_px() const noexcept { return carried_px_; }
+    /// How far the last update carried a proxy in contact, before anything else [px]: in the
+    /// picture plane, and as far as the surface rose with it.
+    [[nodiscard]] Vec3 carried_px() const noexcept { return carried_px_; }
 
     /// Forgets everything: the next update is a first one.
     void reset() noexcept { started_ = false; }
@@ -72,12 +73,13 @@ class ProxyAlgorithm {
 
   private:
     void start_above(const DepthSurface& surface, Vec3 goal) noexcept;
-    void carry(const DepthSurface& surface, const SurfaceMotion& motion) noexcept;
+    /// False: it stays where it is in the picture plane.
+    bool carry(const DepthSurface& surface, const SurfaceMotion& motion) noexcept;
     void follow_surface(const DepthSurface& surface) noexcept;
 
     Proxy proxy_{};
     MaterialPoint material_{};  // under it, while it is in contact
-    Vec2 carried_px_{0.0};
+    Vec3 carried_px_{0.0};
     int columns_{0};
     int rows_{0};
     bool started_{false};

@@ -135,10 +135,13 @@ auto PassivityControl::account_for(const Tick& tick, Vec3 along,
     // Both with the stiffness of now: one that is changed by a person creates nothing.
     const double stored = spring_energy(length_mm, stiffness, tick.max_force_newton) -
                           spring_energy(length_mm_, stiffness, tick.max_force_newton);
+    const double rubbed =
+        spring_energy(glm::length(tick.lag_mm - tick.slid_mm), stiffness, tick.max_force_newton) -
+        spring_energy(length_mm, stiffness, tick.max_force_newton);
     const double worked = glm::dot(acting(tick.dt_s, device.delay_s), tick.goal_step_mm);
     length_mm_ = length_mm;
     pull_newton_ = pull;
-    return {worked + stored - from_video, from_video};
+    return {worked + stored - from_video + rubbed, from_video};
 }
 
 Vec3 PassivityControl::force_after(const Tick& tick, const DeviceDynamics& device) noexcept {

@@ -123,6 +123,9 @@ class PassivityControl {
         double stiffness_newton_per_mm{0.0};
         double max_force_newton{0.0};  ///< the spring pulls no harder
         Vec3 video_step_mm{0.0};       ///< of the felt surface under the proxy
+        /// How far a proxy that was carried in the picture plane then went its own way: what
+        /// friction takes there is the video's, and hides nothing that rendering creates.
+        Vec3 slid_mm{0.0};
     };
 
     /// What the controller adds to the force [N].

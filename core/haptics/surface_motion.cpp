@@ -10,7 +10,7 @@ namespace dibhr {
 namespace {
 
 constexpr int kMostRounds = 8;
-constexpr double kFound_px = 1e-9;
+constexpr double kFound_px = 1e-7;
 constexpr double kLongestTick_s = 0.020;  // a longer one is late: no force follows it
 
 bool is_finite(Vec2 v) noexcept {

@@ -16,15 +16,17 @@ namespace dibhr {
 
 namespace {
 
-/// How far the surface has moved under the proxy of the last update, which it has carried so far
-/// since, or through it from below [px].
-double rise_under(const DepthSurface& surface, const Proxy& proxy, Vec2 carried_px) noexcept {
+/// A rise of the surface under the proxy of the last update [px], or 0.
+double rise_of(const Proxy& proxy, double rise_px) noexcept {
     constexpr double kRoundOff_px = 1e-6;  // of a proxy on a still surface
     if (proxy.bound_met) return 0.0;       // it is still on its way
-    const Vec2 place = Vec2(proxy.position) + carried_px;
-    const double rise = surface.elevation_at(place.x, place.y) - proxy.position.z;
-    const bool moved = std::abs(rise) > kRoundOff_px && (proxy.contact || rise > 0.0);
-    return moved ? rise : 0.0;
+    return std::abs(rise_px) > kRoundOff_px && (proxy.contact || rise_px > 0.0) ? rise_px : 0.0;
+}
+
+/// How far the surface has moved under it, or through it from below [px].
+double rise_under(const DepthSurface& surface, const Proxy& proxy) noexcept {
+    const Vec3& p = proxy.position;
+    return rise_of(proxy, surface.elevation_at(p.x, p.y) - p.z);
 }
 
 }  // namespace
@@ -136,9 +138,14 @@ const Touch& TouchRenderer::update(const DepthSurface& surface, Vec3 hand,
     last_.proxy = algorithm.update(
         surface, goal, felt_friction(surface, before, goal, parameters.friction), motion_);
     Steps steps{.goal = goal_step, .carries = before.contact && motion_.goes_on()};
-    if (steps.carries || limits.watched.moves())
-        steps.rise = rise_under(surface, before, algorithm.carried_px());
-    last_.carried = steps.carries ? Vec3(algorithm.carried_px(), steps.rise) : Vec3(0.0);
+    if (steps.carries)
+        steps.rise = rise_of(before, algorithm.carried_px().z);
+    else if (limits.watched.moves())
+        steps.rise = rise_under(surface, before);
+    const Vec2 along = steps.carries ? Vec2(algorithm.carried_px()) : Vec2(0.0);
+    last_.carried = steps.carries ? Vec3(along, steps.rise) : Vec3(0.0);
+    if (along != Vec2(0.0))
+        steps.slid = last_.proxy.position - before.position - algorithm.carried_px();
     fade_unseen(surface, parameters.coupling.unseen_share, input.dt_s);
     if (felt_share_ == 0.0) last_.proxy.contact = false;
     const Coupling coupling = felt_coupling(surface, last_.proxy, parameters.coupling, limits);
@@ -209,7 +216,8 @@ Vec3 TouchRenderer::rendered_force(const Steps& steps, const Coupling& coupling,
                                       .lag_mm = (proxy.position - felt_from) * mm,
                                       .stiffness_newton_per_mm = coupling.stiffness_newton_per_mm,
                                       .max_force_newton = limits.max_force_newton,
-                                      .video_step_mm = felt_step * mm};
+                                      .video_step_mm = felt_step * mm,
+                                      .slid_mm = steps.slid * mm};
     return force + passivity_.force_after(tick, device);
 }
 

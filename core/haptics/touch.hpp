@@ -111,6 +111,7 @@ class TouchRenderer {
         Vec3 goal{0.0};
         double rise{0.0};     ///< of the surface under the proxy
         bool carries{false};  ///< it takes the proxy along
+        Vec3 slid{0.0};       ///< of a proxy that was: afterwards, by itself
     };
 
     /// The spring and damper's force, with what keeps it stable.
