@@ -226,6 +226,7 @@ int run_replay(CLI::App& app, const Arguments& arguments) {
     add_session(app, options.session);
     add_touch_options(app, options.touch);
     add_algorithms_option(app, options.algorithms);
+    add_carry_option(app, options.touch.given, "as recorded");
     add_file(app, "--csv", options.csv, "Writes the rows of one run; - is standard output");
     app.add_flag("--any-media", options.any_media,
                  "Also over a video or bump map that has changed since");

@@ -16,6 +16,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/haptics/touch.hpp"
 #include "core/video/depth_in_time.hpp"
+#include "core/video/motion/motion_track.hpp"
 #include "device/goal_stream.hpp"
 
 namespace dibhr {
@@ -26,6 +27,7 @@ constexpr double kUsualTick_s = 0.001;
 
 struct TouchOptions {
     std::filesystem::path depth{};
+    std::filesystem::path colour{};  ///< for what moves; empty: none
     std::filesystem::path goals{};
     std::filesystem::path out{"-"};  ///< "-": standard output
     bool video{false};               ///< frames blended in time; false: the first image
@@ -55,11 +57,14 @@ class TouchRun {
 
   private:
     static DepthInTime opened(const TouchOptions& options, TouchParameters& parameters) {
-        auto media = open_depth(options.depth, options.touch.depth_request());
+        const DepthRequest request = options.touch.depth_request();
+        auto media = options.colour.empty() ? open_depth(options.depth, request)
+                                            : open_media(options.colour, options.depth, request);
         print_warning(media->description().notice);
         options.touch.given.fit(media->description(), options.touch.raw_depth, parameters);
         const CleaningOptions cleaning = options.touch.cleaning(parameters, media->description());
-        if (cleaning.preset == CleaningPreset::own && cleaning.own.colour_edges)
+        if (cleaning.preset == CleaningPreset::own && cleaning.own.colour_edges &&
+            options.colour.empty())
             print_warning(shown(options.depth) +
                           " is to be cut along the colour's edges, which touch does not look at: "
                           "its silhouettes are those of the depth alone");
@@ -72,11 +77,13 @@ class TouchRun {
         // Recorded hands have equal time stamps: still an update, of the usual length.
         const double step_s = last_t_s_ ? goal.t_s - *last_t_s_ : 0.0;
         input_.dt_s = step_s > 0.0 ? step_s : kUsualTick_s;
-        const DepthSurface surface = depth_.now().surface(parameters_.shape, bump_.get());
+        const DepthBlend pair = depth_.now();
+        const DepthSurface surface = pair.surface(parameters_.shape, bump_.get());
+        const SurfaceMotion motion = track_.go_on_to(pair, pair.from->motion.get(), input_.dt_s);
 
         const auto start = std::chrono::steady_clock::now();
         const Touch& touch =
-            renderer_.update(surface, goal.goal_in_grid, parameters_, input_, limits_);
+            renderer_.update(surface, goal.goal_in_grid, parameters_, input_, limits_, motion);
         const auto end = std::chrono::steady_clock::now();
 
         if (touch.proxy.bound_met) ++bounds_met_;
@@ -90,6 +97,7 @@ class TouchRun {
     DepthInTime depth_;
     std::shared_ptr<const BumpMap> bump_;
     TouchRenderer renderer_{};
+    MotionTrack track_{};
     SafetyInput input_{};
     SafetyLimits limits_{};
     std::optional<double> last_t_s_{};
@@ -99,7 +107,8 @@ class TouchRun {
 void touch_all(const TouchOptions& options) {
     const std::vector<TimedGoal> goals = read_goals(options.goals);
     TouchRun run(options);
-    RowFile out(options.out, {options.depth, options.goals, options.touch.given.bump_file()},
+    RowFile out(options.out,
+                {options.depth, options.colour, options.goals, options.touch.given.bump_file()},
                 "is also read by this command; give --out another name");
     std::vector<OutputRow> rows;
     rows.reserve(kBlockRows);
@@ -127,14 +136,21 @@ int run_touch(CLI::App& app, const Arguments& arguments) {
     add_file(app, "--out", options.out, "One row an update; - is standard output", "OUT.csv")
         ->default_str("-");
     app.add_flag("--video", options.video, "Blends the frames in time; else the first image");
+    add_file(app, "--color", options.colour,
+             "Colour of the same view: by it is found what moves, and where silhouettes are",
+             "FILE");
     add_algorithm_option(app, options.touch.given);
+    add_carry_option(app, options.touch.given, "off");
     add_touch_options(app, options.touch);
     app.footer(
         "Examples:\n"
         "  dibhr touch --depth depth.png --goals goals.csv --out touched.csv\n"
-        "  dibhr touch --depth depth.mp4 --video --goals goals.csv --friction 0.2 | head");
+        "  dibhr touch --depth depth.mp4 --video --goals goals.csv --friction 0.2 | head\n"
+        "  dibhr touch --depth depth.mp4 --video --color color.mp4 --carry on --goals goals.csv");
     if (!parse(app, arguments)) return 0;
     options.touch.given.apply(options.parameters);
+    if (options.parameters.carry && !options.video)
+        print_warning("--carry on changes nothing over a picture that stands still; give --video");
     print_warning(roughness_warning(options.touch.given, !options.touch.given.bump_file().empty()));
     touch_all(options);
     return 0;

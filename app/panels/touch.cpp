@@ -193,6 +193,9 @@ void draw_touch_panel(ViewerState& state) {
     draw_held_coupling(state);
     draw_stability(state);
     draw_numbers(TouchTopic::friction, state.settings.touch);
+    flag_row("Carried along", state.settings.touch.carry, Settings{}.touch.carry,
+             "What moves in the video takes along what touches it: friction and damping are of the "
+             "difference of the two speeds (--carry)");
     draw_bump(state);
     draw_numbers(TouchTopic::texture, state.settings.touch);
     if (!state.bump && !state.replay) quiet_text("Roughness needs a bump map to be felt.");

@@ -255,6 +255,7 @@ void GivenParameters::apply_texture(TouchParameters& parameters) const {
 
 void GivenParameters::apply(TouchParameters& parameters) const {
     if (algorithm) parameters.algorithm = *algorithm;
+    if (carry) parameters.carry = *carry;
     if (material) lay(*material, parameters);
     if (friction) parameters.friction = {*friction, *friction};
     for (const auto& [option, value] : numbers) option->in(parameters) = value;
@@ -364,6 +365,13 @@ void add_algorithm_option(CLI::App& app, GivenParameters& given) {
            "How the proxy follows the goal: " + names_of(all_algorithms()))
         ->type_name("NAME")
         ->default_str("dibhr");
+}
+
+void add_carry_option(CLI::App& app, GivenParameters& given, const std::string& otherwise) {
+    add_on_off_option(app, "--carry",
+                      "on: what moves in the video takes along the proxy that touches it",
+                      given.carry)
+        ->default_str(otherwise);
 }
 
 void add_level_options(CLI::App& app, DepthStatement& depth) {

@@ -32,6 +32,7 @@ class UsageError : public Error {
 /// they beat what a settings file or the program's defaults say.
 struct GivenParameters {
     std::optional<Algorithm> algorithm{};
+    std::optional<bool> carry{};         ///< --carry
     std::optional<Material> material{};  ///< --material; numbers given by themselves win
     std::string bump{};                  ///< --bump IMAGE, instead of the material's; empty: none
     std::vector<std::pair<const TouchNumber*, double>> numbers{};
@@ -103,6 +104,10 @@ CLI::Option* add_touch_option(CLI::App& app, const TouchNumber& number, const st
 
 /// --algorithm NAME. `given` must outlive the parsing of `app`.
 void add_algorithm_option(CLI::App& app, GivenParameters& given);
+
+/// --carry on|off; `otherwise` is what it is when it is not given. `given` must outlive the parsing
+/// of `app`.
+void add_carry_option(CLI::App& app, GivenParameters& given, const std::string& otherwise);
 
 /// --algorithm NAME, several times. `algorithms` must outlive the parsing of `app`.
 void add_algorithms_option(CLI::App& app, std::vector<Algorithm>& algorithms);

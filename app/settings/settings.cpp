@@ -466,6 +466,7 @@ std::vector<Setting> list_of(Settings& s) {
                               {"panels", "loop", &s.panels.loop},
                               {"panels", "paint", &s.panels.paint},
                               {"touch", "algorithm", &s.touch.algorithm},
+                              {"touch", "carry", &s.touch.carry},
                               {"touch", "material", &s.material},
                               {"touch", "stability", &s.stability},
                               {"touch", "damping-as-needed", &s.damping_as_needed},

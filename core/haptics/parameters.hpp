@@ -65,6 +65,8 @@ struct TouchParameters {
     SurfaceShape shape{};
     Friction friction{};
     Coupling coupling{};
+    /// A proxy is carried along by what it touches (README.md, Carried by what moves).
+    bool carry{false};
 
     bool operator==(const TouchParameters&) const = default;
 };

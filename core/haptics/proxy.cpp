@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
 
 #include "core/haptics/collision.hpp"
 #include "core/haptics/facet.hpp"
@@ -20,13 +22,40 @@ constexpr int kMostCells = 400;
 /// Nearer to a grid line than this is on it [px]: even up a cliff of 255 px it is no step.
 constexpr double kOnGrid_px = 1e-12;
 
+/// A material point that goes up or down more steeply than this was taken for one of another thing,
+/// in front of it or behind.
+constexpr double kSteepestCarried = 8.0;
+/// What is looked at on its way: half of what a cliff needs to be seen for one.
+constexpr double kCarriedPiece_px = 0.5;
+
+/// The elevation at the second of two places, if there is no cliff between them, seen from above.
+std::optional<double> elevation_beyond(const DepthSurface& surface, Vec2 from, Vec2 to) noexcept {
+    constexpr double kRoundOff_px = 1e-9;
+    const double length = glm::length(to - from);
+    const double pieces = std::ceil(length / kCarriedPiece_px);
+    const double most_px = kSteepestCarried * length / pieces + kRoundOff_px;
+    double last = surface.elevation_at(from.x, from.y);
+    for (double k = 1.0; k <= pieces; ++k) {
+        const Vec2 at = k < pieces ? from + k / pieces * (to - from) : to;
+        const double here = surface.elevation_at(at.x, at.y);
+        if (std::abs(here - last) > most_px) return std::nullopt;
+        last = here;
+    }
+    return last;
+}
+
 }  // namespace
 
 const Proxy& ProxyAlgorithm::update(const DepthSurface& surface, Vec3 goal,
-                                    const Friction& friction) noexcept {
+                                    const Friction& friction, const SurfaceMotion& given) noexcept {
     const Vec3 goal_in_frame = surface.clamped_to_frame(surface.clamped_to_reach(goal));
+    const SurfaceMotion motion = given.over(surface.columns(), surface.rows());
+    carried_px_ = Vec3(0.0);
     if (started_ && surface.columns() == columns_ && surface.rows() == rows_) {
-        follow_surface(surface);
+        const Vec3 before = proxy_.position;
+        const bool goes_along = proxy_.contact && motion.goes_on();
+        if (!goes_along || !carry(surface, motion)) follow_surface(surface);
+        if (goes_along) carried_px_ = proxy_.position - before;
     } else {
         start_above(surface, goal_in_frame);
     }
@@ -34,15 +63,34 @@ const Proxy& ProxyAlgorithm::update(const DepthSurface& surface, Vec3 goal,
     proxy_.bound_met = false;
     walk(surface, goal_in_frame, friction, proxy_);
     proxy_.position = surface.clamped_to_frame(proxy_.position);  // of round-off at the border
+    if (proxy_.contact)
+        material_.stand_at(Vec2(proxy_.position), motion);
+    else
+        material_.forget();
     return proxy_;
 }
 
 void ProxyAlgorithm::start_above(const DepthSurface& surface, Vec3 goal) noexcept {
     proxy_ = Proxy{};
     proxy_.position = {goal.x, goal.y, std::max(goal.z, surface.elevation_at(goal.x, goal.y))};
+    material_.forget();
     columns_ = surface.columns();
     rows_ = surface.rows();
     started_ = true;
+}
+
+bool ProxyAlgorithm::carry(const DepthSurface& surface, const SurfaceMotion& motion) noexcept {
+    Vec3& p = proxy_.position;
+    const Vec2 here(p);
+    const Vec2 step = material_.step_from(here, motion);
+    if (step == Vec2(0.0) || !(glm::length(step) <= motion.farthest_px())) return false;
+    const Vec2 there(surface.clamped_to_frame({here + step, p.z}));
+    if (there == here) return false;
+    const std::optional<double> elevation = elevation_beyond(surface, here, there);
+    if (!elevation) return false;
+    p = {there, *elevation};
+    proxy_.active = surface.triangle_at(p.x, p.y);
+    return true;
 }
 
 void ProxyAlgorithm::follow_surface(const DepthSurface& surface) noexcept {

@@ -3,6 +3,7 @@
 
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/surface.hpp"
+#include "core/haptics/surface_motion.hpp"
 #include "core/haptics/vec.hpp"
 
 namespace dibhr {
@@ -36,8 +37,14 @@ class ProxyAlgorithm {
 
     /// Moves the proxy towards `goal` over `surface`, which may have moved since the last update.
     /// The goal must be finite; one beyond all reach counts as at its limit. The first update
-    /// starts the proxy above the goal, in free space.
-    const Proxy& update(const DepthSurface& surface, Vec3 goal, const Friction& friction) noexcept;
+    /// starts the proxy above the goal, in free space. A proxy in contact is first carried along by
+    /// the material point that it was on after the last update.
+    const Proxy& update(const DepthSurface& surface, Vec3 goal, const Friction& friction,
+                        const SurfaceMotion& motion = {}) noexcept;
+
+    /// How far the last update carried a proxy in contact, before anything else [px]: in the
+    /// picture plane, and as far as the surface rose with it.
+    [[nodiscard]] Vec3 carried_px() const noexcept { return carried_px_; }
 
     /// Forgets everything: the next update is a first one.
     void reset() noexcept { started_ = false; }
@@ -45,12 +52,17 @@ class ProxyAlgorithm {
     /// Goes on from where another algorithm left its proxy, on the surface it left it on.
     void resume(const ProxyAlgorithm& other) noexcept { *this = other; }
 
-    /// Goes on from a proxy as an update left it on a surface of that size.
-    void resume(const Proxy& proxy, int columns, int rows) noexcept {
+    /// The material point under the proxy.
+    [[nodiscard]] const MaterialPoint& material() const noexcept { return material_; }
+
+    /// Goes on from a proxy as an update left it on a surface of that size, on that point of it.
+    void resume(const Proxy& proxy, int columns, int rows,
+                const MaterialPoint& material = {}) noexcept {
         proxy_ = proxy;
         columns_ = columns;
         rows_ = rows;
         started_ = true;
+        material_ = material;
     }
 
   protected:
@@ -61,9 +73,13 @@ class ProxyAlgorithm {
 
   private:
     void start_above(const DepthSurface& surface, Vec3 goal) noexcept;
+    /// False: it stays where it is in the picture plane.
+    bool carry(const DepthSurface& surface, const SurfaceMotion& motion) noexcept;
     void follow_surface(const DepthSurface& surface) noexcept;
 
     Proxy proxy_{};
+    MaterialPoint material_{};  // under it, while it is in contact
+    Vec3 carried_px_{0.0};
     int columns_{0};
     int rows_{0};
     bool started_{false};

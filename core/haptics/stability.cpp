@@ -130,15 +130,18 @@ auto PassivityControl::account_for(const Tick& tick, Vec3 along,
                                    const DeviceDynamics& device) noexcept -> Energy {
     const double stiffness = tick.stiffness_newton_per_mm;
     const double length_mm = glm::length(tick.lag_mm);
-    const double lift = std::min(stiffness * length_mm, tick.max_force_newton) * along.z;
-    const double from_video = 0.5 * (lift_newton_ + lift) * tick.video_rise_mm;
+    const Vec3 pull = std::min(stiffness * length_mm, tick.max_force_newton) * along;
+    const double from_video = 0.5 * glm::dot(pull_newton_ + pull, tick.video_step_mm);
     // Both with the stiffness of now: one that is changed by a person creates nothing.
     const double stored = spring_energy(length_mm, stiffness, tick.max_force_newton) -
                           spring_energy(length_mm_, stiffness, tick.max_force_newton);
+    const double rubbed =
+        spring_energy(glm::length(tick.lag_mm - tick.slid_mm), stiffness, tick.max_force_newton) -
+        spring_energy(length_mm, stiffness, tick.max_force_newton);
     const double worked = glm::dot(acting(tick.dt_s, device.delay_s), tick.goal_step_mm);
     length_mm_ = length_mm;
-    lift_newton_ = lift;
-    return {worked + stored - from_video, from_video};
+    pull_newton_ = pull;
+    return {worked + stored - from_video + rubbed, from_video};
 }
 
 Vec3 PassivityControl::force_after(const Tick& tick, const DeviceDynamics& device) noexcept {
@@ -172,7 +175,8 @@ void PassivityControl::pass(double dt_s) noexcept {
     quick_velocity_.forget();
     steady_velocity_.forget();
     rest_ = {};
-    lift_newton_ = length_mm_ = owed_mj_ = 0.0;
+    pull_newton_ = Vec3(0.0);
+    length_mm_ = owed_mj_ = 0.0;
     follow_flow({}, dt_s);
 }
 

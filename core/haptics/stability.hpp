@@ -122,7 +122,10 @@ class PassivityControl {
         Vec3 lag_mm{0.0};  ///< from the goal to where the spring pulls it
         double stiffness_newton_per_mm{0.0};
         double max_force_newton{0.0};  ///< the spring pulls no harder
-        double video_rise_mm{0.0};     ///< of the felt surface under the proxy, elevation
+        Vec3 video_step_mm{0.0};       ///< of the felt surface under the proxy
+        /// How far a proxy that was carried in the picture plane then went its own way: what
+        /// friction takes there is the video's, and hides nothing that rendering creates.
+        Vec3 slid_mm{0.0};
     };
 
     /// What the controller adds to the force [N].
@@ -158,8 +161,8 @@ class PassivityControl {
     AdaptiveWindow quick_velocity_{0.5};  // hardly late, but of steps: what is damped against
     AdaptiveWindow steady_velocity_{};
     RestWatch rest_{};
-    double lift_newton_{0.0};  // of the spring, elevation, in the tick before
-    double length_mm_{0.0};    // and how long it was
+    Vec3 pull_newton_{0.0};  // of the spring on the hand, in the tick before
+    double length_mm_{0.0};  // and how long it was
     double owed_mj_{0.0};
     EnergyFlow flow_{};
 };

@@ -1,9 +1,11 @@
-// How what is seen moves in the picture plane while one depth image becomes the next: which way a
-// material point that is touched goes.
+// How what is seen moves in the picture plane while one depth image becomes the next, and which way
+// a material point that is touched goes. README.md, Carried by what moves.
 #pragma once
 
 #include <cstddef>
 #include <vector>
+
+#include "core/haptics/vec.hpp"
 
 namespace dibhr {
 
@@ -27,6 +29,54 @@ struct MotionField {
         return ways[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) +
                     static_cast<std::size_t>(i)];
     }
+};
+
+/// What moves between two depth images, as one update sees it. A view that owns nothing: the field
+/// must outlive the update and stay as it is. As it is by default, nothing is carried.
+struct SurfaceMotion {
+    /// From the one image to the other; null, or of another size than they are: nothing is known.
+    const MotionField* field{nullptr};
+    /// Where the last update was on the way from the one to the other, 0 to 1.
+    double from_blend{0.0};
+    double to_blend{0.0};  ///< where this one is
+    /// The last update was on the way to the first of the two: `from_blend` is on that way.
+    bool crossed{false};
+    double dt_s{0.001};  ///< since the last update
+
+    /// The same, of an update that does not go on from the last one.
+    [[nodiscard]] SurfaceMotion begun_anew() const noexcept {
+        return {field, to_blend, to_blend, false, dt_s};
+    }
+    /// There may be something to carry: the update goes on from one before it.
+    [[nodiscard]] bool goes_on() const noexcept {
+        return field != nullptr && (crossed || from_blend != to_blend);
+    }
+    /// The same between images of that size: without a field that is not.
+    [[nodiscard]] SurfaceMotion over(int columns, int rows) const noexcept;
+    /// No material point goes farther in this time [px]: a flow that says so is mistaken. That is a
+    /// hand's speed, the paper's 4961 px/s.
+    [[nodiscard]] double farthest_px() const noexcept;
+};
+
+inline constexpr double kFastestCarried_px_per_s = 5000.0;
+
+/// The material point that lies under a proxy. It goes straight from where it is in one image to
+/// where it is in the next: after a share b of the time it is at p + b F(p), F the field, bilinear
+/// between pixels. So where it is between two images does not depend on when it was asked for.
+class MaterialPoint {
+  public:
+    /// How far it goes from `place`, where it was at the last update, to where it is in this one
+    /// [px]. Always finite; exactly 0 where nothing is known.
+    [[nodiscard]] Vec2 step_from(Vec2 place, const SurfaceMotion& motion) noexcept;
+
+    /// It is another one: that which is at `place` in this update.
+    void stand_at(Vec2 place, const SurfaceMotion& motion) noexcept;
+
+    /// There is none, or nothing is known of it.
+    void forget() noexcept { way_px_ = Vec2(0.0); }
+
+  private:
+    Vec2 way_px_{0.0};  ///< of it from the one image to the other
 };
 
 }  // namespace dibhr

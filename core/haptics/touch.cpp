@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "core/haptics/dibhr.hpp"
 #include "core/haptics/god_object.hpp"
@@ -12,6 +13,23 @@
 #include "core/haptics/pga.hpp"
 
 namespace dibhr {
+
+namespace {
+
+/// A rise of the surface under the proxy of the last update [px], or 0.
+double rise_of(const Proxy& proxy, double rise_px) noexcept {
+    constexpr double kRoundOff_px = 1e-6;  // of a proxy on a still surface
+    if (proxy.bound_met) return 0.0;       // it is still on its way
+    return std::abs(rise_px) > kRoundOff_px && (proxy.contact || rise_px > 0.0) ? rise_px : 0.0;
+}
+
+/// How far the surface has moved under it, or through it from below [px].
+double rise_under(const DepthSurface& surface, const Proxy& proxy) noexcept {
+    const Vec3& p = proxy.position;
+    return rise_of(proxy, surface.elevation_at(p.x, p.y) - p.z);
+}
+
+}  // namespace
 
 Vec3 coupling_force(const Proxy& proxy, Vec3 goal, Vec3 goal_velocity,
                     const Coupling& coupling) noexcept {
@@ -68,17 +86,19 @@ void TouchRenderer::reset() noexcept {
     safety_ = {};
     last_ = {};
     felt_share_ = 1.0;
-    started_ = false;
+    goes_on_ = started_ = false;
 }
 
 void TouchRenderer::let_go() noexcept {
     algorithms_[static_cast<std::size_t>(running_)]->reset();
+    goes_on_ = false;
 }
 
 void TouchRenderer::pause() noexcept {
     goal_velocity_.forget();
     passivity_.sent(Vec3(0.0));
     safety_.drop_to_zero();
+    goes_on_ = false;
 }
 
 bool TouchRenderer::run_with(Algorithm algorithm) noexcept {
@@ -91,16 +111,20 @@ bool TouchRenderer::run_with(Algorithm algorithm) noexcept {
 
 const Touch& TouchRenderer::update(const DepthSurface& surface, Vec3 hand,
                                    const TouchParameters& parameters, SafetyInput input,
-                                   const SafetyLimits& limits) noexcept {
+                                   const SafetyLimits& limits,
+                                   const SurfaceMotion& given) noexcept {
     if (!is_finite(hand)) {
+        goes_on_ = false;
         goal_velocity_.forget();  // the next step takes longer than its tick
         last_.proxy.bound_met = false;
         last_.spring_force_newton = Vec3(0.0);
+        last_.carried = Vec3(0.0);
         last_.sent_force_newton = safety_.limit(Vec3(NAN), input, limits);
         passivity_.sent(Vec3(0.0));
         last_.cut = safety_.last_cut();
         return last_;
     }
+    motion_ = carrying(given, parameters, input);
     const Vec3 goal = surface.clamped_to_reach(hand);
     const Vec3 goal_step = started_ ? goal - last_.goal : Vec3(0.0);
     input.goal_step_mm = glm::length(goal_step) * parameters.coupling.pixel_pitch_mm;
@@ -108,21 +132,38 @@ const Touch& TouchRenderer::update(const DepthSurface& surface, Vec3 hand,
     input.from_zero = input.from_zero || changed || !started_;
     started_ = true;
 
-    const double rise_px = limits.watched.moves() ? rise_under_proxy(surface) : 0.0;
+    const Proxy before = last_.proxy;
+    ProxyAlgorithm& algorithm = *algorithms_[static_cast<std::size_t>(running_)];
     last_.goal = goal;
-    last_.proxy = algorithms_[static_cast<std::size_t>(running_)]->update(
-        surface, goal, felt_friction(surface, last_.proxy, goal, parameters.friction));
+    last_.proxy = algorithm.update(
+        surface, goal, felt_friction(surface, before, goal, parameters.friction), motion_);
+    Steps steps{.goal = goal_step, .carries = before.contact && motion_.goes_on()};
+    if (steps.carries)
+        steps.rise = rise_of(before, algorithm.carried_px().z);
+    else if (limits.watched.moves())
+        steps.rise = rise_under(surface, before);
+    const Vec2 along = steps.carries ? Vec2(algorithm.carried_px()) : Vec2(0.0);
+    last_.carried = steps.carries ? Vec3(along, steps.rise) : Vec3(0.0);
+    if (along != Vec2(0.0))
+        steps.slid = last_.proxy.position - before.position - algorithm.carried_px();
     fade_unseen(surface, parameters.coupling.unseen_share, input.dt_s);
     if (felt_share_ == 0.0) last_.proxy.contact = false;
     const Coupling coupling = felt_coupling(surface, last_.proxy, parameters.coupling, limits);
-    last_.spring_force_newton =
-        felt_share_ * rendered_force(goal_step, rise_px, coupling, input, limits);
+    last_.spring_force_newton = felt_share_ * rendered_force(steps, coupling, input, limits);
     last_.sent_force_newton =
         safety_.limit(last_.spring_force_newton + input.device_force_newton, input, limits);
     passivity_.sent(last_.sent_force_newton - input.device_force_newton);
     last_.cut = safety_.last_cut();
     last_.energy = passivity_.flow();
     return last_;
+}
+
+SurfaceMotion TouchRenderer::carrying(SurfaceMotion motion, const TouchParameters& parameters,
+                                      const SafetyInput& input) noexcept {
+    const bool goes_on = std::exchange(goes_on_, true) && !input.from_zero;
+    if (!parameters.carry) return {};
+    motion.dt_s = input.dt_s;
+    return goes_on ? motion : motion.begun_anew();
 }
 
 void TouchRenderer::fade_unseen(const DepthSurface& surface, double unseen_share,
@@ -133,49 +174,50 @@ void TouchRenderer::fade_unseen(const DepthSurface& surface, double unseen_share
     felt_share_ += std::clamp(wanted - felt_share_, -step, step);
 }
 
-double TouchRenderer::rise_under_proxy(const DepthSurface& surface) const noexcept {
-    constexpr double kRoundOff_px = 1e-6;  // of a proxy on a still surface
-    const Proxy& proxy = last_.proxy;
-    if (proxy.bound_met) return 0.0;  // it is still on its way
-    const double rise = surface.elevation_at(proxy.position.x, proxy.position.y) - proxy.position.z;
-    const bool moved = std::abs(rise) > kRoundOff_px && (proxy.contact || rise > 0.0);
-    return moved ? rise : 0.0;
-}
-
-Vec3 TouchRenderer::rendered_force(Vec3 goal_step, double rise_px, const Coupling& coupling,
+Vec3 TouchRenderer::rendered_force(const Steps& steps, const Coupling& coupling,
                                    const SafetyInput& input, const SafetyLimits& limits) noexcept {
     const DeviceDynamics& device = limits.watched;
     const double mm = coupling.pixel_pitch_mm;
     const bool goes_on = !input.from_zero && !goal_jumped(input, limits);
-    if (!goes_on) goal_velocity_.forget();
+    if (!goes_on) {
+        goal_velocity_.forget();
+        surface_velocity_.forget();
+    }
     const double resolution_px = device.moves() ? device.resolution_mm / mm : 0.0;
     const Vec3 velocity =
-        goal_velocity_.after(goal_step, input.dt_s, coupling.damping_cutoff_hz, resolution_px);
+        goal_velocity_.after(steps.goal, input.dt_s, coupling.damping_cutoff_hz, resolution_px);
+    // The hand's, as what carries the proxy sees it; of what does not, the same bits.
+    const auto seen_from = [&](Vec3 carried) {
+        return velocity - surface_velocity_.after(carried, input.dt_s, coupling.damping_cutoff_hz);
+    };
     if (!device.moves()) {
         video_motion_.forget();
         passivity_ = {};
-        return coupling_force(last_.proxy, last_.goal, velocity, coupling);
+        return coupling_force(last_.proxy, last_.goal, seen_from(last_.carried), coupling);
     }
 
     const Proxy& proxy = last_.proxy;
     if (!proxy.contact || !goes_on || !(input.dt_s > 0.0)) {
         video_motion_.forget();
         passivity_.pass(input.dt_s);
-        return coupling_force(proxy, last_.goal, velocity, coupling);
+        return coupling_force(proxy, last_.goal, seen_from(last_.carried), coupling);
     }
-    const double felt_rise_px = video_motion_.followed(rise_px, input.dt_s);
+    const Vec3 felt_step(last_.carried.x, last_.carried.y,
+                         video_motion_.followed(steps.rise, input.dt_s));
     const Vec3 felt_from = last_.goal + Vec3(0.0, 0.0, video_motion_.lag_px());
-    const Vec3 force = coupling_force(proxy, felt_from, velocity, coupling);
+    const Vec3 felt_velocity = seen_from(steps.carries ? felt_step : Vec3(0.0));
+    const Vec3 force = coupling_force(proxy, felt_from, felt_velocity, coupling);
     if (safety_.rising(limits)) {
         passivity_.pass(input.dt_s);
         return force;
     }
     const PassivityControl::Tick tick{.dt_s = input.dt_s,
-                                      .goal_step_mm = goal_step * mm,
+                                      .goal_step_mm = steps.goal * mm,
                                       .lag_mm = (proxy.position - felt_from) * mm,
                                       .stiffness_newton_per_mm = coupling.stiffness_newton_per_mm,
                                       .max_force_newton = limits.max_force_newton,
-                                      .video_rise_mm = felt_rise_px * mm};
+                                      .video_step_mm = felt_step * mm,
+                                      .slid_mm = steps.slid * mm};
     return force + passivity_.force_after(tick, device);
 }
 

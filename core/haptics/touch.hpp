@@ -1,6 +1,7 @@
 // One haptic update as one sentence: goal -> proxy -> spring force -> safe force.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct Touch {
     Vec3 sent_force_newton{0.0};    ///< after it
     SafetyCut cut{SafetyCut::none};
     EnergyFlow energy{};  ///< all zero while no device is watched
+    /// How far what it touches took the proxy along in this update, before it went its own way
+    /// [px]; zero where nothing carries it.
+    Vec3 carried{0.0};
 };
 
 /// Spring to the proxy and damping of the goal's velocity [N]; zero out of contact.
@@ -75,9 +79,19 @@ class TouchRenderer {
     /// One update. A non-finite goal is refused: the last state stands and the force is zero. One
     /// beyond all reach counts as at its limit.
     /// `input.goal_step_mm` is worked out here; another algorithm than before makes the force ramp.
+    /// `motion`: what carries the proxy, if `parameters` say so; its time is that of `input`.
     /// No allocation.
     const Touch& update(const DepthSurface& surface, Vec3 goal, const TouchParameters& parameters,
-                        SafetyInput input, const SafetyLimits& limits) noexcept;
+                        SafetyInput input, const SafetyLimits& limits,
+                        const SurfaceMotion& motion = {}) noexcept;
+
+    /// What was to carry the proxy in the last update that was made; its field need not be there
+    /// any more.
+    [[nodiscard]] const SurfaceMotion& motion() const noexcept { return motion_; }
+    /// The material point under the proxy after it.
+    [[nodiscard]] const MaterialPoint& material() const noexcept {
+        return algorithms_[static_cast<std::size_t>(running_)]->material();
+    }
 
     /// Forgets everything: the next update is as the first one. No allocation.
     void reset() noexcept;
@@ -89,10 +103,19 @@ class TouchRenderer {
     void pause() noexcept;
 
   private:
-    /// How far the surface has moved under the last proxy, or through it from below [px].
-    [[nodiscard]] double rise_under_proxy(const DepthSurface& surface) const noexcept;
+    /// What is to carry the proxy in this update, in which the last one may not be gone on from.
+    [[nodiscard]] SurfaceMotion carrying(SurfaceMotion motion, const TouchParameters& parameters,
+                                         const SafetyInput& input) noexcept;
+    /// What moved in a tick [px].
+    struct Steps {
+        Vec3 goal{0.0};
+        double rise{0.0};     ///< of the surface under the proxy
+        bool carries{false};  ///< it takes the proxy along
+        Vec3 slid{0.0};       ///< of a proxy that was: afterwards, by itself
+    };
+
     /// The spring and damper's force, with what keeps it stable.
-    [[nodiscard]] Vec3 rendered_force(Vec3 goal_step, double rise_px, const Coupling& coupling,
+    [[nodiscard]] Vec3 rendered_force(const Steps& steps, const Coupling& coupling,
                                       const SafetyInput& input,
                                       const SafetyLimits& limits) noexcept;
     /// Moves the share of the force that is felt to what it is at the goal, within a fade.
@@ -103,11 +126,14 @@ class TouchRenderer {
     std::vector<std::unique_ptr<ProxyAlgorithm>> algorithms_{};  ///< by their enumeration
     Algorithm running_{Algorithm::dibhr};
     GoalVelocity goal_velocity_{};
+    GoalVelocity surface_velocity_{};  ///< of what carries the proxy, through the same low-pass
     VideoMotion video_motion_{};
     PassivityControl passivity_{};
     SafetyStage safety_{};
     Touch last_{};
+    SurfaceMotion motion_{};
     double felt_share_{1.0};  ///< of the force: less where no surface was ever seen
+    bool goes_on_{false};     ///< the next update goes on from the last one: it may carry
     bool started_{false};
 };
 

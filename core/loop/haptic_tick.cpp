@@ -96,6 +96,7 @@ void HapticTick::notice_changes(const HapticSettings& settings,
 }
 
 TickRecord HapticTick::touch_nothing() noexcept {
+    track_.forget();
     send_zero_force();
     return {.surface = false};
 }
@@ -105,6 +106,7 @@ void HapticTick::send_zero_force() noexcept {
     renderer_.pause();
     state_.touch.spring_force_newton = Vec3{0.0};
     state_.touch.sent_force_newton = Vec3{0.0};
+    state_.touch.carried = Vec3{0.0};
     from_zero_ = true;
 }
 
@@ -132,8 +134,9 @@ TickRecord HapticTick::touch_surface(const DepthBlend& pair, const HapticSetting
     const DepthSurface surface = pair.surface(state_.shape, settings.bump.get());
     const bool lets_go = hand.lifted || hand.taken_over;
     if (lets_go && state_.touch.proxy.contact) renderer_.let_go();
+    const SurfaceMotion motion = track_.go_on_to(pair, pair.from->motion.get(), timing.dt_s);
     const auto begin = std::chrono::steady_clock::now();
-    state_.touch = renderer_.update(surface, hand.goal_in_grid, parameters, input, limits);
+    state_.touch = renderer_.update(surface, hand.goal_in_grid, parameters, input, limits, motion);
     const double update_us = microseconds(std::chrono::steady_clock::now() - begin);
     to_.device.send(state_.touch.sent_force_newton);
     from_zero_ = false;
@@ -149,7 +152,8 @@ TickRecord HapticTick::touch_surface(const DepthBlend& pair, const HapticSetting
             .lets_go = lets_go,
             .goal_refused = !is_finite(hand.goal_in_grid),
             .gliding = glide_.under_way(),
-            .standstill = standstill_};
+            .standstill = standstill_,
+            .motion_unknown = parameters.carry && motion.field == nullptr};
 }
 
 bool HapticTick::taken_off(const HandReading& hand, const HapticSettings& settings) noexcept {
@@ -185,7 +189,8 @@ void HapticTick::let_hear(const HapticSettings& settings) noexcept {
     if (to_.sound == nullptr) return;
     const Touch& touch = state_.touch;
     const bool may_act = settings.limits.max_force_newton > 0.0 && touch.cut == SafetyCut::none;
-    to_.sound->push({.proxy_mm = pitch_mm_ * touch.proxy.position,
+    carried_px_ += touch.carried;
+    to_.sound->push({.proxy_mm = pitch_mm_ * (touch.proxy.position - carried_px_),
                      .force_newton = glm::length(touch.sent_force_newton),
                      .contact = touch.proxy.contact,
                      .force_on = state_.touchable && may_act});
@@ -204,6 +209,8 @@ void HapticTick::let_follow(const DepthBlend& pair, const HapticSettings& settin
                       .goal = state_.touch.goal,
                       .friction = parameters.friction,
                       .blend = pair.blend,
+                      .motion = renderer_.motion(),
+                      .material = renderer_.material(),
                       .shape = parameters.shape,
                       .bump = settings.bump.get()};
     if (row.surface) {

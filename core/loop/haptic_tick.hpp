@@ -23,6 +23,7 @@
 #include "core/session/tick_record.hpp"
 #include "core/sound/sound_tick.hpp"
 #include "core/video/frame_window.hpp"
+#include "core/video/motion/motion_track.hpp"
 
 namespace dibhr {
 
@@ -112,12 +113,14 @@ class HapticTick {
 
     HapticConnections to_;
     TouchRenderer renderer_{};
+    MotionTrack track_{};
     HapticState state_{};
     ParameterGlide glide_{};
     double pitch_mm_{0.0};
     const BumpMap* bump_{nullptr};  // of the last tick, to be compared alone
     double bump_size_px_{0.0};
     const TouchMaps* maps_{nullptr};  // likewise
+    Vec3 carried_px_{0.0};  // the proxy by what it touches, in all: nothing is heard of it
     std::uint64_t discontinuity_{~0ull};
     std::optional<DeviceLimits> limits_{};  // what the hand of the last reading can stand
     bool from_zero_{true};

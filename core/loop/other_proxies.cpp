@@ -17,7 +17,7 @@ constexpr std::size_t kMostSeen = 3 * FrameWindow::kFrames;
 }  // namespace
 
 FrameMark mark_of(const Frame& frame) noexcept {
-    return {frame.depth.get(), frame.time_s, frame.maps.get()};
+    return {frame.depth.get(), frame.time_s, frame.maps.get(), frame.motion.get()};
 }
 
 OtherProxies::OtherProxies() {
@@ -47,7 +47,7 @@ void OtherProxies::see(const FrameWindow& window) {
     for (std::size_t k = 0; k < std::min(window.count, FrameWindow::kFrames); ++k) {
         const Frame& frame = window.frames[k];
         if (frame.depth && known(mark_of(frame)) == nullptr)
-            seen_.push_back({frame.depth, frame.maps, frame.time_s});
+            seen_.push_back({frame.depth, frame.maps, frame.motion, frame.time_s});
     }
     if (seen_.size() > kMostSeen)
         seen_.erase(seen_.begin(),
@@ -55,9 +55,8 @@ void OtherProxies::see(const FrameWindow& window) {
 }
 
 const OtherProxies::SeenFrame* OtherProxies::known(const FrameMark& mark) const {
-    const auto found = std::find_if(seen_.begin(), seen_.end(), [&mark](const SeenFrame& seen) {
-        return FrameMark{seen.depth.get(), seen.time_s, seen.maps.get()} == mark;
-    });
+    const auto found = std::find_if(seen_.begin(), seen_.end(),
+                                    [&mark](const SeenFrame& seen) { return seen.mark() == mark; });
     return found == seen_.end() ? nullptr : &*found;
 }
 
@@ -86,9 +85,9 @@ void OtherProxies::take(const WalkedTick& tick) {
         if (begun_ && walker.algorithm != tick.algorithm) {
             walker.proxy = walker.walk->update(
                 *surface, tick.goal,
-                felt_friction(*surface, walker.proxy, tick.goal, tick.friction));
+                felt_friction(*surface, walker.proxy, tick.goal, tick.friction), tick.motion);
         } else {
-            walker.walk->resume(tick.proxy, surface->columns(), surface->rows());
+            walker.walk->resume(tick.proxy, surface->columns(), surface->rows(), tick.material);
             walker.proxy = tick.proxy;
         }
     }

@@ -12,6 +12,7 @@
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/proxy.hpp"
 #include "core/haptics/surface.hpp"
+#include "core/haptics/surface_motion.hpp"
 #include "core/haptics/vec.hpp"
 #include "core/realtime/spsc_ring.hpp"
 #include "core/realtime/triple_buffer.hpp"
@@ -24,6 +25,7 @@ struct FrameMark {
     const DepthImage* depth{nullptr};
     double time_s{0.0};
     const TouchMaps* maps{nullptr};
+    const MotionField* motion{nullptr};
 
     bool operator==(const FrameMark&) const = default;
 };
@@ -42,6 +44,8 @@ struct WalkedTick {
     Friction friction{};
     FrameMark from{}, to{};
     double blend{0.0};
+    SurfaceMotion motion{};    ///< what was to carry it; its field is a mark
+    MaterialPoint material{};  ///< under it, afterwards
     SurfaceShape shape{};
     const BumpMap* bump{nullptr};  ///< a mark, too
 };
@@ -79,7 +83,12 @@ class OtherProxies {
     struct SeenFrame {
         std::shared_ptr<const DepthImage> depth{};
         std::shared_ptr<const TouchMaps> maps{};
+        std::shared_ptr<const MotionField> motion{};
         double time_s{0.0};
+
+        [[nodiscard]] FrameMark mark() const noexcept {
+            return {depth.get(), time_s, maps.get(), motion.get()};
+        }
     };
     /// Null: it was never seen, or is forgotten.
     [[nodiscard]] const SeenFrame* known(const FrameMark& mark) const;

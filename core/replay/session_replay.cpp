@@ -53,6 +53,7 @@ bool SessionReplay::next() {
         take_parameters();
         take_frames();
     }
+    take_motion();
     for (Run& run : runs_) update(run);
     return true;
 }
@@ -91,6 +92,20 @@ void SessionReplay::take_frames() {
     }
     touched_ = std::make_shared<const TouchedFrames>(TouchedFrames{std::move(from), std::move(to)});
     pair_ = wanted;
+    field_asked_ = false;
+}
+
+void SessionReplay::take_motion() {
+    if (!tick_.surface) return track_.forget();
+    motion_ = track_.go_on_to({&touched_->from, &touched_->to, tick_.blend}, field(), tick_.dt_s);
+}
+
+const MotionField* SessionReplay::field() {
+    const bool asked = std::any_of(runs_.begin(), runs_.end(),
+                                   [](const Run& run) { return run.parameters.carry; });
+    if (!asked || tick_.motion_unknown) return nullptr;
+    if (!std::exchange(field_asked_, true)) field_ = frames_.motion(touched_->from, touched_->to);
+    return field_.get();
 }
 
 void SessionReplay::update(Run& run) {
@@ -109,8 +124,8 @@ void SessionReplay::update(Run& run) {
     const Vec3 goal = tick_.goal_refused ? Vec3(NAN) : tick_.goal;
     if (tick_.lets_go && run.holds) run.renderer.let_go();
     const auto begin = std::chrono::steady_clock::now();
-    run.touch =
-        run.renderer.update(surface, goal, parameters, safety_input(tick_, *parameters_), limits);
+    run.touch = run.renderer.update(surface, goal, parameters, safety_input(tick_, *parameters_),
+                                    limits, motion_);
     const auto end = std::chrono::steady_clock::now();
     run.update_us = std::chrono::duration<double, std::micro>(end - begin).count();
     run.holds = run.touch.proxy.contact;

@@ -106,6 +106,7 @@ Json parameters_json(const Session& session, SessionParameters parameters) {
         json[std::string(column)] = number;
     });
     json["force_enabled"] = parameters.force_enabled;
+    json["carry"] = parameters.touch.carry;
     json["bump"] = media_json(parameters.bump);
     return json;
 }

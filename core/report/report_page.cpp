@@ -186,7 +186,7 @@ std::string head_of(const TouchNumber& number) {
 Cells parameters_heads() {
     Cells heads{"from [s]", "algorithm"};
     for (const TouchNumber& number : touch_numbers()) heads.push_back(head_of(number));
-    heads.insert(heads.end(), {"bump map", "force limit [N]", "force"});
+    heads.insert(heads.end(), {"bump map", "carried along", "force limit [N]", "force"});
     return heads;
 }
 
@@ -201,9 +201,9 @@ Cells parameters_row(const SessionReport& report, const SessionParameters& param
         const bool named = number.zero != nullptr && !(value > 0.0);
         row.push_back(named ? number.zero : tick_text(value));
     }
-    row.insert(row.end(),
-               {file_cell(parameters.bump), tick_text(parameters.limits.max_force_newton),
-                parameters.force_enabled ? "on" : "off"});
+    row.insert(row.end(), {file_cell(parameters.bump), parameters.touch.carry ? "yes" : "no",
+                           tick_text(parameters.limits.max_force_newton),
+                           parameters.force_enabled ? "on" : "off"});
     return row;
 }
 

@@ -116,7 +116,7 @@ constexpr const char* kTickQuestionOn =
     "FROM tick t LEFT JOIN pair q ON q.id = t.pair LEFT JOIN source s ON s.id = q.source WHERE "
     "t.tick >= ";
 static_assert(tick_state::kCatchingUp == 20 && tick_state::kGliding == 21 &&
-              tick_state::kStandstill == 22);
+              tick_state::kStandstill == 22 && tick_state::kMotionUnknown == 23);
 
 std::string ticks_from(const SessionReader& reader, std::int64_t tick) {
     return kTickQuestion + source_columns(reader) + kTickQuestionOn + std::to_string(tick) +
@@ -176,7 +176,8 @@ void Session::read_facts() {
 void Session::read_parameters() {
     const std::set<std::string> columns = columns_of(reader_, "parameters");
     std::string question =
-        "SELECT version, first_tick, algorithm, force_enabled, m.file, m.bytes, m.sha256";
+        "SELECT version, first_tick, algorithm, force_enabled, m.file, m.bytes, m.sha256, ";
+    question += columns.contains("carry") ? "carry" : "0";
     SessionParameters standard;
     visit_numbers(standard, [&](std::string_view column, double) {
         if (columns.contains(std::string(column))) question += ", " + std::string(column);
@@ -195,7 +196,7 @@ void Session::read_parameters() {
                              in_quotes(name) + " that is not known here; update dibhr");
         }
         parameters.touch.algorithm = *algorithm;
-        row.take(parameters.force_enabled, parameters.bump);
+        row.take(parameters.force_enabled, parameters.bump, parameters.touch.carry);
         visit_numbers(parameters, [&](std::string_view column, double& number) {
             if (columns.contains(std::string(column))) number = row.real();
         });
@@ -341,6 +342,7 @@ bool Session::Ticks::next(TickRecord& tick) {
     tick.catching_up = (state & 1) != 0;
     tick.gliding = (state & 2) != 0;
     tick.standstill = (state & 4) != 0;
+    tick.motion_unknown = (state & 8) != 0;
     tick.update_us = static_cast<double>(update_ns) / 1e3;
     tick.primitive = static_cast<std::uint8_t>(primitive_named(primitive));
     return true;

@@ -73,7 +73,7 @@ std::string insertion(const std::string& into, int columns) {
 }
 
 std::string insert_parameters() {
-    int columns = 5;  // version, first_tick, algorithm, force_enabled, bump
+    int columns = 6;  // version, first_tick, algorithm, force_enabled, bump, carry
     SessionParameters parameters;
     visit_numbers(parameters, [&columns](std::string_view, double) { ++columns; });
     return insertion("OR IGNORE INTO parameters", columns);
@@ -128,7 +128,7 @@ std::int64_t state_of(const TickRecord& record) {
            bit(record.from_zero, at::kFromZero) | bit(record.lets_go, at::kLetsGo) |
            bit(record.goal_refused, at::kRefused) | std::int64_t{record.cut} << at::kCut |
            bit(record.catching_up, at::kCatchingUp) | bit(record.gliding, at::kGliding) |
-           bit(record.standstill, at::kStandstill);
+           bit(record.standstill, at::kStandstill) | bit(record.motion_unknown, at::kMotionUnknown);
 }
 
 /// The pixel of a place; a place beyond all pictures has none.
@@ -336,7 +336,7 @@ void SessionFile::add_parameters(SessionParameters parameters) {
     insert.cell(parameters.first_tick);
     insert.cell(name_of(parameters.touch.algorithm));
     visit_numbers(parameters, [&insert](std::string_view, double number) { insert.cell(number); });
-    insert.run(parameters.force_enabled, media_row(parameters.bump.file));
+    insert.run(parameters.force_enabled, media_row(parameters.bump.file), parameters.touch.carry);
 }
 
 void SessionFile::add_pair(const FramePair& frames, std::int64_t tick) {

@@ -46,7 +46,7 @@ std::string parameters_table() {
     visit_numbers(parameters, [&table](std::string_view column, double) {
         table += ", " + std::string(column) + " REAL";
     });
-    return table + ", force_enabled INTEGER, bump INTEGER);\n";
+    return table + ", force_enabled INTEGER, bump INTEGER, carry INTEGER);\n";
 }
 
 /// A column of the view `tick`: its type and the expression that gives it.

@@ -46,6 +46,7 @@ inline constexpr int kCut = 17;  // 3 bits
 inline constexpr int kCatchingUp = 20;
 inline constexpr int kGliding = 21;
 inline constexpr int kStandstill = 22;
+inline constexpr int kMotionUnknown = 23;
 }  // namespace tick_state
 
 /// A time is stored in whole nanoseconds where they give the same bits again, divided by this.

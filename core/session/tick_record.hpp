@@ -97,6 +97,8 @@ struct TickRecord {
     bool catching_up{false};   ///< the tick ended before the proxy had caught up with its goal
     bool gliding{false};       ///< parameters were on their way to those of `settings`
     bool standstill{false};    ///< window, video or recorder stood still: the force goes to zero
+    /// What moves was to carry the proxy, but nothing was known of the motion in these frames.
+    bool motion_unknown{false};
 };
 
 /// What "the same" means for recorded reals: every bit, the sign of a zero too.

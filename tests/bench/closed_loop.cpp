@@ -15,7 +15,8 @@ namespace dibhr::bench {
 
 namespace {
 
-constexpr int kSide = 8;  // pixels of the image
+constexpr int kColumns = 256;  // pixels of the image
+constexpr int kRows = 8;
 constexpr double kTick_s = 0.001;
 constexpr int kStepsOfTick = 50;
 constexpr double kFrame_s = 1.0 / 30.0;
@@ -23,15 +24,15 @@ constexpr double kMiddle_px = 100.0;
 constexpr double kSettled_s = 2.0;  // from then on work and travel count
 constexpr double kStandsAll = 1e9;
 
-/// A device of which only elevation moves.
+/// A device that moves in elevation and along the rows.
 class SimulatedArm final : public Device {
   public:
     explicit SimulatedArm(const ClosedLoop& loop)
         : loop_(loop), late_(static_cast<std::size_t>(loop.delay_ticks)) {
         const double stiffness = 1e3 * loop.parameters.coupling.stiffness_newton_per_mm;
-        depth_m_ = loop.press_newton / stiffness;
+        depth_.place_m = loop.press_newton / stiffness;
         if (loop.grip.spring_newton_per_m > 0.0)
-            rest_m_ = depth_m_ + loop.press_newton / loop.grip.spring_newton_per_m;
+            depth_.rest_m = depth_.place_m + loop.press_newton / loop.grip.spring_newton_per_m;
         specification_.limits.max_stiffness_newton_per_mm = kStandsAll;
         specification_.limits.max_damping_newton_s_per_m = kStandsAll;
         // What a driver can state of a device it has not weighed.
@@ -46,58 +47,78 @@ class SimulatedArm final : public Device {
         return specification_;
     }
     HandReading read(const HandContext& context) noexcept override {
-        const double step = loop_.resolution_mm;
-        const double mm = 1e3 * depth_m_;
-        const double read_mm = step > 0.0 ? std::round(mm / step) * step : mm;
-        return {
-            .goal_in_grid = {kSide / 2, kSide / 2, kMiddle_px - read_mm / context.pixel_pitch_mm}};
+        const double pitch_mm = context.pixel_pitch_mm;
+        return {.goal_in_grid = {kColumns / 2 + read_mm(aside_) / pitch_mm, kRows / 2,
+                                 kMiddle_px - read_mm(depth_) / pitch_mm}};
     }
-    void send(Vec3 force_newton) noexcept override { sent_newton_ = force_newton.z; }
+    void send(Vec3 force_newton) noexcept override { sent_newton_ = force_newton; }
 
     /// A tick of motion under the force that acts now; the work it does on hand and device [J].
     double move(double push_newton_s) {
         late_.push_back(sent_newton_);
-        const double up_newton = late_.front();
+        const Vec3 newton = late_.front();
         late_.pop_front();
-        speed_m_per_s_ += push_newton_s / loop_.mass_kg;
-        const double before_m = depth_m_;
-        constexpr double kStep_s = kTick_s / kStepsOfTick;
-        for (int k = 0; k < kStepsOfTick; ++k) {
-            const double newton =
-                hand_newton() - up_newton - loop_.friction_newton_s_per_m * speed_m_per_s_;
-            speed_m_per_s_ += newton / loop_.mass_kg * kStep_s;
-            depth_m_ += speed_m_per_s_ * kStep_s;
-        }
-        return up_newton * (before_m - depth_m_);
+        depth_.speed_m_per_s += push_newton_s / loop_.mass_kg;
+        return move(depth_, -newton.z, loop_.press_newton) + move(aside_, newton.x, 0.0);
     }
 
-    [[nodiscard]] double depth_mm() const { return 1e3 * depth_m_; }
-    [[nodiscard]] double sent_newton() const { return sent_newton_; }
+    [[nodiscard]] double depth_mm() const { return 1e3 * depth_.place_m; }
+    [[nodiscard]] double aside_mm() const { return 1e3 * aside_.place_m; }
+    [[nodiscard]] Vec3 sent_newton() const { return sent_newton_; }
 
   private:
-    [[nodiscard]] double hand_newton() const {
+    struct Axis {
+        double rest_m{0.0};
+        double place_m{0.0};
+        double speed_m_per_s{0.0};
+    };
+
+    [[nodiscard]] double read_mm(const Axis& axis) const {
+        const double step = loop_.resolution_mm;
+        const double mm = 1e3 * axis.place_m;
+        return step > 0.0 ? std::round(mm / step) * step : mm;
+    }
+
+    double move(Axis& axis, double newton, double press_newton) const {
+        const double before_m = axis.place_m;
+        constexpr double kStep_s = kTick_s / kStepsOfTick;
+        for (int k = 0; k < kStepsOfTick; ++k) {
+            const double all_newton = hand_newton(axis, press_newton) + newton -
+                                      loop_.friction_newton_s_per_m * axis.speed_m_per_s;
+            axis.speed_m_per_s += all_newton / loop_.mass_kg * kStep_s;
+            axis.place_m += axis.speed_m_per_s * kStep_s;
+        }
+        return newton * (axis.place_m - before_m);
+    }
+
+    /// `press_newton`: of a hand that only pushes.
+    [[nodiscard]] double hand_newton(const Axis& axis, double press_newton) const {
         const Grip& grip = loop_.grip;
-        if (!(grip.spring_newton_per_m > 0.0)) return loop_.press_newton;
-        return grip.spring_newton_per_m * (rest_m_ - depth_m_) -
-               grip.damper_newton_s_per_m * speed_m_per_s_;
+        if (!(grip.spring_newton_per_m > 0.0)) return press_newton;
+        return grip.spring_newton_per_m * (axis.rest_m - axis.place_m) -
+               grip.damper_newton_s_per_m * axis.speed_m_per_s;
     }
 
     const ClosedLoop& loop_;
     DeviceSpecification specification_{};
-    std::deque<double> late_;  // forces that do not act yet, the next one first
-    double rest_m_{0.0};
-    double depth_m_{0.0};
-    double speed_m_per_s_{0.0};
-    double sent_newton_{0.0};
+    std::deque<Vec3> late_;  // forces that do not act yet, the next one first
+    Axis depth_{};
+    Axis aside_{};
+    Vec3 sent_newton_{0.0};
 };
 
-Frame frame_at(double time_s, double elevation_px) {
+/// `slide_px`: of its material until the next frame.
+Frame frame_at(double time_s, double elevation_px, double slide_px) {
     auto image = std::make_shared<DepthImage>();
-    image->columns = image->rows = kSide;
-    image->levels.assign(std::size_t{kSide} * kSide, static_cast<float>(elevation_px));
+    image->columns = kColumns;
+    image->rows = kRows;
+    image->levels.assign(std::size_t{kColumns} * kRows, static_cast<float>(elevation_px));
+    auto field = std::make_shared<MotionField>(MotionField{kColumns, kRows, {}});
+    field->ways.assign(std::size_t{kColumns} * kRows, {static_cast<float>(slide_px), 0.0F});
     Frame frame;
     frame.depth = image;
-    frame.time_s = time_s;
+    frame.motion = field;
+    frame.time_s = frame.media_s = time_s;
     return frame;
 }
 
@@ -122,6 +143,7 @@ class Bench {
   public:
     explicit Bench(const ClosedLoop& loop) : loop_(loop), arm_(loop) {
         handed_.parameters = loop.parameters;
+        handed_.parameters.carry = loop.slide_mm_per_s != 0.0;
         handed_.parameters.shape.relief_px = 255.0;
         handed_.limits.ramp_s = kTick_s;  // the hand has been there for long
         handed_.limits.stability = loop.stability;
@@ -137,7 +159,8 @@ class Bench {
         ClosedLoopResult result;
         const auto ticks = static_cast<std::int64_t>(loop_.seconds / kTick_s);
         double work_j = 0.0;
-        double last_newton = 0.0;
+        Vec3 last_newton(0.0);
+        std::vector<double> aside_mm;
         for (std::int64_t k = 0; k < ticks; ++k) {
             const double t_s = static_cast<double>(k) * kTick_s;
             if (k % 33 == 0) show_surface(t_s);
@@ -146,23 +169,26 @@ class Bench {
                 hand_over();
             }
             tick_.run({start_ + k * std::chrono::milliseconds(1), kTick_s, {}, false}, 0);
-            const double newton = arm_.sent_newton();
+            const Vec3 newton = arm_.sent_newton();
             const double slew = handed_.limits.max_change_newton_per_ms + 1e-9;
             result.limits_held = result.limits_held &&
-                                 std::abs(newton) <= handed_.limits.max_force_newton + 1e-9 &&
-                                 std::abs(newton - last_newton) <= slew;
+                                 glm::length(newton) <= handed_.limits.max_force_newton + 1e-9 &&
+                                 glm::length(newton - last_newton) <= slew;
             last_newton = newton;
             const bool taps = k == static_cast<std::int64_t>(kSettled_s / kTick_s);
             const double worked_j = arm_.move(taps ? loop_.tap_newton_s : 0.0);
             if (t_s >= kSettled_s) work_j += worked_j;
             result.depth_mm.push_back(arm_.depth_mm());
-            result.force_newton.push_back(newton);
+            result.force_newton.push_back(newton.z);
+            aside_mm.push_back(arm_.aside_mm());
         }
         const std::size_t last_second = result.depth_mm.size() - 1000;
         result.swing_mm = peak_to_peak(result.depth_mm, last_second);
         result.buzz_newton = rms_about_mean(result.force_newton, last_second);
         result.travel_mm =
             peak_to_peak(result.depth_mm, static_cast<std::size_t>(kSettled_s / kTick_s));
+        result.aside_mm = arm_.aside_mm();
+        result.aside_swing_mm = peak_to_peak(aside_mm, last_second);
         result.work_mw = 1e3 * work_j / (loop_.seconds - kSettled_s);
         result.controller_mw = state_.front().touch.energy.taken_out_mw;
         return result;
@@ -180,8 +206,9 @@ class Bench {
         for (Frame& frame : window.frames) {
             const double time_s = (first + static_cast<double>(window.count++)) * kFrame_s;
             const double rise_mm = loop_.surface_mm ? loop_.surface_mm(std::max(time_s, 0.0)) : 0.0;
-            frame =
-                frame_at(time_s, kMiddle_px + rise_mm / handed_.parameters.coupling.pixel_pitch_mm);
+            const double pitch_mm = handed_.parameters.coupling.pixel_pitch_mm;
+            frame = frame_at(time_s, kMiddle_px + rise_mm / pitch_mm,
+                             loop_.slide_mm_per_s * kFrame_s / pitch_mm);
         }
         window.clock = {start_, 0.0, 1.0};
         frames_.publish(window);

@@ -25,7 +25,7 @@ inline constexpr std::array kMasses_kg{0.1, 0.2, 0.3};                 ///< devi
 inline constexpr std::array kFrictions_newton_s_per_m{0.5, 1.0, 2.0};  ///< of the device
 
 /// Elevation of the surface [mm] at a time [s].
-using SurfaceMotion = std::function<double(double)>;
+using SurfaceElevation = std::function<double(double)>;
 
 /// One run.
 struct ClosedLoop {
@@ -40,7 +40,8 @@ struct ClosedLoop {
     TouchParameters parameters{};
     bool stability{false};  ///< as `view` has it: damping as the device needs it, energy watched
     bool damping{true};     ///< with stability; false: watched only, damping as in `parameters`
-    SurfaceMotion surface_mm{};                             ///< none: it is still
+    SurfaceElevation surface_mm{};  ///< none: it is still
+    double slide_mm_per_s{0.0};     ///< of the surface in the picture plane, which carries
     std::function<void(double, HapticSettings&)> change{};  ///< settings by the time [s]
 };
 
@@ -50,6 +51,8 @@ struct ClosedLoopResult {
     double buzz_newton{0.0};  ///< RMS of the force about its mean
     double work_mw{0.0};      ///< of the force on hand and device, mean from 2 s on
     double travel_mm{0.0};    ///< peak to peak from 2 s on
+    double aside_mm{0.0};     ///< where the hand is in the picture plane at the end, off its rest
+    double aside_swing_mm{0.0};  ///< and peak to peak
     double controller_mw{0.0};
     bool limits_held{true};  ///< no force above the limit, no change faster than the slew limit
     std::vector<double> depth_mm{};  ///< of every tick

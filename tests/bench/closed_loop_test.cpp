@@ -1,4 +1,5 @@
-// Whether a hand on a simulated device stays calm on the program's own tick: the bench's short form.
+// Whether a hand on a simulated device stays calm on the program's own tick: the bench's short
+// form.
 #include "tests/bench/closed_loop.hpp"
 
 #include <algorithm>
@@ -37,7 +38,7 @@ double lowest_oscillating_of(const Grip& grip, ClosedLoop loop) {
     return lowest;
 }
 
-ClosedLoop over_a_moving_surface(ClosedLoop loop, SurfaceMotion motion_mm) {
+ClosedLoop over_a_moving_surface(ClosedLoop loop, SurfaceElevation motion_mm) {
     loop.tap_newton_s = 0.0;
     loop.seconds = 10.0;
     loop.surface_mm = std::move(motion_mm);
@@ -115,6 +116,51 @@ TEST_CASE("a chest that rises lifts the finger as it did", "[closed-loop]") {
         CAPTURE(grip.name, then_mm, now_mm);
         CHECK(then_mm > 2.0);
         CHECK(now_mm >= 0.9 * then_mm);
+    }
+}
+
+TEST_CASE("a surface that slides away under a hand drags it aside as friction says, and is calm",
+          "[closed-loop]") {
+    for (const double stiffness : {0.5, 1.0}) {
+        for (const Grip& grip : {kGrips[0], kGrips[1]}) {
+            for (const double slide_mm_per_s : {7.0, 56.0}) {
+                ClosedLoop loop = as_in_view();
+                loop.grip = grip;
+                loop.mass_kg = kMasses_kg.front();
+                loop.friction_newton_s_per_m = kFrictions_newton_s_per_m.front();
+                loop.press_newton = 0.93;
+                loop.parameters.coupling.stiffness_newton_per_mm = stiffness;
+                loop.slide_mm_per_s = slide_mm_per_s;
+                const ClosedLoopResult result = run(loop);
+                const Coupling coupling = stable_coupling(loop.parameters.coupling, stiffness,
+                                                          {.mass_kg = 0.1,
+                                                           .friction_newton_s_per_m = 0.5,
+                                                           .resolution_mm = 0.05,
+                                                           .delay_s = 0.002});
+                const double dragged_newton =
+                    0.4 * loop.press_newton +
+                    coupling.damping_newton_s_per_m * 1e-3 * slide_mm_per_s;
+                const double expected_mm = 1e3 * dragged_newton / grip.spring_newton_per_m;
+                CAPTURE(stiffness, grip.name, slide_mm_per_s, result.swing_mm, result.aside_mm);
+                CHECK_FALSE(oscillates(result));
+                CHECK(result.aside_swing_mm < 0.2);
+                CHECK(result.limits_held);
+                CHECK_THAT(result.aside_mm, Catch::Matchers::WithinRel(expected_mm, 0.1));
+            }
+        }
+    }
+}
+
+TEST_CASE("what friction takes from a carried proxy hides no energy that rendering creates",
+          "[closed-loop]") {
+    for (const Grip& grip : {kGrips[0], kGrips[1]}) {
+        ClosedLoop still = watched_only();
+        ClosedLoop sliding = still;
+        sliding.slide_mm_per_s = 56.0;
+        const double resting = lowest_oscillating_of(grip, still);
+        const double carried = lowest_oscillating_of(grip, sliding);
+        CAPTURE(grip.name, resting, carried);
+        CHECK(carried >= 0.9 * resting);
     }
 }
 

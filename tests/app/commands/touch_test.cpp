@@ -300,6 +300,42 @@ TEST_CASE("without --video the first picture stands still", "[touch]") {
     CHECK_THAT(rows_of(result.output).back().number("pz"), WithinAbs(50.0, 1e-9));
 }
 
+TEST_CASE("carry is off unless it is asked for, and a picture that stands still carries nothing",
+          "[touch]") {
+    const TemporaryFolder folder;
+    write_depth_png(folder / "f0.png", 64, 48, 50);
+    write_depth_png(folder / "f1.png", 64, 48, 100);
+    run_shell(folder,
+              "ffmpeg -v error -framerate 10 -i f%d.png -pix_fmt gray -c:v ffv1 depth.mkv && cp "
+              "depth.mkv color.mkv");
+    write_text(folder / "goals.csv", goals_csv(std::vector<Vec3>(150, Vec3{20, 20, 10})));
+    const auto touched = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> options{"touch",     "--raw-depth", "--depth",
+                                         "depth.mkv", "--goals",     "goals.csv"};
+        options.insert(options.end(), more.begin(), more.end());
+        ProgramResult result = run_dibhr(folder, options);
+        INFO(result.errors);
+        REQUIRE(result.exit_code == 0);
+        return result;
+    };
+    const auto force = [](const ProgramResult& result) {
+        return rows_of(result.output).back().number("fz");
+    };
+    const ProgramResult plain = touched({"--video"});
+    CHECK(force(touched({"--video", "--carry", "off"})) == force(plain));
+    // The colour's view is the same, and nothing goes anywhere in the picture plane.
+    CHECK(force(touched({"--video", "--carry", "on", "--color", "color.mkv"})) == force(plain));
+    const ProgramResult still = touched({"--carry", "on"});
+    CHECK(contains(still.errors, "--carry on changes nothing"));
+    CHECK(contains(still.errors, "--video"));
+    CHECK(run_dibhr(folder,
+                    {"touch", "--depth", "depth.mkv", "--goals", "goals.csv", "--carry", "maybe"})
+              .exit_code == 2);
+    CHECK(run_dibhr(folder, {"touch", "--depth", "depth.mkv", "--goals", "goals.csv", "--color",
+                             "color.mkv", "--out", "color.mkv"})
+              .exit_code != 0);
+}
+
 TEST_CASE("a finished output file replaces the old one and leaves nothing beside it", "[touch]") {
     const TemporaryFolder folder;
     write_depth_png(folder / "depth.png", 16, 12, 100);

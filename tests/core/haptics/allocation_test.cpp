@@ -1,5 +1,6 @@
 // No tick allocates.
 #include <cmath>
+#include <vector>
 
 #include "core/haptics/touch.hpp"
 #include "tests/core/haptics/surfaces.hpp"
@@ -26,9 +27,12 @@ TEST_CASE("no tick allocates, in contact, in the air, on a bad goal or when the 
         GENERATE(Algorithm::dibhr, Algorithm::pga, Algorithm::neighborhood, Algorithm::god_object);
     parameters.shape.roughness_px = 2.0;
     parameters.coupling = {.damping_newton_s_per_m = 5.0, .damping_cutoff_hz = 50.0};
+    parameters.carry = true;
+    const MotionField field{50, 40, std::vector<MotionField::Way>(2000, {4.0F, -1.0F})};
     CAPTURE(name_of(parameters.algorithm));
     test::Dice dice(47);
     int contacts = 0;
+    int carried = 0;
     const int allocations = test::allocations_in([&] {
         for (const auto& named : surfaces) {
             for (int k = 0; k < 2000; ++k) {
@@ -37,11 +41,14 @@ TEST_CASE("no tick allocates, in contact, in the air, on a bad goal or when the 
                 Vec3 goal(dice.uniform(0.0, 49.0), dice.uniform(0.0, 39.0),
                           dice.uniform(0.0, 200.0));
                 if (k % 97 == 0) goal.x = std::nan("");
-                contacts +=
-                    renderer.update(surface, goal, parameters, {}, {}).proxy.contact ? 1 : 0;
+                const SurfaceMotion motion{&field, k % 33 / 33.0, (k + 1) % 33 / 33.0};
+                const Touch& touch = renderer.update(surface, goal, parameters, {}, {}, motion);
+                contacts += touch.proxy.contact ? 1 : 0;
+                carried += touch.carried != Vec3(0.0) ? 1 : 0;
             }
         }
     });
     CHECK(allocations == 0);
     CHECK(contacts > 1000);
+    CHECK(carried > 100);
 }

@@ -34,6 +34,11 @@ class HostileVideo {
             DepthImage image = hostile_surfaces(kColumns + 2 * k, kRows).at(kind).image;
             image = image_of(kColumns, kRows, 255.0, [&](int i, int j) { return image.at(i, j); });
             images_.push_back(std::make_shared<const DepthImage>(std::move(image)));
+            const float way = 6.0F * static_cast<float>(k % 5) - 11.0F;
+            MotionField field{kColumns, kRows, {}};
+            for (int i = 0; i < kColumns * kRows; ++i)
+                field.ways.push_back({way, 0.1F * static_cast<float>(i % kColumns)});
+            fields_.push_back(std::make_shared<const MotionField>(std::move(field)));
         }
     }
 
@@ -45,8 +50,11 @@ class HostileVideo {
         const auto first = static_cast<std::size_t>(now_s / kFrame_s);
         for (std::size_t k = 0; k < window.count; ++k) {
             Frame& frame = window.frames[k];
-            frame.depth = images_[(first + k + 3 * discontinuity) % images_.size()];
+            const std::size_t which = (first + k + 3 * discontinuity) % images_.size();
+            frame.depth = images_[which];
+            frame.motion = fields_[which];
             frame.time_s = static_cast<double>(first + k) * kFrame_s + (discontinuity > 0 ? 9 : 0);
+            frame.media_s = frame.time_s;
         }
         window.clock = {std::chrono::steady_clock::time_point{}, discontinuity > 0 ? 9.0 : 0.0,
                         1.0};
@@ -55,6 +63,7 @@ class HostileVideo {
 
   private:
     std::vector<std::shared_ptr<const DepthImage>> images_{};
+    std::vector<std::shared_ptr<const MotionField>> fields_{};
 };
 
 /// A hand that presses, drags, jumps, lifts, gives no number, and a person who changes parameters,
@@ -63,6 +72,7 @@ class HostileDrag {
   public:
     HostileDrag(const HostileVideo& video, Algorithm algorithm) : video_(video) {
         bench.handed.parameters.algorithm = algorithm;
+        bench.handed.parameters.carry = true;
         bench.handed.followed = true;
         HapticConnections connections = bench.connections();
         connections.walked = walked.get();

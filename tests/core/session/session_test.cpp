@@ -40,6 +40,7 @@ TEST_CASE("a file of before a parameter gives its default, and the others as the
           "[session]") {
     const SessionFolder folder;
     SessionParameters recorded{.version = 5, .touch = {}, .limits = {}, .bump = {}};
+    recorded.touch.carry = true;
     double unusual = 0.3;
     visit_numbers(recorded,
                   [&unusual](std::string_view, double& number) { number = unusual += 0.01; });
@@ -54,7 +55,9 @@ TEST_CASE("a file of before a parameter gives its default, and the others as the
     CHECK(Session(folder.file()).parameters().at(0).touch == recorded.touch);
     CHECK(Session(folder.file()).parameters().at(0).limits == recorded.limits);
     REQUIRE(change(folder.file(), "ALTER TABLE parameters DROP COLUMN damping_cutoff_hz"));
+    REQUIRE(change(folder.file(), "ALTER TABLE parameters DROP COLUMN carry"));
     recorded.touch.coupling.damping_cutoff_hz = Coupling{}.damping_cutoff_hz;
+    recorded.touch.carry = false;
     CHECK(Session(folder.file()).parameters().at(0).touch == recorded.touch);
     CHECK(Session(folder.file()).parameters().at(0).limits == recorded.limits);
 }
