@@ -17,6 +17,8 @@
 
 namespace dibhr {
 
+class LiveFeed;
+
 /// Refuses what no decoder could read: missing, a directory, a pipe or device, no permission,
 /// empty, text. Throws InputError: what, which file, what to do next.
 void require_readable(const std::filesystem::path& file);
@@ -54,7 +56,9 @@ struct DepthRequest {
     /// Empty: none is heard.
     std::filesystem::path kept_in{};
     DepthStatement recorded{};  ///< a session's, which beats all others
-    bool paints{true};          ///< depth alone is shown in colours of its own
+    /// Of the same live places, open already; null: they are opened.
+    std::shared_ptr<LiveFeed> live{};
+    bool paints{true};  ///< depth alone is shown in colours of its own
 };
 
 /// The relief and the pitch that fit a media.
@@ -82,6 +86,7 @@ struct MediaDescription {
     std::int64_t frames{0};    ///< an estimate until the end was reached
     bool frames_exact{false};  ///< the end was reached: frames and duration are those of the file
     bool still{false};
+    bool live{false};  ///< it comes as it happens: no length, no end, and nothing is sought in it
     /// A sentence once a file turned out to hold less than at its opening: it was cut or
     /// overwritten meanwhile. What is left goes on.
     std::string trouble{};
@@ -134,9 +139,13 @@ class Media {
     /// The next frame returned is one near it, as soon as one can be had; where that is no sooner,
     /// the one itself.
     virtual void seek_near(double media_s) { seek(media_s); }
+    /// Where its frames come from as they happen: next() waits for them, and seek() does nothing.
+    /// Null: it is read from files.
+    [[nodiscard]] virtual std::shared_ptr<LiveFeed> live() const { return nullptr; }
 };
 
-/// Opens a pair, each of them a file, a folder, a list or a pattern of pictures. An empty colour
+/// Opens a pair, each of them a file, a folder, a list or a pattern of pictures, or live (see
+/// live_name()). An empty colour
 /// path: the depth alone, shown in colours of its own. An empty depth path, or the colour's: the
 /// depth is in the same place, another track of the colour's file where that says so, or else a
 /// file beside it. What was chosen before and does not fit the files any more is passed over, which

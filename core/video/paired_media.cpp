@@ -66,6 +66,7 @@ void describe_time(const SourceFacts& facts, MediaDescription& description) {
     description.frames = facts.frames;
     description.frames_exact = facts.frames_exact;
     description.still = facts.still;
+    description.live = facts.live;
 }
 
 ColourTrack::ColourTrack(std::unique_ptr<PictureSource> source, const SourceFacts& depth)
@@ -74,6 +75,10 @@ ColourTrack::ColourTrack(std::unique_ptr<PictureSource> source, const SourceFact
       interval_s_(std::min(interval_of(depth), interval_of(source_->facts()))) {}
 
 const cv::Mat& ColourTrack::shown_at(double depth_time_s) {
+    if (source_->facts().live) {  // it comes with the depth
+        now_ = source_->next().value_or(now_);
+        return now_.picture;
+    }
     const double latest_s = depth_time_s - starts_later_s_ + kNotLater * interval_s_;
     if (std::exchange(near_, false)) {
         source_->seek_near(latest_s);

@@ -55,6 +55,7 @@ struct SourceFacts {
     std::int64_t frames{0};
     bool frames_exact{false};
     bool still{false};
+    bool live{false};          ///< it comes as it happens, and has neither length nor end
     std::string trouble{};     ///< why less is read than at the opening; empty: nothing lacks
     std::string notice{};      ///< what was passed over or chosen at the opening; mostly empty
     DepthStatement known{};    ///< what the file's own metadata or its format says of its depth
