@@ -18,6 +18,7 @@
 namespace dibhr {
 
 class LiveFeed;
+struct TakenPictures;
 
 /// Refuses what no decoder could read: missing, a directory, a pipe or device, no permission,
 /// empty, text. Throws InputError: what, which file, what to do next.
@@ -37,6 +38,7 @@ struct RawFrame {
     std::shared_ptr<const LoneDepth> lone{};
     double lone_ms{0.0};  ///< which took so long
     ColourImage colour{};
+    std::shared_ptr<const TakenPictures> taken{};  ///< what it was made of, if it came live
     bool colour_of_view{false};  ///< a camera's, and as far as is known of the depth's own view
     double media_s{0.0};
     std::int64_t index{0};

@@ -73,7 +73,7 @@ class PairedMedia : public Media {
     void take_range();
     void take_true_shape();
     void take_registration(const SourceFacts& colour);
-    [[nodiscard]] cv::Mat colour_for(const TimedPicture& depth);
+    [[nodiscard]] cv::Mat colour_for(const TimedPicture& depth, const cv::Mat& colour);
     [[nodiscard]] cv::Mat in_mm(const DepthImage& depth) const;
     void put_straight(RawFrame& frame, const cv::Mat& colour);
     void tell_trouble(const SourceFacts& facts);

@@ -18,6 +18,8 @@
 
 namespace dibhr {
 
+struct LivePair;
+
 /// The bits of levels that are real numbers: they have no highest one.
 inline constexpr int kRealBits = 32;
 
@@ -39,6 +41,7 @@ struct TimedPicture {
     double time_s{0.0};  ///< presentation time, from the file's own beginning
     std::int64_t index{0};
     double decoding_s{0.0};  ///< so long decoding one takes, as of late; 0: not known
+    std::shared_ptr<const LivePair> pair{};  ///< of which it is, where it came live
 };
 
 /// What is known of a source so far; it grows as frames are read.

@@ -80,7 +80,9 @@ class LivePictures : public PictureSource {
     std::optional<TimedPicture> next() override {
         if (which_ != Which::colour) cursor_->advance();
         const double time_s = cursor_->pair->depth.stamp_s - cursor_->first_s;
-        return TimedPicture{mat(), time_s, cursor_->index};
+        TimedPicture taken{mat(), time_s, cursor_->index};
+        taken.pair = cursor_->pair;
+        return taken;
     }
     void seek(double /*time_s*/) override {}
     std::vector<cv::Mat> samples(int most) override {
