@@ -244,13 +244,14 @@ int run_view(CLI::App& app, const Arguments& arguments) {
     TouchRequest touch;
     std::optional<std::pair<int, int>> size;
     add_file(app, "COLOR", options.open.colour,
-             "Colour video, image or folder of pictures, or a recorded session to replay; none: "
-             "the built-in sample",
+             "Colour video, image or folder of pictures, a camera or stream (v4l2:/dev/video0, "
+             "udp://...), or a recorded session to replay; none: the built-in sample",
              "");
-    add_file(app, "DEPTH", options.open.depth,
-             "Depth video, image or folder; none: in the colour's file or folder, else *color* -> "
-             "*depth* beside it",
-             "");
+    add_file(
+        app, "DEPTH", options.open.depth,
+        "Depth video, image or folder, camera or stream; none: in the colour's file or folder, "
+        "else *color* -> *depth* beside it",
+        "");
     app.add_option_function<std::string>(
            "--device",
            [&options](const std::string& device) {

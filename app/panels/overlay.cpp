@@ -94,6 +94,7 @@ std::string place_text(const ViewerState& state) {
                ", tick " + std::to_string(state.replay->tick_count);
     }
     const PlaybackStatus& at = state.playback;
+    if (at.live) return "live, " + in_words(*at.live);
     return clock_text(at.media_s) + " of " + clock_text(at.duration_s) + ", frame " +
            std::to_string(at.frame + 1);
 }
@@ -441,6 +442,8 @@ void draw_overlay(const ViewerState& state, double now_s) {
     draw_upper_left(state, margin, draw_legend(state, margin));
     if (const std::string banner = falcon_banner(state); !banner.empty()) {
         draw_banner(state, capitalised(banner));
+    } else if (state.playback.live && !state.playback.live->signal && !state.replay) {
+        draw_banner(state, in_words(*state.playback.live));
     }
     if (now_s < state.notice_until_s) {
         const double left_s = state.notice_until_s - now_s;

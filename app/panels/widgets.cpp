@@ -1,6 +1,8 @@
 // Rows and icons of the panels.
 #include "app/panels/widgets.hpp"
 
+#include "core/video/live/live_name.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -277,7 +279,7 @@ void fact_row(const char* label, const std::string& value) {
 }
 
 void file_row(const char* label, const std::filesystem::path& file) {
-    fact_row(label, file.filename().string());
+    fact_row(label, is_live(file) ? file.string() : file.filename().string());
     explain(file.c_str());
 }
 

@@ -20,6 +20,7 @@
 #include "core/video/cleaning/fingertip.hpp"
 #include "core/video/depth/kept_choices.hpp"
 #include "core/video/depth/sidecar.hpp"
+#include "core/video/live/live_name.hpp"
 #include "core/video/media_names.hpp"
 
 namespace dibhr {
@@ -117,7 +118,7 @@ std::optional<PixelShown> pixel_at(Vec3 place, const ViewerState& state, const D
     const DepthSurface surface = shown.drawn_surface(state.shape(), state.bump.get());
     const auto& unseen = shown.nearest().unseen;
     return PixelShown{i, j, depth.at(i, j) / depth.highest_level, surface.elevation_at(i, j),
-                     unseen && (*unseen)[depth.index(i, j)] != 0};
+                      unseen && (*unseen)[depth.index(i, j)] != 0};
 }
 
 }  // namespace
@@ -130,7 +131,7 @@ void Viewer::take_opened() {
         if (opened->session) replay_session(std::move(opened->session));
         if (opened->is_folder) {
             browsing_.show(opened->request.colour, state_);
-        } else if (!opened->failure.empty()) {
+        } else if (!opened->failure.empty() && !opened->request.again) {
             state_.message = opened->failure;
             show_depth_words(state_);  // those that are in force
         }
@@ -166,6 +167,8 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
     state_.media = media->description();
     state_.opened = request;
     state_.opened.request.panel = state_.media.panel;
+    state_.opened.request.live = media->live();
+    state_.opened.again = false;
     show_depth_words(state_);
     trace_.clear();
     if (request.chosen) keep_panel(depth_file(before));
@@ -184,6 +187,8 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
         maps = {nullptr, "Nothing is painted with --maps off: start dibhr without it"};
     if (options_.touch.feels_maps() && !maps.refusal.empty())
         state_.message = maps.refusal + "\n\nIt is touched without touch maps.";
+    if (state_.media.live)
+        maps = {nullptr, "Nothing is painted on what is live: it has no place for it"};
     player_.play_media(
         std::move(media), recording_.opened(state_.media),
         painting_.begin(std::move(maps), state_.media, remembered_file(state_.media).empty()));
@@ -269,7 +274,8 @@ void Viewer::keep_recent(const RecentFile& opened) try {
 }
 
 void Viewer::show_title(const std::filesystem::path& file) {
-    window_.set_title(file.filename().string() + " - dibhr");
+    const std::filesystem::path name = is_live(file) ? file : file.filename();
+    window_.set_title(name.string() + " - dibhr");
 }
 
 /// What the panel says stays with the file that it made the depth.
@@ -295,12 +301,24 @@ void Viewer::open_again(const DepthStatement& panel) {
     open(request);
 }
 
+/// What sends now sends another form: all that was known of it is found out anew.
+void Viewer::follow_live() {
+    const auto& live = state_.playback.live;
+    if (state_.replay || !live || !live->other_form || opening_.under_way()) return;
+    OpenRequest request = state_.opened;
+    request.request.live = nullptr;
+    request.again = true;
+    opening_.start([request] { return try_open(request); });
+}
+
 void Viewer::open(const OpenRequest& request) {
     if (!opening_.start([request] { return try_open(request); }))
         tell("Still opening the last files");
 }
 
 std::string Viewer::save_sidecar() {
+    if (state_.media.live)
+        throw InputError("what is live has no sidecar: what is chosen is kept for its name");
     if (!state_.media.meaning) throw InputError("nothing is known of this depth: it is shown raw");
     const std::filesystem::path& file = depth_file(state_.media);
     DepthStatement all = state_.media.meaning->statement();
@@ -392,20 +410,19 @@ void Viewer::start_loop() {
     haptic_state_.publish(HapticState{});  // what the loop before it did is past
     standstills_ = 0;
     heart_.beat();
-    loop_ = std::make_unique<HapticLoop>(
-        HapticConnections{*hand_.device,
-                          player_.haptics(),
-                          haptic_settings_,
-                          haptic_state_,
-                          *strips_,
-                          *ticks_,
-                          {.window = &heart_,
-                           .video = &player_.heart(),
-                           .recorder = &recording_.heart(),
-                           .decoder = &player_.decoder_heart()},
-                          &ending_.asked(),
-                          &sound_.ticks(),
-                          walked_.get()});
+    loop_ = std::make_unique<HapticLoop>(HapticConnections{*hand_.device,
+                                                           player_.haptics(),
+                                                           haptic_settings_,
+                                                           haptic_state_,
+                                                           *strips_,
+                                                           *ticks_,
+                                                           {.window = &heart_,
+                                                            .video = &player_.heart(),
+                                                            .recorder = &recording_.heart(),
+                                                            .decoder = &player_.decoder_heart()},
+                                                           &ending_.asked(),
+                                                           &sound_.ticks(),
+                                                           walked_.get()});
 }
 
 void Viewer::draw_scene(glm::ivec2 viewport) {
@@ -417,7 +434,8 @@ void Viewer::draw_scene(glm::ivec2 viewport) {
     if (state_.ruler) {
         state_.ruler->ends.clear();
         for (const Vec3& place : state_.ruler->places)
-            if (const auto end = pixel_at(place, state_, shown_)) state_.ruler->ends.push_back(*end);
+            if (const auto end = pixel_at(place, state_, shown_))
+                state_.ruler->ends.push_back(*end);
     }
     SceneContent content = scene_content(state_, shown_);
     if (!state_.replay) content.maps = painting_.drawn();

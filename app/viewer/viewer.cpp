@@ -260,6 +260,7 @@ void Viewer::take_news() {
     state_.sound = sound_.state();
     state_.pictures_per_s = pace_.pictures_per_s();
     take_opened();
+    follow_live();
     const std::string& failure =
         state_.replay ? state_.replay->playback.failure : state_.playback.failure;
     if (!failure.empty() && failure != playback_failure_) {
@@ -475,8 +476,7 @@ void Viewer::draw_panels(std::span<const KeyPress> pressed) {
     const auto fade = [](float& alpha) { alpha = std::max(0.0F, alpha - 0.03F); };
     if (state_.touched) fade(hint_alpha_);
     if (pressed_deeper_) fade(wheel_hint_alpha_);
-    const bool mouse_touches = shown_.makes_surface() && !state_.replay &&
-                               hand_.mouse != nullptr &&
+    const bool mouse_touches = shown_.makes_surface() && !state_.replay && hand_.mouse != nullptr &&
                                (hand_.falcon == nullptr || state_.haptic.hand.stand_in);
     if (mouse_touches && state_.message.empty() && !state_.explained && !state_.ruler &&
         !state_.brush.on) {

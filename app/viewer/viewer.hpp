@@ -107,6 +107,7 @@ class Viewer {
     void notice_catching_up();
     void notice_standstill();
     void take_opened();
+    void follow_live();
     void take_keys(const WindowInput& input);
     void take_dialog_key(const KeyPress& press);
     [[nodiscard]] std::optional<Answer> perform_with_files(Action action);

@@ -53,8 +53,12 @@ bool LiveClock::add(Frame frame, double stamp_s, Time now, std::deque<Frame>& fr
         return true;
     }
     interval_s_ += kNewest * (std::min(since_s, 2.0 * interval_s_) - interval_s_);
-    if (std::exchange(alone_, false)) clock_ = {now, frames.back().time_s, 1.0};
     frame.time_s = stamp_s + offset_s_;
+    if (std::exchange(alone_, false)) {  // held until now: also where frames were missing
+        Frame& held = frames.back();
+        held.time_s = std::max(held.time_s, frame.time_s - interval_s_);
+        clock_ = {now, held.time_s, 1.0};
+    }
     steer(frame.time_s, now);
     const double moment_s = clock_.playback_s(now);
     Frame& newest = frames.back();

@@ -26,6 +26,7 @@ constexpr float kMoved = 0.01F;  ///< of the highest level, and beyond the noise
 constexpr float kMovedNoise = 5.0F;
 constexpr std::size_t kMovedPart = 500;  ///< one pixel in so many
 constexpr std::size_t kLookedAt = 7;     ///< every so many pixels
+constexpr std::chrono::milliseconds kTellAgain{500};
 constexpr double kMilliseconds = 1000.0;
 constexpr std::uint64_t kLiveOnes = std::uint64_t{1} << 32;  ///< none is one of a file's
 
@@ -234,15 +235,20 @@ Time LivePlayback::lost_at() const {
 /// What moved a moment ago is not where it is held any more.
 bool LivePlayback::watch_signal(Time now) {
     const bool lost = !frames_.empty() && playing_ && now >= lost_at();
-    if (!lost || lost_) return false;
-    lost_ = true;
+    if (!lost) return false;
+    if (std::exchange(lost_, true)) {
+        const bool again = now >= told_ + kTellAgain;
+        if (again) told_ = now;
+        return again;
+    }
+    told_ = now;
     force_off_ = feed_->signal().last - moved_ < kMovedLately;
     return true;
 }
 
 Time LivePlayback::next_due(Time now) const {
     if (!playing_) return Time::max();
-    Time due = lost_ || frames_.empty() ? now + std::chrono::seconds(1) : lost_at();
+    Time due = lost_ ? told_ + kTellAgain : frames_.empty() ? now + kTellAgain : lost_at();
     if (const auto pair_due = feed_->due()) due = std::min(due, *pair_due);
     const PlaybackClock& clock = clock_.clock();
     if (frames_.size() > 1 && clock.speed > 0.0) {

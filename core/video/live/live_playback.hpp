@@ -88,6 +88,7 @@ class LivePlayback {
     double behind_s_{0.0};
     Time moved_{};  ///< when the surface did so last
     bool lost_{false};
+    Time told_{};  ///< when the status was young last, while it is lost
     bool force_off_{false};
     LiveSink sink_{};
     std::optional<double> file_begin_s_{};  ///< stamp of the first frame of what is recorded

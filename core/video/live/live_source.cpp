@@ -190,7 +190,7 @@ Sources find_live_sources(const fs::path& colour, const fs::path& depth, const D
     if (!is_live(only) || (two && !is_live(colour)))
         throw InputError(shown(two ? colour : only) + " and " + shown(only) +
                          " do not go together: colour and depth are both live, or both files");
-    if (!feed || !feed->is_of(colour, depth))
+    if (!feed || !feed->is_of(colour, depth) || feed->signal().other_form)
         feed = std::make_shared<LiveFeed>(two ? colour : fs::path{}, only);
     feed->want(true, true);
     const auto cursor = std::make_shared<LiveCursor>(LiveCursor{.feed = feed});
