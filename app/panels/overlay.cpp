@@ -105,6 +105,8 @@ std::string touch_text(const ViewerState& state) {
     if (waits_for_front(state)) return "Force off: not in front";
     if (!haptic.touchable) return state.replay ? "No surface" : "No surface yet";
     if (clutched(state)) return "Held by the clutch";
+    if (state.playback.live && state.playback.live->force_off && !state.replay)
+        return "No force: no signal";
     if (haptic.touch.cut != SafetyCut::none)
         return std::string("No force: ") + name_of(haptic.touch.cut);
     if (!haptic.touch.proxy.contact) return "Free";

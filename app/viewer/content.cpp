@@ -160,6 +160,8 @@ void Viewer::take_dropped(const std::vector<std::filesystem::path>& files) {
 void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request,
                         const FileMemory& memory, FoundMaps maps) {
     explaining_.end(state_, camera_);
+    // Ticks would touch what no file holds.
+    if (media->description().live && recording_.asked_for()) tell(recording_.stop(state_));
     if (!request.chosen) keep_memory();
     replay_.end(state_);
     if (!request.chosen) forget_relief();
@@ -189,8 +191,9 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
         state_.message = maps.refusal + "\n\nIt is touched without touch maps.";
     if (state_.media.live)
         maps = {nullptr, "Nothing is painted on what is live: it has no place for it"};
+    media_number_ = recording_.opened(state_.media);
     player_.play_media(
-        std::move(media), recording_.opened(state_.media),
+        std::move(media), media_number_,
         painting_.begin(std::move(maps), state_.media, remembered_file(state_.media).empty()));
     if (request.at_s > 0.0) player_.seek(request.at_s);
     if (request.paused) player_.pause();
@@ -249,7 +252,7 @@ void Viewer::forget_relief() {
 
 void Viewer::replay_session(std::unique_ptr<OpenedSession> session) {
     painting_.hand_over(recording_);
-    if (recording_.active()) tell(recording_.stop(state_));
+    if (recording_.asked_for()) tell(recording_.stop(state_));
     if (!session->frames.warning().empty()) tell(capitalised(session->frames.warning()));
     explaining_.end(state_, camera_);
     painting_.end(state_);
@@ -304,7 +307,9 @@ void Viewer::open_again(const DepthStatement& panel) {
 /// What sends now sends another form: all that was known of it is found out anew.
 void Viewer::follow_live() {
     const auto& live = state_.playback.live;
-    if (state_.replay || !live || !live->other_form || opening_.under_way()) return;
+    if (state_.replay || !live || !live->other_form || live->opened != media_number_ ||
+        opening_.under_way())
+        return;
     OpenRequest request = state_.opened;
     request.request.live = nullptr;
     request.again = true;

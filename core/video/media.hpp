@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/video/cleaning/depth_memory.hpp"
+#include "core/video/cleaning/depth_noise.hpp"
 #include "core/video/cleaning/lone_depth.hpp"
 #include "core/video/depth/depth_meaning.hpp"
 #include "core/video/frame_window.hpp"
@@ -79,6 +80,7 @@ struct MediaDescription {
     int depth_bits{8};        ///< of a level; 32: real numbers
     int levels_used{0};       ///< how many there are in pictures from all over it (`dibhr info`)
     double holes_share{0.0};  ///< of their pixels that are no data, in [0, 1] (`dibhr info`)
+    std::optional<DepthNoise> noise{};      ///< by which it was cleaned when it was recorded live
     std::optional<Fit> true_fit{};          ///< of a true shape, whose pixels are millimetres
     std::optional<DepthMeaning> meaning{};  ///< nothing: levels are as the file has them
     DepthStatement panel{};                 ///< what the panel says of it, now or kept

@@ -52,6 +52,7 @@ void describe_depth(const SourceFacts& facts, MediaDescription& description) {
     description.depth_rows = facts.rows;
     description.depth_codec = facts.codec;
     description.depth_bits = facts.bits;
+    description.noise = facts.noise;
 }
 
 void describe_colour(const SourceFacts& facts, MediaDescription& description) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
+#include "core/video/cleaning/depth_noise.hpp"
 #include "core/video/depth/camera.hpp"
 #include "core/video/depth/depth_meaning.hpp"
 #include "core/video/frame_window.hpp"
@@ -63,7 +64,8 @@ struct SourceFacts {
     std::string notice{};      ///< what was passed over or chosen at the opening; mostly empty
     DepthStatement known{};    ///< what the file's own metadata or its format says of its depth
     std::string known_from{};  ///< where it says so: "EXR channel Z"; empty: nowhere
-    Lens lens{};               ///< of the camera that `known.intrinsics` are of
+    std::optional<DepthNoise> noise{};  ///< by which it was cleaned when it was recorded live
+    Lens lens{};                        ///< of the camera that `known.intrinsics` are of
     bool other_camera{false};  ///< the colour beside it is of another one, which stands elsewhere
     std::shared_ptr<const CameraPair> cameras{};  ///< calibrated together; none: not known
 };

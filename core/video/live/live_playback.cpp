@@ -67,7 +67,7 @@ void LivePlayback::open(std::unique_ptr<Media> media, std::uint32_t number,
     close();
     media_ = std::move(media);
     feed_ = media_->live();
-    number_ = number;
+    opened_ = number_ = number;
     maps_ = std::move(maps);
     playing_ = true;
     clock_.begin_again();
@@ -280,6 +280,7 @@ LiveStatus LivePlayback::status(Time now) const {
     status.force_off = force_off_;
     status.other_form = signal.other_form;
     status.trouble = signal.trouble;
+    status.opened = opened_;
     status.media = frames_.empty() ? 0 : frames_.front().media;
     status.noise = noise_.value_or(DepthNoise{});
     return status;

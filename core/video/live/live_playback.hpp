@@ -68,7 +68,8 @@ class LivePlayback {
 
     std::unique_ptr<Media> media_{};
     std::shared_ptr<LiveFeed> feed_{};
-    std::uint32_t number_{0};
+    std::uint32_t opened_{0};  ///< number it was opened by
+    std::uint32_t number_{0};  ///< that frames carry now
     std::shared_ptr<const TouchMaps> maps_{};
     CleaningOptions options_{};
     CleaningPlan plan_{};
