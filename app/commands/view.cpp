@@ -27,6 +27,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/replay/session_player.hpp"
 #include "core/video/frame_window.hpp"
+#include "core/video/live/live_name.hpp"
 #include "device/falcon/guardian.hpp"
 
 namespace dibhr {
@@ -332,6 +333,8 @@ int run_view(CLI::App& app, const Arguments& arguments) {
         "Examples:\n"
         "  dibhr                                  the built-in sample\n"
         "  dibhr color.mp4 depth.mp4 --friction 0.8\n"
+        "  dibhr v4l2:/dev/video4 v4l2:/dev/video2   two cameras, colour and depth\n"
+        "  dibhr udp://127.0.0.1:5000 --packing left-right   a stream of both\n"
         "  dibhr --material bark                  the sample, covered with it\n"
         "  dibhr view touch                       a file that is called like a command\n"
         "  dibhr color.mp4 --record mine.dibhr --seconds 20 --screenshot last.png\n"
@@ -343,7 +346,7 @@ int run_view(CLI::App& app, const Arguments& arguments) {
     const std::string colour = options.open.colour.string();
     std::error_code unknown;
     if (colour.find_first_of("./") == std::string::npos && !colour.empty() &&
-        !fs::exists(colour, unknown)) {
+        !fs::exists(colour, unknown) && !is_live(colour)) {
         throw UsageError("neither a command nor a file is called '" + colour + "'" +
                          meant_command(colour) + " (see dibhr --help)");
     }
