@@ -38,7 +38,9 @@ using Clock = LivePicture::Clock;
 constexpr std::chrono::milliseconds kToOpen{4000};  ///< so long it may be silent at the begin
 constexpr std::chrono::milliseconds kSilent{1500};  ///< and so long later
 constexpr std::chrono::milliseconds kBetweenLooks{2};
-constexpr int kLooked_ms = 50;  ///< how soon a pipe notices that it is to end
+constexpr int kLooked_ms = 50;                 ///< how soon a pipe notices that it is to end
+constexpr std::chrono::seconds kEarly{1};      ///< what comes so much too early is no camera's
+constexpr std::chrono::seconds kOtherTime{5};  ///< a clock that is so far ahead was set
 constexpr int kPipeBytes = 1 << 16;
 constexpr std::int64_t kToTell_us = 500'000;  ///< of the stream, to tell what it holds
 constexpr std::int64_t kToTell_bytes = 5'000'000;
@@ -150,11 +152,7 @@ void LiveInput::patience(std::chrono::milliseconds patience) {
 }
 
 LiveInput::LiveInput(const LiveName& name, const std::string& shown, const LiveWants& wants)
-    : wants_(wants),
-      kind_(name.kind),
-      frame_(av_frame_alloc()),
-      packet_(av_packet_alloc()),
-      begin_(Clock::now()) {
+    : wants_(wants), kind_(name.kind), frame_(av_frame_alloc()), packet_(av_packet_alloc()) {
     if (!frame_ || !packet_) throw std::bad_alloc();
     set_up_libraries();
     set_up_devices();
@@ -264,13 +262,26 @@ bool LiveInput::is_whole() {
     return !damaged_;
 }
 
-/// Made pictures come as quickly as they are asked for: in their own time, as everything else.
-void LiveInput::keep_time(double stamp_s) const {
-    const auto due = begin_ + std::chrono::duration_cast<Clock::duration>(
-                                  std::chrono::duration<double>(stamp_s));
+/// Made pictures come as quickly as they are asked for, and so does a file in a pipe or on a
+/// server: in their own time, as everything else. What comes by itself is never waited for.
+void LiveInput::keep_time(double stamp_s) {
+    if (!std::isfinite(stamp_s)) return;
+    const auto early = kind_ == LiveKind::made ? Clock::duration(0) : kEarly;
+    const auto due_of = [this, stamp_s] {
+        return begin_ + std::chrono::duration_cast<Clock::duration>(
+                            std::chrono::duration<double>(stamp_s - first_s_));
+    };
+    const bool begins = begin_ == Clock::time_point{};
+    if (begins || due_of() > Clock::now() + kOtherTime) {
+        begin_ = Clock::now();
+        first_s_ = stamp_s;
+    }
+    const Clock::time_point due = due_of() - early;
+    if (due <= Clock::now()) return;
     while (Clock::now() < due && !wants_.leaving.load(std::memory_order_relaxed))
         std::this_thread::sleep_for(
             std::min<Clock::duration>(due - Clock::now(), std::chrono::milliseconds(kLooked_ms)));
+    arrived_ = Clock::now();
 }
 
 /// False: it cannot be converted.
@@ -280,10 +291,7 @@ bool LiveInput::take(LivePicture& picture) {
     picture.stamp_s = stamp == AV_NOPTS_VALUE
                           ? std::numeric_limits<double>::quiet_NaN()
                           : static_cast<double>(stamp) * av_q2d(stream_->time_base);
-    if (kind_ == LiveKind::made && std::isfinite(picture.stamp_s)) {
-        keep_time(picture.stamp_s);
-        arrived_ = Clock::now();
-    }
+    keep_time(picture.stamp_s);
     const double aspect = pixel_aspect(frame, *stream_);
     picture.colour = cv::Mat();
     picture.levels = cv::Mat();

@@ -71,7 +71,7 @@ class LiveInput {
     void patience(std::chrono::milliseconds patience);
     [[nodiscard]] bool send_next();
     [[nodiscard]] bool is_whole();
-    void keep_time(double stamp_s) const;
+    void keep_time(double stamp_s);
     [[nodiscard]] bool take(LivePicture& picture);
 
     const LiveWants& wants_;
@@ -86,7 +86,8 @@ class LiveInput {
     AVStream* stream_{nullptr};                // the context's
     LivePicture::Clock::time_point latest_{};  // then nothing has come for too long
     LivePicture::Clock::time_point arrived_{};
-    LivePicture::Clock::time_point begin_;
+    LivePicture::Clock::time_point begin_{};  // when the stamp first_s_ was due
+    double first_s_{0.0};
     bool damaged_{false};
 };
 
