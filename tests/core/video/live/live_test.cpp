@@ -79,8 +79,9 @@ void play(Player& player, const std::string& url) {
     REQUIRE(soon([&] { return player.haptics().front().count > 1; }));
 }
 
-/// How long after its sending a flash is felt to nine tenths, each.
-std::vector<double> delays_s(Player& player, int flashes, const std::atomic<int>& number,
+/// How long after its sending a flash is felt to nine tenths (`high_level`), each.
+std::vector<double> delays_s(Player& player, int flashes, double high_level,
+                             const std::atomic<int>& number,
                              const std::function<Clock::time_point(int)>& sent) {
     std::vector<double> delays;
     int seen = number;
@@ -89,7 +90,7 @@ std::vector<double> delays_s(Player& player, int flashes, const std::atomic<int>
     while (static_cast<int>(delays.size()) < flashes && Clock::now() < latest) {
         const auto now = Clock::now();
         const auto level = felt_level(player.haptics().front(), now);
-        const bool high = level && *level >= 37000.0;
+        const bool high = level && *level >= high_level;
         if (high && !was_high && number > seen) {
             seen = number;
             delays.push_back(seconds(now - sent(seen)));
@@ -181,7 +182,7 @@ TEST_CASE("a step in the depth is felt two frames and 10 ms after it is sent, at
     Player player;
     play(player, PictureSender::url(port));
     std::this_thread::sleep_for(milliseconds(1500));
-    const auto delays = delays_s(player, 7, number, [&](int n) {
+    const auto delays = delays_s(player, 7, 37000.0, number, [&](int n) {
         const std::lock_guard lock(mutex);
         return sent[static_cast<std::size_t>(n) - 1];
     });
@@ -193,6 +194,46 @@ TEST_CASE("a step in the depth is felt two frames and 10 ms after it is sent, at
     if (!DIBHR_SANITIZED) CHECK(delays[3] <= 2.0 * kInterval_s + 0.010);
     CHECK(delays[3] >= 0.5 * kInterval_s);
     CHECK_THAT(said_s, WithinAbs(delays[3], 0.020));
+}
+
+TEST_CASE(
+    "through ffmpeg, H.264 and MPEG-TS over UDP a step is felt two frames and 10 ms later, too",
+    "[live]") {
+    const int raw = free_port();
+    const int coded = free_port();
+    std::mutex mutex;
+    std::vector<Clock::time_point> sent;
+    std::atomic<int> number{0};
+    PictureSender::Asked asked = flashing([](int k) { return k % 20 >= 10; });
+    asked.sent = [&](int k, Clock::time_point when) {
+        if (k % 20 != 10) return;
+        const std::lock_guard lock(mutex);
+        sent.push_back(when);
+        number = static_cast<int>(sent.size());
+    };
+    const PictureSender camera(raw, asked);
+    const Ffmpeg sender(
+        "-fflags nobuffer -flags low_delay -probesize 32 -analyzeduration 0 -i " +
+        PictureSender::url(raw) +
+        " -fps_mode passthrough -c:v libx264 -preset ultrafast -tune zerolatency "
+        "-g 15 -pix_fmt yuvj420p -omit_video_pes_length 0 -muxdelay 0 -muxpreload 0 "
+        "-flush_packets 1 -f mpegts 'udp://127.0.0.1:" +
+        std::to_string(coded) + "?pkt_size=1316'");
+    DepthRequest request = as_sent();
+    request.command_line.range = DepthRange{255.0, 0.0};
+    Player player;
+    player.set_cleaning({.preset = CleaningPreset::raw});
+    player.play_media(open_media("udp://127.0.0.1:" + std::to_string(coded), {}, request), 1);
+    REQUIRE(soon([&] { return player.haptics().front().count > 1; }));
+    std::this_thread::sleep_for(milliseconds(1500));
+    const auto delays = delays_s(player, 7, 37000.0 / 257.0, number, [&](int n) {
+        const std::lock_guard lock(mutex);
+        return sent[static_cast<std::size_t>(n) - 1];
+    });
+    REQUIRE(delays.size() == 7);
+    WARN("felt after " << 1000.0 * delays.front() << " to " << 1000.0 * delays.back()
+                       << " ms, the median after " << 1000.0 * delays[3]);
+    if (!DIBHR_SANITIZED) CHECK(delays[3] <= 2.0 * kInterval_s + 0.010);
 }
 
 TEST_CASE("frames that come unevenly are shown in even time, and time never goes back", "[live]") {
