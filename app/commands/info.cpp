@@ -104,7 +104,10 @@ void describe_partner(const fs::path& file) {
 std::string form_of(const MediaDescription& media) {
     const bool is_colour = media.colour_columns > 0;
     const std::string& codec = is_colour ? media.colour_codec : media.depth_codec;
-    return std::string(media.still ? "image" : "video") + (codec.empty() ? "" : ", " + codec);
+    return std::string(media.still  ? "image"
+                       : media.live ? "live video"
+                                    : "video") +
+           (codec.empty() ? "" : ", " + codec);
 }
 
 std::string size_text(int columns, int rows) {
@@ -171,13 +174,15 @@ void describe_pictures(const fs::path& file, const DepthRequest& request) {
     const bool has_depth = media.depth_columns > 0;
 
     std::cout << one_line(file.string()) << '\n';
-    print_fact("kind", media.still ? "image" : "video");
+    print_fact("kind", media.still ? "image" : media.live ? "live video" : "video");
     print_fact("size", is_colour ? size_text(media.colour_columns, media.colour_rows)
                                  : size_text(media.depth_columns, media.depth_rows));
     const std::string& codec = is_colour ? media.colour_codec : media.depth_codec;
     if (!codec.empty()) print_fact("codec", codec);
     if (has_depth) print_depth(media);
-    if (!media.still) {
+    if (media.live) {
+        print_fact("rate", number_text(media.frames_per_s, 2) + " frames/s, live");
+    } else if (!media.still) {
         print_fact("frames", (media.frames_exact ? "" : "about ") + std::to_string(media.frames));
         print_fact("duration", number_text(media.duration_s, 3) + " s");
         print_fact("rate", number_text(media.frames_per_s, 2) + " frames/s");
@@ -239,8 +244,8 @@ Json json_of(const fs::path& file, const MediaDescription& media) {
               {"bits", known(has_depth, media.depth_bits)},
               {"levels_used", known(has_depth, media.levels_used)},
               {"holes_share", known(has_depth, media.holes_share)},
-              {"frames", media.frames},
-              {"duration_s", media.duration_s}};
+              {"frames", known(!media.live, media.frames)},
+              {"duration_s", known(!media.live, media.duration_s)}};
     add_meaning(json, media.meaning);
     json["registered_by"] = media.registered_by;
     json["notice"] = media.notice;
@@ -280,7 +285,9 @@ void describe(const fs::path& file, const DepthRequest& request) {
 
 int run_info(CLI::App& app, const Arguments& arguments) {
     std::vector<std::string> files;
-    app.add_option("FILE", files, "Videos, images and session files")->type_name("")->required();
+    app.add_option("FILE", files, "Videos, images, session files, cameras and streams")
+        ->type_name("")
+        ->required();
     bool json = false;
     DepthRequest request = usual_depth_request();
     app.add_flag("--json", json, "One JSON object a file and line; what is not known is null");

@@ -30,6 +30,7 @@
 #include "core/replay/session_player.hpp"
 #include "core/video/depth/depth_missing.hpp"
 #include "core/video/frame_window.hpp"
+#include "core/video/live/live_name.hpp"
 #include "device/falcon/guardian.hpp"
 
 namespace dibhr {
@@ -266,13 +267,14 @@ int run_view(CLI::App& app, const Arguments& arguments) {
     TouchRequest touch;
     std::optional<std::pair<int, int>> size;
     add_file(app, "COLOR", options.open.colour,
-             "Colour video, image or folder of pictures, or a recorded session to replay; none: "
-             "the built-in sample",
+             "Colour video, image or folder of pictures, a camera or stream (v4l2:/dev/video0, "
+             "udp://...), or a recorded session to replay; none: the built-in sample",
              "");
-    add_file(app, "DEPTH", options.open.depth,
-             "Depth video, image or folder; none: in the colour's file or folder, else *color* -> "
-             "*depth* beside it",
-             "");
+    add_file(
+        app, "DEPTH", options.open.depth,
+        "Depth video, image or folder, camera or stream; none: in the colour's file or folder, "
+        "else *color* -> *depth* beside it",
+        "");
     app.add_option_function<std::string>(
            "--device",
            [&options](const std::string& device) {
@@ -377,6 +379,8 @@ int run_view(CLI::App& app, const Arguments& arguments) {
         "Examples:\n"
         "  dibhr                                  the built-in sample\n"
         "  dibhr color.mp4 depth.mp4 --friction 0.8\n"
+        "  dibhr v4l2:/dev/video4 v4l2:/dev/video2   two cameras, colour and depth\n"
+        "  dibhr udp://127.0.0.1:5000 --packing left-right   a stream of both\n"
         "  dibhr --material bark                  the sample, covered with it\n"
         "  dibhr view touch                       a file that is called like a command\n"
         "  dibhr color.mp4 --record mine.dibhr --seconds 20 --screenshot last.png\n"
@@ -388,7 +392,7 @@ int run_view(CLI::App& app, const Arguments& arguments) {
     const std::string colour = options.open.colour.string();
     std::error_code unknown;
     if (colour.find_first_of("./") == std::string::npos && !colour.empty() &&
-        !fs::exists(colour, unknown)) {
+        !fs::exists(colour, unknown) && !is_live(colour)) {
         throw UsageError("neither a command nor a file is called '" + colour + "'" +
                          meant_command(colour) + " (see dibhr --help)");
     }

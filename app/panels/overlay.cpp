@@ -73,6 +73,14 @@ float draw_banner(const ViewerState& state, const std::string& text) {
     return low.y + size.y + pad.y;
 }
 
+/// What is missing to touch: of a Falcon, or of what is live. Empty: nothing.
+std::string banner_of(const ViewerState& state) {
+    if (const std::string banner = falcon_banner(state); !banner.empty())
+        return capitalised(banner);
+    const bool lost = state.playback.live && !state.playback.live->signal && !state.replay;
+    return lost ? in_words(*state.playback.live) : std::string();
+}
+
 void centred_label(const ViewerState& state, const std::string& text, float lines_above_bar,
                    float alpha) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
@@ -112,6 +120,7 @@ std::string place_text(const ViewerState& state) {
                ", tick " + std::to_string(state.replay->tick_count);
     }
     const PlaybackStatus& at = state.playback;
+    if (at.live) return "live, " + in_words(*at.live);
     return clock_text(at.media_s) + " of " + clock_text(at.duration_s) + ", frame " +
            std::to_string(at.frame + 1);
 }
@@ -122,6 +131,8 @@ std::string touch_text(const ViewerState& state) {
     if (waits_for_front(state)) return "Force off: not in front";
     if (!haptic.touchable) return state.replay ? "No surface" : "No surface yet";
     if (clutched(state)) return "Held by the clutch";
+    if (state.playback.live && state.playback.live->force_off && !state.replay)
+        return "No force: no signal";
     if (haptic.touch.cut != SafetyCut::none)
         return std::string("No force: ") + name_of(haptic.touch.cut);
     if (!haptic.touch.proxy.contact) return "Free";
@@ -316,8 +327,8 @@ void draw_upper_left(const ViewerState& state, float margin, float right) {
     };
     if (state.replay) add(replay_text(*state.replay));
     add(touch_text(state));
-    if (const std::string banner = falcon_banner(state); !banner.empty())
-        low.y = draw_banner(state, capitalised(banner)) + 0.3F * ImGui::GetFrameHeight();
+    if (const std::string banner = banner_of(state); !banner.empty())
+        low.y = draw_banner(state, banner) + 0.3F * ImGui::GetFrameHeight();
     if (state.recording) {
         red_dot_label(*ImGui::GetBackgroundDrawList(),
                       "Recording   " + clock_text(state.recording->time_s), low);

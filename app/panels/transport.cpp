@@ -176,10 +176,31 @@ void begin_bottom_bar(const ViewerState& state, const char* name) {
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
 }
 
+/// Where the line of time would be: there is none.
+void draw_live(const LiveStatus& live, bool playing, float right_of_words) {
+    const ImU32 red = IM_COL32(226, 60, 52, 255);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float height = ImGui::GetFrameHeight();
+    const float radius = 0.17F * height;
+    const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - right_of_words;
+    ImGui::GetWindowDrawList()->AddCircleFilled(
+        {at.x + 2.0F * radius, at.y + 0.5F * height}, radius,
+        playing && live.signal ? red : ImGui::GetColorU32(ImGuiCol_TextDisabled), 16);
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 5.0F * radius);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(playing ? "LIVE" : "HELD");
+    ImGui::SameLine();
+    const std::string words = playing ? in_words(live) : "play goes on with what comes then";
+    const float room = right - ImGui::GetCursorPosX();
+    if (ImGui::CalcTextSize(words.c_str()).x < room) ImGui::TextDisabled("%s", words.c_str());
+    ImGui::SameLine(right + ImGui::GetStyle().ItemSpacing.x);
+}
+
 void draw_playback(const ViewerState& state, Player& player, float right_of_line) {
     const PlaybackStatus& playback = state.playback;
     play_button(playback.playing, player, state.keys);
     ImGui::SameLine();
+    if (playback.live) return draw_live(*playback.live, playback.playing, right_of_line);
     const TimeLineContents times{
         .now_s = playback.media_s, .length_s = playback.duration_s, .part = playback.part};
     const auto wanted_s = draw_line_and_time(times, "frame " + std::to_string(playback.frame + 1),

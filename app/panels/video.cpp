@@ -7,6 +7,7 @@
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/live/live_name.hpp"
 
 namespace dibhr {
 
@@ -30,12 +31,14 @@ void draw_recent(ViewerState& state) {
     if (state.recent.empty()) quiet_text("No file was opened yet.");
     for (const RecentFile& file : state.recent) {
         std::error_code unknown;
-        const bool there = std::filesystem::exists(file.colour, unknown);
+        const bool there = is_live(file.colour) || std::filesystem::exists(file.colour, unknown);
         const std::string depth =
             file.depth.empty() ? std::string{} : " + " + file.depth.filename().string();
         ImGui::BeginDisabled(!there);
         ImGui::PushID(&file);
-        if (ImGui::Selectable((file.colour.filename().string() + depth).c_str()))
+        const std::string name =
+            is_live(file.colour) ? file.colour.string() : file.colour.filename().string();
+        if (ImGui::Selectable((name + depth).c_str()))
             state.requests.open = OpenRequest{file.colour, file.depth};
         ImGui::PopID();
         ImGui::EndDisabled();
@@ -49,12 +52,12 @@ void draw_recent(ViewerState& state) {
 }
 
 void draw_open(ViewerState& state) {
-    const bool from_colour =
-        text_field("##colour", "Colour file, or session", state.fields.colour,
-                   ("Path of a colour video or picture, or of a recorded session; Open without one "
-                    "shows what there is" +
-                    state.keys.in_brackets(Action::open_file))
-                       .c_str());
+    const bool from_colour = text_field(
+        "##colour", "Colour file, or session", state.fields.colour,
+        ("Path of a colour video or picture, or of a recorded session, or what is live, as "
+         "v4l2:/dev/video0 or udp://...; Open without one shows what there is" +
+         state.keys.in_brackets(Action::open_file))
+            .c_str());
     const bool from_depth =
         text_field("##depth", "Depth file: found beside it", state.fields.depth,
                    "Empty: the file called like the colour file, with depth in place of color");
@@ -116,6 +119,28 @@ void draw_playback(const ViewerState& state, Player& player) {
     speed_row(playback.speed, player);
 }
 
+/// What comes as it happens.
+void draw_live(const ViewerState& state, Player& player) {
+    const PlaybackStatus& playback = state.playback;
+    const LiveStatus& live = *playback.live;
+    play_button(playback.playing, player, state.keys);
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(playback.playing ? "Live" : "Held");
+    if (live.signal) {
+        fact_row("Delay", formatted("%.0f ms", 1000.0 * live.behind_s));
+        explain(
+            "From a picture's coming until the surface is wholly what it shows: the time from "
+            "frame to frame, what cleaning takes, and as much as pictures come unevenly");
+    } else {
+        fact_row("Signal", formatted("lost for %.0f s", live.silent_s));
+    }
+    fact_row("Frames", formatted("%.1f/s, %lld left out", playback.frames_per_s,
+                                 static_cast<long long>(live.dropped)));
+    explain("Left out: they came before the one before them was ready");
+    if (!live.signal && !live.trouble.empty()) quiet_text(capitalised(live.trouble));
+}
+
 /// A step switched by hand makes all of them one's own choice, beginning with what is done now.
 void draw_cleaning(ViewerState& state) {
     CleaningOptions& cleaning = state.settings.cleaning;
@@ -173,7 +198,10 @@ void draw_video_panel(ViewerState& state, Player* player) {
     draw_open(state);
     draw_files(state.media);
     const bool plays = state.opening || !state.media.depth_path.empty();
-    if (player != nullptr && plays && !state.media.still) draw_playback(state, *player);
+    if (player != nullptr && state.playback.live)
+        draw_live(state, *player);
+    else if (player != nullptr && plays && !state.media.still)
+        draw_playback(state, *player);
     if (player != nullptr && part("Depth")) draw_depth_rows(state);
     ImGui::BeginDisabled(player == nullptr);  // a replay shows what was touched
     draw_cleaning(state);

@@ -69,6 +69,7 @@ struct OpenRequest {
     bool chosen{false};  ///< other words on the panel, to be kept once they have opened it
     double at_s{0.0};    ///< where to go on [s]
     bool paused{false};  ///< and to stand still there
+    bool again{false};   ///< what is live has changed: it is tried until it comes
 };
 
 /// A row of the Open dialog, opened: depth alone finds its colour.

@@ -1,6 +1,8 @@
 // Rows and icons of the panels.
 #include "app/panels/widgets.hpp"
 
+#include "core/video/live/live_name.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -307,8 +309,9 @@ void fact_row(const char* label, const std::string& value, const char* help) {
 }
 
 void file_row(const char* label, const std::filesystem::path& file) {
+    const std::string name = is_live(file) ? file.string() : file.filename().string();
     const float width = ImGui::GetContentRegionAvail().x * (1.0F - kLabelShare);
-    fact_row(label, on_two_lines(file.filename().string(), width), file.c_str());
+    fact_row(label, on_two_lines(name, width), file.c_str());
 }
 
 void place_next_tooltip() {

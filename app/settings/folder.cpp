@@ -10,6 +10,7 @@
 
 #include "app/settings/recent_files.hpp"
 #include "core/video/formats/touch_map_files.hpp"
+#include "core/video/live/live_name.hpp"
 #include "core/video/media.hpp"
 #include "core/video/media_names.hpp"
 
@@ -165,6 +166,7 @@ fs::path whole_path(const fs::path& file) {
 FolderEntry entry_meant(const Folder& folder, const std::string& typed,
                         const std::optional<FolderEntry>& chosen) {
     const fs::path named = typed_path(typed);
+    if (is_live(named)) return {FileKind::video, named};
     for (const fs::path& place : {folder.path / named, whole_path(named)}) {
         std::error_code unknown;
         if (fs::is_directory(place, unknown)) return {FileKind::folder, place};

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/files/output_file.hpp"
+#include "core/video/live/live_name.hpp"
 
 namespace dibhr {
 
@@ -26,7 +27,7 @@ fs::path home() {
 }
 
 fs::path whole(const fs::path& file) {
-    return file.empty() ? file : fs::absolute(file).lexically_normal();
+    return file.empty() || is_live(file) ? file : fs::absolute(file).lexically_normal();
 }
 
 }  // namespace

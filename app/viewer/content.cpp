@@ -20,6 +20,7 @@
 #include "core/video/cleaning/fingertip.hpp"
 #include "core/video/depth/kept_choices.hpp"
 #include "core/video/depth/sidecar.hpp"
+#include "core/video/live/live_name.hpp"
 #include "core/video/media_names.hpp"
 
 namespace dibhr {
@@ -153,7 +154,7 @@ void Viewer::take_opened() {
             browsing_.show(opened->request.colour, state_);
         } else if (opened->lacks_depth && estimating_.offer(opened->request.colour, state_)) {
             show_depth_words(state_);
-        } else if (!opened->failure.empty()) {
+        } else if (!opened->failure.empty() && !opened->request.again) {
             state_.message = opened->failure;
             show_depth_words(state_);  // those that are in force
         }
@@ -205,6 +206,8 @@ void Viewer::take_desktop_answer() {
 void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request,
                         const FileMemory& memory, FoundMaps maps) {
     explaining_.end(state_, camera_);
+    // Ticks would touch what no file holds.
+    if (media->description().live && recording_.asked_for()) tell(recording_.stop(state_));
     if (!request.chosen) keep_memory();
     replay_.end(state_);
     if (!request.chosen) forget_relief();
@@ -212,6 +215,8 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
     state_.media = media->description();
     state_.opened = request;
     state_.opened.request.panel = state_.media.panel;
+    state_.opened.request.live = media->live();
+    state_.opened.again = false;
     show_depth_words(state_);
     trace_.clear();
     if (request.chosen) keep_panel(depth_file(before));
@@ -230,8 +235,11 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
         maps = {nullptr, "Nothing is painted with --maps off: start dibhr without it"};
     if (options_.touch.feels_maps() && !maps.refusal.empty())
         state_.message = maps.refusal + "\n\nIt is touched without touch maps.";
+    if (state_.media.live)
+        maps = {nullptr, "Nothing is painted on what is live: it has no place for it"};
+    media_number_ = recording_.opened(state_.media);
     player_.play_media(
-        std::move(media), recording_.opened(state_.media),
+        std::move(media), media_number_,
         painting_.begin(std::move(maps), state_.media, remembered_file(state_.media).empty()));
     if (request.at_s > 0.0) player_.seek(request.at_s);
     if (request.paused) player_.pause();
@@ -290,7 +298,7 @@ void Viewer::forget_relief() {
 
 void Viewer::replay_session(std::unique_ptr<OpenedSession> session) {
     painting_.hand_over(recording_);
-    if (recording_.active()) tell(recording_.stop(state_));
+    if (recording_.asked_for()) tell(recording_.stop(state_));
     if (!session->frames.warning().empty()) tell(capitalised(session->frames.warning()));
     explaining_.end(state_, camera_);
     painting_.end(state_);
@@ -315,7 +323,8 @@ void Viewer::keep_recent(const RecentFile& opened) try {
 }
 
 void Viewer::show_title(const std::filesystem::path& file) {
-    window_.set_title(file.filename().string() + " - dibhr");
+    const std::filesystem::path name = is_live(file) ? file : file.filename();
+    window_.set_title(name.string() + " - dibhr");
 }
 
 /// What the panel says stays with the file that it made the depth.
@@ -341,12 +350,26 @@ void Viewer::open_again(const DepthStatement& panel) {
     open(request);
 }
 
+/// What sends now sends another form: all that was known of it is found out anew.
+void Viewer::follow_live() {
+    const auto& live = state_.playback.live;
+    if (state_.replay || !live || !live->other_form || live->opened != media_number_ ||
+        opening_.under_way())
+        return;
+    OpenRequest request = state_.opened;
+    request.request.live = nullptr;
+    request.again = true;
+    opening_.start([request] { return try_open(request); });
+}
+
 void Viewer::open(const OpenRequest& request) {
     if (!opening_.start([request] { return try_open(request); }))
         tell("Still opening the last files");
 }
 
 std::string Viewer::save_sidecar() {
+    if (state_.media.live)
+        throw InputError("what is live has no sidecar: what is chosen is kept for its name");
     if (!state_.media.meaning) throw InputError("nothing is known of this depth: it is shown raw");
     const std::filesystem::path& file = depth_file(state_.media);
     DepthStatement all = state_.media.meaning->statement();

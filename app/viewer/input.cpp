@@ -185,10 +185,32 @@ bool clip(const Vec3& from, const Vec3& way, int axis, double low, double high, 
     return begin < end;
 }
 
+/// What moves a video moves nothing that comes as it happens, but holds it.
+std::optional<Answer> move_live(Action action, bool playing, Player& player) {
+    switch (action) {
+        case Action::play_or_pause:
+            playing ? player.pause() : player.play();
+            return Answer{playing ? "Held: the surface stays as it is" : "Live"};
+        case Action::step_forward:
+        case Action::step_back:
+        case Action::go_to_start:
+        case Action::go_to_end:
+        case Action::loop_part:
+        case Action::toggle_loop:
+            break;
+        default:
+            if (!(std::abs(seek_step_s(action)) > 0.0) && !speed_after(action, 1.0)) return {};
+    }
+    return Answer{"It is live: record it, and go about in the recording"};
+}
+
 }  // namespace
 
 Answer perform(Action action, ViewerState& state, Player& player) {
     const PlaybackStatus& now = state.playback;
+    if (now.live) {
+        if (const auto moved = move_live(action, now.playing, player)) return *moved;
+    }
     if (const auto moved =
             move(action,
                  {now.playing, now.looping, now.part, now.speed, now.media_s, 0.0, now.duration_s},

@@ -2,6 +2,8 @@
 #include "app/viewer/recording.hpp"
 
 #include <map>
+#include <thread>
+#include <utility>
 
 #include "app/panels/widgets.hpp"
 #include "core/error.hpp"
@@ -18,6 +20,9 @@ namespace {
 constexpr const char* kPlainTag = "mark";
 constexpr const char* kParticipant = "participant";
 constexpr const char* kNote = "note";
+/// For the loop to see that it is over: until then ticks may touch what comes.
+constexpr std::chrono::milliseconds kLastTicks{100};
+constexpr std::chrono::seconds kSumsOfVideo{30};
 
 /// What is kept with a recording: versions of program and libraries, files, parameters, device.
 std::map<std::string, std::string> session_facts(const ViewerState& state) {
@@ -60,15 +65,40 @@ std::map<std::string, std::string> session_facts(const ViewerState& state) {
 }  // namespace
 
 std::uint32_t ViewerRecording::opened(const MediaDescription& media) {
-    opened_.push_back(media);
+    opened_.push_back({media});
     const auto number = static_cast<std::uint32_t>(opened_.size());
-    if (recorder_) tell_media(number, media);
+    if (recorder_) tell_media(number, opened_.back());
     return number;
 }
 
-void ViewerRecording::tell_media(std::uint32_t number, const MediaDescription& media) {
+void ViewerRecording::tell_media(std::uint32_t number, const Opened& opened) {
+    const MediaDescription& media = opened.media;
     recorder_->media(number, media.colour_path, media.depth_path,
-                     media.meaning ? toml_of(media.meaning->statement()) : std::string{});
+                     media.meaning ? toml_of(media.meaning->statement()) : std::string{},
+                     opened.grows);
+}
+
+void ViewerRecording::start_live(const std::filesystem::path& file, ViewerState& state) {
+    LiveFiles files = live_files_beside(file);
+    MediaDescription kept = state.media;
+    if (kept.colour_path.empty()) files.colour.clear();
+    live_ = std::make_shared<LiveRecorder>(files);
+    kept.colour_path = files.colour;
+    kept.depth_path = files.depth;
+    if (kept.meaning) {  // halves and hues are told apart before they are kept
+        kept.meaning->packing.value = DepthPacking::separate;
+        kept.meaning->code.value = DepthCode::grey;
+    }
+    opened_.push_back({std::move(kept), true});
+    waiting_ = {file, static_cast<std::uint32_t>(opened_.size())};
+    player_.record_live(waiting_->number,
+                        [live = live_](const LiveRecord& record) { live->add(record); });
+}
+
+/// All that is touched from here on is in the video.
+void ViewerRecording::begin_if_there(ViewerState& state) {
+    if (!waiting_ || !state.playback.live || state.playback.live->media != waiting_->number) return;
+    start(std::exchange(waiting_, {})->file, state);
 }
 
 void ViewerRecording::start(const std::filesystem::path& file, ViewerState& state) {
@@ -82,9 +112,7 @@ void ViewerRecording::start(const std::filesystem::path& file, ViewerState& stat
     recorder_ = std::make_unique<Recorder>(file, ticks_, facts, &heart_);
     words_.recording(file);
     std::uint32_t number = 0;
-    for (const MediaDescription& media : opened_) {
-        tell_media(++number, media);
-    }
+    for (const Opened& opened : opened_) tell_media(++number, opened);
     if (!maps_.empty()) recorder_->maps(maps_version_, maps_);
     told_version_ = 0;
     falcon_serial_.clear();
@@ -95,18 +123,50 @@ void ViewerRecording::start(const std::filesystem::path& file, ViewerState& stat
 
 std::string ViewerRecording::stop(ViewerState& state) {
     take_news(state);  // with what was typed last
+    if (std::exchange(waiting_, {})) {
+        leave();
+        return "Nothing was recorded: no frame came";
+    }
     if (!recorder_) return {};
-    const RecorderStatus recorded = recorder_->finish();
+    finishing_file_ = state.recording->file;
+    if (live_) {
+        finishing_ = std::async(std::launch::async,
+                                [recorder = std::move(recorder_), live = std::move(live_)] {
+                                    std::this_thread::sleep_for(kLastTicks);
+                                    live->finish();
+                                    recorder->media_is_whole();
+                                    RecorderStatus recorded = recorder->finish(kSumsOfVideo);
+                                    if (recorded.failure.empty())
+                                        recorded.failure = live->failure();
+                                    return recorded;
+                                });
+        opened_.back().grows = false;
+        leave();
+        state.recording.reset();
+        return "Finishing the recording";
+    }
+    return told(recorder_->finish(), state);
+}
+
+/// Of one that is over.
+std::string ViewerRecording::told(const RecorderStatus& recorded, ViewerState& state) {
     if (!recorded.failure.empty()) {
         break_off(state, recorded.failure);
         return {};
     }
-    state.recorded_file = state.recording->file;
+    state.recorded_file = finishing_file_;
     leave();
     state.recording.reset();
     state.fields.note = {};  // it was about this one
     return "Recorded " + std::to_string(recorded.rows) + " ticks into " +
            state.recorded_file.string();
+}
+
+std::optional<std::string> ViewerRecording::take_finished(ViewerState& state) {
+    if (!finishing_.valid() ||
+        finishing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+        return std::nullopt;
+    return told(finishing_.get(), state);
 }
 
 void ViewerRecording::break_off(ViewerState& state, const std::string& failure) {
@@ -149,6 +209,7 @@ std::string ViewerRecording::mark(ViewerState& state) {
 }
 
 void ViewerRecording::take_news(ViewerState& state) {
+    begin_if_there(state);
     if (!recorder_) return;
     const auto tell_changed = [this](const char* key, const TextFields::Field& field,
                                      std::string& told) {
@@ -165,17 +226,25 @@ void ViewerRecording::take_news(ViewerState& state) {
     }
     state.recording->status = recorder_->status();
     state.recording->time_s = now_s();
-    const std::string failure = state.recording->status.failure;
+    std::string failure = state.recording->status.failure;
+    if (const std::string of_video = live_ ? live_->failure() : std::string{}; !of_video.empty())
+        failure = "Recording the video of what is live stopped: " + of_video;
     if (!failure.empty()) break_off(state, failure);
 }
 
 void ViewerRecording::leave() {
+    if (live_) player_.record_live(0, {});
+    live_.reset();
     recorder_.reset();
     words_.recording({});
 }
 
 void ViewerRecording::finish(std::chrono::milliseconds for_sums) {
-    const std::string last = recorder_ ? recorder_->finish(for_sums).failure : std::string{};
+    if (live_) live_->finish();
+    if (live_ && recorder_) recorder_->media_is_whole();
+    std::string last = recorder_ ? recorder_->finish(for_sums).failure : std::string{};
+    if (last.empty() && live_) last = live_->failure();
+    if (last.empty() && finishing_.valid()) last = finishing_.get().failure;
     if (failure_.empty()) failure_ = last;
     if (!failure_.empty()) throw InputError(failure_);
 }

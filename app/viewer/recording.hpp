@@ -4,31 +4,44 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <future>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/panels/viewer_state.hpp"
 #include "app/window/last_words.hpp"
+#include "core/clip/live_recorder.hpp"
 #include "core/loop/haptic_tick.hpp"
 #include "core/session/recorder.hpp"
 #include "core/video/media.hpp"
+#include "core/video/player.hpp"
 
 namespace dibhr {
 
 class ViewerRecording {
   public:
-    /// `ticks` outlives it: the haptic loop's end.
-    ViewerRecording(TickRing& ticks, LastWords& words) : ticks_(ticks), words_(words) {}
+    /// `ticks` outlives it: the haptic loop's end; so does the player.
+    ViewerRecording(TickRing& ticks, LastWords& words, Player& player)
+        : ticks_(ticks), words_(words), player_(player) {}
 
     /// A video that ticks will refer to by the number given back.
     [[nodiscard]] std::uint32_t opened(const MediaDescription& media);
 
     /// Throws InputError when the file cannot be made.
     void start(const std::filesystem::path& file, ViewerState& state);
-    /// Closes the file. A short notice; empty when writing had broken off.
+    /// Of what is live: its video is kept beside the file, and ticks are recorded from the first
+    /// frame of that on. Throws InputError.
+    void start_live(const std::filesystem::path& file, ViewerState& state);
+    /// Closes the file. A short notice; empty when writing had broken off. With a video it is
+    /// finished meanwhile: take_finished() tells.
     std::string stop(ViewerState& state);
     [[nodiscard]] bool active() const { return recorder_ != nullptr; }
+    /// It is, or waits for the first frame of a video.
+    [[nodiscard]] bool asked_for() const { return active() || waiting_; }
+    [[nodiscard]] bool finishing() const { return finishing_.valid(); }
+    [[nodiscard]] std::optional<std::string> take_finished(ViewerState& state);
 
     /// Parameters that the next tick will have; to be called before it gets them.
     void hand_over(const HapticSettings& settings, const std::filesystem::path& bump_file);
@@ -52,7 +65,19 @@ class ViewerRecording {
     [[nodiscard]] const Heartbeat& heart() const noexcept { return heart_; }
 
   private:
-    void tell_media(std::uint32_t number, const MediaDescription& media);
+    struct Opened {
+        MediaDescription media{};
+        bool grows{false};  ///< it is a video that is being recorded
+    };
+    /// Until its first frame is there.
+    struct Waiting {
+        std::filesystem::path file{};
+        std::uint32_t number{0};
+    };
+
+    void tell_media(std::uint32_t number, const Opened& opened);
+    void begin_if_there(ViewerState& state);
+    [[nodiscard]] std::string told(const RecorderStatus& recorded, ViewerState& state);
     void break_off(ViewerState& state, const std::string& failure);
     [[nodiscard]] double now_s() const;
 
@@ -61,15 +86,20 @@ class ViewerRecording {
 
     TickRing& ticks_;
     LastWords& words_;
-    Heartbeat heart_{};                       // before the recorder, which beats it
-    std::vector<MediaDescription> opened_{};  // what the frames' media numbers mean, from 1 on
-    std::unique_ptr<Recorder> recorder_{};    // null: not recording
+    Player& player_;
+    Heartbeat heart_{};                     // before the recorder, which beats it
+    std::vector<Opened> opened_{};          // what the frames' media numbers mean, from 1 on
+    std::unique_ptr<Recorder> recorder_{};  // null: not recording
+    std::shared_ptr<LiveRecorder> live_{};  // null: what is touched is not live
+    std::optional<Waiting> waiting_{};
+    std::future<RecorderStatus> finishing_{};
+    std::filesystem::path finishing_file_{};
     /// The last touch maps that were felt; a recording may begin with them.
     std::uint32_t maps_version_{0};
     std::vector<SessionMap> maps_{};
-    std::uint64_t told_version_{0};           // of the parameters
-    std::string participant_{}, note_{};      // as told
-    std::string falcon_serial_{};             // known only when it has been found
+    std::uint64_t told_version_{0};       // of the parameters
+    std::string participant_{}, note_{};  // as told
+    std::string falcon_serial_{};         // known only when it has been found
     std::chrono::steady_clock::time_point start_{};
     std::string failure_{};  // of the first recording that broke off
 };

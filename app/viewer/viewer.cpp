@@ -102,7 +102,7 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
       strips_(std::make_unique<StripRing>()),
       ticks_(std::make_unique<TickRing>()),
       walked_(std::make_unique<WalkedTickRing>()),
-      recording_(*ticks_, ending.words()) {
+      recording_(*ticks_, ending.words(), player_) {
     if (software_) let_drawing_give_way();
     window_.on_display_loss([this] { close_without_display(); });
     state_.device = hand_.device->specification();
@@ -128,8 +128,10 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
         return;
     }
     state_.media = parts.media->description();
-    if (!options.record.empty()) recording_.start(options.record, state_);
+    const bool live = state_.media.live;
+    if (!options.record.empty() && !live) recording_.start(options.record, state_);
     show_media(std::move(parts.media), options.open, parts.memory, std::move(parts.maps));
+    if (!options.record.empty() && live) recording_.start_live(options.record, state_);
     play_as_asked(options, 0.0, player_);
 }
 
@@ -267,6 +269,7 @@ void Viewer::take_news() {
     state_.touched = state_.touched || state_.haptic.touch.proxy.contact;
     if (!state_.grants && loop_) state_.grants = loop_->grants();
     recording_.take_news(state_);
+    if (const auto notice = recording_.take_finished(state_)) tell(*notice);
     for (TickStrip strip; strips_->pop(strip);) state_.strips.add(strip);
     state_.sound = sound_.state();
     state_.moves_coils = sound_.moves_coils();
@@ -274,6 +277,7 @@ void Viewer::take_news() {
     state_.pictures_per_s = pace_.pictures_per_s();
     take_opened();
     take_desktop_answer();
+    follow_live();
     const std::string& failure =
         state_.replay ? state_.replay->playback.failure : state_.playback.failure;
     if (!failure.empty() && failure != playback_failure_) {
@@ -629,15 +633,18 @@ void Viewer::keep_settings() {
 void Viewer::start_or_stop_recording() {
     if (state_.replay) {
         tell("A replay is not recorded: open a video to touch");
-    } else if (recording_.active()) {
+    } else if (recording_.asked_for()) {
         painting_.hand_over(recording_);
         tell(recording_.stop(state_));
+    } else if (recording_.finishing()) {
+        tell("Still finishing the last recording");
     } else if (handed_.recording) {
         state_.requests.toggle_recording = true;  // when the loop has seen the last one's end
     } else {
         attempt([this] {
             const std::string file = new_file_name("dibhr");
-            recording_.start(file, state_);
+            state_.media.live ? recording_.start_live(file, state_)
+                              : recording_.start(file, state_);
             state_.show_session = true;
             tell("Recording into " + file);
         });

@@ -116,6 +116,7 @@ class Viewer {
     void notice_catching_up();
     void notice_standstill();
     void take_opened();
+    void follow_live();
     void take_keys(const WindowInput& input);
     void take_dialog_key(const KeyPress& press);
     [[nodiscard]] std::optional<Answer> perform_with_files(Action action);
@@ -228,6 +229,7 @@ class Viewer {
     OwnRelief relief_shown_{};                  // that it was shown with
     std::optional<OwnRelief> relief_before_{};  // when the file remembers its own
     std::string playback_failure_{};            // as told
+    std::uint32_t media_number_{0};             // of what is shown, as the player carries it
     std::uint64_t bounds_met_{0};               // as of the last picture
     std::uint64_t standstills_{0};              // as told
     double catching_up_until_s_{0.0};

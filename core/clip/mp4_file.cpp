@@ -5,16 +5,13 @@ extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
 #include <libavutil/dict.h>
-#include <libavutil/error.h>
 }
 
 #include <algorithm>
-#include <array>
 #include <new>
-#include <string>
-#include <system_error>
 #include <utility>
 
+#include "core/clip/av_file.hpp"
 #include "core/clip/picture_encoder.hpp"
 #include "core/error.hpp"
 #include "core/video/video_packets.hpp"
@@ -26,32 +23,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::int64_t kPiece_us = 1'000'000;  // what is lost when the program dies
-
-/// Absolute and with its protocol, so that a colon in a name is no other one.
-std::string url_of(const fs::path& file) {
-    std::error_code gone;
-    return "file:" + fs::absolute(file, gone).string();
-}
-
-void require_written(int result) {
-    if (result >= 0) return;
-    std::array<char, AV_ERROR_MAX_STRING_SIZE> reason{};
-    av_strerror(result, reason.data(), reason.size());
-    throw InputError("cannot be written (" + std::string(reason.data()) +
-                     "); choose another folder or make room for it");
-}
-
-void close_and_free(AVFormatContext* format) {
-    avio_closep(&format->pb);
-    avformat_free_context(format);
-}
-
-AVFormatContext* new_mp4(const fs::path& file) {
-    AVFormatContext* format = nullptr;
-    avformat_alloc_output_context2(&format, nullptr, "mp4", url_of(file).c_str());
-    if (format == nullptr) throw std::bad_alloc();
-    return format;
-}
 
 }  // namespace
 
@@ -68,7 +39,7 @@ struct Mp4File::Held {
 };
 
 Mp4File::Mp4File(const fs::path& file, const AVCodecParameters& coded, Mp4Index index)
-    : format_(new_mp4(file), close_and_free), held_(std::make_unique<Held>()) {
+    : format_(new_file(file, "mp4"), close_and_free), held_(std::make_unique<Held>()) {
     AVStream* const stream = avformat_new_stream(format_.get(), nullptr);
     if (stream == nullptr || avcodec_parameters_copy(stream->codecpar, &coded) < 0)
         throw std::bad_alloc();

@@ -51,7 +51,8 @@ void HapticTick::run(const TickTiming& timing, std::uint64_t late_ticks) noexcep
     const HapticSettings& settings = to_.settings.front();
     state_.late_ticks = late_ticks;
     notice_changes(settings, frames);
-    standstill_ = watch_.look(timing.begin, state_.touchable && state_.touch.proxy.contact);
+    const bool touched = state_.touchable && state_.touch.proxy.contact;
+    standstill_ = watch_.look(timing.begin, touched) || frames.silent;
     state_.standstill = watch_.last();
     const DepthBlend pair = frames.at(frames.clock.playback_s(timing.begin));
     state_.touchable = pair.makes_surface();

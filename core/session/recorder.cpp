@@ -368,11 +368,16 @@ void Recorder::parameters(const SessionParameters& parameters) {
 }
 
 void Recorder::media(std::uint32_t number, const std::filesystem::path& colour,
-                     const std::filesystem::path& depth, const std::string& depth_meaning) {
+                     const std::filesystem::path& depth, const std::string& depth_meaning,
+                     bool grow) {
     implementation_->leave([number, colour = whole_path(colour), depth = whole_path(depth),
-                            depth_meaning](Implementation& writer) {
-        writer.session->know_media(number, colour, depth, depth_meaning);
+                            depth_meaning, grow](Implementation& writer) {
+        writer.session->know_media(number, colour, depth, depth_meaning, grow);
     });
+}
+
+void Recorder::media_is_whole() {
+    implementation_->leave([](Implementation& writer) { writer.session->media_is_whole(); });
 }
 
 void Recorder::maps(std::uint32_t version, std::vector<SessionMap> maps) {

@@ -40,15 +40,18 @@ class Recorder {
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
 
-    // The next five wait for no disk. Each counts for the ticks that are pushed after it.
+    // The next six wait for no disk. Each counts for the ticks that are pushed after it.
 
     /// Parameters that ticks may refer to from now on by their version.
     void parameters(const SessionParameters& parameters);
     /// The files that ticks may refer to from now on as media `number`; either may be empty.
     /// `depth_meaning`: see SessionSource. Their content is summed up (SHA-256) on a thread of its
-    /// own once a tick touches them.
+    /// own once a tick touches them; of those that `grow`, as they are still being written, once
+    /// media_is_whole() says so.
     void media(std::uint32_t number, const std::filesystem::path& colour,
-               const std::filesystem::path& depth, const std::string& depth_meaning = {});
+               const std::filesystem::path& depth, const std::string& depth_meaning = {},
+               bool grow = false);
+    void media_is_whole();
     /// The touch maps that ticks refer to by that version. May come after them.
     void maps(std::uint32_t version, std::vector<SessionMap> maps);
     /// Marks this moment.

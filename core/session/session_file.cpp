@@ -266,8 +266,15 @@ void SessionFile::know(const SessionParameters& parameters) {
 }
 
 void SessionFile::know_media(std::uint32_t number, const std::filesystem::path& colour,
-                             const std::filesystem::path& depth, const std::string& depth_meaning) {
-    known_media_[number] = {colour, depth, depth_meaning};
+                             const std::filesystem::path& depth, const std::string& depth_meaning,
+                             bool grows) {
+    known_media_[number] = {colour, depth, depth_meaning, grows};
+}
+
+void SessionFile::media_is_whole() {
+    for (auto& [number, files] : known_media_) files.grows = false;
+    new_files_.insert(new_files_.end(), growing_files_.begin(), growing_files_.end());
+    growing_files_.clear();
 }
 
 void SessionFile::add_maps(std::uint32_t version, const std::vector<SessionMap>& maps) {
@@ -352,7 +359,8 @@ std::int64_t SessionFile::source_row(const FrameSource& source, std::int64_t tic
     sources_.push_back(source);
     const auto id = static_cast<std::int64_t>(sources_.size());
     const MediaFiles files = known_media_[source.media];
-    const auto colour = media_row(files.colour), depth = media_row(files.depth);
+    const auto colour = media_row(files.colour, files.grows),
+               depth = media_row(files.depth, files.grows);
     int columns = 6;  // id, first_tick, media, colour, depth, depth_meaning
     visit_cleaning(source, [&columns](std::string_view, const auto&) { ++columns; });
     Statement insert(database_, insertion("INTO source", columns));
@@ -365,7 +373,7 @@ std::int64_t SessionFile::source_row(const FrameSource& source, std::int64_t tic
     return id;
 }
 
-std::optional<std::int64_t> SessionFile::media_row(const std::filesystem::path& file) {
+std::optional<std::int64_t> SessionFile::media_row(const std::filesystem::path& file, bool grows) {
     if (file.empty()) return std::nullopt;
     const auto found = media_rows_.find(file);
     if (found != media_rows_.end()) return found->second;
@@ -373,7 +381,7 @@ std::optional<std::int64_t> SessionFile::media_row(const std::filesystem::path& 
     Statement insert(database_, "INSERT INTO media(id, file) VALUES (?, ?)");
     insert.run(id, file.string());
     media_rows_.emplace(file, id);
-    new_files_.push_back(file);
+    (grows ? growing_files_ : new_files_).push_back(file);
     return id;
 }
 

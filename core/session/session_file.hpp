@@ -36,7 +36,10 @@ class SessionFile {
     // Known from here on, and written with the first tick that uses them; files by absolute paths.
     void know(const SessionParameters& parameters);
     void know_media(std::uint32_t number, const std::filesystem::path& colour,
-                    const std::filesystem::path& depth, const std::string& depth_meaning);
+                    const std::filesystem::path& depth, const std::string& depth_meaning,
+                    bool grows = false);
+    /// Those that grew are whole now: their content is to be summed up, too.
+    void media_is_whole();
 
     /// Of touch maps that ticks refer to by that version; once.
     void add_maps(std::uint32_t version, const std::vector<SessionMap>& maps);
@@ -67,6 +70,7 @@ class SessionFile {
     struct MediaFiles {
         std::filesystem::path colour{}, depth{};
         std::string depth_meaning{};
+        bool grows{false};  ///< is still being written
     };
 
     void try_to(const char* sql) noexcept;
@@ -76,7 +80,8 @@ class SessionFile {
     void add_times(const TickRecord& record);
     void add_forces(const TickRecord& record);
     [[nodiscard]] std::int64_t source_row(const FrameSource& source, std::int64_t tick);
-    [[nodiscard]] std::optional<std::int64_t> media_row(const std::filesystem::path& file);
+    [[nodiscard]] std::optional<std::int64_t> media_row(const std::filesystem::path& file,
+                                                        bool grows = false);
     [[nodiscard]] static Place place_of(const std::filesystem::path& file);
 
     std::filesystem::path path_;
@@ -89,7 +94,7 @@ class SessionFile {
     std::map<std::uint64_t, SessionParameters> known_parameters_{};
     std::map<std::uint32_t, MediaFiles> known_media_{};
     std::map<std::filesystem::path, std::int64_t> media_rows_{};
-    std::vector<std::filesystem::path> new_files_{};
+    std::vector<std::filesystem::path> new_files_{}, growing_files_{};
     std::vector<FrameSource> sources_{};  ///< by their rows, from 1
     std::optional<FramePair> pair_{};     ///< the last row of table pair
     std::int64_t pairs_{0};               ///< and its number

@@ -110,6 +110,9 @@ DepthClip read_depth_clip(std::unique_ptr<Media> media, const CleaningOptions& c
                           const SurfaceShape& shape,
                           const std::function<void(double share)>& progress) {
     FrameReader reader(std::move(media));
+    if (reader.description().live)
+        throw InputError(reader.description().depth_path.string() +
+                         ": is live and has no end; record a session of it, or a file");
     reader.set_cleaning(cleaning);
     const auto count = static_cast<double>(std::max<std::int64_t>(reader.description().frames, 1));
     std::vector<Frame> frames;

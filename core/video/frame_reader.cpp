@@ -230,6 +230,7 @@ DepthNoise FrameReader::noise_of(Media& media) {
 /// What the clip's noise asks for is known before its first frame is cleaned.
 void FrameReader::make_plan() {
     if (planned_) return;
+    if (!noise_) noise_ = description().noise;
     if (needs_noise(options_) && !noise_) {
         media_.prepare_with(nullptr);
         const auto begin = Clock::now();

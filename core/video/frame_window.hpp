@@ -117,6 +117,8 @@ struct FrameWindow {
     PlaybackClock clock{};
     /// Counts seeks, loops, jumps and new files: the force ramps after each.
     std::uint64_t discontinuity{0};
+    /// What is live was moving when its signal was lost: until it comes back there is no force.
+    bool silent{false};
 
     [[nodiscard]] DepthBlend at(double playback_s) const noexcept {
         return depth_at({frames.data(), std::min(count, kFrames)}, playback_s);

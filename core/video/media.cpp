@@ -17,6 +17,7 @@
 #include "core/video/depth/kept_choices.hpp"
 #include "core/video/formats/foreign.hpp"
 #include "core/video/layouts.hpp"
+#include "core/video/live/live_source.hpp"
 #include "core/video/media_names.hpp"
 #include "core/video/paired_media.hpp"
 #include "core/video/sources.hpp"
@@ -69,11 +70,13 @@ std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthRequest& asked
     media->add_notice(sources.notice);
     media->add_notice(notice);
     media->panel_said(request.panel);
+    media->comes_from(std::move(sources.live));
     return media;
 }
 
 /// Where names say that the depth of a pair is: what is said of it counts from the opening on.
 fs::path depth_of_pair(const fs::path& colour, const fs::path& depth) {
+    if (any_live(colour, depth)) return depth.empty() ? colour : depth;
     if (colour.empty()) return depth_place_for(depth);
     const MediaPlaces places = places_for(colour, depth);
     if (!places.depth.empty()) return places.depth;
@@ -81,11 +84,21 @@ fs::path depth_of_pair(const fs::path& colour, const fs::path& depth) {
     return find_depth_beside(places.colour, ignored).value_or(places.colour);
 }
 
+/// What is given, as it is given, or what is found there.
+Sources sources_of(const fs::path& colour, const fs::path& depth, const DepthStatement& said,
+                   const DepthRequest& request) {
+    if (any_live(colour, depth)) return find_live_sources(colour, depth, said, request.live);
+    return colour.empty() ? find_depth(depth, said) : find_sources(colour, depth, said);
+}
+
 MediaDescription described(const fs::path& place, const DepthRequest& request,
                            const std::string& notice) {
-    const MediaPlaces places = places_for(place, {});
+    const MediaPlaces places =
+        is_live(place) ? MediaPlaces{.colour = place} : places_for(place, {});
     const fs::path& depth = places.depth.empty() ? places.colour : places.depth;
-    Sources sources = find_content(place, said_of(depth, place, request));
+    const DepthStatement said = said_of(depth, place, request);
+    Sources sources =
+        is_live(place) ? sources_of(place, {}, said, request) : find_content(place, said);
     if (sources.depth == nullptr) {
         sources.colour->count_frames(kMostCounted);
         MediaDescription description;
@@ -141,7 +154,9 @@ void require_readable(const fs::path& file) {
     if (fs::is_directory(status))
         throw InputError(shown(file) + " is a folder: give the video or picture file in it");
     if (!fs::is_regular_file(status))
-        throw InputError(shown(file) + " is a pipe or a device: save its data to a file first");
+        throw InputError(shown(file) +
+                         " is a pipe or a device: open it as it runs, as pipe:NAME, or "
+                         "save its data to a file first");
     std::ifstream in(file, std::ios::binary);
     if (!in) throw InputError(shown(file) + " cannot be read: check its permissions (chmod u+r)");
     if (fs::file_size(file, failed) == 0)
@@ -162,15 +177,15 @@ std::unique_ptr<Media> open_media(const fs::path& colour, const fs::path& depth,
                                   const DepthRequest& asked) {
     return opened(asked, [&](const DepthRequest& request, const std::string& notice) {
         const DepthStatement said = said_of(depth_of_pair(colour, depth), colour, request);
-        Sources sources =
-            colour.empty() ? find_depth(depth, said) : find_sources(colour, depth, said);
-        return media_of(std::move(sources), request, true, notice);
+        return media_of(sources_of(colour, depth, said, request), request, true, notice);
     });
 }
 
 std::unique_ptr<Media> open_depth(const fs::path& place, const DepthRequest& asked) {
     return opened(asked, [&](const DepthRequest& request, const std::string& notice) {
-        Sources sources = find_depth(place, said_of(depth_place_for(place), place, request));
+        const fs::path depth = is_live(place) ? place : depth_place_for(place);
+        Sources sources = sources_of({}, place, said_of(depth, place, request), request);
+        sources.colour.reset();
         return media_of(std::move(sources), request, false, notice);
     });
 }

@@ -11,11 +11,15 @@
 #include <vector>
 
 #include "core/video/cleaning/depth_memory.hpp"
+#include "core/video/cleaning/depth_noise.hpp"
 #include "core/video/cleaning/lone_depth.hpp"
 #include "core/video/depth/depth_meaning.hpp"
 #include "core/video/frame_window.hpp"
 
 namespace dibhr {
+
+class LiveFeed;
+struct TakenPictures;
 
 /// Refuses what no decoder could read: missing, a directory, a pipe or device, no permission,
 /// empty, text. Throws InputError: what, which file, what to do next.
@@ -35,6 +39,7 @@ struct RawFrame {
     std::shared_ptr<const LoneDepth> lone{};
     double lone_ms{0.0};  ///< which took so long
     ColourImage colour{};
+    std::shared_ptr<const TakenPictures> taken{};  ///< what it was made of, if it came live
     bool colour_of_view{false};  ///< a camera's, and as far as is known of the depth's own view
     double media_s{0.0};
     std::int64_t index{0};
@@ -54,7 +59,9 @@ struct DepthRequest {
     /// Empty: none is heard.
     std::filesystem::path kept_in{};
     DepthStatement recorded{};  ///< a session's, which beats all others
-    bool paints{true};          ///< depth alone is shown in colours of its own
+    /// Of the same live places, open already; null: they are opened.
+    std::shared_ptr<LiveFeed> live{};
+    bool paints{true};  ///< depth alone is shown in colours of its own
 };
 
 /// The relief and the pitch that fit a media.
@@ -73,6 +80,7 @@ struct MediaDescription {
     int depth_bits{8};        ///< of a level; 32: real numbers
     int levels_used{0};       ///< how many there are in pictures from all over it (`dibhr info`)
     double holes_share{0.0};  ///< of their pixels that are no data, in [0, 1] (`dibhr info`)
+    std::optional<DepthNoise> noise{};      ///< by which it was cleaned when it was recorded live
     std::optional<Fit> true_fit{};          ///< of a true shape, whose pixels are millimetres
     std::optional<DepthMeaning> meaning{};  ///< nothing: levels are as the file has them
     DepthStatement panel{};                 ///< what the panel says of it, now or kept
@@ -82,6 +90,7 @@ struct MediaDescription {
     std::int64_t frames{0};    ///< an estimate until the end was reached
     bool frames_exact{false};  ///< the end was reached: frames and duration are those of the file
     bool still{false};
+    bool live{false};  ///< it comes as it happens: no length, no end, and nothing is sought in it
     /// A sentence once a file turned out to hold less than at its opening: it was cut or
     /// overwritten meanwhile. What is left goes on.
     std::string trouble{};
@@ -134,9 +143,13 @@ class Media {
     /// The next frame returned is one near it, as soon as one can be had; where that is no sooner,
     /// the one itself.
     virtual void seek_near(double media_s) { seek(media_s); }
+    /// Where its frames come from as they happen: next() waits for them, and seek() does nothing.
+    /// Null: it is read from files.
+    [[nodiscard]] virtual std::shared_ptr<LiveFeed> live() const { return nullptr; }
 };
 
-/// Opens a pair, each of them a file, a folder, a list or a pattern of pictures. An empty colour
+/// Opens a pair, each of them a file, a folder, a list or a pattern of pictures, or live (see
+/// live_name()). An empty colour
 /// path: the depth alone, shown in colours of its own. An empty depth path, or the colour's: the
 /// depth is in the same place, another track of the colour's file where that says so, or else a
 /// file beside it. What was chosen before and does not fit the files any more is passed over, which

@@ -147,14 +147,19 @@ cv::Rect half_of(cv::Size picture, DepthPacking packing, PictureRole role) {
     return {first ? cv::Point() : last, half};
 }
 
-UnpackedSources open_packed(const fs::path& place, const PackedForm& form) {
-    auto colour =
-        cropped(open_whole(place, PictureRole::colour), form.packing, PictureRole::colour);
-    const PictureRole read_as = form.hue ? PictureRole::colour : PictureRole::depth;
-    auto depth = cropped(open_whole(place, read_as), form.packing, PictureRole::depth);
+UnpackedSources unpack(std::unique_ptr<PictureSource> for_colour,
+                       std::unique_ptr<PictureSource> for_depth, const PackedForm& form) {
+    auto colour = cropped(std::move(for_colour), form.packing, PictureRole::colour);
+    auto depth = cropped(std::move(for_depth), form.packing, PictureRole::depth);
     if (form.hue) depth = hue_decoded(std::move(depth), *form.hue, form.known_from);
     return {unsqueezed(std::move(colour), form, PictureRole::colour),
             unsqueezed(std::move(depth), form, PictureRole::depth)};
+}
+
+UnpackedSources open_packed(const fs::path& place, const PackedForm& form) {
+    const PictureRole read_as = form.hue ? PictureRole::colour : PictureRole::depth;
+    auto for_colour = open_whole(place, PictureRole::colour);
+    return unpack(std::move(for_colour), open_whole(place, read_as), form);
 }
 
 std::optional<NamedPacking> packing_by_name(const fs::path& file) {

@@ -36,6 +36,13 @@ struct UnpackedSources {
 /// neither.
 [[nodiscard]] cv::Rect half_of(cv::Size picture, DepthPacking packing, PictureRole role);
 
+/// The halves of pictures that come from two sources of the same, which lead to each role;
+/// `for_depth` in colours where depth is coded by hue. Throws InputError when the halves are too
+/// small.
+[[nodiscard]] UnpackedSources unpack(std::unique_ptr<PictureSource> for_colour,
+                                     std::unique_ptr<PictureSource> for_depth,
+                                     const PackedForm& form);
+
 /// A picture or a video file, or a folder of packed pictures. Depth that is coded by brightness
 /// keeps every level that the file has. Each source reads and decodes the file for itself, as they
 /// do where colour and depth are files of their own. Throws InputError, also when the halves are

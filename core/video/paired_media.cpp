@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/video/depth/depth_finding.hpp"
+#include "core/video/live/taken_pictures.hpp"
 
 namespace dibhr {
 
@@ -51,6 +52,7 @@ void describe_depth(const SourceFacts& facts, MediaDescription& description) {
     description.depth_rows = facts.rows;
     description.depth_codec = facts.codec;
     description.depth_bits = facts.bits;
+    description.noise = facts.noise;
 }
 
 void describe_colour(const SourceFacts& facts, MediaDescription& description) {
@@ -66,6 +68,7 @@ void describe_time(const SourceFacts& facts, MediaDescription& description) {
     description.frames = facts.frames;
     description.frames_exact = facts.frames_exact;
     description.still = facts.still;
+    description.live = facts.live;
 }
 
 ColourTrack::ColourTrack(std::unique_ptr<PictureSource> source, const SourceFacts& depth)
@@ -74,6 +77,10 @@ ColourTrack::ColourTrack(std::unique_ptr<PictureSource> source, const SourceFact
       interval_s_(std::min(interval_of(depth), interval_of(source_->facts()))) {}
 
 const cv::Mat& ColourTrack::shown_at(double depth_time_s) {
+    if (source_->facts().live) {  // it comes with the depth
+        now_ = source_->next().value_or(now_);
+        return now_.picture;
+    }
     const double latest_s = depth_time_s - starts_later_s_ + kNotLater * interval_s_;
     if (std::exchange(near_, false)) {
         source_->seek_near(latest_s);
@@ -135,7 +142,11 @@ std::optional<RawFrame> PairedMedia::frame_of(std::optional<TimedPicture> taken)
     frame.colour_of_view = colour_of_view_;
     frame.always_whole = scale_.is_always_data() && !shape_;
     cv::Mat colour;
-    if (colour_) colour = colour_for(*taken);
+    const cv::Mat as_taken = colour_ ? colour_->shown_at(taken->time_s) : cv::Mat();
+    if (colour_) colour = colour_for(*taken, as_taken);
+    if (taken->pair)
+        frame.taken = std::make_shared<const TakenPictures>(
+            TakenPictures{taken->picture, depth_->facts().bits, as_taken, taken->pair});
     if (frame.always_whole && taken->decoding_s > 0.0)
         frame.passing_s = taken->decoding_s + (colour_ ? colour_->decoding_s() : 0.0);
     if (shape_)
@@ -147,11 +158,11 @@ std::optional<RawFrame> PairedMedia::frame_of(std::optional<TimedPicture> taken)
 }
 
 /// The colour picture as the depth camera would see it.
-cv::Mat PairedMedia::colour_for(const TimedPicture& depth) {
-    cv::Mat colour = colour_->shown_at(depth.time_s);
+cv::Mat PairedMedia::colour_for(const TimedPicture& depth, const cv::Mat& colour) {
     tell_trouble(colour_->facts());
     if (cameras_ && !colour.empty())
-        colour = cameras_->seen_from_depth(scale_.distances_mm(depth.picture), colour);
+        return moved(cameras_->seen_from_depth(scale_.distances_mm(depth.picture), colour),
+                     registration_, size_);
     return moved(colour, registration_, size_);
 }
 

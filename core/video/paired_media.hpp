@@ -57,12 +57,14 @@ class PairedMedia : public Media {
     std::optional<RawFrame> next_from(double earliest_s) override;
     void seek(double media_s) override;
     void seek_near(double media_s) override;
+    [[nodiscard]] std::shared_ptr<LiveFeed> live() const override { return live_; }
 
     /// Reads depth on, at most `most` frames, so that the description becomes exact.
     void count_frames(std::int64_t most);
 
     /// Adds to the description's notice what that does not say yet.
     void add_notice(const std::string& sentence);
+    void comes_from(std::shared_ptr<LiveFeed> live) { live_ = std::move(live); }
     /// For the description.
     void panel_said(const DepthStatement& panel) { description_.panel = panel; }
 
@@ -71,7 +73,7 @@ class PairedMedia : public Media {
     void take_range();
     void take_true_shape();
     void take_registration(const SourceFacts& colour);
-    [[nodiscard]] cv::Mat colour_for(const TimedPicture& depth);
+    [[nodiscard]] cv::Mat colour_for(const TimedPicture& depth, const cv::Mat& colour);
     [[nodiscard]] cv::Mat in_mm(const DepthImage& depth) const;
     void put_straight(RawFrame& frame, const cv::Mat& colour);
     void tell_trouble(const SourceFacts& facts);
@@ -88,6 +90,7 @@ class PairedMedia : public Media {
     bool painted_;
     bool colour_of_view_{false};  ///< as far as is known
     MediaDescription description_{};
+    std::shared_ptr<LiveFeed> live_{};
 };
 
 }  // namespace dibhr

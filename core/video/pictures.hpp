@@ -12,11 +12,14 @@
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
+#include "core/video/cleaning/depth_noise.hpp"
 #include "core/video/depth/camera.hpp"
 #include "core/video/depth/depth_meaning.hpp"
 #include "core/video/frame_window.hpp"
 
 namespace dibhr {
+
+struct LivePair;
 
 /// The bits of levels that are real numbers: they have no highest one.
 inline constexpr int kRealBits = 32;
@@ -39,6 +42,7 @@ struct TimedPicture {
     double time_s{0.0};  ///< presentation time, from the file's own beginning
     std::int64_t index{0};
     double decoding_s{0.0};  ///< so long decoding one takes, as of late; 0: not known
+    std::shared_ptr<const LivePair> pair{};  ///< of which it is, where it came live
 };
 
 /// What is known of a source so far; it grows as frames are read.
@@ -55,11 +59,13 @@ struct SourceFacts {
     std::int64_t frames{0};
     bool frames_exact{false};
     bool still{false};
+    bool live{false};          ///< it comes as it happens, and has neither length nor end
     std::string trouble{};     ///< why less is read than at the opening; empty: nothing lacks
     std::string notice{};      ///< what was passed over or chosen at the opening; mostly empty
     DepthStatement known{};    ///< what the file's own metadata or its format says of its depth
     std::string known_from{};  ///< where it says so: "EXR channel Z"; empty: nowhere
-    Lens lens{};               ///< of the camera that `known.intrinsics` are of
+    std::optional<DepthNoise> noise{};  ///< by which it was cleaned when it was recorded live
+    Lens lens{};                        ///< of the camera that `known.intrinsics` are of
     bool other_camera{false};  ///< the colour beside it is of another one, which stands elsewhere
     std::shared_ptr<const CameraPair> cameras{};  ///< calibrated together; none: not known
 };

@@ -35,6 +35,13 @@ void Playback::open(std::unique_ptr<FrameReader> reader, Time now) {
     jump_to(std::move(*first), now);
 }
 
+/// The frames stay, so that the timeline goes on.
+void Playback::close() {
+    reader_.reset();
+    sought_s_.reset();
+    playing_ = false;
+}
+
 void Playback::anchor(double playback_s, Time now) {
     clock_ = {now, playback_s, playing_ ? speed_ : 0.0};
 }

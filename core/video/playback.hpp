@@ -25,6 +25,8 @@ class Playback {
     /// had.
     void open(std::unique_ptr<FrameReader> reader, Time now);
 
+    /// Nothing is read any more; what is chosen stays chosen.
+    void close();
     void play(Time now);
     void pause(Time now);
     void seek(double media_s, Time now);

@@ -15,6 +15,7 @@
 
 #include "core/error.hpp"
 #include "core/video/frame_reader.hpp"
+#include "core/video/live/live_playback.hpp"
 #include "core/video/playback.hpp"
 
 namespace dibhr {
@@ -58,6 +59,8 @@ struct Player::Implementation {
     void ask(Command command, const Asked& change = {});
     void run();
 
+    void publish_live();
+    bool take_live(Time now);
     bool wait_for_work(std::vector<Command>& taken);
     void work(const std::vector<Command>& taken);
     template <typename Action>
@@ -70,7 +73,8 @@ struct Player::Implementation {
 
     // The player thread's.
     Playback playback{};
-    Time handed_over{};  ///< `cleaned` of the last frame whose hand-over was measured
+    LivePlayback live{};  // while it is open nothing else is shown
+    Time handed_over{};   ///< `cleaned` of the last frame whose hand-over was measured
     std::string failure{};
 
     // Everybody's, under the mutex.
@@ -81,6 +85,7 @@ struct Player::Implementation {
     PlaybackStatus status{};
     FrameWindow shown{};  ///< as last published, for the time line
     std::optional<double> sought_s{};
+    bool news{false};  ///< of what is live
     bool leaving{false};
 
     std::thread thread{};
@@ -99,29 +104,33 @@ void Player::Implementation::ask(Command command, const Asked& change) {
 
 /// False when the player is to end.
 bool Player::Implementation::wait_for_work(std::vector<Command>& taken) {
-    const bool busy = playback.needs_frame() || playback.has_time();
-    const Time due = playback.next_due();
+    const bool busy = !live.is_open() && (playback.needs_frame() || playback.has_time());
+    const Time due =
+        live.is_open() ? live.next_due(std::chrono::steady_clock::now()) : playback.next_due();
     std::unique_lock lock(mutex);
-    const auto called = [this] { return leaving || !commands.empty(); };
+    const auto called = [this] { return leaving || news || !commands.empty(); };
     if (!busy) heart.rest();
     if (!busy && due == Time::max())
         asked.wait(lock, called);
     else if (!busy)
         asked.wait_until(lock, due, called);
     taken.swap(commands);
+    news = false;
     heart.beat();
     return !leaving;
 }
 
 /// Performs the commands, or, without any, reads one frame: they wait for one frame at most.
 void Player::Implementation::work(const std::vector<Command>& taken) {
-    bool changed = playback.advance(std::chrono::steady_clock::now());
+    bool changed = !live.is_open() && playback.advance(std::chrono::steady_clock::now());
     for (const Command& command : taken) {
         failure.clear();
         attempt([&] { command.action(playback, std::chrono::steady_clock::now()); });
         changed = true;
     }
-    if (!changed && playback.needs_frame()) {
+    if (live.is_open()) {
+        changed = take_live(std::chrono::steady_clock::now()) || changed;
+    } else if (!changed && playback.needs_frame()) {
         const bool readable = attempt([&] {
             if (playback.read_ahead(std::chrono::steady_clock::now()))
                 playback.arrived(std::chrono::steady_clock::now());
@@ -132,6 +141,13 @@ void Player::Implementation::work(const std::vector<Command>& taken) {
         playback.make_ready_to_step_back();
     }
     if (changed) publish();
+}
+
+/// What cannot be had any more is told by the signal.
+bool Player::Implementation::take_live(Time now) {
+    bool changed = false;
+    attempt([&] { changed = live.take(now); });
+    return changed;
 }
 
 /// False when a file could not be read: the failure is kept for the status, and what is shown
@@ -162,15 +178,17 @@ void Player::Implementation::run() {
 
 /// Both readers get the same window; what the old ones held is freed here.
 void Player::Implementation::publish() {
-    const FrameWindow window = playback.window();
-    haptics.publish(playback.touchable());
+    const FrameWindow window = live.is_open() ? live.window() : playback.window();
+    haptics.publish(live.is_open() ? window : playback.touchable());
     const Time published = std::chrono::steady_clock::now();
     picture.publish(window);
     const std::lock_guard lock(mutex);
     if (commands.empty()) asked_for = {};
     shown = window;
-    sought_s = playback.sought_s();
+    sought_s = live.is_open() ? std::nullopt : playback.sought_s();
     status.failure = failure;
+    status.live.reset();
+    if (live.is_open()) return publish_live();
     if (!playback.is_open()) return;
     if (failure.empty()) status.failure = playback.description().trouble;
     status.open = true;
@@ -194,6 +212,25 @@ void Player::Implementation::publish() {
         std::chrono::duration<double, std::micro>(published - cost.cleaned).count();
 }
 
+/// Under the mutex.
+void Player::Implementation::publish_live() {
+    const MediaDescription& media = live.description();
+    status.live = live.status(std::chrono::steady_clock::now());
+    status.open = true;
+    status.playing = live.playing();
+    status.part.reset();
+    status.speed = 1.0;
+    status.duration_s = 0.0;
+    status.frames = 0;
+    status.frames_per_s =
+        status.live->arrives_per_s > 0.0 ? status.live->arrives_per_s : media.frames_per_s;
+    status.shown_per_s = status.frames_per_s;
+    status.waits = false;
+    status.cleaning = live.cleaning_in_words();
+    status.steps = live.steps();
+    status.decode_ms = status.clean_ms = live.clean_ms();
+}
+
 Player::Player() : implementation_(std::make_unique<Implementation>()) {
     implementation_->thread = std::thread([this] { implementation_->run(); });
 }
@@ -209,36 +246,60 @@ Player::~Player() {
 
 void Player::play_media(std::unique_ptr<Media> media, std::uint32_t number,
                         std::shared_ptr<const TouchMaps> maps) {
+    Implementation* const player = implementation_.get();
+    if (media->live()) {
+        auto shared = std::make_shared<std::unique_ptr<Media>>(std::move(media));
+        const auto news = [player] {
+            const std::lock_guard lock(player->mutex);
+            player->news = true;
+            player->asked.notify_one();
+        };
+        player->ask({[=](Playback& playback, Time) {
+            playback.close();
+            player->live.open(std::move(*shared), number, maps, news);
+            malloc_trim(0);
+        }});
+        return;
+    }
     // std::function wants to be copyable, hence shared; the reader moves on when the command runs.
     auto reader = std::make_shared<std::unique_ptr<FrameReader>>(std::make_unique<FrameReader>(
         std::move(media), number,
         ReadingHearts{&implementation_->decoding, &implementation_->heart}));
     (*reader)->set_maps(std::move(maps));
-    implementation_->ask({[reader](Playback& playback, Time now) {
+    implementation_->ask({[reader, player](Playback& playback, Time now) {
         playback.open(std::move(*reader), now);
+        player->live.close();
         // Else what the media before took stays with the program.
         malloc_trim(0);
     }});
 }
 
 void Player::play() {
-    implementation_->ask({[](Playback& playback, Time now) { playback.play(now); }},
+    implementation_->ask({[player = implementation_.get()](Playback& playback, Time now) {
+                             player->live.is_open() ? player->live.play() : playback.play(now);
+                         }},
                          {.playing = true});
 }
 
 void Player::pause() {
-    implementation_->ask({[](Playback& playback, Time now) { playback.pause(now); }},
+    implementation_->ask({[player = implementation_.get()](Playback& playback, Time now) {
+                             player->live.is_open() ? player->live.pause(now) : playback.pause(now);
+                         }},
                          {.playing = false});
 }
 
 void Player::seek(double media_s) {
-    implementation_->ask(
-        {[media_s](Playback& playback, Time now) { playback.seek(media_s, now); }, Kind::seek},
-        {.media_s = media_s});
+    implementation_->ask({[player = implementation_.get(), media_s](Playback& playback, Time now) {
+                              if (!player->live.is_open()) playback.seek(media_s, now);
+                          },
+                          Kind::seek});
 }
 
 void Player::step(int frames) {
-    implementation_->ask({[frames](Playback& playback, Time now) { playback.step(frames, now); }},
+    implementation_->ask({[player = implementation_.get(), frames](Playback& playback, Time now) {
+                             player->live.is_open() ? player->live.pause(now)
+                                                    : playback.step(frames, now);
+                         }},
                          {.playing = false});
 }
 
@@ -259,14 +320,26 @@ void Player::set_speed(double speed) {
 }
 
 void Player::set_cleaning(const CleaningOptions& options) {
-    implementation_->ask(
-        {[options](Playback& playback, Time) { playback.set_cleaning(options); }, Kind::cleaning});
+    implementation_->ask({[player = implementation_.get(), options](Playback& playback, Time now) {
+                              player->live.set_cleaning(options, now);
+                              playback.set_cleaning(options);
+                          },
+                          Kind::cleaning});
 }
 
 void Player::set_maps(std::shared_ptr<const TouchMaps> maps) {
     implementation_->ask(
-        {[maps = std::move(maps)](Playback& playback, Time) { playback.set_maps(maps); },
+        {[player = implementation_.get(), maps = std::move(maps)](Playback& playback, Time) {
+             player->live.is_open() ? player->live.set_maps(maps) : playback.set_maps(maps);
+         },
          Kind::maps});
+}
+
+void Player::record_live(std::uint32_t number, LiveSink sink) {
+    implementation_->ask(
+        {[player = implementation_.get(), number, sink = std::move(sink)](Playback&, Time) {
+            if (player->live.is_open()) player->live.record(number, sink);
+        }});
 }
 
 PlaybackStatus Player::status() const {

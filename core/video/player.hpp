@@ -3,12 +3,15 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/realtime/heartbeat.hpp"
 #include "core/realtime/triple_buffer.hpp"
 #include "core/video/cleaning/cleaning_options.hpp"
 #include "core/video/frame_window.hpp"
+#include "core/video/live/live_record.hpp"
+#include "core/video/live/live_status.hpp"
 #include "core/video/media.hpp"
 
 namespace dibhr {
@@ -29,10 +32,11 @@ struct PlaybackStatus {
     bool waits{false};         ///< so much so that the video does not keep its time either
     double decode_ms{0.0};     ///< decoding and cleaning of the last frame
     double clean_ms{0.0};
-    double handover_us{0.0};  ///< from the last frame being cleaned to its being published
-    std::string cleaning{};   ///< in words: what is done to its depth
-    CleaningSteps steps{};    ///< the same
-    std::string failure{};    ///< a plain sentence when reading broke off or met less; else empty
+    double handover_us{0.0};           ///< from the last frame being cleaned to its being published
+    std::string cleaning{};            ///< in words: what is done to its depth
+    CleaningSteps steps{};             ///< the same
+    std::optional<LiveStatus> live{};  ///< nothing: it is read from files
+    std::string failure{};  ///< a plain sentence when reading broke off or met less; else empty
 };
 
 /// Every method may be called from the window thread; none waits for decoding. The two frame
@@ -52,6 +56,7 @@ class Player {
 
     void play();
     void pause();
+    /// What is live cannot be sought or stepped: it goes on.
     void seek(double media_s);  ///< to the frame shown at that time; keeps playing or paused
     void step(int frames);      ///< pauses, then moves by whole frames, back or forth
     void set_looping(bool looping);
@@ -61,6 +66,10 @@ class Player {
     void set_cleaning(const CleaningOptions& options);
     /// Lays them on the media that was given last; null: none.
     void set_maps(std::shared_ptr<const TouchMaps> maps);
+
+    /// Of what is live: from the next frame on they carry that number and go to the sink, on the
+    /// player's thread; empty: no more.
+    void record_live(std::uint32_t number, LiveSink sink);
 
     /// As it is shown, with what was asked for since: who asks again goes on from there.
     [[nodiscard]] PlaybackStatus status() const;

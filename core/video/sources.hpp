@@ -10,6 +10,8 @@
 
 namespace dibhr {
 
+class LiveFeed;
+
 /// What was chosen, and what that says of packing and code.
 struct Sources {
     std::unique_ptr<PictureSource> depth{};   ///< null: of find_content(), colour alone
@@ -18,6 +20,7 @@ struct Sources {
     DepthStatement assumed{};                 ///< by how the pictures look
     bool by_look{false};                      ///< what the depth says of itself is so, too
     std::string notice{};                     ///< see MediaDescription
+    std::shared_ptr<LiveFeed> live{};         ///< where they come from; null: files
 };
 
 /// Of places as they were given; an empty depth, or the colour's place again: both in one place,

@@ -12,11 +12,11 @@
 #include <utility>
 #include <vector>
 
+#include "core/video/formats/av_frame.hpp"
 #include "core/video/video_packets.hpp"
 
 struct AVCodecContext;
 struct AVFrame;
-struct SwsContext;
 
 namespace dibhr {
 
@@ -60,14 +60,14 @@ class VideoDecoder {
     /// bits. Empty when it cannot be converted.
     [[nodiscard]] cv::Mat levels();
     /// Of a level, of which the highest is 2^bits - 1.
-    [[nodiscard]] int bits() const noexcept;
+    [[nodiscard]] int bits() const noexcept { return bits_of(*frame_); }
     /// Coded as floating-point numbers, which have no levels.
-    [[nodiscard]] bool has_floats() const noexcept;
+    [[nodiscard]] bool has_floats() const noexcept { return holds_floats(*frame_); }
     /// How many times as wide as high a pixel is to be shown, of colour() and levels(); 1 where the
     /// file does not say, or nothing that can be.
     [[nodiscard]] double pixel_aspect() const noexcept;
     /// Coded without colours.
-    [[nodiscard]] bool is_grey() const noexcept;
+    [[nodiscard]] bool is_grey() const noexcept { return dibhr::is_grey(*frame_); }
 
   private:
     static constexpr double kNever_s = -std::numeric_limits<double>::infinity();
@@ -75,26 +75,23 @@ class VideoDecoder {
     struct Closer {
         void operator()(AVCodecContext* context) const noexcept;
         void operator()(AVFrame* frame) const noexcept;
-        void operator()(SwsContext* scaler) const noexcept;
     };
 
     [[nodiscard]] bool may_skip(const AVPacket& packet) const noexcept;
     bool send(const AVPacket* packet);
     void tell_skipped(double until_s);
-    [[nodiscard]] cv::Mat converted(int pixel_format, int type);
     [[nodiscard]] cv::Mat turned(cv::Mat picture) const;
 
     VideoPackets packets_;
     std::unique_ptr<AVCodecContext, Closer> decoder_{};
     std::unique_ptr<AVFrame, Closer> frame_, kept_;
-    std::unique_ptr<SwsContext, Closer> scaler_{};
+    FramePictures pictures_{};
     int quarter_turns_{0};  // clockwise
     bool drained_{false};
     bool marks_non_reference_{false};  // the codec, packet by packet
     double skip_before_s_{kNever_s};
     std::set<double> may_be_skipped_s_{};  // given, and not decoded yet
     std::vector<double> skipped_s_{};
-    std::optional<bool> limited_{};  // the range of the track's levels, told by the first picture
 };
 
 }  // namespace dibhr

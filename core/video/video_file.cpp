@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/formats/camera_files.hpp"
+#include "core/video/live/live_record.hpp"
 #include "core/video/media.hpp"
 #include "core/video/video_packets.hpp"
 
@@ -53,6 +55,7 @@ VideoFile::VideoFile(const std::filesystem::path& file, PictureRole role, int tr
     if (!grab())
         throw InputError(shown(file) + " holds no picture that can be decoded: record it again");
     facts_.bits = decoder_.bits();
+    if (role == PictureRole::depth) know_live_recording();
     pixel_aspect_ = decoder_.pixel_aspect();
     ahead_.push_back(timed(retrieve()));
     facts_.columns = ahead_.front().picture.cols;
@@ -62,6 +65,15 @@ VideoFile::VideoFile(const std::filesystem::path& file, PictureRole role, int tr
     require_whole(file, track, promised_s);
     promised_s_ = promised_s;
     if (role == PictureRole::depth) know_azure_kinect();
+}
+
+/// By this program.
+void VideoFile::know_live_recording() {
+    const VideoPackets& packets = decoder_.packets();
+    facts_.noise = noise_in(packets.tag(kNoiseTag));
+    const int bits = std::atoi(packets.tag(kBitsTag).c_str());
+    keeps_levels_ = facts_.noise && bits > 0 && bits < facts_.bits;
+    if (keeps_levels_) facts_.bits = bits;
 }
 
 void VideoFile::begin_again() {
@@ -176,7 +188,7 @@ cv::Mat VideoFile::retrieve() {
     if (picture.empty())
         throw InputError(shown(facts_.file) + " breaks off at " + short_text(time_s_) +
                          " s: record or convert it again");
-    if (is_depth) picture = with_bits(picture, decoder_.bits(), facts_.bits);
+    if (is_depth && !keeps_levels_) picture = with_bits(picture, decoder_.bits(), facts_.bits);
     return with_square_pixels(picture, pixel_aspect_, role_);
 }
 

@@ -40,6 +40,7 @@ class VideoFile : public PictureSource {
     void sample_by_jumps(int most, int frames_each, std::vector<cv::Mat>& pictures);
     void read_facts();
     void know_azure_kinect();
+    void know_live_recording();
     void notice_early_end();
     bool grab();         ///< decodes one frame: its time and index; false at the end
     cv::Mat retrieve();  ///< the picture of the grabbed frame
@@ -57,6 +58,7 @@ class VideoFile : public PictureSource {
     SourceFacts facts_{};
     PictureRole role_;
     int track_;
+    bool keeps_levels_{false};  ///< they have fewer bits than the file, and are as they are
     VideoDecoder decoder_;
     double pixel_aspect_{1.0};
     std::deque<TimedPicture> ahead_{};  ///< decoded already, given out next

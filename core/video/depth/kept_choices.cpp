@@ -10,6 +10,7 @@
 #include "core/files/content_hash.hpp"
 #include "core/files/output_file.hpp"
 #include "core/video/depth/sidecar.hpp"
+#include "core/video/live/live_name.hpp"
 
 namespace dibhr {
 
@@ -19,6 +20,7 @@ namespace {
 
 /// The same however it is named: from another folder, through a link, with a slash at its end.
 std::string whole_path(const fs::path& media) {
+    if (is_live(media)) return media.string();
     std::error_code failed;
     const fs::path named = fs::absolute(media, failed);
     fs::path whole = fs::weakly_canonical(named, failed);

@@ -188,3 +188,22 @@ TEST_CASE("a recording of standstills replays to the same bits", "[loop]") {
     CHECK(still > 300);  // or this would prove little
     CHECK_THAT(least, WithinAbs(0.0, 0.0));
 }
+
+TEST_CASE(
+    "a live surface whose signal is lost takes the force off in 40 ms, and ramps when it is back",
+    "[loop]") {
+    ListeningBench bench;
+    bench.rest();
+    FrameWindow window = flat_window(64, 48, 0);
+    window.silent = true;
+    bench.frames.publish(window);
+    const std::vector<double> sent = bench.run(42);
+    CHECK_THAT(sent.front(), WithinAbs(3.8, 0.2));
+    CHECK(std::is_sorted(sent.rbegin(), sent.rend()));
+    CHECK_THAT(sent.back(), WithinAbs(0.0, 0.0));
+    bench.frames.publish(flat_window(64, 48, 1));
+    const std::vector<double> back = bench.run(700);
+    CHECK(back.front() < 0.01);
+    CHECK(std::is_sorted(back.begin(), back.end()));
+    CHECK_THAT(back.back(), WithinAbs(3.8, 1e-6));
+}

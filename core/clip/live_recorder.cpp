@@ -1,0 +1,139 @@
+// The thread that encodes and writes.
+#include "core/clip/live_recorder.hpp"
+
+#include <pthread.h>
+
+#include <exception>
+#include <fstream>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "core/clip/live_file.hpp"
+#include "core/error.hpp"
+#include "core/video/libraries.hpp"
+
+namespace dibhr {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kMostWaiting = 90;  ///< frames: three seconds
+
+/// Nothing that is there is written over, and what cannot be written is told at the begin.
+void make_new(const fs::path& file) {
+    std::error_code unknown;
+    if (fs::exists(file, unknown))
+        throw InputError(file.string() +
+                         " exists already: move it away, or give the recording another name");
+    if (!std::ofstream(file, std::ios::binary))
+        throw InputError(file.string() + " cannot be written: choose another folder");
+}
+
+}  // namespace
+
+LiveFiles live_files_beside(const fs::path& session) {
+    fs::path colour = session;
+    fs::path depth = session;
+    return {colour.replace_extension(".color.mkv"), depth.replace_extension(".depth.mkv")};
+}
+
+/// Opened with the first frame.
+struct LiveRecorder::Tracks {
+    std::optional<LevelsEncoder> levels{};
+    std::optional<LiveFile> depth_file{};
+    std::optional<PictureEncoder> colours{};
+    std::optional<LiveFile> colour_file{};
+};
+
+LiveRecorder::LiveRecorder(LiveFiles files) : files_(std::move(files)) {
+    set_up_libraries();
+    make_new(files_.depth);
+    if (!files_.colour.empty()) make_new(files_.colour);
+    thread_ = std::thread([this] { run(); });
+}
+
+void LiveRecorder::add(const LiveRecord& record) {
+    const std::lock_guard lock(mutex_);
+    if (stopped_ || !failure_.empty()) return;
+    if (waiting_.size() < kMostWaiting) {
+        waiting_.push_back(record);
+    } else {
+        failure_ = "the disk is too slow for the video of what is live";
+        waiting_.clear();
+    }
+    news_.notify_one();
+}
+
+void LiveRecorder::finish() {
+    {
+        const std::lock_guard lock(mutex_);
+        stopped_ = true;
+    }
+    news_.notify_one();
+    if (thread_.joinable()) thread_.join();
+}
+
+std::string LiveRecorder::failure() const {
+    const std::lock_guard lock(mutex_);
+    return failure_;
+}
+
+void LiveRecorder::write(Tracks& tracks, const LiveRecord& record) const {
+    const LiveLevels levels = levels_of(record);
+    if (!tracks.levels) {
+        tracks.levels.emplace(levels);
+        const std::map<std::string, std::string> tags{{kNoiseTag, text_of(record.noise)},
+                                                      {kBitsTag, std::to_string(levels.bits)}};
+        tracks.depth_file.emplace(files_.depth, tracks.levels->codec(), tags);
+    }
+    tracks.levels->encode(levels, record.media_ms,
+                          [&](AVPacket& packet) { tracks.depth_file->write(packet); });
+    const ColourImage colour = files_.colour.empty() ? ColourImage{} : colour_of(record);
+    if (colour.rgb.empty()) return;
+    if (!tracks.colours) {
+        tracks.colours.emplace(colour.columns, colour.rows, kLiveQuality);
+        tracks.colour_file.emplace(files_.colour, tracks.colours->codec(),
+                                   std::map<std::string, std::string>{});
+    }
+    tracks.colours->encode(colour, record.media_ms,
+                           [&](AVPacket& packet) { tracks.colour_file->write(packet); });
+}
+
+void LiveRecorder::run() {
+    pthread_setname_np(pthread_self(), "dibhr-livedisk");
+    Tracks tracks;
+    std::string failure;
+    const auto try_to = [&failure](auto&& step) {
+        try {
+            if (failure.empty()) step();
+        } catch (const std::exception& error) {
+            failure = error.what();
+        }
+    };
+    std::unique_lock lock(mutex_);
+    while (true) {
+        news_.wait(lock, [this] { return stopped_ || !waiting_.empty(); });
+        if (waiting_.empty()) break;
+        const LiveRecord next = std::move(waiting_.front());
+        waiting_.pop_front();
+        lock.unlock();
+        try_to([&] { write(tracks, next); });
+        lock.lock();
+        if (failure.empty()) continue;
+        failure_ = failure;
+        waiting_.clear();
+    }
+    lock.unlock();
+    try_to([&] {
+        if (tracks.colours)
+            tracks.colours->drain([&](AVPacket& packet) { tracks.colour_file->write(packet); });
+        if (tracks.depth_file) tracks.depth_file->finish();
+        if (tracks.colour_file) tracks.colour_file->finish();
+    });
+    lock.lock();
+    if (failure_.empty()) failure_ = failure;
+}
+
+}  // namespace dibhr

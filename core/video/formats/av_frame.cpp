@@ -1,0 +1,187 @@
+// What is in a frame of libav's, whatever its pixel format.
+#include "core/video/formats/av_frame.hpp"
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/frame.h>
+#include <libavutil/pixdesc.h>
+#include <libswscale/swscale.h>
+}
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <opencv2/core.hpp>
+#include <string_view>
+#include <utility>
+
+namespace dibhr {
+
+namespace {
+
+const AVPixFmtDescriptor* kind_of(const AVFrame& frame) {
+    return av_pix_fmt_desc_get(static_cast<AVPixelFormat>(frame.format));
+}
+
+bool has(const AVPixFmtDescriptor& kind, std::uint64_t flag) {
+    return (kind.flags & flag) != 0;
+}
+
+/// Levels are in the first component, as numbers.
+bool has_luma(const AVPixFmtDescriptor& kind) {
+    return !has(kind, AV_PIX_FMT_FLAG_RGB) && !has(kind, AV_PIX_FMT_FLAG_PAL) &&
+           !has(kind, AV_PIX_FMT_FLAG_BITSTREAM) && !has(kind, AV_PIX_FMT_FLAG_HWACCEL);
+}
+
+/// One component, or with transparency.
+bool is_grey_kind(const AVPixFmtDescriptor& kind) {
+    return has_luma(kind) && kind.nb_components <= 2;
+}
+
+/// The first component as it was coded.
+cv::Mat luma_of(const AVFrame& frame, const AVPixFmtDescriptor& kind) {
+    const AVComponentDescriptor& luma = kind.comp[0];
+    if (luma.depth == 8 && luma.step == 1) {
+        const cv::Mat plane(frame.height, frame.width, CV_8UC1, frame.data[0] + luma.offset,
+                            static_cast<std::size_t>(frame.linesize[0]));
+        return plane.clone();
+    }
+    cv::Mat levels(frame.height, frame.width, CV_16UC1);
+    std::array<const std::uint8_t*, 4> planes{frame.data[0], frame.data[1], frame.data[2],
+                                              frame.data[3]};
+    for (int j = 0; j < frame.height; ++j) {
+        av_read_image_line2(levels.ptr(j), planes.data(), frame.linesize, &kind, 0, j, 0,
+                            frame.width, 0, sizeof(std::uint16_t));
+    }
+    return levels;
+}
+
+/// Whether black is not 0 and white not the highest level. Grey is always whole, whatever its tag
+/// says: so every encoder and decoder of libav has it. Where no tag says it, levels beyond black
+/// and white do: grey that a codec without grey holds as a picture in colours of grey (H.264).
+bool is_limited(const AVFrame& frame, const AVPixFmtDescriptor& kind, const cv::Mat& luma) {
+    // Of all pixels: what compression adds beyond black and white, and far beyond them.
+    constexpr double kMostBeyond = 0.05;
+    constexpr double kMostFarBeyond = 0.001;
+    constexpr double kFar = 8.0;  // of 8 bits
+    const bool is_whole_kind = std::string_view(kind.name).starts_with("yuvj");
+    if (is_grey_kind(kind) || is_whole_kind || frame.color_range == AVCOL_RANGE_JPEG) return false;
+    if (frame.color_range == AVCOL_RANGE_MPEG) return true;
+    const double step = std::ldexp(1.0, kind.comp[0].depth - 8);
+    const auto share_beyond = [&](double by) {
+        const int beyond = cv::countNonZero(luma < (16.0 - by) * step) +
+                           cv::countNonZero(luma > (235.0 + by) * step);
+        return beyond / static_cast<double>(luma.total());
+    };
+    return share_beyond(0.0) <= kMostBeyond && share_beyond(kFar) <= kMostFarBeyond;
+}
+
+/// Black at 0, white at the highest level.
+cv::Mat stretched(const cv::Mat& levels, int bits) {
+    const double step = std::ldexp(1.0, bits - 8);
+    const double highest = std::ldexp(1.0, bits) - 1.0;
+    const double scale = highest / (219.0 * step);
+    cv::Mat whole;
+    levels.convertTo(whole, CV_32F, scale, -16.0 * step * scale);
+    return cv::min(cv::max(whole, 0.0), highest);
+}
+
+/// The same by table, in one pass.
+cv::Mat stretched_bytes(const cv::Mat& levels) {
+    cv::Mat every(1, 256, CV_8UC1);
+    std::iota(every.begin<std::uint8_t>(), every.end<std::uint8_t>(), std::uint8_t{0});
+    cv::Mat whole;
+    cv::LUT(levels, stretched(every, 8), whole);
+    return whole;
+}
+
+}  // namespace
+
+void FramePictures::Closer::operator()(SwsContext* scaler) const noexcept {
+    sws_freeContext(scaler);
+}
+
+std::string name_of_codec(int id) {
+    const auto codec = static_cast<AVCodecID>(id);
+    static constexpr std::array<std::pair<AVCodecID, std::string_view>, 9> kNames{
+        {{AV_CODEC_ID_VP8, "VP8"},
+         {AV_CODEC_ID_VP9, "VP9"},
+         {AV_CODEC_ID_AV1, "AV1"},
+         {AV_CODEC_ID_FFV1, "FFV1"},
+         {AV_CODEC_ID_H264, "H.264"},
+         {AV_CODEC_ID_HEVC, "HEVC"},
+         {AV_CODEC_ID_MJPEG, "MJPEG"},
+         {AV_CODEC_ID_THEORA, "Theora"},
+         {AV_CODEC_ID_PNG, "PNG"}}};
+    for (const auto& [known, name] : kNames)
+        if (known == codec) return std::string(name);
+    return avcodec_get_name(codec);
+}
+
+bool holds_floats(const AVFrame& frame) noexcept {
+    const AVPixFmtDescriptor* const kind = kind_of(frame);
+    return kind != nullptr && has(*kind, AV_PIX_FMT_FLAG_FLOAT);
+}
+
+int bits_of(const AVFrame& frame) noexcept {
+    const AVPixFmtDescriptor* const kind = kind_of(frame);
+    if (kind == nullptr) return 8;
+    if (has_luma(*kind)) return kind->comp[0].depth;
+    return kind->comp[0].depth > 8 ? 16 : 8;
+}
+
+bool is_grey(const AVFrame& frame) noexcept {
+    const AVPixFmtDescriptor* const kind = kind_of(frame);
+    return kind != nullptr && is_grey_kind(*kind);
+}
+
+double pixel_aspect(const AVFrame& frame, const AVStream& stream) noexcept {
+    constexpr double kMost = 4.0;
+    const AVRational of_frame = frame.sample_aspect_ratio;
+    const AVRational ratio = of_frame.num > 0 ? of_frame : stream.sample_aspect_ratio;
+    if (ratio.num <= 0 || ratio.den <= 0) return 1.0;
+    const double aspect = av_q2d(ratio);
+    return aspect > kMost || aspect < 1.0 / kMost ? 1.0 : aspect;
+}
+
+cv::Mat FramePictures::colour(const AVFrame& frame) {
+    return converted(frame, AV_PIX_FMT_BGR24, CV_8UC3);
+}
+
+cv::Mat FramePictures::levels(const AVFrame& frame) {
+    const AVPixFmtDescriptor* const kind = kind_of(frame);
+    if (kind == nullptr) return {};
+    if (!has_luma(*kind)) {
+        return bits_of(frame) > 8 ? converted(frame, AV_PIX_FMT_BGR48, CV_16UC3)
+                                  : converted(frame, AV_PIX_FMT_BGR24, CV_8UC3);
+    }
+    cv::Mat levels = luma_of(frame, *kind);
+    if (!limited_) limited_ = is_limited(frame, *kind, levels);
+    if (*limited_)
+        levels = levels.depth() == CV_8U ? stretched_bytes(levels)
+                                         : stretched(levels, kind->comp[0].depth);
+    return levels;
+}
+
+cv::Mat FramePictures::converted(const AVFrame& frame, int pixel_format, int type) {
+    scaler_.reset(sws_getCachedContext(scaler_.release(), frame.width, frame.height,
+                                       static_cast<AVPixelFormat>(frame.format), frame.width,
+                                       frame.height, static_cast<AVPixelFormat>(pixel_format),
+                                       SWS_BICUBIC, nullptr, nullptr, nullptr));
+    if (!scaler_) return {};
+    // The scaler writes whole vectors: beyond a row's end, and beyond the last one's.
+    constexpr int kVector = 64;
+    const int columns = (frame.width + kVector - 1) / kVector * kVector;
+    const cv::Mat room(frame.height + 1, columns, type);
+    std::array<std::uint8_t*, 4> planes{room.data};
+    std::array<int, 4> steps{static_cast<int>(room.step)};
+    const int rows = sws_scale(scaler_.get(), frame.data, frame.linesize, 0, frame.height,
+                               planes.data(), steps.data());
+    if (rows != frame.height) return {};
+    return room(cv::Rect(0, 0, frame.width, frame.height));
+}
+
+}  // namespace dibhr

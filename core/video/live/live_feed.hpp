@@ -1,0 +1,109 @@
+// What is live, joined: each depth picture with the colour that is nearest in time.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/video/live/live_stream.hpp"
+
+namespace dibhr {
+
+/// Of one moment. Where both are of one picture the colour is in the depth's.
+struct LivePair {
+    LivePicture depth{};
+    LivePicture colour{};
+    std::uint64_t number{0};  ///< one more than that of the pair before it
+};
+
+/// How it stands with what is sent.
+struct LiveSignal {
+    std::chrono::steady_clock::time_point
+        last{};              ///< when a depth picture came; never: at the begin
+    bool other_form{false};  ///< pictures of another size or kind came: it is to be opened again
+    std::string trouble{};   ///< why it cannot be opened again; empty: it is open, or not yet tried
+};
+
+/// How much later than its stamp a source's picture comes when it comes quickly: by that, stamps of
+/// clocks with another zero are compared. Plain data.
+class StampLine {
+  public:
+    /// A picture's, in order. Nothing is known any more where the clock was set to another time.
+    void add(double stamp_s, double arrived_s);
+    /// On our clock, of a stamp; 0 before anything was added.
+    [[nodiscard]] double later_s() const;
+    [[nodiscard]] std::size_t count() const noexcept { return later_.size(); }
+
+  private:
+    std::deque<double> later_{};
+};
+
+/// One or two connections. Keeps the newest pairs, so that any number of readers take what they
+/// have not had yet; every call may come from any thread.
+class LiveFeed {
+  public:
+    using Clock = std::chrono::steady_clock;
+
+    /// `colour` empty, or the depth's: one connection. Throws InputError for what names nothing
+    /// live.
+    LiveFeed(std::filesystem::path colour, std::filesystem::path depth);
+    ~LiveFeed();
+    LiveFeed(const LiveFeed&) = delete;
+    LiveFeed& operator=(const LiveFeed&) = delete;
+
+    [[nodiscard]] const std::filesystem::path& colour() const noexcept { return colour_; }
+    [[nodiscard]] const std::filesystem::path& depth() const noexcept { return depth_; }
+    [[nodiscard]] bool is_of(const std::filesystem::path& colour,
+                             const std::filesystem::path& depth) const;
+
+    /// Of one connection: whether its colours, and its levels, are looked at.
+    void want(bool colour, bool levels);
+
+    /// The newest pair after that number; waits until then. Null: none came.
+    [[nodiscard]] std::shared_ptr<const LivePair> after(std::uint64_t number,
+                                                        Clock::time_point latest);
+    /// When a picture that waits for its colour goes without; nothing: none waits.
+    [[nodiscard]] std::optional<Clock::time_point> due() const;
+    [[nodiscard]] LiveSignal signal() const;
+    /// Called with every pair, on any thread, by nobody any more once another one is set; empty:
+    /// none.
+    void tell(std::function<void()> news);
+
+  private:
+    bool take_depth(LivePicture picture);
+    bool take_colour(LivePicture picture);
+    [[nodiscard]] bool is_of_form(const LivePicture& picture, std::optional<LivePicture>& first);
+    void join(Clock::time_point now);
+    [[nodiscard]] double colour_s(const LivePicture& picture) const;
+    [[nodiscard]] bool may_go(const LivePicture& depth, Clock::time_point now) const;
+    [[nodiscard]] const LivePicture* nearest_colour(double depth_s) const;
+    void hand_out(LivePair pair);
+
+    const std::filesystem::path colour_, depth_;
+    const bool two_;
+
+    mutable std::mutex mutex_{};
+    std::condition_variable came_{};
+    std::deque<LivePicture> waiting_{};  ///< depth, for its colour
+    std::deque<LivePicture> colours_{};  ///< the newest
+    StampLine depth_line_{}, colour_line_{};
+    double interval_s_{1.0 / 30.0};  ///< between depth pictures, as of late
+    std::shared_ptr<const LivePair> newest_{};
+    std::optional<LivePicture> first_depth_{}, first_colour_{};  ///< without pictures: their form
+    LiveSignal signal_{};
+
+    std::mutex telling_{};
+    std::function<void()> news_{};
+
+    std::unique_ptr<LiveStream> depth_stream_{}, colour_stream_{};  // last: they use all of it
+};
+
+}  // namespace dibhr

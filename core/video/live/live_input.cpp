@@ -1,0 +1,324 @@
+// libav, told to wait for nothing but the next picture.
+#include "core/video/live/live_input.hpp"
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavdevice/avdevice.h>
+#include <libavformat/avformat.h>
+#include <libavutil/dict.h>
+#include <libavutil/error.h>
+#include <libavutil/frame.h>
+}
+
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <mutex>
+#include <new>
+#include <string_view>
+#include <thread>
+
+#include "core/error.hpp"
+#include "core/video/libraries.hpp"
+#include "core/video/pictures.hpp"
+
+namespace dibhr {
+
+namespace {
+
+using Clock = LivePicture::Clock;
+
+constexpr std::chrono::milliseconds kToOpen{4000};  ///< so long it may be silent at the begin
+constexpr std::chrono::milliseconds kSilent{1500};  ///< and so long later
+constexpr std::chrono::milliseconds kBetweenLooks{2};
+constexpr int kLooked_ms = 50;                 ///< how soon a pipe notices that it is to end
+constexpr std::chrono::seconds kEarly{1};      ///< what comes so much too early is no camera's
+constexpr std::chrono::seconds kOtherTime{5};  ///< a clock that is so far ahead was set
+constexpr int kPipeBytes = 1 << 16;
+constexpr std::int64_t kToTell_us = 500'000;  ///< of the stream, to tell what it holds
+constexpr std::int64_t kToTell_bytes = 5'000'000;
+constexpr int kReordered_us = 50'000;  ///< so long a packet that is missing is waited for (RTP)
+constexpr int kMostThreads = 4;
+
+void set_up_devices() {
+    static std::once_flag once;
+    std::call_once(once, [] { avdevice_register_all(); });
+}
+
+std::string reason_of(int error) {
+    std::array<char, AV_ERROR_MAX_STRING_SIZE> words{};
+    av_strerror(error, words.data(), words.size());
+    return words.data();
+}
+
+struct Options {
+    AVDictionary* dictionary{nullptr};
+
+    Options() = default;
+    ~Options() { av_dict_free(&dictionary); }
+    Options(const Options&) = delete;
+    Options& operator=(const Options&) = delete;
+    void set(const std::string& key, const std::string& value) {
+        av_dict_set(&dictionary, key.c_str(), value.c_str(), 0);
+    }
+};
+
+/// One channel, whole numbers.
+cv::Mat whole_levels(cv::Mat levels) {
+    if (levels.channels() > 1) levels = grey_of(levels);
+    if (levels.depth() != CV_32F) return levels;
+    cv::Mat rounded;
+    levels.convertTo(rounded, CV_16U);
+    return rounded;
+}
+
+}  // namespace
+
+/// Bytes of a pipe, which nobody may have opened at its other end.
+struct LiveInput::Pipe {
+    explicit Pipe(const std::string& file, const std::string& shown)
+        : descriptor(file.empty() ? ::dup(STDIN_FILENO)
+                                  : ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
+        if (descriptor < 0)
+            throw InputError(shown +
+                             " cannot be opened: make it with mkfifo, and let something "
+                             "write a video into it");
+        if (::isatty(descriptor) != 0)
+            throw InputError(
+                "nothing is piped into standard input: let another program write a "
+                "video into it, as in: ffmpeg ... -f nut - | dibhr -");
+    }
+    ~Pipe() {
+        if (descriptor >= 0) ::close(descriptor);
+    }
+    Pipe(const Pipe&) = delete;
+    Pipe& operator=(const Pipe&) = delete;
+
+    int descriptor;
+    bool began{false};
+};
+
+void LiveInput::Closer::operator()(AVFormatContext* context) const noexcept {
+    avformat_close_input(&context);
+}
+void LiveInput::Closer::operator()(AVIOContext* bytes) const noexcept {
+    av_freep(&bytes->buffer);
+    avio_context_free(&bytes);
+}
+void LiveInput::Closer::operator()(AVCodecContext* decoder) const noexcept {
+    avcodec_free_context(&decoder);
+}
+void LiveInput::Closer::operator()(AVFrame* frame) const noexcept {
+    av_frame_free(&frame);
+}
+void LiveInput::Closer::operator()(AVPacket* packet) const noexcept {
+    av_packet_free(&packet);
+}
+
+int LiveInput::is_over(void* input) noexcept {
+    const auto& self = *static_cast<const LiveInput*>(input);
+    return self.wants_.leaving.load(std::memory_order_relaxed) || Clock::now() > self.latest_ ? 1
+                                                                                              : 0;
+}
+
+/// A pipe without a writer is not at its end before something has come.
+int LiveInput::read_pipe(void* input, std::uint8_t* bytes, int size) noexcept {
+    auto& self = *static_cast<LiveInput*>(input);
+    Pipe& pipe = *self.pipe_;
+    while (is_over(input) == 0) {
+        pollfd wanted{.fd = pipe.descriptor, .events = POLLIN, .revents = 0};
+        if (::poll(&wanted, 1, kLooked_ms) <= 0) continue;
+        const auto got = ::read(pipe.descriptor, bytes, static_cast<std::size_t>(size));
+        if (got > 0) {
+            pipe.began = true;
+            return static_cast<int>(got);
+        }
+        if (got < 0 && errno != EAGAIN && errno != EINTR) return AVERROR(errno);
+        if (got == 0 && (pipe.began || (wanted.revents & POLLIN) != 0)) return AVERROR_EOF;
+        std::this_thread::sleep_for(std::chrono::milliseconds(kLooked_ms));
+    }
+    return AVERROR_EXIT;
+}
+
+void LiveInput::patience(std::chrono::milliseconds patience) {
+    latest_ = Clock::now() + patience;
+}
+
+LiveInput::LiveInput(const LiveName& name, const std::string& shown, const LiveWants& wants)
+    : wants_(wants), kind_(name.kind), frame_(av_frame_alloc()), packet_(av_packet_alloc()) {
+    if (!frame_ || !packet_) throw std::bad_alloc();
+    set_up_libraries();
+    set_up_devices();
+    if (kind_ == LiveKind::pipe) pipe_ = std::make_unique<Pipe>(name.url, shown);
+    patience(kToOpen);
+    const bool may_be_depth = kind_ == LiveKind::camera && wants.levels;
+    int result = may_be_depth ? open(name, true) : -1;
+    if (result < 0) result = open(name, false);
+    if (result < 0) {
+        const bool silent = result == AVERROR_EXIT || result == AVERROR(EAGAIN);
+        throw InputError(
+            shown + (silent ? " sends nothing" : " cannot be opened (" + reason_of(result) + ")") +
+            ": start what sends, and check the name");
+    }
+    open_decoder(shown);
+}
+
+LiveInput::~LiveInput() = default;
+
+/// The depth of a camera has 16 bits where it has any.
+int LiveInput::open(const LiveName& name, bool as_depth) {
+    AVFormatContext* context = avformat_alloc_context();
+    if (context == nullptr) throw std::bad_alloc();
+    context->interrupt_callback = {is_over, this};
+    context->flags |= AVFMT_FLAG_NOBUFFER | AVFMT_FLAG_DISCARD_CORRUPT;
+    if (kind_ == LiveKind::camera) context->flags |= AVFMT_FLAG_NONBLOCK;
+    context->probesize = kToTell_bytes;
+    context->max_analyze_duration = kToTell_us;
+    context->max_delay = kReordered_us;
+    if (pipe_) {
+        auto* const buffer = static_cast<unsigned char*>(av_malloc(kPipeBytes));
+        bytes_.reset(avio_alloc_context(buffer, kPipeBytes, 0, this, read_pipe, nullptr, nullptr));
+        if (!bytes_) throw std::bad_alloc();
+        context->pb = bytes_.get();
+    }
+    Options options;
+    for (const auto& [key, value] : name.options) options.set(key, value);
+    if (!name.allowed.empty()) options.set("protocol_whitelist", name.allowed);
+    if (kind_ == LiveKind::network) options.set("overrun_nonfatal", "1");
+    if (as_depth) options.set("pixel_format", "gray16le");
+    const AVInputFormat* const format =
+        name.format.empty() ? nullptr : av_find_input_format(name.format.c_str());
+    if (!name.format.empty() && format == nullptr) {
+        avformat_free_context(context);
+        return AVERROR_DEMUXER_NOT_FOUND;
+    }
+    int result = avformat_open_input(&context, pipe_ ? nullptr : name.url.c_str(), format,
+                                     &options.dictionary);
+    if (result < 0) return result;  // the context is freed
+    context_.reset(context);
+    // A packet of a transport stream is a picture: nothing waits for the begin of the next one.
+    if (std::string_view(context->iformat->name) == "mpegts") context->flags |= AVFMT_FLAG_NOPARSE;
+    do {
+        result = avformat_find_stream_info(context, nullptr);
+    } while (result == AVERROR(EAGAIN) && is_over(this) == 0);
+    return is_over(this) != 0 ? AVERROR_EXIT : result;
+}
+
+/// Threads that share a picture, none that take one each.
+void LiveInput::open_decoder(const std::string& shown) {
+    const AVCodec* codec = nullptr;
+    const int track = av_find_best_stream(context_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
+    if (track >= 0 && codec != nullptr) {
+        stream_ = context_->streams[track];
+        decoder_.reset(avcodec_alloc_context3(codec));
+    }
+    bool opened = decoder_ != nullptr &&
+                  avcodec_parameters_to_context(decoder_.get(), stream_->codecpar) >= 0;
+    if (opened) {
+        decoder_->pkt_timebase = stream_->time_base;
+        decoder_->flags |= AV_CODEC_FLAG_LOW_DELAY;
+        decoder_->thread_type = FF_THREAD_SLICE;
+        decoder_->thread_count =
+            std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMostThreads);
+        opened = avcodec_open2(decoder_.get(), codec, nullptr) >= 0;
+    }
+    if (!opened)
+        throw InputError(shown + " sends no video that can be decoded: let it send another form");
+    for (unsigned k = 0; k < context_->nb_streams; ++k)
+        if (context_->streams[k] != stream_) context_->streams[k]->discard = AVDISCARD_ALL;
+}
+
+/// False: nothing more comes.
+bool LiveInput::send_next() {
+    patience(kSilent);
+    for (;;) {
+        av_packet_unref(packet_.get());
+        const int got = av_read_frame(context_.get(), packet_.get());
+        if (got == AVERROR(EAGAIN) && is_over(this) == 0) {
+            std::this_thread::sleep_for(kBetweenLooks);
+            continue;
+        }
+        if (got < 0) return false;
+        if (packet_->stream_index != stream_->index) continue;
+        arrived_ = Clock::now();
+        if ((packet_->flags & AV_PKT_FLAG_CORRUPT) != 0) damaged_ = true;
+        if (avcodec_send_packet(decoder_.get(), packet_.get()) < 0) damaged_ = true;
+        return true;
+    }
+}
+
+/// What follows damage refers to it, up to a picture that refers to none.
+bool LiveInput::is_whole() {
+    const AVFrame& frame = *frame_;
+    const bool hurt = (frame.flags & AV_FRAME_FLAG_CORRUPT) != 0 || frame.decode_error_flags != 0;
+    damaged_ = hurt || (damaged_ && frame.pict_type != AV_PICTURE_TYPE_I);
+    return !damaged_;
+}
+
+/// Made pictures come as quickly as they are asked for, and so does a file in a pipe or on a
+/// server: in their own time, as everything else. What comes by itself is never waited for.
+void LiveInput::keep_time(double stamp_s) {
+    if (!std::isfinite(stamp_s)) return;
+    const auto early = kind_ == LiveKind::made ? Clock::duration(0) : kEarly;
+    const auto due_of = [this, stamp_s] {
+        return begin_ + std::chrono::duration_cast<Clock::duration>(
+                            std::chrono::duration<double>(stamp_s - first_s_));
+    };
+    const bool begins = begin_ == Clock::time_point{};
+    if (begins || due_of() > Clock::now() + kOtherTime) {
+        begin_ = Clock::now();
+        first_s_ = stamp_s;
+    }
+    const Clock::time_point due = due_of() - early;
+    if (due <= Clock::now()) return;
+    while (Clock::now() < due && !wants_.leaving.load(std::memory_order_relaxed))
+        std::this_thread::sleep_for(
+            std::min<Clock::duration>(due - Clock::now(), std::chrono::milliseconds(kLooked_ms)));
+    arrived_ = Clock::now();
+}
+
+/// False: it cannot be converted.
+bool LiveInput::take(LivePicture& picture) {
+    const AVFrame& frame = *frame_;
+    const std::int64_t stamp = frame.best_effort_timestamp;
+    picture.stamp_s = stamp == AV_NOPTS_VALUE
+                          ? std::numeric_limits<double>::quiet_NaN()
+                          : static_cast<double>(stamp) * av_q2d(stream_->time_base);
+    keep_time(picture.stamp_s);
+    const double aspect = pixel_aspect(frame, *stream_);
+    picture.colour = cv::Mat();
+    picture.levels = cv::Mat();
+    if (wants_.colour)
+        picture.colour = with_square_pixels(pictures_.colour(frame), aspect, PictureRole::colour);
+    if (wants_.levels && !holds_floats(frame))
+        picture.levels =
+            with_square_pixels(whole_levels(pictures_.levels(frame)), aspect, PictureRole::depth);
+    picture.bits = bits_of(frame);
+    picture.grey = is_grey(frame);
+    picture.codec = name_of_codec(stream_->codecpar->codec_id);
+    const double rate = av_q2d(av_guess_frame_rate(context_.get(), stream_, nullptr));
+    picture.frames_per_s = rate > 0.0 && rate <= 1000.0 ? rate : 0.0;
+    picture.arrived = arrived_;
+    return !picture.colour.empty() || !picture.levels.empty();
+}
+
+bool LiveInput::read(LivePicture& picture) {
+    while (!wants_.leaving) {
+        const int given = avcodec_receive_frame(decoder_.get(), frame_.get());
+        if (given == 0) {
+            if (is_whole() && take(picture)) return true;
+        } else if (given != AVERROR(EAGAIN) || !send_next()) {
+            return false;
+        }
+    }
+    return false;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,94 @@
+// One connection to something live, through libav: its pictures as they come; inside the room.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <string>
+
+#include "core/video/formats/av_frame.hpp"
+#include "core/video/live/live_name.hpp"
+
+struct AVCodecContext;
+struct AVFormatContext;
+struct AVFrame;
+struct AVIOContext;
+struct AVPacket;
+struct AVStream;
+
+namespace dibhr {
+
+/// A picture as it came. Shared with nobody who writes.
+struct LivePicture {
+    using Clock = std::chrono::steady_clock;
+
+    cv::Mat colour{};          ///< 8-bit blue, green, red; empty: not wanted
+    cv::Mat levels{};          ///< one channel of 8 or 16 bits; empty: not wanted
+    int bits{8};               ///< of a level
+    bool grey{false};          ///< coded without colours
+    double stamp_s{0.0};       ///< by the clock of its source; NaN: it has none
+    double frames_per_s{0.0};  ///< as the source says; 0: it does not
+    std::string codec{};
+    Clock::time_point arrived{};
+};
+
+/// What of a picture is made; may change while it runs.
+struct LiveWants {
+    std::atomic<bool> colour{true};
+    std::atomic<bool> levels{true};
+    std::atomic<bool> leaving{false};  ///< whatever waits ends
+};
+
+/// Keeps nothing back that has come: no frames of a decoder's threads, no buffer of a demuxer's.
+/// Pictures that hold damage are left out up to the next whole one.
+class LiveInput {
+  public:
+    /// Waits for the first packets. Throws InputError: what, which place, what to do next; also
+    /// where nothing comes for a while. `wants` outlives it.
+    LiveInput(const LiveName& name, const std::string& shown, const LiveWants& wants);
+    ~LiveInput();
+    LiveInput(const LiveInput&) = delete;
+    LiveInput& operator=(const LiveInput&) = delete;
+
+    /// Waits for the next picture. False: it has ended, nothing came for a while, or it leaves.
+    [[nodiscard]] bool read(LivePicture& picture);
+
+  private:
+    struct Pipe;
+    struct Closer {
+        void operator()(AVFormatContext* context) const noexcept;
+        void operator()(AVIOContext* bytes) const noexcept;
+        void operator()(AVCodecContext* decoder) const noexcept;
+        void operator()(AVFrame* frame) const noexcept;
+        void operator()(AVPacket* packet) const noexcept;
+    };
+
+    static int is_over(void* input) noexcept;
+    static int read_pipe(void* input, std::uint8_t* bytes, int size) noexcept;
+    [[nodiscard]] int open(const LiveName& name, bool as_depth);
+    void open_decoder(const std::string& shown);
+    void patience(std::chrono::milliseconds patience);
+    [[nodiscard]] bool send_next();
+    [[nodiscard]] bool is_whole();
+    void keep_time(double stamp_s);
+    [[nodiscard]] bool take(LivePicture& picture);
+
+    const LiveWants& wants_;
+    LiveKind kind_;
+    std::unique_ptr<Pipe> pipe_{};
+    std::unique_ptr<AVIOContext, Closer> bytes_{};
+    std::unique_ptr<AVFormatContext, Closer> context_{};
+    std::unique_ptr<AVCodecContext, Closer> decoder_{};
+    std::unique_ptr<AVFrame, Closer> frame_;
+    std::unique_ptr<AVPacket, Closer> packet_;
+    FramePictures pictures_{};
+    AVStream* stream_{nullptr};                // the context's
+    LivePicture::Clock::time_point latest_{};  // then nothing has come for too long
+    LivePicture::Clock::time_point arrived_{};
+    LivePicture::Clock::time_point begin_{};  // when the stamp first_s_ was due
+    double first_s_{0.0};
+    bool damaged_{false};
+};
+
+}  // namespace dibhr

@@ -1,0 +1,103 @@
+// What stands before the colon.
+#include "core/video/live/live_name.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <system_error>
+
+#include "core/error.hpp"
+#include "core/files/plain_text.hpp"
+
+namespace dibhr {
+
+namespace {
+
+struct Scheme {
+    std::string_view begin;
+    std::string_view allowed;  ///< and what it runs on
+};
+
+/// Nothing that leads to a file of this machine, whatever a playlist says.
+constexpr std::array<Scheme, 8> kNetwork{{{"rtsp://", "rtsp,rtp,udp,tcp"},
+                                          {"rtsps://", "rtsp,rtsps,rtp,srtp,udp,tcp,tls,crypto"},
+                                          {"rtp://", "rtp,udp"},
+                                          {"udp://", "udp"},
+                                          {"srt://", "srt"},
+                                          {"tcp://", "tcp"},
+                                          {"http://", "http,tcp"},
+                                          {"https://", "https,http,tls,tcp,crypto"}}};
+constexpr std::string_view kCamera = "v4l2:";
+constexpr std::string_view kPipe = "pipe:";
+constexpr std::string_view kMade = "lavfi:";
+
+const Scheme* network_scheme(std::string_view name) {
+    const auto* const found =
+        std::find_if(kNetwork.begin(), kNetwork.end(),
+                     [name](const Scheme& scheme) { return name.starts_with(scheme.begin); });
+    return found == kNetwork.end() ? nullptr : found;
+}
+
+bool is_camera_device(const std::filesystem::path& place) {
+    if (!place.string().starts_with("/dev/video")) return false;
+    std::error_code gone;
+    return std::filesystem::is_character_file(place, gone);
+}
+
+/// "size=640x480&rate=30" in libav's words.
+std::map<std::string, std::string> camera_options(std::string_view asked, const std::string& name) {
+    std::map<std::string, std::string> options;
+    while (!asked.empty()) {
+        const std::string_view one = asked.substr(0, asked.find('&'));
+        asked.remove_prefix(std::min(one.size() + 1, asked.size()));
+        const auto equals = one.find('=');
+        const std::string_view key = one.substr(0, equals);
+        if (equals == std::string_view::npos || (key != "size" && key != "rate"))
+            throw InputError(in_quotes(name) +
+                             ": of a camera size=640x480 and rate=30 can be "
+                             "asked, with & between them");
+        options[key == "size" ? "video_size" : "framerate"] = one.substr(equals + 1);
+    }
+    return options;
+}
+
+LiveName camera(const std::string& name, std::string_view device) {
+    const auto question = device.find('?');
+    LiveName live{.kind = LiveKind::camera,
+                  .url = std::string(device.substr(0, question)),
+                  .format = "video4linux2",
+                  .allowed = "file"};
+    if (question != std::string_view::npos)
+        live.options = camera_options(device.substr(question + 1), name);
+    return live;
+}
+
+}  // namespace
+
+bool is_live(const std::filesystem::path& place) {
+    const std::string& name = place.native();
+    const std::string_view begin = name;
+    return name == "-" || begin.starts_with(kCamera) || begin.starts_with(kPipe) ||
+           begin.starts_with(kMade) || network_scheme(begin) != nullptr || is_camera_device(place);
+}
+
+LiveName live_name(const std::filesystem::path& place) {
+    const std::string& name = place.native();
+    const std::string_view text = name;
+    const auto after = [text](std::string_view begin) { return text.substr(begin.size()); };
+    if (const Scheme* const scheme = network_scheme(text))
+        return {.kind = LiveKind::network, .url = name, .allowed = std::string(scheme->allowed)};
+    if (text.starts_with(kMade) && text.size() > kMade.size())
+        return {.kind = LiveKind::made, .url = std::string(after(kMade)), .format = "lavfi"};
+    if (name == "-" || name == kPipe) return {.kind = LiveKind::pipe, .allowed = "none"};
+    if (text.starts_with(kPipe))
+        return {.kind = LiveKind::pipe, .url = std::string(after(kPipe)), .allowed = "none"};
+    if (text.starts_with(kCamera) && text.size() > kCamera.size())
+        return camera(name, after(kCamera));
+    if (is_camera_device(place)) return camera(name, text);
+    throw InputError(in_quotes(name) +
+                     " names nothing live: give v4l2:/dev/video0, udp://..., rtsp://..., "
+                     "srt://..., tcp://..., http://..., pipe:NAME or lavfi:SPEC");
+}
+
+}  // namespace dibhr

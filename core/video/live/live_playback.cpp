@@ -1,0 +1,296 @@
+// From a feed to a window.
+#include "core/video/live/live_playback.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/video/live/taken_pictures.hpp"
+
+namespace dibhr {
+
+namespace {
+
+using Time = LivePlayback::Time;
+
+constexpr double kNewest = 0.1;  ///< the weight of the newest of a moving mean
+constexpr double kShortestSilence_s = 0.15;
+constexpr double kLongestSilence_s = 0.25;  ///< and at least that of slow cameras:
+constexpr double kSlowIntervals = 1.5;
+constexpr double kLostIntervals = 3.0;
+constexpr std::chrono::seconds kMovedLately{1};
+constexpr float kMoved = 0.01F;  ///< of the highest level, and beyond the noise
+constexpr float kMovedNoise = 5.0F;
+constexpr std::size_t kMovedPart = 500;  ///< one pixel in so many
+constexpr std::size_t kLookedAt = 7;     ///< every so many pixels
+constexpr std::chrono::milliseconds kTellAgain{500};
+constexpr double kMilliseconds = 1000.0;
+constexpr std::uint64_t kLiveOnes = std::uint64_t{1} << 32;  ///< none is one of a file's
+
+std::chrono::steady_clock::duration duration_of(double seconds) {
+    return std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+        std::chrono::duration<double>(seconds));
+}
+
+double seconds_between(Time from, Time to) {
+    return std::chrono::duration<double>(to - from).count();
+}
+
+/// As a file of milliseconds gives it back.
+double file_s(double time_s) {
+    return static_cast<double>(std::llround(kMilliseconds * time_s)) * (1.0 / kMilliseconds);
+}
+
+bool differ(const DepthImage& a, const DepthImage& b, float by) {
+    if (a.levels.size() != b.levels.size()) return true;
+    std::size_t moved = 0;
+    for (std::size_t k = 0; k < a.levels.size(); k += kLookedAt)
+        moved += static_cast<std::size_t>(std::fabs(a.levels[k] - b.levels[k]) > by);
+    return moved * kLookedAt * kMovedPart > a.levels.size();
+}
+
+}  // namespace
+
+std::string in_words(const LiveStatus& live) {
+    if (live.signal) return number_text(kMilliseconds * live.behind_s, 0) + " ms behind";
+    std::string words = "No signal from " + in_quotes(live.from, 60) + " for " +
+                        number_text(live.silent_s, 0) + " s: waiting";
+    if (live.other_form) words = in_quotes(live.from, 60) + " changed: opening it again";
+    return words + (live.force_off ? ", the force is off" : "");
+}
+
+void LivePlayback::open(std::unique_ptr<Media> media, std::uint32_t number,
+                        std::shared_ptr<const TouchMaps> maps, std::function<void()> news) {
+    close();
+    media_ = std::move(media);
+    feed_ = media_->live();
+    opened_ = number_ = number;
+    maps_ = std::move(maps);
+    playing_ = true;
+    clock_.begin_again();
+    feed_->tell(std::move(news));
+}
+
+void LivePlayback::close() {
+    if (feed_) feed_->tell({});
+    const CleaningOptions options = options_;
+    const std::uint64_t discontinuity = discontinuity_;
+    feed_.reset();
+    media_.reset();
+    sink_ = {};
+    frames_.clear();
+    memory_.forget();
+    meter_ = {};
+    measured_ = 0;
+    noise_.reset();
+    last_ = {};
+    taken_ = 0;
+    file_begin_s_.reset();
+    dropped_ = 0;
+    behind_s_ = 0.0;
+    lost_ = force_off_ = false;
+    options_ = options;
+    discontinuity_ = discontinuity + 1;
+}
+
+void LivePlayback::play() {
+    if (std::exchange(playing_, true)) return;
+    clock_.begin_again();
+}
+
+void LivePlayback::pause(Time now) {
+    if (std::exchange(playing_, false)) clock_.stop(now);
+}
+
+/// What was seen last is cleaned again at once.
+void LivePlayback::set_cleaning(const CleaningOptions& options, Time now) {
+    if (options == options_) return;
+    options_ = options;
+    if (!is_open() || frames_.empty()) return;
+    make_plan();
+    clock_.begin_again();
+    show(cleaned_frame(last_), now);
+    if (!playing_) clock_.stop(now);
+}
+
+void LivePlayback::set_maps(std::shared_ptr<const TouchMaps> maps) {
+    maps_ = std::move(maps);
+    for (Frame& frame : frames_) frame.maps = maps_;
+}
+
+void LivePlayback::record(std::uint32_t number, LiveSink sink) {
+    sink_ = std::move(sink);
+    if (!sink_) return;
+    number_ = number;
+    file_begin_s_.reset();
+    memory_.forget();
+    clock_.begin_again();
+}
+
+bool LivePlayback::take(Time now) {
+    bool changed = false;
+    const double moment_s = clock_.clock().playback_s(now);
+    while (playing_ && frames_.size() > 1 && frames_[1].time_s <= moment_s) {
+        frames_.pop_front();
+        changed = true;
+    }
+    if (playing_ && feed_->after(taken_, now)) changed = take_frame(now) || changed;
+    return watch_signal(std::chrono::steady_clock::now()) || changed;
+}
+
+/// One that cannot be had after all, because what sends has changed, is a lost signal.
+bool LivePlayback::take_frame(Time now) {
+    std::optional<RawFrame> raw = media_->next();
+    if (!raw || !raw->taken) return false;
+    const std::uint64_t number = raw->taken->pair->number;
+    if (taken_ > 0) dropped_ += static_cast<std::int64_t>(number - taken_ - 1);
+    taken_ = number;
+    if (measures(*raw)) return false;
+    const double stamp_s = raw->media_s;
+    if (!file_begin_s_) file_begin_s_ = stamp_s;
+    raw->media_s = file_s(stamp_s - *file_begin_s_);
+    if (!frames_.empty() && frames_.back().media == number_ &&
+        raw->media_s <= frames_.back().media_s)
+        raw->media_s = file_s(frames_.back().media_s + 1.0 / kMilliseconds);
+    if (!raw->always_whole) raw->held = memory_.take(raw->depth, raw->media_s);
+    last_stamp_s_ = stamp_s;
+    last_ = std::move(*raw);
+    keep(last_);
+    if (std::exchange(lost_, false)) clock_.begin_again();
+    force_off_ = false;
+    show(cleaned_frame(last_), now);
+    return true;
+}
+
+/// Its noise is known before the first frame is shown, where that is cleaned by it.
+bool LivePlayback::measures(const RawFrame& raw) {
+    if (noise_) return false;
+    meter_.add(raw.depth);
+    if (++measured_ >= NoiseMeter::kEnough) noise_ = meter_.noise();
+    if (!noise_ && needs_noise(options_)) return true;
+    make_plan();
+    return false;
+}
+
+void LivePlayback::make_plan() {
+    const std::size_t pixels = static_cast<std::size_t>(description().depth_columns) *
+                               static_cast<std::size_t>(description().depth_rows);
+    plan_ = plan_of(options_, noise_.value_or(DepthNoise{}), pixels);
+    plan_.steps.steady = false;        // needs frames that are still to come
+    plan_.steps.colour_edges = false;  // a recording's colour is not kept bit by bit
+}
+
+Frame LivePlayback::cleaned_frame(const RawFrame& raw) {
+    const auto begin = std::chrono::steady_clock::now();
+    const LoneDepth lone = chain_.alone(raw.depth, plan_, raw.held);
+    const LoneDepth* const one = &lone;
+    const CleanedDepth cleaned = chain_.finished({&one, 1}, 0, plan_);
+    Frame frame;
+    frame.depth = cleaned.depth;
+    frame.unseen = cleaned.unseen;
+    frame.beneath = cleaned.beneath;
+    frame.colour = std::make_shared<const ColourImage>(raw.colour);
+    frame.maps = maps_;
+    frame.media_s = raw.media_s;
+    frame.index = raw.index;
+    frame.media = number_;
+    frame.cleaning = {plan_.steps, plan_.finger};
+    cleaned_ = std::chrono::steady_clock::now();
+    clean_ms_ = kMilliseconds * seconds_between(begin, cleaned_);
+    return frame;
+}
+
+void LivePlayback::show(Frame frame, Time now) {
+    notice_motion(frame, now);
+    const Time ready = std::chrono::steady_clock::now();
+    if (clock_.add(std::move(frame), last_stamp_s_, ready, frames_)) ++discontinuity_;
+    const double ahead_s = frames_.back().time_s - clock_.clock().playback_s(ready);
+    const double behind_s =
+        std::max(ahead_s, 0.0) + seconds_between(last_.taken->pair->depth.arrived, ready);
+    behind_s_ += (behind_s_ > 0.0 ? kNewest : 1.0) * (behind_s - behind_s_);
+}
+
+void LivePlayback::keep(const RawFrame& raw) {
+    if (!sink_) return;
+    sink_({raw.taken, std::llround(kMilliseconds * raw.media_s), noise_.value_or(DepthNoise{})});
+}
+
+void LivePlayback::notice_motion(const Frame& frame, Time now) {
+    const float noise = kMovedNoise * plan_.noise.at(0.5F);
+    const float by = std::max(kMoved, noise) * static_cast<float>(frame.depth->highest_level);
+    if (!frames_.empty() && differ(*frames_.back().depth, *frame.depth, by)) moved_ = now;
+}
+
+/// When it counts as lost unless something comes.
+Time LivePlayback::lost_at() const {
+    const double interval_s = clock_.interval_s();
+    const double longest_s = std::max(kLongestSilence_s, kSlowIntervals * interval_s);
+    const double silence_s = std::clamp(kLostIntervals * interval_s, kShortestSilence_s, longest_s);
+    return feed_->signal().last + duration_of(silence_s);
+}
+
+/// What moved a moment ago is not where it is held any more.
+bool LivePlayback::watch_signal(Time now) {
+    const bool lost = !frames_.empty() && playing_ && now >= lost_at();
+    if (!lost) return false;
+    if (std::exchange(lost_, true)) {
+        const bool again = now >= told_ + kTellAgain;
+        if (again) told_ = now;
+        return again;
+    }
+    told_ = now;
+    force_off_ = feed_->signal().last - moved_ < kMovedLately;
+    return true;
+}
+
+Time LivePlayback::next_due(Time now) const {
+    if (!playing_) return Time::max();
+    Time due = lost_ ? told_ + kTellAgain : frames_.empty() ? now + kTellAgain : lost_at();
+    if (const auto pair_due = feed_->due()) due = std::min(due, *pair_due);
+    const PlaybackClock& clock = clock_.clock();
+    if (frames_.size() > 1 && clock.speed > 0.0) {
+        const double wait_s = (frames_[1].time_s - clock.anchor_s) / clock.speed;
+        due = std::min(due, clock.anchor + duration_of(wait_s) + std::chrono::microseconds(100));
+    }
+    return due;
+}
+
+FrameWindow LivePlayback::window() const {
+    FrameWindow window;
+    window.count = std::min(frames_.size(), FrameWindow::kFrames);
+    std::copy_n(frames_.begin(), window.count, window.frames.begin());
+    window.clock = clock_.clock();
+    window.discontinuity = kLiveOnes + discontinuity_;
+    window.silent = force_off_;
+    return window;
+}
+
+LiveStatus LivePlayback::status(Time now) const {
+    const LiveSignal signal = feed_->signal();
+    LiveStatus status;
+    status.from = description().depth_path.string();
+    status.behind_s = behind_s_;
+    status.dropped = dropped_;
+    status.arrives_per_s = frames_.size() > 1 ? 1.0 / clock_.interval_s() : 0.0;
+    status.signal = !lost_ && !signal.other_form;
+    status.silent_s = lost_ ? seconds_between(signal.last, now) : 0.0;
+    status.force_off = force_off_;
+    status.other_form = signal.other_form;
+    status.trouble = signal.trouble;
+    status.opened = opened_;
+    status.media = frames_.empty() ? 0 : frames_.front().media;
+    status.noise = noise_.value_or(DepthNoise{});
+    return status;
+}
+
+std::string LivePlayback::cleaning_in_words() const {
+    const std::size_t pixels = static_cast<std::size_t>(description().depth_columns) *
+                               static_cast<std::size_t>(description().depth_rows);
+    CleaningPlan whole = plan_of(options_, plan_.noise, pixels);
+    return in_words(options_, whole) + (whole.steps.steady ? "; live: not in time" : "");
+}
+
+}  // namespace dibhr

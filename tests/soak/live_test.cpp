@@ -1,0 +1,116 @@
+// What is live for a long time: no drift from a clock that runs at another rate, no growing memory,
+// and every flash in the depth felt in time. DIBHR_SOAK_SECONDS: ten minutes are looked at by hand.
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/video/media.hpp"
+#include "core/video/player.hpp"
+#include "tests/core/video/live/senders.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/eventually.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+constexpr double kRate = 30.0;
+constexpr double kTooQuick = 1.0003;  ///< a source's clock, as bad as they come
+constexpr int kEvery = 30;            ///< frames between two flashes
+
+double megabytes() {
+    std::ifstream pages("/proc/self/statm");
+    double all = 0.0;
+    double resident = 0.0;
+    pages >> all >> resident;
+    return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1048576.0;
+}
+
+double run_seconds() {
+    const char* const text = std::getenv("DIBHR_SOAK_SECONDS");
+    return text == nullptr ? 25.0 : std::strtod(text, nullptr);
+}
+
+double level_of(const FrameWindow& window, Clock::time_point now) {
+    const DepthBlend blend = window.at(window.clock.playback_s(now));
+    if (!blend.makes_surface()) return 0.0;
+    const double from = static_cast<double>(blend.from->depth->at(80, 60));
+    return from + blend.blend * (static_cast<double>(blend.to->depth->at(80, 60)) - from);
+}
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values.empty() ? 0.0 : values[values.size() / 2];
+}
+
+}  // namespace
+
+TEST_CASE("what is live for long neither drifts nor grows", "[soak]") {
+    const int port = free_port();
+    std::atomic<Clock::time_point> flashed{Clock::time_point{}};
+    PictureSender::Asked asked;
+    asked.frames_per_s = kRate;
+    asked.clock_rate = kTooQuick;
+    asked.level = [](int k, int i, int j) {
+        const int shaken = (k * 31 + i * 17 + j * 7) % 60;
+        return static_cast<std::uint16_t>((k % kEvery >= kEvery / 2 ? 40000 : 10000) + shaken);
+    };
+    asked.late = [](int k) { return std::chrono::milliseconds(k * 13 % 9); };
+    asked.sent = [&](int k, Clock::time_point when) {
+        if (k % kEvery == kEvery / 2) flashed = when;
+    };
+    const PictureSender sender(port, asked);
+    DepthRequest request{.find_out = true};
+    request.command_line.unit = DepthUnit::levels;
+    request.command_line.near = NearLevels::bright;
+    request.command_line.range = DepthRange{65535.0, 0.0};
+    request.command_line.packing = DepthPacking::separate;
+    Player player;
+    player.play_media(open_media(PictureSender::url(port), {}, request), 1);
+    REQUIRE(eventually([&] { return player.haptics().front().count > 1; }));
+    std::this_thread::sleep_for(std::chrono::seconds(5));
+    const double before_mb = megabytes();
+    const auto begin = Clock::now();
+    const double lasts_s = run_seconds();
+    std::vector<double> delays_ms;
+    std::vector<double> first_ms;
+    bool was_high = true;
+    double told_s = 0.0;
+    while (std::chrono::duration<double>(Clock::now() - begin).count() < lasts_s) {
+        const auto now = Clock::now();
+        const bool high = level_of(player.haptics().front(), now) > 37000.0;
+        if (high && !was_high)
+            delays_ms.push_back(
+                std::chrono::duration<double, std::milli>(now - flashed.load()).count());
+        was_high = high;
+        if (first_ms.empty() && delays_ms.size() >= 10) first_ms = delays_ms;
+        const double passed_s = std::chrono::duration<double>(now - begin).count();
+        if (passed_s > told_s + 60.0) {
+            told_s = passed_s;
+            std::printf("%4.0f s: felt after %.1f ms, said %.1f ms, %lld left out, %.1f MB\n",
+                        passed_s, median({delays_ms.end() - 30, delays_ms.end()}),
+                        1000.0 * player.status().live->behind_s,
+                        static_cast<long long>(player.status().live->dropped), megabytes());
+            std::fflush(stdout);
+        }
+        std::this_thread::sleep_for(std::chrono::microseconds(500));
+    }
+    REQUIRE(delays_ms.size() >= 10);
+    const std::vector<double> last_ms(delays_ms.end() - 10, delays_ms.end());
+    CHECK(median(delays_ms) <= 2000.0 / kRate + 10.0);
+    CHECK(std::fabs(median(last_ms) - median(first_ms)) < 10.0);
+    CHECK(megabytes() - before_mb < 8.0);
+    CHECK(player.status().live->signal);
+}
