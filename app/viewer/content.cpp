@@ -146,6 +146,7 @@ std::optional<PixelShown> pixel_at(Vec3 place, const ViewerState& state, const D
 
 void Viewer::take_opened() {
     if (auto opened = opening_.take()) {
+        if (opened->media || opened->session) estimating_.something_opened(state_);
         if (opened->media)
             show_media(std::move(opened->media), opened->request, opened->memory,
                        std::move(opened->maps));

@@ -39,6 +39,11 @@ bool ViewerEstimating::offer(const fs::path& colour, ViewerState& state) {
     return true;
 }
 
+void ViewerEstimating::something_opened(ViewerState& state) const {
+    if (!making_.under_way() && state.depth_offer && state.depth_offer->depth.empty())
+        state.depth_offer.reset();
+}
+
 void ViewerEstimating::start(ViewerState& state) {
     DepthOffer& offer = *state.depth_offer;
     const auto chosen = static_cast<std::size_t>(offer.chosen);

@@ -26,6 +26,9 @@ class ViewerEstimating {
     /// For a video that could not be opened. False while depth is made for another one.
     bool offer(const std::filesystem::path& colour, ViewerState& state);
 
+    /// Whoever has opened something else wants no more of an offer that was not taken.
+    void something_opened(ViewerState& state) const;
+
     /// What a person wants of it. What is to be opened then, if anything.
     [[nodiscard]] std::optional<OpenRequest> perform(DepthWish wish, ViewerState& state);
 
