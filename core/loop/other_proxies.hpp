@@ -80,21 +80,11 @@ class OtherProxies {
         std::unique_ptr<ProxyAlgorithm> walk{};
         Proxy proxy{};  ///< after its last update
     };
-    struct SeenFrame {
-        std::shared_ptr<const DepthImage> depth{};
-        std::shared_ptr<const TouchMaps> maps{};
-        std::shared_ptr<const MotionField> motion{};
-        double time_s{0.0};
-
-        [[nodiscard]] FrameMark mark() const noexcept {
-            return {depth.get(), time_s, maps.get(), motion.get()};
-        }
-    };
     /// Null: it was never seen, or is forgotten.
-    [[nodiscard]] const SeenFrame* known(const FrameMark& mark) const;
+    [[nodiscard]] const Frame* known(const FrameMark& mark) const;
 
     std::vector<Walker> walkers_{};  // of all algorithms: any may be the next one that runs
-    std::vector<SeenFrame> seen_{};  // the newest last
+    std::vector<Frame> seen_{};      // the newest last
     std::array<std::shared_ptr<const BumpMap>, 2> bumps_{};  // the newest first
     std::vector<WalkedTick> due_{};
     std::uint64_t awaited_{0};  // the next tick

@@ -92,20 +92,13 @@ void SessionReplay::take_frames() {
     }
     touched_ = std::make_shared<const TouchedFrames>(TouchedFrames{std::move(from), std::move(to)});
     pair_ = wanted;
-    field_asked_ = false;
 }
 
 void SessionReplay::take_motion() {
     if (!tick_.surface) return track_.forget();
-    motion_ = track_.go_on_to({&touched_->from, &touched_->to, tick_.blend}, field(), tick_.dt_s);
-}
-
-const MotionField* SessionReplay::field() {
-    const bool asked = std::any_of(runs_.begin(), runs_.end(),
-                                   [](const Run& run) { return run.parameters.carry; });
-    if (!asked || tick_.motion_unknown) return nullptr;
-    if (!std::exchange(field_asked_, true)) field_ = frames_.motion(touched_->from, touched_->to);
-    return field_.get();
+    const Frame& from = touched_->from;
+    const MotionField* const field = tick_.motion_unknown ? nullptr : from.motion.get();
+    moved_ = track_.go_on_to({&from, &touched_->to, tick_.blend}, field, tick_.dt_s);
 }
 
 void SessionReplay::update(Run& run) {
@@ -125,7 +118,7 @@ void SessionReplay::update(Run& run) {
     if (tick_.lets_go && run.holds) run.renderer.let_go();
     const auto begin = std::chrono::steady_clock::now();
     run.touch = run.renderer.update(surface, goal, parameters, safety_input(tick_, *parameters_),
-                                    limits, motion_);
+                                    limits, moved_);
     const auto end = std::chrono::steady_clock::now();
     run.update_us = std::chrono::duration<double, std::micro>(end - begin).count();
     run.holds = run.touch.proxy.contact;

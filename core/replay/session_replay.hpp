@@ -27,12 +27,6 @@ class RecordedFrames {
     virtual ~RecordedFrames() = default;
     /// The frame at exactly this presentation time, cleaned. Throws InputError when there is none.
     [[nodiscard]] virtual Frame frame(const FrameSource& source, double media_s) = 0;
-    /// How what is seen moves from one of them to the next; null: nothing is known of it.
-    [[nodiscard]] virtual std::shared_ptr<const MotionField> motion(const Frame& from,
-                                                                    const Frame& to) {
-        (void)to;
-        return from.motion;
-    }
     /// Null: none was laid over the surface.
     [[nodiscard]] virtual std::shared_ptr<const BumpMap> bump(
         const SessionParameters& parameters) = 0;
@@ -84,8 +78,6 @@ class SessionReplay {
     void take_parameters();
     void take_frames();
     void take_motion();
-    /// Of the tick; null: nothing is, or was, known of it, or nobody asks.
-    [[nodiscard]] const MotionField* field();
     void update(Run& run);
 
     const Session& session_;
@@ -97,10 +89,8 @@ class SessionReplay {
     std::shared_ptr<const BumpMap> bump_{};
     FramePair pair_{};
     std::shared_ptr<const TouchedFrames> touched_{};  ///< of the pair
-    std::shared_ptr<const MotionField> field_{};      ///< in it, once somebody is carried
-    bool field_asked_{false};
     MotionTrack track_{};
-    SurfaceMotion motion_{};  ///< of the tick
+    SurfaceMotion moved_{};  ///< in the tick
 };
 
 /// Whether an update gave what was recorded, bit by bit.

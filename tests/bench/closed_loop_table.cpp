@@ -29,6 +29,8 @@ void for_each_device(ClosedLoop loop, const Use& use) {
 void print_lowest(const char* name, ClosedLoop loop) {
     std::printf("%-32s", name);
     for (const Grip& grip : kGrips) {
+        // A hand that nothing holds goes where the surface goes.
+        if (loop.slide_mm_per_s != 0.0 && !(grip.spring_newton_per_m > 0.0)) continue;
         loop.grip = grip;
         double least = 1e9;
         double most = 0.0;
@@ -115,4 +117,7 @@ int main(int count, char** words) {
     print_lowest("as in 0.1", plain);
     print_lowest("watched, no damping", watched);
     print_lowest("default", stable);
+    watched.slide_mm_per_s = stable.slide_mm_per_s = 56.0;
+    print_lowest("sliding away, no damping", watched);
+    print_lowest("sliding away, default", stable);
 }
