@@ -1,4 +1,6 @@
 // What comes as it happens: opened, joined, shown a frame behind, held when it stops.
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -10,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -19,6 +22,7 @@
 #include "tests/core/video/clips.hpp"
 #include "tests/core/video/live/senders.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -145,6 +149,32 @@ TEST_CASE("a stream that nobody sends is refused in a line that says so", "[live
     CHECK(why.find(url) != std::string::npos);
     CHECK(why.find("start what sends") != std::string::npos);
     CHECK(why.find('\n') == std::string::npos);
+}
+
+TEST_CASE("streams open by whatever protocol they come, and from a pipe", "[live]") {
+    const std::string port = std::to_string(free_port());
+    const TemporaryFolder folder;
+    const std::string fifo = (folder / "depth").string();
+    REQUIRE(::mkfifo(fifo.c_str(), 0600) == 0);
+    const std::vector<std::pair<std::string, std::string>> ways{
+        {"-f mpegts 'srt://127.0.0.1:" + port + "?mode=listener'", "srt://127.0.0.1:" + port},
+        {"-f mpegts -listen 1 http://127.0.0.1:" + port, "http://127.0.0.1:" + port},
+        {"-f rtp_mpegts rtp://127.0.0.1:" + port, "rtp://127.0.0.1:" + port},
+        {"-f nut 'tcp://127.0.0.1:" + port + "?listen'", "tcp://127.0.0.1:" + port},
+        {"-f matroska '" + fifo + "'", "pipe:" + fifo}};
+    const auto& [to, from] = ways[GENERATE(range(std::size_t{0}, std::size_t{5}))];
+    CAPTURE(from);
+    const Ffmpeg sender(
+        "-re -f lavfi -i testsrc2=s=96x64:r=30,format=gray,boxblur=4 -c:v libx264 -preset "
+        "ultrafast -tune zerolatency -g 10 -pix_fmt yuvj420p " +
+        to);
+    const auto media = open_media(from, {}, as_sent());
+    CHECK(media->description().depth_columns == 96);
+    const auto first = media->next();
+    const auto second = media->next();
+    REQUIRE(first);
+    REQUIRE(second);
+    CHECK(second->media_s > first->media_s);
 }
 
 TEST_CASE("a live stream is described by its first pictures, and has neither length nor end",
