@@ -53,6 +53,8 @@ std::unique_ptr<Media> open_given(const SurfaceOptions& options, TouchParameters
 /// one is the first again, as in playing. Throws InputError when the media ends before.
 std::vector<Frame> frames_around(FrameReader& reader, double time_s) {
     const fs::path& file = reader.description().depth_path;
+    if (reader.description().live && time_s > 0.0)
+        throw InputError(shown(file) + " is live: leave --time away");
     std::optional<Frame> now = reader.at(time_s);
     if (!now) throw InputError(shown(file) + " holds no picture: give another depth file");
     now->time_s = now->media_s;

@@ -337,8 +337,8 @@ void Player::set_maps(std::shared_ptr<const TouchMaps> maps) {
 
 void Player::record_live(std::uint32_t number, LiveSink sink) {
     implementation_->ask(
-        {[player = implementation_.get(), number, sink = std::move(sink)](Playback&, Time) {
-            if (player->live.is_open()) player->live.record(number, sink);
+        {[player = implementation_.get(), number, sink = std::move(sink)](Playback&, Time now) {
+            if (player->live.is_open()) player->live.record(number, sink, now);
         }});
 }
 

@@ -67,8 +67,8 @@ class Player {
     /// Lays them on the media that was given last; null: none.
     void set_maps(std::shared_ptr<const TouchMaps> maps);
 
-    /// Of what is live: from the next frame on they carry that number and go to the sink, on the
-    /// player's thread; empty: no more.
+    /// Of what is live: from the frame that is shown on they carry that number and go to the sink,
+    /// on the player's thread; empty: no more.
     void record_live(std::uint32_t number, LiveSink sink);
 
     /// As it is shown, with what was asked for since: who asks again goes on from there.

@@ -22,6 +22,7 @@ extern "C" {
 #include <limits>
 #include <mutex>
 #include <new>
+#include <opencv2/imgproc.hpp>
 #include <string_view>
 #include <thread>
 
@@ -159,6 +160,8 @@ LiveInput::LiveInput(const LiveName& name, const std::string& shown, const LiveW
     if (kind_ == LiveKind::pipe) pipe_ = std::make_unique<Pipe>(name.url, shown);
     patience(kToOpen);
     const bool may_be_depth = kind_ == LiveKind::camera && wants.levels;
+    if (may_be_depth) camera_ = DepthCamera::opened(name, calls_);
+    if (camera_) return;
     int result = may_be_depth ? open(name, true) : -1;
     if (result < 0) result = open(name, false);
     if (result < 0) {
@@ -309,7 +312,26 @@ bool LiveInput::take(LivePicture& picture) {
     return !picture.colour.empty() || !picture.levels.empty();
 }
 
+/// What is seen of it, for whoever looks at it as a picture, is its higher half.
+bool LiveInput::read_camera(LivePicture& picture) {
+    patience(kSilent);
+    DepthCamera::Picture taken;
+    if (!camera_->read(taken, [this] { return is_over(this) != 0; })) return false;
+    picture = {.levels = taken.levels,
+               .bits = 16,
+               .grey = true,
+               .stamp_s = taken.stamp_s,
+               .frames_per_s = camera_->frames_per_s(),
+               .codec = "Z16",
+               .arrived = Clock::now()};
+    if (!wants_.colour) return true;
+    taken.levels.convertTo(picture.colour, CV_8U, 1.0 / 256.0);
+    cv::cvtColor(picture.colour, picture.colour, cv::COLOR_GRAY2BGR);
+    return true;
+}
+
 bool LiveInput::read(LivePicture& picture) {
+    if (camera_) return read_camera(picture);
     while (!wants_.leaving) {
         const int given = avcodec_receive_frame(decoder_.get(), frame_.get());
         if (given == 0) {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/video/formats/av_frame.hpp"
+#include "core/video/live/depth_camera.hpp"
 #include "core/video/live/live_name.hpp"
 
 struct AVCodecContext;
@@ -73,9 +74,12 @@ class LiveInput {
     [[nodiscard]] bool is_whole();
     void keep_time(double stamp_s);
     [[nodiscard]] bool take(LivePicture& picture);
+    [[nodiscard]] bool read_camera(LivePicture& picture);
 
     const LiveWants& wants_;
     LiveKind kind_;
+    CameraCalls calls_{};
+    std::unique_ptr<DepthCamera> camera_{};  // then there is nothing of libav's
     std::unique_ptr<Pipe> pipe_{};
     std::unique_ptr<AVIOContext, Closer> bytes_{};
     std::unique_ptr<AVFormatContext, Closer> context_{};

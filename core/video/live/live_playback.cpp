@@ -111,6 +111,10 @@ void LivePlayback::set_cleaning(const CleaningOptions& options, Time now) {
     options_ = options;
     if (!is_open() || frames_.empty()) return;
     make_plan();
+    show_again(now);
+}
+
+void LivePlayback::show_again(Time now) {
     clock_.begin_again();
     show(cleaned_frame(last_), now);
     if (!playing_) clock_.stop(now);
@@ -121,13 +125,19 @@ void LivePlayback::set_maps(std::shared_ptr<const TouchMaps> maps) {
     for (Frame& frame : frames_) frame.maps = maps_;
 }
 
-void LivePlayback::record(std::uint32_t number, LiveSink sink) {
+void LivePlayback::record(std::uint32_t number, LiveSink sink, Time now) {
     sink_ = std::move(sink);
     if (!sink_) return;
     number_ = number;
     file_begin_s_.reset();
     memory_.forget();
-    clock_.begin_again();
+    if (frames_.empty()) return;
+    file_begin_s_ = last_stamp_s_;
+    last_.media_s = 0.0;
+    last_.held.clear();
+    if (!last_.always_whole) last_.held = memory_.take(last_.depth, last_.media_s);
+    keep(last_);
+    show_again(now);
 }
 
 bool LivePlayback::take(Time now) {
@@ -137,7 +147,8 @@ bool LivePlayback::take(Time now) {
         frames_.pop_front();
         changed = true;
     }
-    if (playing_ && feed_->after(taken_, now)) changed = take_frame(now) || changed;
+    const bool wants = playing_ || frames_.empty();
+    if (wants && feed_->after(taken_, now)) changed = take_frame(now) || changed;
     return watch_signal(std::chrono::steady_clock::now()) || changed;
 }
 
@@ -162,6 +173,7 @@ bool LivePlayback::take_frame(Time now) {
     if (std::exchange(lost_, false)) clock_.begin_again();
     force_off_ = false;
     show(cleaned_frame(last_), now);
+    if (!playing_) clock_.stop(now);
     return true;
 }
 
@@ -247,7 +259,7 @@ bool LivePlayback::watch_signal(Time now) {
 }
 
 Time LivePlayback::next_due(Time now) const {
-    if (!playing_) return Time::max();
+    if (!playing_ && !frames_.empty()) return Time::max();
     Time due = lost_ ? told_ + kTellAgain : frames_.empty() ? now + kTellAgain : lost_at();
     if (const auto pair_due = feed_->due()) due = std::min(due, *pair_due);
     const PlaybackClock& clock = clock_.clock();

@@ -38,9 +38,9 @@ class LivePlayback {
     [[nodiscard]] bool playing() const { return playing_; }
     void set_cleaning(const CleaningOptions& options, Time now);
     void set_maps(std::shared_ptr<const TouchMaps> maps);
-    /// From the next frame on they carry that number, their presentation times count from it, and
-    /// what was before it is forgotten: it is the first one of a file. Empty: no more.
-    void record(std::uint32_t number, LiveSink sink);
+    /// From the one that is there on frames carry that number, their presentation times count from
+    /// it, and what was before it is forgotten: it is the first one of a file. Empty: no more.
+    void record(std::uint32_t number, LiveSink sink, Time now);
 
     /// Takes what has come and lets go what has passed. True when the window changed.
     bool take(Time now);
@@ -61,6 +61,7 @@ class LivePlayback {
     void make_plan();
     [[nodiscard]] Frame cleaned_frame(const RawFrame& raw);
     void show(Frame frame, Time now);
+    void show_again(Time now);
     void keep(const RawFrame& raw);
     void notice_motion(const Frame& frame, Time now);
     [[nodiscard]] bool watch_signal(Time now);

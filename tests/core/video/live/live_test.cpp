@@ -1,4 +1,6 @@
 // What comes as it happens: opened, joined, shown a frame behind, held when it stops.
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -10,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -19,6 +22,7 @@
 #include "tests/core/video/clips.hpp"
 #include "tests/core/video/live/senders.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -147,6 +151,32 @@ TEST_CASE("a stream that nobody sends is refused in a line that says so", "[live
     CHECK(why.find('\n') == std::string::npos);
 }
 
+TEST_CASE("streams open by whatever protocol they come, and from a pipe", "[live]") {
+    const std::string port = std::to_string(free_port());
+    const TemporaryFolder folder;
+    const std::string fifo = (folder / "depth").string();
+    REQUIRE(::mkfifo(fifo.c_str(), 0600) == 0);
+    const std::vector<std::pair<std::string, std::string>> ways{
+        {"-f mpegts 'srt://127.0.0.1:" + port + "?mode=listener'", "srt://127.0.0.1:" + port},
+        {"-f mpegts -listen 1 http://127.0.0.1:" + port, "http://127.0.0.1:" + port},
+        {"-f rtp_mpegts rtp://127.0.0.1:" + port, "rtp://127.0.0.1:" + port},
+        {"-f nut 'tcp://127.0.0.1:" + port + "?listen'", "tcp://127.0.0.1:" + port},
+        {"-f matroska '" + fifo + "'", "pipe:" + fifo}};
+    const auto& [to, from] = ways[GENERATE(range(std::size_t{0}, std::size_t{5}))];
+    CAPTURE(from);
+    const Ffmpeg sender(
+        "-re -f lavfi -i testsrc2=s=96x64:r=30,format=gray,boxblur=4 -c:v libx264 -preset "
+        "ultrafast -tune zerolatency -g 10 -pix_fmt yuvj420p " +
+        to);
+    const auto media = open_media(from, {}, as_sent());
+    CHECK(media->description().depth_columns == 96);
+    const auto first = media->next();
+    const auto second = media->next();
+    REQUIRE(first);
+    REQUIRE(second);
+    CHECK(second->media_s > first->media_s);
+}
+
 TEST_CASE("a live stream is described by its first pictures, and has neither length nor end",
           "[live]") {
     const int port = free_port();
@@ -188,7 +218,7 @@ TEST_CASE("a step in the depth is felt two frames and 10 ms after it is sent, at
     });
     REQUIRE(delays.size() == 7);
     const double said_s = player.status().live->behind_s;
-    WARN("uneven by up to " << uneven_ms << " ms: felt after " << 1000.0 * delays.front() << " to "
+    INFO("uneven by up to " << uneven_ms << " ms: felt after " << 1000.0 * delays.front() << " to "
                             << 1000.0 * delays.back() << " ms, the median after "
                             << 1000.0 * delays[3] << "; said: " << 1000.0 * said_s << " ms");
     if (!DIBHR_SANITIZED) CHECK(delays[3] <= 2.0 * kInterval_s + 0.010);
@@ -231,7 +261,7 @@ TEST_CASE(
         return sent[static_cast<std::size_t>(n) - 1];
     });
     REQUIRE(delays.size() == 7);
-    WARN("felt after " << 1000.0 * delays.front() << " to " << 1000.0 * delays.back()
+    INFO("felt after " << 1000.0 * delays.front() << " to " << 1000.0 * delays.back()
                        << " ms, the median after " << 1000.0 * delays[3]);
     if (!DIBHR_SANITIZED) CHECK(delays[3] <= 2.0 * kInterval_s + 0.010);
 }
