@@ -17,7 +17,7 @@ constexpr std::size_t kMostSeen = 3 * FrameWindow::kFrames;
 }  // namespace
 
 FrameMark mark_of(const Frame& frame) noexcept {
-    return {frame.depth.get(), frame.time_s, frame.maps.get()};
+    return {frame.depth.get(), frame.time_s, frame.maps.get(), frame.between.get()};
 }
 
 OtherProxies::OtherProxies() {
@@ -46,30 +46,27 @@ void OtherProxies::forget(WalkedTickRing& ring) {
 void OtherProxies::see(const FrameWindow& window) {
     for (std::size_t k = 0; k < std::min(window.count, FrameWindow::kFrames); ++k) {
         const Frame& frame = window.frames[k];
-        if (frame.depth && known(mark_of(frame)) == nullptr)
-            seen_.push_back({frame.depth, frame.maps, frame.time_s});
+        if (frame.depth && known(mark_of(frame)) == nullptr) seen_.push_back(frame);
     }
     if (seen_.size() > kMostSeen)
         seen_.erase(seen_.begin(),
                     seen_.begin() + static_cast<std::ptrdiff_t>(seen_.size() - kMostSeen));
 }
 
-const OtherProxies::SeenFrame* OtherProxies::known(const FrameMark& mark) const {
-    const auto found = std::find_if(seen_.begin(), seen_.end(), [&mark](const SeenFrame& seen) {
-        return FrameMark{seen.depth.get(), seen.time_s, seen.maps.get()} == mark;
-    });
+const Frame* OtherProxies::known(const FrameMark& mark) const {
+    const auto found = std::find_if(seen_.begin(), seen_.end(),
+                                    [&mark](const Frame& seen) { return mark_of(seen) == mark; });
     return found == seen_.end() ? nullptr : &*found;
 }
 
 std::optional<DepthSurface> OtherProxies::surface_of(const WalkedTick& tick) const {
-    const SeenFrame* const from = known(tick.from);
-    const SeenFrame* const to = known(tick.to);
+    const Frame* const from = known(tick.from);
+    const Frame* const to = known(tick.to);
     const auto held = std::find_if(bumps_.begin(), bumps_.end(),
                                    [&tick](const auto& bump) { return bump.get() == tick.bump; });
     const bool knows_bump = tick.bump == nullptr || held != bumps_.end();
     if (from == nullptr || to == nullptr || !knows_bump) return std::nullopt;
-    return DepthSurface(*from->depth, *to->depth, tick.blend, tick.shape, tick.bump, nullptr,
-                        from->maps.get());
+    return DepthBlend{from, to, tick.blend}.surface(tick.shape, tick.bump);
 }
 
 void OtherProxies::take(const WalkedTick& tick) {

@@ -24,6 +24,7 @@ struct FrameMark {
     const DepthImage* depth{nullptr};
     double time_s{0.0};
     const TouchMaps* maps{nullptr};
+    const std::vector<Frame>* between{nullptr};
 
     bool operator==(const FrameMark&) const = default;
 };
@@ -76,16 +77,11 @@ class OtherProxies {
         std::unique_ptr<ProxyAlgorithm> walk{};
         Proxy proxy{};  ///< after its last update
     };
-    struct SeenFrame {
-        std::shared_ptr<const DepthImage> depth{};
-        std::shared_ptr<const TouchMaps> maps{};
-        double time_s{0.0};
-    };
     /// Null: it was never seen, or is forgotten.
-    [[nodiscard]] const SeenFrame* known(const FrameMark& mark) const;
+    [[nodiscard]] const Frame* known(const FrameMark& mark) const;
 
     std::vector<Walker> walkers_{};  // of all algorithms: any may be the next one that runs
-    std::vector<SeenFrame> seen_{};  // the newest last
+    std::vector<Frame> seen_{};      // the newest last
     std::array<std::shared_ptr<const BumpMap>, 2> bumps_{};  // the newest first
     std::vector<WalkedTick> due_{};
     std::uint64_t awaited_{0};  // the next tick

@@ -17,6 +17,7 @@
 #include "core/session/session.hpp"
 #include "core/session/tick_record.hpp"
 #include "core/video/frame_window.hpp"
+#include "core/video/motion/frame_motion.hpp"
 
 namespace dibhr {
 
@@ -87,6 +88,7 @@ class SessionReplay {
     std::shared_ptr<const BumpMap> bump_{};
     FramePair pair_{};
     std::shared_ptr<const TouchedFrames> touched_{};  ///< of the pair
+    FrameMotion motion_{};
 };
 
 /// Whether an update gave what was recorded, bit by bit.
