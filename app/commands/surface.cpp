@@ -73,6 +73,7 @@ std::vector<Frame> frames_around(FrameReader& reader, double time_s) {
         if (!next) return frames;
         next->time_s = end_s;
     }
+    reader.connect(frames.back(), *next);
     frames.push_back(std::move(*next));
     return frames;
 }
@@ -109,7 +110,7 @@ void write_felt_surface(const SurfaceOptions& options, SurfaceFormat format) {
     const std::vector<Frame> frames = frames_around(reader, options.time_s);
     const DepthBlend blend = depth_at(frames, options.time_s);
     const FeltSurface felt{blend.surface(parameters.shape, bump.get()),
-                           parameters.coupling.pixel_pitch_mm, blend.from->colour.get()};
+                           parameters.coupling.pixel_pitch_mm, blend.coloured().colour.get()};
 
     const MediaDescription& media = reader.description();
     refuse_overwriting(options.out,

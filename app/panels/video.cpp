@@ -187,6 +187,9 @@ void draw_cleaning(ViewerState& state) {
         "Rounds the terraces of 8-bit depth, by half a level at most");
     row("Smooth noise", steps.smooth_noise, standard.smooth_noise,
         "Within the noise of the recording; what is beyond it stays");
+    row("In-betweens", steps.in_betweens, standard.in_betweens,
+        "Between two frames what moves is on its way, instead of one picture fading into the "
+        "other; a replay then needs the colour, too");
     if (changed) cleaning = {CleaningPreset::own, steps, cleaning.finger};
 }
 

@@ -83,8 +83,7 @@ Dent dent_under(const ViewerState& state, const TouchMarkers& markers, const Dep
     return {markers.proxy, radius_px, kDeepest * radius_px * share, kShadow * (0.4 + 0.6 * share)};
 }
 
-/// What to draw now. The markers are those of the last tick; the colour is that of the `from`
-/// frame.
+/// What to draw now. The markers are those of the last tick.
 SceneContent scene_content(const ViewerState& state, const DepthBlend& shown) {
     SceneContent content;
     content.shape = state.shape();
@@ -92,8 +91,8 @@ SceneContent scene_content(const ViewerState& state, const DepthBlend& shown) {
     content.look = state.settings.look;
     content.light_wall = state.settings.theme == Theme::light;
     if (!shown.makes_surface()) return content;
-    content.depth = shown;
-    content.colour = shown.from;
+    content.depth = shown.shown();
+    content.colour = &shown.coloured();
     content.maps = shown.from->maps;
     const DepthSurface surface = shown.surface(content.shape, content.bump);
     content.markers = markers_of(state, surface);
@@ -132,12 +131,12 @@ const std::filesystem::path& depth_file(const MediaDescription& media) {
 /// The pixel at a place of the grid; nothing beside the picture.
 std::optional<PixelShown> pixel_at(Vec3 place, const ViewerState& state, const DepthBlend& shown) {
     if (!shown.makes_surface()) return {};
-    const DepthImage& depth = *shown.from->drawn();
+    const DepthImage& depth = *shown.shown().from->drawn();
     const int i = static_cast<int>(std::lround(place.x));
     const int j = static_cast<int>(std::lround(place.y));
     if (i < 0 || j < 0 || i >= depth.columns || j >= depth.rows) return {};
     const DepthSurface surface = shown.drawn_surface(state.shape(), state.bump.get());
-    const auto& unseen = shown.nearest().unseen;
+    const auto& unseen = shown.shown().nearest().unseen;
     return PixelShown{i, j, depth.at(i, j) / depth.highest_level, surface.elevation_at(i, j),
                       unseen && (*unseen)[depth.index(i, j)] != 0};
 }

@@ -128,8 +128,9 @@ bool ViewerExplaining::has_gone(const DepthBlend& shown, const ViewerState& stat
 
 /// Only when it depends on something that changed: a long walk costs its square.
 void ViewerExplaining::explain_anew(const DepthBlend& shown, ViewerState& state) {
-    Asked asked{shown.from->depth, shown.to->depth, shown.blend, state.shape(),
-                state.bump,        proxy_,          goal_,       state.settings.touch.friction};
+    const DepthBlend pair = shown.shown();
+    Asked asked{pair.from->depth, pair.to->depth, pair.blend, state.shape(),
+                state.bump,       proxy_,         goal_,      state.settings.touch.friction};
     if (asked_ == asked) return;
     const DepthSurface surface = shown.surface(asked.shape, asked.bump.get());
     ExplainedNews& news = *state.explained;

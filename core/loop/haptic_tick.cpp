@@ -29,6 +29,8 @@ FramePair frames_of(const DepthBlend& pair) {
              .colour_edges = steps.colour_edges,
              .steady = steps.steady,
              .smooth_noise = steps.smooth_noise,
+             .in_betweens = from.between != nullptr && &from != &to,
+             .motion = from.motion != nullptr && &from != &to,
              .finger_px = from.cleaning.finger.radius_px,
              .finger_relief_px = from.cleaning.finger.relief_px,
              .maps = from.maps ? from.maps->version : 0},

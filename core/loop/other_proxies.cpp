@@ -17,7 +17,8 @@ constexpr std::size_t kMostSeen = 3 * FrameWindow::kFrames;
 }  // namespace
 
 FrameMark mark_of(const Frame& frame) noexcept {
-    return {frame.depth.get(), frame.time_s, frame.maps.get(), frame.motion.get()};
+    return {frame.depth.get(), frame.time_s, frame.maps.get(), frame.motion.get(),
+            frame.between.get()};
 }
 
 OtherProxies::OtherProxies() {

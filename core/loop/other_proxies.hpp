@@ -26,6 +26,7 @@ struct FrameMark {
     double time_s{0.0};
     const TouchMaps* maps{nullptr};
     const MotionField* motion{nullptr};
+    const std::vector<Frame>* between{nullptr};
 
     bool operator==(const FrameMark&) const = default;
 };

@@ -136,8 +136,9 @@ SessionFrames::SessionFrames(const Session& session, const SessionFramesOptions&
 void SessionFrames::find_videos(const Session& session) {
     for (const SessionSource& source : session.sources()) {
         Video& video = videos_[source.source.media];
-        const bool by_colour =
+        const bool edges =
             source.source.sharpen_silhouettes && source.source.colour_edges && !options_.cleaning;
+        const bool by_colour = edges || source.source.motion || source.source.in_betweens;
         video.in_colour = video.in_colour || options_.colour || by_colour;
         if (video.in_colour && video.colour.empty() && !source.colour.file.empty())
             video.colour = finder_.find(source.colour, "colour video");
@@ -207,7 +208,10 @@ std::shared_ptr<const TouchMaps> SessionFrames::maps_of(const FrameSource& sourc
     return decoded_maps_;
 }
 
-Frame SessionFrames::frame(const FrameSource& source, double media_s) {
+Frame SessionFrames::frame(const FrameSource& touched, double media_s) {
+    // Of one frame alone.
+    FrameSource source = touched;
+    source.motion = source.in_betweens = false;
     if (const Kept* kept = find(source, media_s)) return kept->frame;
     Video& video = videos_[source.media];
     FrameReader& reader = reader_of(video);

@@ -90,6 +90,7 @@ void SessionReplay::take_frames() {
                          std::to_string(session_.count_of(tick_.tick)) +
                          " make no surface; give back the video that was recorded");
     }
+    motion_.connect(from, to, {wanted.source.motion, wanted.source.in_betweens});
     touched_ = std::make_shared<const TouchedFrames>(TouchedFrames{std::move(from), std::move(to)});
     pair_ = wanted;
 }

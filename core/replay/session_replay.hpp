@@ -17,6 +17,7 @@
 #include "core/session/session.hpp"
 #include "core/session/tick_record.hpp"
 #include "core/video/frame_window.hpp"
+#include "core/video/motion/frame_motion.hpp"
 #include "core/video/motion/motion_track.hpp"
 
 namespace dibhr {
@@ -91,6 +92,7 @@ class SessionReplay {
     std::shared_ptr<const TouchedFrames> touched_{};  ///< of the pair
     MotionTrack track_{};
     SurfaceMotion moved_{};  ///< in the tick
+    FrameMotion motion_{};
 };
 
 /// Whether an update gave what was recorded, bit by bit.

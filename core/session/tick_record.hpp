@@ -26,6 +26,8 @@ struct FrameSource {
     bool colour_edges{false};
     bool steady{false};
     bool smooth_noise{false};
+    bool in_betweens{false};       ///< the two of the pair have some
+    bool motion{false};            ///< it is known how the first moves
     double finger_px{0.0};         ///< the fingertip's radius; 0: a point
     double finger_relief_px{0.0};  ///< for which elevation of the highest level
     std::uint32_t maps{0};  ///< version of the touch maps on them, as told to the recorder; 0: none
@@ -44,6 +46,8 @@ void visit_cleaning(Source& source, const Visit& visit) {
     visit("colour_edges", source.colour_edges);
     visit("steady", source.steady);
     visit("smooth_noise", source.smooth_noise);
+    visit("in_betweens", source.in_betweens);
+    visit("motion", source.motion);
     visit("finger_px", source.finger_px);
     visit("finger_relief_px", source.finger_relief_px);
     visit("maps", source.maps);

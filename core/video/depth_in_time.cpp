@@ -53,6 +53,7 @@ bool DepthInTime::advance_to(double playback_s) {
 bool DepthInTime::add(std::optional<Frame> frame) {
     if (!frame) return false;
     frame->time_s = offset_s_ + frame->media_s - first_media_s_;
+    if (!frames_.empty()) reader_.connect(frames_.back(), *frame);
     frames_.push_back(std::move(*frame));
     return true;
 }
@@ -86,6 +87,8 @@ DepthClip::DepthClip(std::vector<Frame> frames, const SurfaceShape& shape,
     }
     if (frames_.size() == 1) return;
     Frame again = frames_.front();
+    again.motion.reset();
+    again.between.reset();
     again.time_s = frames_.back().time_s + interval_s;
     frames_.push_back(std::move(again));
 }
@@ -118,6 +121,7 @@ DepthClip read_depth_clip(std::unique_ptr<Media> media, const CleaningOptions& c
     std::vector<Frame> frames;
     for (auto frame = reader.at(0.0); frame; frame = reader.after(frames.back().media_s)) {
         frame->time_s = frame->media_s;
+        if (!frames.empty()) reader.connect(frames.back(), *frame);
         frames.push_back(std::move(*frame));
         if (progress) progress(static_cast<double>(frames.size()) / count);
     }

@@ -24,6 +24,9 @@ class DepthInTime {
     DepthInTime(std::unique_ptr<Media> media, bool moving, const CleaningOptions& cleaning,
                 std::shared_ptr<const TouchMaps> maps = nullptr);
 
+    /// Whether motion is wanted where no in-betweens are; of frames read from now on.
+    void set_motion(bool wanted) { reader_.set_motion(wanted); }
+
     /// Goes on to `playback_s`, which must not fall from call to call. True when the video started
     /// again on the way. Throws InputError when the file breaks off.
     bool advance_to(double playback_s);

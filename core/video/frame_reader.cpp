@@ -24,6 +24,8 @@ constexpr double kUnknownInterval_s = 1.0 / 25.0;
 /// So many frames in a row fill more than a window: it plays.
 constexpr int kPlaying = static_cast<int>(FrameWindow::kFrames);
 constexpr int kInTime = 30;               ///< so many frames in a row: the machine keeps up
+constexpr std::int64_t kMostApart = 3;    // frames: what is farther apart is not followed
+constexpr int kLongestRest = 20'000;      ///< frames without motion, on a machine that is too slow
 constexpr double kNewest = 0.1;           ///< the weight of the newest of a moving mean
 constexpr double kSoon_s = 0.1;           ///< what comes sooner needs no preview
 constexpr double kJump_s_a_pixel = 1e-7;  ///< a guess, until one was measured
@@ -133,6 +135,7 @@ FrameReader::Kept* FrameReader::keep(RawFrame raw) {
     if (needs_colour && !raw.lone && !kept.can_be_cleaned()) clean_alone(raw, plan_);
     if (!kept.frame.colour) {  // it is new, or nobody had wanted it any more
         kept.frame.colour = std::make_shared<const ColourImage>(std::move(raw.colour));
+        kept.frame.colour_of_view = raw.colour_of_view;
         kept.frame.media_s = raw.media_s;
         kept.frame.media = number_;
     }
@@ -241,7 +244,10 @@ void FrameReader::make_plan() {
     }
     const std::size_t pixels = static_cast<std::size_t>(description().depth_columns) *
                                static_cast<std::size_t>(description().depth_rows);
-    const CleaningPlan plan = plan_of(options_, noise_.value_or(DepthNoise{}), pixels);
+    CleaningPlan plan = plan_of(options_, noise_.value_or(DepthNoise{}), pixels);
+    // Of depth alone motion is known too badly, unless somebody asks for it.
+    if (options_.preset == CleaningPreset::automatic && description().colour_path.empty())
+        plan.steps.in_betweens = false;
     if (!same_alone(plan.steps, plan_.steps)) {
         kept_.clear();
         jump_to(0.0);
@@ -438,9 +444,25 @@ std::optional<Frame> FrameReader::after(double media_s, const Pace& pace) {
 }
 
 void FrameReader::keep_pace(std::int64_t passed_over) {
+    if (passed_over > 0 && moved_) rest_from_motion();
     const bool was_in_time = in_time_ >= kInTime;
     in_time_ = passed_over > 0 ? 0 : std::min(in_time_ + 1, kInTime);
     if (was_in_time != (in_time_ >= kInTime)) clean_ahead();
+}
+
+/// Motion is left out before frames are, for longer each time.
+void FrameReader::rest_from_motion() {
+    motion_rests_ = next_rest_;
+    next_rest_ = std::min(4 * next_rest_, kLongestRest);
+}
+
+void FrameReader::connect(Frame& from, const Frame& next) {
+    const bool follows = next.media_s > from.media_s && next.index - from.index <= kMostApart;
+    if (motion_rests_ > 0) --motion_rests_;
+    MotionWanted wanted{motion_wanted_, plan_.steps.in_betweens};
+    if (!follows || motion_rests_ > 0) wanted = {};
+    moved_ = wanted.any();
+    motion_.connect(from, next, wanted);
 }
 
 std::optional<Frame> FrameReader::before(double media_s) {
@@ -464,6 +486,7 @@ std::optional<Frame> FrameReader::preview(double media_s) {
     if (!raw->lone) clean_alone(*raw, plan_);
     Frame frame;
     frame.colour = std::make_shared<const ColourImage>(std::move(raw->colour));
+    frame.colour_of_view = raw->colour_of_view;
     frame.media_s = raw->media_s;
     frame.index = raw->index;
     frame.media = number_;

@@ -15,6 +15,7 @@
 #include "core/video/decoded_ahead.hpp"
 #include "core/video/frame_window.hpp"
 #include "core/video/media.hpp"
+#include "core/video/motion/frame_motion.hpp"
 
 namespace dibhr {
 
@@ -56,6 +57,13 @@ class FrameReader {
     /// or, where that was passed over, as long as frames are on average [s].
     [[nodiscard]] double last_interval_s(double media_s);
 
+    /// Tells `from` how it becomes `next`, both given out as they are cleaned now and the one after
+    /// the other: its motion and what is between them, where that is wanted and this machine has
+    /// time for it. Nothing is known of frames that are not next to each other in the file.
+    void connect(Frame& from, const Frame& next);
+    /// Whether motion is wanted where no in-betweens are.
+    void set_motion(bool wanted) { motion_wanted_ = wanted; }
+
     /// From here on frames come cleaned so; those given out before are asked for again.
     void set_cleaning(const CleaningOptions& options);
 
@@ -81,6 +89,7 @@ class FrameReader {
     [[nodiscard]] const CleaningPlan& plan() const { return plan_; }
 
   private:
+    static constexpr int kFirstRest = 150;  ///< frames
     /// Of a kept frame: to give it out, or to clean others with it.
     enum class Needs { surface, depth };
     /// A decoded frame and its neighbours, as far as they were read one after the other. Cleaned by
@@ -138,6 +147,7 @@ class FrameReader {
     void make_plan();
     void clean_ahead();
     void keep_pace(std::int64_t passed_over);
+    void rest_from_motion();
     [[nodiscard]] static DepthNoise noise_of(Media& media);
     Around around(double media_s);
     Frame cleaned(double media_s);  ///< of a kept frame at exactly that time
@@ -171,6 +181,11 @@ class FrameReader {
     double jump_s_;  ///< how long the last one took, to a frame that was not kept
     std::int64_t passed_over_{0};
     int in_time_{0};  ///< frames since one was passed over
+    FrameMotion motion_{};
+    bool motion_wanted_{false};
+    bool moved_{false};    ///< the last frame was connected
+    int motion_rests_{0};  ///< for so many frames: this machine is too slow for it
+    int next_rest_{kFirstRest};
     FrameCost cost_{};
 };
 

@@ -1,6 +1,9 @@
 // The depth at a moment between frames.
 #include "core/video/frame_window.hpp"
 
+#include <cstddef>
+#include <vector>
+
 namespace dibhr {
 
 bool DepthBlend::makes_surface() const noexcept {
@@ -9,6 +12,16 @@ bool DepthBlend::makes_surface() const noexcept {
     const DepthImage& b = *to->depth;
     return a.columns == b.columns && a.rows == b.rows && a.columns >= 2 && a.rows >= 2 &&
            a.highest_level == b.highest_level && a.highest_level > 0.0;
+}
+
+DepthBlend DepthBlend::shown() const noexcept {
+    if (from == to || !from->between || from->between->empty()) return *this;
+    const std::vector<Frame>& between = *from->between;
+    const auto parts = static_cast<double>(between.size() + 1);
+    const double at = std::clamp(blend, 0.0, 1.0) * parts;
+    const auto k = std::min(static_cast<std::size_t>(at), between.size());
+    return {k == 0 ? from : &between[k - 1], k == between.size() ? to : &between[k],
+            at - static_cast<double>(k)};
 }
 
 DepthBlend depth_at(std::span<const Frame> frames, double time_s) noexcept {

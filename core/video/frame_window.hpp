@@ -33,12 +33,17 @@ struct Frame {
     /// over.
     std::shared_ptr<const std::vector<std::uint8_t>> unseen{};
     std::shared_ptr<const ColourImage> colour{};
+    bool colour_of_view{false};  ///< a camera's, and as far as is known of the depth's own view
     /// What a fingertip touches, of the same size; null: it is a point, and that is `depth`.
     std::shared_ptr<const DepthImage> beneath{};
     /// What was painted on it; null: nothing.
     std::shared_ptr<const TouchMaps> maps{};
-    /// Of the depth image's pixels until the next frame; null: nothing is known of it.
+    /// Of the drawn image's pixels until the next frame; null: nothing is known of it.
     std::shared_ptr<const MotionField> motion{};
+    /// What is felt and drawn on the way to the next frame, equally spaced in time: of N of them
+    /// the first is there at 1/(N + 1). Their times and numbers mean nothing. Null: the one frame
+    /// blends into the other.
+    std::shared_ptr<const std::vector<Frame>> between{};
     double time_s{0.0};        ///< on a playback timeline, which goes on across loops
     double media_s{0.0};       ///< presentation time in the file
     std::int64_t index{0};     ///< number of the frame in the file, from 0
@@ -76,6 +81,7 @@ struct PlaybackClock {
 };
 
 /// The depth at a moment: the two frames around it, and how far it is from the one to the other.
+/// What is felt and drawn lies between two neighbours of their in-betweens, where there are some.
 struct DepthBlend {
     const Frame* from{nullptr};
     const Frame* to{nullptr};
@@ -85,20 +91,31 @@ struct DepthBlend {
     /// more.
     [[nodiscard]] bool makes_surface() const noexcept;
 
+    /// The two that are felt and drawn, one after the other, and the blend between them; without
+    /// in-betweens, and of frames that do not follow each other, these two. Valid as long as they
+    /// are.
+    [[nodiscard]] DepthBlend shown() const noexcept;
+
     /// The one that the moment is nearer to.
     [[nodiscard]] const Frame& nearest() const noexcept { return blend < 0.5 ? *from : *to; }
 
     /// Of frames that make one. Valid as long as they are.
     [[nodiscard]] DepthSurface surface(const SurfaceShape& shape,
                                        const BumpMap* bump = nullptr) const noexcept {
-        return {*from->depth,           *to->depth,      blend, shape, bump,
-                nearest().unseen.get(), from->maps.get()};
+        const DepthBlend pair = shown();
+        return {*pair.from->depth,           *pair.to->depth, pair.blend, shape, bump,
+                pair.nearest().unseen.get(), from->maps.get()};
     }
     /// The same of what is drawn.
     [[nodiscard]] DepthSurface drawn_surface(const SurfaceShape& shape,
                                              const BumpMap* bump = nullptr) const noexcept {
-        return {*from->drawn(), *to->drawn(),           blend,           shape,
-                bump,           nearest().unseen.get(), from->maps.get()};
+        const DepthBlend pair = shown();
+        return {*pair.from->drawn(),         *pair.to->drawn(), pair.blend, shape, bump,
+                pair.nearest().unseen.get(), from->maps.get()};
+    }
+    /// The frame whose colour is drawn.
+    [[nodiscard]] const Frame& coloured() const noexcept {
+        return from->between ? shown().nearest() : *from;
     }
 };
 

@@ -25,6 +25,7 @@ constexpr double kMostBehind_s = 1.0;  ///< beyond this the clock waits
 
 void Playback::open(std::unique_ptr<FrameReader> reader, Time now) {
     reader->set_cleaning(cleaning_);
+    reader->set_motion(motion_wanted_);
     auto first = reader->at(0.0);
     if (!first)
         throw InputError("'" + reader->description().depth_path.string() +
@@ -148,6 +149,11 @@ void Playback::set_cleaning(const CleaningOptions& options) {
     cleaning_ = options;
 }
 
+void Playback::set_motion(bool wanted) {
+    motion_wanted_ = wanted;
+    if (is_open()) reader_->set_motion(wanted);
+}
+
 void Playback::set_maps(const std::shared_ptr<const TouchMaps>& maps) {
     if (!is_open()) return;
     reader_->set_maps(maps);
@@ -168,6 +174,7 @@ void Playback::clean_again(const CleaningOptions& options) {
                                  " s: open it again");
             }
             again->time_s = frame.time_s;
+            if (!cleaned.empty()) reader_->connect(cleaned.back(), *again);
             cleaned.push_back(std::move(*again));
         }
     } catch (...) {
@@ -223,6 +230,7 @@ bool Playback::read_next(Time now) {
     const auto passed = static_cast<double>(reader_->passed_over() - passed_over);
     passed_over_ += kNewest * (passed - passed_over_);
     next->time_s = std::max(next->media_s + offset_s_, newest.time_s + kJump_s);
+    reader_->connect(frames_.back(), *next);
     frames_.push_back(std::move(*next));
     if (frames_.size() == 2 && at_seam()) ++discontinuity_;
     return true;

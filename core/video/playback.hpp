@@ -37,6 +37,8 @@ class Playback {
     void set_part(const std::optional<MediaPart>& part);
     void set_speed(double speed, Time now);
     void set_cleaning(const CleaningOptions& options);
+    /// Whether the motion of frames is wanted where no in-betweens are; of those read from now on.
+    void set_motion(bool wanted);
     /// Lays them on all frames at once; null: none.
     void set_maps(const std::shared_ptr<const TouchMaps>& maps);
 
@@ -104,6 +106,7 @@ class Playback {
     std::deque<Frame> frames_{};  ///< from the shown one on
     PlaybackClock clock_{};
     CleaningOptions cleaning_{};
+    bool motion_wanted_{false};
     std::uint64_t discontinuity_{0};
     double first_media_s_{0.0};
     double offset_s_{0.0};              ///< from media time to playback time, on this lap

@@ -327,6 +327,10 @@ void Player::set_cleaning(const CleaningOptions& options) {
                           Kind::cleaning});
 }
 
+void Player::set_motion(bool wanted) {
+    implementation_->ask({[wanted](Playback& playback, Time) { playback.set_motion(wanted); }});
+}
+
 void Player::set_maps(std::shared_ptr<const TouchMaps> maps) {
     implementation_->ask(
         {[player = implementation_.get(), maps = std::move(maps)](Playback& playback, Time) {

@@ -64,6 +64,8 @@ class Player {
     void set_part(const std::optional<MediaPart>& part);
     void set_speed(double speed);  ///< kSlowestSpeed .. kFastestSpeed
     void set_cleaning(const CleaningOptions& options);
+    /// Whether the motion of frames is wanted where no in-betweens are.
+    void set_motion(bool wanted);
     /// Lays them on the media that was given last; null: none.
     void set_maps(std::shared_ptr<const TouchMaps> maps);
 

@@ -49,8 +49,11 @@ CleaningSteps steps_of(const CleaningOptions& options, const DepthNoise& noise,
         case CleaningPreset::automatic:
             break;
     }
+    const bool small = pixels <= kMostForSensor;
     const bool shakes = noise.at(0.5F) > kFelt || noise.of_scale;
-    return shakes && pixels <= kMostForSensor ? kSensorSteps : kQuietSteps;
+    CleaningSteps steps = shakes && small ? kSensorSteps : kQuietSteps;
+    steps.in_betweens = small;
+    return steps;
 }
 
 }  // namespace
@@ -70,7 +73,7 @@ CleaningPlan plan_of(const CleaningOptions& options, const DepthNoise& noise, st
 std::string in_words(const CleaningOptions& options, const CleaningPlan& plan) {
     std::string words(name_of(options.preset));
     if (options.preset == CleaningPreset::automatic)
-        words += plan.steps == kSensorSteps ? ": sensor" : ": gentle, silhouettes";
+        words += plan.steps.smooth_noise ? ": sensor" : ": gentle, silhouettes";
     if (!needs_noise(options)) return words;
     const auto px = [](float noise) {
         return short_text(std::round(kReliefOfWords_px * 100.0 * static_cast<double>(noise)) /

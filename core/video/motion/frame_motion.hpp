@@ -1,0 +1,29 @@
+// Tells a frame how it becomes the next one.
+#pragma once
+
+#include "core/video/frame_window.hpp"
+#include "core/video/motion/motion_estimator.hpp"
+
+namespace dibhr {
+
+/// What is wanted of it.
+struct MotionWanted {
+    bool motion{false};
+    bool in_betweens{false};  ///< of which motion is a part
+
+    [[nodiscard]] bool any() const noexcept { return motion || in_betweens; }
+    bool operator==(const MotionWanted&) const = default;
+};
+
+/// The same two frames give the same bits. One thread at a time.
+class FrameMotion {
+  public:
+    /// Sets the motion of `from` and what lies between it and `to`, the next one; what is not
+    /// wanted, or cannot be told of frames that make no surface, is null.
+    void connect(Frame& from, const Frame& to, const MotionWanted& wanted);
+
+  private:
+    MotionEstimator estimator_{};
+};
+
+}  // namespace dibhr

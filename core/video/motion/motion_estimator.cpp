@@ -1,0 +1,366 @@
+// From coarse to fine: a search over all ways in small pictures, then steps downhill in larger
+// ones, each part with those that are alike around it; at the end, what shows that it moves at all.
+#include "core/video/motion/motion_estimator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <utility>
+
+#include "core/video/motion/motion_spread.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr float kUnchanged = 0.1F;  // mean square of what differs less [levels]
+constexpr std::size_t kSmall = 1;   // the size of picture in which that is seen
+constexpr float kNoise = 0.08F;     // a share of what is left: noise falls by as much by chance
+constexpr float kFewPixels = 2.0F;  // of so many nothing is known
+constexpr float kStiff = 0.5F;      // as if every pixel had such a slope, squared, to stay
+constexpr float kMostStep = 1.5F;   // downhill, at once [px of the picture]
+constexpr float kOwnShare = 0.9F;   // of what a part's own way is off, against that of others
+constexpr float kApart_px = 0.5F;   // ways that differ by less are not worth trying
+// A part goes for sure, or if others do, when its mean square falls by this share of what is left
+// and of what codecs make of a still picture.
+constexpr float kSure = 0.8F;
+constexpr float kSureFloor = 1.5F;
+constexpr float kSureWay_px = 0.12F;
+constexpr float kSurePixels = 500.0F;
+constexpr float kLikely = 0.2F;
+constexpr float kLikelyFloor = 0.3F;
+constexpr float kPlain = 3.0F;     // mean square that a way would change it by
+constexpr float kTried_px = 2.0F;  // a way no shorter than this
+constexpr int kMostPlain = 8;      // cells from what goes for sure
+constexpr int kJudges = 2;         // cells to each side that judge with one
+constexpr int kNeighbour = 2;      // cells to the next part whose way is tried
+
+/// Of a part and those around it: mean squares, without what all its pixels differ by.
+float mean_square(const MotionSums& sums, std::size_t part, std::size_t k) {
+    const float n = sums[MotionSum::n].of[part].values[k];
+    const float r = sums[MotionSum::r].of[part].values[k] / n;
+    return sums[MotionSum::rr].of[part].values[k] / n - r * r;
+}
+
+bool is_known(const MotionSums& sums, std::size_t part, std::size_t k) {
+    return sums[MotionSum::n].of[part].values[k] > kFewPixels;
+}
+
+/// What the sums would be for standing still, as far as slopes tell.
+void reckon_from_rest(const MotionWays& ways, float scale, MotionSums& sums) {
+    for (std::size_t part = 0; part < 2; ++part)
+        for (std::size_t k = 0; k < ways.right.of[part].values.size(); ++k) {
+            const float u = ways.right.of[part].values[k] * scale;
+            const float v = ways.down.of[part].values[k] * scale;
+            const auto at = [&](MotionSum sum) -> float& { return sums[sum].of[part].values[k]; };
+            at(MotionSum::r) -= at(MotionSum::x) * u + at(MotionSum::y) * v;
+            at(MotionSum::xr) -= at(MotionSum::xx) * u + at(MotionSum::xy) * v;
+            at(MotionSum::yr) -= at(MotionSum::xy) * u + at(MotionSum::yy) * v;
+        }
+}
+
+/// Where the sum of squares, as far as slopes tell, is least; near `now` in directions in which
+/// there is no slope.
+MotionField::Way lowest(const MotionSums& sums, std::size_t part, std::size_t k,
+                        MotionField::Way now) {
+    const auto mean = [&, n = sums[MotionSum::n].of[part].values[k]](MotionSum sum) {
+        return sums[sum].of[part].values[k] / n;
+    };
+    const float x = mean(MotionSum::x);
+    const float y = mean(MotionSum::y);
+    const float r = mean(MotionSum::r);
+    const float xx = mean(MotionSum::xx) - x * x + kStiff;
+    const float xy = mean(MotionSum::xy) - x * y;
+    const float yy = mean(MotionSum::yy) - y * y + kStiff;
+    const float xr = kStiff * now.right - (mean(MotionSum::xr) - x * r);
+    const float yr = kStiff * now.down - (mean(MotionSum::yr) - y * r);
+    const float det = xx * yy - xy * xy;
+    return {(yy * xr - xy * yr) / det, (xx * yr - xy * xr) / det};
+}
+
+float stepped(float from, float to) {
+    return from + std::clamp(to - from, -kMostStep, kMostStep);
+}
+
+}  // namespace
+
+template <typename Visit>
+void MotionEstimator::each_part(const Visit& visit) const {
+    for (std::size_t part = 0; part < 2; ++part)
+        for (int j = 0; j < cells_.rows; ++j)
+            for (int i = 0; i < cells_.columns; ++i)
+                visit(Part{i, j, part}, static_cast<std::size_t>(j * cells_.columns + i));
+}
+
+MotionEstimator::Verdict& MotionEstimator::verdict(const Part& part) {
+    return verdicts_[part.part][static_cast<std::size_t>(part.j * cells_.columns + part.i)];
+}
+
+MotionEstimator::Way MotionEstimator::way_of(const Part& part) const {
+    return {ways_.right.of[part.part].row(part.j)[part.i],
+            ways_.down.of[part.part].row(part.j)[part.i]};
+}
+
+void MotionEstimator::go(const Part& part, Way way) {
+    ways_.right.of[part.part].row(part.j)[part.i] = way.right;
+    ways_.down.of[part.part].row(part.j)[part.i] = way.down;
+}
+
+float MotionEstimator::gap(const Part& a, const Part& b) const {
+    const auto lowest = [this](const Part& of) {
+        return cells_.lowest.of[of.part].row(of.j)[of.i];
+    };
+    const auto highest = [this](const Part& of) {
+        return cells_.highest.of[of.part].row(of.j)[of.i];
+    };
+    return std::max(lowest(a) - highest(b), lowest(b) - highest(a));
+}
+
+/// Parts in or around which anything is not as it was. False: there is none.
+bool MotionEstimator::find_changed() {
+    each_part([this](const Part& part, std::size_t k) {
+        wanted_.of[part.part].values[k] = cells_.has(part.part, part.i, part.j) ? 1.0F : 0.0F;
+    });
+    ways_.fill(0.0F);
+    sums_.fill(0.0F);
+    sum_differences(from_, to_, kSmall, cells_, wanted_, ways_, MotionMeasure::slopes, sums_);
+    gather_alike(cells_, kJudges, MotionMeasure::difference, sums_, gathered_);
+    bool any = false;
+    each_part([this, &any](const Part& part, std::size_t k) {
+        const auto sum = [&](MotionSum which) { return gathered_[which].of[part.part].values[k]; };
+        const bool known = is_known(gathered_, part.part, k);
+        still_.of[part.part].values[k] = known ? mean_square(gathered_, part.part, k) : 0.0F;
+        // Covered all over is changed, too.
+        const bool changed = !known || sum(MotionSum::rr) > kUnchanged * sum(MotionSum::n);
+        float& wanted = wanted_.of[part.part].values[k];
+        if (!changed) wanted = 0.0F;
+        any = any || wanted > 0.0F;
+    });
+    if (any) gather_alike(cells_, 1, MotionMeasure::slopes, sums_, slopes_);
+    return any;
+}
+
+/// Of what noise alone has changed no way fits better than none.
+void MotionEstimator::leave_noise() {
+    sum_differences(from_, to_, kSmall, cells_, wanted_, ways_, MotionMeasure::difference, sums_);
+    gather_alike(cells_, kJudges, MotionMeasure::difference, sums_, gathered_);
+    each_part([this](const Part& part, std::size_t k) {
+        const std::size_t of = part.part;
+        if (!is_known(gathered_, of, k)) return;
+        const float left = mean_square(gathered_, of, k);
+        if (still_.of[of].values[k] - left > kNoise * (left + kUnchanged)) return;
+        wanted_.of[of].values[k] = 0.0F;
+        go(part, {});
+    });
+    sums_.fill(0.0F);
+}
+
+void MotionEstimator::go_downhill(std::size_t size) {
+    const float scale = 1.0F / static_cast<float>(1 << size);
+    const float farthest = scale * static_cast<float>(kFarthestMotion) *
+                           static_cast<float>(kMotionCell_px * cells_.columns);
+    sum_differences(from_, to_, size, cells_, wanted_, ways_, MotionMeasure::slopes, sums_);
+    reckon_from_rest(ways_, scale, sums_);
+    gather_alike(cells_, size > 1 ? 2 : 1, MotionMeasure::slopes, sums_, gathered_);
+    for (std::size_t part = 0; part < 2; ++part)
+        for (std::size_t k = 0; k < wanted_.of[part].values.size(); ++k) {
+            if (!(wanted_.of[part].values[k] > 0.0F) || !is_known(gathered_, part, k)) continue;
+            float& right = ways_.right.of[part].values[k];
+            float& down = ways_.down.of[part].values[k];
+            const Way now{right * scale, down * scale};
+            const Way there = lowest(gathered_, part, k, now);
+            right = std::clamp(stepped(now.right, there.right), -farthest, farthest) / scale;
+            down = std::clamp(stepped(now.down, there.down), -farthest, farthest) / scale;
+        }
+}
+
+/// The ways of the parts so many cells away that are most alike in depth.
+void MotionEstimator::propose(int right, int down) {
+    tried_.resize(cells_.columns, cells_.rows);
+    for (std::size_t part = 0; part < 2; ++part)
+        for (int j = 0; j < cells_.rows; ++j)
+            for (int i = 0; i < cells_.columns; ++i) {
+                const int x = std::clamp(i + right, 0, cells_.columns - 1);
+                const int y = std::clamp(j + down, 0, cells_.rows - 1);
+                const bool far = cells_.has(1, x, y) &&
+                                 gap({i, j, part}, {x, y, 1}) < gap({i, j, part}, {x, y, 0});
+                const std::size_t other = far ? 1 : 0;
+                tried_.right.of[part].row(j)[i] = ways_.right.of[other].row(y)[x];
+                tried_.down.of[part].row(j)[i] = ways_.down.of[other].row(y)[x];
+            }
+}
+
+/// Takes what was tried where it fits better.
+void MotionEstimator::take_better(float share) {
+    gather_alike(cells_, 1, MotionMeasure::difference, sums_, gathered_);
+    for (std::size_t part = 0; part < 2; ++part)
+        for (std::size_t k = 0; k < wanted_.of[part].values.size(); ++k) {
+            if (!is_known(gathered_, part, k)) continue;
+            const float off = share * mean_square(gathered_, part, k);
+            if (!(off < best_.of[part].values[k])) continue;
+            best_.of[part].values[k] = off;
+            chosen_.right.of[part].values[k] = tried_.right.of[part].values[k];
+            chosen_.down.of[part].values[k] = tried_.down.of[part].values[k];
+        }
+}
+
+/// Of parts that would go about the same way the sums are the same.
+void MotionEstimator::attempt(std::size_t size) {
+    const auto apart = [](float a, float b) { return std::fabs(a - b) > kApart_px; };
+    bool any = false;
+    for (std::size_t part = 0; part < 2; ++part)
+        for (std::size_t k = 0; k < wanted_.of[part].values.size(); ++k) {
+            const bool differs =
+                wanted_.of[part].values[k] > 0.0F &&
+                (apart(tried_.right.of[part].values[k], ways_.right.of[part].values[k]) ||
+                 apart(tried_.down.of[part].values[k], ways_.down.of[part].values[k]));
+            differs_.of[part].values[k] = differs ? 1.0F : 0.0F;
+            any = any || differs;
+        }
+    if (!any) return;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(MotionMeasure::difference); ++k)
+        sums_.of[k] = own_.of[k];
+    sum_differences(from_, to_, size, cells_, differs_, tried_, MotionMeasure::difference, sums_);
+    take_better(1.0F);
+}
+
+/// Where the search or the steps went astray, a neighbour's way may fit, or none.
+void MotionEstimator::choose(std::size_t size) {
+    best_.resize(cells_.columns, cells_.rows);
+    best_.fill(std::numeric_limits<float>::infinity());
+    differs_.resize(cells_.columns, cells_.rows);
+    tried_ = ways_;
+    chosen_ = ways_;
+    sum_differences(from_, to_, size, cells_, wanted_, ways_, MotionMeasure::difference, sums_);
+    own_ = sums_;
+    take_better(kOwnShare);
+    tried_.fill(0.0F);
+    attempt(size);
+    for (const auto& [right, down] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+        propose(kNeighbour * right, kNeighbour * down);
+        attempt(size);
+    }
+    std::swap(ways_, chosen_);
+}
+
+/// How much better a part, with those around it, fits as it goes than as it stood.
+void MotionEstimator::judge() {
+    tried_.fill(0.0F);
+    sum_differences(from_, to_, 0, cells_, wanted_, tried_, MotionMeasure::difference, sums_);
+    gather_alike(cells_, kJudges, MotionMeasure::difference, sums_, gathered_);
+    each_part([this](const Part& part, std::size_t k) {
+        still_.of[part.part].values[k] =
+            is_known(gathered_, part.part, k) ? mean_square(gathered_, part.part, k) : 0.0F;
+    });
+    sum_differences(from_, to_, 0, cells_, wanted_, ways_, MotionMeasure::difference, sums_);
+    gather_alike(cells_, kJudges, MotionMeasure::difference, sums_, gathered_);
+    for (auto& verdicts : verdicts_) verdicts.assign(cells_.between.values.size(), Verdict::stays);
+    each_part([this](const Part& part, std::size_t k) {
+        if (!(wanted_.of[part.part].values[k] > 0.0F) || !is_known(gathered_, part.part, k)) return;
+        const float left = mean_square(gathered_, part.part, k);
+        const float better = still_.of[part.part].values[k] - left;
+        const Way way = way_of(part);
+        const bool enough = gathered_[MotionSum::n].of[part.part].values[k] > kSurePixels;
+        if (enough && better > kSure * (left + kSureFloor) &&
+            std::hypot(way.right, way.down) > kSureWay_px)
+            verdict(part) = Verdict::goes;
+        else if (better > kLikely * (left + kLikelyFloor))
+            verdict(part) = Verdict::may_go;
+    });
+}
+
+/// Whether a part shows nothing that would tell if it went this way.
+bool MotionEstimator::is_plain(const Part& part, Way way) const {
+    const std::size_t k = static_cast<std::size_t>(part.j * cells_.columns + part.i);
+    if (!is_known(slopes_, part.part, k)) return true;
+    const auto mean = [&, n = slopes_[MotionSum::n].of[part.part].values[k]](MotionSum sum) {
+        return slopes_[sum].of[part.part].values[k] / n;
+    };
+    const float x = mean(MotionSum::x);
+    const float y = mean(MotionSum::y);
+    // Its slopes are those of the smaller picture.
+    constexpr float kPerWay = 1.0F / static_cast<float>(1 << (2 * kSmall));
+    const float change = kPerWay * (way.right * way.right * (mean(MotionSum::xx) - x * x) +
+                                    2.0F * way.right * way.down * (mean(MotionSum::xy) - x * y) +
+                                    way.down * way.down * (mean(MotionSum::yy) - y * y));
+    const float squared = way.right * way.right + way.down * way.down;
+    return change * std::max(kTried_px * kTried_px / squared, 1.0F) < kPlain;
+}
+
+/// What may go does where something beside it that is alike goes for sure, and what is plain goes
+/// with it, not too far away.
+void MotionEstimator::convince() {
+    std::deque<Convinced> sure;
+    each_part([this, &sure](const Part& part, std::size_t) {
+        if (verdict(part) == Verdict::goes) sure.push_back({part, 0});
+    });
+    const auto take = [this, &sure](const Convinced& from, const Part& part) {
+        if (!cells_.has(part.part, part.i, part.j) || verdict(part) == Verdict::goes ||
+            !(alike_across(gap(from.part, part)) > 0.0F))
+            return;
+        const Way way = way_of(from.part);
+        const bool may_go = verdict(part) == Verdict::may_go;
+        if (!may_go && (from.plain >= kMostPlain || !is_plain(part, way))) return;
+        if (!may_go) go(part, way);
+        verdict(part) = Verdict::goes;
+        sure.push_back({part, may_go ? 0 : from.plain + 1});
+    };
+    while (!sure.empty()) {
+        const Convinced at = sure.front();
+        sure.pop_front();
+        for (int j = std::max(at.part.j - 1, 0); j <= std::min(at.part.j + 1, cells_.rows - 1); ++j)
+            for (int i = std::max(at.part.i - 1, 0);
+                 i <= std::min(at.part.i + 1, cells_.columns - 1); ++i)
+                for (std::size_t part = 0; part < 2; ++part) take(at, {i, j, part});
+    }
+}
+
+/// What is not known to go stays.
+void MotionEstimator::stop() {
+    each_part([this](const Part& part, std::size_t) {
+        if (verdict(part) != Verdict::goes) go(part, {});
+    });
+}
+
+std::shared_ptr<const MotionField> MotionEstimator::between(const Frame& from, const Frame& to) {
+    const auto has_colour = [](const Frame& frame) {
+        return frame.colour_of_view && frame.colour && !frame.colour->rgb.empty();
+    };
+    const bool by_depth = !has_colour(from) || !has_colour(to);
+    if (from.drawn() == last_depth_ && from.colour == last_colour_ && by_depth == by_depth_)
+        std::swap(from_, to_);
+    else
+        maker_.make(from, by_depth, from_);
+    maker_.make(to, by_depth, to_);
+    by_depth_ = by_depth;
+    last_depth_ = to.drawn();
+    last_colour_ = to.colour;
+    make_cells(from_.here[0], cells_);
+    wanted_.resize(cells_.columns, cells_.rows);
+    still_.resize(cells_.columns, cells_.rows);
+    ways_.resize(cells_.columns, cells_.rows);
+    sums_.resize(cells_.columns, cells_.rows);
+    if (!find_changed()) return nullptr;
+    sums_.fill(0.0F);
+    const int reach =
+        std::max(1, static_cast<int>(kFarthestMotion * static_cast<double>(cells_.columns)));
+    searcher_.search(from_, to_, cells_, reach, ways_);
+    each_part([this](const Part& part, std::size_t k) {
+        if (!(wanted_.of[part.part].values[k] > 0.0F)) go(part, {});
+    });
+    go_downhill(2);
+    go_downhill(2);
+    go_downhill(kSmall);
+    choose(kSmall);
+    leave_noise();
+    go_downhill(kSmall);
+    go_downhill(0);
+    go_downhill(0);
+    judge();
+    convince();
+    stop();
+    return spread_motion(*from.drawn(), cells_, from_.step, ways_);
+}
+
+}  // namespace dibhr

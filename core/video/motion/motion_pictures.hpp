@@ -1,0 +1,62 @@
+// What motion is looked for in: two frames as grey pictures and outlines, at four sizes each.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "core/video/frame_window.hpp"
+
+namespace dibhr {
+
+/// Values of pixels, rows x columns, row-major.
+struct MotionPlane {
+    int columns{0};
+    int rows{0};
+    std::vector<float> values{};
+
+    void resize(int wide, int high) {
+        columns = wide;
+        rows = high;
+        values.resize(static_cast<std::size_t>(wide) * static_cast<std::size_t>(high));
+    }
+    [[nodiscard]] float* row(int j) { return values.data() + offset(j); }
+    [[nodiscard]] const float* row(int j) const { return values.data() + offset(j); }
+
+  private:
+    [[nodiscard]] std::size_t offset(int j) const {
+        return static_cast<std::size_t>(j) * static_cast<std::size_t>(columns);
+    }
+};
+
+/// Halvings of a picture: the last one has one pixel a cell.
+inline constexpr int kMotionSizes = 4;
+/// Side of a cell in the largest picture [px].
+inline constexpr int kMotionCell_px = 8;
+static_assert(kMotionCell_px == 1 << (kMotionSizes - 1));
+
+/// Grey [0, 255] and depth [0, 255] of one frame, largest first. Columns and rows are those of the
+/// depth image, thinned out `step` times and continued to whole cells.
+struct MotionPictures {
+    int step{1};
+    std::array<MotionPlane, kMotionSizes> grey{};
+    std::array<MotionPlane, kMotionSizes> level{};  ///< the depth
+    /// The nearest of it in each pixel, and within 2 px of the largest picture: an outline belongs
+    /// to what is nearer.
+    std::array<MotionPlane, kMotionSizes> here{}, near{};
+};
+
+/// Makes them; keeps scratch memory.
+class MotionPictureMaker {
+  public:
+    /// `by_depth`: the grey is the depth's, too.
+    void make(const Frame& frame, bool by_depth, MotionPictures& pictures);
+
+  private:
+    MotionPlane depth_{}, scratch_{};
+};
+
+/// How much the picture in which motion is looked for is thinned out: every second pixel, ...
+[[nodiscard]] int motion_step(int columns, int rows);
+
+}  // namespace dibhr

@@ -1,0 +1,132 @@
+// All ways, in the smallest pictures.
+#include "core/video/motion/motion_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "core/video/vector_clones.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr int kAround = 2;  // cells to each side that are compared with one
+constexpr int kSide = 2 * kAround + 1;
+constexpr std::size_t kPlanes = kSide * kSide;
+constexpr float kMostOff = 40.0F;   // of grey, and of depth: what is farther off is as bad
+constexpr float kOutside = 20.0F;   // of what goes beyond the picture
+constexpr float kPerCell = 0.02F;   // what a longer way must be better by
+constexpr float kStayShare = 0.9F;  // of what staying is off
+constexpr float kStayLess = 0.2F;
+
+struct Compared {
+    const float *grey, *moved_grey, *near, *moved_near;
+};
+
+DIBHR_VECTOR_CLONES void compare_row(const Compared& row, float* __restrict off, int begin,
+                                     int end) {
+    for (int i = begin; i < end; ++i) {
+        const float grey = std::fabs(row.moved_grey[i] - row.grey[i]);
+        const float near = std::fabs(row.moved_near[i] - row.near[i]);
+        off[i] = std::min(grey, kMostOff) + std::min(near, kMostOff);
+    }
+}
+
+/// `off` begins kAround cells up left of the first one and is so much wider.
+DIBHR_VECTOR_CLONES void score_row(const float* off, const float* weights, std::size_t plane,
+                                   int columns, float* __restrict score) {
+    for (int i = 0; i < columns; ++i) score[i] = 0.0F;
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) {
+            const float* __restrict from = off + y * (columns + 2 * kAround) + x;
+            const float* __restrict weight =
+                weights + static_cast<std::size_t>(y * kSide + x) * plane;
+            for (int i = 0; i < columns; ++i) score[i] += weight[i] * from[i];
+        }
+}
+
+}  // namespace
+
+/// In the smallest picture a cell is a pixel of its near part.
+void MotionSearcher::weigh(const MotionCells& cells) {
+    const std::size_t plane = cells.lowest.of[0].values.size();
+    weights_.assign(2 * kPlanes * plane, 0.0F);
+    for (std::size_t part = 0; part < 2; ++part)
+        for (int j = 0; j < cells.rows; ++j)
+            for (int i = 0; i < cells.columns; ++i) {
+                if (!cells.has(part, i, j)) continue;
+                const std::size_t at = static_cast<std::size_t>(j * cells.columns + i);
+                float* const weights = weights_.data() + part * kPlanes * plane + at;
+                const float lowest = cells.lowest.of[part].values[at];
+                const float highest = cells.highest.of[part].values[at];
+                float sum = 0.0F;
+                for (int y = std::max(j - kAround, 0); y <= std::min(j + kAround, cells.rows - 1);
+                     ++y)
+                    for (int x = std::max(i - kAround, 0);
+                         x <= std::min(i + kAround, cells.columns - 1); ++x) {
+                        const float low = cells.lowest.of[0].row(y)[x];
+                        const float high = cells.highest.of[0].row(y)[x];
+                        const int k = (y - j + kAround) * kSide + x - i + kAround;
+                        const float alike = alike_across(std::max(lowest - high, low - highest));
+                        weights[static_cast<std::size_t>(k) * plane] = alike;
+                        sum += alike;
+                    }
+                for (std::size_t k = 0; sum > 0.0F && k < kPlanes; ++k)
+                    weights[k * plane] *= 1.0F / sum;
+            }
+}
+
+void MotionSearcher::compare(const MotionPictures& from, const MotionPictures& to, int right,
+                             int down) {
+    const MotionPlane& grey = from.grey.back();
+    std::fill(off_.begin(), off_.end(), kOutside);
+    for (int j = std::max(-down, 0); j < grey.rows - std::max(down, 0); ++j) {
+        const Compared row{grey.row(j), to.grey.back().row(j + down) + right,
+                           from.near.back().row(j), to.near.back().row(j + down) + right};
+        float* const off = off_.data() + (j + kAround) * (grey.columns + 2 * kAround) + kAround;
+        compare_row(row, off, std::max(-right, 0), grey.columns - std::max(right, 0));
+    }
+}
+
+void MotionSearcher::attempt(const MotionCells& cells, int right, int down, MotionWays& ways) {
+    const int columns = score_.of[0].columns;
+    const int rows = score_.of[0].rows;
+    const std::size_t plane = score_.of[0].values.size();
+    const bool stays = right == 0 && down == 0;
+    const float far = kPerCell * static_cast<float>(std::abs(right) + std::abs(down));
+    for (std::size_t part = 0; part < 2; ++part)
+        for (int j = 0; j < rows; ++j) {
+            if (!cells.any_in_row(part, j)) continue;
+            const std::size_t at = static_cast<std::size_t>(j * columns);
+            float* const score = score_.of[part].row(j);
+            score_row(off_.data() + j * (columns + 2 * kAround),
+                      weights_.data() + part * kPlanes * plane + at, plane, columns, score);
+            for (int i = 0; i < columns; ++i) {
+                const float off = stays ? kStayShare * score[i] - kStayLess : score[i] + far;
+                if (!(off < best_.of[part].row(j)[i])) continue;
+                best_.of[part].row(j)[i] = off;
+                ways.right.of[part].row(j)[i] = static_cast<float>(right * kMotionCell_px);
+                ways.down.of[part].row(j)[i] = static_cast<float>(down * kMotionCell_px);
+            }
+        }
+}
+
+void MotionSearcher::search(const MotionPictures& from, const MotionPictures& to,
+                            const MotionCells& cells, int reach, MotionWays& ways) {
+    ways.resize(cells.columns, cells.rows);
+    ways.fill(0.0F);
+    score_.resize(cells.columns, cells.rows);
+    best_.resize(cells.columns, cells.rows);
+    best_.fill(1e9F);
+    off_.resize(
+        static_cast<std::size_t>((cells.columns + 2 * kAround) * (cells.rows + 2 * kAround)));
+    weigh(cells);
+    for (int down = -reach; down <= reach; ++down)
+        for (int right = -reach; right <= reach; ++right) {
+            compare(from, to, right, down);
+            attempt(cells, right, down, ways);
+        }
+}
+
+}  // namespace dibhr

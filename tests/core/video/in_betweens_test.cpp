@@ -1,0 +1,166 @@
+// What is felt and seen between two frames, against scenes that are known at every time.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "core/video/motion/frame_motion.hpp"
+#include "core/video/motion/in_betweens.hpp"
+#include "tests/core/video/moving_scene.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace dibhr;
+using test::MovingScene;
+using Shape = MovingScene::Shape;
+using Goes = MovingScene::Goes;
+
+namespace {
+
+constexpr MotionWanted kInBetweens{.motion = true, .in_betweens = true};
+
+/// Two frames of a scene, connected.
+struct Pair {
+    Frame from, to;
+
+    Pair(const MovingScene& scene, double frames_per_s, const MotionWanted& wanted = kInBetweens)
+        : from(scene.frame(0.0, {.brightness = 1.0, .seed = 1})),
+          to(scene.frame(1.0 / frames_per_s, {.brightness = 1.0, .seed = 2})) {
+        FrameMotion().connect(from, to, wanted);
+    }
+    [[nodiscard]] DepthBlend at(double blend) const { return {&from, &to, blend}; }
+};
+
+/// Mean absolute errors where another thing is within what moved in this time.
+struct OutlineError {
+    double elevation_px{0.0};
+    double brightness{0.0};
+};
+
+OutlineError outline_error(const DepthBlend& shown, const MovingScene& scene, double t_s,
+                           double reach_px) {
+    OutlineError error;
+    double count = 0.0;
+    const DepthSurface surface = shown.surface({.relief_px = 255.0});
+    const std::vector<std::uint8_t>& before = shown.shown().from->colour->rgb;
+    const std::vector<std::uint8_t>& after = shown.shown().to->colour->rgb;
+    const double blend = shown.shown().blend;
+    for (int j = 0; j < surface.rows(); ++j)
+        for (int i = 0; i < surface.columns(); ++i) {
+            const MovingScene::Seen seen = scene.at(t_s, {1.0 * i, 1.0 * j});
+            bool is_beside = false;
+            for (const double x : {-reach_px, 0.0, reach_px})
+                for (const double y : {-reach_px, 0.0, reach_px})
+                    is_beside = is_beside || scene.at(t_s, {i + x, j + y}).object != seen.object;
+            if (!is_beside) continue;
+            const std::size_t k = 3 * shown.from->depth->index(i, j);
+            const double bright = std::lerp(1.0 * before[k], 1.0 * after[k], blend);
+            error.elevation_px += std::fabs(surface.elevation(i, j) - seen.elevation_px);
+            error.brightness += std::fabs(bright - seen.brightness);
+            count += 1.0;
+        }
+    return {error.elevation_px / count, error.brightness / count};
+}
+
+}  // namespace
+
+TEST_CASE("half way outlines and colours are far nearer the truth than faded", "[in-betweens]") {
+    const Shape shape = GENERATE(Shape::sphere, Shape::hand);
+    const Goes goes = GENERATE(Goes::along, Goes::round, Goes::apart);
+    const double speed = shape == Shape::hand ? 200.0 : 300.0;
+    if (shape == Shape::sphere && goes == Goes::round) return;  // its outline does not move
+    CAPTURE(static_cast<int>(shape), static_cast<int>(goes));
+    const MovingScene scene({shape, goes, speed, 320, 240});
+    const Pair moved(scene, 30.0);
+    const Pair faded(scene, 30.0, {});
+    REQUIRE(moved.from.between);
+    const double way_px = speed / 30.0;
+    const OutlineError with = outline_error(moved.at(0.5), scene, 0.5 / 30.0, way_px);
+    const OutlineError without = outline_error(faded.at(0.5), scene, 0.5 / 30.0, way_px);
+    CAPTURE(with.elevation_px, without.elevation_px, with.brightness, without.brightness);
+    CHECK(with.elevation_px < 0.35 * without.elevation_px);
+    CHECK(with.brightness < 0.5 * without.brightness);
+}
+
+TEST_CASE("so many frames lie between that nothing moves far from one to the next",
+          "[in-betweens]") {
+    const MovingScene scene({Shape::hand, Goes::along, 150.0, 320, 240});
+    const Pair pair(scene, 30.0);
+    REQUIRE(pair.from.between);
+    CHECK(pair.from.between->size() + 1 >= 3);
+    CHECK(pair.from.between->size() + 1 <= static_cast<std::size_t>(kMostParts));
+}
+
+TEST_CASE("what does not move blends as it always did", "[in-betweens]") {
+    const MovingScene scene({Shape::hand, Goes::along, 200.0, 320, 240});
+    const Pair pair(scene, 30.0);
+    REQUIRE(pair.from.between);
+    const double blend = GENERATE(0.1, 0.5, 0.8);
+    const DepthSurface moved = pair.at(blend).surface({.relief_px = 255.0});
+    const DepthSurface faded{*pair.from.depth, *pair.to.depth, blend, {.relief_px = 255.0}};
+    for (const auto& [i, j] : {std::pair{10, 10}, {300, 20}, {20, 220}, {310, 230}})
+        CHECK(std::fabs(moved.elevation(i, j) - faded.elevation(i, j)) < 1e-4);
+}
+
+TEST_CASE("without motion two frames are as they are, bit by bit", "[in-betweens]") {
+    const MovingScene scene({Shape::hand, Goes::along, 0.0, 320, 240});
+    const Pair pair(scene, 30.0);
+    CHECK(pair.from.motion == nullptr);
+    CHECK(pair.from.between == nullptr);
+    const DepthBlend shown = pair.at(0.3).shown();
+    CHECK(shown.from == &pair.from);
+    CHECK(shown.to == &pair.to);
+    CHECK(shown.blend == 0.3);
+}
+
+TEST_CASE("the surface is continuous in time, from a frame over all between to the next",
+          "[in-betweens]") {
+    const MovingScene scene({Shape::hand, Goes::along, 200.0, 320, 240});
+    const Pair pair(scene, 30.0);
+    REQUIRE(pair.from.between);
+    const auto parts = static_cast<double>(pair.from.between->size() + 1);
+    for (double k = 1.0; k < parts; k += 1.0) {
+        const DepthSurface before = pair.at(k / parts - 1e-9).surface({.relief_px = 255.0});
+        const DepthSurface after = pair.at(k / parts + 1e-9).surface({.relief_px = 255.0});
+        for (int j = 0; j < before.rows(); j += 3)
+            for (int i = 0; i < before.columns(); i += 3)
+                REQUIRE(std::fabs(before.elevation(i, j) - after.elevation(i, j)) < 1e-4);
+    }
+    const DepthSurface first = pair.at(0.0).surface({.relief_px = 255.0});
+    const DepthSurface last = pair.at(1.0).surface({.relief_px = 255.0});
+    const auto level = [](const Frame& frame) {
+        return static_cast<double>(frame.depth->at(160, 120));
+    };
+    CHECK(first.elevation(160, 120) == level(pair.from));
+    CHECK(last.elevation(160, 120) == level(pair.to));
+}
+
+TEST_CASE("what was never seen is on its way, too", "[in-betweens]") {
+    const MovingScene scene({Shape::hand, Goes::along, 200.0, 320, 240});
+    Pair pair(scene, 30.0);
+    const std::size_t count = pair.from.depth->levels.size();
+    pair.from.unseen = std::make_shared<const std::vector<std::uint8_t>>(count, 1);
+    pair.to.unseen = pair.from.unseen;
+    const auto between = in_betweens_of(pair.from, pair.to);
+    REQUIRE(between);
+    for (const Frame& frame : *between) {
+        REQUIRE(frame.unseen);
+        CHECK(std::count(frame.unseen->begin(), frame.unseen->end(), 1) ==
+              static_cast<std::ptrdiff_t>(count));
+    }
+}
+
+TEST_CASE("a fingertip is felt over what is on its way", "[in-betweens]") {
+    const MovingScene scene({Shape::hand, Goes::along, 200.0, 320, 240});
+    Pair pair(scene, 30.0);
+    for (Frame* frame : {&pair.from, &pair.to}) {
+        frame->beneath = frame->depth;
+        frame->cleaning.finger = {.radius_px = 6.0, .relief_px = 255.0};
+    }
+    const auto between = in_betweens_of(pair.from, pair.to);
+    REQUIRE(between);
+    const Frame& frame = between->front();
+    REQUIRE(frame.beneath);
+    for (std::size_t k = 0; k < frame.depth->levels.size(); ++k)
+        REQUIRE(frame.depth->levels[k] >= frame.beneath->levels[k] - 1e-3F);
+}

@@ -1,0 +1,154 @@
+// Where pixels go from a frame to the next, against scenes whose motion is known.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "core/video/motion/motion_estimator.hpp"
+#include "tests/core/video/moving_scene.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace dibhr;
+using test::MovingScene;
+using Shape = MovingScene::Shape;
+using Goes = MovingScene::Goes;
+
+namespace {
+
+MovingScene scene_of(Shape shape, Goes goes, double speed_px_per_s) {
+    return MovingScene({shape, goes, speed_px_per_s, 320, 240});
+}
+
+/// Of what lies well within one thing and stays in the picture: errors [px], in order, and their
+/// mean along the true way.
+struct Errors {
+    std::vector<double> px{};
+    double along_px{0.0};
+
+    [[nodiscard]] double quantile(double share) const {
+        return px[static_cast<std::size_t>(share * static_cast<double>(px.size() - 1))];
+    }
+};
+
+Errors errors_of(const MovingScene& scene, const MotionField& field, double from_s, double to_s,
+                 int object) {
+    constexpr double kBeside_px = 6.0;
+    Errors errors;
+    const auto& what = scene.what();
+    for (int j = 0; j < what.rows; j += 2)
+        for (int i = 0; i < what.columns; i += 2) {
+            const MovingScene::Point here{static_cast<double>(i), static_cast<double>(j)};
+            bool is_within = true;
+            for (const double x : {-kBeside_px, 0.0, kBeside_px})
+                for (const double y : {-kBeside_px, 0.0, kBeside_px})
+                    is_within = is_within && scene.at(from_s, {i + x, j + y}).object == object;
+            const MovingScene::Point there = scene.gone(from_s, here, to_s);
+            const bool is_inside = there.x > 4.0 && there.y > 4.0 && there.x < what.columns - 5 &&
+                                   there.y < what.rows - 5;
+            if (!is_within || !is_inside) continue;
+            const double x = field.at(i, j).right - (there.x - here.x);
+            const double y = field.at(i, j).down - (there.y - here.y);
+            errors.px.push_back(std::hypot(x, y));
+            const double far = std::hypot(there.x - here.x, there.y - here.y);
+            if (far > 0.0)
+                errors.along_px += (x * (there.x - here.x) + y * (there.y - here.y)) / far;
+        }
+    errors.along_px /= static_cast<double>(std::max<std::size_t>(errors.px.size(), 1));
+    std::sort(errors.px.begin(), errors.px.end());
+    return errors;
+}
+
+MotionField motion_of(const Frame& from, const Frame& to) {
+    MotionEstimator estimator;
+    const auto field = estimator.between(from, to);
+    if (field) return *field;
+    return {from.depth->columns, from.depth->rows,
+            std::vector<MotionField::Way>(from.depth->levels.size())};
+}
+
+}  // namespace
+
+TEST_CASE("nothing moves in a still scene, whatever the camera's noise", "[motion]") {
+    const Shape shape = GENERATE(Shape::plane, Shape::sphere, Shape::hand);
+    const double noise = GENERATE(0.0, 1.0, 4.0);
+    const std::vector<Frame> frames =
+        test::film(scene_of(shape, Goes::along, 0.0), 2, 30.0, noise, false);
+    CAPTURE(noise);
+    CHECK(MotionEstimator().between(frames[0], frames[1]) == nullptr);
+}
+
+TEST_CASE("nothing moves in a still scene that a video codec has coded", "[motion]") {
+    const Shape shape = GENERATE(Shape::plane, Shape::hand);
+    const std::vector<Frame> frames =
+        test::film(scene_of(shape, Goes::along, 0.0), 12, 30.0, 3.0, true);
+    MotionEstimator estimator;
+    for (std::size_t k = 1; k < frames.size(); ++k)
+        CHECK(estimator.between(frames[k - 1], frames[k]) == nullptr);
+}
+
+TEST_CASE("depth alone that does not move gives no motion", "[motion]") {
+    const MovingScene scene = scene_of(Shape::hand, Goes::along, 0.0);
+    Frame from = scene.frame(0.0, {.elevation_px = 0.5, .seed = 1});
+    Frame to = scene.frame(0.0, {.elevation_px = 0.5, .seed = 2});
+    from.colour_of_view = to.colour_of_view = false;
+    CHECK(MotionEstimator().between(from, to) == nullptr);
+}
+
+TEST_CASE("a textured plane's pixels are found where they have gone", "[motion]") {
+    const double speed = GENERATE(20.0, 100.0, 400.0);
+    const double rate = GENERATE(30.0, 60.0);
+    CAPTURE(speed, rate);
+    const MovingScene scene = scene_of(Shape::plane, Goes::along, speed);
+    const std::vector<Frame> frames = test::film(scene, 2, rate, 1.0, false);
+    const Errors errors = errors_of(scene, motion_of(frames[0], frames[1]), 0.0, 1.0 / rate, 1);
+    CHECK(errors.quantile(0.5) < 0.08);
+    CHECK(std::fabs(errors.along_px) < 0.04);
+}
+
+TEST_CASE("a thing moves before a wall that stays", "[motion]") {
+    const Shape shape = GENERATE(Shape::sphere, Shape::hand);
+    const Goes goes = GENERATE(Goes::along, Goes::round, Goes::apart);
+    const double speed = GENERATE(60.0, 200.0);
+    CAPTURE(static_cast<int>(shape), static_cast<int>(goes), speed);
+    const MovingScene scene = scene_of(shape, goes, speed);
+    const std::vector<Frame> frames = test::film(scene, 2, 30.0, 2.0, false);
+    const MotionField field = motion_of(frames[0], frames[1]);
+    const Errors thing = errors_of(scene, field, 0.0, 1.0 / 30.0, 1);
+    const Errors wall = errors_of(scene, field, 0.0, 1.0 / 30.0, 0);
+    CHECK(thing.quantile(0.5) < 0.3);
+    CHECK(thing.quantile(0.9) < 0.9);
+    CHECK(std::fabs(thing.along_px) < 0.15);
+    CHECK(wall.quantile(0.9) < 0.1);
+}
+
+TEST_CASE("the colour of a video is as good a guide", "[motion]") {
+    const MovingScene scene = scene_of(Shape::hand, Goes::along, 200.0);
+    const std::vector<Frame> frames = test::film(scene, 3, 30.0, 2.0, true);
+    const Errors errors =
+        errors_of(scene, motion_of(frames[1], frames[2]), 1.0 / 30.0, 2.0 / 30.0, 1);
+    CHECK(errors.quantile(0.5) < 0.25);
+    CHECK(errors.quantile(0.9) < 0.6);
+}
+
+TEST_CASE("no way is longer than a sixteenth of the width to each side", "[motion]") {
+    const Frame from = scene_of(Shape::plane, Goes::along, 0.0).frame(0.0, {.brightness = 40.0});
+    const Frame to = scene_of(Shape::hand, Goes::along, 0.0).frame(0.0, {.brightness = 40.0});
+    const MotionField field = motion_of(from, to);
+    const double most = kFarthestMotion * from.depth->columns + 1e-3;
+    for (const MotionField::Way& way : field.ways) {
+        REQUIRE(std::fabs(way.right) <= most);
+        REQUIRE(std::fabs(way.down) <= most);
+    }
+}
+
+TEST_CASE("the same two frames give the same bits, whatever was asked before", "[motion]") {
+    const MovingScene scene = scene_of(Shape::hand, Goes::along, 150.0);
+    const std::vector<Frame> frames = test::film(scene, 3, 30.0, 2.0, false);
+    MotionEstimator busy;
+    static_cast<void>(busy.between(frames[0], frames[1]));
+    const auto again = busy.between(frames[1], frames[2]);
+    const auto afresh = MotionEstimator().between(frames[1], frames[2]);
+    REQUIRE(again);
+    REQUIRE(afresh);
+    CHECK(again->ways == afresh->ways);
+}

@@ -1,0 +1,68 @@
+// A textured thing that moves before a textured wall, known at every time and place: what cameras
+// see of it, and where each of its points goes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/video/frame_window.hpp"
+
+namespace dibhr::test {
+
+/// What a camera adds.
+struct CameraNoise {
+    double brightness{0.0};  ///< standard deviation [levels of 255]
+    double elevation_px{0.0};
+    std::uint32_t seed{1};
+};
+
+/// Formulas, in pixels and seconds; elevations of a highest level of 255 px.
+class MovingScene {
+  public:
+    enum class Shape : std::uint8_t { plane, sphere, hand };
+    /// Of the whole; a turn and growth are of the shape's rim.
+    enum class Goes : std::uint8_t { along, round, apart };
+    struct What {
+        Shape shape{Shape::hand};
+        Goes goes{Goes::along};
+        double speed_px_per_s{0.0};
+        int columns{640};
+        int rows{480};
+    };
+    struct Point {
+        double x{0.0}, y{0.0};
+    };
+    struct Seen {
+        double elevation_px;
+        double brightness;  ///< [0, 255]
+        int object;         ///< 0: the wall
+    };
+
+    explicit MovingScene(const What& what) : what_(what) {}
+
+    [[nodiscard]] Seen at(double t_s, Point place) const;
+    /// Where the point that is seen at `place` at `t_s` is at `later_s`.
+    [[nodiscard]] Point gone(double t_s, Point place, double later_s) const;
+
+    /// As a camera without lens has it: a pixel's brightness is the mean over it, its depth that of
+    /// its middle.
+    [[nodiscard]] Frame frame(double t_s, const CameraNoise& noise = {}) const;
+
+    [[nodiscard]] const What& what() const { return what_; }
+
+  private:
+    [[nodiscard]] double size_px() const;
+    [[nodiscard]] Point middle(double t_s) const;
+    [[nodiscard]] Point on_thing(double t_s, Point place) const;
+    [[nodiscard]] Point off_thing(double t_s, Point on) const;
+
+    What what_;
+};
+
+/// Frames of a scene in a row, the first at 0 s, without or after a video codec's own loss: the
+/// colour is coded by ffmpeg's H.264 (CRF 23, 4:2:0), where `coded`.
+[[nodiscard]] std::vector<Frame> film(const MovingScene& scene, int count, double frames_per_s,
+                                      double brightness_noise, bool coded);
+
+}  // namespace dibhr::test
