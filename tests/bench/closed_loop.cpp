@@ -48,7 +48,7 @@ class SimulatedArm final : public Device {
     }
     HandReading read(const HandContext& context) noexcept override {
         const double pitch_mm = context.pixel_pitch_mm;
-        return {.goal_in_grid = {kColumns / 2 + read_mm(aside_) / pitch_mm, kRows / 2,
+        return {.goal_in_grid = {0.5 * kColumns + read_mm(aside_) / pitch_mm, 0.5 * kRows,
                                  kMiddle_px - read_mm(depth_) / pitch_mm}};
     }
     void send(Vec3 force_newton) noexcept override { sent_newton_ = force_newton; }
