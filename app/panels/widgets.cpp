@@ -279,8 +279,8 @@ void fact_row(const char* label, const std::string& value) {
 }
 
 void file_row(const char* label, const std::filesystem::path& file) {
-    fact_row(label, is_live(file) ? file.string() : file.filename().string());
-    explain(file.c_str());
+    fact_row(label, is_live(file) ? public_name(file) : file.filename().string());
+    explain(public_name(file).c_str());
 }
 
 void place_next_tooltip() {
