@@ -37,7 +37,7 @@ void draw_recent(ViewerState& state) {
         ImGui::BeginDisabled(!there);
         ImGui::PushID(&file);
         const std::string name =
-            is_live(file.colour) ? file.colour.string() : file.colour.filename().string();
+            is_live(file.colour) ? public_name(file.colour) : file.colour.filename().string();
         if (ImGui::Selectable((name + depth).c_str()))
             state.requests.open = OpenRequest{file.colour, file.depth};
         ImGui::PopID();

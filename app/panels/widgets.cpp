@@ -309,9 +309,10 @@ void fact_row(const char* label, const std::string& value, const char* help) {
 }
 
 void file_row(const char* label, const std::filesystem::path& file) {
-    const std::string name = is_live(file) ? file.string() : file.filename().string();
+    const std::string whole = public_name(file);
+    const std::string name = is_live(file) ? whole : file.filename().string();
     const float width = ImGui::GetContentRegionAvail().x * (1.0F - kLabelShare);
-    fact_row(label, on_two_lines(name, width), file.c_str());
+    fact_row(label, on_two_lines(name, width), whole.c_str());
 }
 
 void place_next_tooltip() {

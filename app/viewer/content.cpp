@@ -323,8 +323,8 @@ void Viewer::keep_recent(const RecentFile& opened) try {
 }
 
 void Viewer::show_title(const std::filesystem::path& file) {
-    const std::filesystem::path name = is_live(file) ? file : file.filename();
-    window_.set_title(name.string() + " - dibhr");
+    const std::string name = is_live(file) ? public_name(file) : file.filename().string();
+    window_.set_title(name + " - dibhr");
 }
 
 /// What the panel says stays with the file that it made the depth.

@@ -12,6 +12,7 @@
 #include "core/video/cleaning/surface_version.hpp"
 #include "core/video/depth/sidecar.hpp"
 #include "core/video/libraries.hpp"
+#include "core/video/live/live_name.hpp"
 
 namespace dibhr {
 
@@ -35,8 +36,8 @@ std::map<std::string, std::string> session_facts(const ViewerState& state) {
                                     number_text(state.device.workspace_mm.y) + " x " +
                                     number_text(state.device.workspace_mm.z)},
         {"algorithm", name_of(state.settings.touch.algorithm)},
-        {"colour", state.media.colour_path.string()},
-        {"depth", state.media.depth_path.string()},
+        {"colour", public_name(state.media.colour_path)},
+        {"depth", public_name(state.media.depth_path)},
         {"depth-columns", std::to_string(state.media.depth_columns)},
         {"depth-rows", std::to_string(state.media.depth_rows)},
         {"bump", state.bump_file.string()},

@@ -10,7 +10,8 @@
 // libumockdev has a thread of its own, joined with GLib's atomics. Mesa's software driver counts
 // who still needs a fence with atomics, and destroys it when nobody does; it is swrast_dri.so, or
 // in newer ones libgallium. Pango matches fonts on a thread of its own and keeps what Fontconfig
-// found until the program ends.
+// found until the program ends. libsrt destroys what its queues still look at when a connection is
+// closed.
 extern "C" const char* __tsan_default_suppressions();  // NOLINT: the sanitizer's name
 extern "C" const char* __lsan_default_suppressions();  // NOLINT: the sanitizer's name
 
@@ -28,7 +29,8 @@ extern "C" const char* __tsan_default_suppressions() {  // NOLINT
            "race:swrast_dri.so\n"
            "race:libgallium\n"
            "race:libpangoft2-1.0.so.0\n"
-           "race:libfontconfig.so.1\n";
+           "race:libfontconfig.so.1\n"
+           "race:libsrt\n";
 }
 
 extern "C" const char* __lsan_default_suppressions() {  // NOLINT

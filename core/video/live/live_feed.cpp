@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/video/media.hpp"
 
 namespace dibhr {
@@ -25,6 +26,7 @@ constexpr std::size_t kMostColours = 8;
 constexpr std::size_t kMostWaiting = 2;
 constexpr double kNewest = 0.1;  ///< the weight of the newest of a moving mean
 constexpr double kLongestInterval_s = 0.5;
+constexpr std::size_t kLongestName = 100;
 
 double seconds_of(Clock::time_point time) {
     return std::chrono::duration<double>(time.time_since_epoch()).count();
@@ -32,16 +34,6 @@ double seconds_of(Clock::time_point time) {
 
 Clock::duration duration_of(double seconds) {
     return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-}
-
-/// Without its pictures.
-LivePicture form_of(const LivePicture& picture) {
-    LivePicture form;
-    const cv::Mat& any = picture.levels.empty() ? picture.colour : picture.levels;
-    form.levels = cv::Mat(any.size(), CV_8UC1);
-    form.bits = picture.bits;
-    form.grey = picture.grey;
-    return form;
 }
 
 /// A source without stamps has those of its pictures' coming.
@@ -79,12 +71,12 @@ LiveFeed::LiveFeed(std::filesystem::path colour, std::filesystem::path depth)
     if (two_) {
         require_camera(live_name(colour_), colour_);
         colour_stream_ = std::make_unique<LiveStream>(
-            live_name(colour_), shown(colour_),
+            live_name(colour_), in_quotes(public_name(colour_), kLongestName),
             [this](LivePicture picture) { return take_colour(std::move(picture)); });
         colour_stream_->want(true, false);
     }
     depth_stream_ = std::make_unique<LiveStream>(
-        std::move(depth_name), shown(depth_),
+        std::move(depth_name), in_quotes(public_name(depth_), kLongestName),
         [this](LivePicture picture) { return take_depth(std::move(picture)); });
 }
 
@@ -103,14 +95,12 @@ void LiveFeed::want(bool colour, bool levels) {
     depth_stream_->want(colour, levels);
 }
 
-bool LiveFeed::is_of_form(const LivePicture& picture, std::optional<LivePicture>& first) {
-    const LivePicture form = form_of(picture);
+bool LiveFeed::is_of_form(const LivePicture& picture, std::optional<Form>& first) {
+    const cv::Mat& any = picture.levels.empty() ? picture.colour : picture.levels;
+    const Form form{any.size(), picture.bits, picture.grey};
     if (!first) first = form;
-    if (first->levels.size() == form.levels.size() && first->bits == form.bits &&
-        first->grey == form.grey)
-        return true;
-    signal_.other_form = true;
-    return false;
+    signal_.other_form = signal_.other_form || !(*first == form);
+    return !signal_.other_form;
 }
 
 bool LiveFeed::take_depth(LivePicture picture) {
@@ -118,7 +108,7 @@ bool LiveFeed::take_depth(LivePicture picture) {
     stamp(picture);
     {
         const std::lock_guard lock(mutex_);
-        if (signal_.other_form || !is_of_form(picture, first_depth_)) {
+        if (!is_of_form(picture, depth_form_)) {
             came_.notify_all();
             return false;
         }
@@ -146,7 +136,7 @@ bool LiveFeed::take_colour(LivePicture picture) {
     stamp(picture);
     {
         const std::lock_guard lock(mutex_);
-        if (signal_.other_form || !is_of_form(picture, first_colour_)) {
+        if (!is_of_form(picture, colour_form_)) {
             came_.notify_all();
             return false;
         }

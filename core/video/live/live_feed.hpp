@@ -80,7 +80,15 @@ class LiveFeed {
   private:
     bool take_depth(LivePicture picture);
     bool take_colour(LivePicture picture);
-    [[nodiscard]] bool is_of_form(const LivePicture& picture, std::optional<LivePicture>& first);
+    /// What pictures of one connection have in common.
+    struct Form {
+        cv::Size size{};
+        int bits{8};
+        bool grey{false};
+
+        bool operator==(const Form&) const = default;
+    };
+    [[nodiscard]] bool is_of_form(const LivePicture& picture, std::optional<Form>& first);
     void join(Clock::time_point now);
     [[nodiscard]] double colour_s(const LivePicture& picture) const;
     [[nodiscard]] bool may_go(const LivePicture& depth, Clock::time_point now) const;
@@ -97,7 +105,7 @@ class LiveFeed {
     StampLine depth_line_{}, colour_line_{};
     double interval_s_{1.0 / 30.0};  ///< between depth pictures, as of late
     std::shared_ptr<const LivePair> newest_{};
-    std::optional<LivePicture> first_depth_{}, first_colour_{};  ///< without pictures: their form
+    std::optional<Form> depth_form_{}, colour_form_{};  ///< of the first pictures
     LiveSignal signal_{};
 
     std::mutex telling_{};

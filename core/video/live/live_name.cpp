@@ -81,6 +81,16 @@ bool is_live(const std::filesystem::path& place) {
            begin.starts_with(kMade) || network_scheme(begin) != nullptr || is_camera_device(place);
 }
 
+std::string public_name(const std::filesystem::path& place) {
+    std::string name = place.string();
+    const auto begin = name.find("://");
+    if (begin == std::string::npos || network_scheme(name) == nullptr) return name;
+    const auto host = begin + 3;
+    const auto at = name.rfind('@', name.find('/', host));
+    if (at != std::string::npos && at > host) name.erase(host, at + 1 - host);
+    return name;
+}
+
 LiveName live_name(const std::filesystem::path& place) {
     const std::string& name = place.native();
     const std::string_view text = name;

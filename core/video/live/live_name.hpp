@@ -28,6 +28,9 @@ struct LiveName {
 /// device.
 [[nodiscard]] bool is_live(const std::filesystem::path& place);
 
+/// The name as others may read it: without a user and a password before the host.
+[[nodiscard]] std::string public_name(const std::filesystem::path& place);
+
 /// Of a camera `?size=640x480&rate=30` may follow. Throws InputError for what names nothing.
 [[nodiscard]] LiveName live_name(const std::filesystem::path& place);
 

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/live/live_name.hpp"
 #include "core/video/live/taken_pictures.hpp"
 
 namespace dibhr {
@@ -76,8 +77,6 @@ void LivePlayback::open(std::unique_ptr<Media> media, std::uint32_t number,
 
 void LivePlayback::close() {
     if (feed_) feed_->tell({});
-    const CleaningOptions options = options_;
-    const std::uint64_t discontinuity = discontinuity_;
     feed_.reset();
     media_.reset();
     sink_ = {};
@@ -92,8 +91,7 @@ void LivePlayback::close() {
     dropped_ = 0;
     behind_s_ = 0.0;
     lost_ = force_off_ = false;
-    options_ = options;
-    discontinuity_ = discontinuity + 1;
+    ++discontinuity_;
 }
 
 void LivePlayback::play() {
@@ -283,7 +281,7 @@ FrameWindow LivePlayback::window() const {
 LiveStatus LivePlayback::status(Time now) const {
     const LiveSignal signal = feed_->signal();
     LiveStatus status;
-    status.from = description().depth_path.string();
+    status.from = public_name(description().depth_path);
     status.behind_s = behind_s_;
     status.dropped = dropped_;
     status.arrives_per_s = frames_.size() > 1 ? 1.0 / clock_.interval_s() : 0.0;

@@ -135,6 +135,13 @@ TEST_CASE("no stream leads to a file of this machine", "[live]") {
     }
 }
 
+TEST_CASE("a password in a name is shown to nobody", "[live]") {
+    CHECK(public_name("rtsp://me:secret@camera:554/depth?a@b") == "rtsp://camera:554/depth?a@b");
+    CHECK(public_name("udp://@239.0.0.1:5000") == "udp://@239.0.0.1:5000");
+    CHECK(public_name("udp://127.0.0.1:5000") == "udp://127.0.0.1:5000");
+    CHECK(public_name("/home/me@work/depth.mkv") == "/home/me@work/depth.mkv");
+}
+
 TEST_CASE("what a camera is asked for stands behind its name", "[live]") {
     const LiveName name = live_name("v4l2:/dev/video2?size=640x480&rate=30");
     CHECK(name.url == "/dev/video2");
