@@ -17,14 +17,15 @@ constexpr int kBins = 32;
 template <typename Visit>
 void visit_pixels(const MotionPlane& plane, int i, int j, Visit visit) {
     for (int y = 0; y < kMotionCell_px; ++y) {
-        const float* row = plane.row(j * kMotionCell_px + y) + i * kMotionCell_px;
+        const float* row =
+            plane.values.data() + plane.index(i * kMotionCell_px, j * kMotionCell_px + y);
         for (int x = 0; x < kMotionCell_px; ++x) visit(row[x]);
     }
 }
 
 /// In the middle of the widest gap between the depths of a cell; below all where that is narrow.
 float gap_between(const MotionPlane& depth, int i, int j) {
-    float lowest = depth.row(j * kMotionCell_px)[i * kMotionCell_px];
+    float lowest = depth.values[depth.index(i * kMotionCell_px, j * kMotionCell_px)];
     float highest = lowest;
     visit_pixels(depth, i, j, [&](float value) {
         lowest = std::min(lowest, value);

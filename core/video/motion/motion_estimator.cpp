@@ -90,11 +90,11 @@ void MotionEstimator::each_part(const Visit& visit) const {
     for (std::size_t part = 0; part < 2; ++part)
         for (int j = 0; j < cells_.rows; ++j)
             for (int i = 0; i < cells_.columns; ++i)
-                visit(Part{i, j, part}, static_cast<std::size_t>(j * cells_.columns + i));
+                visit(Part{i, j, part}, cells_.between.index(i, j));
 }
 
 MotionEstimator::Verdict& MotionEstimator::verdict(const Part& part) {
-    return verdicts_[part.part][static_cast<std::size_t>(part.j * cells_.columns + part.i)];
+    return verdicts_[part.part][cells_.between.index(part.i, part.j)];
 }
 
 MotionEstimator::Way MotionEstimator::way_of(const Part& part) const {
@@ -286,7 +286,7 @@ void MotionEstimator::judge() {
 
 /// Whether a part shows nothing that would tell if it went this way.
 bool MotionEstimator::is_plain(const Part& part, Way way) const {
-    const std::size_t k = static_cast<std::size_t>(part.j * cells_.columns + part.i);
+    const std::size_t k = cells_.between.index(part.i, part.j);
     if (!is_known(slopes_, part.part, k)) return true;
     const auto mean = [&, n = slopes_[MotionSum::n].of[part.part].values[k]](MotionSum sum) {
         return slopes_[sum].of[part.part].values[k] / n;

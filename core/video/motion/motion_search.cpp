@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kAround = 2;  // cells to each side that are compared with one
 constexpr int kSide = 2 * kAround + 1;
-constexpr std::size_t kPlanes = kSide * kSide;
+constexpr auto kPlanes = std::size_t{kSide} * std::size_t{kSide};
 constexpr float kMostOff = 40.0F;   // of grey, and of depth: what is farther off is as bad
 constexpr float kOutside = 20.0F;   // of what goes beyond the picture
 constexpr float kPerCell = 0.02F;   // what a longer way must be better by
@@ -45,7 +45,8 @@ DIBHR_VECTOR_CLONES void score_row(const Scored& scored, int count, float* __res
     for (int i = 0; i < count; ++i) score[i] = 0.0F;
     for (int y = 0; y < kSide; ++y)
         for (int x = 0; x < kSide; ++x) {
-            const float* __restrict from = scored.off + y * scored.off_stride + x;
+            const float* __restrict from =
+                scored.off + static_cast<std::ptrdiff_t>(y) * scored.off_stride + x;
             const float* __restrict weight =
                 scored.weights + static_cast<std::size_t>(y * kSide + x) * scored.plane;
             for (int i = 0; i < count; ++i) score[i] += weight[i] * from[i];
@@ -63,7 +64,7 @@ void MotionSearcher::weigh(const MotionCells& cells, const MotionSpans& spans) {
             const MotionSpan span = spans[static_cast<std::size_t>(j)];
             for (int i = span.begin; i < span.end; ++i) {
                 if (!cells.has(part, i, j)) continue;
-                const std::size_t at = static_cast<std::size_t>(j * cells.columns + i);
+                const std::size_t at = cells.between.index(i, j);
                 float* const weights = weights_.data() + part * kPlanes * plane + at;
                 const float lowest = cells.lowest.of[part].values[at];
                 const float highest = cells.highest.of[part].values[at];
@@ -88,18 +89,17 @@ void MotionSearcher::weigh(const MotionCells& cells, const MotionSpans& spans) {
 void MotionSearcher::compare(const MotionPictures& from, const MotionPictures& to, int right,
                              int down) {
     const MotionPlane& grey = from.grey.back();
-    std::fill(off_.begin(), off_.end(), kOutside);
+    std::fill(off_.values.begin(), off_.values.end(), kOutside);
     for (int j = std::max(-down, 0); j < grey.rows - std::max(down, 0); ++j) {
         const Compared row{grey.row(j), to.grey.back().row(j + down) + right,
                            from.near.back().row(j), to.near.back().row(j + down) + right};
-        float* const off = off_.data() + (j + kAround) * (grey.columns + 2 * kAround) + kAround;
+        float* const off = off_.row(j + kAround) + kAround;
         compare_row(row, off, std::max(-right, 0), grey.columns - std::max(right, 0));
     }
 }
 
 void MotionSearcher::attempt(const MotionCells& cells, const MotionSpans& spans, int right,
                              int down, MotionWays& ways) {
-    const int columns = score_.of[0].columns;
     const int rows = score_.of[0].rows;
     const std::size_t plane = score_.of[0].values.size();
     const bool stays = right == 0 && down == 0;
@@ -108,10 +108,9 @@ void MotionSearcher::attempt(const MotionCells& cells, const MotionSpans& spans,
         for (int j = 0; j < rows; ++j) {
             const MotionSpan span = spans[static_cast<std::size_t>(j)];
             if (span.begin >= span.end || !cells.any_in_row(part, j)) continue;
-            const std::size_t at = static_cast<std::size_t>(j * columns + span.begin);
+            const std::size_t at = cells.between.index(span.begin, j);
             float* const score = score_.of[part].row(j);
-            const Scored scored{off_.data() + j * (columns + 2 * kAround) + span.begin,
-                                columns + 2 * kAround,
+            const Scored scored{off_.row(j) + span.begin, off_.columns,
                                 weights_.data() + part * kPlanes * plane + at, plane};
             score_row(scored, span.end - span.begin, score + span.begin);
             for (int i = span.begin; i < span.end; ++i) {
@@ -132,8 +131,7 @@ void MotionSearcher::search(const MotionPictures& from, const MotionPictures& to
     score_.resize(cells.columns, cells.rows);
     best_.resize(cells.columns, cells.rows);
     best_.fill(1e9F);
-    off_.resize(
-        static_cast<std::size_t>((cells.columns + 2 * kAround) * (cells.rows + 2 * kAround)));
+    off_.resize(cells.columns + 2 * kAround, cells.rows + 2 * kAround);
     weigh(cells, spans);
     for (int down = -reach; down <= reach; ++down)
         for (int right = -reach; right <= reach; ++right) {

@@ -22,7 +22,7 @@ class MotionSearcher {
     void attempt(const MotionCells& cells, const MotionSpans& spans, int right, int down,
                  MotionWays& ways);
 
-    std::vector<float> off_{};      ///< with a margin
+    MotionPlane off_{};             ///< with a margin
     std::vector<float> weights_{};  ///< of the parts around, for each part
     MotionLayers score_{}, best_{};
 };
