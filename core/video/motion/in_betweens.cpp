@@ -191,7 +191,7 @@ class Mover {
         for (std::size_t k = 0; k < 3; ++k) {
             const float value = a * byte_at(from_.colour->rgb, before, 3, k) +
                                 (1.0F - a) * byte_at(to_.colour->rgb, after, 3, k);
-            rgb[k] = static_cast<std::uint8_t>(value + 0.5F);
+            rgb[k] = static_cast<std::uint8_t>(std::lround(value));
         }
     }
 

@@ -17,14 +17,15 @@ constexpr int kBins = 32;
 template <typename Visit>
 void visit_pixels(const MotionPlane& plane, int i, int j, Visit visit) {
     for (int y = 0; y < kMotionCell_px; ++y) {
-        const float* row = plane.row(j * kMotionCell_px + y) + i * kMotionCell_px;
+        const float* row =
+            plane.values.data() + plane.index(i * kMotionCell_px, j * kMotionCell_px + y);
         for (int x = 0; x < kMotionCell_px; ++x) visit(row[x]);
     }
 }
 
 /// In the middle of the widest gap between the depths of a cell; below all where that is narrow.
 float gap_between(const MotionPlane& depth, int i, int j) {
-    float lowest = depth.row(j * kMotionCell_px)[i * kMotionCell_px];
+    float lowest = depth.values[depth.index(i * kMotionCell_px, j * kMotionCell_px)];
     float highest = lowest;
     visit_pixels(depth, i, j, [&](float value) {
         lowest = std::min(lowest, value);
@@ -80,14 +81,15 @@ struct Pair {
     const MotionCells& cells;
     Place at, beside;
     int right;
+    MotionSpan span;  ///< of the row
     std::size_t sums;
 };
 
 DIBHR_VECTOR_CLONES void add_alike(const Pair& pair, const MotionSums& from, MotionSums& to,
                                    float* __restrict alike) {
     const MotionCells& cells = pair.cells;
-    const int begin = std::max(-pair.right, 0);
-    const int end = cells.columns - std::max(pair.right, 0);
+    const int begin = std::max(-pair.right, pair.span.begin);
+    const int end = std::min(cells.columns - std::max(pair.right, 0), pair.span.end);
     const float* const lowest = cells.lowest.of[pair.at.part].row(pair.at.j);
     const float* const highest = cells.highest.of[pair.at.part].row(pair.at.j);
     const float* const low = cells.lowest.of[pair.beside.part].row(pair.beside.j) + pair.right;
@@ -115,20 +117,24 @@ void make_cells(const MotionPlane& depth, MotionCells& cells) {
         for (int i = 0; i < cells.columns; ++i) make_cell(depth, cells, i, j);
 }
 
-void gather_alike(const MotionCells& cells, int reach, MotionMeasure measure,
-                  const MotionSums& from, MotionSums& to) {
+void gather_alike(const MotionCells& cells, const MotionSpans& spans, int reach,
+                  MotionMeasure measure, const MotionSums& from, MotionSums& to) {
     const auto count = static_cast<std::size_t>(measure);
     to.resize(cells.columns, cells.rows);
     for (std::size_t k = 0; k < count; ++k) to.of[k].fill(0.0F);
     std::vector<float> alike(static_cast<std::size_t>(cells.columns));
-    for (int j = 0; j < cells.rows; ++j)
+    for (int j = 0; j < cells.rows; ++j) {
+        const MotionSpan span = spans[static_cast<std::size_t>(j)];
+        if (span.begin >= span.end) continue;
         for (int y = std::max(j - reach, 0); y <= std::min(j + reach, cells.rows - 1); ++y)
             for (std::size_t part = 0; part < 2; ++part)
                 for (std::size_t other = 0; other < 2; ++other) {
                     if (!cells.any_in_row(part, j) || !cells.any_in_row(other, y)) continue;
                     for (int x = -reach; x <= reach; ++x)
-                        add_alike({cells, {j, part}, {y, other}, x, count}, from, to, alike.data());
+                        add_alike({cells, {j, part}, {y, other}, x, span, count}, from, to,
+                                  alike.data());
                 }
+    }
 }
 
 }  // namespace dibhr

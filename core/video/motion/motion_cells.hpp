@@ -84,6 +84,12 @@ struct MotionCells {
     }
 };
 
+/// Of each row of cells the columns [begin, end) that are looked at.
+struct MotionSpan {
+    int begin{0}, end{0};
+};
+using MotionSpans = std::vector<MotionSpan>;
+
 /// By the depth of one frame [0, 255].
 void make_cells(const MotionPlane& depth, MotionCells& cells);
 
@@ -96,9 +102,9 @@ inline constexpr float kMotionAlike = 12.0F;
     return std::min(std::max(alike, 0.0F), 1.0F);
 }
 
-/// For each part the sums over all parts up to `reach` cells away, the more the more alike their
-/// depths are.
-void gather_alike(const MotionCells& cells, int reach, MotionMeasure measure,
-                  const MotionSums& from, MotionSums& to);
+/// For each part in the spans the sums over all parts up to `reach` cells away, the more the more
+/// alike their depths are.
+void gather_alike(const MotionCells& cells, const MotionSpans& spans, int reach,
+                  MotionMeasure measure, const MotionSums& from, MotionSums& to);
 
 }  // namespace dibhr

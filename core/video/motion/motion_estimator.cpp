@@ -90,11 +90,11 @@ void MotionEstimator::each_part(const Visit& visit) const {
     for (std::size_t part = 0; part < 2; ++part)
         for (int j = 0; j < cells_.rows; ++j)
             for (int i = 0; i < cells_.columns; ++i)
-                visit(Part{i, j, part}, static_cast<std::size_t>(j * cells_.columns + i));
+                visit(Part{i, j, part}, cells_.between.index(i, j));
 }
 
 MotionEstimator::Verdict& MotionEstimator::verdict(const Part& part) {
-    return verdicts_[part.part][static_cast<std::size_t>(part.j * cells_.columns + part.i)];
+    return verdicts_[part.part][cells_.between.index(part.i, part.j)];
 }
 
 MotionEstimator::Way MotionEstimator::way_of(const Part& part) const {
@@ -117,6 +117,17 @@ float MotionEstimator::gap(const Part& a, const Part& b) const {
     return std::max(lowest(a) - highest(b), lowest(b) - highest(a));
 }
 
+/// Around what is wanted in each row.
+void MotionEstimator::find_spans() {
+    spans_.assign(static_cast<std::size_t>(cells_.rows), {});
+    each_part([this](const Part& part, std::size_t k) {
+        if (!(wanted_.of[part.part].values[k] > 0.0F)) return;
+        MotionSpan& span = spans_[static_cast<std::size_t>(part.j)];
+        span.begin = span.end == 0 ? part.i : std::min(span.begin, part.i);
+        span.end = std::max(span.end, part.i + 1);
+    });
+}
+
 /// Parts in or around which anything is not as it was. False: there is none.
 bool MotionEstimator::find_changed() {
     each_part([this](const Part& part, std::size_t k) {
@@ -124,8 +135,9 @@ bool MotionEstimator::find_changed() {
     });
     ways_.fill(0.0F);
     sums_.fill(0.0F);
+    spans_.assign(static_cast<std::size_t>(cells_.rows), {0, cells_.columns});
     sum_differences(from_, to_, kSmall, cells_, wanted_, ways_, MotionMeasure::slopes, sums_);
-    gather_alike(cells_, kJudges, MotionMeasure::difference, sums_, gathered_);
+    gather_alike(cells_, spans_, kJudges, MotionMeasure::difference, sums_, gathered_);
     bool any = false;
     each_part([this, &any](const Part& part, std::size_t k) {
         const auto sum = [&](MotionSum which) { return gathered_[which].of[part.part].values[k]; };
@@ -137,14 +149,15 @@ bool MotionEstimator::find_changed() {
         if (!changed) wanted = 0.0F;
         any = any || wanted > 0.0F;
     });
-    if (any) gather_alike(cells_, 1, MotionMeasure::slopes, sums_, slopes_);
+    if (any) gather_alike(cells_, spans_, 1, MotionMeasure::slopes, sums_, slopes_);
+    find_spans();
     return any;
 }
 
 /// Of what noise alone has changed no way fits better than none.
 void MotionEstimator::leave_noise() {
     sum_differences(from_, to_, kSmall, cells_, wanted_, ways_, MotionMeasure::difference, sums_);
-    gather_alike(cells_, kJudges, MotionMeasure::difference, sums_, gathered_);
+    gather_alike(cells_, spans_, kJudges, MotionMeasure::difference, sums_, gathered_);
     each_part([this](const Part& part, std::size_t k) {
         const std::size_t of = part.part;
         if (!is_known(gathered_, of, k)) return;
@@ -154,6 +167,7 @@ void MotionEstimator::leave_noise() {
         go(part, {});
     });
     sums_.fill(0.0F);
+    find_spans();
 }
 
 void MotionEstimator::go_downhill(std::size_t size) {
@@ -162,7 +176,7 @@ void MotionEstimator::go_downhill(std::size_t size) {
                            static_cast<float>(kMotionCell_px * cells_.columns);
     sum_differences(from_, to_, size, cells_, wanted_, ways_, MotionMeasure::slopes, sums_);
     reckon_from_rest(ways_, scale, sums_);
-    gather_alike(cells_, size > 1 ? 2 : 1, MotionMeasure::slopes, sums_, gathered_);
+    gather_alike(cells_, spans_, 1, MotionMeasure::slopes, sums_, gathered_);
     for (std::size_t part = 0; part < 2; ++part)
         for (std::size_t k = 0; k < wanted_.of[part].values.size(); ++k) {
             if (!(wanted_.of[part].values[k] > 0.0F) || !is_known(gathered_, part, k)) continue;
@@ -193,7 +207,7 @@ void MotionEstimator::propose(int right, int down) {
 
 /// Takes what was tried where it fits better.
 void MotionEstimator::take_better(float share) {
-    gather_alike(cells_, 1, MotionMeasure::difference, sums_, gathered_);
+    gather_alike(cells_, spans_, 1, MotionMeasure::difference, sums_, gathered_);
     for (std::size_t part = 0; part < 2; ++part)
         for (std::size_t k = 0; k < wanted_.of[part].values.size(); ++k) {
             if (!is_known(gathered_, part, k)) continue;
@@ -248,13 +262,13 @@ void MotionEstimator::choose(std::size_t size) {
 void MotionEstimator::judge() {
     tried_.fill(0.0F);
     sum_differences(from_, to_, 0, cells_, wanted_, tried_, MotionMeasure::difference, sums_);
-    gather_alike(cells_, kJudges, MotionMeasure::difference, sums_, gathered_);
+    gather_alike(cells_, spans_, kJudges, MotionMeasure::difference, sums_, gathered_);
     each_part([this](const Part& part, std::size_t k) {
         still_.of[part.part].values[k] =
             is_known(gathered_, part.part, k) ? mean_square(gathered_, part.part, k) : 0.0F;
     });
     sum_differences(from_, to_, 0, cells_, wanted_, ways_, MotionMeasure::difference, sums_);
-    gather_alike(cells_, kJudges, MotionMeasure::difference, sums_, gathered_);
+    gather_alike(cells_, spans_, kJudges, MotionMeasure::difference, sums_, gathered_);
     for (auto& verdicts : verdicts_) verdicts.assign(cells_.between.values.size(), Verdict::stays);
     each_part([this](const Part& part, std::size_t k) {
         if (!(wanted_.of[part.part].values[k] > 0.0F) || !is_known(gathered_, part.part, k)) return;
@@ -272,7 +286,7 @@ void MotionEstimator::judge() {
 
 /// Whether a part shows nothing that would tell if it went this way.
 bool MotionEstimator::is_plain(const Part& part, Way way) const {
-    const std::size_t k = static_cast<std::size_t>(part.j * cells_.columns + part.i);
+    const std::size_t k = cells_.between.index(part.i, part.j);
     if (!is_known(slopes_, part.part, k)) return true;
     const auto mean = [&, n = slopes_[MotionSum::n].of[part.part].values[k]](MotionSum sum) {
         return slopes_[sum].of[part.part].values[k] / n;
@@ -345,7 +359,7 @@ std::shared_ptr<const MotionField> MotionEstimator::between(const Frame& from, c
     sums_.fill(0.0F);
     const int reach =
         std::max(1, static_cast<int>(kFarthestMotion * static_cast<double>(cells_.columns)));
-    searcher_.search(from_, to_, cells_, reach, ways_);
+    searcher_.search(from_, to_, cells_, spans_, reach, ways_);
     each_part([this](const Part& part, std::size_t k) {
         if (!(wanted_.of[part.part].values[k] > 0.0F)) go(part, {});
     });

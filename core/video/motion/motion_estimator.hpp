@@ -40,6 +40,7 @@ class MotionEstimator {
     };
 
     [[nodiscard]] bool find_changed();
+    void find_spans();
     void go_downhill(std::size_t size);
     void choose(std::size_t size);
     void propose(int right, int down);
@@ -67,7 +68,8 @@ class MotionEstimator {
     std::shared_ptr<const ColourImage> last_colour_{};
     bool by_depth_{false};
     MotionCells cells_{};
-    MotionLayers wanted_{};   ///< 1: the part is looked at
+    MotionLayers wanted_{};  ///< 1: the part is looked at
+    MotionSpans spans_{};
     MotionLayers differs_{};  ///< 1: what is tried is another way
     MotionWays ways_{}, tried_{}, chosen_{};
     MotionLayers best_{};   ///< how far off what was tried is

@@ -39,7 +39,7 @@ void thin_out(const DepthImage& depth, int step, MotionPlane& thin) {
     for (int j = 0; j < rows; ++j) {
         const float* from = depth.levels.data() + depth.index(0, std::min(j * step, depth.rows));
         float* to = thin.row(j);
-        for (int i = 0; i < columns; ++i) to[i] = scale * from[i * step];
+        for (int i = 0; i < columns; ++i, from += step) to[i] = scale * *from;
     }
     continue_edges(thin, columns, rows);
 }
@@ -126,7 +126,8 @@ DIBHR_VECTOR_CLONES void halve(const MotionPlane& from, MotionPlane& to) {
         const float* upper = from.row(2 * j);
         const float* lower = from.row(2 * j + 1);
         float* row = to.row(j);
-        for (int i = 0; i < to.columns; ++i)
+        const auto count = static_cast<std::ptrdiff_t>(to.columns);
+        for (std::ptrdiff_t i = 0; i < count; ++i)
             row[i] =
                 0.25F * ((upper[2 * i] + upper[2 * i + 1]) + (lower[2 * i] + lower[2 * i + 1]));
     }
@@ -138,7 +139,8 @@ DIBHR_VECTOR_CLONES void halve_to_nearest(const MotionPlane& from, MotionPlane& 
         const float* upper = from.row(2 * j);
         const float* lower = from.row(2 * j + 1);
         float* row = to.row(j);
-        for (int i = 0; i < to.columns; ++i)
+        const auto count = static_cast<std::ptrdiff_t>(to.columns);
+        for (std::ptrdiff_t i = 0; i < count; ++i)
             row[i] = std::max(std::max(upper[2 * i], upper[2 * i + 1]),
                               std::max(lower[2 * i], lower[2 * i + 1]));
     }

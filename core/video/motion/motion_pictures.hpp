@@ -20,13 +20,12 @@ struct MotionPlane {
         rows = high;
         values.resize(static_cast<std::size_t>(wide) * static_cast<std::size_t>(high));
     }
-    [[nodiscard]] float* row(int j) { return values.data() + offset(j); }
-    [[nodiscard]] const float* row(int j) const { return values.data() + offset(j); }
-
-  private:
-    [[nodiscard]] std::size_t offset(int j) const {
-        return static_cast<std::size_t>(j) * static_cast<std::size_t>(columns);
+    [[nodiscard]] std::size_t index(int i, int j) const {
+        return static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) +
+               static_cast<std::size_t>(i);
     }
+    [[nodiscard]] float* row(int j) { return values.data() + index(0, j); }
+    [[nodiscard]] const float* row(int j) const { return values.data() + index(0, j); }
 };
 
 /// Halvings of a picture: the last one has one pixel a cell.

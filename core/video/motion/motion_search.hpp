@@ -11,16 +11,18 @@ namespace dibhr {
 /// Tries every way in the smallest pictures, by grey and depth. Keeps scratch memory.
 class MotionSearcher {
   public:
-    /// Whole cells to each side, at most `reach`; to stay where nothing is much better.
+    /// Of the parts in the spans, whole cells to each side, at most `reach`; to stay where nothing
+    /// is much better.
     void search(const MotionPictures& from, const MotionPictures& to, const MotionCells& cells,
-                int reach, MotionWays& ways);
+                const MotionSpans& spans, int reach, MotionWays& ways);
 
   private:
-    void weigh(const MotionCells& cells);
+    void weigh(const MotionCells& cells, const MotionSpans& spans);
     void compare(const MotionPictures& from, const MotionPictures& to, int right, int down);
-    void attempt(const MotionCells& cells, int right, int down, MotionWays& ways);
+    void attempt(const MotionCells& cells, const MotionSpans& spans, int right, int down,
+                 MotionWays& ways);
 
-    std::vector<float> off_{};      ///< with a margin
+    MotionPlane off_{};             ///< with a margin
     std::vector<float> weights_{};  ///< of the parts around, for each part
     MotionLayers score_{}, best_{};
 };

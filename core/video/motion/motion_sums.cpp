@@ -44,14 +44,13 @@ struct Line {
     float lost[kMotionCell_px];
 };
 
-// Else only the callers would be compiled for wider vectors.
-#define DIBHR_INTO_CLONES inline __attribute__((always_inline))
-
 using Lanes = float[kMotionSums][kMotionCell_px];
+
+// What is not part of its caller is not compiled for wider vectors.
 
 /// `kWide`: a whole row; 0: what the block says.
 template <int kWide>
-DIBHR_INTO_CLONES void read_grey(const Block& block, int j, Line& line) {
+[[gnu::always_inline]] inline void read_grey(const Block& block, int j, Line& line) {
     const int columns = kWide > 0 ? kWide : block.columns;
     const std::ptrdiff_t at = j * block.stride;
     const float* const grey = block.grey + at;
@@ -76,7 +75,8 @@ DIBHR_INTO_CLONES void read_grey(const Block& block, int j, Line& line) {
 }
 
 template <int kWide>
-DIBHR_INTO_CLONES void read_slopes(const Block& block, const float* first, int j, Line& line) {
+[[gnu::always_inline]] inline void read_slopes(const Block& block, const float* first, int j,
+                                               Line& line) {
     const int columns = kWide > 0 ? kWide : block.columns;
     const float* const at = first + j * block.stride;
     const float* const above = at + (j == 0 ? block.above : -block.stride);
@@ -94,7 +94,7 @@ DIBHR_INTO_CLONES void read_slopes(const Block& block, const float* first, int j
 }
 
 template <int kWide>
-DIBHR_INTO_CLONES void add_grey(const Block& block, const Line& line, Lanes& lanes) {
+[[gnu::always_inline]] inline void add_grey(const Block& block, const Line& line, Lanes& lanes) {
     const int columns = kWide > 0 ? kWide : block.columns;
     const auto lane = [&lanes](MotionSum sum) { return lanes[static_cast<std::size_t>(sum)]; };
     for (int i = 0; i < columns; ++i) {
@@ -112,7 +112,8 @@ DIBHR_INTO_CLONES void add_grey(const Block& block, const Line& line, Lanes& lan
 }
 
 template <int kWide>
-DIBHR_INTO_CLONES void add_products(const Block& block, const Line& line, Lanes& lanes) {
+[[gnu::always_inline]] inline void add_products(const Block& block, const Line& line,
+                                                Lanes& lanes) {
     const int columns = kWide > 0 ? kWide : block.columns;
     const auto lane = [&lanes](MotionSum sum) { return lanes[static_cast<std::size_t>(sum)]; };
     for (int i = 0; i < columns; ++i) {
@@ -127,7 +128,7 @@ DIBHR_INTO_CLONES void add_products(const Block& block, const Line& line, Lanes&
 }
 
 /// The outline between the near part and the far one, as a picture of one contrast.
-DIBHR_INTO_CLONES void add_outline(const Block& block, int j, Lanes& lanes) {
+[[gnu::always_inline]] inline void add_outline(const Block& block, int j, Lanes& lanes) {
     const std::ptrdiff_t at = j * block.stride;
     const float* const level = block.level + at;
     const float* const moved = block.moved_level + at;
@@ -153,7 +154,7 @@ DIBHR_INTO_CLONES void add_outline(const Block& block, int j, Lanes& lanes) {
 }
 
 template <int kWide>
-DIBHR_INTO_CLONES void sum_rows(const Block& block, Lanes& lanes) {
+[[gnu::always_inline]] inline void sum_rows(const Block& block, Lanes& lanes) {
     Line line{};
     for (int j = 0; j < block.rows; ++j) {
         read_grey<kWide>(block, j, line);
@@ -212,7 +213,8 @@ void sum_part(const MotionPictures& from, const MotionPictures& to, std::size_t 
     const float u = right - static_cast<float>(whole_right);
     const float v = down - static_cast<float>(whole_down);
     const std::ptrdiff_t first = grey.row(y.begin) + x.begin - grey.values.data();
-    const std::ptrdiff_t moved = first + whole_down * grey.columns + whole_right;
+    const std::ptrdiff_t moved =
+        first + static_cast<std::ptrdiff_t>(whole_down) * grey.columns + whole_right;
     const std::ptrdiff_t nearest = (v < 0.5F ? 0 : grey.columns) + (u < 0.5F ? 0 : 1);
     Block block{};
     block.grey = grey.values.data() + first;
@@ -251,7 +253,7 @@ void sum_differences(const MotionPictures& from, const MotionPictures& to, std::
             for (int i = 0; i < cells.columns; ++i) {
                 if (!(wanted.of[layer].row(j)[i] > 0.0F)) continue;
                 sum_part(from, to, size, cells, ways, {i, j, layer}, slopes, of_part.data());
-                const std::size_t at = static_cast<std::size_t>(j * cells.columns + i);
+                const std::size_t at = cells.between.index(i, j);
                 for (std::size_t k = 0; k < count; ++k)
                     sums.of[k].of[layer].values[at] = of_part[k];
             }

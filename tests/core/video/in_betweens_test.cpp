@@ -1,12 +1,19 @@
 // What is felt and seen between two frames, against scenes that are known at every time.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
+#include "core/video/depth_in_time.hpp"
+#include "core/video/frame_reader.hpp"
 #include "core/video/motion/frame_motion.hpp"
 #include "core/video/motion/in_betweens.hpp"
+#include "core/video/playback.hpp"
 #include "tests/core/video/moving_scene.hpp"
 #include "tests/support/catch.hpp"
 
@@ -30,6 +37,43 @@ struct Pair {
     }
     [[nodiscard]] DepthBlend at(double blend) const { return {&from, &to, blend}; }
 };
+
+/// A film that lies in memory.
+class Film : public Media {
+  public:
+    explicit Film(std::vector<Frame> frames) : frames_(std::move(frames)) {
+        description_.colour_path = description_.depth_path = "film";
+        description_.depth_columns = description_.colour_columns = frames_[0].depth->columns;
+        description_.depth_rows = description_.colour_rows = frames_[0].depth->rows;
+        description_.frames_per_s = 30.0;
+        description_.frames = static_cast<std::int64_t>(frames_.size());
+    }
+    [[nodiscard]] const MediaDescription& description() const override { return description_; }
+    std::optional<RawFrame> next() override {
+        if (at_ >= frames_.size()) return std::nullopt;
+        RawFrame raw;
+        raw.depth = *frames_[at_].depth;
+        raw.colour = *frames_[at_].colour;
+        raw.colour_of_view = true;
+        raw.media_s = frames_[at_].media_s;
+        raw.index = static_cast<std::int64_t>(at_++);
+        return raw;
+    }
+    void seek(double media_s) override {
+        at_ = 0;
+        while (at_ + 1 < frames_.size() && frames_[at_ + 1].media_s <= media_s + 1e-6) ++at_;
+    }
+
+  private:
+    std::vector<Frame> frames_;
+    MediaDescription description_{};
+    std::size_t at_{0};
+};
+
+std::unique_ptr<Media> waving_hand() {
+    const MovingScene scene({Shape::hand, Goes::along, 200.0, 320, 240});
+    return std::make_unique<Film>(test::film(scene, 5, 30.0, 1.0, false));
+}
 
 /// Mean absolute errors where another thing is within what moved in this time.
 struct OutlineError {
@@ -163,4 +207,66 @@ TEST_CASE("a fingertip is felt over what is on its way", "[in-betweens]") {
     REQUIRE(frame.beneath);
     for (std::size_t k = 0; k < frame.depth->levels.size(); ++k)
         REQUIRE(frame.depth->levels[k] >= frame.beneath->levels[k] - 1e-3F);
+}
+
+TEST_CASE("frames of a video are connected to those that follow them", "[in-betweens]") {
+    FrameReader reader(waving_hand());
+    auto first = reader.at(0.0);
+    REQUIRE(first);
+    auto second = reader.after(first->media_s);
+    REQUIRE(second);
+    SECTION("with all between them, where there is colour") {
+        reader.connect(*first, *second);
+        CHECK(first->motion);
+        CHECK(first->between);
+    }
+    SECTION("not with those before them, as at the seam of a loop") {
+        reader.connect(*second, *first);
+        CHECK(second->motion == nullptr);
+        CHECK(second->between == nullptr);
+    }
+    SECTION("only if that is asked for") {
+        reader.set_cleaning({.preset = CleaningPreset::gentle});
+        first = reader.at(0.0);
+        second = reader.after(first->media_s);
+        reader.connect(*first, *second);
+        CHECK(first->motion == nullptr);
+        reader.set_motion(true);
+        reader.connect(*first, *second);
+        CHECK(first->motion);
+        CHECK(first->between == nullptr);
+    }
+    SECTION("anew to the same bits, as a replay does") {
+        reader.connect(*first, *second);
+        Frame again = *first;
+        FrameMotion().connect(again, *second, kInBetweens);
+        REQUIRE(again.between->size() == first->between->size());
+        for (std::size_t k = 0; k < again.between->size(); ++k) {
+            CHECK((*again.between)[k].depth->levels == (*first->between)[k].depth->levels);
+            CHECK((*again.between)[k].colour->rgb == (*first->between)[k].colour->rgb);
+        }
+    }
+}
+
+TEST_CASE("what plays is felt and seen on its way", "[in-betweens]") {
+    const auto now = Playback::Time{} + std::chrono::seconds(1);
+    Playback playback;
+    playback.open(std::make_unique<FrameReader>(waving_hand()), now);
+    while (playback.needs_frame())
+        if (playback.read_ahead(now)) playback.arrived(now);
+    const FrameWindow window = playback.window();
+    REQUIRE(window.count == FrameWindow::kFrames);
+    for (std::size_t k = 0; k + 1 < window.count; ++k) CHECK(window.frames[k].between);
+    CHECK(window.frames[window.count - 1].between == nullptr);
+    const double half_s = 0.5 * (window.frames[0].time_s + window.frames[1].time_s);
+    const DepthBlend shown = window.at(half_s).shown();
+    CHECK(shown.from != &window.frames[0]);
+    CHECK(window.at(half_s).coloured().colour != window.frames[0].colour);
+}
+
+TEST_CASE("runs without a clock have them, too", "[in-betweens]") {
+    DepthInTime depth(waving_hand(), true, {});
+    depth.advance_to(0.05);
+    CHECK(depth.now().from->between);
+    CHECK(depth.now().shown().from != depth.now().from);
 }
