@@ -101,6 +101,7 @@ SessionFramesOptions frames_options(const Session& session, const ReplayOptions&
     touch.given.apply(parameters);
     const CleaningOptions asked = touch.cleaning(parameters);
     SessionFramesOptions frames{.any_media = options.any_media,
+                                .motion = touch.given.carry.value_or(false),
                                 .bump = touch.given.bump_file(),
                                 .bump_size_px = parameters.shape.bump_size_px,
                                 .maps = touch.feels_maps()};

@@ -69,7 +69,10 @@ class TouchRun {
                           " is to be cut along the colour's edges, which touch does not look at: "
                           "its silhouettes are those of the depth alone");
         std::shared_ptr<const TouchMaps> maps = options.touch.read_maps(media->description());
-        return {std::move(media), options.video, cleaning, std::move(maps)};
+        using Wanted = DepthInTime::Wanted;
+        const Wanted moving = parameters.carry ? Wanted::all_with_motion : Wanted::all;
+        return {std::move(media), options.video ? moving : Wanted::first, cleaning,
+                std::move(maps)};
     }
 
     OutputRow update(const TimedGoal& goal) {

@@ -592,6 +592,8 @@ void Viewer::hand_over_settings() {
                       handed_.force_enabled == force_enabled && handed_.bump == state_.bump;
     const bool recording = recording_.active();
     const bool followed = state_.settings.others;
+    if (handed_.version == 0 || handed_.parameters.carry != parameters.carry)
+        player_.set_motion(parameters.carry);
     if (!same || handed_.recording != recording || handed_.followed != followed) {
         handed_ = {parameters,
                    limits,

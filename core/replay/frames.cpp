@@ -138,7 +138,8 @@ void SessionFrames::find_videos(const Session& session) {
         Video& video = videos_[source.source.media];
         const bool edges =
             source.source.sharpen_silhouettes && source.source.colour_edges && !options_.cleaning;
-        const bool by_colour = edges || source.source.motion || source.source.in_betweens;
+        const bool moves = source.source.motion || source.source.in_betweens || options_.motion;
+        const bool by_colour = edges || moves;
         video.in_colour = video.in_colour || options_.colour || by_colour;
         if (video.in_colour && video.colour.empty() && !source.colour.file.empty())
             video.colour = finder_.find(source.colour, "colour video");

@@ -49,6 +49,7 @@ class SessionMediaFinder {
 struct SessionFramesOptions {
     bool any_media{false};  ///< files that have changed are taken too
     bool colour{false};     ///< for a window: with the colour, and no frame too many
+    bool motion{false};     ///< how they move is wanted, also where nobody looked for it
     // Instead of what was recorded; nothing: as it was.
     std::optional<CleaningPreset> cleaning{};  ///< raw: without the recorded fingertip, too
     std::optional<Fingertip> finger{};

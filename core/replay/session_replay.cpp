@@ -90,7 +90,9 @@ void SessionReplay::take_frames() {
                          std::to_string(session_.count_of(tick_.tick)) +
                          " make no surface; give back the video that was recorded");
     }
-    motion_.connect(from, to, {wanted.source.motion, wanted.source.in_betweens});
+    const bool carries = std::any_of(runs_.begin(), runs_.end(),
+                                     [](const Run& run) { return run.parameters.carry; });
+    motion_.connect(from, to, {wanted.source.motion || carries, wanted.source.in_betweens});
     touched_ = std::make_shared<const TouchedFrames>(TouchedFrames{std::move(from), std::move(to)});
     pair_ = wanted;
 }

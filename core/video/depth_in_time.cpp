@@ -17,10 +17,11 @@ constexpr double kShortestLap_s = 1e-4;  ///< a shorter one is taken for a file 
 
 }  // namespace
 
-DepthInTime::DepthInTime(std::unique_ptr<Media> media, bool moving, const CleaningOptions& cleaning,
-                         std::shared_ptr<const TouchMaps> maps)
+DepthInTime::DepthInTime(std::unique_ptr<Media> media, Wanted wanted,
+                         const CleaningOptions& cleaning, std::shared_ptr<const TouchMaps> maps)
     : reader_(std::move(media)) {
     reader_.set_maps(std::move(maps));
+    reader_.set_motion(wanted == Wanted::all_with_motion);
     const std::string name = reader_.description().depth_path.string();
     reader_.set_cleaning(cleaning);
     std::optional<Frame> first = reader_.at(0.0);
@@ -35,7 +36,8 @@ DepthInTime::DepthInTime(std::unique_ptr<Media> media, bool moving, const Cleani
     }
     first_media_s_ = first->media_s;
     add(std::move(first));
-    if (moving && !reader_.description().still) add(reader_.after(first_media_s_));
+    if (wanted != Wanted::first && !reader_.description().still)
+        add(reader_.after(first_media_s_));
 }
 
 bool DepthInTime::advance_to(double playback_s) {

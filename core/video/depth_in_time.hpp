@@ -19,13 +19,14 @@ namespace dibhr {
 /// its last frame lasting as long as the one before it.
 class DepthInTime {
   public:
-    /// Reads the first frame and what it is cleaned with; not `moving`: that is all. `maps` lie on
-    /// every frame; null: none. Throws InputError when there is none or it is smaller than 2 x 2.
-    DepthInTime(std::unique_ptr<Media> media, bool moving, const CleaningOptions& cleaning,
-                std::shared_ptr<const TouchMaps> maps = nullptr);
+    /// How much is wanted: the first frame and what it is cleaned with, all of them, or also how
+    /// each moves where no in-betweens tell.
+    enum class Wanted { first, all, all_with_motion };
 
-    /// Whether motion is wanted where no in-betweens are; of frames read from now on.
-    void set_motion(bool wanted) { reader_.set_motion(wanted); }
+    /// Reads the first frame. `maps` lie on every frame; null: none. Throws InputError when there
+    /// is none or it is smaller than 2 x 2.
+    DepthInTime(std::unique_ptr<Media> media, Wanted wanted, const CleaningOptions& cleaning,
+                std::shared_ptr<const TouchMaps> maps = nullptr);
 
     /// Goes on to `playback_s`, which must not fall from call to call. True when the video started
     /// again on the way. Throws InputError when the file breaks off.

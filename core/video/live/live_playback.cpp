@@ -190,7 +190,8 @@ void LivePlayback::make_plan() {
                                static_cast<std::size_t>(description().depth_rows);
     plan_ = plan_of(options_, noise_.value_or(DepthNoise{}), pixels);
     plan_.steps.steady = false;        // needs frames that are still to come
-    plan_.steps.colour_edges = false;  // a recording's colour is not kept bit by bit
+    // A recording's colour is not kept bit by bit.
+    plan_.steps.colour_edges = plan_.steps.in_betweens = false;
 }
 
 Frame LivePlayback::cleaned_frame(const RawFrame& raw) {

@@ -83,7 +83,8 @@ std::size_t compare(const TemporaryFolder& folder, const std::filesystem::path& 
     auto media = open_depth(depth, request.depth_request());
     const MediaDescription description = media->description();
     request.given.fit(description, request.raw_depth, parameters);
-    const DepthInTime first(std::move(media), false, request.cleaning(parameters, description));
+    const DepthInTime first(std::move(media), DepthInTime::Wanted::first,
+                            request.cleaning(parameters, description));
     const DepthSurface surface = first.now().surface(parameters.shape);
 
     const std::vector<Vec3> goals = goals_over(surface);

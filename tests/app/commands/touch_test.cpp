@@ -336,6 +336,42 @@ TEST_CASE("carry is off unless it is asked for, and a picture that stands still 
               .exit_code != 0);
 }
 
+TEST_CASE("with carry a finger that sticks is dragged along by what moves, and feels it",
+          "[touch]") {
+    const TemporaryFolder folder;
+    // A texture that goes to the right by 2 px a frame, on a plane that stays where it is.
+    run_shell(folder,
+              "ffmpeg -nostdin -v error -f lavfi -i 'color=gray:s=800x300:d=0.04,noise=alls=90,"
+              "gblur=sigma=1.5' -frames:v 1 texture.png && "
+              "ffmpeg -nostdin -v error -loop 1 -framerate 30 -t 1 -i texture.png "
+              "-vf 'crop=320:240:200-2*n:30' -c:v ffv1 color.mkv && "
+              "ffmpeg -nostdin -v error -f lavfi -i color=0x808080:s=320x240:r=30:d=1,format=gray "
+              "-c:v ffv1 depth.mkv");
+    constexpr int kTicks = 500;
+    std::vector<Vec3> goals(kTicks, Vec3{160, 120, 78});  // 50 px deep
+    goals.front().z = 140.0;
+    write_text(folder / "goals.csv", goals_csv(goals));
+    const auto last = [&](const std::string& carry) {
+        const ProgramResult result = run_dibhr(
+            folder, {"touch", "--raw-depth", "--depth", "depth.mkv", "--color", "color.mkv",
+                     "--video", "--goals", "goals.csv", "--friction", "1", "--carry", carry});
+        INFO(result.errors);
+        REQUIRE(result.exit_code == 0);
+        return rows_of(result.output).back();
+    };
+    const double speed_px_per_s = 60.0;
+    const double way_px = speed_px_per_s * 0.001 * (kTicks - 2);
+    const Row carried = last("on");
+    CHECK_THAT(carried.number("px") - 160.0, WithinAbs(way_px, 2.0));
+    CHECK_THAT(carried.number("py") - 120.0, WithinAbs(0.0, 1.0));
+    // The spring of 0.5 N/mm as long as what took the finger along.
+    const double drag_newton = 0.5 * way_px * 101.6 / 720.0;
+    CHECK_THAT(carried.number("fx"), WithinAbs(drag_newton, 0.1 * drag_newton));
+    const Row stays = last("off");
+    CHECK(stays.number("px") == 160.0);
+    CHECK(stays.number("fx") == 0.0);
+}
+
 TEST_CASE("a finished output file replaces the old one and leaves nothing beside it", "[touch]") {
     const TemporaryFolder folder;
     write_depth_png(folder / "depth.png", 16, 12, 100);
