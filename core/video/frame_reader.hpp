@@ -89,7 +89,7 @@ class FrameReader {
     [[nodiscard]] const CleaningPlan& plan() const { return plan_; }
 
   private:
-    static constexpr int kFirstRest = 150;  ///< frames
+    static constexpr int kFirstRest = 30;  ///< frames
     /// Of a kept frame: to give it out, or to clean others with it.
     enum class Needs { surface, depth };
     /// A decoded frame and its neighbours, as far as they were read one after the other. Cleaned by
