@@ -265,7 +265,7 @@ TEST_CASE("what plays is felt and seen on its way", "[in-betweens]") {
 }
 
 TEST_CASE("runs without a clock have them, too", "[in-betweens]") {
-    DepthInTime depth(waving_hand(), true, {});
+    DepthInTime depth(waving_hand(), DepthInTime::Wanted::all, {});
     depth.advance_to(0.05);
     CHECK(depth.now().from->between);
     CHECK(depth.now().shown().from != depth.now().from);
