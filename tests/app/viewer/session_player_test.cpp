@@ -356,7 +356,8 @@ TEST_CASE("participant, note and marks are kept as they were typed, before and w
     const std::string note = "O'Brien; \"x\" -- %s \\ \u00e9\u20ac\u4e16 \xF0\x9F\x96\x90";
     const auto ticks = std::make_unique<TickRing>();
     LastWords words;
-    ViewerRecording recording(*ticks, words);
+    Player player;
+    ViewerRecording recording(*ticks, words, player);
     const auto state = std::make_unique<ViewerState>();
     const auto type = [](TextFields::Field& field, const std::string& text) {
         std::strncpy(field.data(), text.c_str(), field.size() - 1);
