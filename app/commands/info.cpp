@@ -5,6 +5,7 @@
 #include <iomanip>
 #include <iostream>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -75,9 +76,13 @@ void describe_session(const fs::path& file) {
     print_fact("kind", "dibhr session");
     const HandTicks hand = hand_ticks(session.reader());
     SessionFacts facts = facts_of_hand(session.facts(), hand);
+    std::set<fs::path> told;
+    const auto tell = [&told](const char* what, const SessionMedia& media) {
+        if (told.insert(media.file).second) print_media(what, media);
+    };
     for (const SessionSource& source : session.sources()) {
-        print_media("colour", source.colour);
-        print_media("depth", source.depth);
+        tell("colour", source.colour);
+        tell("depth", source.depth);
     }
     if (!session.sources().empty()) std::erase_if(facts, is_file);
     print_and_drop({"colour", "depth", "started", "participant", "note"}, facts);

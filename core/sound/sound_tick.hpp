@@ -7,6 +7,8 @@
 namespace dibhr {
 
 inline constexpr double kSoundTicks_hz = 1000.0;
+/// When ticks stay away for longer nothing is touched any more.
+inline constexpr double kSoundPatience_s = 0.02;
 
 /// One millisecond of touch.
 struct SoundTick {

@@ -8,7 +8,6 @@ namespace dibhr {
 
 namespace {
 
-constexpr double kPatience_s = 0.02;
 constexpr double kKnock_ticks = 25.0;      // a motor needs some time to be felt at all
 constexpr double kSlowForce_ticks = 30.0;  // a hand presses more slowly
 constexpr double kRubbed_ticks = 15.0;
@@ -57,7 +56,7 @@ void TouchRumble::feel(const HeardTick& tick) noexcept {
 
 Rumble TouchRumble::after(double span_s) noexcept {
     unheard_s_ += span_s;
-    if (unheard_s_ > kPatience_s) be_quiet();
+    if (unheard_s_ > kSoundPatience_s) be_quiet();
     const double rubbing = rubbed_ + kScrapingHeard * hiss_ * scraping_;
     return {.low = strength(kKnockFelt * knock_ + kJoltFelt_per_newton * jolt_newton_),
             .high = strength(kRubbingFelt * loudness_ * rubbing)};

@@ -21,7 +21,6 @@ constexpr double kPaceGain = 0.002;  // of a tick behind: nobody hears the pitch
 constexpr double kMostPace = 0.02;
 constexpr double kGate_s = 0.004;
 constexpr double kVolumeFade_s = 0.02;
-constexpr double kPatience_s = 0.02;
 
 // Of a free bar (Euler and Bernoulli's), over the lowest; the shares are chosen.
 constexpr std::array kRatios{1.0, 2.756, 5.404, 8.933};
@@ -71,7 +70,7 @@ void TouchSound::add(const SoundTick& tick) noexcept {
 
 void TouchSound::render(std::span<float> samples) noexcept {
     const double block_s = static_cast<double>(samples.size()) / rate_hz_;
-    patience_s_ = kPatience_s + 2.0 * block_s;
+    patience_s_ = kSoundPatience_s + 2.0 * block_s;
     settle(block_s * kSoundTicks_hz);
     for (float& sample : samples) sample = static_cast<float>(next_sample());
 }

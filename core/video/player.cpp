@@ -292,7 +292,8 @@ void Player::seek(double media_s) {
     implementation_->ask({[player = implementation_.get(), media_s](Playback& playback, Time now) {
                               if (!player->live.is_open()) playback.seek(media_s, now);
                           },
-                          Kind::seek});
+                          Kind::seek},
+                         {.media_s = media_s});
 }
 
 void Player::step(int frames) {

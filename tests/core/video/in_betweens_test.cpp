@@ -109,10 +109,12 @@ OutlineError outline_error(const DepthBlend& shown, const MovingScene& scene, do
 }  // namespace
 
 TEST_CASE("half way outlines and colours are far nearer the truth than faded", "[in-betweens]") {
-    const Shape shape = GENERATE(Shape::sphere, Shape::hand);
-    const Goes goes = GENERATE(Goes::along, Goes::round, Goes::apart);
+    // The outline of a sphere that turns does not move.
+    const auto [shape, goes] =
+        GENERATE(std::pair{Shape::sphere, Goes::along}, std::pair{Shape::sphere, Goes::apart},
+                 std::pair{Shape::hand, Goes::along}, std::pair{Shape::hand, Goes::round},
+                 std::pair{Shape::hand, Goes::apart});
     const double speed = shape == Shape::hand ? 200.0 : 300.0;
-    if (shape == Shape::sphere && goes == Goes::round) return;  // its outline does not move
     CAPTURE(static_cast<int>(shape), static_cast<int>(goes));
     const MovingScene scene({shape, goes, speed, 320, 240});
     const Pair moved(scene, 30.0);
