@@ -16,6 +16,7 @@
 #include "core/session/session.hpp"
 #include "core/video/frame_reader.hpp"
 #include "core/video/media.hpp"
+#include "core/video/motion/frame_motion.hpp"
 
 namespace dibhr {
 
@@ -67,6 +68,9 @@ class SessionFrames final : public RecordedFrames {
     SessionFrames(const Session& session, const SessionFramesOptions& options);
 
     [[nodiscard]] Frame frame(const FrameSource& source, double media_s) override;
+    void connect(Frame& from, const Frame& to, const MotionWanted& wanted) override {
+        motion_.connect(from, to, wanted);
+    }
     [[nodiscard]] std::shared_ptr<const BumpMap> bump(const SessionParameters& parameters) override;
 
     /// Of the video that was touched first.
@@ -109,6 +113,7 @@ class SessionFrames final : public RecordedFrames {
     std::shared_ptr<const TouchMaps> decoded_maps_{};          // the last that were asked for
     MediaDescription description_{};
     std::deque<Kept> kept_{};  // the oldest first
+    FrameMotion motion_{};
 };
 
 }  // namespace dibhr

@@ -92,7 +92,7 @@ void SessionReplay::take_frames() {
     }
     const bool carries = std::any_of(runs_.begin(), runs_.end(),
                                      [](const Run& run) { return run.parameters.carry; });
-    motion_.connect(from, to, {wanted.source.motion || carries, wanted.source.in_betweens});
+    frames_.connect(from, to, {wanted.source.motion || carries, wanted.source.in_betweens});
     touched_ = std::make_shared<const TouchedFrames>(TouchedFrames{std::move(from), std::move(to)});
     pair_ = wanted;
 }

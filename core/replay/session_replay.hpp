@@ -28,6 +28,9 @@ class RecordedFrames {
     virtual ~RecordedFrames() = default;
     /// The frame at exactly this presentation time, cleaned. Throws InputError when there is none.
     [[nodiscard]] virtual Frame frame(const FrameSource& source, double media_s) = 0;
+    /// Tells `from` how it becomes `to`, the next one, as it was told when they were touched;
+    /// frames that know it are left as they are.
+    virtual void connect(Frame& /*from*/, const Frame& /*to*/, const MotionWanted& /*wanted*/) {}
     /// Null: none was laid over the surface.
     [[nodiscard]] virtual std::shared_ptr<const BumpMap> bump(
         const SessionParameters& parameters) = 0;
@@ -92,7 +95,6 @@ class SessionReplay {
     std::shared_ptr<const TouchedFrames> touched_{};  ///< of the pair
     MotionTrack track_{};
     SurfaceMotion moved_{};  ///< in the tick
-    FrameMotion motion_{};
 };
 
 /// Whether an update gave what was recorded, bit by bit.

@@ -72,10 +72,10 @@ class Sessions(FolderTest):
         self.assertEqual(
             set(self.session.ticks()["settings"]), {first["version"], second["version"]}
         )
-        for source in self.session.sources:  # with and without motion
+        self.assertGreater(len(self.session.sources), 0)
+        for source in self.session.sources:  # with and without motion and in-betweens
             self.assertTrue(source["depth"].endswith("film_depth.mkv"))
             self.assertTrue(source["fill_holes"])
-        self.assertIn(len(self.session.sources), (1, 2))
         (mark,) = self.session.marks
         self.assertEqual((mark["tag"], mark["text"]), ("nose", "très doux"))
         self.assertAlmostEqual(mark["t"], self.session.begin + 0.5)

@@ -47,6 +47,9 @@ class WanderingVideo final : public RecordedFrames {
     [[nodiscard]] Frame frame(const FrameSource&, double media_s) override {
         return frame_number(static_cast<int>(std::lround(media_s * kFramesPerSecond)), media_s);
     }
+    void connect(Frame& from, const Frame&, const MotionWanted& wanted) override {
+        if (!wanted.motion) from.motion.reset();
+    }
     [[nodiscard]] std::shared_ptr<const BumpMap> bump(const SessionParameters&) override {
         return nullptr;
     }
