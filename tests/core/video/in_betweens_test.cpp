@@ -25,6 +25,7 @@ using Goes = MovingScene::Goes;
 namespace {
 
 constexpr MotionWanted kInBetweens{.motion = true, .in_betweens = true};
+constexpr CleaningOptions kCleaning{.preset = CleaningPreset::own, .own = {.in_betweens = true}};
 
 /// Two frames of a scene, connected.
 struct Pair {
@@ -213,6 +214,7 @@ TEST_CASE("a fingertip is felt over what is on its way", "[in-betweens]") {
 
 TEST_CASE("frames of a video are connected to those that follow them", "[in-betweens]") {
     FrameReader reader(waving_hand());
+    reader.set_cleaning(kCleaning);
     auto first = reader.at(0.0);
     REQUIRE(first);
     auto second = reader.after(first->media_s);
@@ -253,6 +255,7 @@ TEST_CASE("frames of a video are connected to those that follow them", "[in-betw
 TEST_CASE("what plays is felt and seen on its way", "[in-betweens]") {
     const auto now = Playback::Time{} + std::chrono::seconds(1);
     Playback playback;
+    playback.set_cleaning(kCleaning);
     playback.open(std::make_unique<FrameReader>(waving_hand()), now);
     while (playback.needs_frame())
         if (playback.read_ahead(now)) playback.arrived(now);
@@ -267,7 +270,7 @@ TEST_CASE("what plays is felt and seen on its way", "[in-betweens]") {
 }
 
 TEST_CASE("runs without a clock have them, too", "[in-betweens]") {
-    DepthInTime depth(waving_hand(), DepthInTime::Wanted::all, {});
+    DepthInTime depth(waving_hand(), DepthInTime::Wanted::all, kCleaning);
     depth.advance_to(0.05);
     CHECK(depth.now().from->between);
     CHECK(depth.now().shown().from != depth.now().from);
