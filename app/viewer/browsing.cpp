@@ -50,9 +50,10 @@ void Browsing::toggle(ViewerState& state) {
 }
 
 fs::path Browsing::first_folder(const ViewerState& state) const {
-    const fs::path folder = whole_path(shown_file(state)).parent_path();
+    const fs::path file = shown_file(state);
+    const fs::path folder = whole_path(file).parent_path();
     // Nobody keeps recordings beside the program's own.
-    return folder == sample_folder_ ? whole_path(".") : folder;
+    return file.empty() || folder == sample_folder_ ? whole_path(".") : folder;
 }
 
 void Browsing::show(const fs::path& folder, ViewerState& state) {

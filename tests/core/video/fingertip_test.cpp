@@ -11,6 +11,7 @@
 
 #include "core/haptics/surface.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/some_of.hpp"
 
 using namespace dibhr;
 using Catch::Matchers::WithinAbs;
@@ -336,7 +337,7 @@ TEST_CASE("it is exact on steps", "[fingertip]") {
 }
 
 TEST_CASE("it is exact over combs of every pitch and direction", "[fingertip]") {
-    const int pitch = GENERATE(2, 3, 5, 7, 11);
+    const int pitch = GENERATE(some_of<int>({3, 7, 2, 5, 11}, 2));
     const int direction = GENERATE(0, 1, 2);
     const double lower = GENERATE(3.0, 60.0);
     CAPTURE(pitch, direction, lower);
@@ -344,7 +345,7 @@ TEST_CASE("it is exact over combs of every pitch and direction", "[fingertip]") 
 }
 
 TEST_CASE("it is exact among needles and pits of all heights", "[fingertip]") {
-    const unsigned one_of = GENERATE(1U, 2U, 9U, 40U);
+    const unsigned one_of = GENERATE(some_of<unsigned>({9, 1, 2, 40}, 1));
     const double relief_px = GENERATE(4.0, kRelief_px, 3000.0);
     const double radius_px = GENERATE(3.2, 10.0, 14.5);
     CAPTURE(one_of, relief_px, radius_px);
@@ -375,7 +376,7 @@ TEST_CASE("it is exact for a finger wider than the image", "[fingertip]") {
 
 TEST_CASE("a very wide finger is felt nearly as exactly, and as exactly on a plane",
           "[fingertip]") {
-    const double radius_px = GENERATE(65.0, 130.0, 300.0);
+    const double radius_px = GENERATE(some_of<double>({65.0, 130.0, 300.0}, 1));
     CAPTURE(radius_px);
     const DepthImage bumpy = rough(60, 45, 255.0, 3.0, 0.2);
     const DepthImage felt = dilated(bumpy, radius_px);

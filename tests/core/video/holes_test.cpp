@@ -17,6 +17,7 @@
 #include "tests/core/video/pits.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/listed_media.hpp"
+#include "tests/support/some_of.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -113,7 +114,7 @@ bool in_rectangle(int i, int j, int left, int top, int width, int height) {
 }  // namespace
 
 TEST_CASE("nothing falls into a hole, wherever it is and however it flickers", "[holes]") {
-    const double flicker = GENERATE(0.0, 0.007, 0.013, 0.06);
+    const double flicker = GENERATE(some_of<double>({0.013, 0.0, 0.007, 0.06}, 1));
     const Level scene = GENERATE(Level(plane), Level(box), Level(far_and_near_box));
     const Lost always = GENERATE(
         Lost([](int, int) { return false; }),
