@@ -129,7 +129,10 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
     }
     state_.media = parts.media->description();
     const bool live = state_.media.live;
-    if (!options.record.empty() && !live) recording_.start(options.record, state_);
+    if (!options.record.empty() && !live) {
+        fit_to_media();  // what is told of a session is what is touched with
+        recording_.start(options.record, state_);
+    }
     show_media(std::move(parts.media), options.open, parts.memory, std::move(parts.maps));
     if (!options.record.empty() && live) recording_.start_live(options.record, state_);
     play_as_asked(options, 0.0, player_);

@@ -185,6 +185,11 @@ TEST_CASE("a material is chosen by one click, felt, recorded and replayed, and t
     CHECK(next.fact("material") == "bark");
     CHECK(next.parameters().front().touch == chosen.touch);
     CHECK(next.parameters().front().bump.file == chosen.bump.file);
+    // What is told of it in words is what was touched with, once that is fitted to the picture.
+    for (const TouchNumber& number : touch_numbers()) {
+        CAPTURE(number.name);
+        CHECK(std::stod(next.fact(std::string(number.name))) == number.of(chosen.touch));
+    }
 }
 
 TEST_CASE("a report is made from a replay by a button, while the window goes on", "[session]") {
