@@ -190,7 +190,8 @@ void draw_cleaning(ViewerState& state) {
     row("In-betweens", steps.in_betweens, standard.in_betweens,
         "Between two frames what moves is on its way, instead of one picture fading into the "
         "other; a replay then needs the colour, too");
-    if (changed) cleaning = {CleaningPreset::own, steps, cleaning.finger};
+    if (changed)
+        cleaning = {.preset = CleaningPreset::own, .own = steps, .finger = cleaning.finger};
 }
 
 }  // namespace

@@ -131,7 +131,8 @@ void ViewerReplay::show(const SessionMoment& moment, ViewerState& state) {
     const FrameSource& source = tick.frames.source;
     if (tick.surface) {
         const FrameCleaning cleaning = cleaning_of(source);
-        state.settings.cleaning = {CleaningPreset::own, cleaning.steps, cleaning.finger};
+        state.settings.cleaning = {
+            .preset = CleaningPreset::own, .own = cleaning.steps, .finger = cleaning.finger};
     }
 }
 

@@ -462,7 +462,9 @@ void FrameReader::connect(Frame& from, const Frame& next) {
     MotionWanted wanted{motion_wanted_, plan_.steps.in_betweens};
     if (!follows || motion_rests_ > 0) wanted = {};
     moved_ = wanted.any();
+    const auto begin = Clock::now();
     motion_.connect(from, next, wanted);
+    waited_s_ += seconds_since(begin);
 }
 
 std::optional<Frame> FrameReader::before(double media_s) {

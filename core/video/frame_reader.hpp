@@ -82,7 +82,8 @@ class FrameReader {
     /// late [s]; 0: nothing, or it is not known.
     [[nodiscard]] double making_s() const { return making_s_; }
 
-    /// The sum of all waits, and of what measuring a clip's noise took [s].
+    /// The sum of all waits, and of what measuring a clip's noise and motion took [s]: the one
+    /// happens once, the other rests where there is no time for it.
     [[nodiscard]] double waited_s() const { return waited_s_; }
 
     /// What is done to them, once a frame has been given out.

@@ -1,6 +1,6 @@
 // Prints how near motion and in-betweens come to the truth (moving_scene.hpp): motion [--speeds
 // A,B]
-// [--rates A,B] [--seconds S]
+// [--rates A,B] [--seconds S] [--raw]
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -23,6 +23,7 @@ struct Asked {
     std::vector<double> speeds_px{0.0, 50.0, 200.0, 400.0};
     std::vector<double> rates{15.0, 30.0, 60.0};
     double seconds{0.2};
+    bool raw{false};
 };
 
 constexpr double kBeside_px = 6.0;  // nearer to an outline it is measured for itself
@@ -56,6 +57,7 @@ struct Measured {
     std::size_t wall{0}, wall_moves{0};
     double faded_px{0.0}, moved_px{0.0};          ///< of elevations at outlines, half way
     double faded_levels{0.0}, moved_levels{0.0};  ///< of colours
+    double noise_levels{0.0};                     ///< of the first frame's, at its own time
 };
 
 void add_errors(const MovingScene& scene, const MotionField& field, double from_s, double to_s,
@@ -81,6 +83,7 @@ void add_errors(const MovingScene& scene, const MotionField& field, double from_
         }
 }
 
+/// Against what a camera without noise would see then.
 void add_half_way(const MovingScene& scene, const Frame& from, const Frame& to, double half_s,
                   double reach_px, Measured& measured) {
     const SurfaceShape shape{.relief_px = 255.0};
@@ -88,20 +91,25 @@ void add_half_way(const MovingScene& scene, const Frame& from, const Frame& to, 
     const DepthBlend shown = blend.shown();
     const DepthSurface moved = blend.surface(shape);
     const DepthSurface faded{*from.depth, *to.depth, 0.5, shape};
+    const Frame truth = scene.frame(half_s);
+    const Frame first = scene.frame(from.media_s);
     for (int j = 0; j < moved.rows(); ++j)
         for (int i = 0; i < moved.columns(); ++i) {
             const Point here{1.0 * i, 1.0 * j};
             if (is_within(scene, half_s, here, reach_px)) continue;
-            const MovingScene::Seen seen = scene.at(half_s, here);
             const std::size_t k = 3 * from.depth->index(i, j);
+            const double level = 1.0 * truth.depth->at(i, j);
+            const double brightness = 1.0 * truth.colour->rgb[k];
             const auto between = [k](const Frame& a, const Frame& b, double share) {
                 return std::lerp(1.0 * a.colour->rgb[k], 1.0 * b.colour->rgb[k], share);
             };
-            measured.moved_px += std::fabs(moved.elevation(i, j) - seen.elevation_px);
-            measured.faded_px += std::fabs(faded.elevation(i, j) - seen.elevation_px);
+            measured.moved_px += std::fabs(moved.elevation(i, j) - level);
+            measured.faded_px += std::fabs(faded.elevation(i, j) - level);
             measured.moved_levels +=
-                std::fabs(between(*shown.from, *shown.to, shown.blend) - seen.brightness);
-            measured.faded_levels += std::fabs(between(from, to, 0.5) - seen.brightness);
+                std::fabs(between(*shown.from, *shown.to, shown.blend) - brightness);
+            measured.faded_levels += std::fabs(between(from, to, 0.5) - brightness);
+            measured.noise_levels +=
+                std::fabs(1.0 * from.colour->rgb[k] - 1.0 * first.colour->rgb[k]);
         }
 }
 
@@ -137,9 +145,9 @@ class Carried {
     std::vector<Followed> points_{};
 };
 
-Measured measure(const MovingScene& scene, double rate, double seconds) {
+Measured measure(const MovingScene& scene, double rate, double seconds, bool raw) {
     const int count = std::max(3, static_cast<int>(std::lround(seconds * rate)) + 1);
-    std::vector<Frame> frames = test::film(scene, count, rate, 2.0, true);
+    std::vector<Frame> frames = test::film(scene, count, rate, raw ? 0.0 : 2.0, !raw);
     Measured measured;
     Carried carried(scene);
     FrameMotion motion;
@@ -166,19 +174,21 @@ void print_row(const char* shape, const char* goes, double speed, double rate,
         return 100.0 * static_cast<double>(part) /
                static_cast<double>(std::max<std::size_t>(whole, 1));
     };
-    std::printf("%-7s %-6s %5.0f %4.0f | %7.3f %7.3f %7.3f %7.2f | %6.2f | %7.2f %7.2f\n", shape,
-                goes, speed, rate, median(measured.error_px), measured.along_px,
+    std::printf("%-7s %-6s %5.0f %4.0f | %7.3f %7.3f %7.3f %7.2f | %6.2f | %7.2f %7.2f %7.2f\n",
+                shape, goes, speed, rate, median(measured.error_px), measured.along_px,
                 median(measured.rim_px), median(measured.drift_px),
                 share(measured.wall_moves, measured.wall), measured.faded_px / measured.moved_px,
-                measured.faded_levels / measured.moved_levels);
+                measured.faded_levels / measured.moved_levels,
+                measured.faded_levels / measured.noise_levels);
     std::fflush(stdout);
 }
 
 void print_table(const Asked& asked) {
     using Shape = MovingScene::Shape;
     using Goes = MovingScene::Goes;
-    std::printf("%-7s %-6s %5s %4s | %7s %7s %7s %7s | %6s | %7s %7s\n", "thing", "goes", "px/s",
-                "1/s", "median", "along", "rim", "carried", "wall %", "relief", "colour");
+    std::printf("%-7s %-6s %5s %4s | %7s %7s %7s %7s | %6s | %7s %7s %7s\n", "thing", "goes",
+                "px/s", "1/s", "median", "along", "rim", "carried", "wall %", "relief", "colour",
+                "at best");
     for (const auto& [shape, name] :
          {std::pair{Shape::plane, "plane"}, {Shape::sphere, "sphere"}, {Shape::hand, "hand"}})
         for (const auto& [goes, word] :
@@ -187,7 +197,8 @@ void print_table(const Asked& asked) {
                 for (const double rate : asked.rates) {
                     if (goes != Goes::along && !(speed > 0.0)) continue;
                     const MovingScene scene({shape, goes, speed, 640, 480});
-                    print_row(name, word, speed, rate, measure(scene, rate, asked.seconds));
+                    print_row(name, word, speed, rate,
+                              measure(scene, rate, asked.seconds, asked.raw));
                 }
 }
 
@@ -198,6 +209,7 @@ int main(int argc, char** argv) {
     CLI::App app("How near motion and in-betweens come to the truth");
     app.add_option("--speeds", asked.speeds_px)->delimiter(',');
     app.add_option("--rates", asked.rates)->delimiter(',');
+    app.add_flag("--raw", asked.raw, "Colour without noise and as it is, not coded");
     app.add_option("--seconds", asked.seconds, "How long points are carried");
     CLI11_PARSE(app, argc, argv);
     try {

@@ -1,8 +1,6 @@
 // Motion first, then what it makes of the time between.
 #include "core/video/motion/frame_motion.hpp"
 
-#include "core/video/motion/in_betweens.hpp"
-
 namespace dibhr {
 
 void FrameMotion::connect(Frame& from, const Frame& to, const MotionWanted& wanted) {
@@ -10,7 +8,7 @@ void FrameMotion::connect(Frame& from, const Frame& to, const MotionWanted& want
     from.between.reset();
     if (!wanted.any() || !DepthBlend{&from, &to}.makes_surface()) return;
     from.motion = estimator_.between(from, to);
-    if (wanted.in_betweens) from.between = in_betweens_of(from, to);
+    if (wanted.in_betweens) from.between = maker_.between(from, to);
 }
 
 }  // namespace dibhr

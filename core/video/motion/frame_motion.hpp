@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/video/frame_window.hpp"
+#include "core/video/motion/in_betweens.hpp"
 #include "core/video/motion/motion_estimator.hpp"
 
 namespace dibhr {
@@ -24,6 +25,7 @@ class FrameMotion {
 
   private:
     MotionEstimator estimator_{};
+    InBetweenMaker maker_{};
 };
 
 }  // namespace dibhr

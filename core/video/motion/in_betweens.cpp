@@ -5,11 +5,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
+#include <cstring>
+#include <numeric>
 #include <utility>
 
 #include "core/video/cleaning/fingertip.hpp"
 #include "core/video/motion/motion_course.hpp"
+#include "core/video/motion/reused.hpp"
 #include "core/video/vector_clones.hpp"
 
 namespace dibhr {
@@ -17,6 +19,7 @@ namespace dibhr {
 namespace {
 
 constexpr float kOfOneSurface = 12.0F / 255.0F;  // of the highest level
+constexpr float kHalf = 0.5F;                    // a level: what is cut off is rounded then
 
 DIBHR_VECTOR_CLONES void blend_levels(const float* __restrict from, const float* __restrict to,
                                       float share, float* __restrict between, std::size_t count) {
@@ -32,82 +35,185 @@ DIBHR_VECTOR_CLONES void blend_bytes(const std::uint8_t* __restrict from,
             static_cast<std::uint8_t>((from[k] * (256 - share) + to[k] * share + 128) >> 8);
 }
 
-/// Four pixels around a place and how much each counts.
-struct Taps {
-    std::array<std::size_t, 4> at{};
-    std::array<float, 4> share{};
+/// So many pixels at once.
+constexpr std::size_t kAtOnce = 64;
+using Floats = std::array<float, kAtOnce>;
+using Places = std::array<std::int32_t, kAtOnce>;
+
+/// Pixels of one row that are on their way.
+struct Goers {
+    std::size_t count{0};
+    Places column{};
+    Floats right{}, down{};  ///< their ways
+    Floats level{};          ///< of what is there, in one of the frames
+    Floats first{};          ///< how much the first frame counts, in [0, 1]
 };
 
-Taps taps_around(int columns, int rows, float x, float y) {
-    x = std::clamp(x, 0.0F, static_cast<float>(columns - 1));
-    y = std::clamp(y, 0.0F, static_cast<float>(rows - 1));
-    const int i = std::min(static_cast<int>(x), columns - 2);
-    const int j = std::min(static_cast<int>(y), rows - 2);
-    const float right = x - static_cast<float>(i);
-    const float down = y - static_cast<float>(j);
-    const auto first = static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) +
-                       static_cast<std::size_t>(i);
-    const auto below = first + static_cast<std::size_t>(columns);
-    return {{first, first + 1, below, below + 1},
-            {(1.0F - right) * (1.0F - down), right * (1.0F - down), (1.0F - right) * down,
-             right * down}};
-}
+/// Where they are in one of the frames: four pixels around a place, of which only those of one
+/// surface count.
+struct Taps {
+    Places at{};  ///< the one up left; the others are right of it and below
+    std::array<Floats, 4> share{};
+    Floats value{};  ///< the depth there
+};
 
-/// Only those of the surface that is nearest in depth to `level`.
-void keep_surface(const DepthImage& depth, float level, Taps& taps) {
-    float nearest = depth.levels[taps.at[0]];
-    for (const std::size_t at : taps.at)
-        if (std::fabs(depth.levels[at] - level) < std::fabs(nearest - level))
-            nearest = depth.levels[at];
-    const float alike = kOfOneSurface * static_cast<float>(depth.highest_level);
-    float sum = 0.0F;
-    for (std::size_t k = 0; k < 4; ++k) {
-        if (std::fabs(depth.levels[taps.at[k]] - nearest) > alike) taps.share[k] = 0.0F;
-        sum += taps.share[k];
+DIBHR_VECTOR_CLONES void find_taps(const DepthImage& image, const Goers& goers, int row,
+                                   float times, Taps& __restrict taps) {
+    const float* __restrict const levels = image.levels.data();
+    const int columns = image.columns;
+    const auto last_column = static_cast<float>(image.columns - 1);
+    const auto last_row = static_cast<float>(image.rows - 1);
+    const int most_right = image.columns - 2;
+    const int lowest = image.rows - 2;
+    const float alike = kOfOneSurface * static_cast<float>(image.highest_level);
+    for (std::size_t k = 0; k < kAtOnce; ++k) {
+        float x = static_cast<float>(goers.column[k]) + times * goers.right[k];
+        float y = static_cast<float>(row) + times * goers.down[k];
+        x = std::min(std::max(x, 0.0F), last_column);
+        y = std::min(std::max(y, 0.0F), last_row);
+        const int i = std::min(static_cast<int>(x), most_right);
+        const int j = std::min(static_cast<int>(y), lowest);
+        const float u = x - static_cast<float>(i);
+        const float v = y - static_cast<float>(j);
+        const std::int32_t at = j * columns + i;
+        taps.at[k] = at;
+        const float a = levels[at];
+        const float b = levels[at + 1];
+        const float c = levels[at + columns];
+        const float d = levels[at + columns + 1];
+        // Of the surface that is nearest in depth to what goes.
+        const float level = goers.level[k];
+        const float from_a = std::fabs(a - level);
+        const float from_b = std::fabs(b - level);
+        const float from_c = std::fabs(c - level);
+        const float from_d = std::fabs(d - level);
+        float nearest = a;
+        float least = from_a;
+        nearest = from_b < least ? b : nearest;
+        least = std::min(from_b, least);
+        nearest = from_c < least ? c : nearest;
+        least = std::min(from_c, least);
+        nearest = from_d < least ? d : nearest;
+        const float of_a = std::fabs(a - nearest) > alike ? 0.0F : 1.0F;
+        const float of_b = std::fabs(b - nearest) > alike ? 0.0F : 1.0F;
+        const float of_c = std::fabs(c - nearest) > alike ? 0.0F : 1.0F;
+        const float of_d = std::fabs(d - nearest) > alike ? 0.0F : 1.0F;
+        // Some of it also where the place lies beyond that surface.
+        constexpr float kSome = 1e-4F;
+        const float share_a = of_a * ((1.0F - u) * (1.0F - v) + kSome);
+        const float share_b = of_b * (u * (1.0F - v) + kSome);
+        const float share_c = of_c * ((1.0F - u) * v + kSome);
+        const float share_d = of_d * (u * v + kSome);
+        const float inverse = 1.0F / ((share_a + share_b) + (share_c + share_d));
+        taps.share[0][k] = inverse * share_a;
+        taps.share[1][k] = inverse * share_b;
+        taps.share[2][k] = inverse * share_c;
+        taps.share[3][k] = inverse * share_d;
+        taps.value[k] = inverse * ((share_a * a + share_b * b) + (share_c * c + share_d * d));
     }
-    if (sum > 1e-3F) {
-        for (float& share : taps.share) share /= sum;
-        return;
+}
+
+/// The colours of four pixels around each place, as words of which three bytes count.
+struct Colours {
+    std::array<std::array<std::uint32_t, kAtOnce>, 4> word{};
+};
+/// In whose words the three are the upper ones: the bytes after a picture's last one are not its.
+constexpr std::array<int, 4> kFirstBit{0, 8, 0, 8};
+
+void read_colours(const ColourImage& image, const Taps& taps, std::size_t count, Colours& colours) {
+    const std::uint8_t* const rgb = image.rgb.data();
+    const std::ptrdiff_t below = 3 * std::ptrdiff_t{image.columns};
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::uint8_t* const here = rgb + 3 * std::ptrdiff_t{taps.at[k]};
+        std::memcpy(&colours.word[0][k], here, 4);
+        std::memcpy(&colours.word[1][k], here + 2, 4);
+        std::memcpy(&colours.word[2][k], here + below, 4);
+        std::memcpy(&colours.word[3][k], here + below + 2, 4);
     }
-    for (std::size_t k = 0; k < 4; ++k)  // the place lies beyond it
-        taps.share[k] = depth.levels[taps.at[k]] == nearest ? 1.0F : 0.0F;
-    const float count = taps.share[0] + taps.share[1] + taps.share[2] + taps.share[3];
-    for (float& share : taps.share) share /= count;
 }
 
-float level_at(const DepthImage& image, const Taps& taps) {
-    float level = 0.0F;
-    for (std::size_t k = 0; k < 4; ++k) level += taps.share[k] * image.levels[taps.at[k]];
-    return level;
-}
+struct Coloured {
+    const Colours& colours;
+    const Taps& taps;
+};
 
-float byte_at(const std::vector<std::uint8_t>& bytes, const Taps& taps, std::size_t stride,
-              std::size_t offset) {
-    float value = 0.0F;
-    for (std::size_t k = 0; k < 4; ++k)
-        value += taps.share[k] * static_cast<float>(bytes[taps.at[k] * stride + offset]);
-    return value;
+/// One channel of all.
+DIBHR_VECTOR_CLONES void mix_channel(const Coloured& before, const Coloured& after,
+                                     const Floats& first, int channel,
+                                     std::int32_t* __restrict mixed) {
+    for (std::size_t k = 0; k < kAtOnce; ++k) {
+        const auto value = [&](const Coloured& side) {
+            float sum = 0.0F;
+            for (std::size_t tap = 0; tap < 4; ++tap) {
+                const auto byte = static_cast<std::int32_t>(
+                    side.colours.word[tap][k] >> (kFirstBit[tap] + 8 * channel) & 0xFFU);
+                sum += side.taps.share[tap][k] * static_cast<float>(byte);
+            }
+            return sum;
+        };
+        const float of_before = value(before);
+        const float of_after = value(after);
+        mixed[k] = static_cast<std::int32_t>(of_after + first[k] * (of_before - of_after) + kHalf);
+    }
 }
 
 bool has_colour(const Frame& frame) {
     return frame.colour && !frame.colour->rgb.empty();
 }
 
+/// The longest way, squared, and how many pixels go any that is worth going, in so many lanes.
+struct Moving {
+    static constexpr std::size_t kLanes = 16;
+    std::array<float, kLanes> farthest2{};
+    std::array<std::int32_t, kLanes> count{};
+};
+
+DIBHR_VECTOR_CLONES void measure(const MotionField::Way* __restrict ways, std::size_t count,
+                                 Moving& __restrict moving) {
+    for (std::size_t k = 0; k + Moving::kLanes <= count; k += Moving::kLanes)
+        for (std::size_t lane = 0; lane < Moving::kLanes; ++lane) {
+            const MotionField::Way way = ways[k + lane];
+            const float way2 = way.right * way.right + way.down * way.down;
+            moving.farthest2[lane] = std::max(moving.farthest2[lane], way2);
+            moving.count[lane] += way2 < kShortestWay_px * kShortestWay_px ? 0 : 1;
+        }
+}
+
+/// Into how many parts the time between the two frames falls. A few pixels at the end do not count.
+int parts_of(const MotionField& motion) {
+    Moving moving;
+    measure(motion.ways.data(), motion.ways.size(), moving);
+    const float farthest2 = *std::max_element(moving.farthest2.begin(), moving.farthest2.end());
+    const int count = std::accumulate(moving.count.begin(), moving.count.end(), 0);
+    const double farthest_px = std::sqrt(static_cast<double>(farthest2));
+    if (farthest_px < kWorthIt_px) return 1;
+    // Even: half way is where two faded frames are farthest from the truth.
+    const int wanted = 2 * static_cast<int>(std::ceil(farthest_px / (2.0 * kBetween_px)));
+    const int affordable = kMostPixelsBetween / std::max(count, 1);
+    return std::min({wanted, kMostParts, std::max(affordable, 2)});
+}
+
+}  // namespace
+
 /// Makes one frame after the other.
-class Mover {
+class InBetweenMaker::Mover {
   public:
-    Mover(const Frame& from, const Frame& to)
-        : from_(from), to_(to), a_(*from.drawn()), b_(*to.drawn()), course_(*from.motion, a_, b_) {}
+    void begin(const Frame& from, const Frame& to) {
+        from_ = &from;
+        to_ = &to;
+        course_.begin(*from.motion, first(), second());
+    }
 
     Frame at(float share) {
         course_.go(share);
-        auto depth = std::make_shared<DepthImage>(a_);
-        blend_levels(a_.levels.data(), b_.levels.data(), share, depth->levels.data(),
-                     a_.levels.size());
+        auto depth = depths_.take();
+        copy_form(first(), *depth);
+        blend_levels(first().levels.data(), second().levels.data(), share, depth->levels.data(),
+                     depth->levels.size());
         auto unseen = blended_unseen(share);
         auto colour = blended_colour(share);
         move(share, *depth, unseen.get(), colour.get());
-        Frame frame = from_;
+        Frame frame = *from_;
         frame.motion.reset();
         frame.between.reset();
         frame.unseen = std::move(unseen);
@@ -117,149 +223,203 @@ class Mover {
     }
 
   private:
+    [[nodiscard]] const DepthImage& first() const { return *from_->drawn(); }
+    [[nodiscard]] const DepthImage& second() const { return *to_->drawn(); }
+
+    /// All but the levels.
+    static void copy_form(const DepthImage& from, DepthImage& to) {
+        to.columns = from.columns;
+        to.rows = from.rows;
+        to.highest_level = from.highest_level;
+        to.levels.resize(from.levels.size());
+    }
+
     /// What is felt of the drawn image.
     void lay(std::shared_ptr<DepthImage> depth, Frame& frame) {
-        if (!from_.beneath) {
+        if (!from_->beneath) {
             frame.depth = std::move(depth);
             return;
         }
         frame.depth =
-            std::make_shared<const DepthImage>(finger_.dilated(*depth, from_.cleaning.finger));
+            std::make_shared<const DepthImage>(finger_.dilated(*depth, from_->cleaning.finger));
         frame.beneath = std::move(depth);
     }
 
     [[nodiscard]] std::shared_ptr<std::vector<std::uint8_t>> blended_unseen(float share) const {
-        const auto& nearer = share < 0.5F ? from_.unseen : to_.unseen;
+        const auto& nearer = share < 0.5F ? from_->unseen : to_->unseen;
         if (nearer) return std::make_shared<std::vector<std::uint8_t>>(*nearer);
-        if (!from_.unseen && !to_.unseen) return nullptr;
-        return std::make_shared<std::vector<std::uint8_t>>(a_.levels.size());
+        if (!from_->unseen && !to_->unseen) return nullptr;
+        return std::make_shared<std::vector<std::uint8_t>>(first().levels.size());
     }
 
-    [[nodiscard]] std::shared_ptr<ColourImage> blended_colour(float share) const {
-        if (!has_colour(from_)) return nullptr;
-        auto colour = std::make_shared<ColourImage>(*from_.colour);
-        if (!has_colour(to_) || to_.colour->rgb.size() != colour->rgb.size()) return colour;
-        blend_bytes(from_.colour->rgb.data(), to_.colour->rgb.data(),
+    [[nodiscard]] std::shared_ptr<ColourImage> blended_colour(float share) {
+        if (!has_colour(*from_)) return nullptr;
+        auto colour = colours_.take();
+        colour->columns = from_->colour->columns;
+        colour->rows = from_->colour->rows;
+        colour->rgb.resize(from_->colour->rgb.size());
+        if (!has_colour(*to_) || to_->colour->rgb.size() != colour->rgb.size()) {
+            colour->rgb = from_->colour->rgb;
+            return colour;
+        }
+        blend_bytes(from_->colour->rgb.data(), to_->colour->rgb.data(),
                     static_cast<int>(std::lround(share * 256.0F)), colour->rgb.data(),
                     colour->rgb.size());
         return colour;
     }
 
     void move(float share, DepthImage& depth, std::vector<std::uint8_t>* unseen,
-              ColourImage* colour) const {
-        const bool alike = colour != nullptr && colour->columns == a_.columns &&
-                           colour->rows == a_.rows && same_colour_size();
+              ColourImage* colour) {
+        const bool alike = colour != nullptr && colour->columns == first().columns &&
+                           colour->rows == first().rows && same_colour_size();
         const Box& box = course_.box();
         for (int j = box.top; j < box.bottom; ++j)
-            for (int i = box.left; i < box.right; ++i) {
-                const Course::Pixel& pixel = course_.at(i, j);
-                if (pixel.shows == Course::Shows::as_it_was) continue;
-                const float first = pixel.shows == Course::Shows::second ? 0.0F : 1.0F - share;
-                const float second = pixel.shows == Course::Shows::first ? 0.0F : share;
-                const float a = first / (first + second);
-                const Taps before = taps(a_, pixel, i, j, -share);
-                const Taps after = taps(b_, pixel, i, j, 1.0F - share);
-                const std::size_t k = depth.index(i, j);
-                depth.levels[k] = a * level_at(a_, before) + (1.0F - a) * level_at(b_, after);
-                if (unseen != nullptr) (*unseen)[k] = unseen_at(a, before, after);
-                if (alike) mix(a, before, after, colour->rgb.data() + 3 * k);
+            for (int i = box.left; i < box.right;) {
+                i = take_goers(share, i, j);
+                if (goers_.count == 0) continue;
+                find_taps(first(), goers_, j, -share, before_);
+                find_taps(second(), goers_, j, 1.0F - share, after_);
+                for (std::size_t k = 0; k < goers_.count; ++k)
+                    depth.levels[depth.index(goers_.column[k], j)] =
+                        after_.value[k] + goers_.first[k] * (before_.value[k] - after_.value[k]);
+                if (unseen != nullptr) mix_unseen(j, *unseen);
+                if (alike) mix_colours(colour->rgb.data() + 3 * depth.index(0, j));
             }
         if (colour != nullptr && !alike && same_colour_size()) move_colour(share, *colour);
     }
 
-    [[nodiscard]] bool same_colour_size() const {
-        return has_colour(to_) && to_.colour->columns == from_.colour->columns &&
-               to_.colour->rows == from_.colour->rows;
-    }
-
-    static Taps taps(const DepthImage& image, const Course::Pixel& pixel, int i, int j,
-                     float times) {
-        Taps around =
-            taps_around(image.columns, image.rows, static_cast<float>(i) + times * pixel.way.right,
-                        static_cast<float>(j) + times * pixel.way.down);
-        keep_surface(image, pixel.level, around);
-        return around;
-    }
-
-    [[nodiscard]] std::uint8_t unseen_at(float a, const Taps& before, const Taps& after) const {
-        const float first = from_.unseen ? byte_at(*from_.unseen, before, 1, 0) : 0.0F;
-        const float second = to_.unseen ? byte_at(*to_.unseen, after, 1, 0) : 0.0F;
-        return a * first + (1.0F - a) * second > 0.5F ? 1 : 0;
-    }
-
-    void mix(float a, const Taps& before, const Taps& after, std::uint8_t* rgb) const {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const float value = a * byte_at(from_.colour->rgb, before, 3, k) +
-                                (1.0F - a) * byte_at(to_.colour->rgb, after, 3, k);
-            rgb[k] = static_cast<std::uint8_t>(std::lround(value));
+    /// From column i of a row on, as many as are looked at at once; where to go on.
+    int take_goers(float share, int i, int j) {
+        std::size_t count = 0;
+        for (; i < course_.box().right && count < kAtOnce; ++i) {
+            if (!course_.moves(i, j)) continue;
+            const Course::Pixel pixel = course_.at(i, j);
+            goers_.column[count] = i;
+            goers_.right[count] = pixel.way.right;
+            goers_.down[count] = pixel.way.down;
+            goers_.level[count] = pixel.level;
+            goers_.first[count] = part_of_first(pixel, share);
+            ++count;
         }
+        goers_.count = count;
+        return i;
+    }
+
+    static float part_of_first(const Course::Pixel& pixel, float share) {
+        if (pixel.shows == Course::Shows::first) return 1.0F;
+        return pixel.shows == Course::Shows::second ? 0.0F : 1.0F - share;
+    }
+
+    [[nodiscard]] bool same_colour_size() const {
+        return has_colour(*to_) && to_->colour->columns == from_->colour->columns &&
+               to_->colour->rows == from_->colour->rows;
+    }
+
+    void mix_colours(std::uint8_t* row) {
+        read_colours(*from_->colour, before_, goers_.count, colours_before_);
+        read_colours(*to_->colour, after_, goers_.count, colours_after_);
+        for (int channel = 0; channel < 3; ++channel) {
+            mix_channel({colours_before_, before_}, {colours_after_, after_}, goers_.first, channel,
+                        mixed_.data());
+            for (std::size_t k = 0; k < goers_.count; ++k)
+                row[3 * goers_.column[k] + channel] = static_cast<std::uint8_t>(mixed_[k]);
+        }
+    }
+
+    void mix_unseen(int j, std::vector<std::uint8_t>& unseen) const {
+        const auto at = [this](const auto& bytes, const Taps& taps, std::size_t k) {
+            if (!bytes) return 0.0F;
+            const std::uint8_t* const here = bytes->data() + taps.at[k];
+            const std::uint8_t* const below = here + first().columns;
+            return taps.share[0][k] * here[0] + taps.share[1][k] * here[1] +
+                   taps.share[2][k] * below[0] + taps.share[3][k] * below[1];
+        };
+        for (std::size_t k = 0; k < goers_.count; ++k)
+            unseen[first().index(goers_.column[k], j)] =
+                goers_.first[k] * at(from_->unseen, before_, k) +
+                            (1.0F - goers_.first[k]) * at(to_->unseen, after_, k) >
+                        0.5F
+                    ? 1
+                    : 0;
+    }
+
+    static std::array<float, 3> colour_at(const ColourImage& image, float x, float y) {
+        x = std::clamp(x, 0.0F, static_cast<float>(image.columns - 1));
+        y = std::clamp(y, 0.0F, static_cast<float>(image.rows - 1));
+        const int i = std::min(static_cast<int>(x), image.columns - 2);
+        const int j = std::min(static_cast<int>(y), image.rows - 2);
+        const float u = x - static_cast<float>(i);
+        const float v = y - static_cast<float>(j);
+        const std::uint8_t* const first =
+            image.rgb.data() + 3 * (std::ptrdiff_t{j} * image.columns + i);
+        const std::uint8_t* const below = first + 3 * std::ptrdiff_t{image.columns};
+        std::array<float, 3> rgb{};
+        for (std::size_t k = 0; k < 3; ++k)
+            rgb[k] = (1.0F - v) * ((1.0F - u) * first[k] + u * first[k + 3]) +
+                     v * ((1.0F - u) * below[k] + u * below[k + 3]);
+        return rgb;
     }
 
     /// Of another size than the depth.
     void move_colour(float share, ColourImage& colour) const {
-        const float right = static_cast<float>(colour.columns) / static_cast<float>(a_.columns);
-        const float down = static_cast<float>(colour.rows) / static_cast<float>(a_.rows);
+        const float right =
+            static_cast<float>(colour.columns) / static_cast<float>(first().columns);
+        const float down = static_cast<float>(colour.rows) / static_cast<float>(first().rows);
         const auto under = [](int at, float scale, int count) {
             return std::min(static_cast<int>((static_cast<float>(at) + 0.5F) / scale), count - 1);
         };
         const Box& box = course_.box();
         for (int y = 0; y < colour.rows; ++y) {
-            const int j = under(y, down, a_.rows);
+            const int j = under(y, down, first().rows);
             if (j < box.top || j >= box.bottom) continue;
             for (int x = 0; x < colour.columns; ++x) {
-                const int i = under(x, right, a_.columns);
+                const int i = under(x, right, first().columns);
                 if (i < box.left || i >= box.right) continue;
-                const Course::Pixel& pixel = course_.at(i, j);
-                if (pixel.shows == Course::Shows::as_it_was) continue;
-                const float first = pixel.shows == Course::Shows::second ? 0.0F : 1.0F - share;
-                const float second = pixel.shows == Course::Shows::first ? 0.0F : share;
-                const auto around = [&](float times) {
-                    return taps_around(colour.columns, colour.rows,
-                                       static_cast<float>(x) + times * right * pixel.way.right,
-                                       static_cast<float>(y) + times * down * pixel.way.down);
+                if (!course_.moves(i, j)) continue;
+                const Course::Pixel pixel = course_.at(i, j);
+                const float of_first = part_of_first(pixel, share);
+                const auto at = [&](const ColourImage& image, float times) {
+                    return colour_at(image, static_cast<float>(x) + times * right * pixel.way.right,
+                                     static_cast<float>(y) + times * down * pixel.way.down);
                 };
-                mix(first / (first + second), around(-share), around(1.0F - share),
-                    colour.rgb.data() + 3 * (static_cast<std::size_t>(y) *
-                                                 static_cast<std::size_t>(colour.columns) +
-                                             static_cast<std::size_t>(x)));
+                const auto before = at(*from_->colour, -share);
+                const auto after = at(*to_->colour, 1.0F - share);
+                std::uint8_t* const rgb =
+                    colour.rgb.data() + 3 * (std::ptrdiff_t{y} * colour.columns + x);
+                for (std::size_t k = 0; k < 3; ++k)
+                    rgb[k] = static_cast<std::uint8_t>(of_first * before[k] +
+                                                       (1.0F - of_first) * after[k] + kHalf);
             }
         }
     }
 
-    const Frame& from_;
-    const Frame& to_;
-    const DepthImage& a_;
-    const DepthImage& b_;
-    Course course_;
+    const Frame* from_{nullptr};
+    const Frame* to_{nullptr};
+    Course course_{};
+    Reused<DepthImage> depths_{};
+    Reused<ColourImage> colours_{};
+    Goers goers_{};
+    Taps before_{}, after_{};
+    Colours colours_before_{}, colours_after_{};
+    Places mixed_{};
     FingertipDilation finger_{};
 };
 
-/// Into how many parts the time between the two frames falls.
-int parts_of(const MotionField& motion) {
-    float farthest2 = 0.0F;
-    std::size_t moving = 0;
-    for (const MotionField::Way& way : motion.ways) {
-        const float way2 = way.right * way.right + way.down * way.down;
-        farthest2 = std::max(farthest2, way2);
-        moving += way2 < kShortestWay_px * kShortestWay_px ? 0 : 1;
-    }
-    const auto wanted =
-        static_cast<int>(std::ceil(std::sqrt(static_cast<double>(farthest2)) / kBetween_px));
-    const auto affordable = static_cast<int>(kMostPixelsBetween / std::max<std::size_t>(moving, 1));
-    return std::min({wanted, kMostParts, std::max(affordable, 2)});
-}
+InBetweenMaker::InBetweenMaker() : mover_(std::make_unique<Mover>()) {}
+InBetweenMaker::~InBetweenMaker() = default;
+InBetweenMaker::InBetweenMaker(InBetweenMaker&&) noexcept = default;
+InBetweenMaker& InBetweenMaker::operator=(InBetweenMaker&&) noexcept = default;
 
-}  // namespace
-
-std::shared_ptr<const std::vector<Frame>> in_betweens_of(const Frame& from, const Frame& to) {
+std::shared_ptr<const std::vector<Frame>> InBetweenMaker::between(const Frame& from,
+                                                                  const Frame& to) {
     if (!from.motion) return nullptr;
     const int parts = parts_of(*from.motion);
     if (parts < 2) return nullptr;
-    Mover mover(from, to);
+    mover_->begin(from, to);
     auto between = std::make_shared<std::vector<Frame>>();
     between->reserve(static_cast<std::size_t>(parts - 1));
     for (int k = 1; k < parts; ++k)
-        between->push_back(mover.at(static_cast<float>(k) / static_cast<float>(parts)));
+        between->push_back(mover_->at(static_cast<float>(k) / static_cast<float>(parts)));
     return between;
 }
 

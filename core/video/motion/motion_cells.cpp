@@ -2,6 +2,7 @@
 #include "core/video/motion/motion_cells.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "core/video/vector_clones.hpp"
 
@@ -24,13 +25,7 @@ void visit_pixels(const MotionPlane& plane, int i, int j, Visit visit) {
 }
 
 /// In the middle of the widest gap between the depths of a cell; below all where that is narrow.
-float gap_between(const MotionPlane& depth, int i, int j) {
-    float lowest = depth.values[depth.index(i * kMotionCell_px, j * kMotionCell_px)];
-    float highest = lowest;
-    visit_pixels(depth, i, j, [&](float value) {
-        lowest = std::min(lowest, value);
-        highest = std::max(highest, value);
-    });
+float gap_between(const MotionPlane& depth, int i, int j, float lowest, float highest) {
     const float range = highest - lowest;
     if (!(range > kStep)) return lowest - 1.0F;
     std::array<bool, kBins> any{};
@@ -54,9 +49,35 @@ float gap_between(const MotionPlane& depth, int i, int j) {
            (static_cast<float>(begin) + 0.5F * static_cast<float>(widest + 1)) / bins_per_level;
 }
 
-void make_cell(const MotionPlane& depth, MotionCells& cells, int i, int j) {
-    const float between = gap_between(depth, i, j);
-    cells.between.row(j)[i] = between;
+/// Of all pixels of each cell of a row.
+DIBHR_VECTOR_CLONES void find_range(const MotionPlane& depth, int j, float* __restrict lowest,
+                                    float* __restrict highest) {
+    const auto count = static_cast<std::ptrdiff_t>(depth.columns / kMotionCell_px);
+    const float* const first = depth.row(j * kMotionCell_px);
+    for (std::ptrdiff_t i = 0; i < count; ++i) {
+        std::array<float, kMotionCell_px> low{}, high{};
+        const float* row = first + i * kMotionCell_px;
+        for (std::size_t x = 0; x < kMotionCell_px; ++x) low[x] = high[x] = row[x];
+        for (int y = 1; y < kMotionCell_px; ++y) {
+            row += depth.columns;
+            for (std::size_t x = 0; x < kMotionCell_px; ++x) {
+                low[x] = std::min(low[x], row[x]);
+                high[x] = std::max(high[x], row[x]);
+            }
+        }
+        lowest[i] = *std::min_element(low.begin(), low.end());
+        highest[i] = *std::max_element(high.begin(), high.end());
+    }
+}
+
+/// Into a near and a far part, where there is a gap.
+void split_cell(const MotionPlane& depth, MotionCells& cells, int i, int j) {
+    const std::size_t k = cells.between.index(i, j);
+    const float between =
+        gap_between(depth, i, j, cells.lowest.of[0].values[k], cells.highest.of[0].values[k]);
+    cells.between.values[k] = between;
+    if (between < cells.lowest.of[0].values[k]) return;
+    cells.split.push_back(static_cast<std::uint32_t>(k));
     std::array<float, 2> lowest{-MotionCells::kNoPart, -MotionCells::kNoPart};
     std::array<float, 2> highest{MotionCells::kNoPart, MotionCells::kNoPart};
     visit_pixels(depth, i, j, [&](float value) {
@@ -64,47 +85,23 @@ void make_cell(const MotionPlane& depth, MotionCells& cells, int i, int j) {
         lowest[part] = std::min(lowest[part], value);
         highest[part] = std::max(highest[part], value);
     });
-    if (lowest[1] <= highest[1]) cells.both[static_cast<std::size_t>(j)] = 1;
     for (std::size_t part = 0; part < 2; ++part) {
-        cells.lowest.of[part].row(j)[i] = lowest[part];
-        cells.highest.of[part].row(j)[i] = highest[part];
+        cells.lowest.of[part].values[k] = lowest[part];
+        cells.highest.of[part].values[k] = highest[part];
     }
 }
 
-struct Place {
-    int j;
-    std::size_t part;
-};
-
-/// What a row of parts gets of one beside it, `right` cells aside.
-struct Pair {
-    const MotionCells& cells;
-    Place at, beside;
-    int right;
-    MotionSpan span;  ///< of the row
-    std::size_t sums;
-};
-
-DIBHR_VECTOR_CLONES void add_alike(const Pair& pair, const MotionSums& from, MotionSums& to,
-                                   float* __restrict alike) {
-    const MotionCells& cells = pair.cells;
-    const int begin = std::max(-pair.right, pair.span.begin);
-    const int end = std::min(cells.columns - std::max(pair.right, 0), pair.span.end);
-    const float* const lowest = cells.lowest.of[pair.at.part].row(pair.at.j);
-    const float* const highest = cells.highest.of[pair.at.part].row(pair.at.j);
-    const float* const low = cells.lowest.of[pair.beside.part].row(pair.beside.j) + pair.right;
-    const float* const high = cells.highest.of[pair.beside.part].row(pair.beside.j) + pair.right;
-    for (int i = begin; i < end; ++i)
+DIBHR_VECTOR_CLONES void find_alike(const float* __restrict lowest, const float* __restrict highest,
+                                    const float* __restrict low, const float* __restrict high,
+                                    float* __restrict alike, int count) {
+    for (int i = 0; i < count; ++i)
         alike[i] = alike_across(std::max(lowest[i] - high[i], low[i] - highest[i]));
-    for (std::size_t k = 0; k < pair.sums; ++k) {
-        const float* __restrict source =
-            from.of[k].of[pair.beside.part].row(pair.beside.j) + pair.right;
-        float* __restrict sum = to.of[k].of[pair.at.part].row(pair.at.j);
-        for (int i = begin; i < end; ++i) sum[i] += alike[i] * source[i];
-    }
 }
 
-}  // namespace
+DIBHR_VECTOR_CLONES void add_alike(const float* __restrict alike, const float* __restrict source,
+                                   float* __restrict sum, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) sum[i] += alike[i] * source[i];
+}
 
 void make_cells(const MotionPlane& depth, MotionCells& cells) {
     cells.columns = depth.columns / kMotionCell_px;
@@ -112,28 +109,113 @@ void make_cells(const MotionPlane& depth, MotionCells& cells) {
     cells.between.resize(cells.columns, cells.rows);
     cells.lowest.resize(cells.columns, cells.rows);
     cells.highest.resize(cells.columns, cells.rows);
-    cells.both.assign(static_cast<std::size_t>(cells.rows), 0);
-    for (int j = 0; j < cells.rows; ++j)
-        for (int i = 0; i < cells.columns; ++i) make_cell(depth, cells, i, j);
+    cells.lowest.fill(-MotionCells::kNoPart);
+    cells.highest.fill(MotionCells::kNoPart);
+    cells.split.clear();
+    for (int j = 0; j < cells.rows; ++j) {
+        find_range(depth, j, cells.lowest.of[0].row(j), cells.highest.of[0].row(j));
+        for (int i = 0; i < cells.columns; ++i) split_cell(depth, cells, i, j);
+    }
 }
 
-void gather_alike(const MotionCells& cells, const MotionSpans& spans, int reach,
-                  MotionMeasure measure, const MotionSums& from, MotionSums& to) {
-    const auto count = static_cast<std::size_t>(measure);
-    to.resize(cells.columns, cells.rows);
-    for (std::size_t k = 0; k < count; ++k) to.of[k].fill(0.0F);
-    std::vector<float> alike(static_cast<std::size_t>(cells.columns));
-    for (int j = 0; j < cells.rows; ++j) {
-        const MotionSpan span = spans[static_cast<std::size_t>(j)];
-        if (span.begin >= span.end) continue;
-        for (int y = std::max(j - reach, 0); y <= std::min(j + reach, cells.rows - 1); ++y)
-            for (std::size_t part = 0; part < 2; ++part)
-                for (std::size_t other = 0; other < 2; ++other) {
-                    if (!cells.any_in_row(part, j) || !cells.any_in_row(other, y)) continue;
-                    for (int x = -reach; x <= reach; ++x)
-                        add_alike({cells, {j, part}, {y, other}, x, span, count}, from, to,
-                                  alike.data());
-                }
+/// At the right and the bottom of fewer.
+template <typename Pick>
+void pick_of_four(const MotionPlane& from, MotionPlane& to, const Pick& pick) {
+    to.resize(from.columns, from.rows);
+    for (int j = 0; j < from.rows; ++j) {
+        const float* const upper = from.row(j);
+        const float* const lower = from.row(std::min(j + 1, from.rows - 1));
+        for (int i = 0; i < from.columns; ++i) {
+            const int right = std::min(i + 1, from.columns - 1);
+            to.row(j)[i] = pick(pick(upper[i], upper[right]), pick(lower[i], lower[right]));
+        }
+    }
+}
+
+}  // namespace
+
+void divide(MotionSide& side) {
+    make_cells(side.pictures.here[0], side.cells);
+    side.lowest = side.cells.lowest.of[0];
+    for (const std::uint32_t k : side.cells.split)
+        side.lowest.values[k] = side.cells.lowest.of[1].values[k];
+    side.highest = side.pictures.near.back();
+    pick_of_four(side.lowest, side.lowest_of_four, [](float a, float b) { return std::min(a, b); });
+    pick_of_four(side.highest, side.highest_of_four,
+                 [](float a, float b) { return std::max(a, b); });
+}
+
+void MotionKin::find_near(const MotionCells& cells, int right, int down) {
+    float* const alike = near_.data() + tap(right, down) * count_;
+    const int begin = std::max(-right, 0);
+    const int end = cells.columns - std::max(right, 0);
+    for (int j = std::max(-down, 0); j < cells.rows - std::max(down, 0) && begin < end; ++j)
+        find_alike(cells.lowest.of[0].row(j) + begin, cells.highest.of[0].row(j) + begin,
+                   cells.lowest.of[0].row(j + down) + begin + right,
+                   cells.highest.of[0].row(j + down) + begin + right,
+                   alike + cells.between.index(begin, j), end - begin);
+}
+
+void MotionKin::find_far(const MotionCells& cells, int i, int j) {
+    const auto here = static_cast<std::uint32_t>(cells.between.index(i, j));
+    const float lowest = cells.lowest.of[1].values[here];
+    const float highest = cells.highest.of[1].values[here];
+    for (int y = std::max(j - kReach, 0); y <= std::min(j + kReach, cells.rows - 1); ++y)
+        for (int x = std::max(i - kReach, 0); x <= std::min(i + kReach, cells.columns - 1); ++x) {
+            const auto beside = static_cast<std::uint32_t>(cells.between.index(x, y));
+            const int away = std::max({std::abs(x - i), std::abs(y - j), 1});
+            std::vector<Edge>& edges = far_[static_cast<std::size_t>(away - 1)];
+            for (const std::uint8_t part : {std::uint8_t{0}, std::uint8_t{1}}) {
+                if (!cells.has(part, x, y)) continue;
+                const float alike =
+                    alike_across(std::max(lowest - cells.highest.of[part].values[beside],
+                                          cells.lowest.of[part].values[beside] - highest));
+                if (!(alike > 0.0F)) continue;
+                edges.push_back({here, beside, alike, 1, part});
+                if (part == 0) edges.push_back({beside, here, alike, 0, 1});
+            }
+        }
+}
+
+void MotionKin::find(const MotionCells& cells) {
+    columns_ = cells.columns;
+    rows_ = cells.rows;
+    count_ = cells.between.values.size();
+    near_.assign(kSide * kSide * count_, 0.0F);
+    for (int down = -kReach; down <= kReach; ++down)
+        for (int right = -kReach; right <= kReach; ++right) find_near(cells, right, down);
+    for (auto& edges : far_) edges.clear();
+    split_ = cells.split;
+    for (const std::uint32_t k : cells.split)
+        find_far(cells, static_cast<int>(k) % columns_, static_cast<int>(k) / columns_);
+}
+
+void MotionKin::gather(const MotionRows& rows, int reach, MotionMeasure measure,
+                       const MotionSums& from, MotionSums& to) const {
+    const auto sums = static_cast<std::size_t>(measure);
+    to.resize(columns_, rows_);
+    const std::ptrdiff_t begin = std::ptrdiff_t{rows.begin} * columns_;
+    const std::ptrdiff_t end = std::ptrdiff_t{rows.end} * columns_;
+    const auto count = static_cast<std::ptrdiff_t>(count_);
+    for (std::size_t k = 0; k < sums; ++k) {
+        const float* const source = from.of[k].of[0].values.data();
+        float* const sum = to.of[k].of[0].values.data();
+        std::fill(sum + begin, sum + end, 0.0F);
+        for (const std::uint32_t at : split_) to.of[k].of[1].values[at] = 0.0F;
+        for (int down = -reach; down <= reach; ++down)
+            for (int right = -reach; right <= reach; ++right) {
+                // Beyond the ends of a row nothing is alike.
+                const std::ptrdiff_t away = std::ptrdiff_t{down} * columns_ + right;
+                const std::ptrdiff_t first = std::max(begin, -away);
+                const std::ptrdiff_t last = std::min(end, count - away);
+                if (first < last)
+                    add_alike(near_beside(right, down) + first, source + first + away, sum + first,
+                              static_cast<std::size_t>(last - first));
+            }
+        for (int away = 0; away < reach; ++away)
+            for (const Edge& edge : far_[static_cast<std::size_t>(away)])
+                to.of[k].of[edge.to_part].values[edge.to] +=
+                    edge.alike * from.of[k].of[edge.from_part].values[edge.from];
     }
 }
 

@@ -72,26 +72,31 @@ struct MotionCells {
     /// Depths of the parts [0, 255]; the highest is kNoPart where the cell has no such part.
     MotionLayers lowest{}, highest{};
 
-    std::vector<std::uint8_t> both{};  ///< of each row: whether there is a far part in it
+    std::vector<std::uint32_t> split{};  ///< indices of those that have both, in order
 
     static constexpr float kNoPart = -1e9F;
 
     [[nodiscard]] bool has(std::size_t part, int i, int j) const {
         return highest.of[part].row(j)[i] != kNoPart;
     }
-    [[nodiscard]] bool any_in_row(std::size_t part, int j) const {
-        return part == 0 || both[static_cast<std::size_t>(j)] != 0;
-    }
 };
 
-/// Of each row of cells the columns [begin, end) that are looked at.
-struct MotionSpan {
+/// One frame of the two.
+struct MotionSide {
+    MotionPictures pictures{};
+    MotionCells cells{};
+    /// Of all that is in a cell, and nearer within an outline's reach; and in four of them, with
+    /// that one up left.
+    MotionPlane lowest{}, highest{}, lowest_of_four{}, highest_of_four{};
+};
+
+/// Makes the cells of its pictures.
+void divide(MotionSide& side);
+
+/// Rows of cells [begin, end) that are looked at.
+struct MotionRows {
     int begin{0}, end{0};
 };
-using MotionSpans = std::vector<MotionSpan>;
-
-/// By the depth of one frame [0, 255].
-void make_cells(const MotionPlane& depth, MotionCells& cells);
 
 /// Depths that differ by less may be of one surface [0, 255].
 inline constexpr float kMotionAlike = 12.0F;
@@ -102,9 +107,45 @@ inline constexpr float kMotionAlike = 12.0F;
     return std::min(std::max(alike, 0.0F), 1.0F);
 }
 
-/// For each part in the spans the sums over all parts up to `reach` cells away, the more the more
-/// alike their depths are.
-void gather_alike(const MotionCells& cells, const MotionSpans& spans, int reach,
-                  MotionMeasure measure, const MotionSums& from, MotionSums& to);
+/// Which parts are alike those around them: found once, asked for many sums. Near parts, which are
+/// everywhere, lie in planes; far ones in a list.
+class MotionKin {
+  public:
+    static constexpr int kReach = 2;  ///< cells to each side
+
+    void find(const MotionCells& cells);
+
+    /// For each part in the rows the sums over all parts up to `reach` (kReach at most) cells away,
+    /// the more the more alike their depths are.
+    void gather(const MotionRows& rows, int reach, MotionMeasure measure, const MotionSums& from,
+                MotionSums& to) const;
+
+    /// Of the near part of every cell beside the near one so many cells away: how alike they are;
+    /// 0 where that is outside.
+    [[nodiscard]] const float* near_beside(int right, int down) const {
+        return near_.data() + tap(right, down) * count_;
+    }
+
+  private:
+    static constexpr auto kSide = std::size_t{2 * kReach + 1};
+    struct Edge {
+        std::uint32_t to, from;
+        float alike;
+        std::uint8_t to_part, from_part;
+    };
+    [[nodiscard]] static std::size_t tap(int right, int down) {
+        return static_cast<std::size_t>(down + kReach) * kSide +
+               static_cast<std::size_t>(right + kReach);
+    }
+    void find_near(const MotionCells& cells, int right, int down);
+    void find_far(const MotionCells& cells, int i, int j);
+
+    int columns_{0}, rows_{0};
+    std::size_t count_{0};
+    std::vector<float> near_{};
+    std::vector<std::uint32_t> split_{};
+    /// With a far part at an end, and at most so many cells long: beside each other, farther.
+    std::array<std::vector<Edge>, kReach> far_{};
+};
 
 }  // namespace dibhr

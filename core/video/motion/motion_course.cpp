@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "core/video/vector_clones.hpp"
 
 namespace dibhr {
 
@@ -19,38 +22,58 @@ int rounded(float value) {
     return static_cast<int>(std::floor(value + 0.5F));
 }
 
+struct Starts {
+    const std::int32_t *x, *y;
+    const float *right, *down;
+};
+
+DIBHR_VECTOR_CLONES void find_places_of(const Starts& from, float share, int columns, int rows,
+                                        std::int32_t* __restrict places, std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k) {
+        const int x = from.x[k] + static_cast<int>(std::floor(share * from.right[k] + 0.5F));
+        const int y = from.y[k] + static_cast<int>(std::floor(share * from.down[k] + 0.5F));
+        const bool inside = x >= 0 && y >= 0 && x < columns && y < rows;
+        places[k] = inside ? y * columns + x : -1;
+    }
+}
+
+bool is_way(const MotionField::Way& way) {
+    return way.right * way.right + way.down * way.down >= kShortestWay_px * kShortestWay_px;
+}
+
 bool is_same(const MotionField::Way& a, const MotionField::Way& b) {
     return std::fabs(a.right - b.right) < kSameWay_px && std::fabs(a.down - b.down) < kSameWay_px;
 }
 
 }  // namespace
 
-Course::Course(const MotionField& motion, const DepthImage& first, const DepthImage& second)
-    : motion_(motion), first_(first), second_(second) {
-    find_box();
-    const auto count = static_cast<std::size_t>(box_.right - box_.left) *
-                       static_cast<std::size_t>(box_.bottom - box_.top);
-    pixels_.resize(count);
-    nearest_.resize(count);
-    covered_.assign(count, 0);
-    send_first(1.0F);
-    find_covered();
-    find_uncovered();
+void Course::Goers::clear() {
+    for (auto* const values : {&right, &down, &level}) values->clear();
+    for (auto* const values : {&x, &y}) values->clear();
+    shows.clear();
 }
 
-MotionField::Way Course::way_of(int i, int j) const {
-    const MotionField::Way& way = motion_.at(i, j);
-    const float squared = way.right * way.right + way.down * way.down;
-    return squared < kShortestWay_px * kShortestWay_px ? MotionField::Way{} : way;
+void Course::begin(const MotionField& motion, const DepthImage& first, const DepthImage& second) {
+    motion_ = &motion;
+    first_ = &first;
+    second_ = &second;
+    goers_.clear();
+    find_box();
+    find_goers();
+    first_goers_ = goers_.x.size();
+    send_first(1.0F);
+    find_covered();
+    first_goers_ = goers_.x.size();
+    find_uncovered();
 }
 
 /// Around all that moves, and where it goes.
 void Course::find_box() {
-    Box box{motion_.columns, motion_.rows, 0, 0};
-    for (int j = 0; j < motion_.rows; ++j)
-        for (int i = 0; i < motion_.columns; ++i) {
-            const MotionField::Way way = way_of(i, j);
-            if (way == MotionField::Way{}) continue;
+    Box box{motion_->columns, motion_->rows, 0, 0};
+    for (int j = 0; j < motion_->rows; ++j)
+        for (int i = 0; i < motion_->columns; ++i) {
+            const MotionField::Way way = motion_->at(i, j);
+            if (!is_way(way)) continue;
             const int x = i + rounded(way.right);
             const int y = j + rounded(way.down);
             box.left = std::min({box.left, i, x});
@@ -59,117 +82,206 @@ void Course::find_box() {
             box.bottom = std::max({box.bottom, j + 1, y + 1});
         }
     box_ = {std::max(box.left - 1, 0), std::max(box.top - 1, 0),
-            std::min(box.right + 1, motion_.columns), std::min(box.bottom + 1, motion_.rows)};
+            std::min(box.right + 1, motion_->columns), std::min(box.bottom + 1, motion_->rows)};
+    columns_ = std::max(box_.right - box_.left, 0);
+    rows_ = std::max(box_.bottom - box_.top, 0);
+}
+
+std::uint32_t Course::add_goer(int i, int j, MotionField::Way way, float level, Shows shows) {
+    goers_.x.push_back(i - box_.left);
+    goers_.y.push_back(j - box_.top);
+    goers_.right.push_back(way.right);
+    goers_.down.push_back(way.down);
+    goers_.level.push_back(level);
+    goers_.shows.push_back(shows);
+    return static_cast<std::uint32_t>(goers_.x.size() - 1);
+}
+
+void Course::find_goers() {
+    still_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+    for (const Shows shows : {Shows::as_it_was, Shows::first, Shows::second})
+        add_goer(box_.left, box_.top, {}, 0.0F, shows);
+    for (int j = box_.top; j < box_.bottom; ++j)
+        for (int i = box_.left; i < box_.right; ++i) {
+            const MotionField::Way way = motion_->at(i, j);
+            const std::uint32_t here = index(i, j);
+            const bool goes = is_way(way);
+            still_[here] = {goes ? kNothing : first_->at(i, j), kStays};
+            if (goes) add_goer(i, j, way, first_->at(i, j), Shows::both);
+        }
+}
+
+/// Of goers [begin, end), a share of their ways from where they are.
+void Course::find_places(float share, std::size_t begin, std::size_t end) {
+    places_.resize(goers_.x.size());
+    find_places_of({goers_.x.data() + begin, goers_.y.data() + begin, goers_.right.data() + begin,
+                    goers_.down.data() + begin},
+                   share, columns_, rows_, places_.data() + begin, end - begin);
 }
 
 /// What is nearest of the first image shows.
 void Course::send_first(float share) {
-    std::fill(nearest_.begin(), nearest_.end(), kNothing);
-    for (int j = box_.top; j < box_.bottom; ++j)
-        for (int i = box_.left; i < box_.right; ++i) {
-            const std::size_t from = first_.index(i, j);
-            const MotionField::Way way = way_of(i, j);
-            const int x = i + rounded(share * way.right);
-            const int y = j + rounded(share * way.down);
-            if (!is_inside(x, y)) continue;
-            const float level = first_.levels[from];
-            const std::size_t to = index(x, y);
-            if (!(level > nearest_[to])) continue;
-            nearest_[to] = level;
-            const bool covered = covered_[index(i, j)] != 0;
-            const bool stays = way == MotionField::Way{};
-            pixels_[to] = {way, level,
-                           covered ? Shows::first : (stays ? Shows::as_it_was : Shows::both)};
-        }
+    seen_ = still_;
+    find_places(share, kStanding, first_goers_);
+    for (std::size_t k = kStanding; k < first_goers_; ++k) {
+        if (places_[k] < 0) continue;
+        const float level = goers_.level[k];
+        Seen& seen = seen_[static_cast<std::size_t>(places_[k])];
+        if (level > seen.level) seen = {level, static_cast<std::uint32_t>(k)};
+    }
 }
 
 /// Something else is there at the end.
 void Course::find_covered() {
+    for (std::size_t k = kStanding; k < first_goers_; ++k) {
+        if (places_[k] < 0) continue;
+        const Seen& seen = seen_[static_cast<std::size_t>(places_[k])];
+        if (!is_same(goers_.way(seen.goer), goers_.way(k))) goers_.shows[k] = Shows::first;
+    }
     for (int j = box_.top; j < box_.bottom; ++j)
         for (int i = box_.left; i < box_.right; ++i) {
-            const MotionField::Way way = way_of(i, j);
-            const int x = i + rounded(way.right);
-            const int y = j + rounded(way.down);
-            if (!is_inside(x, y)) continue;
-            covered_[index(i, j)] = is_same(pixels_[index(x, y)].way, way) ? 0 : 1;
+            Seen& still = still_[index(i, j)];
+            if (still.level != kNothing && !is_same(goers_.way(seen_[index(i, j)].goer), {}))
+                still.goer = add_goer(i, j, {}, still.level, Shows::first);
         }
 }
 
 /// Nothing came there; where two neighbours that are alike did, it came with them.
 void Course::find_uncovered() {
-    const float alike = kOfOneSurface * static_cast<float>(second_.highest_level);
+    const float alike = kOfOneSurface * static_cast<float>(second_->highest_level);
     const auto came = [&](int i, int j, float level) {
-        return is_inside(i, j) && nearest_[index(i, j)] != kNothing &&
-               std::fabs(second_.at(i, j) - level) < alike;
+        return is_inside(i, j) && seen_[index(i, j)].level != kNothing &&
+               std::fabs(second_->at(i, j) - level) < alike;
     };
     for (int j = box_.top; j < box_.bottom; ++j)
         for (int i = box_.left; i < box_.right; ++i) {
-            if (nearest_[index(i, j)] != kNothing) continue;
-            const float level = second_.at(i, j);
+            if (seen_[index(i, j)].level != kNothing) continue;
+            const float level = second_->at(i, j);
             const bool in_row = came(i - 1, j, level) && came(i + 1, j, level);
             const bool in_column = came(i, j - 1, level) && came(i, j + 1, level);
-            if (!in_row && !in_column) uncovered_.push_back({i, j, way_beside(i, j)});
+            if (!in_row && !in_column) add_goer(i, j, way_beside(i, j), level, Shows::second);
         }
 }
 
 /// Of what is alike and nearest in the pixel's row or column of the second image, and was in the
 /// first; none: it stays.
 MotionField::Way Course::way_beside(int i, int j) const {
-    const float level = second_.at(i, j);
-    const float alike = kOfOneSurface * static_cast<float>(second_.highest_level);
+    const float level = second_->at(i, j);
+    const float alike = kOfOneSurface * static_cast<float>(second_->highest_level);
     for (int away = 1; away <= kReach_px; ++away)
         for (const auto& [right, down] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
             const int x = i + away * right;
             const int y = j + away * down;
-            if (!is_inside(x, y) || nearest_[index(x, y)] == kNothing) continue;
-            if (std::fabs(second_.at(x, y) - level) < alike) return pixels_[index(x, y)].way;
+            if (!is_inside(x, y) || seen_[index(x, y)].level == kNothing) continue;
+            if (std::fabs(second_->at(x, y) - level) < alike)
+                return goers_.way(seen_[index(x, y)].goer);
         }
     return {};
 }
 
 /// Only where nothing of the first image shows.
 void Course::send_second(float share) {
-    for (const Uncovered& from : uncovered_) {
-        const int x = from.i - rounded((1.0F - share) * from.way.right);
-        const int y = from.j - rounded((1.0F - share) * from.way.down);
-        if (!is_inside(x, y)) continue;
-        Pixel& pixel = pixels_[index(x, y)];
-        const float level = second_.at(from.i, from.j);
-        float& nearest = nearest_[index(x, y)];
-        if (nearest != kNothing && (pixel.shows != Shows::second || !(level > nearest))) continue;
-        nearest = level;
-        pixel = {from.way, level, Shows::second};
+    find_places(share - 1.0F, first_goers_, goers_.x.size());
+    for (std::size_t k = first_goers_; k < goers_.x.size(); ++k) {
+        if (places_[k] < 0) continue;
+        Seen& seen = seen_[static_cast<std::size_t>(places_[k])];
+        const float level = goers_.level[k];
+        const bool is_first = seen.level != kNothing && seen.goer < first_goers_;
+        if (!is_first && level > seen.level) seen = {level, static_cast<std::uint32_t>(k)};
     }
 }
 
 /// What is left goes on from the farther side of the gap; a crack is as what it is in.
 void Course::mend() {
-    const int columns = box_.right - box_.left;
-    for (int j = box_.top; j < box_.bottom; ++j)
-        for (int i = 0; i < columns; ++i) {
-            const std::size_t row = index(box_.left, j);
-            const auto at = [row](int column) { return row + static_cast<std::size_t>(column); };
-            if (nearest_[at(i)] != kNothing) continue;
+    for (int j = 0; j < rows_; ++j) {
+        Seen* const row = seen_.data() + static_cast<std::ptrdiff_t>(j) * columns_;
+        for (int i = 0; i < columns_; ++i) {
+            if (row[i].level != kNothing) continue;
             int end = i;
-            while (end < columns && nearest_[at(end)] == kNothing) ++end;
+            while (end < columns_ && row[end].level == kNothing) ++end;
             const bool left = i > 0 && end - i <= kGap_px;
-            const bool right = end < columns && end - i <= kGap_px;
-            const bool from_left = left && (!right || nearest_[at(i - 1)] <= nearest_[at(end)]);
-            const Pixel beside = from_left ? pixels_[at(i - 1)]
-                                 : right   ? pixels_[at(end)]
-                                           : Pixel{};
-            for (int k = i; k < end; ++k) {
-                pixels_[at(k)] = beside;
-                nearest_[at(k)] = beside.level;
-            }
+            const bool right = end < columns_ && end - i <= kGap_px;
+            const bool from_left = left && (!right || row[i - 1].level <= row[end].level);
+            const Seen beside = from_left ? row[i - 1] : right ? row[end] : Seen{0.0F, kStays};
+            std::fill(row + i, row + end, beside);
             i = end;
         }
+    }
+}
+
+/// How much of what is around the place where it was, and where it will be, is of its surface.
+float Course::share_of(const Seen& seen, float share, int x, int y) const {
+    const MotionField::Way way = goers_.way(seen.goer);
+    const auto at = [&](const DepthImage& image, float times) {
+        const float alike = kOfOneSurface * static_cast<float>(image.highest_level);
+        const float right = static_cast<float>(x + box_.left) + times * way.right;
+        const float down = static_cast<float>(y + box_.top) + times * way.down;
+        const float last_column = static_cast<float>(image.columns - 1);
+        const float last_row = static_cast<float>(image.rows - 1);
+        const float on_x = std::clamp(right, 0.0F, last_column);
+        const float on_y = std::clamp(down, 0.0F, last_row);
+        const int i = std::min(static_cast<int>(on_x), image.columns - 2);
+        const int j = std::min(static_cast<int>(on_y), image.rows - 2);
+        const float u = on_x - static_cast<float>(i);
+        const float v = on_y - static_cast<float>(j);
+        const auto is = [&](int column, int row) {
+            return std::fabs(image.at(column, row) - seen.level) < alike ? 1.0F : 0.0F;
+        };
+        return (1.0F - v) * ((1.0F - u) * is(i, j) + u * is(i + 1, j)) +
+               v * ((1.0F - u) * is(i, j + 1) + u * is(i + 1, j + 1));
+    };
+    return 0.5F * (at(*first_, -share) + at(*second_, 1.0F - share));
+}
+
+/// What is seen at a place that something nearer, as it turns out, does not reach.
+Course::Seen Course::behind(const Seen& far, int x, int y) const {
+    if (far.goer >= kStanding) return far;
+    const float alike = kOfOneSurface * static_cast<float>(first_->highest_level);
+    const float in_first = first_->at(x + box_.left, y + box_.top);
+    const float in_second = second_->at(x + box_.left, y + box_.top);
+    const bool first = std::fabs(in_first - far.level) < alike;
+    const bool second = std::fabs(in_second - far.level) < alike;
+    if (first == second) return {far.level, kStays};
+    return first ? Seen{in_first, kStaysInFirst} : Seen{in_second, kStaysInSecond};
+}
+
+/// Of two beside each other, at the place of one: the near one is there if more of its surface is
+/// than of others.
+void Course::settle(float share, int x, int y, const Seen& near, const Seen& far) {
+    const auto at = place(x, y);
+    const bool is_near = seen_[at].goer == near.goer;
+    const bool reaches = share_of(near, share, x, y) > 0.5F;
+    if (is_near != reaches) settled_.push_back({at, reaches ? near : behind(far, x, y)});
+}
+
+/// Each image knows where an outline is to a pixel; the two, between which it goes, better.
+void Course::settle_outlines(float share) {
+    const float alike = kOfOneSurface * static_cast<float>(first_->highest_level);
+    settled_.clear();
+    const auto look_at = [&](int x, int y, int i, int j) {
+        const Seen& here = seen_[place(x, y)];
+        const Seen& there = seen_[place(i, j)];
+        if (!(std::fabs(here.level - there.level) > alike)) return;
+        const bool is_near = here.level > there.level;
+        const Seen& near = is_near ? here : there;
+        const Seen& far = is_near ? there : here;
+        if (near.goer < kStanding || goers_.shows[near.goer] != Shows::both) return;
+        settle(share, x, y, near, far);
+        settle(share, i, j, near, far);
+    };
+    for (int y = 0; y < rows_; ++y)
+        for (int x = 0; x < columns_; ++x) {
+            if (x + 1 < columns_) look_at(x, y, x + 1, y);
+            if (y + 1 < rows_) look_at(x, y, x, y + 1);
+        }
+    for (const Settled& settled : settled_) seen_[settled.at] = settled.seen;
 }
 
 void Course::go(float share) {
     send_first(share);
     send_second(share);
     mend();
+    settle_outlines(share);
 }
 
 }  // namespace dibhr

@@ -47,17 +47,12 @@ bool is_known(const MotionSums& sums, std::size_t part, std::size_t k) {
     return sums[MotionSum::n].of[part].values[k] > kFewPixels;
 }
 
-/// What the sums would be for standing still, as far as slopes tell.
-void reckon_from_rest(const MotionWays& ways, float scale, MotionSums& sums) {
-    for (std::size_t part = 0; part < 2; ++part)
-        for (std::size_t k = 0; k < ways.right.of[part].values.size(); ++k) {
-            const float u = ways.right.of[part].values[k] * scale;
-            const float v = ways.down.of[part].values[k] * scale;
-            const auto at = [&](MotionSum sum) -> float& { return sums[sum].of[part].values[k]; };
-            at(MotionSum::r) -= at(MotionSum::x) * u + at(MotionSum::y) * v;
-            at(MotionSum::xr) -= at(MotionSum::xx) * u + at(MotionSum::xy) * v;
-            at(MotionSum::yr) -= at(MotionSum::xy) * u + at(MotionSum::yy) * v;
-        }
+/// What the sums of a part would be for standing still, as far as slopes tell.
+void reckon_from_rest(MotionField::Way way, std::size_t part, std::size_t k, MotionSums& sums) {
+    const auto at = [&](MotionSum sum) -> float& { return sums[sum].of[part].values[k]; };
+    at(MotionSum::r) -= at(MotionSum::x) * way.right + at(MotionSum::y) * way.down;
+    at(MotionSum::xr) -= at(MotionSum::xx) * way.right + at(MotionSum::xy) * way.down;
+    at(MotionSum::yr) -= at(MotionSum::xy) * way.right + at(MotionSum::yy) * way.down;
 }
 
 /// Where the sum of squares, as far as slopes tell, is least; near `now` in directions in which
@@ -87,14 +82,16 @@ float stepped(float from, float to) {
 
 template <typename Visit>
 void MotionEstimator::each_part(const Visit& visit) const {
-    for (std::size_t part = 0; part < 2; ++part)
-        for (int j = 0; j < cells_.rows; ++j)
-            for (int i = 0; i < cells_.columns; ++i)
-                visit(Part{i, j, part}, cells_.between.index(i, j));
+    for (int j = 0; j < from_.cells.rows; ++j)
+        for (int i = 0; i < from_.cells.columns; ++i)
+            visit(Part{i, j, 0}, from_.cells.between.index(i, j));
+    const auto columns = static_cast<std::uint32_t>(from_.cells.columns);
+    for (const std::uint32_t k : from_.cells.split)
+        visit(Part{static_cast<int>(k % columns), static_cast<int>(k / columns), 1}, k);
 }
 
 MotionEstimator::Verdict& MotionEstimator::verdict(const Part& part) {
-    return verdicts_[part.part][cells_.between.index(part.i, part.j)];
+    return verdicts_[part.part][from_.cells.between.index(part.i, part.j)];
 }
 
 MotionEstimator::Way MotionEstimator::way_of(const Part& part) const {
@@ -109,55 +106,65 @@ void MotionEstimator::go(const Part& part, Way way) {
 
 float MotionEstimator::gap(const Part& a, const Part& b) const {
     const auto lowest = [this](const Part& of) {
-        return cells_.lowest.of[of.part].row(of.j)[of.i];
+        return from_.cells.lowest.of[of.part].row(of.j)[of.i];
     };
     const auto highest = [this](const Part& of) {
-        return cells_.highest.of[of.part].row(of.j)[of.i];
+        return from_.cells.highest.of[of.part].row(of.j)[of.i];
     };
     return std::max(lowest(a) - highest(b), lowest(b) - highest(a));
 }
 
-/// Around what is wanted in each row.
-void MotionEstimator::find_spans() {
-    spans_.assign(static_cast<std::size_t>(cells_.rows), {});
+/// Around what is wanted.
+void MotionEstimator::find_rows() {
+    rows_ = {};
     each_part([this](const Part& part, std::size_t k) {
         if (!(wanted_.of[part.part].values[k] > 0.0F)) return;
-        MotionSpan& span = spans_[static_cast<std::size_t>(part.j)];
-        span.begin = span.end == 0 ? part.i : std::min(span.begin, part.i);
-        span.end = std::max(span.end, part.i + 1);
+        rows_.begin = rows_.end == 0 ? part.j : std::min(rows_.begin, part.j);
+        rows_.end = std::max(rows_.end, part.j + 1);
     });
+}
+
+void MotionEstimator::sum(std::size_t size, const MotionLayers& wanted, const MotionWays& ways,
+                          MotionMeasure measure) {
+    sum_differences(from_, to_, size, wanted, ways, measure, sums_);
+}
+
+void MotionEstimator::gather(int reach, MotionMeasure measure) {
+    kin_.gather(rows_, reach, measure, sums_, gathered_);
 }
 
 /// Parts in or around which anything is not as it was. False: there is none.
 bool MotionEstimator::find_changed() {
-    each_part([this](const Part& part, std::size_t k) {
-        wanted_.of[part.part].values[k] = cells_.has(part.part, part.i, part.j) ? 1.0F : 0.0F;
-    });
+    wanted_.fill(0.0F);
+    each_part([this](const Part& part, std::size_t k) { wanted_.of[part.part].values[k] = 1.0F; });
     ways_.fill(0.0F);
     sums_.fill(0.0F);
-    spans_.assign(static_cast<std::size_t>(cells_.rows), {0, cells_.columns});
-    sum_differences(from_, to_, kSmall, cells_, wanted_, ways_, MotionMeasure::slopes, sums_);
-    gather_alike(cells_, spans_, kJudges, MotionMeasure::difference, sums_, gathered_);
+    rows_ = {0, from_.cells.rows};
+    sum(kSmall, wanted_, ways_, MotionMeasure::slopes);
+    gather(kJudges, MotionMeasure::difference);
     bool any = false;
     each_part([this, &any](const Part& part, std::size_t k) {
-        const auto sum = [&](MotionSum which) { return gathered_[which].of[part.part].values[k]; };
+        const auto gathered = [&](MotionSum which) {
+            return gathered_[which].of[part.part].values[k];
+        };
         const bool known = is_known(gathered_, part.part, k);
         still_.of[part.part].values[k] = known ? mean_square(gathered_, part.part, k) : 0.0F;
         // Covered all over is changed, too.
-        const bool changed = !known || sum(MotionSum::rr) > kUnchanged * sum(MotionSum::n);
+        const bool changed =
+            !known || gathered(MotionSum::rr) > kUnchanged * gathered(MotionSum::n);
         float& wanted = wanted_.of[part.part].values[k];
         if (!changed) wanted = 0.0F;
         any = any || wanted > 0.0F;
     });
-    if (any) gather_alike(cells_, spans_, 1, MotionMeasure::slopes, sums_, slopes_);
-    find_spans();
+    if (any) kin_.gather(rows_, 1, MotionMeasure::slopes, sums_, slopes_);
+    find_rows();
     return any;
 }
 
 /// Of what noise alone has changed no way fits better than none.
 void MotionEstimator::leave_noise() {
-    sum_differences(from_, to_, kSmall, cells_, wanted_, ways_, MotionMeasure::difference, sums_);
-    gather_alike(cells_, spans_, kJudges, MotionMeasure::difference, sums_, gathered_);
+    sum(kSmall, wanted_, ways_, MotionMeasure::difference);
+    gather(kJudges, MotionMeasure::difference);
     each_part([this](const Part& part, std::size_t k) {
         const std::size_t of = part.part;
         if (!is_known(gathered_, of, k)) return;
@@ -167,86 +174,85 @@ void MotionEstimator::leave_noise() {
         go(part, {});
     });
     sums_.fill(0.0F);
-    find_spans();
+    find_rows();
 }
 
 void MotionEstimator::go_downhill(std::size_t size) {
     const float scale = 1.0F / static_cast<float>(1 << size);
     const float farthest = scale * static_cast<float>(kFarthestMotion) *
-                           static_cast<float>(kMotionCell_px * cells_.columns);
-    sum_differences(from_, to_, size, cells_, wanted_, ways_, MotionMeasure::slopes, sums_);
-    reckon_from_rest(ways_, scale, sums_);
-    gather_alike(cells_, spans_, 1, MotionMeasure::slopes, sums_, gathered_);
-    for (std::size_t part = 0; part < 2; ++part)
-        for (std::size_t k = 0; k < wanted_.of[part].values.size(); ++k) {
-            if (!(wanted_.of[part].values[k] > 0.0F) || !is_known(gathered_, part, k)) continue;
-            float& right = ways_.right.of[part].values[k];
-            float& down = ways_.down.of[part].values[k];
-            const Way now{right * scale, down * scale};
-            const Way there = lowest(gathered_, part, k, now);
-            right = std::clamp(stepped(now.right, there.right), -farthest, farthest) / scale;
-            down = std::clamp(stepped(now.down, there.down), -farthest, farthest) / scale;
-        }
+                           static_cast<float>(kMotionCell_px * from_.cells.columns);
+    sum(size, wanted_, ways_, MotionMeasure::slopes);
+    const auto goes = [&](const Part& part, std::size_t k) {
+        return wanted_.of[part.part].values[k] > 0.0F;
+    };
+    each_part([&](const Part& part, std::size_t k) {
+        const Way way = way_of(part);
+        if (goes(part, k))
+            reckon_from_rest({way.right * scale, way.down * scale}, part.part, k, sums_);
+    });
+    gather(1, MotionMeasure::slopes);
+    each_part([&](const Part& part, std::size_t k) {
+        if (!goes(part, k) || !is_known(gathered_, part.part, k)) return;
+        const Way way = way_of(part);
+        const Way now{way.right * scale, way.down * scale};
+        const Way there = lowest(gathered_, part.part, k, now);
+        go(part, {std::clamp(stepped(now.right, there.right), -farthest, farthest) / scale,
+                  std::clamp(stepped(now.down, there.down), -farthest, farthest) / scale});
+    });
 }
 
 /// The ways of the parts so many cells away that are most alike in depth.
 void MotionEstimator::propose(int right, int down) {
-    tried_.resize(cells_.columns, cells_.rows);
-    for (std::size_t part = 0; part < 2; ++part)
-        for (int j = 0; j < cells_.rows; ++j)
-            for (int i = 0; i < cells_.columns; ++i) {
-                const int x = std::clamp(i + right, 0, cells_.columns - 1);
-                const int y = std::clamp(j + down, 0, cells_.rows - 1);
-                const bool far = cells_.has(1, x, y) &&
-                                 gap({i, j, part}, {x, y, 1}) < gap({i, j, part}, {x, y, 0});
-                const std::size_t other = far ? 1 : 0;
-                tried_.right.of[part].row(j)[i] = ways_.right.of[other].row(y)[x];
-                tried_.down.of[part].row(j)[i] = ways_.down.of[other].row(y)[x];
-            }
+    each_part([&](const Part& part, std::size_t k) {
+        const int x = std::clamp(part.i + right, 0, from_.cells.columns - 1);
+        const int y = std::clamp(part.j + down, 0, from_.cells.rows - 1);
+        const bool far = from_.cells.has(1, x, y) && gap(part, {x, y, 1}) < gap(part, {x, y, 0});
+        const Way way = way_of({x, y, far ? std::size_t{1} : std::size_t{0}});
+        tried_.right.of[part.part].values[k] = way.right;
+        tried_.down.of[part.part].values[k] = way.down;
+    });
 }
 
 /// Takes what was tried where it fits better.
 void MotionEstimator::take_better(float share) {
-    gather_alike(cells_, spans_, 1, MotionMeasure::difference, sums_, gathered_);
-    for (std::size_t part = 0; part < 2; ++part)
-        for (std::size_t k = 0; k < wanted_.of[part].values.size(); ++k) {
-            if (!is_known(gathered_, part, k)) continue;
-            const float off = share * mean_square(gathered_, part, k);
-            if (!(off < best_.of[part].values[k])) continue;
-            best_.of[part].values[k] = off;
-            chosen_.right.of[part].values[k] = tried_.right.of[part].values[k];
-            chosen_.down.of[part].values[k] = tried_.down.of[part].values[k];
-        }
+    gather(1, MotionMeasure::difference);
+    each_part([&](const Part& part, std::size_t k) {
+        if (!is_known(gathered_, part.part, k)) return;
+        const float off = share * mean_square(gathered_, part.part, k);
+        if (!(off < best_.of[part.part].values[k])) return;
+        best_.of[part.part].values[k] = off;
+        chosen_.right.of[part.part].values[k] = tried_.right.of[part.part].values[k];
+        chosen_.down.of[part.part].values[k] = tried_.down.of[part.part].values[k];
+    });
 }
 
 /// Of parts that would go about the same way the sums are the same.
 void MotionEstimator::attempt(std::size_t size) {
     const auto apart = [](float a, float b) { return std::fabs(a - b) > kApart_px; };
     bool any = false;
-    for (std::size_t part = 0; part < 2; ++part)
-        for (std::size_t k = 0; k < wanted_.of[part].values.size(); ++k) {
-            const bool differs =
-                wanted_.of[part].values[k] > 0.0F &&
-                (apart(tried_.right.of[part].values[k], ways_.right.of[part].values[k]) ||
-                 apart(tried_.down.of[part].values[k], ways_.down.of[part].values[k]));
-            differs_.of[part].values[k] = differs ? 1.0F : 0.0F;
-            any = any || differs;
-        }
+    each_part([&](const Part& part, std::size_t k) {
+        const std::size_t of = part.part;
+        const bool differs = wanted_.of[of].values[k] > 0.0F &&
+                             (apart(tried_.right.of[of].values[k], ways_.right.of[of].values[k]) ||
+                              apart(tried_.down.of[of].values[k], ways_.down.of[of].values[k]));
+        differs_.of[of].values[k] = differs ? 1.0F : 0.0F;
+        any = any || differs;
+    });
     if (!any) return;
     for (std::size_t k = 0; k < static_cast<std::size_t>(MotionMeasure::difference); ++k)
         sums_.of[k] = own_.of[k];
-    sum_differences(from_, to_, size, cells_, differs_, tried_, MotionMeasure::difference, sums_);
+    sum(size, differs_, tried_, MotionMeasure::difference);
     take_better(1.0F);
 }
 
 /// Where the search or the steps went astray, a neighbour's way may fit, or none.
 void MotionEstimator::choose(std::size_t size) {
-    best_.resize(cells_.columns, cells_.rows);
+    best_.resize(from_.cells.columns, from_.cells.rows);
     best_.fill(std::numeric_limits<float>::infinity());
-    differs_.resize(cells_.columns, cells_.rows);
+    differs_.resize(from_.cells.columns, from_.cells.rows);
     tried_ = ways_;
     chosen_ = ways_;
-    sum_differences(from_, to_, size, cells_, wanted_, ways_, MotionMeasure::difference, sums_);
+    sum(size, wanted_, ways_, MotionMeasure::difference);
     own_ = sums_;
     take_better(kOwnShare);
     tried_.fill(0.0F);
@@ -261,15 +267,16 @@ void MotionEstimator::choose(std::size_t size) {
 /// How much better a part, with those around it, fits as it goes than as it stood.
 void MotionEstimator::judge() {
     tried_.fill(0.0F);
-    sum_differences(from_, to_, 0, cells_, wanted_, tried_, MotionMeasure::difference, sums_);
-    gather_alike(cells_, spans_, kJudges, MotionMeasure::difference, sums_, gathered_);
+    sum(0, wanted_, tried_, MotionMeasure::difference);
+    gather(kJudges, MotionMeasure::difference);
     each_part([this](const Part& part, std::size_t k) {
         still_.of[part.part].values[k] =
             is_known(gathered_, part.part, k) ? mean_square(gathered_, part.part, k) : 0.0F;
     });
-    sum_differences(from_, to_, 0, cells_, wanted_, ways_, MotionMeasure::difference, sums_);
-    gather_alike(cells_, spans_, kJudges, MotionMeasure::difference, sums_, gathered_);
-    for (auto& verdicts : verdicts_) verdicts.assign(cells_.between.values.size(), Verdict::stays);
+    sum(0, wanted_, ways_, MotionMeasure::difference);
+    gather(kJudges, MotionMeasure::difference);
+    for (auto& verdicts : verdicts_)
+        verdicts.assign(from_.cells.between.values.size(), Verdict::stays);
     each_part([this](const Part& part, std::size_t k) {
         if (!(wanted_.of[part.part].values[k] > 0.0F) || !is_known(gathered_, part.part, k)) return;
         const float left = mean_square(gathered_, part.part, k);
@@ -286,7 +293,7 @@ void MotionEstimator::judge() {
 
 /// Whether a part shows nothing that would tell if it went this way.
 bool MotionEstimator::is_plain(const Part& part, Way way) const {
-    const std::size_t k = cells_.between.index(part.i, part.j);
+    const std::size_t k = from_.cells.between.index(part.i, part.j);
     if (!is_known(slopes_, part.part, k)) return true;
     const auto mean = [&, n = slopes_[MotionSum::n].of[part.part].values[k]](MotionSum sum) {
         return slopes_[sum].of[part.part].values[k] / n;
@@ -310,7 +317,7 @@ void MotionEstimator::convince() {
         if (verdict(part) == Verdict::goes) sure.push_back({part, 0});
     });
     const auto take = [this, &sure](const Convinced& from, const Part& part) {
-        if (!cells_.has(part.part, part.i, part.j) || verdict(part) == Verdict::goes ||
+        if (!from_.cells.has(part.part, part.i, part.j) || verdict(part) == Verdict::goes ||
             !(alike_across(gap(from.part, part)) > 0.0F))
             return;
         const Way way = way_of(from.part);
@@ -323,9 +330,10 @@ void MotionEstimator::convince() {
     while (!sure.empty()) {
         const Convinced at = sure.front();
         sure.pop_front();
-        for (int j = std::max(at.part.j - 1, 0); j <= std::min(at.part.j + 1, cells_.rows - 1); ++j)
+        for (int j = std::max(at.part.j - 1, 0); j <= std::min(at.part.j + 1, from_.cells.rows - 1);
+             ++j)
             for (int i = std::max(at.part.i - 1, 0);
-                 i <= std::min(at.part.i + 1, cells_.columns - 1); ++i)
+                 i <= std::min(at.part.i + 1, from_.cells.columns - 1); ++i)
                 for (std::size_t part = 0; part < 2; ++part) take(at, {i, j, part});
     }
 }
@@ -342,24 +350,28 @@ std::shared_ptr<const MotionField> MotionEstimator::between(const Frame& from, c
         return frame.colour_of_view && frame.colour && !frame.colour->rgb.empty();
     };
     const bool by_depth = !has_colour(from) || !has_colour(to);
+    const auto take = [this, by_depth](const Frame& frame, MotionSide& side) {
+        maker_.make(frame, by_depth, side.pictures);
+        divide(side);
+    };
     if (from.drawn() == last_depth_ && from.colour == last_colour_ && by_depth == by_depth_)
         std::swap(from_, to_);
     else
-        maker_.make(from, by_depth, from_);
-    maker_.make(to, by_depth, to_);
+        take(from, from_);
+    take(to, to_);
     by_depth_ = by_depth;
     last_depth_ = to.drawn();
     last_colour_ = to.colour;
-    make_cells(from_.here[0], cells_);
-    wanted_.resize(cells_.columns, cells_.rows);
-    still_.resize(cells_.columns, cells_.rows);
-    ways_.resize(cells_.columns, cells_.rows);
-    sums_.resize(cells_.columns, cells_.rows);
+    kin_.find(from_.cells);
+    wanted_.resize(from_.cells.columns, from_.cells.rows);
+    still_.resize(from_.cells.columns, from_.cells.rows);
+    ways_.resize(from_.cells.columns, from_.cells.rows);
+    sums_.resize(from_.cells.columns, from_.cells.rows);
     if (!find_changed()) return nullptr;
     sums_.fill(0.0F);
     const int reach =
-        std::max(1, static_cast<int>(kFarthestMotion * static_cast<double>(cells_.columns)));
-    searcher_.search(from_, to_, cells_, spans_, reach, ways_);
+        std::max(1, static_cast<int>(kFarthestMotion * static_cast<double>(from_.cells.columns)));
+    searcher_.search(from_, to_, kin_, rows_, reach, ways_);
     each_part([this](const Part& part, std::size_t k) {
         if (!(wanted_.of[part.part].values[k] > 0.0F)) go(part, {});
     });
@@ -374,7 +386,7 @@ std::shared_ptr<const MotionField> MotionEstimator::between(const Frame& from, c
     judge();
     convince();
     stop();
-    return spread_motion(*from.drawn(), cells_, from_.step, ways_);
+    return spread_motion(*from.drawn(), from_.cells, from_.pictures.step, ways_, fields_);
 }
 
 }  // namespace dibhr

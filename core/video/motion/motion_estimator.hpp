@@ -12,6 +12,7 @@
 #include "core/video/motion/motion_pictures.hpp"
 #include "core/video/motion/motion_search.hpp"
 #include "core/video/motion/motion_sums.hpp"
+#include "core/video/motion/reused.hpp"
 
 namespace dibhr {
 
@@ -40,7 +41,10 @@ class MotionEstimator {
     };
 
     [[nodiscard]] bool find_changed();
-    void find_spans();
+    void find_rows();
+    void sum(std::size_t size, const MotionLayers& wanted, const MotionWays& ways,
+             MotionMeasure measure);
+    void gather(int reach, MotionMeasure measure);
     void go_downhill(std::size_t size);
     void choose(std::size_t size);
     void propose(int right, int down);
@@ -62,20 +66,21 @@ class MotionEstimator {
 
     MotionPictureMaker maker_{};
     MotionSearcher searcher_{};
-    MotionPictures from_{}, to_{};
-    /// What the second pictures were made of: mostly the next first ones.
+    MotionSide from_{}, to_{};
+    /// What the second one was made of: mostly the next first ones.
     std::shared_ptr<const DepthImage> last_depth_{};
     std::shared_ptr<const ColourImage> last_colour_{};
     bool by_depth_{false};
-    MotionCells cells_{};
+    MotionKin kin_{};        ///< of the first one's parts
     MotionLayers wanted_{};  ///< 1: the part is looked at
-    MotionSpans spans_{};
+    MotionRows rows_{};
     MotionLayers differs_{};  ///< 1: what is tried is another way
     MotionWays ways_{}, tried_{}, chosen_{};
     MotionLayers best_{};   ///< how far off what was tried is
     MotionLayers still_{};  ///< and standing still
     std::array<std::vector<Verdict>, 2> verdicts_{};
     MotionSums sums_{}, own_{}, gathered_{}, slopes_{};
+    Reused<MotionField> fields_{};
 };
 
 }  // namespace dibhr

@@ -2,6 +2,7 @@
 #include "core/video/motion/motion_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 
@@ -20,6 +21,12 @@ constexpr float kPerCell = 0.02F;   // what a longer way must be better by
 constexpr float kStayShare = 0.9F;  // of what staying is off
 constexpr float kStayLess = 0.2F;
 
+/// Which plane of weights is of the cell so many away.
+constexpr std::size_t tap_of(int right, int down) {
+    return static_cast<std::size_t>(down + kAround) * kSide +
+           static_cast<std::size_t>(right + kAround);
+}
+
 struct Compared {
     const float *grey, *moved_grey, *near, *moved_near;
 };
@@ -33,111 +40,143 @@ DIBHR_VECTOR_CLONES void compare_row(const Compared& row, float* __restrict off,
     }
 }
 
-/// Begins kAround cells up left of the first one; weights lie in planes.
+/// Begins at a cell; weights lie in planes.
 struct Scored {
     const float* off;
-    int off_stride;
+    std::ptrdiff_t columns;
     const float* weights;
     std::size_t plane;
 };
 
-DIBHR_VECTOR_CLONES void score_row(const Scored& scored, int count, float* __restrict score) {
-    for (int i = 0; i < count; ++i) score[i] = 0.0F;
-    for (int y = 0; y < kSide; ++y)
-        for (int x = 0; x < kSide; ++x) {
-            const float* __restrict from =
-                scored.off + static_cast<std::ptrdiff_t>(y) * scored.off_stride + x;
-            const float* __restrict weight =
-                scored.weights + static_cast<std::size_t>(y * kSide + x) * scored.plane;
-            for (int i = 0; i < count; ++i) score[i] += weight[i] * from[i];
+/// So many in a row that their scores stay where sums are made.
+constexpr std::ptrdiff_t kAtOnce = 64;
+
+DIBHR_VECTOR_CLONES void score_cells(const Scored& scored, float* __restrict score) {
+    std::array<float, kAtOnce> sums{};
+    for (int y = -kAround; y <= kAround; ++y)
+        for (int x = -kAround; x <= kAround; ++x) {
+            const float* const off = scored.off + y * scored.columns + x;
+            const auto tap = tap_of(x, y);
+            const float* const weights = scored.weights + tap * scored.plane;
+            for (std::size_t i = 0; i < kAtOnce; ++i) sums[i] += weights[i] * off[i];
         }
+    for (std::size_t i = 0; i < kAtOnce; ++i) score[i] = sums[i];
+}
+
+DIBHR_VECTOR_CLONES void take_better(const float* __restrict score, float share, float more,
+                                     MotionField::Way way, float* __restrict best,
+                                     float* __restrict right, float* __restrict down,
+                                     std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const float off = share * score[i] + more;
+        const bool better = off < best[i];
+        best[i] = better ? off : best[i];
+        right[i] = better ? way.right : right[i];
+        down[i] = better ? way.down : down[i];
+    }
 }
 
 }  // namespace
 
-/// In the smallest picture a cell is a pixel of its near part.
-void MotionSearcher::weigh(const MotionCells& cells, const MotionSpans& spans) {
-    const std::size_t plane = cells.lowest.of[0].values.size();
-    weights_.assign(2 * kPlanes * plane, 0.0F);
-    for (std::size_t part = 0; part < 2; ++part)
-        for (int j = 0; j < cells.rows; ++j) {
-            const MotionSpan span = spans[static_cast<std::size_t>(j)];
-            for (int i = span.begin; i < span.end; ++i) {
-                if (!cells.has(part, i, j)) continue;
-                const std::size_t at = cells.between.index(i, j);
-                float* const weights = weights_.data() + part * kPlanes * plane + at;
-                const float lowest = cells.lowest.of[part].values[at];
-                const float highest = cells.highest.of[part].values[at];
-                float sum = 0.0F;
-                for (int y = std::max(j - kAround, 0); y <= std::min(j + kAround, cells.rows - 1);
-                     ++y)
-                    for (int x = std::max(i - kAround, 0);
-                         x <= std::min(i + kAround, cells.columns - 1); ++x) {
-                        const float low = cells.lowest.of[0].row(y)[x];
-                        const float high = cells.highest.of[0].row(y)[x];
-                        const int k = (y - j + kAround) * kSide + x - i + kAround;
-                        const float alike = alike_across(std::max(lowest - high, low - highest));
-                        weights[static_cast<std::size_t>(k) * plane] = alike;
-                        sum += alike;
-                    }
-                for (std::size_t k = 0; sum > 0.0F && k < kPlanes; ++k)
-                    weights[k * plane] *= 1.0F / sum;
-            }
+/// Shares of one.
+void MotionSearcher::weigh(const MotionSide& from, const MotionKin& kin) {
+    const std::size_t count = from.cells.between.values.size();
+    const std::size_t plane = count + kAtOnce;
+    weights_.assign(kPlanes * plane, 0.0F);
+    std::vector<float>& sum = score_;
+    sum.assign(plane, 0.0F);
+    for (int y = -kAround; y <= kAround; ++y)
+        for (int x = -kAround; x <= kAround; ++x) {
+            const float* const alike = kin.near_beside(x, y);
+            for (std::size_t k = 0; k < count; ++k) sum[k] += alike[k];
+        }
+    for (std::size_t k = 0; k < count; ++k) sum[k] = 1.0F / sum[k];  // each is like itself
+    for (int y = -kAround; y <= kAround; ++y)
+        for (int x = -kAround; x <= kAround; ++x) {
+            const float* const alike = kin.near_beside(x, y);
+            const auto tap = tap_of(x, y);
+            float* const weights = weights_.data() + tap * plane;
+            for (std::size_t k = 0; k < count; ++k) weights[k] = alike[k] * sum[k];
         }
 }
 
-void MotionSearcher::compare(const MotionPictures& from, const MotionPictures& to, int right,
-                             int down) {
+/// Rows around those that are wanted; between rows of cells and beyond them lies what weighs
+/// nothing.
+void MotionSearcher::compare(const MotionPictures& from, const MotionPictures& to,
+                             const MotionRows& rows, int right, int down) {
     const MotionPlane& grey = from.grey.back();
-    std::fill(off_.values.begin(), off_.values.end(), kOutside);
-    for (int j = std::max(-down, 0); j < grey.rows - std::max(down, 0); ++j) {
+    const int columns = grey.columns;
+    const int begin = std::clamp(-right, 0, columns);
+    const int end = std::clamp(columns - right, begin, columns);
+    for (int j = std::max(rows.begin - kAround, 0); j < std::min(rows.end + kAround, grey.rows);
+         ++j) {
+        float* const off = off_.data() + margin_ + std::ptrdiff_t{j} * columns;
+        const bool inside = j + down >= 0 && j + down < grey.rows;
+        const int first = inside ? begin : columns;
+        std::fill(off, off + first, kOutside);
+        if (!inside) continue;
+        std::fill(off + end, off + columns, kOutside);
         const Compared row{grey.row(j), to.grey.back().row(j + down) + right,
                            from.near.back().row(j), to.near.back().row(j + down) + right};
-        float* const off = off_.row(j + kAround) + kAround;
-        compare_row(row, off, std::max(-right, 0), grey.columns - std::max(right, 0));
+        compare_row(row, off, begin, end);
     }
 }
 
-void MotionSearcher::attempt(const MotionCells& cells, const MotionSpans& spans, int right,
-                             int down, MotionWays& ways) {
-    const int rows = score_.of[0].rows;
-    const std::size_t plane = score_.of[0].values.size();
+void MotionSearcher::attempt(const MotionRows& rows, int right, int down, MotionWays& ways) {
+    const std::size_t plane = score_.size();
+    const auto end = static_cast<std::size_t>(rows.end * columns_);
+    const auto begin = static_cast<std::size_t>(rows.begin * columns_);
+    for (std::size_t at = begin; at < end; at += kAtOnce)
+        score_cells({off_.data() + margin_ + at, columns_, weights_.data() + at, plane},
+                    score_.data() + at);
     const bool stays = right == 0 && down == 0;
     const float far = kPerCell * static_cast<float>(std::abs(right) + std::abs(down));
-    for (std::size_t part = 0; part < 2; ++part)
-        for (int j = 0; j < rows; ++j) {
-            const MotionSpan span = spans[static_cast<std::size_t>(j)];
-            if (span.begin >= span.end || !cells.any_in_row(part, j)) continue;
-            const std::size_t at = cells.between.index(span.begin, j);
-            float* const score = score_.of[part].row(j);
-            const Scored scored{off_.row(j) + span.begin, off_.columns,
-                                weights_.data() + part * kPlanes * plane + at, plane};
-            score_row(scored, span.end - span.begin, score + span.begin);
-            for (int i = span.begin; i < span.end; ++i) {
-                const float off = stays ? kStayShare * score[i] - kStayLess : score[i] + far;
-                if (!(off < best_.of[part].row(j)[i])) continue;
-                best_.of[part].row(j)[i] = off;
-                ways.right.of[part].row(j)[i] = static_cast<float>(right * kMotionCell_px);
-                ways.down.of[part].row(j)[i] = static_cast<float>(down * kMotionCell_px);
-            }
-        }
+    const MotionField::Way way{static_cast<float>(right * kMotionCell_px),
+                               static_cast<float>(down * kMotionCell_px)};
+    take_better(score_.data() + begin, stays ? kStayShare : 1.0F, stays ? -kStayLess : far, way,
+                best_.data() + begin, ways.right.of[0].values.data() + begin,
+                ways.down.of[0].values.data() + begin, end - begin);
 }
 
-void MotionSearcher::search(const MotionPictures& from, const MotionPictures& to,
-                            const MotionCells& cells, const MotionSpans& spans, int reach,
-                            MotionWays& ways) {
+/// What is far in a cell.
+void MotionSearcher::follow(const MotionCells& cells, MotionWays& ways) const {
+    for (const std::uint32_t k : cells.split) {
+        const int i = static_cast<int>(k) % cells.columns;
+        const int j = static_cast<int>(k) / cells.columns;
+        float most = 0.0F;
+        for (int y = std::max(j - kAround, 0); y <= std::min(j + kAround, cells.rows - 1); ++y)
+            for (int x = std::max(i - kAround, 0); x <= std::min(i + kAround, cells.columns - 1);
+                 ++x) {
+                const std::size_t beside = cells.between.index(x, y);
+                const float gap =
+                    std::max(cells.lowest.of[1].values[k] - cells.highest.of[0].values[beside],
+                             cells.lowest.of[0].values[beside] - cells.highest.of[1].values[k]);
+                const auto away = static_cast<float>(std::abs(x - i) + std::abs(y - j));
+                const float weight = alike_across(gap) / (1.0F + away);
+                if (!(weight > most)) continue;
+                most = weight;
+                ways.right.of[1].values[k] = ways.right.of[0].values[beside];
+                ways.down.of[1].values[k] = ways.down.of[0].values[beside];
+            }
+    }
+}
+
+void MotionSearcher::search(const MotionSide& from, const MotionSide& to, const MotionKin& kin,
+                            const MotionRows& rows, int reach, MotionWays& ways) {
+    const MotionCells& cells = from.cells;
     ways.resize(cells.columns, cells.rows);
     ways.fill(0.0F);
-    score_.resize(cells.columns, cells.rows);
-    best_.resize(cells.columns, cells.rows);
-    best_.fill(1e9F);
-    off_.resize(cells.columns + 2 * kAround, cells.rows + 2 * kAround);
-    weigh(cells, spans);
+    best_.assign(cells.between.values.size(), 1e9F);
+    columns_ = cells.columns;
+    margin_ = static_cast<std::size_t>(kAround * (columns_ + 1));
+    off_.assign(best_.size() + 2 * margin_ + kAtOnce, kOutside);
+    weigh(from, kin);
     for (int down = -reach; down <= reach; ++down)
         for (int right = -reach; right <= reach; ++right) {
-            compare(from, to, right, down);
-            attempt(cells, spans, right, down, ways);
+            compare(from.pictures, to.pictures, rows, right, down);
+            attempt(rows, right, down, ways);
         }
+    follow(cells, ways);
 }
 
 }  // namespace dibhr

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/video/vector_clones.hpp"
+
 namespace dibhr {
 
 namespace {
@@ -41,22 +43,36 @@ Around parts_around(const MotionCells& cells, const MotionWays& ways, int i, int
     return around;
 }
 
-/// `level` [0, 255], at (x, y) between the middles, in [0, 1].
-MotionField::Way way_at(const Around& around, float level, float x, float y) {
-    const std::array<float, 4> shares{(1.0F - x) * (1.0F - y), x * (1.0F - y), (1.0F - x) * y,
-                                      x * y};
-    float sum = 0.0F;
-    MotionField::Way way{};
+/// Pixels of a row between the middles: how far to the right one each is, in [0, 1], and the row
+/// down.
+struct Between {
+    const float* right;
+    float down;
+};
+
+DIBHR_VECTOR_CLONES void fill_row(const Around& around, const float* __restrict levels, float scale,
+                                  const Between& between, float px,
+                                  MotionField::Way* __restrict ways) {
+    std::array<float, kMotionCell_px> sum{}, right{}, down{};
     for (std::size_t k = 0; k < around.count; ++k) {
         const Around::Part& part = around.parts[k];
-        const float share = (shares[part.corner] + kLeastShare) *
-                            alike_across(std::max(part.lowest - level, level - part.highest));
-        sum += share;
-        way.right += share * part.way.right;
-        way.down += share * part.way.down;
+        // 1 - x or x.
+        const float from_x = part.corner % 2 == 0 ? 1.0F : 0.0F;
+        const float per_x = part.corner % 2 == 0 ? -1.0F : 1.0F;
+        const float of_row = part.corner / 2 == 0 ? 1.0F - between.down : between.down;
+        for (std::size_t i = 0; i < kMotionCell_px; ++i) {
+            const float level = scale * levels[i];
+            const float share = (of_row * (from_x + per_x * between.right[i]) + kLeastShare) *
+                                alike_across(std::max(part.lowest - level, level - part.highest));
+            sum[i] += share;
+            right[i] += share * part.way.right;
+            down[i] += share * part.way.down;
+        }
     }
-    if (!(sum > 0.0F)) return {};
-    return {way.right / sum, way.down / sum};
+    for (std::size_t i = 0; i < kMotionCell_px; ++i) {
+        const float inverse = sum[i] > 0.0F ? px / sum[i] : 0.0F;
+        ways[i] = {inverse * right[i], inverse * down[i]};
+    }
 }
 
 /// The pixels between the middles of cells (i, j) and (i + 1, j + 1).
@@ -80,29 +96,42 @@ void fill_tile(const DepthImage& depth, const Around& around, const Tile& tile, 
         return cells - std::floor(cells);
     };
     const auto px = static_cast<float>(step);
-    for (int j = tile.top; j < tile.bottom; ++j)
-        for (int i = tile.left; i < tile.right; ++i) {
-            const std::size_t k = depth.index(i, j);
-            const MotionField::Way way =
-                way_at(around, scale * depth.levels[k], between(i), between(j));
-            field.ways[k] = {px * way.right, px * way.down};
+    // The picture's borders are not whole.
+    std::array<float, kMotionCell_px> levels{}, right{};
+    std::array<MotionField::Way, kMotionCell_px> ways{};
+    for (int begin = tile.left; begin < tile.right; begin += kMotionCell_px) {
+        const auto count = static_cast<std::size_t>(std::min(tile.right - begin, kMotionCell_px));
+        for (int x = 0; x < kMotionCell_px; ++x)
+            right[static_cast<std::size_t>(x)] = between(begin + x);
+        for (int j = tile.top; j < tile.bottom; ++j) {
+            const std::size_t k = depth.index(begin, j);
+            if (count == kMotionCell_px) {
+                fill_row(around, depth.levels.data() + k, scale, {right.data(), between(j)}, px,
+                         field.ways.data() + k);
+                continue;
+            }
+            std::copy_n(depth.levels.data() + k, count, levels.data());
+            fill_row(around, levels.data(), scale, {right.data(), between(j)}, px, ways.data());
+            std::copy_n(ways.data(), count, field.ways.data() + k);
         }
+    }
 }
 
 }  // namespace
 
 std::shared_ptr<const MotionField> spread_motion(const DepthImage& depth, const MotionCells& cells,
-                                                 int step, const MotionWays& ways) {
+                                                 int step, const MotionWays& ways,
+                                                 Reused<MotionField>& fields) {
     std::shared_ptr<MotionField> field;
     for (int j = -1; j < cells.rows; ++j)
         for (int i = -1; i < cells.columns; ++i) {
             const Around around = parts_around(cells, ways, i, j);
             if (!around.goes) continue;
             if (!field) {
-                field = std::make_shared<MotionField>();
+                field = fields.take();
                 field->columns = depth.columns;
                 field->rows = depth.rows;
-                field->ways.resize(depth.levels.size());
+                field->ways.assign(depth.levels.size(), {});
             }
             fill_tile(depth, around, tile_of(depth, kMotionCell_px * step, i, j), step, *field);
         }

@@ -6,6 +6,7 @@
 #include "core/haptics/depth_image.hpp"
 #include "core/haptics/surface_motion.hpp"
 #include "core/video/motion/motion_cells.hpp"
+#include "core/video/motion/reused.hpp"
 
 namespace dibhr {
 
@@ -13,6 +14,7 @@ namespace dibhr {
 /// none goes anywhere. `step`: as the cells' pictures are thinned out.
 [[nodiscard]] std::shared_ptr<const MotionField> spread_motion(const DepthImage& depth,
                                                                const MotionCells& cells, int step,
-                                                               const MotionWays& ways);
+                                                               const MotionWays& ways,
+                                                               Reused<MotionField>& fields);
 
 }  // namespace dibhr

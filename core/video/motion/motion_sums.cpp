@@ -2,7 +2,11 @@
 #include "core/video/motion/motion_sums.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 
 #include "core/video/vector_clones.hpp"
 
@@ -18,6 +22,12 @@ constexpr float kLost2 = 400.0F;   // the difference of what cannot have gone th
 struct Between {
     float a, b, c, d;
 };
+
+/// So far aside of a whole pixel, in [0, 1).
+Between between(float right, float down) {
+    return {(1.0F - right) * (1.0F - down), right * (1.0F - down), (1.0F - right) * down,
+            right * down};
+}
 
 /// Pixels of one cell whose moved places are inside.
 struct Block {
@@ -35,151 +45,267 @@ struct Block {
     bool near_part, slopes, outline;
 };
 
-/// A row of differences and of slopes, and whether a pixel counts.
-struct Line {
-    float w[kMotionCell_px];
-    float r[kMotionCell_px];
-    float x[kMotionCell_px];
-    float y[kMotionCell_px];
-    float lost[kMotionCell_px];
-};
-
-using Lanes = float[kMotionSums][kMotionCell_px];
-
 // What is not part of its caller is not compiled for wider vectors.
 
-/// `kWide`: a whole row; 0: what the block says.
-template <int kWide>
-[[gnu::always_inline]] inline void read_grey(const Block& block, int j, Line& line) {
-    const int columns = kWide > 0 ? kWide : block.columns;
-    const std::ptrdiff_t at = j * block.stride;
-    const float* const grey = block.grey + at;
-    const float* const here = block.here + at;
-    const float* const moved_here = block.moved_here + at;
-    const float* const near = block.near + at;
-    const float* const moved_near = block.moved_near + at;
-    const float* const moved = block.moved_grey + at;
-    const float* const lower = moved + block.stride;
-    const Between& k = block.weights;
-    const float near_part = block.near_part ? 1.0F : 0.0F;
-    for (int i = 0; i < columns; ++i) {
-        const float is_near = here[i] > block.between ? 1.0F : 0.0F;
-        const float own = is_near == near_part ? 1.0F : 0.0F;
-        const float covered = moved_here[i] > near[i] + kCovered ? 1.0F : 0.0F;
-        const float lost = moved_near[i] < here[i] - kCovered ? 1.0F : 0.0F;
-        line.w[i] = own * (1.0F - covered) * (1.0F - lost);
-        line.lost[i] = own * lost;
-        line.r[i] =
-            (k.a * moved[i] + k.b * moved[i + 1]) + (k.c * lower[i] + k.d * lower[i + 1]) - grey[i];
-    }
+/// So many pixels in a row.
+template <int kSide>
+using Pixels [[gnu::vector_size(kSide * sizeof(float))]] = float;
+
+template <int kSide>
+[[gnu::always_inline]] inline void load(Pixels<kSide>& pixels, const float* from) {
+    std::memcpy(&pixels, from, sizeof(pixels));
 }
 
-template <int kWide>
-[[gnu::always_inline]] inline void read_slopes(const Block& block, const float* first, int j,
-                                               Line& line) {
-    const int columns = kWide > 0 ? kWide : block.columns;
-    const float* const at = first + j * block.stride;
-    const float* const above = at + (j == 0 ? block.above : -block.stride);
-    const float* const below = at + (j + 1 == block.rows ? block.below : block.stride);
-    for (int i = 0; i < columns; ++i) line.y[i] = 0.5F * (below[i] - above[i]);
-    if (kWide > 0) {
-        for (int i = 0; i < columns; ++i) line.x[i] = 0.5F * (at[i + 1] - at[i - 1]);
-        return;
-    }
-    for (int i = 0; i < columns; ++i) {
-        const int left = i == 0 ? block.at_left - 1 : i - 1;
-        const int right = i + 1 == columns ? columns - block.at_right : i + 1;
-        line.x[i] = 0.5F * (at[right] - at[left]);
-    }
+/// Each sum in so many lanes, one for each column.
+template <int kSide>
+struct Lanes {
+    Pixels<kSide> n{}, r{}, rr{}, x{}, y{}, xx{}, xy{}, yy{}, xr{}, yr{};
+};
+
+template <int kSide>
+[[gnu::always_inline]] inline float sum_of(const Pixels<kSide>& pixels) {
+    float lane[kSide];
+    std::memcpy(lane, &pixels, sizeof(lane));
+    float sum = (lane[0] + lane[1]) + (lane[2] + lane[3]);
+    if constexpr (kSide == kMotionCell_px) sum += (lane[4] + lane[5]) + (lane[6] + lane[7]);
+    return sum;
 }
 
-template <int kWide>
-[[gnu::always_inline]] inline void add_grey(const Block& block, const Line& line, Lanes& lanes) {
-    const int columns = kWide > 0 ? kWide : block.columns;
-    const auto lane = [&lanes](MotionSum sum) { return lanes[static_cast<std::size_t>(sum)]; };
-    for (int i = 0; i < columns; ++i) {
-        const float w = line.w[i];
-        const float r = line.r[i];
-        lane(MotionSum::n)[i] += w;
-        lane(MotionSum::r)[i] += w * r;
-        lane(MotionSum::rr)[i] += w * (r * r) + line.lost[i] * kLost2;
-    }
-    if (!block.slopes) return;
-    for (int i = 0; i < columns; ++i) {
-        lane(MotionSum::x)[i] += line.w[i] * line.x[i];
-        lane(MotionSum::y)[i] += line.w[i] * line.y[i];
-    }
+template <int kSide, bool kSlopes>
+[[gnu::always_inline]] inline void put(const Lanes<kSide>& lanes, float* sums) {
+    const auto sum = [sums](MotionSum which) -> float& {
+        return sums[static_cast<std::size_t>(which)];
+    };
+    sum(MotionSum::n) = sum_of<kSide>(lanes.n);
+    sum(MotionSum::r) = sum_of<kSide>(lanes.r);
+    sum(MotionSum::rr) = sum_of<kSide>(lanes.rr);
+    if (!kSlopes) return;
+    sum(MotionSum::x) = sum_of<kSide>(lanes.x);
+    sum(MotionSum::y) = sum_of<kSide>(lanes.y);
+    sum(MotionSum::xx) = sum_of<kSide>(lanes.xx);
+    sum(MotionSum::xy) = sum_of<kSide>(lanes.xy);
+    sum(MotionSum::yy) = sum_of<kSide>(lanes.yy);
+    sum(MotionSum::xr) = sum_of<kSide>(lanes.xr);
+    sum(MotionSum::yr) = sum_of<kSide>(lanes.yr);
 }
 
-template <int kWide>
-[[gnu::always_inline]] inline void add_products(const Block& block, const Line& line,
-                                                Lanes& lanes) {
-    const int columns = kWide > 0 ? kWide : block.columns;
-    const auto lane = [&lanes](MotionSum sum) { return lanes[static_cast<std::size_t>(sum)]; };
-    for (int i = 0; i < columns; ++i) {
-        const float wx = line.w[i] * line.x[i];
-        const float wy = line.w[i] * line.y[i];
-        lane(MotionSum::xx)[i] += wx * line.x[i];
-        lane(MotionSum::xy)[i] += wx * line.y[i];
-        lane(MotionSum::yy)[i] += wy * line.y[i];
-        lane(MotionSum::xr)[i] += wx * line.r[i];
-        lane(MotionSum::yr)[i] += wy * line.r[i];
+/// Of the picture, at a way between pixels.
+template <int kSide>
+[[gnu::always_inline]] inline void load_between(Pixels<kSide>& pixels, const float* from,
+                                                std::ptrdiff_t stride, const Between& weights) {
+    Pixels<kSide> a, b, c, d;
+    load<kSide>(a, from);
+    load<kSide>(b, from + 1);
+    load<kSide>(c, from + stride);
+    load<kSide>(d, from + stride + 1);
+    pixels = (weights.a * a + weights.b * b) + (weights.c * c + weights.d * d);
+}
+
+template <int kSide>
+[[gnu::always_inline]] inline void load_slopes(Pixels<kSide>& x, Pixels<kSide>& y, const float* at,
+                                               const float* above, const float* below) {
+    Pixels<kSide> before, after;
+    load<kSide>(before, at - 1);
+    load<kSide>(after, at + 1);
+    x = 0.5F * (after - before);
+    load<kSide>(before, above);
+    load<kSide>(after, below);
+    y = 0.5F * (after - before);
+}
+
+/// Differences and slopes of pixels that count `w` times.
+template <int kSide>
+[[gnu::always_inline]] inline void add_products(const Pixels<kSide>& w, const Pixels<kSide>& r,
+                                                const Pixels<kSide>& x, const Pixels<kSide>& y,
+                                                Lanes<kSide>& lanes) {
+    const Pixels<kSide> wx = w * x;
+    const Pixels<kSide> wy = w * y;
+    lanes.xx += wx * x;
+    lanes.xy += wx * y;
+    lanes.yy += wy * y;
+    lanes.xr += wx * r;
+    lanes.yr += wy * r;
+}
+
+/// A cell of one surface, which nothing can cover.
+template <int kSide, bool kSlopes>
+[[gnu::always_inline]] inline void sum_plain(const Block& block, float* sums) {
+    Lanes<kSide> lanes{};
+    Pixels<kSide> grey, moved, x, y;
+    for (int j = 0; j < kSide; ++j) {
+        const std::ptrdiff_t at = j * block.stride;
+        load<kSide>(grey, block.grey + at);
+        load_between<kSide>(moved, block.moved_grey + at, block.stride, block.weights);
+        const Pixels<kSide> r = moved - grey;
+        lanes.r += r;
+        lanes.rr += r * r;
+        if (!kSlopes) continue;
+        const float* const here = block.grey + at;
+        load_slopes<kSide>(x, y, here, here - block.stride, here + block.stride);
+        lanes.x += x;
+        lanes.y += y;
+        lanes.xx += x * x;
+        lanes.xy += x * y;
+        lanes.yy += y * y;
+        lanes.xr += x * r;
+        lanes.yr += y * r;
     }
+    lanes.n += static_cast<float>(kSide);
+    put<kSide, kSlopes>(lanes, sums);
 }
 
 /// The outline between the near part and the far one, as a picture of one contrast.
-[[gnu::always_inline]] inline void add_outline(const Block& block, int j, Lanes& lanes) {
-    const std::ptrdiff_t at = j * block.stride;
-    const float* const level = block.level + at;
-    const float* const moved = block.moved_level + at;
-    const float* const lower = moved + block.stride;
-    const Between& k = block.weights;
+template <int kSide, bool kSlopes>
+[[gnu::always_inline]] inline void add_outline(const Block& block, Lanes<kSide>& lanes) {
+    Pixels<kSide> level, after, near, x, y;
+    for (int j = 0; j < kSide; ++j) {
+        const std::ptrdiff_t at = j * block.stride;
+        load<kSide>(level, block.level + at);
+        load<kSide>(near, block.near + at);
+        load_between<kSide>(after, block.moved_level + at, block.stride, block.weights);
+        const Pixels<kSide> low = Pixels<kSide>{} - kOutline;
+        const Pixels<kSide> high = Pixels<kSide>{} + kOutline;
+        Pixels<kSide> before = level - block.between;
+        const auto between = (before > low) & (before < high);
+        after -= block.between;
+        before = before < low ? low : before;
+        before = before > high ? high : before;
+        after = after < low ? low : after;
+        after = after > high ? high : after;
+        const Pixels<kSide> r = after - before;
+        const Pixels<kSide> w = near > block.between ? Pixels<kSide>{} + 1.0F : Pixels<kSide>{};
+        lanes.rr += w * (r * r);
+        if (!kSlopes) continue;
+        const float* const here = block.level + at;
+        load_slopes<kSide>(x, y, here, here + (j == 0 ? block.above : -block.stride),
+                           here + (j + 1 == kSide ? block.below : block.stride));
+        x = between ? x : Pixels<kSide>{};
+        y = between ? y : Pixels<kSide>{};
+        add_products<kSide>(w, r, x, y, lanes);
+    }
+}
+
+/// A cell that is whole.
+template <int kSide, bool kSlopes>
+[[gnu::always_inline]] inline void sum_whole(const Block& block, float* sums) {
+    Lanes<kSide> lanes{};
+    Pixels<kSide> grey, moved, here, near, moved_here, moved_near, x, y;
+    const Pixels<kSide> none{};
+    const Pixels<kSide> one = none + 1.0F;
+    // What is above `between` is near; far is what is not above.
+    const Pixels<kSide> above = block.near_part ? one : none;
+    const Pixels<kSide> not_above = one - above;
+    for (int j = 0; j < kSide; ++j) {
+        const std::ptrdiff_t at = j * block.stride;
+        load<kSide>(here, block.here + at);
+        load<kSide>(near, block.near + at);
+        load<kSide>(moved_here, block.moved_here + at);
+        load<kSide>(moved_near, block.moved_near + at);
+        const Pixels<kSide> own = here > block.between ? above : not_above;
+        const Pixels<kSide> lost = moved_near < here - kCovered ? own : none;
+        const Pixels<kSide> w = moved_here > near + kCovered ? none : own - lost;
+        load<kSide>(grey, block.grey + at);
+        load_between<kSide>(moved, block.moved_grey + at, block.stride, block.weights);
+        const Pixels<kSide> r = moved - grey;
+        lanes.n += w;
+        lanes.r += w * r;
+        lanes.rr += w * (r * r) + lost * kLost2;
+        if (!kSlopes) continue;
+        const float* const row = block.grey + at;
+        load_slopes<kSide>(x, y, row, row + (j == 0 ? block.above : -block.stride),
+                           row + (j + 1 == kSide ? block.below : block.stride));
+        lanes.x += w * x;
+        lanes.y += w * y;
+        add_products<kSide>(w, r, x, y, lanes);
+    }
+    if (block.outline) add_outline<kSide, kSlopes>(block, lanes);
+    put<kSide, kSlopes>(lanes, sums);
+}
+
+/// One pixel after the other, where the picture ends, and in small pictures.
+[[gnu::always_inline]] inline void sum_pixels(const Block& block, float* sums) {
+    const auto sum = [sums](MotionSum which) -> float& {
+        return sums[static_cast<std::size_t>(which)];
+    };
+    const auto slope = [&block](const float* at, int i, int j, bool down) {
+        if (down)
+            return 0.5F * (at[j + 1 == block.rows ? block.below : block.stride] -
+                           at[j == 0 ? block.above : -block.stride]);
+        return 0.5F * (at[i + 1 == block.columns ? 1 - block.at_right : 1] -
+                       at[i == 0 ? block.at_left - 1 : -1]);
+    };
+    const auto moved = [&block](const float* at) {
+        const Between& k = block.weights;
+        return (k.a * at[0] + k.b * at[1]) + (k.c * at[block.stride] + k.d * at[block.stride + 1]);
+    };
     const auto contrast = [&block](float value) {
         return std::min(std::max(value - block.between, -kOutline), kOutline);
     };
-    Line line{};
-    read_slopes<0>(block, block.level, j, line);
-    for (int i = 0; i < block.columns; ++i) {
-        const float off = level[i] - block.between;
-        const bool between = off > -kOutline && off < kOutline;
-        const float after =
-            (k.a * moved[i] + k.b * moved[i + 1]) + (k.c * lower[i] + k.d * lower[i + 1]);
-        line.w[i] = block.near[at + i] > block.between ? 1.0F : 0.0F;
-        line.r[i] = contrast(after) - contrast(level[i]);
-        line.x[i] = between ? line.x[i] : 0.0F;
-        line.y[i] = between ? line.y[i] : 0.0F;
-        lanes[static_cast<std::size_t>(MotionSum::rr)][i] += line.w[i] * (line.r[i] * line.r[i]);
-    }
-    if (block.slopes) add_products<0>(block, line, lanes);
+    const auto add = [&](float w, float r, float x, float y) {
+        sum(MotionSum::xx) += w * x * x;
+        sum(MotionSum::xy) += w * x * y;
+        sum(MotionSum::yy) += w * y * y;
+        sum(MotionSum::xr) += w * x * r;
+        sum(MotionSum::yr) += w * y * r;
+    };
+    for (int j = 0; j < block.rows; ++j)
+        for (int i = 0; i < block.columns; ++i) {
+            const std::ptrdiff_t at = j * block.stride + i;
+            const bool own = (block.here[at] > block.between) == block.near_part;
+            const bool lost = own && block.moved_near[at] < block.here[at] - kCovered;
+            const bool covered = block.moved_here[at] > block.near[at] + kCovered;
+            if (lost) sum(MotionSum::rr) += kLost2;
+            if (own && !lost && !covered) {
+                const float r = moved(block.moved_grey + at) - block.grey[at];
+                sum(MotionSum::n) += 1.0F;
+                sum(MotionSum::r) += r;
+                sum(MotionSum::rr) += r * r;
+                if (block.slopes) {
+                    const float x = slope(block.grey + at, i, j, false);
+                    const float y = slope(block.grey + at, i, j, true);
+                    sum(MotionSum::x) += x;
+                    sum(MotionSum::y) += y;
+                    add(1.0F, r, x, y);
+                }
+            }
+            if (!block.outline || !(block.near[at] > block.between)) continue;
+            const float before = contrast(block.level[at]);
+            const float r = contrast(moved(block.moved_level + at)) - before;
+            sum(MotionSum::rr) += r * r;
+            if (block.slopes && before > -kOutline && before < kOutline)
+                add(1.0F, r, slope(block.level + at, i, j, false),
+                    slope(block.level + at, i, j, true));
+        }
 }
 
-template <int kWide>
-[[gnu::always_inline]] inline void sum_rows(const Block& block, Lanes& lanes) {
-    Line line{};
-    for (int j = 0; j < block.rows; ++j) {
-        read_grey<kWide>(block, j, line);
-        if (block.slopes) read_slopes<kWide>(block, block.grey, j, line);
-        add_grey<kWide>(block, line, lanes);
-        if (block.slopes) add_products<kWide>(block, line, lanes);
-        if (block.outline) add_outline(block, j, lanes);
-    }
-}
-
-DIBHR_VECTOR_CLONES void sum_block(const Block& block, float* sums) {
-    Lanes lanes{};
-    const bool is_inside = block.at_left + block.at_right == 0;
-    if (block.columns == kMotionCell_px && is_inside)
-        sum_rows<kMotionCell_px>(block, lanes);
-    else if (block.columns == kMotionCell_px / 2 && is_inside)
-        sum_rows<kMotionCell_px / 2>(block, lanes);
+template <int kSide>
+[[gnu::always_inline]] inline void sum_whole(const Block& block, float* sums) {
+    if (block.slopes)
+        sum_whole<kSide, true>(block, sums);
     else
-        sum_rows<0>(block, lanes);
-    const std::size_t count = block.slopes ? kMotionSums : 3;
-    for (std::size_t k = 0; k < count; ++k) {
-        const float* const lane = lanes[k];
-        sums[k] = ((lane[0] + lane[1]) + (lane[2] + lane[3])) +
-                  ((lane[4] + lane[5]) + (lane[6] + lane[7]));
-    }
+        sum_whole<kSide, false>(block, sums);
+}
+
+DIBHR_VECTOR_CLONES void sum_plain_block(const Block& block, int side, float* sums) {
+    if (side == kMotionCell_px && block.slopes)
+        sum_plain<kMotionCell_px, true>(block, sums);
+    else if (side == kMotionCell_px)
+        sum_plain<kMotionCell_px, false>(block, sums);
+    else if (block.slopes)
+        sum_plain<kMotionCell_px / 2, true>(block, sums);
+    else
+        sum_plain<kMotionCell_px / 2, false>(block, sums);
+}
+
+/// Adds to what is 0.
+DIBHR_VECTOR_CLONES void sum_block(const Block& block, float* sums) {
+    const bool whole = block.at_left + block.at_right == 0 && block.rows == block.columns;
+    if (whole && block.columns == kMotionCell_px)
+        sum_whole<kMotionCell_px>(block, sums);
+    else if (whole && block.columns == kMotionCell_px / 2)
+        sum_whole<kMotionCell_px / 2>(block, sums);
+    else
+        sum_pixels(block, sums);
 }
 
 struct Span {
@@ -196,67 +322,132 @@ struct Part {
     std::size_t layer;
 };
 
-void sum_part(const MotionPictures& from, const MotionPictures& to, std::size_t size,
-              const MotionCells& cells, const MotionWays& ways, const Part& part, bool slopes,
-              float* sums) {
-    const MotionPlane& grey = from.grey[size];
-    const int side = kMotionCell_px >> size;
-    const float scale = 1.0F / static_cast<float>(1 << size);
-    const float right = scale * ways.right.of[part.layer].row(part.j)[part.i];
-    const float down = scale * ways.down.of[part.layer].row(part.j)[part.i];
-    const int whole_right = static_cast<int>(std::floor(right));
-    const int whole_down = static_cast<int>(std::floor(down));
-    const Span x = inside(part.i * side, (part.i + 1) * side, whole_right, grey.columns);
-    const Span y = inside(part.j * side, (part.j + 1) * side, whole_down, grey.rows);
-    std::fill_n(sums, kMotionSums, 0.0F);
-    if (x.begin >= x.end || y.begin >= y.end) return;
-    const float u = right - static_cast<float>(whole_right);
-    const float v = down - static_cast<float>(whole_down);
-    const std::ptrdiff_t first = grey.row(y.begin) + x.begin - grey.values.data();
-    const std::ptrdiff_t moved =
-        first + static_cast<std::ptrdiff_t>(whole_down) * grey.columns + whole_right;
-    const std::ptrdiff_t nearest = (v < 0.5F ? 0 : grey.columns) + (u < 0.5F ? 0 : 1);
-    Block block{};
-    block.grey = grey.values.data() + first;
-    block.moved_grey = to.grey[size].values.data() + moved;
-    block.level = from.level[size].values.data() + first;
-    block.moved_level = to.level[size].values.data() + moved;
-    block.here = from.here[size].values.data() + first;
-    block.moved_here = to.here[size].values.data() + moved + nearest;
-    block.near = from.near[size].values.data() + first;
-    block.moved_near = to.near[size].values.data() + moved + nearest;
+/// Sums over one part after the other.
+class Summing {
+  public:
+    Summing(const MotionSide& from, const MotionSide& to, std::size_t size, bool slopes)
+        : from_(from),
+          to_(to),
+          size_(size),
+          halvings_(kMotionSizes - 1 - static_cast<int>(size)),
+          side_(1 << halvings_),
+          slopes_(slopes) {}
+
+    void sum(const Part& part, float right, float down, float* sums) const;
+
+  private:
+    /// Where a part goes [px of the picture].
+    struct Moved {
+        Span x{}, y{};
+        int right, down;  ///< whole pixels
+    };
+    [[nodiscard]] bool is_plain(const Part& part, const Moved& moved) const;
+    void sum_plain(const Moved& to, const Between& weights, float* sums) const;
+    void sum_any(const Part& part, const Moved& to, const Between& weights, std::ptrdiff_t nearest,
+                 float* sums) const;
+
+    const MotionSide& from_;
+    const MotionSide& to_;
+    std::size_t size_;
+    int halvings_;  ///< of a cell
+    int side_;      ///< of a cell [px]
+    bool slopes_;
+};
+
+/// Of one surface, and of about one depth, as is all where it goes.
+bool Summing::is_plain(const Part& part, const Moved& moved) const {
+    const MotionPlane& grey = from_.pictures.grey[size_];
+    if (halvings_ < 2 || part.layer != 0 || moved.x.end - moved.x.begin < side_ ||
+        moved.y.end - moved.y.begin < side_ || moved.x.begin == 0 || moved.y.begin == 0 ||
+        moved.x.end == grey.columns || moved.y.end == grey.rows)
+        return false;
+    const std::size_t here = from_.cells.between.index(part.i, part.j);
+    const std::size_t there = from_.cells.between.index((moved.x.begin + moved.right) >> halvings_,
+                                                        (moved.y.begin + moved.down) >> halvings_);
+    return std::max(from_.highest.values[here], to_.highest_of_four.values[there]) -
+               std::min(from_.lowest.values[here], to_.lowest_of_four.values[there]) <
+           kCovered;
+}
+
+void Summing::sum_plain(const Moved& to, const Between& weights, float* sums) const {
+    const MotionPlane& grey = from_.pictures.grey[size_];
+    Block block;
+    block.grey = grey.values.data() + grey.index(to.x.begin, to.y.begin);
+    block.moved_grey = to_.pictures.grey[size_].values.data() +
+                       grey.index(to.x.begin + to.right, to.y.begin + to.down);
     block.stride = grey.columns;
-    block.above = y.begin > 0 ? -block.stride : 0;
-    block.below = y.end < grey.rows ? block.stride : 0;
-    block.columns = x.end - x.begin;
-    block.rows = y.end - y.begin;
-    block.at_left = x.begin == 0 ? 1 : 0;
-    block.at_right = x.end == grey.columns ? 1 : 0;
-    block.weights = {(1.0F - u) * (1.0F - v), u * (1.0F - v), (1.0F - u) * v, u * v};
-    block.between = cells.between.row(part.j)[part.i];
+    block.weights = weights;
+    block.slopes = slopes_;
+    sum_plain_block(block, side_, sums);
+}
+
+void Summing::sum_any(const Part& part, const Moved& to, const Between& weights,
+                      std::ptrdiff_t nearest, float* sums) const {
+    const MotionPictures& pictures = from_.pictures;
+    const MotionPictures& others = to_.pictures;
+    const MotionPlane& grey = pictures.grey[size_];
+    const std::size_t first = grey.index(to.x.begin, to.y.begin);
+    const std::size_t moved = grey.index(to.x.begin + to.right, to.y.begin + to.down);
+    Block block;
+    block.grey = grey.values.data() + first;
+    block.moved_grey = others.grey[size_].values.data() + moved;
+    block.level = pictures.level[size_].values.data() + first;
+    block.moved_level = others.level[size_].values.data() + moved;
+    block.here = pictures.here[size_].values.data() + first;
+    block.moved_here = others.here[size_].values.data() + moved + nearest;
+    block.near = pictures.near[size_].values.data() + first;
+    block.moved_near = others.near[size_].values.data() + moved + nearest;
+    block.stride = grey.columns;
+    block.above = to.y.begin > 0 ? -block.stride : 0;
+    block.below = to.y.end < grey.rows ? block.stride : 0;
+    block.columns = to.x.end - to.x.begin;
+    block.rows = to.y.end - to.y.begin;
+    block.at_left = to.x.begin == 0 ? 1 : 0;
+    block.at_right = to.x.end == grey.columns ? 1 : 0;
+    block.weights = weights;
+    block.between = from_.cells.between.row(part.j)[part.i];
     block.near_part = part.layer == 0;
-    block.slopes = slopes;
-    block.outline = block.near_part && cells.has(0, part.i, part.j) && cells.has(1, part.i, part.j);
+    block.slopes = slopes_;
+    block.outline = block.near_part && from_.cells.has(1, part.i, part.j);
     sum_block(block, sums);
+}
+
+/// Of a way in pixels of the picture.
+void Summing::sum(const Part& part, float right, float down, float* sums) const {
+    const MotionPlane& grey = from_.pictures.grey[size_];
+    Moved to{};
+    to.right = static_cast<int>(std::floor(right));
+    to.down = static_cast<int>(std::floor(down));
+    to.x = inside(part.i * side_, (part.i + 1) * side_, to.right, grey.columns);
+    to.y = inside(part.j * side_, (part.j + 1) * side_, to.down, grey.rows);
+    const float u = right - static_cast<float>(to.right);
+    const float v = down - static_cast<float>(to.down);
+    if (is_plain(part, to)) return sum_plain(to, between(u, v), sums);
+    std::fill_n(sums, kMotionSums, 0.0F);
+    if (to.x.begin >= to.x.end || to.y.begin >= to.y.end) return;
+    const std::ptrdiff_t nearest = (v < 0.5F ? 0 : grey.columns) + (u < 0.5F ? 0 : 1);
+    sum_any(part, to, between(u, v), nearest, sums);
 }
 
 }  // namespace
 
-void sum_differences(const MotionPictures& from, const MotionPictures& to, std::size_t size,
-                     const MotionCells& cells, const MotionLayers& wanted, const MotionWays& ways,
-                     MotionMeasure measure, MotionSums& sums) {
+void sum_differences(const MotionSide& from, const MotionSide& to, std::size_t size,
+                     const MotionLayers& wanted, const MotionWays& ways, MotionMeasure measure,
+                     MotionSums& sums) {
     const auto count = static_cast<std::size_t>(measure);
-    const bool slopes = measure == MotionMeasure::slopes;
+    const Summing summing(from, to, size, measure == MotionMeasure::slopes);
+    const float scale = 1.0F / static_cast<float>(1 << size);
+    const auto columns = static_cast<std::size_t>(from.cells.columns);
     std::array<float, kMotionSums> of_part{};
-    for (std::size_t layer = 0; layer < 2; ++layer)
-        for (int j = 0; j < cells.rows; ++j)
-            for (int i = 0; i < cells.columns; ++i) {
-                if (!(wanted.of[layer].row(j)[i] > 0.0F)) continue;
-                sum_part(from, to, size, cells, ways, {i, j, layer}, slopes, of_part.data());
-                const std::size_t at = cells.between.index(i, j);
-                for (std::size_t k = 0; k < count; ++k)
-                    sums.of[k].of[layer].values[at] = of_part[k];
-            }
+    const auto sum = [&](std::size_t layer, std::size_t at) {
+        if (!(wanted.of[layer].values[at] > 0.0F)) return;
+        summing.sum({static_cast<int>(at % columns), static_cast<int>(at / columns), layer},
+                    scale * ways.right.of[layer].values[at], scale * ways.down.of[layer].values[at],
+                    of_part.data());
+        for (std::size_t k = 0; k < count; ++k) sums.of[k].of[layer].values[at] = of_part[k];
+    };
+    for (std::size_t at = 0; at < wanted.of[0].values.size(); ++at) sum(0, at);
+    for (const std::uint32_t at : from.cells.split) sum(1, at);
 }
 
 }  // namespace dibhr

@@ -10,8 +10,8 @@ namespace dibhr {
 /// Of every part that is `wanted` (above 0), moved by its way, at size `size` (0: the largest):
 /// slopes too, or the difference alone. Others keep theirs. Pixels that go beyond the picture, or
 /// behind what is nearer, are left out.
-void sum_differences(const MotionPictures& from, const MotionPictures& to, std::size_t size,
-                     const MotionCells& cells, const MotionLayers& wanted, const MotionWays& ways,
-                     MotionMeasure measure, MotionSums& sums);
+void sum_differences(const MotionSide& from, const MotionSide& to, std::size_t size,
+                     const MotionLayers& wanted, const MotionWays& ways, MotionMeasure measure,
+                     MotionSums& sums);
 
 }  // namespace dibhr

@@ -253,7 +253,7 @@ TEST_CASE("a session is replayed in the window, moved by keys, and ends like any
         const Fit fit = fit_of(open_depth(folder / "film_depth.mkv")->description());
         CHECK(Session(again).parameters().front().touch.shape == SurfaceShape{fit.relief_px});
         require_same_bits(folder, again);
-        CHECK(load_settings(folder / "config/dibhr/settings.toml").touch == TouchParameters{});
+        CHECK(load_settings(folder / "config/dibhr/settings.toml").touch == Settings{}.touch);
     }
     CHECK(read_text(folder / "errors.txt").empty());
     CHECK(read_text(folder / "hand.dibhr") == recorded);

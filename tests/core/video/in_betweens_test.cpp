@@ -4,16 +4,23 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <ctime>
+#include <glm/geometric.hpp>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "core/haptics/touch.hpp"
 #include "core/video/depth_in_time.hpp"
 #include "core/video/frame_reader.hpp"
 #include "core/video/motion/frame_motion.hpp"
 #include "core/video/motion/in_betweens.hpp"
+#include "core/video/motion/motion_track.hpp"
 #include "core/video/playback.hpp"
+#include "tests/core/haptics/surfaces.hpp"
 #include "tests/core/video/moving_scene.hpp"
 #include "tests/support/catch.hpp"
 
@@ -87,21 +94,22 @@ OutlineError outline_error(const DepthBlend& shown, const MovingScene& scene, do
     OutlineError error;
     double count = 0.0;
     const DepthSurface surface = shown.surface({.relief_px = 255.0});
+    const Frame truth = scene.frame(t_s);
     const std::vector<std::uint8_t>& before = shown.shown().from->colour->rgb;
     const std::vector<std::uint8_t>& after = shown.shown().to->colour->rgb;
     const double blend = shown.shown().blend;
     for (int j = 0; j < surface.rows(); ++j)
         for (int i = 0; i < surface.columns(); ++i) {
-            const MovingScene::Seen seen = scene.at(t_s, {1.0 * i, 1.0 * j});
+            const int object = scene.at(t_s, {1.0 * i, 1.0 * j}).object;
             bool is_beside = false;
             for (const double x : {-reach_px, 0.0, reach_px})
                 for (const double y : {-reach_px, 0.0, reach_px})
-                    is_beside = is_beside || scene.at(t_s, {i + x, j + y}).object != seen.object;
+                    is_beside = is_beside || scene.at(t_s, {i + x, j + y}).object != object;
             if (!is_beside) continue;
             const std::size_t k = 3 * shown.from->depth->index(i, j);
             const double bright = std::lerp(1.0 * before[k], 1.0 * after[k], blend);
-            error.elevation_px += std::fabs(surface.elevation(i, j) - seen.elevation_px);
-            error.brightness += std::fabs(bright - seen.brightness);
+            error.elevation_px += std::fabs(surface.elevation(i, j) - truth.depth->at(i, j));
+            error.brightness += std::fabs(bright - truth.colour->rgb[k]);
             count += 1.0;
         }
     return {error.elevation_px / count, error.brightness / count};
@@ -125,8 +133,19 @@ TEST_CASE("half way outlines and colours are far nearer the truth than faded", "
     const OutlineError with = outline_error(moved.at(0.5), scene, 0.5 / 30.0, way_px);
     const OutlineError without = outline_error(faded.at(0.5), scene, 0.5 / 30.0, way_px);
     CAPTURE(with.elevation_px, without.elevation_px, with.brightness, without.brightness);
-    CHECK(with.elevation_px < 0.35 * without.elevation_px);
-    CHECK(with.brightness < 0.5 * without.brightness);
+    CHECK(with.elevation_px < 0.25 * without.elevation_px);
+    CHECK(with.brightness < 0.4 * without.brightness);
+}
+
+TEST_CASE("an outline that goes less than two pixels is nearer the truth, too", "[in-betweens]") {
+    const MovingScene scene({Shape::hand, Goes::along, 50.0, 320, 240});
+    const Pair moved(scene, 30.0);
+    const Pair faded(scene, 30.0, {});
+    REQUIRE(moved.from.between);
+    const OutlineError with = outline_error(moved.at(0.5), scene, 0.5 / 30.0, 2.0);
+    const OutlineError without = outline_error(faded.at(0.5), scene, 0.5 / 30.0, 2.0);
+    CAPTURE(with.elevation_px, without.elevation_px);
+    CHECK(with.elevation_px < 0.5 * without.elevation_px);
 }
 
 TEST_CASE("so many frames lie between that nothing moves far from one to the next",
@@ -188,7 +207,7 @@ TEST_CASE("what was never seen is on its way, too", "[in-betweens]") {
     const std::size_t count = pair.from.depth->levels.size();
     pair.from.unseen = std::make_shared<const std::vector<std::uint8_t>>(count, 1);
     pair.to.unseen = pair.from.unseen;
-    const auto between = in_betweens_of(pair.from, pair.to);
+    const auto between = InBetweenMaker().between(pair.from, pair.to);
     REQUIRE(between);
     for (const Frame& frame : *between) {
         REQUIRE(frame.unseen);
@@ -204,7 +223,7 @@ TEST_CASE("a fingertip is felt over what is on its way", "[in-betweens]") {
         frame->beneath = frame->depth;
         frame->cleaning.finger = {.radius_px = 6.0, .relief_px = 255.0};
     }
-    const auto between = in_betweens_of(pair.from, pair.to);
+    const auto between = InBetweenMaker().between(pair.from, pair.to);
     REQUIRE(between);
     const Frame& frame = between->front();
     REQUIRE(frame.beneath);
@@ -240,6 +259,18 @@ TEST_CASE("frames of a video are connected to those that follow them", "[in-betw
         CHECK(first->motion);
         CHECK(first->between == nullptr);
     }
+    SECTION("among those that the clip asks for, where somebody wants them") {
+        reader.set_cleaning({});
+        first = reader.at(0.0);
+        second = reader.after(first->media_s);
+        reader.connect(*first, *second);
+        CHECK(first->between == nullptr);
+        reader.set_cleaning({.auto_in_betweens = true});
+        first = reader.at(0.0);
+        second = reader.after(first->media_s);
+        reader.connect(*first, *second);
+        CHECK(first->between);
+    }
     SECTION("anew to the same bits, as a replay does") {
         reader.connect(*first, *second);
         Frame again = *first;
@@ -268,6 +299,117 @@ TEST_CASE("what plays is felt and seen on its way", "[in-betweens]") {
     CHECK(shown.from != &window.frames[0]);
     CHECK(window.at(half_s).coloured().colour != window.frames[0].colour);
 }
+
+namespace {
+
+constexpr double kFramesPerSecond = 30.0;
+
+/// Frames of a fast hand, connected.
+std::vector<Frame> connected_film(int count, const MotionWanted& wanted) {
+    const MovingScene scene({Shape::hand, Goes::along, 300.0, 320, 240});
+    std::vector<Frame> frames = test::film(scene, count, kFramesPerSecond, 1.0, false);
+    FrameMotion motion;
+    for (std::size_t k = 0; k + 1 < frames.size(); ++k)
+        motion.connect(frames[k], frames[k + 1], wanted);
+    return frames;
+}
+
+/// A finger that goes anywhere on frames that play once, from millisecond to millisecond.
+class WildFinger {
+  public:
+    explicit WildFinger(test::Dice& dice) : dice_(dice) {
+        parameters_.algorithm = static_cast<Algorithm>(static_cast<int>(dice.uniform(0.0, 4.0)));
+        parameters_.carry = dice.uniform(0.0, 1.0) < 0.5;
+        parameters_.shape.relief_px = 255.0;
+        goal_ = {dice.uniform(60.0, 260.0), dice.uniform(40.0, 220.0), dice.uniform(40.0, 140.0)};
+        speed_ = {dice.uniform(-0.4, 0.4), dice.uniform(-0.4, 0.4), dice.uniform(-0.2, 0.2)};
+    }
+
+    void go(const std::vector<Frame>& frames, int tick) {
+        const DepthBlend pair = depth_at(frames, tick * 0.001);
+        const DepthSurface surface = pair.surface(parameters_.shape);
+        for (int k = 0; k < 3; ++k) goal_[k] += speed_[k] + dice_.uniform(-0.2, 0.2);
+        const SurfaceMotion motion = track_.go_on_to(pair, pair.from->motion.get(), 0.001);
+        const Touch& touch = renderer_.update(surface, goal_, parameters_, {}, limits_, motion);
+        const Vec3 sent = touch.sent_force_newton;
+        const bool dropped = sent == Vec3(0.0);
+        INFO("tick " << tick << ", " << name_of(parameters_.algorithm));
+        REQUIRE(is_finite(touch.proxy.position));
+        REQUIRE(touch.proxy.position.z >=
+                surface.elevation_at(touch.proxy.position.x, touch.proxy.position.y) - 1e-8);
+        REQUIRE((dropped || glm::length(sent - last_) <= limits_.max_change_newton_per_ms + 1e-12));
+        last_ = sent;
+        touched += touch.proxy.contact ? 1 : 0;
+    }
+
+    long touched{0};
+
+  private:
+    test::Dice& dice_;
+    TouchParameters parameters_{};
+    SafetyLimits limits_{.ramp_s = 0.0};
+    TouchRenderer renderer_{};
+    MotionTrack track_{};
+    Vec3 goal_{0.0}, speed_{0.0}, last_{0.0};
+};
+
+}  // namespace
+
+TEST_CASE("where outlines pass under a proxy it stays on the surface, and no force jumps",
+          "[in-betweens]") {
+    const char* const asked = std::getenv("DIBHR_LONG_UPDATES");
+    const long updates = asked == nullptr ? 200'000 : std::atol(asked);
+    const std::vector<Frame> frames = connected_film(4, kInBetweens);
+    REQUIRE(frames.front().between);
+    const int ticks = static_cast<int>(1e3 * frames.back().time_s);
+    test::Dice dice(11);
+    long touched = 0;
+    for (long done = 0; done < updates; done += ticks) {
+        WildFinger finger(dice);
+        for (int tick = 0; tick < ticks; ++tick) finger.go(frames, tick);
+        touched += finger.touched;
+    }
+    CHECK(touched > updates / 5);  // or it would prove little
+}
+
+#if !DIBHR_SANITIZED
+namespace {
+
+/// Of so many updates with a surface of its own each.
+double ms_of_updates(const std::vector<Frame>& frames, int count) {
+    TouchRenderer renderer;
+    TouchParameters parameters;
+    parameters.shape.relief_px = 255.0;
+    const double last_s = frames.back().time_s;
+    timespec begin{}, end{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &begin);
+    for (int k = 0; k < count; ++k) {
+        const double t_s = std::fmod(k * 0.001, last_s);
+        const DepthSurface surface = depth_at(frames, t_s).surface(parameters.shape);
+        const double x = 160.0 + 60.0 * std::sin(0.01 * k);
+        const double y = 130.0 + 40.0 * std::cos(0.013 * k);
+        renderer.update(surface, {x, y, surface.elevation_at(x, y) - 8.0}, parameters, {}, {});
+    }
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &end);
+    return 1e3 * static_cast<double>(end.tv_sec - begin.tv_sec) +
+           1e-6 * static_cast<double>(end.tv_nsec - begin.tv_nsec);
+}
+
+}  // namespace
+
+TEST_CASE("an update over in-betweens takes no more than half as long again", "[in-betweens]") {
+    const std::vector<Frame> faded = connected_film(4, {});
+    const std::vector<Frame> moved = connected_film(4, kInBetweens);
+    double faded_ms = std::numeric_limits<double>::infinity();
+    double moved_ms = faded_ms;
+    for (int run = 0; run < 7; ++run) {  // the best of some: other programs may be busy
+        faded_ms = std::min(faded_ms, ms_of_updates(faded, 5000));
+        moved_ms = std::min(moved_ms, ms_of_updates(moved, 5000));
+    }
+    CAPTURE(faded_ms, moved_ms);
+    CHECK(moved_ms <= 1.5 * faded_ms);
+}
+#endif
 
 TEST_CASE("runs without a clock have them, too", "[in-betweens]") {
     DepthInTime depth(waving_hand(), DepthInTime::Wanted::all, kCleaning);

@@ -1,0 +1,50 @@
+// Large things whose memory is used again once nobody holds them: fresh pages cost more than what
+// is written into them.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace dibhr {
+
+/// What it gives may outlive it, and be let go of on any thread.
+template <typename Thing>
+class Reused {
+  public:
+    /// As it was left, or a new one.
+    [[nodiscard]] std::shared_ptr<Thing> take() {
+        std::unique_ptr<Thing> thing = left_->take();
+        if (!thing) thing = std::make_unique<Thing>();
+        return {thing.release(),
+                [left = left_](Thing* done) { left->give(std::unique_ptr<Thing>(done)); }};
+    }
+
+  private:
+    static constexpr std::size_t kMost = 8;
+
+    class Left {
+      public:
+        std::unique_ptr<Thing> take() {
+            const std::lock_guard lock(guard_);
+            if (things_.empty()) return nullptr;
+            std::unique_ptr<Thing> thing = std::move(things_.back());
+            things_.pop_back();
+            return thing;
+        }
+        void give(std::unique_ptr<Thing> thing) {
+            const std::lock_guard lock(guard_);
+            if (things_.size() < kMost) things_.push_back(std::move(thing));
+        }
+
+      private:
+        std::mutex guard_{};
+        std::vector<std::unique_ptr<Thing>> things_{};
+    };
+
+    std::shared_ptr<Left> left_{std::make_shared<Left>()};
+};
+
+}  // namespace dibhr
