@@ -203,9 +203,9 @@ void draw_numbers(FalconTopic topic, FalconSettings& settings) {
 }
 
 void draw_workspace(ViewerState& state) {
-    falcon::WorkspaceOptions& workspace = state.settings.falcon.workspace;
+    WorkspaceOptions& workspace = state.settings.falcon.workspace;
     if (ImGui::Button("Fit the image")) {
-        workspace.scale = falcon::fitting_scale(
+        workspace.scale = fitting_scale(
             {state.media.depth_columns, state.media.depth_rows,
              state.settings.touch.shape.relief_px, state.settings.touch.coupling.pixel_pitch_mm},
             workspace);

@@ -68,7 +68,7 @@ struct FalconSettings {
     falcon::ConnectionOptions connection{};  ///< used from the next start of the program
     falcon::Geometry geometry{};
     falcon::Motors motors{};
-    falcon::WorkspaceOptions workspace{};
+    WorkspaceOptions workspace{};
     ButtonActions buttons{kStandardButtons};
     bool force_in_front_only{true};  ///< no force while people work in another window
 };
@@ -89,7 +89,7 @@ struct FalconNumber {
     double& (*in)(FalconSettings&);
 };
 
-/// Every number of falcon::WorkspaceOptions, falcon::Motors and falcon::Geometry.
+/// Every number of WorkspaceOptions, falcon::Motors and falcon::Geometry.
 [[nodiscard]] std::span<const FalconNumber> falcon_numbers() noexcept;
 
 /// The numbers and the clutch as the device takes them; `centred` is counted by the viewer.

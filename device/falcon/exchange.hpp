@@ -7,6 +7,7 @@
 
 #include "core/realtime/triple_buffer.hpp"
 #include "device/falcon/packet.hpp"
+#include "device/hand/wake.hpp"
 
 namespace dibhr::falcon {
 
@@ -26,26 +27,6 @@ struct TimedCommand {
     Counts motor{};
     std::chrono::steady_clock::time_point at{};
     Epoch epoch{kNoEpoch};  ///< of the pose it was computed for
-};
-
-/// Lets one thread end another's poll(): an eventfd.
-class Wake {
-  public:
-    /// Throws DeviceError when the system has none left.
-    Wake();
-    ~Wake();
-    Wake(const Wake&) = delete;
-    Wake& operator=(const Wake&) = delete;
-
-    /// Any thread; one system call that never waits.
-    void signal() const noexcept;
-    /// The waiting thread: forgets the signals so far.
-    void clear() const noexcept;
-    /// Readable after a signal.
-    [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
-
-  private:
-    int descriptor_{-1};
 };
 
 struct Exchange {

@@ -1,5 +1,5 @@
 // Where the grip's point is in the image, and what the clutch and the boundary do.
-#include "device/falcon/workspace.hpp"
+#include "device/hand/workspace.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -14,9 +14,7 @@ namespace {
 
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
-using dibhr::is_finite;
-using dibhr::Vec3;
-using namespace dibhr::falcon;
+using namespace dibhr;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();

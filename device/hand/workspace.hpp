@@ -4,7 +4,7 @@
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/vec.hpp"
 
-namespace dibhr::falcon {
+namespace dibhr {
 
 /// The hand's volume over the image: the workspace's centre is over the image's middle, half way up
 /// the relief.
@@ -57,7 +57,7 @@ class Workspace {
 [[nodiscard]] double fitting_scale(const ImageFrame& image,
                                    const WorkspaceOptions& options) noexcept;
 
-/// Device axes (x right, y up, z to the person) and grid axes (x right, y down, z to the person)
+/// Hand axes (x right, y up, z to the person) and grid axes (x right, y down, z to the person)
 /// differ in the sign of y.
 [[nodiscard]] constexpr Vec3 device_axes(Vec3 grid) noexcept {
     return {grid.x, -grid.y, grid.z};
@@ -66,4 +66,4 @@ class Workspace {
     return {device.x, -device.y, device.z};
 }
 
-}  // namespace dibhr::falcon
+}  // namespace dibhr

@@ -1,21 +1,22 @@
-// Lets the haptic thread end the USB thread's poll().
-#include "device/falcon/exchange.hpp"
+// Lets the haptic thread end a device thread's poll().
+#include "device/hand/wake.hpp"
 
 #include <sys/eventfd.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <string>
 
 #include "core/error.hpp"
 
-namespace dibhr::falcon {
+namespace dibhr {
 
 Wake::Wake() : descriptor_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
     if (descriptor_ < 0) {
-        throw DeviceError(std::string("the Falcon's thread cannot be made (") +
-                          std::strerror(errno) + "): close other programs");
+        throw DeviceError(std::string("a device's thread cannot be made (") + std::strerror(errno) +
+                          "): close other programs");
     }
 }
 
@@ -35,4 +36,4 @@ void Wake::clear() const noexcept {
     [[maybe_unused]] const auto got = read(descriptor_, &signals, sizeof signals);
 }
 
-}  // namespace dibhr::falcon
+}  // namespace dibhr

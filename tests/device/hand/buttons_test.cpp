@@ -1,5 +1,5 @@
 // The grip's buttons without their bounce.
-#include "device/falcon/reply_watch.hpp"
+#include "device/hand/buttons.hpp"
 
 #include <array>
 #include <chrono>
@@ -10,7 +10,7 @@
 
 namespace {
 
-using dibhr::falcon::ButtonDebounce;
+using dibhr::ButtonDebounce;
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using Presses = std::array<std::uint32_t, 4>;

@@ -1,12 +1,12 @@
 // Where the grip's point is in the image: scale, offset, clutch, and the soft boundary.
-#include "device/falcon/workspace.hpp"
+#include "device/hand/workspace.hpp"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
 
-namespace dibhr::falcon {
+namespace dibhr {
 
 namespace {
 
@@ -78,4 +78,4 @@ double fitting_scale(const ImageFrame& image, const WorkspaceOptions& options) n
     return scale_within_range(corner_mm / options.radius_mm);
 }
 
-}  // namespace dibhr::falcon
+}  // namespace dibhr
