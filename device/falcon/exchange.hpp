@@ -7,14 +7,10 @@
 
 #include "core/realtime/triple_buffer.hpp"
 #include "device/falcon/packet.hpp"
+#include "device/hand/epoch.hpp"
 #include "device/hand/wake.hpp"
 
 namespace dibhr::falcon {
-
-/// Poses of one epoch belong together; a new one begins with every link and every homing, because
-/// the counters jump then.
-using Epoch = std::uint32_t;
-inline constexpr Epoch kNoEpoch = 0;  ///< counts mean nothing: not homed, or no link
 
 struct TimedReply {
     Reply reply{};  ///< its buttons are debounced

@@ -15,7 +15,7 @@ namespace dibhr::inverse3 {
 
 /// Opaque: hex digits for an arm, decimal ones for a grip, whatever comes.
 using DeviceId = ShortText<48>;
-using Word = ShortText<32>;
+using ShortWord = ShortText<32>;
 
 enum class Handedness : std::uint8_t { unknown, left, right };
 
@@ -23,8 +23,8 @@ enum class Handedness : std::uint8_t { unknown, left, right };
 struct ArmConfig {
     bool minverse{false};
     Handedness handedness{Handedness::unknown};
-    Word preset{};  ///< empty: not told, as before 3.5
-    Word basis{};   ///< "XYZ"; empty: not told
+    ShortWord preset{};  ///< empty: not told, as before 3.5
+    ShortWord basis{};   ///< "XYZ"; empty: not told
 
     bool operator==(const ArmConfig&) const = default;
 };
@@ -71,7 +71,7 @@ struct ServiceMessage {
 class MessageReader {
   public:
     /// A longer one is not understood: with every device that fits it has some 4 KiB.
-    static constexpr std::size_t kLongest_bytes = 64 * 1024;
+    static constexpr std::size_t kLongest_bytes = std::size_t{256} * 1024;
 
     MessageReader();
     ~MessageReader();

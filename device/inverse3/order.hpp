@@ -25,7 +25,7 @@ enum class ForceDialect : std::uint8_t { vector, values };
 struct Order {
     DeviceId arm{};           ///< empty: no device is spoken to
     bool introduces{false};   ///< names the session
-    Word preset{};            ///< to be set; empty: as it is
+    ShortWord preset{};       ///< to be set; empty: as it is
     bool whole_state{false};  ///< the answer is to hold every configuration
     /// [N], the service's axes; nothing: the pose is asked for and nothing is driven.
     std::optional<Vec3> force_newton{};

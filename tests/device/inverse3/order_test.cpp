@@ -35,7 +35,7 @@ TEST_CASE("without a force the pose is asked for, and nothing is driven", "[inve
 }
 
 TEST_CASE("the first message names the session and sets the preset", "[inverse3]") {
-    CHECK(written({.arm = DeviceId("1"), .introduces = true, .preset = Word("defaults")}) ==
+    CHECK(written({.arm = DeviceId("1"), .introduces = true, .preset = ShortWord("defaults")}) ==
           R"({"session":{"configure":{"profile":{"name":"dibhr:viewer"}}},)"
           R"("inverse3":[{"device_id":"1","configure":{"preset":{"preset":"defaults"}},)"
           R"("commands":{"probe_position":{}}}]})");
@@ -57,7 +57,7 @@ TEST_CASE("the longest message fits, and any name of a device is whole JSON", "[
     const std::string name = "\"\\" + std::string(46, '\x01');
     const Order order{.arm = DeviceId(name),
                       .introduces = true,
-                      .preset = Word(std::string(32, '\x02')),
+                      .preset = ShortWord(std::string(32, '\x02')),
                       .whole_state = true,
                       .force_newton = Vec3{-1.2345678901234567e-300},
                       .dialect = ForceDialect::vector};
