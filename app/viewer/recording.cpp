@@ -25,6 +25,22 @@ constexpr const char* kNote = "note";
 constexpr std::chrono::milliseconds kLastTicks{100};
 constexpr std::chrono::seconds kSumsOfVideo{30};
 
+/// What is known of an Inverse3 only when it has been found.
+std::map<std::string, std::string> found_facts(const inverse3::Status& status) {
+    return {{"inverse3-id", status.id},
+            {"inverse3-service", status.version},
+            {"inverse3-preset-read", status.preset},
+            {"inverse3-dialect", status.dialect ? name_of(*status.dialect) : ""}};
+}
+
+void add_inverse3_facts(const ViewerState& state, std::map<std::string, std::string>& facts) {
+    Inverse3Settings settings = state.settings.inverse3;
+    facts.merge(found_facts(state.inverse3->status));
+    for (const Inverse3Number& number : inverse3_numbers()) {
+        facts.emplace("inverse3-" + std::string(number.name), number_text(number.in(settings)));
+    }
+}
+
 /// What is kept with a recording: versions of program and libraries, files, parameters, device.
 std::map<std::string, std::string> session_facts(const ViewerState& state) {
     std::map<std::string, std::string> facts{
@@ -60,6 +76,7 @@ std::map<std::string, std::string> session_facts(const ViewerState& state) {
             facts.emplace("falcon-" + std::string(number.name), number_text(number.in(falcon)));
         }
     }
+    if (state.inverse3) add_inverse3_facts(state, facts);
     return facts;
 }
 
@@ -117,6 +134,7 @@ void ViewerRecording::start(const std::filesystem::path& file, ViewerState& stat
     if (!maps_.empty()) recorder_->maps(maps_version_, maps_);
     told_version_ = 0;
     falcon_serial_.clear();
+    inverse3_id_.clear();
     start_ = std::chrono::steady_clock::now();
     state.recording_trouble.clear();
     state.recording.emplace().file = file;
@@ -224,6 +242,12 @@ void ViewerRecording::take_news(ViewerState& state) {
     if (!serial.empty() && serial != falcon_serial_) {
         falcon_serial_ = serial;
         recorder_->set_fact("falcon-serial", serial);
+    }
+    const std::string id = state.inverse3 ? state.inverse3->status.id : std::string{};
+    if (!id.empty() && id != inverse3_id_) {
+        inverse3_id_ = id;
+        for (const auto& [key, value] : found_facts(state.inverse3->status))
+            recorder_->set_fact(key.c_str(), value);
     }
     state.recording->status = recorder_->status();
     state.recording->time_s = now_s();

@@ -283,8 +283,7 @@ std::string Service::answer_bytes(bool whole) {
         const auto now = Clock::now();
         scene_.forget_old_forces(now);
         if (scene_.hand_m && !scene_.arms.empty()) {
-            const std::chrono::duration<double> since = now - began_;
-            scene_.arms.front().position_m = scene_.hand_m(since.count());
+            scene_.arms.front().position_m = scene_.hand_m(seconds());
         }
         text = state_text(scene_, whole);
         garble = scene_.manners.garble;

@@ -39,6 +39,11 @@ class Service {
     /// Where older versions have HTTP.
     [[nodiscard]] std::uint16_t older_port() const noexcept { return older_port_; }
 
+    /// How long it has served; the time that Scene::hand_m is asked for.
+    [[nodiscard]] double seconds() const noexcept {
+        return std::chrono::duration<double>(Clock::now() - began_).count();
+    }
+
     /// Looks at or changes what is there, while no message is being answered.
     template <typename Work>
     auto with(Work&& work) {

@@ -12,6 +12,8 @@
 
 namespace dibhr::test::falcon {
 
+using test::TickingDevice;
+
 /// An image such as people choose, already checked.
 inline dibhr::falcon::FirmwareImage any_firmware() {
     return {.bytes = synthetic_firmware(600), .name = "synthetic firmware", .sha256 = {}};

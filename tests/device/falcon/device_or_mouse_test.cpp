@@ -1,10 +1,12 @@
 // The mouse stands in for a Falcon that is not ready, and gives the hand back to it.
-#include "device/falcon_or_mouse.hpp"
+#include "device/device_or_mouse.hpp"
 
 #include <glm/geometric.hpp>
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
+#include <utility>
 
 #include "tests/device/falcon/falcon_in_loop.hpp"
 #include "tests/support/catch.hpp"
@@ -16,7 +18,13 @@ using namespace dibhr::falcon;
 using dibhr::Vec3;
 using std::chrono::milliseconds;
 
-using TickingHand = TickingDevice<dibhr::FalconOrMouse>;
+/// Of devices only a Falcon is looked for.
+struct FalconOrMouse : dibhr::DeviceOrMouse {
+    FalconOrMouse(ConnectionOptions options, FirmwareImage firmware)
+        : DeviceOrMouse(std::make_unique<FalconDevice>(std::move(options), std::move(firmware)),
+                        nullptr) {}
+};
+using TickingHand = TickingDevice<FalconOrMouse>;
 
 bool press_of_the_mouse_moves_the_goal(TickingHand& loop) {
     const Vec3 before = loop.reading.goal_in_grid;
@@ -28,7 +36,7 @@ bool press_of_the_mouse_moves_the_goal(TickingHand& loop) {
 
 }  // namespace
 
-TEST_CASE("without a Falcon the mouse touches from the first tick on", "[falcon_or_mouse]") {
+TEST_CASE("without a Falcon the mouse touches from the first tick on", "[device_or_mouse]") {
     const UsbBench bus;
     TickingHand loop(ConnectionOptions{}, FirmwareImage{});
     CHECK(loop.device.unread().stand_in);
@@ -41,7 +49,7 @@ TEST_CASE("without a Falcon the mouse touches from the first tick on", "[falcon_
 }
 
 TEST_CASE("a Falcon takes the hand over once when it is ready, and the mouse once when it is gone",
-          "[falcon_or_mouse]") {
+          "[device_or_mouse]") {
     UsbBench bus;
     Unit& unit = bus.make("SIM00001");
     TickingHand loop(ConnectionOptions{}, any_firmware());
@@ -74,13 +82,13 @@ TEST_CASE("a Falcon takes the hand over once when it is ready, and the mouse onc
 }
 
 TEST_CASE("a reading says what its own hand can stand: the mouse's, or the Falcon's at its scale",
-          "[falcon_or_mouse]") {
+          "[device_or_mouse]") {
     UsbBench bus;
     Unit& unit = bus.make("SIM00001");
     TickingHand loop(ConnectionOptions{}, FirmwareImage{});
     Tuning tuning;
     tuning.workspace.scale = 4.0;
-    loop.device.falcon().tuning().publish(tuning);
+    loop.device.falcon()->tuning().publish(tuning);
     loop.tick();
     CHECK(loop.reading.limits == loop.device.mouse().specification().limits);
     start_firmware(unit);
@@ -96,7 +104,7 @@ TEST_CASE("a reading says what its own hand can stand: the mouse's, or the Falco
     CHECK(loop.reading.limits == loop.device.mouse().specification().limits);
 }
 
-TEST_CASE("a clutched Falcon stays the hand, without force", "[falcon_or_mouse]") {
+TEST_CASE("a clutched Falcon stays the hand, without force", "[device_or_mouse]") {
     UsbBench bus;
     Unit& unit = bus.plug();
     start_firmware(unit);
