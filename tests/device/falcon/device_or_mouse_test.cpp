@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "device/inverse3/simulated/service.hpp"
 #include "tests/device/falcon/falcon_in_loop.hpp"
 #include "tests/support/catch.hpp"
 
@@ -116,4 +117,51 @@ TEST_CASE("a clutched Falcon stays the hand, without force", "[device_or_mouse]"
     REQUIRE(loop.tick_until([&] { return !loop.reading.ready; }));
     CHECK_FALSE(loop.reading.stand_in);
     CHECK_FALSE(loop.reading.taken_over);
+}
+
+TEST_CASE("of a Falcon and an Inverse3 the first that is ready touches, and the other rests",
+          "[device_or_mouse]") {
+    UsbBench bus;
+    Unit& unit = bus.make("SIM00001");
+    namespace simulated = dibhr::inverse3::simulated;
+    simulated::Service service;
+    dibhr::inverse3::ConnectionOptions options;
+    options.port = service.port();
+    options.older_port = service.older_port();
+    TickingDevice<dibhr::DeviceOrMouse> loop(
+        std::make_unique<FalconDevice>(ConnectionOptions{}, any_firmware()),
+        std::make_unique<dibhr::inverse3::Inverse3Device>(options));
+    using dibhr::Touching;
+    const auto touching = [&] { return static_cast<Touching>(loop.reading.which); };
+    loop.force_newton = {0.0, 0.0, 1.0};
+    REQUIRE(loop.tick_until_ready());
+    CHECK(touching() == Touching::inverse3);
+    start_firmware(unit);
+    home(unit);
+    bus.plug(unit);
+    loop.tick_for(milliseconds(1500));
+    CHECK(loop.device.falcon()->in_hand());
+    CHECK(touching() == Touching::inverse3);
+    CHECK(log_of(unit).with_force == 0);
+
+    // The Inverse3 goes: the Falcon takes over, from zero.
+    service.with([](simulated::Scene& scene) { scene.arms.clear(); });
+    int takings = 0;
+    REQUIRE(loop.tick_until([&] {
+        takings += loop.reading.taken_over ? 1 : 0;
+        return touching() == Touching::falcon;
+    }));
+    CHECK(takings == 1);
+    loop.tick_for(milliseconds(300));
+    CHECK(log_of(unit).with_force > 0);
+
+    // It comes again: the Falcon keeps the hand, and the Inverse3 rests at zero.
+    service.with([](simulated::Scene& scene) { scene.arms = {simulated::Arm{}}; });
+    service.forget_heard();
+    REQUIRE(loop.tick_until([&] { return loop.device.inverse3()->in_hand(); }));
+    loop.tick_for(milliseconds(200));
+    CHECK(touching() == Touching::falcon);
+    for (const simulated::Heard& one : service.heard()) {
+        CHECK(glm::length(one.force_newton) == 0.0);
+    }
 }

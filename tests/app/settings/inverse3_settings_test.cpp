@@ -1,0 +1,48 @@
+// What is kept about the Inverse3.
+#include "app/settings/inverse3_settings.hpp"
+
+#include <set>
+#include <string>
+
+#include "app/settings/settings.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace dibhr;
+using Catch::Matchers::WithinAbs;
+
+TEST_CASE("every number of the Inverse3 has a name of its own, and a default within its range",
+          "[inverse3][settings]") {
+    std::set<std::string_view> names;
+    Inverse3Settings standard;
+    for (const Inverse3Number& number : inverse3_numbers()) {
+        CAPTURE(number.name);
+        CHECK(names.insert(number.name).second);
+        CHECK(number.in(standard) >= number.lowest);
+        CHECK(number.in(standard) <= number.highest);
+    }
+    CHECK(names.size() == 9);
+}
+
+TEST_CASE("what is set for the Inverse3 is kept, and reaches the device", "[inverse3][settings]") {
+    const test::TemporaryFolder folder;
+    const auto file = folder / "settings.toml";
+    Settings settings;
+    settings.inverse3.device = "left";
+    settings.inverse3.port = 12345;
+    settings.inverse3.dialect = Dialect::values;
+    settings.inverse3.tuning.tilt_deg = 30.0;
+    settings.inverse3.buttons[1] = ButtonAction::clutch;
+    save_settings(settings, file);
+    const Settings kept = load_settings(file);
+    const inverse3::ConnectionOptions connection = connection_of(kept.inverse3);
+    CHECK(connection.device == "left");
+    CHECK(connection.port == 12345);
+    CHECK(connection.dialect == inverse3::ForceDialect::values);
+    CHECK(connection.preset == "defaults");
+    const inverse3::Tuning tuning = tuning_of(kept.inverse3, 2.5, 7);
+    CHECK_THAT(tuning.tilt_deg, WithinAbs(30.0, 1e-12));
+    CHECK_THAT(tuning.max_force_newton, WithinAbs(2.5, 1e-12));
+    CHECK(tuning.clutch_buttons == 3);  // A from the start, and B
+    CHECK(tuning.centred == 7);
+}
