@@ -60,7 +60,7 @@ inverse3::ConnectionOptions connection_of(const Inverse3Settings& settings) {
     connection.older_port = static_cast<std::uint16_t>(settings.older_port);
     if (settings.dialect == Dialect::vector) connection.dialect = inverse3::ForceDialect::vector;
     if (settings.dialect == Dialect::values) connection.dialect = inverse3::ForceDialect::values;
-    if (!settings.preset.empty()) connection.preset = settings.preset;
+    if (!settings.preset.empty()) connection.preset = std::string_view(settings.preset);
     return connection;
 }
 

@@ -154,7 +154,7 @@ Order Conversation::next_order() {
     const bool first = !introduced_ && !arm_.empty();
     if (first && newer_) {
         order.introduces = true;
-        order.preset = std::string_view(options_.preset);
+        order.preset = options_.preset;
     }
     introduced_ = introduced_ || first;
     order.whole_state = arm_.empty() || first || now >= whole_state_due_;
@@ -274,7 +274,7 @@ void Conversation::take_arm(const Arm& arm, Time at) {
         Status& status = board_.draft();
         // The Haply Hub may have put a profile of its own over ours.
         const bool moved = newer_ && !arm.config->preset.empty() && introduced_ &&
-                           arm.config->preset.view() != options_.preset;
+                           !(arm.config->preset == options_.preset);
         if (moved) introduced_ = false;
         status.minverse = arm.config->minverse;
         status.handedness = arm.config->handedness;

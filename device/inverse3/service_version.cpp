@@ -2,6 +2,7 @@
 #include "device/inverse3/service_version.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <chrono>
 #include <filesystem>
@@ -15,6 +16,9 @@ namespace dibhr::inverse3 {
 namespace {
 
 constexpr std::chrono::milliseconds kAnswerTakes{300};
+constexpr std::array kUnits{"/usr/lib/systemd/system/haply-inverse-service.service",
+                            "/lib/systemd/system/haply-inverse-service.service",
+                            "/etc/systemd/system/haply-inverse-service.service"};
 
 std::optional<ServiceVersion> version_at(std::uint16_t port) {
     try {
@@ -54,11 +58,13 @@ std::optional<ServiceVersion> ask_version(const ConnectionOptions& options) {
 }
 
 bool is_installed(const ConnectionOptions& options) {
-    return std::any_of(options.installed_as.begin(), options.installed_as.end(),
-                       [](const std::filesystem::path& file) {
-                           std::error_code ignored;
-                           return std::filesystem::exists(file, ignored);
-                       });
+    const auto is_there = [](const std::filesystem::path& file) {
+        std::error_code ignored;
+        return std::filesystem::exists(file, ignored);
+    };
+    const auto& given = options.installed_as;
+    return given.empty() ? std::any_of(kUnits.begin(), kUnits.end(), is_there)
+                         : std::any_of(given.begin(), given.end(), is_there);
 }
 
 }  // namespace dibhr::inverse3

@@ -21,12 +21,9 @@ struct ConnectionOptions {
     std::uint16_t port{10001};              ///< WebSocket, and HTTP of newer services
     std::uint16_t older_port{10000};        ///< HTTP of older ones
     std::optional<ForceDialect> dialect{};  ///< nothing: by the service's version
-    std::string preset{"defaults"};         ///< of mount, axes and origin, from 3.5 on
-    /// One of them is there where the service is installed.
-    std::vector<std::filesystem::path> installed_as{
-        "/usr/lib/systemd/system/haply-inverse-service.service",
-        "/lib/systemd/system/haply-inverse-service.service",
-        "/etc/systemd/system/haply-inverse-service.service"};
+    ShortWord preset{"defaults"};           ///< of mount, axes and origin, from 3.5 on
+    /// One of them is there where the service is installed; empty: where its package has them.
+    std::vector<std::filesystem::path> installed_as{};
 };
 
 /// Changed while touching, handed whole to the next tick.

@@ -39,7 +39,7 @@ TEST_CASE("what is set for the Inverse3 is kept, and reaches the device", "[inve
     CHECK(connection.device == "left");
     CHECK(connection.port == 12345);
     CHECK(connection.dialect == inverse3::ForceDialect::values);
-    CHECK(connection.preset == "defaults");
+    CHECK(connection.preset.view() == "defaults");
     const inverse3::Tuning tuning = tuning_of(kept.inverse3, 2.5, 7);
     CHECK_THAT(tuning.tilt_deg, WithinAbs(30.0, 1e-12));
     CHECK_THAT(tuning.max_force_newton, WithinAbs(2.5, 1e-12));

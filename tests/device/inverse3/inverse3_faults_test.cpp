@@ -281,14 +281,3 @@ TEST_CASE("whether the service is not installed, not running, or too old is told
         CHECK(loop.device.status().sentence.find("3.0.2") != std::string::npos);
     }
 }
-
-TEST_CASE("there is never more than one message under way, over very many exchanges",
-          "[inverse3_faults][many]") {
-    // The ten times longer form: [.long].
-    const std::uint64_t many = 20'000;
-    ServiceDesk desk;
-    CHECK(desk.tick_until([&] { return desk.service.exchanges() >= many; }, milliseconds(60'000)));
-    CHECK(desk.service.too_many_in_flight() == 0);
-    CHECK(desk.service.not_understood() == 0);
-    CHECK(desk.stage() == Stage::ready);
-}

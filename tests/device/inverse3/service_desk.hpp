@@ -24,7 +24,7 @@ inline ConnectionOptions options_for(const simulated::Service& service) {
     ConnectionOptions options;
     options.port = service.port();
     options.older_port = service.older_port();
-    options.installed_as.clear();
+    options.installed_as = {"/nowhere"};
     return options;
 }
 
