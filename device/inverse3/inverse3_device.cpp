@@ -8,6 +8,8 @@
 #include <cmath>
 #include <utility>
 
+#include "device/inverse3/dynamics.hpp"
+
 namespace dibhr::inverse3 {
 
 namespace {
@@ -18,8 +20,6 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kOldestPose{20};
 constexpr double kMaxForce_newton = 10.0;  // for a moment; Tuning::max_force_newton lasts
 constexpr double kMaxStiffness_newton_per_mm = 1.0;
-constexpr DeviceDynamics kDynamics{
-    .mass_kg = 0.15, .friction_newton_s_per_m = 0.2, .resolution_mm = 0.01, .delay_s = 0.003};
 constexpr double kMetre_mm = 1000.0;
 constexpr double kAboveAll_px = 6.0;
 
@@ -29,7 +29,7 @@ DeviceSpecification specification_of(const ConnectionOptions& options) {
         options.device.empty() ? "Haply Inverse3" : "Haply Inverse3 (" + options.device + ")";
     specification.limits.max_force_newton = kMaxForce_newton;
     specification.limits.max_stiffness_newton_per_mm = kMaxStiffness_newton_per_mm;
-    specification.limits.dynamics = kDynamics;
+    specification.limits.dynamics = kAssumedDynamics;
     specification.workspace_mm = {460.0, 510.0, 230.0};
     return specification;
 }

@@ -70,6 +70,8 @@ struct Manners {
     std::chrono::microseconds delay{0};
     std::chrono::microseconds jitter{0};  ///< up to that much more
     Garble garble{Garble::none};
+    /// What it keeps for all programs: gravity compensation, as JSON; empty: it does not tell.
+    std::string gravity_compensation{R"({"enabled":true,"gravity_scaling_factor":1.0})"};
     bool http_beside{true};                    ///< /version on the WebSocket's own port
     bool http_older{true};                     ///< and on the older one
     std::chrono::milliseconds force_held{50};  ///< without a new one; 0: for ever

@@ -79,6 +79,23 @@ std::string http_answer(const std::string& status, const std::string& body) {
            "\r\nConnection: close\r\n\r\n" + body;
 }
 
+/// What is asked for by the head of a request, on the older port or the WebSocket's; empty: no such
+/// page.
+std::string page_of(const Scene& scene, const std::string& head, bool older) {
+    const Manners& manners = scene.manners;
+    if (!(older ? manners.http_older : manners.http_beside)) return {};
+    if (head.starts_with("GET /version ")) {
+        return R"({"project_name":"haply-inverse-service","project_version":")" + manners.version +
+               "\"}";
+    }
+    for (const Arm& arm : scene.arms) {
+        if (head.starts_with("GET /inverse3/" + arm.id + "/config/gravity_compensation")) {
+            return manners.gravity_compensation;
+        }
+    }
+    return {};
+}
+
 std::string in_fragments(const std::string& text) {
     const std::size_t third = text.size() / 3;
     return frame(text.substr(0, third), {Opcode::text, false}) +
@@ -202,16 +219,11 @@ bool Service::shake_hands(Client& client, bool older) {
                         "Upgrade\r\nSec-WebSocket-Accept: " +
                             accept_of(key) + "\r\n\r\n");
     }
-    const auto [has_http, version] = with([&](const Scene& scene) {
-        return std::pair(older ? scene.manners.http_older : scene.manners.http_beside,
-                         scene.manners.version);
-    });
-    const bool known = has_http && head.starts_with("GET /version");
-    const std::string body =
-        R"({"project_name":"haply-inverse-service","project_version":")" + version + "\"}";
+    const std::string body = with([&](const Scene& scene) { return page_of(scene, head, older); });
     (void)send_all(client.descriptor,
-                   known ? http_answer("200 OK", body)
-                         : http_answer("404 Not Found", R"({"ok":false,"error":"no such page"})"));
+                   body.empty()
+                       ? http_answer("404 Not Found", R"({"ok":false,"error":"no such page"})")
+                       : http_answer("200 OK", body));
     return false;
 }
 

@@ -194,6 +194,7 @@ TEST_CASE("a force that waits for the window is told, unless the person has swit
           "[falcon][banner]") {
     ViewerState state;
     state.falcon.emplace().status.stage = falcon::Stage::ready;
+    state.haptic.hand.which = static_cast<std::uint8_t>(Touching::falcon);
     state.in_front = false;
     CHECK(device_banner(state).find("not in front") != std::string::npos);
     state.force_enabled = false;

@@ -3,6 +3,9 @@
 
 #include <glm/geometric.hpp>
 
+#include <thread>
+
+#include "device/inverse3/conversation.hpp"
 #include "tests/device/inverse3/service_desk.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/support/catch.hpp"
@@ -161,6 +164,31 @@ TEST_CASE("a tick allocates nothing", "[inverse3]") {
         std::this_thread::sleep_for(milliseconds(1));
     }
     CHECK(allocations == 0);
+}
+
+TEST_CASE("on the network thread no exchange allocates, once there is a connection", "[inverse3]") {
+    simulated::Service service;
+    const ConnectionOptions options = options_for(service);
+    Exchange exchange;
+    Board board;
+    Memory memory;
+    int allocations = 0;
+    std::jthread network([&](const std::stop_token& stop) {
+        ServiceLink link(options.port, ServiceLink::Time::clock::now() + milliseconds(1000));
+        Conversation conversation(link, options, true, exchange, board, memory);
+        allocations = test::allocations_in([&] { conversation.run(stop); });
+    });
+    while (service.exchanges() < 3000) {
+        const TimedPose pose = exchange.poses.front();
+        exchange.forces.publish({{0.0, 0.0, 1.0}, simulated::Clock::now(), pose.epoch});
+        exchange.wake.signal();
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+    network.request_stop();
+    network.join();
+    CHECK(memory.exchanges >= 3000);
+    CHECK(memory.dialect_confirmed);
+    CHECK(allocations < 50);  // what is said of each new stage
 }
 
 TEST_CASE("its end is a zero force and a goodbye", "[inverse3]") {
