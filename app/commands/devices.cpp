@@ -1,9 +1,10 @@
-// `dibhr devices`: the mouse, and how far every attached device goes; or the check of a Falcon.
+// `dibhr devices`: the mouse, and how far every attached device goes; or the check of one.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/commands/command_line.hpp"
@@ -15,6 +16,8 @@
 #include "device/falcon/check/check.hpp"
 #include "device/falcon/survey.hpp"
 #include "device/hand_device.hpp"
+#include "device/inverse3/check/check.hpp"
+#include "device/inverse3/survey.hpp"
 
 namespace dibhr {
 namespace {
@@ -73,19 +76,42 @@ int survey(const FirmwareAtHand& firmware) {
     return 0;
 }
 
-int check(const FirmwareAtHand& firmware, const std::filesystem::path& record) {
-    const std::filesystem::path settings_file = settings_path();
-    const FalconSettings settings = load_settings(settings_file).falcon;
+using Facts = std::vector<std::pair<std::string, std::string>>;
+
+CheckResult check_falcon(const FirmwareAtHand& firmware, const std::filesystem::path& record,
+                         const Facts& facts, CheckGuide& guide) {
+    const FalconSettings settings = load_settings(settings_path()).falcon;
     if (!firmware.trouble.empty()) std::cout << "kept firmware: " << firmware.trouble << '\n';
-    const auto guide = make_terminal_guide();
     falcon::CheckOptions options;
     options.serial = settings.connection.serial;
     options.firmware = firmware.image;
     options.geometry = settings.geometry;
     options.record = record;
-    options.facts = {{"program", "dibhr " DIBHR_VERSION},
-                     {"thread_priority", become_realtime("dibhr check").priority.answer}};
-    const falcon::CheckResult result = run_check(options, *guide);
+    options.facts = facts;
+    return falcon::run_check(options, guide);
+}
+
+CheckResult check_inverse3(const std::filesystem::path& record, const Facts& facts,
+                           CheckGuide& guide) {
+    inverse3::CheckOptions options;
+    options.connection = connection_of(load_settings(settings_path()).inverse3);
+    options.record = record;
+    options.facts = facts;
+    return inverse3::run_check(options, guide);
+}
+
+/// Of an Inverse3 where the service has one and no Falcon is attached.
+int check(const FirmwareAtHand& firmware, const std::filesystem::path& record) {
+    const std::filesystem::path settings_file = settings_path();
+    const auto guide = make_terminal_guide();
+    const Facts facts{{"program", "dibhr " DIBHR_VERSION},
+                      {"thread_priority", become_realtime("dibhr check").priority.answer}};
+    const bool of_inverse3 =
+        falcon::attached_falcons().empty() &&
+        !inverse3::survey_service(connection_of(load_settings(settings_file).inverse3))
+             .arms.empty();
+    const CheckResult result = of_inverse3 ? check_inverse3(record, facts, *guide)
+                                           : check_falcon(firmware, record, facts, *guide);
     std::cout << "The settings file: " << settings_file.string() << '\n';
     if (!result.fault.empty()) throw DeviceError(result.fault);
     return 0;
@@ -95,16 +121,16 @@ int check(const FirmwareAtHand& firmware, const std::filesystem::path& record) {
 
 int run_devices(CLI::App& app, const Arguments& arguments) {
     std::filesystem::path firmware_file;  // empty: the kept one
-    std::filesystem::path record;         // empty: falcon-check-SERIAL-DATE.json
+    std::filesystem::path record;         // empty: DEVICE-check-SERIAL-DATE.json
     bool checks = false;
     std::string simulated;
     add_firmware(app, firmware_file);
     auto* const check_given =
         app.add_flag("--check", checks,
-                     "Leads you through everything that is to be measured on a "
-                     "Falcon, with force only where it says so");
+                     "Leads you through everything that is to be measured on a Falcon, or on an "
+                     "Inverse3 where no Falcon is attached, with force only where it says so");
     add_file(app, "--out", record, "With --check: the record of what was measured")
-        ->default_str("falcon-check-SERIAL-DATE.json")
+        ->default_str("DEVICE-check-SERIAL-DATE.json")
         ->needs(check_given);
     app.add_option("--simulate", simulated,
                    "Stands in for the Haply Inverse Service, for people without one, until its "

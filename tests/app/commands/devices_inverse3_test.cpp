@@ -27,6 +27,8 @@ class Home {
         return run_dibhr(folder_, arguments);
     }
 
+    [[nodiscard]] const TemporaryFolder& folder() const { return folder_; }
+
   private:
     TemporaryFolder folder_{};
 };
@@ -129,4 +131,21 @@ TEST_CASE("the viewer that insists on an Inverse3 ends with one line when there 
     const ProgramResult other = home.run({"view", "--device", "inverse3:C0FFEE"});
     CHECK(other.exit_code == 1);
     CHECK(says(other.errors, "C0FFEE, but 049D"));
+}
+
+TEST_CASE(
+    "where no Falcon is attached the check is of the Inverse3; with nobody there it asks for "
+    "no force",
+    "[inverse3][devices]") {
+    Service service;
+    const Home home(service);
+    const ProgramResult result = home.run({"devices", "--check", "--out", "check.json"});
+    INFO(result.errors << result.output);
+    CHECK(result.exit_code == 0);
+    CHECK(says(result.output, "Checks the Inverse3 049D"));
+    CHECK(says(result.output, "still open"));
+    const std::string record = read_text(home.folder() / "check.json");
+    CHECK(says(record, "\"format\": \"dibhr inverse3 check\""));
+    CHECK(says(record, "exchanges_per_s"));
+    for (const Heard& one : service.heard()) CHECK_FALSE(one.drives);
 }
