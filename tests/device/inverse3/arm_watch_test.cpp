@@ -81,6 +81,7 @@ TEST_CASE("whatever keeps an arm from touching has its stage, and a new epoch fo
     }
     SECTION("a message without it") {
         states.watch.miss();
+        CHECK(states.watch.stage() == Stage::ready);  // of the last one that came
     }
     SECTION("exchanged axes") {
         states.arm.config = ArmConfig{.basis = ShortWord("XZY")};
