@@ -13,6 +13,7 @@
 #include "core/video/depth/sidecar.hpp"
 #include "core/video/libraries.hpp"
 #include "core/video/live/live_name.hpp"
+#include "device/device_or_mouse.hpp"
 
 namespace dibhr {
 
@@ -24,6 +25,13 @@ constexpr const char* kNote = "note";
 /// For the loop to see that it is over: until then ticks may touch what comes.
 constexpr std::chrono::milliseconds kLastTicks{100};
 constexpr std::chrono::seconds kSumsOfVideo{30};
+
+/// The one that was asked for; an Inverse3 that touches, by its name.
+std::string device_name(const ViewerState& state) {
+    const bool inverse3_touches =
+        state.inverse3 && state.haptic.hand.which == static_cast<std::uint8_t>(Touching::inverse3);
+    return inverse3_touches ? "Haply " + name_of(state.inverse3->status) : state.device.name;
+}
 
 /// What is known of an Inverse3 only when it has been found.
 std::map<std::string, std::string> found_facts(const inverse3::Status& status) {
@@ -45,7 +53,7 @@ void add_inverse3_facts(const ViewerState& state, std::map<std::string, std::str
 std::map<std::string, std::string> session_facts(const ViewerState& state) {
     std::map<std::string, std::string> facts{
         {"program", "dibhr " DIBHR_VERSION},
-        {"device", state.device.name},
+        {"device", device_name(state)},
         {"device-max-force", number_text(state.device.limits.max_force_newton)},
         {"device-max-stiffness", number_text(state.device.limits.max_stiffness_newton_per_mm)},
         {"device-workspace-mm", number_text(state.device.workspace_mm.x) + " x " +
@@ -247,7 +255,8 @@ void ViewerRecording::take_news(ViewerState& state) {
     if (!id.empty() && id != inverse3_id_) {
         inverse3_id_ = id;
         for (const auto& [key, value] : found_facts(state.inverse3->status))
-            recorder_->set_fact(key.c_str(), value);
+            recorder_->set_fact(key, value);
+        recorder_->set_fact("device", device_name(state));
     }
     state.recording->status = recorder_->status();
     state.recording->time_s = now_s();

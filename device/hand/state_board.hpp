@@ -4,7 +4,6 @@
 #include <chrono>
 #include <mutex>
 #include <string>
-#include <utility>
 
 namespace dibhr {
 
@@ -41,9 +40,9 @@ class StateBoard {
     }
 
     /// A new stage, published at once.
-    void enter(decltype(State::stage) stage, std::string sentence, bool trouble = false) {
+    void enter(decltype(State::stage) stage, const std::string& sentence, bool trouble = false) {
         draft_.stage = stage;
-        draft_.sentence = std::move(sentence);
+        draft_.sentence = sentence;
         draft_.trouble = trouble;
         publish();
     }

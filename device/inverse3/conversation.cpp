@@ -216,11 +216,11 @@ void Conversation::take_message(const ServiceMessage& message, Time at) {
     }
 }
 
-void Conversation::take_nonsense(Stage why, std::string sentence) {
+void Conversation::take_nonsense(Stage why, const std::string& sentence) {
     ++memory_.not_understood;
     memory_.watch.miss();
     exchange_.poses.publish(TimedPose{});
-    tell(why, sentence.empty() ? sentence_for(why, board_.draft()) : std::move(sentence), true);
+    tell(why, sentence.empty() ? sentence_for(why, board_.draft()) : sentence, true);
 }
 
 /// The first in order of their names, so that another order of the list changes nothing.
@@ -264,7 +264,7 @@ void Conversation::miss_arm(const ServiceMessage& message) {
     } else if (board_.draft().stage == Stage::no_device) {
         return;  // as was told
     }
-    tell(Stage::no_device, std::move(sentence), had || message.arm_count > 0);
+    tell(Stage::no_device, sentence, had || message.arm_count > 0);
 }
 
 void Conversation::take_arm(const Arm& arm, Time at) {
@@ -353,11 +353,11 @@ void Conversation::report(Time now) {
     board_.publish_if_due(now);
 }
 
-void Conversation::tell(Stage stage, std::string sentence, bool trouble) {
+void Conversation::tell(Stage stage, const std::string& sentence, bool trouble) {
     told_ = true;
     const Status& told = board_.draft();
     if (told.stage == stage && told.sentence == sentence) return;
-    board_.enter(stage, std::move(sentence), trouble);
+    board_.enter(stage, sentence, trouble);
 }
 
 }  // namespace dibhr::inverse3

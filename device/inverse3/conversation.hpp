@@ -65,7 +65,7 @@ class Conversation {
     [[nodiscard]] bool await(Time until, const std::stop_token* stop);
     void take();
     void take_message(const ServiceMessage& message, Time at);
-    void take_nonsense(Stage why, std::string sentence);
+    void take_nonsense(Stage why, const std::string& sentence);
     void take_arm(const Arm& arm, Time at);
     void take_grip(const ServiceMessage& message, Time at);
     void choose(const ServiceMessage& message);
@@ -78,7 +78,7 @@ class Conversation {
     void publish_pose(const Arm& arm, Time at);
     void report(Time now);
     void tell_stage(Stage stage);
-    void tell(Stage stage, std::string sentence, bool trouble);
+    void tell(Stage stage, const std::string& sentence, bool trouble);
 
     ServiceLink& link_;
     const ConnectionOptions& options_;

@@ -15,6 +15,7 @@ using std::chrono::milliseconds;
 using Why = LinkError::Why;
 
 constexpr milliseconds kLookAgainAfter{500};
+constexpr milliseconds kBotherStrangerAfter{5000};  // who is no Inverse Service
 constexpr milliseconds kHandshakeTakes{1000};
 
 }  // namespace
@@ -34,6 +35,7 @@ void Driver::live(const std::stop_token& stop) {
     // What was refused stands in the Loop panel, for the haptic thread asks for the same.
     (void)become_realtime("dibhr inverse3");
     while (!stop.stop_requested()) {
+        pause_ = kLookAgainAfter;
         try {
             look(stop);
         } catch (const std::exception& failure) {
@@ -43,7 +45,7 @@ void Driver::live(const std::stop_token& stop) {
                  true);
         }
         std::unique_lock lock(mutex_);
-        news_.wait_for(lock, stop, kLookAgainAfter, [] { return false; });
+        news_.wait_for(lock, stop, pause_, [] { return false; });
     }
 }
 
@@ -97,6 +99,7 @@ void Driver::miss(const LinkError& error, bool has_http) {
     if (error.why() == Why::refused && has_http) {
         tell(Stage::too_old, sentence_for(Stage::too_old, status), true);
     } else if (error.why() == Why::not_the_service) {
+        pause_ = kBotherStrangerAfter;
         tell(Stage::looking,
              "something else than the Haply Inverse Service answers (" + std::string(error.what()) +
                  "): end it, or set the port on the Device panel",
@@ -107,10 +110,10 @@ void Driver::miss(const LinkError& error, bool has_http) {
     // Else it stays told that it was lost.
 }
 
-void Driver::tell(Stage stage, std::string sentence, bool trouble) {
+void Driver::tell(Stage stage, const std::string& sentence, bool trouble) {
     const Status& told = board_.draft();
     if (told.stage == stage && told.sentence == sentence) return;
-    board_.enter(stage, std::move(sentence), trouble);
+    board_.enter(stage, sentence, trouble);
 }
 
 }  // namespace dibhr::inverse3

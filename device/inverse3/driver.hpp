@@ -32,13 +32,14 @@ class Driver {
     void talk(ServiceLink& link, bool newer, const std::stop_token& stop);
     void lose(const LinkError& error, const Conversation& conversation);
     void miss(const LinkError& error, bool has_http);
-    void tell(Stage stage, std::string sentence, bool trouble);
+    void tell(Stage stage, const std::string& sentence, bool trouble);
 
     const ConnectionOptions options_;
     Exchange& exchange_;
     Board board_{};
     Memory memory_{};
-    bool lost_{false};  // it was there in this run
+    bool lost_{false};                   // it was there in this run
+    std::chrono::milliseconds pause_{};  // before the next look
 
     std::mutex mutex_{};
     std::condition_variable_any news_{};

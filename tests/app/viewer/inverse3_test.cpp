@@ -120,6 +120,9 @@ TEST_CASE(
     const Rows rows = at.finish();
     run_shell("sqlite3 '" + (at.folder / "hand.dibhr").string() +
               "' \"SELECT value FROM session WHERE key = 'inverse3-id'\" | grep -qx 049D");
+    run_shell("sqlite3 '" + (at.folder / "hand.dibhr").string() +
+              "' \"SELECT value FROM session WHERE key = 'device'\" | grep -qx 'Haply Inverse3 "
+              "049D'");
     CHECK(strongest(rows) <= SafetyLimits{}.max_force_newton + 1e-9);
     const TouchedAgain again = touched_again(rows);
     CHECK(again.contacts > 800);

@@ -123,6 +123,20 @@ TEST_CASE("a message that nobody asked for is seen to wait", "[inverse3_link]") 
     CHECK_FALSE(link.wait(nullptr, in(milliseconds(0))));
 }
 
+TEST_CASE("two clients have their answers each", "[inverse3_link]") {
+    simulated::Service service;
+    ServiceLink one(service.port(), in(milliseconds(1000)));
+    ServiceLink other(service.port(), in(milliseconds(1000)));
+    for (int k = 0; k < 5; ++k) {
+        CHECK(next(one).arm_count == 1);
+        CHECK(next(other).arm_count == 1);
+        one.send("{}", in(milliseconds(1000)));
+        other.send("{}", in(milliseconds(1000)));
+    }
+    CHECK(service.connections() == 2);
+    CHECK(service.too_many_in_flight() == 0);
+}
+
 TEST_CASE(
     "who does not listen, speaks something else, sends a megabyte, closes or breaks off is "
     "told apart",
