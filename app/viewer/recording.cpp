@@ -143,6 +143,7 @@ void ViewerRecording::start(const std::filesystem::path& file, ViewerState& stat
     told_version_ = 0;
     falcon_serial_.clear();
     inverse3_id_.clear();
+    device_.clear();
     start_ = std::chrono::steady_clock::now();
     state.recording_trouble.clear();
     state.recording.emplace().file = file;
@@ -251,12 +252,17 @@ void ViewerRecording::take_news(ViewerState& state) {
         falcon_serial_ = serial;
         recorder_->set_fact("falcon-serial", serial);
     }
+    // As the last one that touched, which may not be the one that was asked for.
+    if (const std::string device = device_name(state);
+        device != device_ && device != state.device.name) {
+        device_ = device;
+        recorder_->set_fact("device", device);
+    }
     const std::string id = state.inverse3 ? state.inverse3->status.id : std::string{};
     if (!id.empty() && id != inverse3_id_) {
         inverse3_id_ = id;
         for (const auto& [key, value] : found_facts(state.inverse3->status))
             recorder_->set_fact(key, value);
-        recorder_->set_fact("device", device_name(state));
     }
     state.recording->status = recorder_->status();
     state.recording->time_s = now_s();

@@ -13,6 +13,7 @@
 #include <boost/beast/http/write.hpp>
 #include <boost/beast/websocket/stream.hpp>
 
+#include <exception>
 #include <utility>
 
 #include "device/inverse3/deadline_socket.hpp"
@@ -164,8 +165,13 @@ bool ServiceLink::wait(const Wake* wake, Time until) const noexcept {
 
 void ServiceLink::close(Time deadline) noexcept {
     stream_->socket.next_layer().socket().set_deadline(deadline);
-    error_code ignored;
-    stream_->socket.close(websocket::close_code::normal, ignored);
+    try {
+        error_code ignored;
+        stream_->socket.close(websocket::close_code::normal, ignored);
+    } catch (const std::exception&) {
+        // Beast has no memory for its goodbye: the socket is closed all the same.
+        stream_->socket.next_layer().socket().close();
+    }
 }
 
 std::string http_get(std::uint16_t port, std::string_view target, ServiceLink::Time deadline) {

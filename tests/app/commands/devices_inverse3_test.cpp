@@ -94,28 +94,22 @@ TEST_CASE("an Inverse3 that cannot be used is told with its next step, and the c
 
 TEST_CASE("without a device or a service the mouse can be used, and what to do is told",
           "[inverse3][devices]") {
+    const auto [what, expected] = GENERATE(
+        table<std::string, std::string>({{"no device", "has no Inverse3: plug in"},
+                                         {"too old", "too old (3.0.9): install version 3.1"},
+                                         {"no service", "not installed: get it from Haply"},
+                                         {"nonsense", "not understood"}}));
     Service service;
-    std::string expected;
-    SECTION("no device") {
-        service.with([](Scene& scene) { scene.arms.clear(); });
-        expected = "has no Inverse3: plug in";
-    }
-    SECTION("too old") {
-        service.with([](Scene& scene) { scene.manners.version = "3.0.9"; });
-        expected = "too old (3.0.9): install version 3.1";
-    }
-    SECTION("no service") {
-        service.with([](Scene& scene) { scene.manners.http_older = false; });
-        service.refuse();
-        expected = "not installed: get it from Haply";
-    }
-    SECTION("nonsense") {
-        service.with([](Scene& scene) { scene.manners.garble = Garble::cut; });
-        expected = "not understood";
-    }
+    service.with([&which = what](Scene& scene) {
+        if (which == "no device") scene.arms.clear();
+        if (which == "too old") scene.manners.version = "3.0.9";
+        if (which == "no service") scene.manners.http_older = false;
+        if (which == "nonsense") scene.manners.garble = Garble::cut;
+    });
+    if (what == "no service") service.refuse();
     const ProgramResult result = Home(service).run({"devices"});
+    INFO(what << ": " << result.output);
     CHECK(result.exit_code == 0);
-    INFO(result.output);
     CHECK(says(result.output, expected));
 }
 
