@@ -159,8 +159,8 @@ void Service::forget_heard() {
 
 void Service::accept_clients() {
     while (!ending_) {
-        if (!listening_ && listener_ >= 0) ::close(std::exchange(listener_, -1));
-        if (listening_ && listener_ < 0) listener_ = listening_socket(port_);
+        if (!listening_ && listener_ >= 0) ::close(listener_.exchange(-1));
+        if (listening_ && listener_ < 0) listen_again();
         std::array<pollfd, 2> watched{pollfd{listener_, POLLIN, 0},
                                       pollfd{older_listener_, POLLIN, 0}};
         (void)poll(watched.data(), watched.size(), kPatience_ms);
@@ -170,6 +170,14 @@ void Service::accept_clients() {
             if (client >= 0) take_client(client, one.fd == older_listener_);
         }
         reap(false);
+    }
+}
+
+void Service::listen_again() {
+    try {
+        listener_ = listening_socket(port_);
+    } catch (const DeviceError&) {
+        listener_ = -1;  // somebody has the port: the next round tries again
     }
 }
 

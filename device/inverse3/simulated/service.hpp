@@ -74,6 +74,7 @@ class Service {
     };
 
     void accept_clients();
+    void listen_again();
     void take_client(int descriptor, bool older);
     void serve(Client& client, bool older);
     [[nodiscard]] bool shake_hands(Client& client, bool older);
@@ -86,7 +87,7 @@ class Service {
 
     std::uint16_t port_{0};
     std::uint16_t older_port_{0};
-    int listener_{-1};
+    std::atomic<int> listener_{-1};
     int older_listener_{-1};
     std::atomic<bool> listening_{true};
     std::atomic<bool> ending_{false};
