@@ -46,7 +46,7 @@ constexpr std::array kCommands{
     Command{"report", "SESSION --out DIR", "Pictures: where people touched, force over time",
             run_report},
     Command{"info", "FILE...", "What a media or session file holds", run_info},
-    Command{"devices", "[--firmware FILE] [--check [--out FILE]]",
+    Command{"devices", "[--firmware FILE] [--check [--out FILE]] [--simulate inverse3]",
             "What is attached, its state and the next step", run_devices},
     Command{"bench", "[--json FILE]", "Updates, frame hand-over and loop timing on this machine",
             run_bench},

@@ -53,8 +53,9 @@ int run_export(CLI::App& app, const Arguments& arguments);
 int run_report(CLI::App& app, const Arguments& arguments);
 /// Describes each file; says on stderr which could not be read. 1 when there are any.
 int run_info(CLI::App& app, const Arguments& arguments);
-/// 0: a Falcon can be used, or none is attached and the mouse can be. Throws DeviceError when
-/// Falcons are attached and none can be used. With --check, leads a person through the check.
+/// 0: a device can be used, or none is attached and the mouse can be. Throws DeviceError when
+/// devices are attached and none can be used. With --check, leads a person through the check; with
+/// --simulate, stands in for a service until its input ends.
 int run_devices(CLI::App& app, const Arguments& arguments);
 int run_bench(CLI::App& app, const Arguments& arguments);
 

@@ -44,7 +44,7 @@ std::string wrapped(const std::string& text) {
     return result;
 }
 
-class TerminalGuide final : public falcon::CheckGuide {
+class TerminalGuide final : public CheckGuide {
   public:
     TerminalGuide()
         : typed_in_(isatty(STDIN_FILENO) == 1), shown_live_(isatty(STDOUT_FILENO) == 1) {
@@ -156,7 +156,7 @@ class TerminalGuide final : public falcon::CheckGuide {
 
 }  // namespace
 
-std::unique_ptr<falcon::CheckGuide> make_terminal_guide() {
+std::unique_ptr<CheckGuide> make_terminal_guide() {
     return std::make_unique<TerminalGuide>();
 }
 

@@ -118,13 +118,9 @@ bool gives_relief(const TouchRequest& touch) {
 }
 
 void check_device(const std::string& device) {
-    const bool is_goals = device.starts_with("goals:") && device.size() > 6;
-    const bool is_chosen = device.starts_with("falcon:") && device.size() > 7;
-    if (!is_goals && !is_chosen && device != "auto" && device != "falcon" && device != "mouse") {
-        throw CLI::ValidationError(
-            "--device",
-            "'" + device + "' is none of auto, falcon, falcon:SERIAL, mouse, goals:FILE");
-    }
+    if (names_device(device)) return;
+    throw CLI::ValidationError("--device",
+                               "'" + device + "' is none of " + std::string(kDeviceNames));
 }
 
 /// A replay is what was recorded: there is nothing to record, and its surface is given.
@@ -248,7 +244,8 @@ void open_parts(const ViewOptions& options, ViewerParts& parts, ToldLog& log) {
         print_error_line(parts.trouble);
     }
     parts.hand =
-        make_hand_device(options.device, {options.settings.falcon.connection, options.firmware});
+        make_hand_device(options.device, {{options.settings.falcon.connection, options.firmware},
+                                          connection_of(options.settings.inverse3)});
 }
 
 /// Whether nobody is left in a disk that stands still, or in a large file that is being opened; by
@@ -281,8 +278,8 @@ int run_view(CLI::App& app, const Arguments& arguments) {
                check_device(device);
                options.device = device;
            },
-           "auto (a Falcon, and the mouse until one is there), falcon, falcon:SERIAL, mouse or "
-           "goals:FILE")
+           "auto (a Falcon or an Inverse3, and the mouse until one is there), falcon, "
+           "falcon:SERIAL, inverse3, inverse3:ID, mouse or goals:FILE")
         ->type_name("DEVICE")
         ->default_str("auto");
     add_firmware(app, options.firmware);

@@ -3,7 +3,7 @@
 #include <glm/geometric.hpp>
 #include <string>
 
-#include "app/panels/falcon_state.hpp"
+#include "app/panels/device_state.hpp"
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 
@@ -16,10 +16,10 @@ std::string point_text(const Vec3& p) {
                      decimal(p.z, 1).c_str());
 }
 
-/// Its counts mean no place that the grip can be at, or its replies have grown old.
-bool without_pose(const ViewerState& state) {
-    return state.falcon && state.falcon->status.stage == falcon::Stage::ready &&
-           !state.haptic.hand.stand_in;
+const char* no_pose_text(const ViewerState& state) {
+    return state.falcon && state.falcon->status.stage == falcon::Stage::ready
+               ? "no pose: pull the grip in, or see Calibration"
+               : "no fresh pose: no force";
 }
 
 std::string state_text(const ViewerState& state) {
@@ -28,8 +28,7 @@ std::string state_text(const ViewerState& state) {
     if (waits_for_front(state)) return "not in front: no force";
     if (clutched(state)) return "held by the clutch: no force";
     if (!haptic.hand.ready)
-        return without_pose(state) ? "no pose: pull the grip in, or see Calibration"
-                                   : "not ready: no force";
+        return without_pose(state) ? no_pose_text(state) : "not ready: no force";
     return haptic.touch.proxy.contact ? "in contact" : "free";
 }
 
@@ -73,16 +72,18 @@ void draw_force_switch(ViewerState& state, float width) {
 void draw_device_panel(ViewerState& state) {
     if (!section(state, "Device", state.settings.panels.device, &state.show_device)) return;
     ImGui::PushID("device");
-    const bool has_falcon = in_sight(state);
-    if (has_falcon) {
-        draw_falcon_state(state);
-    } else {
-        fact_row("Device", state.falcon ? "mouse" : state.device.name);
-        if (state.falcon) quiet_text("A force device takes over as soon as it is plugged in.");
+    const bool has_falcon = falcon_in_sight(state);
+    const bool has_inverse3 = inverse3_in_sight(state);
+    const bool looks = state.falcon || state.inverse3;
+    if (has_falcon) draw_falcon_state(state);
+    if (has_inverse3) draw_inverse3_state(state);
+    if (!has_falcon && !has_inverse3) {
+        fact_row("Device", looks ? "mouse" : state.device.name);
+        if (looks) quiet_text("A force device takes over as soon as it is plugged in.");
     }
     fact_row("State", state_text(state));
     draw_force_switch(state, -1.0F);
-    if (has_falcon) {
+    if (has_falcon || has_inverse3) {
         flag_row("Force only while the window is in front",
                  state.settings.falcon.force_in_front_only, FalconSettings{}.force_in_front_only,
                  "No force while the keyboard goes to another window, or this one is an icon: the "
@@ -103,6 +104,7 @@ void draw_device_panel(ViewerState& state) {
              "What is sent to the hand");
     if (touch.cut != SafetyCut::none) fact_row("Cut", name_of(touch.cut), "Why no force is sent");
     if (has_falcon) draw_falcon_settings(state);
+    if (has_inverse3) draw_inverse3_settings(state);
     ImGui::PopID();
 }
 

@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <string>
 
+#include "app/panels/device_rows.hpp"
+#include "app/panels/device_state.hpp"
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 
@@ -179,33 +181,10 @@ void draw_exchange(const ViewerState& state) {
     }
 }
 
-void draw_number(const FalconNumber& number, FalconSettings& settings) {
-    FalconSettings standard;
-    double shown = number.in(settings)*number.shown;
-    const NumberRow row{
-        .label = number.label,
-        .format = number.format,
-        .lowest = number.lowest * number.shown,
-        .highest = number.highest * number.shown,
-        .standard = number.in(standard)*number.shown,
-        .help = number.help,
-        .logarithmic = number.lowest > 0.0 && number.highest > 50.0 * number.lowest};
-    const bool changed = number_row(row, shown);
-    if (changed) {
-        number.in(settings) = std::clamp(shown / number.shown, number.lowest, number.highest);
-    }
-}
-
-void draw_numbers(FalconTopic topic, FalconSettings& settings) {
-    for (const FalconNumber& number : falcon_numbers()) {
-        if (number.topic == topic) draw_number(number, settings);
-    }
-}
-
 void draw_workspace(ViewerState& state) {
-    falcon::WorkspaceOptions& workspace = state.settings.falcon.workspace;
+    WorkspaceOptions& workspace = state.settings.falcon.workspace;
     if (ImGui::Button("Fit the image")) {
-        workspace.scale = falcon::fitting_scale(
+        workspace.scale = fitting_scale(
             {state.media.depth_columns, state.media.depth_rows,
              state.settings.touch.shape.relief_px, state.settings.touch.coupling.pixel_pitch_mm},
             workspace);
@@ -214,14 +193,7 @@ void draw_workspace(ViewerState& state) {
     ImGui::SameLine();
     if (ImGui::Button("Centre the hand")) ++state.centred;
     explain("Takes back what the clutch has shifted", state.keys, Action::centre_workspace);
-    draw_numbers(FalconTopic::workspace, state.settings.falcon);
-}
-
-void draw_buttons(ButtonActions& buttons) {
-    for (std::size_t k = 0; k < kFalconButtons; ++k) {
-        choice_row(kGripButtons[k].label, button_jobs(), buttons[k],
-                   "What this button of the grip does", kStandardButtons[k]);
-    }
+    draw_device_numbers(falcon_numbers(), FalconTopic::workspace, state.settings.falcon);
 }
 
 /// Where a person names the firmware file.
@@ -279,19 +251,19 @@ void draw_falcon_state(ViewerState& state) {
     if (status.stage == Stage::loading) draw_progress(status);
     if (status.stage == Stage::homing) draw_homing_guide(state);
     if (status.stage == Stage::homing || status.stage == Stage::ready) draw_exchange(state);
-    fact_row("Touches", state.haptic.hand.stand_in ? "the mouse, meanwhile" : "the Falcon");
+    fact_row("Touches", touching_text(state));
 }
 
 void draw_falcon_settings(ViewerState& state) {
     FalconSettings& settings = state.settings.falcon;
     if (part("Workspace")) draw_workspace(state);
-    if (part("Buttons")) draw_buttons(settings.buttons);
+    if (part("Buttons")) draw_grip_buttons(kFalconGrip, settings.buttons);
     if (part("Calibration")) {
         quiet_text(
             "Sources differ on these; the defaults are libnifalcon's. Each change lets the "
             "force rise again from zero.");
-        draw_numbers(FalconTopic::motors, settings);
-        draw_numbers(FalconTopic::geometry, settings);
+        draw_device_numbers(falcon_numbers(), FalconTopic::motors, settings);
+        draw_device_numbers(falcon_numbers(), FalconTopic::geometry, settings);
     }
     if (part("Connection")) draw_connection(state);
 }

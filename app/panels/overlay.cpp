@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/panels/falcon_state.hpp"
+#include "app/panels/device_state.hpp"
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 #include "app/settings/keys.hpp"
@@ -55,7 +55,7 @@ float label(const std::string& text, ImVec2 low, float alpha, float widest = 0.0
     return size.y;
 }
 
-/// What the Falcon lacks, in the middle of the relief below what is touched, as wide as there is
+/// What a device lacks, in the middle of the relief below what is touched, as wide as there is
 /// room. Where it ends.
 float draw_banner(const ViewerState& state, const std::string& text) {
     const float room = ImGui::GetIO().DisplaySize.x - panel_column_width(state);
@@ -73,9 +73,9 @@ float draw_banner(const ViewerState& state, const std::string& text) {
     return low.y + size.y + pad.y;
 }
 
-/// What is missing to touch: of a Falcon, or of what is live. Empty: nothing.
+/// What is missing to touch: of a device, or of what is live. Empty: nothing.
 std::string banner_of(const ViewerState& state) {
-    if (const std::string banner = falcon_banner(state); !banner.empty())
+    if (const std::string banner = device_banner(state); !banner.empty())
         return capitalised(banner);
     const bool lost = state.playback.live && !state.playback.live->signal && !state.replay;
     return lost ? in_words(*state.playback.live) : std::string();

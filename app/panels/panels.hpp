@@ -41,6 +41,10 @@ void draw_session_panel(ViewerState& state);
 void draw_falcon_state(ViewerState& state);
 void draw_falcon_settings(ViewerState& state);
 
+/// The same of an Inverse3: with its service and its grip; then its workspace, buttons and service.
+void draw_inverse3_state(ViewerState& state);
+void draw_inverse3_settings(ViewerState& state);
+
 /// Starts and ends a clip of the window, as wide as there is room.
 void draw_clip_button(ViewerState& state);
 

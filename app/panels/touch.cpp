@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "app/panels/falcon_state.hpp"
+#include "app/panels/device_state.hpp"
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 
@@ -23,12 +23,12 @@ void draw_origin(ViewerState& state) {
     explain("Back to the recorded parameters, proxies and forces");
 }
 
-/// Says so when the Falcon cannot be as stiff, or damp as much, as it was asked for.
+/// Says so when the device cannot be as stiff, or damp as much, as it was asked for.
 void draw_held_coupling(const ViewerState& state) {
     const Coupling held = felt_coupling(state);
     if (!(held == asked_coupling(state))) {
         quiet_text(
-            formatted("Felt as %.2f N/mm and %.1f N s/m: at this scale of the workspace the Falcon "
+            formatted("Felt as %.2f N/mm and %.1f N s/m: at this scale of the workspace the device "
                       "can give no more.",
                       held.stiffness_newton_per_mm, held.damping_newton_s_per_m));
     }

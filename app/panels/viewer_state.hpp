@@ -30,6 +30,7 @@
 #include "core/video/media.hpp"
 #include "core/video/player.hpp"
 #include "device/falcon/status.hpp"
+#include "device/inverse3/status.hpp"
 
 namespace dibhr {
 
@@ -298,6 +299,13 @@ struct FalconNews {
     std::string firmware_trouble{};  ///< why the kept firmware cannot be used
 };
 
+/// What the window shows of the Inverse3.
+struct Inverse3News {
+    inverse3::Status status{};
+    bool asked{false};      ///< the status is the device's answer; before, anything may be
+    bool was_ready{false};  ///< in this run: when it is not now, it was lost
+};
+
 struct ViewerState {
     Settings settings{};  ///< live: panels write here, the next tick and picture use it
     KeyTable keys{};      ///< with those of the settings
@@ -323,7 +331,8 @@ struct ViewerState {
     Brush brush{};
     bool statistics{false};   ///< are shown over the relief
     bool catching_up{false};  ///< the proxy is, or was a moment ago: long enough to be read
-    std::optional<FalconNews> falcon{};  ///< nothing: no Falcon is looked for
+    std::optional<FalconNews> falcon{};      ///< nothing: no Falcon is looked for
+    std::optional<Inverse3News> inverse3{};  ///< nothing: no Inverse3 is looked for
     std::optional<RealtimeGrants> grants{};
     std::optional<RecordingNews> recording{};
     std::string recording_trouble{};          ///< why the last recording broke off
@@ -344,7 +353,7 @@ struct ViewerState {
     bool as_recorded{false};  ///< the depth, while its key is held
     bool touched{false};      ///< there has been a contact: the first hint has done its work
 
-    bool show_device{false};   ///< the Falcon needs its person: the Device panel comes into sight
+    bool show_device{false};   ///< a device needs its person: the Device panel comes into sight
     bool show_paint{false};    ///< the brush was taken by key: the Paint panel comes into sight
     bool show_session{false};  ///< recording began by key: the Session panel comes into sight
     bool help_open{false};

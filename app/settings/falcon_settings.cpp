@@ -1,4 +1,4 @@
-// The tables of the Falcon's numbers and of what its buttons can do.
+// The table of the Falcon's numbers.
 #include "app/settings/falcon_settings.hpp"
 
 #include <array>
@@ -86,19 +86,6 @@ constexpr std::array kNumbers{
                  [](Settings& s) -> double& { return s.geometry.base_shift_m; }},
 };
 
-constexpr std::array<ButtonJob, 9> kJobs{{
-    {{ButtonAction::none, "none", "Nothing"}},
-    {{ButtonAction::clutch, "clutch", "Hold the point (clutch)"}},
-    {{ButtonAction::record, "record", "Record, stop"}, Action::record},
-    {{ButtonAction::play_or_pause, "play-or-pause", "Play, pause"}, Action::play_or_pause},
-    {{ButtonAction::force_off, "force-off", "Force off"}, Action::force_off},
-    {{ButtonAction::toggle_force, "toggle-force", "Force off, on"}, Action::toggle_force},
-    {{ButtonAction::centre_workspace, "centre", "Centre the hand"}, Action::centre_workspace},
-    {{ButtonAction::go_to_start, "go-to-start", "To the start"}, Action::go_to_start},
-    {{ButtonAction::take_screenshot, "screenshot", "Save a picture"}, Action::take_screenshot},
-}};
-static_assert(has_all_in_order(kJobs, ButtonAction::take_screenshot));
-
 }  // namespace
 
 std::span<const FalconNumber> falcon_numbers() noexcept {
@@ -114,26 +101,6 @@ falcon::Tuning tuning_of(const FalconSettings& settings, std::uint32_t centred) 
     tuning.force_off_buttons = buttons_for(ButtonAction::force_off, settings.buttons);
     tuning.centred = centred;
     return tuning;
-}
-
-std::span<const ButtonJob> button_jobs() noexcept {
-    return kJobs;
-}
-
-const char* name_of(ButtonAction action) noexcept {
-    return entry_of(kJobs, action).name;
-}
-
-std::optional<ButtonAction> button_action_named(std::string_view name) noexcept {
-    return value_named(kJobs, name);
-}
-
-std::uint8_t buttons_for(ButtonAction action, const ButtonActions& actions) noexcept {
-    std::uint8_t bits = 0;
-    for (std::size_t k = 0; k < actions.size(); ++k) {
-        if (actions[k] == action) bits = static_cast<std::uint8_t>(bits | 1U << k);
-    }
-    return bits;
 }
 
 }  // namespace dibhr

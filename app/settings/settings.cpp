@@ -112,6 +112,11 @@ std::string take(const toml::node& node, const Setting&, OpenWith& value) {
     return take_word(open_with_named(word), value, "is none of auto, desktop and window");
 }
 
+std::string take(const toml::node& node, const Setting&, Dialect& value) {
+    const auto word = node.value<std::string_view>().value_or("");
+    return take_word(dialect_named(word), value, "is none of auto, vector and values");
+}
+
 std::string take(const toml::node& node, const Setting&, ButtonAction& value) {
     const auto word = node.value<std::string_view>().value_or("");
     return take_word(button_action_named(word), value, "is not what a button can do");
@@ -368,6 +373,13 @@ toml::table parsed(const fs::path& file) {
     }
 }
 
+void add_buttons(std::vector<Setting>& list, std::string_view table, const GripButtons& grip,
+                 ButtonActions& actions) {
+    for (std::size_t k = 0; k < actions.size(); ++k) {
+        list.push_back({table, grip[k].setting, &actions[k]});
+    }
+}
+
 void add_falcon(std::vector<Setting>& list, FalconSettings& s) {
     list.insert(list.end(), {{"falcon", "serial", &s.connection.serial},
                              {"falcon", "event-character", &s.connection.event_character},
@@ -376,9 +388,19 @@ void add_falcon(std::vector<Setting>& list, FalconSettings& s) {
     for (const FalconNumber& number : falcon_numbers()) {
         list.push_back({"falcon", number.name, &number.in(s), number.lowest, number.highest});
     }
-    for (std::size_t k = 0; k < kFalconButtons; ++k) {
-        list.push_back({"falcon", kGripButtons[k].setting, &s.buttons[k]});
+    add_buttons(list, "falcon", kFalconGrip, s.buttons);
+}
+
+void add_inverse3(std::vector<Setting>& list, Inverse3Settings& s) {
+    list.insert(list.end(), {{"inverse3", "device", &s.device},
+                             {"inverse3", "port", &s.port, kLowestPort, kHighestPort},
+                             {"inverse3", "older-port", &s.older_port, kLowestPort, kHighestPort},
+                             {"inverse3", "dialect", &s.dialect},
+                             {"inverse3", "preset", &s.preset}});
+    for (const Inverse3Number& number : inverse3_numbers()) {
+        list.push_back({"inverse3", number.name, &number.in(s), number.lowest, number.highest});
     }
+    add_buttons(list, "inverse3", kInverse3Grip, s.buttons);
 }
 
 bool same(const Setting& a, const Setting& b) {
@@ -481,6 +503,7 @@ std::vector<Setting> list_of(Settings& s) {
                              {"sound", "mute", &s.mute},
                              {"sound", "game-pad", &s.game_pad}});
     add_falcon(list, s.falcon);
+    add_inverse3(list, s.inverse3);
     list.insert(list.end(), {{"cleaning", "preset", &s.cleaning.preset},
                              {"cleaning", "finger", &s.finger_mm, 0.0, kThickestFinger_mm}});
     visit_steps(s.cleaning.own, [&list](std::string_view name, bool& step) {

@@ -10,6 +10,7 @@
 
 #include "app/settings/estimators.hpp"
 #include "app/settings/falcon_settings.hpp"
+#include "app/settings/inverse3_settings.hpp"
 #include "app/settings/keys.hpp"
 #include "app/settings/name_pattern.hpp"
 #include "app/settings/open_with.hpp"
@@ -85,6 +86,7 @@ struct Settings {
     bool mute{false};                                          ///< no sound of touch
     bool game_pad{true};                                       ///< rumbles, when there is one
     FalconSettings falcon{};
+    Inverse3Settings inverse3{};
     std::vector<OwnKeys> keys{};          ///< as written, in that order, also what cannot be
     std::vector<Estimator> estimators{};  ///< as written, in that order
 };
@@ -115,7 +117,7 @@ struct Setting {
     std::string_view table;
     std::string_view name;
     std::variant<bool*, int*, double*, std::string*, NamePattern*, Algorithm*, CleaningPreset*,
-                 ButtonAction*, ReliefPaint*, Theme*, OpenWith*>
+                 ButtonAction*, ReliefPaint*, Theme*, OpenWith*, Dialect*>
         value;
     double lowest{0.0};  ///< of a number
     double highest{0.0};

@@ -1,10 +1,9 @@
 // The window thread's end of the Falcon.
 #include "app/viewer/falcon.hpp"
 
-#include <cstddef>
 #include <utility>
 
-#include "app/panels/falcon_state.hpp"
+#include "app/panels/device_state.hpp"
 #include "device/falcon/firmware_image.hpp"
 
 namespace dibhr {
@@ -38,15 +37,8 @@ std::optional<std::string> ViewerFalcon::take_news(ViewerState& state) {
 }
 
 std::vector<Action> ViewerFalcon::take_presses(const ViewerState& state) {
-    std::vector<Action> asked;
-    if (device_ == nullptr) return asked;
-    for (std::size_t k = 0; k < presses_.size(); ++k) {
-        const ButtonJob& job = entry_of(button_jobs(), state.settings.falcon.buttons[k]);
-        for (; presses_[k] < state.falcon->status.presses[k]; ++presses_[k]) {
-            if (job.perform) asked.push_back(*job.perform);
-        }
-    }
-    return asked;
+    if (device_ == nullptr) return {};
+    return presses_.take(state.falcon->status.presses, state.settings.falcon.buttons);
 }
 
 bool ViewerFalcon::tuning_changed(const ViewerState& state) const {

@@ -1,8 +1,6 @@
 // The window thread's end of the Falcon: its news, its buttons, its tuning, its firmware.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -40,8 +38,8 @@ class ViewerFalcon {
   private:
     falcon::FalconDevice* device_;
     falcon::Tuning handed_{};
-    std::array<std::uint32_t, kFalconButtons> presses_{};  // taken
-    falcon::Stage stage_{falcon::Stage::looking};          // as told
+    TakenPresses presses_{};
+    falcon::Stage stage_{falcon::Stage::looking};  // as told
     falcon::Stage shown_{falcon::Stage::looking};  // for which the panel was brought into sight
 };
 

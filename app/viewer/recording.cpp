@@ -13,6 +13,7 @@
 #include "core/video/depth/sidecar.hpp"
 #include "core/video/libraries.hpp"
 #include "core/video/live/live_name.hpp"
+#include "device/device_or_mouse.hpp"
 
 namespace dibhr {
 
@@ -25,11 +26,34 @@ constexpr const char* kNote = "note";
 constexpr std::chrono::milliseconds kLastTicks{100};
 constexpr std::chrono::seconds kSumsOfVideo{30};
 
+/// The one that was asked for; an Inverse3 that touches, by its name.
+std::string device_name(const ViewerState& state) {
+    const bool inverse3_touches =
+        state.inverse3 && state.haptic.hand.which == static_cast<std::uint8_t>(Touching::inverse3);
+    return inverse3_touches ? "Haply " + name_of(state.inverse3->status) : state.device.name;
+}
+
+/// What is known of an Inverse3 only when it has been found.
+std::map<std::string, std::string> found_facts(const inverse3::Status& status) {
+    return {{"inverse3-id", status.id},
+            {"inverse3-service", status.version},
+            {"inverse3-preset-read", status.preset},
+            {"inverse3-dialect", status.dialect ? name_of(*status.dialect) : ""}};
+}
+
+void add_inverse3_facts(const ViewerState& state, std::map<std::string, std::string>& facts) {
+    Inverse3Settings settings = state.settings.inverse3;
+    facts.merge(found_facts(state.inverse3->status));
+    for (const Inverse3Number& number : inverse3_numbers()) {
+        facts.emplace("inverse3-" + std::string(number.name), number_text(number.in(settings)));
+    }
+}
+
 /// What is kept with a recording: versions of program and libraries, files, parameters, device.
 std::map<std::string, std::string> session_facts(const ViewerState& state) {
     std::map<std::string, std::string> facts{
         {"program", "dibhr " DIBHR_VERSION},
-        {"device", state.device.name},
+        {"device", device_name(state)},
         {"device-max-force", number_text(state.device.limits.max_force_newton)},
         {"device-max-stiffness", number_text(state.device.limits.max_stiffness_newton_per_mm)},
         {"device-workspace-mm", number_text(state.device.workspace_mm.x) + " x " +
@@ -60,6 +84,7 @@ std::map<std::string, std::string> session_facts(const ViewerState& state) {
             facts.emplace("falcon-" + std::string(number.name), number_text(number.in(falcon)));
         }
     }
+    if (state.inverse3) add_inverse3_facts(state, facts);
     return facts;
 }
 
@@ -117,6 +142,8 @@ void ViewerRecording::start(const std::filesystem::path& file, ViewerState& stat
     if (!maps_.empty()) recorder_->maps(maps_version_, maps_);
     told_version_ = 0;
     falcon_serial_.clear();
+    inverse3_id_.clear();
+    device_.clear();
     start_ = std::chrono::steady_clock::now();
     state.recording_trouble.clear();
     state.recording.emplace().file = file;
@@ -224,6 +251,18 @@ void ViewerRecording::take_news(ViewerState& state) {
     if (!serial.empty() && serial != falcon_serial_) {
         falcon_serial_ = serial;
         recorder_->set_fact("falcon-serial", serial);
+    }
+    // As the last one that touched, which may not be the one that was asked for.
+    if (const std::string device = device_name(state);
+        device != device_ && device != state.device.name) {
+        device_ = device;
+        recorder_->set_fact("device", device);
+    }
+    const std::string id = state.inverse3 ? state.inverse3->status.id : std::string{};
+    if (!id.empty() && id != inverse3_id_) {
+        inverse3_id_ = id;
+        for (const auto& [key, value] : found_facts(state.inverse3->status))
+            recorder_->set_fact(key, value);
     }
     state.recording->status = recorder_->status();
     state.recording->time_s = now_s();

@@ -100,6 +100,8 @@ class ViewerRecording {
     std::uint64_t told_version_{0};       // of the parameters
     std::string participant_{}, note_{};  // as told
     std::string falcon_serial_{};         // known only when it has been found
+    std::string inverse3_id_{};           // likewise
+    std::string device_{};                // told of the session, where not the one asked for
     std::chrono::steady_clock::time_point start_{};
     std::string failure_{};  // of the first recording that broke off
 };

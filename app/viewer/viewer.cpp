@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "app/panels/falcon_state.hpp"
+#include "app/panels/device_state.hpp"
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 #include "core/files/plain_text.hpp"
@@ -90,6 +90,7 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
       pace_(shortest_picture(options.sync, software_)),
       state_{.settings = options.settings, .keys = KeyTable(options.settings.keys)},
       falcon_(hand_, state_),
+      inverse3_(hand_, state_),
       opening_(errands),
       clip_(errands),
       estimating_(errands),
@@ -268,7 +269,9 @@ void Viewer::take_news() {
     notice_catching_up();
     notice_standstill();
     if (const auto notice = falcon_.take_news(state_)) tell(*notice);
+    if (const auto notice = inverse3_.take_news(state_)) tell(*notice);
     for (const Action action : falcon_.take_presses(state_)) perform(action);
+    for (const Action action : inverse3_.take_presses(state_)) perform(action);
     state_.touched = state_.touched || state_.haptic.touch.proxy.contact;
     if (!state_.grants && loop_) state_.grants = loop_->grants();
     recording_.take_news(state_);
@@ -462,8 +465,8 @@ void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {
         state_.ruler->press(use.pressed, pointed_at_);
         use.pressed = false;
     }
-    // While the Falcon touches the mouse only points, so that it does not take over pressing.
-    if (hand_.falcon != nullptr && !state_.haptic.hand.stand_in) use.pressed = false;
+    // While a device touches the mouse only points, so that it does not take over pressing.
+    if (hand_.looks_for_device() && !state_.haptic.hand.stand_in) use.pressed = false;
     if (state_.replay || hand_.mouse == nullptr || !shown_.makes_surface()) return;
     const DepthSurface surface = shown_.surface(state_.shape(), state_.bump.get());
     hand_.mouse->target().publish(pointer_.target(ray, surface, use));
@@ -502,7 +505,7 @@ void Viewer::draw_panels(std::span<const KeyPress> pressed) {
     if (state_.touched) fade(hint_alpha_);
     if (pressed_deeper_) fade(wheel_hint_alpha_);
     const bool mouse_touches = shown_.makes_surface() && !state_.replay && hand_.mouse != nullptr &&
-                               (hand_.falcon == nullptr || state_.haptic.hand.stand_in);
+                               (!hand_.looks_for_device() || state_.haptic.hand.stand_in);
     if (mouse_touches && state_.message.empty() && !state_.explained && !state_.ruler &&
         !state_.brush.on) {
         draw_hint(state_, Hint::touch, hint_alpha_);
@@ -592,7 +595,8 @@ void Viewer::hand_over_settings() {
     const bool force_enabled = state_.force_enabled && !waits_for_front(state_);
     const bool same = handed_.version > 0 && handed_.parameters == parameters &&
                       handed_.limits == limits && !falcon_.tuning_changed(state_) &&
-                      handed_.force_enabled == force_enabled && handed_.bump == state_.bump;
+                      !inverse3_.tuning_changed(state_) && handed_.force_enabled == force_enabled &&
+                      handed_.bump == state_.bump;
     const bool recording = recording_.active();
     const bool followed = state_.settings.others;
     if (handed_.version == 0 || handed_.parameters.carry != parameters.carry)
@@ -610,6 +614,7 @@ void Viewer::hand_over_settings() {
     }
     // After the above, so that the force is already rising from zero when the goal moves elsewhere.
     if (falcon_.tuning_changed(state_)) falcon_.hand_over(state_);
+    if (inverse3_.tuning_changed(state_)) inverse3_.hand_over(state_);
     const CleaningOptions cleaning = wanted_cleaning();
     if (!(cleaning_handed_ == cleaning)) {
         cleaning_handed_ = cleaning;

@@ -26,6 +26,7 @@
 #include "app/viewer/falcon.hpp"
 #include "app/viewer/files.hpp"
 #include "app/viewer/input.hpp"
+#include "app/viewer/inverse3.hpp"
 #include "app/viewer/painting.hpp"
 #include "app/viewer/panes.hpp"
 #include "app/viewer/recording.hpp"
@@ -48,7 +49,7 @@ namespace dibhr {
 /// What `dibhr view` was asked for.
 struct ViewOptions {
     OpenRequest open{};                ///< its colour may be a session; empty: the built-in sample
-    std::string device{"auto"};        ///< auto | falcon | falcon:SERIAL | mouse | goals:FILE
+    std::string device{"auto"};        ///< as make_hand_device() has it
     std::filesystem::path firmware{};  ///< for a Falcon that has none; empty: the kept one
     std::filesystem::path record{};
     std::filesystem::path screenshot{};        ///< the last picture, as PNG
@@ -207,6 +208,7 @@ class Viewer {
     HandPointer pointer_{};
     ViewerState state_{};
     ViewerFalcon falcon_;
+    ViewerInverse3 inverse3_;
     Errand<Opened> opening_;
     Screenshots screenshots_{};
     ViewerClip clip_;

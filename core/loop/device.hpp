@@ -41,6 +41,7 @@ struct HandReading {
     bool taken_over{false};   ///< another hand than in the last reading: the force begins from zero
     bool force_off{false};    ///< a button that takes the force off is down
     bool stand_in{false};     ///< the mouse, while the device asked for is not ready
+    std::uint8_t which{0};    ///< of several devices, by a number of their own; 0: the mouse
     /// What this hand can stand now, where that is not what the specification says: at another
     /// scale, or another hand's.
     std::optional<DeviceLimits> limits{};

@@ -7,13 +7,10 @@
 
 #include "core/realtime/triple_buffer.hpp"
 #include "device/falcon/packet.hpp"
+#include "device/hand/epoch.hpp"
+#include "device/hand/wake.hpp"
 
 namespace dibhr::falcon {
-
-/// Poses of one epoch belong together; a new one begins with every link and every homing, because
-/// the counters jump then.
-using Epoch = std::uint32_t;
-inline constexpr Epoch kNoEpoch = 0;  ///< counts mean nothing: not homed, or no link
 
 struct TimedReply {
     Reply reply{};  ///< its buttons are debounced
@@ -26,26 +23,6 @@ struct TimedCommand {
     Counts motor{};
     std::chrono::steady_clock::time_point at{};
     Epoch epoch{kNoEpoch};  ///< of the pose it was computed for
-};
-
-/// Lets one thread end another's poll(): an eventfd.
-class Wake {
-  public:
-    /// Throws DeviceError when the system has none left.
-    Wake();
-    ~Wake();
-    Wake(const Wake&) = delete;
-    Wake& operator=(const Wake&) = delete;
-
-    /// Any thread; one system call that never waits.
-    void signal() const noexcept;
-    /// The waiting thread: forgets the signals so far.
-    void clear() const noexcept;
-    /// Readable after a signal.
-    [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
-
-  private:
-    int descriptor_{-1};
 };
 
 struct Exchange {

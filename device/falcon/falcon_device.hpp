@@ -12,7 +12,7 @@
 #include "device/falcon/firmware_image.hpp"
 #include "device/falcon/kinematics.hpp"
 #include "device/falcon/status.hpp"
-#include "device/falcon/workspace.hpp"
+#include "device/hand/workspace.hpp"
 
 namespace dibhr::falcon {
 

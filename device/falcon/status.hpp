@@ -2,15 +2,14 @@
 // sentence with the next step.
 #pragma once
 
-#include <array>
-#include <chrono>
 #include <cstdint>
-#include <mutex>
 #include <string>
 
 #include "device/falcon/kinematics.hpp"
 #include "device/falcon/packet.hpp"
-#include "device/falcon/workspace.hpp"
+#include "device/hand/buttons.hpp"
+#include "device/hand/state_board.hpp"
+#include "device/hand/workspace.hpp"
 
 namespace dibhr::falcon {
 
@@ -45,14 +44,14 @@ enum class Stage {
 
 struct Status {
     Stage stage{Stage::looking};
-    std::string serial{};                    ///< empty: not known
-    std::string sentence{};                  ///< what is, and what to do next
-    bool trouble{false};                     ///< the sentence tells of something that went wrong
-    std::string unguarded{};                 ///< why nobody sends zero if the program is killed
-    double loaded{0.0};                      ///< part of the firmware that is in, 0 .. 1
-    int load_try{0};                         ///< 1 ..
-    Reply reply{};                           ///< the last one, buttons debounced
-    std::array<std::uint32_t, 4> presses{};  ///< of plus, forward, centre, minus since the start
+    std::string serial{};     ///< empty: not known
+    std::string sentence{};   ///< what is, and what to do next
+    bool trouble{false};      ///< the sentence tells of something that went wrong
+    std::string unguarded{};  ///< why nobody sends zero if the program is killed
+    double loaded{0.0};       ///< part of the firmware that is in, 0 .. 1
+    int load_try{0};          ///< 1 ..
+    Reply reply{};            ///< the last one, buttons debounced
+    ButtonPresses presses{};  ///< of plus, forward, centre, minus since the start
     double replies_per_s{0.0};
     std::uint64_t replies{0};
     std::uint64_t resent{0};           ///< commands sent again for want of a reply
@@ -60,29 +59,7 @@ struct Status {
     std::uint64_t line_errors{0};      ///< packets with overrun, parity or framing bits
 };
 
-/// Where the USB thread writes the status and the window reads it.
-class StatusBoard {
-  public:
-    using Time = std::chrono::steady_clock::time_point;
-
-    /// Any thread but the haptic one.
-    [[nodiscard]] Status read() const;
-
-    // The USB thread alone:
-
-    /// The status to come.
-    [[nodiscard]] Status& draft() noexcept { return draft_; }
-    void publish();
-    /// At most 50 times a second; never waits.
-    void publish_if_due(Time now);
-    /// A new stage, published at once.
-    void enter(Stage stage, std::string sentence, bool trouble = false);
-
-  private:
-    Status draft_{};
-    Time published_at_{};
-    mutable std::mutex mutex_{};
-    Status published_{};  // guarded by mutex_
-};
+/// The USB thread writes it, the window reads it.
+using StatusBoard = StateBoard<Status>;
 
 }  // namespace dibhr::falcon

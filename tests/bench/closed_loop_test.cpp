@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "device/inverse3/dynamics.hpp"
 #include "tests/support/catch.hpp"
 
 namespace dibhr::bench {
@@ -74,6 +75,29 @@ TEST_CASE("by default no tapped hand swings on any device, and none buzzes at th
                     CHECK(result.limits_held);
                     if (stiffness == 0.5) CHECK(result.buzz_newton <= kMostBuzz_newton);
                 }
+            }
+        }
+    }
+}
+
+// Its mass, friction, step and delay are not measured: device/inverse3/README.md.
+TEST_CASE("no tapped hand swings on an Inverse3 as it is assumed to be", "[closed-loop]") {
+    const DeviceDynamics& device = inverse3::kAssumedDynamics;
+    for (const double stiffness : {0.5, 1.0}) {
+        for (const Grip& grip : kGrips) {
+            for (const double mass : {device.mass_kg, 2.0 * device.mass_kg}) {
+                ClosedLoop loop = as_in_view();
+                loop.grip = grip;
+                loop.mass_kg = mass;
+                loop.friction_newton_s_per_m = device.friction_newton_s_per_m;
+                loop.resolution_mm = device.resolution_mm;
+                loop.delay_ticks = static_cast<int>(std::lround(1e3 * device.delay_s));
+                loop.parameters.coupling.stiffness_newton_per_mm = stiffness;
+                const ClosedLoopResult result = run(loop);
+                CAPTURE(stiffness, grip.name, mass, result.swing_mm, result.buzz_newton);
+                CHECK_FALSE(oscillates(result));
+                CHECK(result.limits_held);
+                CHECK(result.buzz_newton <= kMostBuzz_newton);
             }
         }
     }

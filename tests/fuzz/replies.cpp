@@ -9,6 +9,7 @@
 
 #include "device/falcon/packet.hpp"
 #include "device/falcon/reply_watch.hpp"
+#include "device/hand/buttons.hpp"
 #include "tests/fuzz/entry.hpp"
 
 using namespace dibhr;

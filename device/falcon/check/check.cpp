@@ -2,18 +2,15 @@
 #include "device/falcon/check/check.hpp"
 
 #include <array>
-#include <chrono>
-#include <cstddef>
 #include <string>
 
 #include "device/falcon/check/desk.hpp"
 #include "device/falcon/check/record.hpp"
+#include "device/hand/check/run.hpp"
 
 namespace dibhr::falcon {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// What a step needs to make sense.
 enum class Needs { nothing, replies, replies_and_person };
@@ -71,71 +68,36 @@ class Check {
     Check(const CheckOptions& options, CheckGuide& guide)
         : guide_(guide),
           falcon_(options.serial),
-          desk_{guide, falcon_, options},
-          record_(options.record, falcon_.attached(), options.facts) {}
+          desk_(guide, falcon_, options),
+          record_(options.record, checked_device(falcon_.attached()), options.facts) {}
 
     CheckResult run() {
         guide_.say("Checks " + full_name_of(falcon_.attached()) + "; the record is " +
                    record_.file().string() + ", written again after every step.");
         if (const std::string fault = falcon_.unguarded(); !fault.empty()) guide_.say(fault);
-        record_.write(desk_.findings);  // before the work: an unwritable file is told at once
-        for (std::size_t k = 0; k < kSteps.size(); ++k) {
-            run_step(std::to_string(k + 1) + " of " + std::to_string(kSteps.size()), kSteps.at(k));
+        CheckRun run(desk_, record_, desk_.findings, kSteps.size(), [this] { falcon_.let_go(); });
+        for (const Step& step : kSteps) {
+            const bool needs_person = step.needs == Needs::replies_and_person;
+            run.step(
+                {step.name, step.title, step.meaning, needs_person}, [&] { return why_not(step); },
+                [&](Json& measured) { step.run(desk_, measured); });
         }
         falcon_.let_go();
         guide_.say(desk_.findings.summary() + "The record: " + record_.file().string());
-        return {record_.file(), fault_};
+        return {record_.file(), run.fault()};
     }
 
   private:
-    void run_step(const std::string& number, const Step& step) {
-        const auto begin = Clock::now();
-        Json measured = Json::object();
-        std::string remark;
-        const StepEnd end = over_ ? StepEnd::not_begun : guarded(number, step, measured, remark);
-        over_ = over_ || end == StepEnd::quit || end == StepEnd::failed;
-        if (over_) falcon_.let_go();
-        const std::chrono::duration<double> took = Clock::now() - begin;
-        record_.add(step.name, end, remark, took.count(), measured);
-        record_.write(desk_.findings);
-    }
-
-    StepEnd guarded(const std::string& number, const Step& step, Json& measured,
-                    std::string& remark) {
-        try {
-            if (step.needs != Needs::nothing && !falcon_.answering() && !falcon_.answers()) {
-                remark = "the Falcon gives no replies";
-                return StepEnd::not_begun;
-            }
-            introduce(number, step);
-            step.run(desk_, measured);
-            return StepEnd::done;
-        } catch (const StepSkipped&) {
-            return StepEnd::skipped;
-        } catch (const PersonQuits&) {
-            return StepEnd::quit;
-        } catch (const DeviceError& failure) {
-            remark = fault_ = failure.what();
-            return StepEnd::failed;
-        }
-    }
-
-    void introduce(const std::string& number, const Step& step) {
-        guide_.say("\n" + number + ": " + step.title + "\n" + step.meaning);
-        const char* const question = "Enter = go on, s = skip, q = quit";
-        if (step.needs == Needs::replies_and_person) {
-            desk_.word(question);
-        } else {
-            desk_.begin(question);
-        }
+    /// Why the step makes no sense; empty: it does.
+    std::string why_not(const Step& step) {
+        const bool can = step.needs == Needs::nothing || falcon_.answering() || falcon_.answers();
+        return can ? std::string{} : "the Falcon gives no replies";
     }
 
     CheckGuide& guide_;
     CheckedFalcon falcon_;
     CheckDesk desk_;
     CheckRecord record_;
-    std::string fault_{};
-    bool over_{false};
 };
 
 }  // namespace

@@ -1,10 +1,7 @@
-// Questions to the person, while the Falcon gets packets without force.
+// The Falcon gets packets without force while the person thinks.
 #include "device/falcon/check/desk.hpp"
 
-#include <charconv>
 #include <chrono>
-#include <string_view>
-#include <system_error>
 #include <thread>
 
 namespace dibhr::falcon {
@@ -13,70 +10,13 @@ namespace {
 
 constexpr std::chrono::milliseconds kPause{10};  // the program never falls silent
 
-std::optional<double> number_of(std::string_view text) {
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return value;
-}
-
 }  // namespace
-
-void CheckDesk::quit_if_interrupted() const {
-    if (guide.interrupted()) throw PersonQuits{};
-}
-
-std::optional<std::string> CheckDesk::typed() {
-    quit_if_interrupted();
-    auto line = guide.next_line();
-    if (line == "q") throw PersonQuits{};
-    if (line == "s") throw StepSkipped{};
-    return line;
-}
-
-bool CheckDesk::answered() {
-    const bool any = typed().has_value();
-    if (!any && guide.input_ended()) throw StepSkipped{};
-    return any;
-}
 
 void CheckDesk::keep_talking() {
     if (falcon.answering()) {
         (void)falcon.exchange(no_force(Led::blue), kPause);
     } else {
         std::this_thread::sleep_for(kPause);
-    }
-}
-
-std::optional<std::string> CheckDesk::line() {
-    for (;;) {
-        if (auto line = typed()) return line;
-        if (guide.input_ended()) return std::nullopt;
-        keep_talking();
-    }
-}
-
-void CheckDesk::begin(const std::string& question) {
-    guide.ask(question);
-    (void)line();
-}
-
-std::string CheckDesk::word(const std::string& question) {
-    guide.ask(question);
-    auto typed_word = line();
-    if (!typed_word) throw StepSkipped{};
-    return *typed_word;
-}
-
-std::optional<double> CheckDesk::number(const std::string& question, double lowest,
-                                        double highest) {
-    for (;;) {
-        const std::string text = word(question);
-        if (text.empty()) return std::nullopt;
-        const auto value = number_of(text);
-        if (value && *value >= lowest && *value <= highest) return value;
-        guide.say("a number from " + number_text(lowest, 0) + " to " + number_text(highest, 0) +
-                  ", please, or Enter alone when there is none");
     }
 }
 

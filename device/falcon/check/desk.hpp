@@ -2,47 +2,26 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "device/falcon/check/check.hpp"
 #include "device/falcon/check/falcon.hpp"
 #include "device/falcon/check/record.hpp"
+#include "device/hand/check/questions.hpp"
 
 namespace dibhr::falcon {
 
-/// The person leaves this step out.
-struct StepSkipped {};
-/// The person leaves the check.
-struct PersonQuits {};
+/// While the person thinks, the Falcon gets commands without force.
+struct CheckDesk final : CheckQuestions {
+    CheckDesk(CheckGuide& person, CheckedFalcon& checked, const CheckOptions& chosen)
+        : CheckQuestions(person), falcon(checked), options(chosen) {}
 
-/// Every question may throw StepSkipped (the answer "s") and PersonQuits ("q", Ctrl+C). While the
-/// person thinks, the Falcon gets commands without force. When nobody can answer, what needs a
-/// person is skipped.
-struct CheckDesk {
-    CheckGuide& guide;
     CheckedFalcon& falcon;
     const CheckOptions& options;
     Findings findings{};
     std::optional<double> counts_per_newton_metre{};  ///< once it was measured
 
-    /// Any answer goes on; so does nobody.
-    void begin(const std::string& question);
-    /// The typed word, when the person has done what was asked; empty: Enter alone.
-    std::string word(const std::string& question);
-    /// The typed number, asked for again until it is one in the range; nothing: Enter alone.
-    [[nodiscard]] std::optional<double> number(const std::string& question, double lowest,
-                                               double highest);
-
-    /// Whether a line was typed since the last question; "s" and "q" throw, and so does nobody. For
-    /// steps that wait for something else meanwhile.
-    bool answered();
-    /// Throws PersonQuits after Ctrl+C.
-    void quit_if_interrupted() const;
-
   private:
-    [[nodiscard]] std::optional<std::string> typed();
-    [[nodiscard]] std::optional<std::string> line();
-    void keep_talking();
+    void keep_talking() override;
 };
 
 // The steps, each in the file of its name (check_silence with check_force). They add what they

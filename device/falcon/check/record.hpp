@@ -1,20 +1,17 @@
-// The record of a check: one JSON file, written again after every step, and what was found of the
-// questions that ../README.md leaves open.
+// What the check of a Falcon is to find of the questions that ../README.md leaves open.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "core/files/json.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/vec.hpp"
 #include "device/falcon/usb.hpp"
+#include "device/hand/check/record.hpp"
 
 namespace dibhr::falcon {
 
@@ -44,44 +41,17 @@ enum class OpenQuestion : std::size_t {
 inline constexpr std::size_t kOpenQuestions =
     static_cast<std::size_t>(OpenQuestion::power_lost) + 1;
 
-class Findings {
+/// What was found of them, and lines for the [falcon] table of the settings file.
+class Findings final : public CheckFindings {
   public:
+    Findings();
     /// Once more: the last answer counts.
-    void settle(OpenQuestion question, std::string found);
-    /// A line for the [falcon] table of the settings file: `value` as TOML has it.
-    void set(const std::string& name, const std::string& value) { settings_[name] = value; }
-
-    /// Every question with what was found or that it is still open, and the settings; for people.
-    [[nodiscard]] std::string summary() const;
-    /// Adds "findings" and "settings" to the record.
-    void add_to(Json& record) const;
-
-  private:
-    std::array<std::string, kOpenQuestions> found_{};  // empty: still open
-    Json settings_ = Json::object();
+    void settle(OpenQuestion question, std::string found) {
+        CheckFindings::settle(static_cast<std::size_t>(question), std::move(found));
+    }
 };
 
-/// How a step ended.
-enum class StepEnd : std::size_t { done, skipped, quit, failed, not_begun };
-
-class CheckRecord {
-  public:
-    /// `file` empty: falcon-check-SERIAL-DATE.json in the current folder.
-    CheckRecord(std::filesystem::path file, const AttachedFalcon& falcon,
-                const std::vector<std::pair<std::string, std::string>>& facts);
-
-    /// `remark`: why it failed or was not begun.
-    void add(const char* step, StepEnd end, const std::string& remark, double seconds,
-             const Json& measured);
-    /// The whole file, or none of it. Throws InputError.
-    void write(const Findings& findings) const;
-
-    [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
-
-  private:
-    std::filesystem::path file_;
-    Json head_{};
-    Json steps_ = Json::array();
-};
+/// "falcon-check-SERIAL-DATE.json".
+[[nodiscard]] CheckedDevice checked_device(const AttachedFalcon& falcon);
 
 }  // namespace dibhr::falcon

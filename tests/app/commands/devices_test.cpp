@@ -79,7 +79,7 @@ TEST_CASE("a Falcon that cannot be used is told with its next step, and the comm
         const ProgramResult result = run_with(folder, one.host, one.arguments);
         check_one_line(result, one);
         INFO(result.output);
-        CHECK(lines_of(result.output) == 2);  // the mouse, and the Falcon
+        CHECK(lines_of(result.output) == 3);  // the mouse, the Falcon, and no Inverse3
         CHECK(says(result.output, "mouse: usable"));
         CHECK(says(result.output, one.says));
         CHECK(says(result.output, one.next_step));

@@ -9,13 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "app/panels/falcon_state.hpp"
+#include "app/panels/device_state.hpp"
 #include "app/panels/viewer_state.hpp"
 #include "app/settings/falcon_settings.hpp"
 #include "app/settings/settings.hpp"
 #include "app/viewer/falcon.hpp"
 #include "app/window/window.hpp"
 #include "core/haptics/safety.hpp"
+#include "device/device_or_mouse.hpp"
 #include "device/falcon/packet.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/support/catch.hpp"
@@ -193,30 +194,31 @@ TEST_CASE("a force that waits for the window is told, unless the person has swit
           "[falcon][banner]") {
     ViewerState state;
     state.falcon.emplace().status.stage = falcon::Stage::ready;
+    state.haptic.hand.which = static_cast<std::uint8_t>(Touching::falcon);
     state.in_front = false;
-    CHECK(falcon_banner(state).find("not in front") != std::string::npos);
+    CHECK(device_banner(state).find("not in front") != std::string::npos);
     state.force_enabled = false;
-    CHECK(falcon_banner(state).empty());
+    CHECK(device_banner(state).empty());
 }
 
 TEST_CASE("the window says over the relief what an attached or lost Falcon needs",
           "[falcon][banner]") {
     ViewerState state;
-    CHECK(falcon_banner(state).empty());
+    CHECK(device_banner(state).empty());
     state.falcon.emplace();
     state.falcon->status.sentence = "plug it in";
-    CHECK(falcon_banner(state).empty());  // none has been there: only the panel says so
+    CHECK(device_banner(state).empty());  // none has been there: only the panel says so
     state.falcon->status.trouble = true;  // one could not be brought up
-    CHECK(falcon_banner(state) == "plug it in");
+    CHECK(device_banner(state) == "plug it in");
     state.falcon->status.trouble = false;
     state.falcon->was_ready = true;  // one was lost
-    CHECK(falcon_banner(state) == "plug it in");
+    CHECK(device_banner(state) == "plug it in");
     state.falcon->status.stage = falcon::Stage::ready;
-    CHECK(falcon_banner(state).empty());
+    CHECK(device_banner(state).empty());
     state.falcon->was_ready = false;
     state.falcon->status.stage = GENERATE(falcon::Stage::cannot_open, falcon::Stage::no_firmware,
                                           falcon::Stage::loading, falcon::Stage::homing);
-    CHECK(falcon_banner(state) == "plug it in");
+    CHECK(device_banner(state) == "plug it in");
 }
 
 TEST_CASE("a held clutch is told as such, and only of a Falcon that touches", "[falcon][banner]") {
@@ -225,6 +227,7 @@ TEST_CASE("a held clutch is told as such, and only of a Falcon that touches", "[
     CHECK_FALSE(clutched(state));  // the mouse's button
     state.falcon.emplace();
     CHECK_FALSE(clutched(state));
+    state.haptic.hand.which = static_cast<std::uint8_t>(Touching::falcon);
     state.falcon->status.stage = falcon::Stage::ready;
     CHECK(clutched(state));
     state.haptic.hand.stand_in = true;

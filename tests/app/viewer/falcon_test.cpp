@@ -1,13 +1,11 @@
 // The whole program touches its sample with a simulated Falcon below libusb, whose hand is pushed
 // by the commanded torques.
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstddef>
 #include <filesystem>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <iterator>
 #include <string>
@@ -15,13 +13,13 @@
 #include <utility>
 #include <vector>
 
-#include "app/settings/assets_path.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/safety.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/app/program/falcon_on_usb.hpp"
 #include "tests/app/program/falcon_scene.hpp"
+#include "tests/app/program/strokes.hpp"
 #include "tests/device/falcon/packet_file.hpp"
 #include "tests/support/catch.hpp"
 
@@ -41,55 +39,6 @@ constexpr const char* kMeet = "search --sync --onlyvisible --name dibhr sleep 0.
 
 bool falcon_touches(const Row& row) {
     return row.contact && row.ready && !row.stand_in;
-}
-
-/// Runs of rows of the Falcon in which the proxy followed from the first row on, as it does when
-/// the goals and the file are all there is: each begins in free space, or where the proxy began
-/// anew, and ends where a frame came late or was passed over.
-std::vector<Rows> strokes(const Rows& rows) {
-    std::vector<Rows> all(1);
-    for (std::size_t k = 1; k < rows.size(); ++k) {
-        const bool jumps = rows[k].video_s < rows[k - 1].video_s;
-        const bool anew = rows[k].lets_go && rows[k - 1].contact;
-        const bool as_in_file = rows[k].surface && !rows[k].stand_in && rows[k].in_time;
-        if (jumps || anew || !as_in_file) all.emplace_back();
-        const bool begins = anew || !rows[k].contact;
-        if (as_in_file && (begins || !all.back().empty())) all.back().push_back(rows[k]);
-    }
-    constexpr std::size_t kShort = 100;
-    std::erase_if(all, [](const Rows& stroke) { return stroke.size() < kShort; });
-    return all;
-}
-
-std::string exact(double value) {
-    char text[32];
-    const auto end = std::to_chars(text, text + sizeof text, value);
-    return {text, end.ptr};
-}
-
-/// The spring forces that `dibhr touch` gives for the goals of these rows.
-std::vector<Vec3> touched_again(const Rows& rows) {
-    const TemporaryFolder folder;
-    {
-        std::ofstream goals(folder / "goals.csv");
-        goals << "t,x,y,z\n";
-        for (const Row& row : rows) {
-            goals << exact(row.video_s) << ',' << exact(row.goal.x) << ',' << exact(row.goal.y)
-                  << ',' << exact(row.goal.z) << '\n';
-        }
-    }
-    const ProgramResult result = run_dibhr(
-        folder,
-        {"touch", "--video", "--depth", sample_files().depth.string(), "--goals", "goals.csv"});
-    REQUIRE(result.exit_code == 0);
-    std::vector<Vec3> forces;
-    const std::vector<std::string> lines = split(result.output, '\n');
-    for (std::size_t k = 1; k < lines.size(); ++k) {
-        if (lines[k].empty()) continue;
-        const std::vector<std::string> cells = split(lines[k], ',');
-        forces.emplace_back(std::stod(cells.at(7)), std::stod(cells.at(8)), std::stod(cells.at(9)));
-    }
-    return forces;
 }
 
 /// A window of another program, which takes the keyboard when it opens.
@@ -168,22 +117,10 @@ TEST_CASE(
     run_shell("sqlite3 '" + (at.folder / "hand.dibhr").string() +
               "' \"SELECT value FROM session WHERE key = 'falcon-serial'\" | grep -qx SIM00001");
     CHECK(strongest(rows) <= SafetyLimits{}.max_force_newton + 1e-9);
-    std::size_t contacts = 0;
-    std::size_t held_back = 0;
-    double worst_newton = 0.0;
-    for (const Rows& stroke : strokes(rows)) {
-        const std::vector<Vec3> again = touched_again(stroke);
-        REQUIRE(again.size() == stroke.size());
-        for (std::size_t k = 0; k < again.size(); ++k) {
-            const Vec3 spring = stroke[k].spring_newton;
-            worst_newton = std::max(worst_newton, glm::distance(again[k], spring));
-            if (glm::length(spring) > 0.2) ++contacts;
-            if (spring.x < -0.05) ++held_back;  // friction, while it slides to the right
-        }
-    }
-    CHECK(contacts > 800);
-    CHECK(held_back > 100);
-    CHECK_THAT(worst_newton, WithinAbs(0.0, 1e-9));
+    const TouchedAgain again = touched_again(rows);
+    CHECK(again.contacts > 800);
+    CHECK(again.held_back > 100);
+    CHECK_THAT(again.worst_newton, WithinAbs(0.0, 1e-9));
 }
 
 TEST_CASE("a Falcon pulled in mid-touch leaves the mouse, and is taken back after homing",

@@ -15,7 +15,7 @@
 namespace dibhr::test::falcon {
 
 using dibhr::falcon::CheckOptions;
-using dibhr::falcon::CheckResult;
+using dibhr::CheckResult;
 
 inline bool holds(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;

@@ -12,7 +12,7 @@
 
 namespace dibhr::test::falcon {
 
-using dibhr::falcon::CheckGuide;
+using dibhr::CheckGuide;
 
 /// Does what is asked, and answers truly, unless a test wants it otherwise.
 class CheckPerson final : public CheckGuide {

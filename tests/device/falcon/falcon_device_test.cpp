@@ -21,6 +21,7 @@ namespace {
 
 using namespace dibhr::test::falcon;
 using namespace dibhr::falcon;
+using dibhr::device_axes;
 using dibhr::Vec3;
 using std::chrono::milliseconds;
 

@@ -1,20 +1,18 @@
 // A simulated Falcon in a haptic loop: the bus, the device, and ticks over a flat relief.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
-#include <functional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "core/realtime/tick_timer.hpp"
 #include "device/falcon/falcon_device.hpp"
 #include "tests/device/falcon/synthetic_firmware.hpp"
 #include "tests/device/falcon/usb_bench.hpp"
-#include "tests/device/small_relief.hpp"
+#include "tests/device/ticking_device.hpp"
 
 namespace dibhr::test::falcon {
+
+using test::TickingDevice;
 
 /// An image such as people choose, already checked.
 inline dibhr::falcon::FirmwareImage any_firmware() {
@@ -48,49 +46,6 @@ inline void home(Unit& unit) {
 inline void start_firmware(Unit& unit) {
     unit.with([](FalconModel& model) { model.board().start_firmware(); });
 }
-
-/// Runs any device at 1 kHz with a force of the test's choosing.
-template <typename AnyDevice>
-class TickingDevice {
-  public:
-    template <typename... Arguments>
-    explicit TickingDevice(Arguments&&... arguments)
-        : device(std::forward<Arguments>(arguments)...) {}
-
-    AnyDevice device;
-    Vec3 force_newton{0.0};  ///< sent in every tick
-    HandReading reading{};   ///< the last one
-
-    void tick() {
-        reading = device.read({0.001, surface_, kPitch_mm});
-        device.send(force_newton);
-    }
-    /// Ticks until it is so; false when it never was.
-    bool tick_until(const std::function<bool()>& is_so,
-                    std::chrono::milliseconds patience = std::chrono::seconds(20)) {
-        const auto end = std::chrono::steady_clock::now() + patience;
-        while (std::chrono::steady_clock::now() < end) {
-            (void)timer_.wait();
-            tick();
-            if (is_so()) return true;
-        }
-        return false;
-    }
-    void tick_for(std::chrono::milliseconds span) {
-        (void)tick_until([] { return false; }, span);
-    }
-    bool tick_until_ready() {
-        return tick_until([this] { return reading.ready && !reading.stand_in; });
-    }
-    [[nodiscard]] const DepthSurface& surface() const noexcept { return surface_; }
-
-    static constexpr double kPitch_mm = 101.6 / 720.0;
-
-  private:
-    SmallRelief relief_{flat()};
-    DepthSurface surface_{relief_.surface()};
-    TickTimer timer_{};
-};
 
 using TickingFalcon = TickingDevice<dibhr::falcon::FalconDevice>;
 

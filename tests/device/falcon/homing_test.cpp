@@ -10,6 +10,8 @@
 namespace {
 
 using namespace dibhr::falcon;
+using dibhr::Epoch;
+using dibhr::kNoEpoch;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 

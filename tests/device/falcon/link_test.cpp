@@ -28,7 +28,7 @@ struct Linked {
     Unit& unit{bus.plug()};
     dibhr::falcon::UsbContext usb{};
     dibhr::falcon::FtdiPort port{usb, attached_falcons(usb).at(0)};
-    dibhr::falcon::Wake wake{};
+    dibhr::Wake wake{};
     std::optional<Link> link{};
     std::uint64_t replies{0};
 

@@ -1,0 +1,117 @@
+// The Inverse3 in the Device panel: what it does and what it needs next; then its workspace,
+// buttons and service.
+#include <array>
+#include <string>
+
+#include "app/panels/device_rows.hpp"
+#include "app/panels/device_state.hpp"
+#include "app/panels/panels.hpp"
+#include "app/panels/widgets.hpp"
+#include "device/inverse3/frame.hpp"
+
+namespace dibhr {
+
+namespace {
+
+using inverse3::Stage;
+using inverse3::Status;
+
+std::string name_text(const Status& status) {
+    if (status.id.empty()) return "none attached";
+    const char* hand = status.handedness == inverse3::Handedness::left    ? ", left hand"
+                       : status.handedness == inverse3::Handedness::right ? ", right hand"
+                                                                          : "";
+    return status.id + hand;
+}
+
+std::string dialect_text(const Status& status) {
+    if (!status.dialect) return "not known yet";
+    return std::string(name_of(*status.dialect)) +
+           (status.dialect_confirmed ? ", told back" : ", not told back yet");
+}
+
+std::string grip_text(const inverse3::GripStatus& grip) {
+    std::string text = grip.wired ? "wired" : grip.awake ? "awake" : "asleep: press its button";
+    if (grip.battery) text += formatted(", battery %.0f %%", 100.0 * *grip.battery);
+    return text;
+}
+
+void draw_sentence(const Status& status) {
+    if (status.sentence.empty()) return;
+    const std::string sentence = capitalised(status.sentence);
+    if (status.trouble) {
+        trouble_text(sentence);
+    } else if (needs_its_person(status.stage)) {
+        ImGui::TextWrapped("%s", sentence.c_str());
+    } else {
+        quiet_text(sentence);
+    }
+}
+
+void draw_exchange(const Status& status) {
+    fact_row("Exchanges", formatted("%.0f per second", status.exchanges_per_s));
+    fact_row("Forces", dialect_text(status),
+             "How forces are spelled to the service, and whether it told one back");
+    if (!status.preset.empty()) fact_row("Preset", status.preset);
+    if (status.grip) fact_row("Grip", grip_text(*status.grip));
+    if (status.unasked + status.not_understood > 0) {
+        fact_row("Link", std::to_string(status.unasked) + " not asked for, " +
+                             std::to_string(status.not_understood) + " not understood");
+    }
+}
+
+void draw_workspace(ViewerState& state) {
+    Inverse3Settings& settings = state.settings.inverse3;
+    if (ImGui::Button("Fit the image")) {
+        settings.tuning.workspace.scale = inverse3::fitting_scale_to_box(
+            {state.media.depth_columns, state.media.depth_rows,
+             state.settings.touch.shape.relief_px, state.settings.touch.coupling.pixel_pitch_mm},
+            settings.box_mm);
+    }
+    explain("The scale at which the comfortable box reaches the whole image");
+    ImGui::SameLine();
+    if (ImGui::Button("Centre the hand")) ++state.centred;
+    explain("Takes back what the clutch has shifted", state.keys, Action::centre_workspace);
+    draw_device_numbers(inverse3_numbers(), Inverse3Topic::workspace, settings);
+}
+
+void draw_service(Inverse3Settings& settings) {
+    choice_row("Forces spelled", kDialectWords, settings.dialect,
+               "Sources differ on how the service wants a force. By its version is tried first, "
+               "and the other one when no force is told back");
+    std::array<char, 64> device{};
+    settings.device.copy(device.data(), device.size() - 1);
+    if (text_field("##inverse3-device", "Name: the first one found", device,
+                   "Which Inverse3, when several are attached: its name, left or right", false)) {
+        settings.device = device.data();
+    }
+    std::array<char, 32> preset{};
+    settings.preset.copy(preset.data(), preset.size() - 1);
+    if (text_field("##inverse3-preset", "Preset: defaults", preset,
+                   "Mount, axes and origin: defaults, arm_front, led_front, "
+                   "arm_front_centered, led_front_centered; the centre above belongs to it",
+                   false)) {
+        settings.preset = preset.data();
+    }
+    quiet_text("These are used from the next start of the program.");
+}
+
+}  // namespace
+
+void draw_inverse3_state(ViewerState& state) {
+    const Status& status = state.inverse3->status;
+    fact_row(status.minverse ? "Minverse" : "Inverse3", name_text(status));
+    draw_sentence(status);
+    if (!status.version.empty()) fact_row("Service", status.version);
+    if (status.stage == Stage::ready) draw_exchange(status);
+    fact_row("Touches", touching_text(state));
+}
+
+void draw_inverse3_settings(ViewerState& state) {
+    Inverse3Settings& settings = state.settings.inverse3;
+    if (part("Inverse3 workspace")) draw_workspace(state);
+    if (part("Inverse3 buttons")) draw_grip_buttons(kInverse3Grip, settings.buttons);
+    if (part("Inverse3 service")) draw_service(settings);
+}
+
+}  // namespace dibhr

@@ -1,0 +1,56 @@
+// The table of what a grip's buttons can do.
+#include "app/settings/grip_buttons.hpp"
+
+#include <cstddef>
+
+namespace dibhr {
+
+namespace {
+
+constexpr std::array<ButtonJob, 9> kButtonJobs{{
+    {{ButtonAction::none, "none", "Nothing"}},
+    {{ButtonAction::clutch, "clutch", "Hold the point (clutch)"}},
+    {{ButtonAction::record, "record", "Record, stop"}, Action::record},
+    {{ButtonAction::play_or_pause, "play-or-pause", "Play, pause"}, Action::play_or_pause},
+    {{ButtonAction::force_off, "force-off", "Force off"}, Action::force_off},
+    {{ButtonAction::toggle_force, "toggle-force", "Force off, on"}, Action::toggle_force},
+    {{ButtonAction::centre_workspace, "centre", "Centre the hand"}, Action::centre_workspace},
+    {{ButtonAction::go_to_start, "go-to-start", "To the start"}, Action::go_to_start},
+    {{ButtonAction::take_screenshot, "screenshot", "Save a picture"}, Action::take_screenshot},
+}};
+static_assert(has_all_in_order(kButtonJobs, ButtonAction::take_screenshot));
+
+}  // namespace
+
+std::span<const ButtonJob> button_jobs() noexcept {
+    return kButtonJobs;
+}
+
+const char* name_of(ButtonAction action) noexcept {
+    return entry_of(kButtonJobs, action).name;
+}
+
+std::optional<ButtonAction> button_action_named(std::string_view name) noexcept {
+    return value_named(kButtonJobs, name);
+}
+
+std::uint8_t buttons_for(ButtonAction action, const ButtonActions& actions) noexcept {
+    std::uint8_t bits = 0;
+    for (std::size_t k = 0; k < actions.size(); ++k) {
+        if (actions[k] == action) bits = static_cast<std::uint8_t>(bits | 1U << k);
+    }
+    return bits;
+}
+
+std::vector<Action> TakenPresses::take(const ButtonPresses& presses, const ButtonActions& actions) {
+    std::vector<Action> asked;
+    for (std::size_t k = 0; k < taken_.size(); ++k) {
+        const ButtonJob& job = entry_of(kButtonJobs, actions[k]);
+        for (; taken_[k] < presses[k]; ++taken_[k]) {
+            if (job.perform) asked.push_back(*job.perform);
+        }
+    }
+    return asked;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,68 @@
+// What is kept about the Inverse3: how its service is spoken to, its workspace, its buttons.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "app/settings/device_number.hpp"
+#include "app/settings/grip_buttons.hpp"
+#include "core/haptics/words.hpp"
+#include "device/inverse3/status.hpp"
+
+namespace dibhr {
+
+/// How a force is spelled to the service.
+enum class Dialect : std::uint8_t { automatic, vector, values };
+
+inline constexpr std::array<Word<Dialect>, 3> kDialectWords{
+    {{Dialect::automatic, "auto", "By its version"},
+     {Dialect::vector, "vector", "vector (3.5)"},
+     {Dialect::values, "values", "values"}}};
+static_assert(has_all_in_order(kDialectWords, Dialect::values));
+
+[[nodiscard]] constexpr std::string_view name_of(Dialect dialect) noexcept {
+    return entry_of(kDialectWords, dialect).name;
+}
+[[nodiscard]] constexpr std::optional<Dialect> dialect_named(std::string_view name) noexcept {
+    return value_named(kDialectWords, name);
+}
+
+/// In the order of inverse3::Status::presses.
+inline constexpr GripButtons kInverse3Grip{
+    {{"button-a", "A, or the only one", ButtonAction::clutch},
+     {"button-b", "B", ButtonAction::force_off},
+     {"button-c", "C", ButtonAction::record},
+     {"button-home", "Home", ButtonAction::play_or_pause}}};
+
+struct Inverse3Settings {
+    std::string device{};  ///< a name, "left" or "right"; empty: the first
+    int port{10001};
+    int older_port{10000};
+    Dialect dialect{Dialect::automatic};
+    std::string preset{};       ///< of mount, axes and origin; empty: "defaults"
+    inverse3::Tuning tuning{};  ///< but for buttons, limit and centring, which come from elsewhere
+    double box_mm{120.0};       ///< edge of the box that a hand comfortably moves in
+    ButtonActions buttons{standard_actions(kInverse3Grip)};
+};
+
+enum class Inverse3Topic { workspace };
+using Inverse3Number = DeviceNumber<Inverse3Settings, Inverse3Topic>;
+
+[[nodiscard]] std::span<const Inverse3Number> inverse3_numbers() noexcept;
+
+/// Ports that a service can have.
+inline constexpr int kLowestPort = 1;
+inline constexpr int kHighestPort = 65535;
+
+/// Used from the next start of the program.
+[[nodiscard]] inverse3::ConnectionOptions connection_of(const Inverse3Settings& settings);
+
+/// The numbers, buttons and limit as the device takes them; `centred` is counted by the viewer.
+[[nodiscard]] inverse3::Tuning tuning_of(const Inverse3Settings& settings, double max_force_newton,
+                                         std::uint32_t centred) noexcept;
+
+}  // namespace dibhr

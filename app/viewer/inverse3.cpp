@@ -1,0 +1,60 @@
+// The window thread's end of the Inverse3.
+#include "app/viewer/inverse3.hpp"
+
+#include <utility>
+
+#include "app/panels/device_state.hpp"
+
+namespace dibhr {
+
+namespace {
+
+inverse3::Tuning tuning_in(const ViewerState& state) {
+    const Settings& settings = state.settings;
+    return tuning_of(settings.inverse3, settings.max_force_newton, state.centred);
+}
+
+}  // namespace
+
+ViewerInverse3::ViewerInverse3(const HandDevice& hand, ViewerState& state)
+    : device_(hand.inverse3) {
+    if (device_ == nullptr) return;
+    state.inverse3.emplace();
+    hand_over(state);
+}
+
+std::optional<std::string> ViewerInverse3::take_news(ViewerState& state) {
+    using inverse3::Stage;
+    if (device_ == nullptr) return {};
+    Inverse3News& news = *state.inverse3;
+    news.status = device_->status();
+    news.asked = true;
+    const Stage before = std::exchange(stage_, news.status.stage);
+    if (before == stage_) return {};
+    // Once for each need: one that comes again and again must not keep moving the panels.
+    if (needs_its_person(stage_) && shown_ != stage_) {
+        state.show_device = true;
+        shown_ = stage_;
+    }
+    if (stage_ != Stage::ready) return {};
+    shown_ = stage_;
+    const std::string again = std::exchange(news.was_ready, true) ? " again" : "";
+    return "The Inverse3 touches" + again;
+}
+
+std::vector<Action> ViewerInverse3::take_presses(const ViewerState& state) {
+    if (device_ == nullptr) return {};
+    return presses_.take(state.inverse3->status.presses, state.settings.inverse3.buttons);
+}
+
+bool ViewerInverse3::tuning_changed(const ViewerState& state) const {
+    return device_ != nullptr && !(handed_ == tuning_in(state));
+}
+
+void ViewerInverse3::hand_over(const ViewerState& state) {
+    if (device_ == nullptr) return;
+    handed_ = tuning_in(state);
+    device_->tuning().publish(handed_);
+}
+
+}  // namespace dibhr

@@ -1,0 +1,41 @@
+// The window thread's end of the Inverse3: its news, its buttons, its tuning.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/panels/viewer_state.hpp"
+#include "app/settings/keys.hpp"
+#include "device/hand_device.hpp"
+#include "device/inverse3/status.hpp"
+
+namespace dibhr {
+
+/// Does nothing when no Inverse3 is looked for.
+class ViewerInverse3 {
+  public:
+    /// `hand` outlives it.
+    ViewerInverse3(const HandDevice& hand, ViewerState& state);
+
+    /// Once a picture: its status into `state`. A short notice when it begins to touch.
+    [[nodiscard]] std::optional<std::string> take_news(ViewerState& state);
+
+    /// What its buttons, pressed since the last call, ask for.
+    [[nodiscard]] std::vector<Action> take_presses(const ViewerState& state);
+
+    /// Whether hand_over() has something new.
+    [[nodiscard]] bool tuning_changed(const ViewerState& state) const;
+
+    /// The settings to the next tick; to be called after the haptic loop was told to ramp.
+    void hand_over(const ViewerState& state);
+
+  private:
+    inverse3::Inverse3Device* device_;
+    inverse3::Tuning handed_{};
+    TakenPresses presses_{};
+    inverse3::Stage stage_{inverse3::Stage::looking};  // as told
+    inverse3::Stage shown_{inverse3::Stage::looking};  // for which the panel was brought into sight
+};
+
+}  // namespace dibhr

@@ -1,0 +1,73 @@
+// Questions to the person beside a device that is checked.
+#include "device/hand/check/questions.hpp"
+
+#include <charconv>
+#include <string_view>
+#include <system_error>
+
+#include "core/files/plain_text.hpp"
+
+namespace dibhr {
+
+namespace {
+
+std::optional<double> number_of(std::string_view text) {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+}  // namespace
+
+void CheckQuestions::quit_if_interrupted() const {
+    if (guide.interrupted()) throw PersonQuits{};
+}
+
+std::optional<std::string> CheckQuestions::typed() {
+    quit_if_interrupted();
+    auto line = guide.next_line();
+    if (line == "q") throw PersonQuits{};
+    if (line == "s") throw StepSkipped{};
+    return line;
+}
+
+bool CheckQuestions::answered() {
+    const bool any = typed().has_value();
+    if (!any && guide.input_ended()) throw StepSkipped{};
+    return any;
+}
+
+std::optional<std::string> CheckQuestions::line() {
+    for (;;) {
+        if (auto line = typed()) return line;
+        if (guide.input_ended()) return std::nullopt;
+        keep_talking();
+    }
+}
+
+void CheckQuestions::begin(const std::string& question) {
+    guide.ask(question);
+    (void)line();
+}
+
+std::string CheckQuestions::word(const std::string& question) {
+    guide.ask(question);
+    auto typed_word = line();
+    if (!typed_word) throw StepSkipped{};
+    return *typed_word;
+}
+
+std::optional<double> CheckQuestions::number(const std::string& question, double lowest,
+                                             double highest) {
+    for (;;) {
+        const std::string text = word(question);
+        if (text.empty()) return std::nullopt;
+        const auto value = number_of(text);
+        if (value && *value >= lowest && *value <= highest) return value;
+        guide.say("a number from " + number_text(lowest, 0) + " to " + number_text(highest, 0) +
+                  ", please, or Enter alone when there is none");
+    }
+}
+
+}  // namespace dibhr

@@ -1,0 +1,74 @@
+// The record of a check: one JSON file, written again after every step, and what was found of the
+// questions that a device's README.md leaves open.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/files/json.hpp"
+
+namespace dibhr {
+
+/// One of them.
+struct CheckQuestion {
+    const char* name;      ///< in the record
+    const char* question;  ///< for people
+};
+
+class CheckFindings {
+  public:
+    /// `questions` outlive it; `table`: of the settings file.
+    CheckFindings(std::span<const CheckQuestion> questions, const char* table)
+        : questions_(questions), table_(table), found_(questions.size()) {}
+
+    /// By its place among the questions; once more: the last answer counts.
+    void settle(std::size_t question, std::string found);
+    /// A line for the table of the settings file: `value` as TOML has it.
+    void set(const std::string& name, const std::string& value) { settings_[name] = value; }
+
+    /// Every question with what was found or that it is still open, and the settings; for people.
+    [[nodiscard]] std::string summary() const;
+    /// Adds "findings" and "settings" to the record.
+    void add_to(Json& record) const;
+
+  private:
+    std::span<const CheckQuestion> questions_;
+    const char* table_;
+    std::vector<std::string> found_;  // empty: still open
+    Json settings_ = Json::object();
+};
+
+/// How a step ended.
+enum class CheckEnd : std::size_t { done, skipped, quit, failed, not_begun };
+
+struct CheckedDevice {
+    std::string kind{};      ///< "falcon"
+    std::string name_key{};  ///< of its name in the record: "serial"
+    std::string name{};
+};
+
+class CheckRecord {
+  public:
+    /// `file` empty: KIND-check-NAME-DATE.json in the current folder.
+    CheckRecord(std::filesystem::path file, const CheckedDevice& device,
+                const std::vector<std::pair<std::string, std::string>>& facts);
+
+    /// `remark`: why it failed or was not begun.
+    void add(const char* step, CheckEnd end, const std::string& remark, double seconds,
+             const Json& measured);
+    /// The whole file, or none of it. Throws InputError.
+    void write(const CheckFindings& findings) const;
+
+    [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
+
+  private:
+    std::filesystem::path file_;
+    Json head_{};
+    Json steps_ = Json::array();
+};
+
+}  // namespace dibhr

@@ -1,0 +1,67 @@
+// Leads through the steps of a check, and keeps the record.
+#include "device/hand/check/run.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace dibhr {
+
+CheckRun::CheckRun(CheckQuestions& questions, CheckRecord& record, const CheckFindings& findings,
+                   std::size_t steps, std::function<void()> let_go)
+    : questions_(questions),
+      record_(record),
+      findings_(findings),
+      steps_(steps),
+      let_go_(std::move(let_go)) {
+    record_.write(findings_);  // before the work: an unwritable file is told at once
+}
+
+void CheckRun::step(const CheckStep& step, const std::function<std::string()>& why_not,
+                    const std::function<void(Json&)>& run) {
+    using Clock = std::chrono::steady_clock;
+    const auto begin = Clock::now();
+    ++number_;
+    Json measured = Json::object();
+    std::string remark;
+    const CheckEnd end =
+        over_ ? CheckEnd::not_begun : guarded(step, why_not, run, measured, remark);
+    over_ = over_ || end == CheckEnd::quit || end == CheckEnd::failed;
+    if (over_) let_go_();
+    const std::chrono::duration<double> took = Clock::now() - begin;
+    record_.add(step.name, end, remark, took.count(), measured);
+    record_.write(findings_);
+}
+
+CheckEnd CheckRun::guarded(const CheckStep& step, const std::function<std::string()>& why_not,
+                           const std::function<void(Json&)>& run, Json& measured,
+                           std::string& remark) {
+    try {
+        remark = why_not();
+        if (!remark.empty()) return CheckEnd::not_begun;
+        introduce(step);
+        run(measured);
+        return CheckEnd::done;
+    } catch (const StepSkipped&) {
+        return CheckEnd::skipped;
+    } catch (const PersonQuits&) {
+        return CheckEnd::quit;
+    } catch (const DeviceError& failure) {
+        remark = fault_ = failure.what();
+        return CheckEnd::failed;
+    }
+}
+
+void CheckRun::introduce(const CheckStep& step) {
+    questions_.guide.say("\n" + std::to_string(number_) + " of " + std::to_string(steps_) + ": " +
+                         step.title + "\n" + step.meaning);
+    const char* const question = "Enter = go on, s = skip, q = quit";
+    if (step.needs_person) {
+        questions_.word(question);
+    } else {
+        questions_.begin(question);
+    }
+}
+
+}  // namespace dibhr

@@ -1,0 +1,53 @@
+// Leads through the steps of a check, and keeps the record.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+
+#include "core/files/json.hpp"
+#include "device/hand/check/questions.hpp"
+#include "device/hand/check/record.hpp"
+
+namespace dibhr {
+
+/// What of a step is told and asked before it.
+struct CheckStep {
+    const char* name;     ///< in the record
+    const char* title;    ///< for people
+    const char* meaning;  ///< what will happen, and what the person does
+    bool needs_person;    ///< else it is done when nobody can answer, too
+};
+
+class CheckRun {
+  public:
+    /// All outlive it. `let_go`: leaves the device without force; after it no step is begun.
+    CheckRun(CheckQuestions& questions, CheckRecord& record, const CheckFindings& findings,
+             std::size_t steps, std::function<void()> let_go);
+
+    /// Introduces and runs it, unless the check is over or `why_not` says why it makes no sense;
+    /// the record is written after it. `run` may throw StepSkipped, PersonQuits and DeviceError.
+    void step(const CheckStep& step, const std::function<std::string()>& why_not,
+              const std::function<void(Json&)>& run);
+
+    /// Why the device failed; empty when it did not.
+    [[nodiscard]] const std::string& fault() const noexcept { return fault_; }
+
+  private:
+    [[nodiscard]] CheckEnd guarded(const CheckStep& step,
+                                   const std::function<std::string()>& why_not,
+                                   const std::function<void(Json&)>& run, Json& measured,
+                                   std::string& remark);
+    void introduce(const CheckStep& step);
+
+    CheckQuestions& questions_;
+    CheckRecord& record_;
+    const CheckFindings& findings_;
+    std::size_t steps_;
+    std::function<void()> let_go_;
+    std::size_t number_{0};
+    std::string fault_{};
+    bool over_{false};
+};
+
+}  // namespace dibhr

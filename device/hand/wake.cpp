@@ -1,0 +1,39 @@
+// Lets the haptic thread end a device thread's poll().
+#include "device/hand/wake.hpp"
+
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+#include "core/error.hpp"
+
+namespace dibhr {
+
+Wake::Wake() : descriptor_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
+    if (descriptor_ < 0) {
+        throw DeviceError(std::string("a device's thread cannot be made (") + std::strerror(errno) +
+                          "): close other programs");
+    }
+}
+
+Wake::~Wake() {
+    close(descriptor_);
+}
+
+void Wake::signal() const noexcept {
+    const std::uint64_t one = 1;
+    // Fails only when as many as a counter holds wait already: then it is readable anyway.
+    [[maybe_unused]] const auto written = write(descriptor_, &one, sizeof one);
+}
+
+void Wake::clear() const noexcept {
+    std::uint64_t signals = 0;
+    // Fails only when there was none.
+    [[maybe_unused]] const auto got = read(descriptor_, &signals, sizeof signals);
+}
+
+}  // namespace dibhr

@@ -1,0 +1,81 @@
+// Where the grip's point is in the image: scale, offset, clutch, and the soft boundary.
+#include "device/hand/workspace.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dibhr {
+
+namespace {
+
+constexpr double kLeastScale = 0.1;
+constexpr double kMostScale = 10.0;
+
+double or_usual(double value, double usual) noexcept {
+    return std::isfinite(value) ? value : usual;
+}
+
+double scale_within_range(double scale) noexcept {
+    return std::clamp(or_usual(scale, WorkspaceOptions{}.scale), kLeastScale, kMostScale);
+}
+
+double pitch_mm(const ImageFrame& image) noexcept {
+    const bool usable = std::isfinite(image.pixel_pitch_mm) && image.pixel_pitch_mm > 0.0;
+    return usable ? image.pixel_pitch_mm : ImageFrame{}.pixel_pitch_mm;
+}
+
+Vec3 from_centre_mm(Vec3 grip_mm, const WorkspaceOptions& options) noexcept {
+    return grip_mm - Vec3{0.0, 0.0, or_usual(options.centre_z_mm, WorkspaceOptions{}.centre_z_mm)};
+}
+
+/// Half the image and half its relief; the point under the workspace's centre when nothing is
+/// shifted.
+Vec3 middle_in_grid(const ImageFrame& image) noexcept {
+    return 0.5 * Vec3{image.columns - 1, image.rows - 1, or_usual(image.relief_px, 0.0)};
+}
+
+}  // namespace
+
+Vec3 Workspace::goal_in_grid(Vec3 grip_mm, bool clutched, const ImageFrame& image,
+                             const WorkspaceOptions& options) noexcept {
+    const double pitch = pitch_mm(image);
+    const Vec3 offset_mm = is_finite(options.offset_mm) ? options.offset_mm : Vec3{0.0};
+    const Vec3 point_mm =
+        scale_within_range(options.scale) * from_centre_mm(grip_mm, options) + offset_mm;
+    const Vec3 middle = middle_in_grid(image);
+    const Vec3 unshifted = middle + grid_axes(point_mm) / pitch;
+    if (!is_finite(unshifted)) return placed_ ? last_goal_ : middle;
+
+    // The tick that engages and the one that releases hold the point, too.
+    if (placed_ && (clutched || clutched_)) {
+        shift_mm_ = device_axes(last_goal_ - unshifted) * pitch;
+    } else {
+        last_goal_ = unshifted + grid_axes(shift_mm_) / pitch;
+    }
+    placed_ = true;
+    clutched_ = clutched;
+    return last_goal_;
+}
+
+Vec3 Workspace::boundary_force(Vec3 grip_mm, const WorkspaceOptions& options) noexcept {
+    const Vec3 way_mm = from_centre_mm(grip_mm, options);
+    const double distance_mm = glm::length(way_mm);
+    const double beyond_mm = distance_mm - std::max(options.radius_mm, 0.0);
+    if (!(beyond_mm > 0.0) || !(options.boundary_newton_per_mm > 0.0)) return Vec3{0.0};
+    const Vec3 force = -options.boundary_newton_per_mm * beyond_mm / distance_mm * way_mm;
+    return is_finite(force) ? force : Vec3{0.0};
+}
+
+void Workspace::centre() noexcept {
+    *this = Workspace{};
+}
+
+double fitting_scale(const ImageFrame& image, const WorkspaceOptions& options) noexcept {
+    // The corners of the box that image and relief fill touch the sphere.
+    const double corner_mm = glm::length(middle_in_grid(image)) * pitch_mm(image);
+    return scale_within_range(corner_mm / options.radius_mm);
+}
+
+}  // namespace dibhr

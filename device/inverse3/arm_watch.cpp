@@ -1,0 +1,100 @@
+// What an arm's states tell over time.
+#include "device/inverse3/arm_watch.hpp"
+
+#include <glm/geometric.hpp>
+
+namespace dibhr::inverse3 {
+
+namespace {
+
+using std::chrono::milliseconds;
+
+// README.md, Safety numbers.
+constexpr double kFastest_m_per_s = 10.0;  // no hand is
+constexpr double kJumpAnyway_m = 0.02;     // whatever time it took
+constexpr milliseconds kOurUseBegins{1000};
+constexpr double kWorthHearing_newton = 0.3;
+constexpr double kHeardShare = 0.05;  // filters in the service take most of a force away
+constexpr milliseconds kDeafAfter{250};
+
+bool is_permuted(const ArmConfig& config) noexcept {
+    return !config.basis.empty() && config.basis.view() != "XYZ";
+}
+
+}  // namespace
+
+void ArmWatch::begin() noexcept {
+    const Epoch epoch = epoch_;
+    *this = ArmWatch{};
+    epoch_ = epoch;
+}
+
+void ArmWatch::add(const Arm& arm, Time at) noexcept {
+    const bool other_config = arm.config && config_ && !(*arm.config == *config_);
+    if (arm.config) config_ = arm.config;
+    follow_use(arm.in_use, at);
+    stage_ = stage_of(arm);
+    jumped_ = arm.position_m && jumps_to(*arm.position_m, at);
+    if (stage_ != Stage::ready || jumped_ || other_config) {
+        trusted_ = 0;
+    } else if (trusted_ < 2 && ++trusted_ == 2) {
+        ++epoch_;
+        if (epoch_ == kNoEpoch) ++epoch_;
+    }
+    last_m_ = arm.position_m;
+    last_at_ = at;
+}
+
+void ArmWatch::miss() noexcept {
+    trusted_ = 0;
+    last_m_.reset();
+}
+
+void ArmWatch::drove(Time at) noexcept {
+    if (!driven_since_) driven_since_ = at;
+}
+
+Stage ArmWatch::stage_of(const Arm& arm) const noexcept {
+    if (!arm.powered) return Stage::no_power;
+    if (!arm.calibrated) return Stage::not_calibrated;
+    if (arm.in_use && !used_by_us_) return Stage::in_use;
+    if (arm.locked) return Stage::locked;
+    if (config_ && is_permuted(*config_)) return Stage::other_frame;
+    return arm.position_m ? Stage::ready : Stage::not_understood;
+}
+
+void ArmWatch::follow_use(bool in_use, Time at) noexcept {
+    // Nobody knows whether the service means us, too: what begins as we begin is ours.
+    if (!in_use) used_by_us_ = false;
+    if (in_use && !was_in_use_) {
+        used_by_us_ = driven_since_ && at - *driven_since_ < kOurUseBegins;
+    }
+    was_in_use_ = in_use;
+}
+
+bool ArmWatch::jumps_to(Vec3 position_m, Time at) const noexcept {
+    if (!last_m_) return false;
+    const std::chrono::duration<double> passed = at - last_at_;
+    return glm::distance(position_m, *last_m_) > kJumpAnyway_m + kFastest_m_per_s * passed.count();
+}
+
+void HearingWatch::begin() noexcept {
+    *this = HearingWatch{};
+}
+
+void HearingWatch::add(Vec3 sent_newton, const std::optional<Vec3>& told_newton, Time at) noexcept {
+    const double sent = glm::length(sent_newton);
+    if (!told_newton || sent < kWorthHearing_newton) {
+        unheard_since_.reset();
+        return;
+    }
+    if (glm::length(*told_newton) >= kHeardShare * sent) {
+        hears_ = Hears::yes;
+        unheard_since_.reset();
+        return;
+    }
+    if (!unheard_since_) unheard_since_ = at;
+    if (at - *unheard_since_ >= kDeafAfter) hears_ = Hears::no;
+}
+
+}  // namespace dibhr::inverse3

@@ -1,0 +1,70 @@
+// Leads through the check of an Inverse3.
+#include "device/inverse3/check/check.hpp"
+
+#include <array>
+#include <cstddef>
+
+#include "device/hand/check/run.hpp"
+#include "device/inverse3/check/desk.hpp"
+
+namespace dibhr::inverse3 {
+
+namespace {
+
+struct Step {
+    CheckStep told;
+    void (*run)(CheckDesk& desk, Json& measured);
+};
+
+constexpr std::array kSteps{
+    Step{{"service", "What the service says",
+          "Keeps the service's own words about itself and its devices. Nothing moves; you need do "
+          "nothing.",
+          false},
+         check_service},
+    Step{{"rate", "Exchanges a second",
+          "Exchanges messages without force as fast as they come. Some seconds; nothing moves.",
+          false},
+         check_rate},
+    Step{{"moving", "Steps and workspace",
+          "You move the grip about, slowly at first, then to every end that it has. No force.",
+          true},
+         check_moving},
+    Step{{"dialect", "How a force is spelled",
+          "FORCE, a weak one of 0.5 N to the left, twice for less than a second. Hold the grip "
+          "loosely in the middle of its reach; any key lets go.",
+          true},
+         check_dialect},
+    Step{{"silence", "The force after the last message",
+          "FORCE, 0.5 N to the left, while the program falls silent for up to a second each time. "
+          "Hold the grip loosely; any key lets go.",
+          true},
+         check_silence},
+    Step{{"force", "Force on a kitchen scale",
+          "FORCE, 1, 2 and 3 N downwards for at most 3 s each: the grip presses on a kitchen "
+          "scale, and you type the grams. Put the scale under the grip, on something that does "
+          "not give way, and set it to zero; hands and hair away. Any key lets go.",
+          true},
+         check_force},
+};
+
+}  // namespace
+
+CheckResult run_check(const CheckOptions& options, CheckGuide& guide) {
+    CheckTalk talk(options.connection);
+    CheckDesk desk(guide, talk, options);
+    CheckRecord record(options.record, {"inverse3", "device_id", talk.id()}, options.facts);
+    guide.say("Checks the Inverse3 " + talk.id() + "; the record is " + record.file().string() +
+              ", written again after every step.");
+    CheckRun run(desk, record, desk.findings, kSteps.size(), [&] { talk.let_go(); });
+    for (const Step& step : kSteps) {
+        run.step(
+            step.told, [] { return std::string{}; },
+            [&](Json& measured) { step.run(desk, measured); });
+    }
+    talk.let_go();
+    guide.say(desk.findings.summary() + "The record: " + record.file().string());
+    return {record.file(), run.fault()};
+}
+
+}  // namespace dibhr::inverse3

@@ -1,0 +1,72 @@
+// Where a step of the check has the person, the device, and what is found.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/files/json.hpp"
+#include "device/hand/check/questions.hpp"
+#include "device/hand/check/record.hpp"
+#include "device/inverse3/check/check.hpp"
+#include "device/inverse3/check/talk.hpp"
+
+namespace dibhr::inverse3 {
+
+/// In the order of the steps that answer them.
+enum class OpenQuestion : std::size_t {
+    service,
+    rate,
+    device_rate,
+    step,
+    workspace,
+    dialect,
+    silence,
+    force
+};
+
+inline constexpr std::array<CheckQuestion, 8> kQuestions{{
+    {"service", "Version and devices"},
+    {"rate", "Exchanges a second, and how long one takes"},
+    {"device-rate", "New positions a second"},
+    {"step", "Smallest step of the position"},
+    {"workspace", "Workspace"},
+    {"dialect", "How a force is spelled"},
+    {"silence", "The force without a new message"},
+    {"force", "Force at the grip"},
+}};
+
+/// While the person thinks, the device is asked for its pose alone.
+struct CheckDesk final : CheckQuestions {
+    CheckDesk(CheckGuide& person, CheckTalk& checked, const CheckOptions& chosen)
+        : CheckQuestions(person), talk(checked), options(chosen) {}
+
+    CheckTalk& talk;
+    const CheckOptions& options;
+    CheckFindings findings{kQuestions, "inverse3"};
+    std::optional<ForceDialect> dialect{};  ///< once it was found out
+
+    void settle(OpenQuestion question, std::string found) {
+        findings.settle(static_cast<std::size_t>(question), std::move(found));
+    }
+    /// As it was found out, or else by the version.
+    [[nodiscard]] ForceDialect likely_dialect() const noexcept {
+        return dialect.value_or(talk.newer() ? ForceDialect::vector : ForceDialect::values);
+    }
+
+  private:
+    void keep_talking() override;
+};
+
+// The steps. They add what they measure; they throw StepSkipped, PersonQuits, and DeviceError when
+// the device fails.
+void check_service(CheckDesk& desk, Json& measured);
+void check_rate(CheckDesk& desk, Json& measured);
+void check_moving(CheckDesk& desk, Json& measured);
+void check_dialect(CheckDesk& desk, Json& measured);
+void check_silence(CheckDesk& desk, Json& measured);
+void check_force(CheckDesk& desk, Json& measured);
+
+}  // namespace dibhr::inverse3

@@ -1,0 +1,140 @@
+// The steps with force: how it is spelled, how long it lasts, and how strong it is.
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <thread>
+
+#include "core/files/plain_text.hpp"
+#include "device/inverse3/check/desk.hpp"
+
+namespace dibhr::inverse3 {
+
+namespace {
+
+using Clock = CheckTalk::Clock;
+
+constexpr Vec3 kWeak_newton{-0.5, 0.0, 0.0};  // to the left
+constexpr double kToldBack = 0.05;            // of a force: filters may take most of it away
+constexpr double kGravity = 9.80665;
+constexpr double kHeaviest_g = 2000.0;
+
+/// While it lives a force acts; at its end it does not, whatever happened.
+class Push {
+  public:
+    explicit Push(CheckDesk& desk) : desk_(desk) { desk_.guide.force_begins(); }
+    ~Push() {
+        desk_.talk.let_go();
+        desk_.guide.force_ended();
+    }
+    Push(const Push&) = delete;
+    Push& operator=(const Push&) = delete;
+
+    /// Rises to the force and holds it for `hold`; the last state. Nothing when the person let go.
+    /// Throws PersonQuits and DeviceError.
+    std::optional<Arm> hold(Vec3 force_newton, ForceDialect dialect, CheckTimes::Span hold) {
+        const auto begin = Clock::now();
+        const auto ramp = std::chrono::duration<double>(desk_.options.times.ramp);
+        const auto end = begin + desk_.options.times.ramp + hold;
+        std::optional<Arm> last;
+        while (Clock::now() < end) {
+            const CheckGuide::Wish wish = desk_.guide.wish();
+            if (wish == CheckGuide::Wish::quit) throw PersonQuits{};
+            if (wish == CheckGuide::Wish::let_go) return {};
+            const std::chrono::duration<double> since = Clock::now() - begin;
+            const double share = std::min(1.0, since / ramp);
+            last = desk_.talk.exchange(share * force_newton, dialect).arm;
+            if (!last->calibrated || !last->powered) {
+                throw DeviceError("the Inverse3 lost its calibration or its power");
+            }
+        }
+        return last;
+    }
+
+  private:
+    CheckDesk& desk_;
+};
+
+bool told_back(const std::optional<Arm>& state) {
+    return state && state->force_newton &&
+           glm::length(*state->force_newton) >= kToldBack * glm::length(kWeak_newton);
+}
+
+/// Asked after the force has gone.
+bool was_felt(CheckDesk& desk, ForceDialect dialect) {
+    const std::string answer = desk.word(std::string("Did the grip pull to the left with \"") +
+                                         name_of(dialect) + "\"? y or n");
+    return answer == "y" || answer == "yes";
+}
+
+}  // namespace
+
+void check_dialect(CheckDesk& desk, Json& measured) {
+    std::string words;
+    for (const ForceDialect dialect : {ForceDialect::vector, ForceDialect::values}) {
+        Json& part = measured[name_of(dialect)];
+        bool told = false;
+        try {
+            Push push(desk);
+            told = told_back(push.hold(kWeak_newton, dialect, desk.options.times.dialect));
+        } catch (const LinkError&) {
+            throw;
+        } catch (const DeviceError& complaint) {
+            part["complaint"] = complaint.what();
+        }
+        const bool felt = was_felt(desk, dialect);
+        part["told_back"] = told;
+        part["felt"] = felt;
+        if ((felt || told) && !desk.dialect) desk.dialect = dialect;
+        words += (words.empty() ? "" : "; ") + std::string(name_of(dialect)) +
+                 (felt ? " is felt" : " is not felt") + (told ? " and told back" : "");
+    }
+    if (desk.dialect) desk.findings.set("dialect", '"' + std::string(name_of(*desk.dialect)) + '"');
+    desk.settle(OpenQuestion::dialect, words);
+}
+
+void check_silence(CheckDesk& desk, Json& measured) {
+    const ForceDialect dialect = desk.likely_dialect();
+    std::optional<CheckTimes::Span> gone_after;
+    for (const CheckTimes::Span silence : desk.options.times.silences) {
+        Push push(desk);
+        if (!push.hold(kWeak_newton, dialect, CheckTimes::Span(100))) throw StepSkipped{};
+        std::this_thread::sleep_for(silence);
+        const Arm after = desk.talk.exchange(std::nullopt, dialect).arm;
+        Json line{{"silence_ms", silence.count()}};
+        if (!after.force_newton) {
+            measured["told"] = false;
+            throw DeviceError("this service does not tell its force: it cannot be measured so");
+        }
+        line["force_newton"] = glm::length(*after.force_newton);
+        measured["silences"].push_back(line);
+        const bool acts = told_back(after);
+        if (!acts && !gone_after) gone_after = silence;
+        if (acts) gone_after.reset();
+    }
+    desk.settle(OpenQuestion::silence,
+                gone_after ? "gone after " + std::to_string(gone_after->count()) + " ms at most"
+                           : "still told after the longest silence");
+}
+
+void check_force(CheckDesk& desk, Json& measured) {
+    std::string words;
+    for (const double wanted_newton : {1.0, 2.0, 3.0}) {
+        desk.word("Enter: press with " + number_text(wanted_newton, 0) + " N, s: skip");
+        {
+            Push push(desk);
+            (void)push.hold({0.0, 0.0, -wanted_newton}, desk.likely_dialect(),
+                            desk.options.times.hold);
+        }
+        const auto grams =
+            desk.number("Grams at the end (Enter alone: not read)", 0.0, kHeaviest_g);
+        if (!grams) continue;
+        const double felt_newton = *grams * kGravity / 1000.0;
+        measured["pushes"].push_back(
+            {{"wanted_newton", wanted_newton}, {"grams", *grams}, {"newton", felt_newton}});
+        words += (words.empty() ? "" : ", ") + number_text(felt_newton, 2) + " N of " +
+                 number_text(wanted_newton, 0);
+    }
+    if (!words.empty()) desk.settle(OpenQuestion::force, words);
+}
+
+}  // namespace dibhr::inverse3

@@ -1,0 +1,83 @@
+// One message and its answer at a time.
+#include "device/inverse3/check/talk.hpp"
+
+#include "device/inverse3/service_version.hpp"
+#include "device/inverse3/survey.hpp"
+
+namespace dibhr::inverse3 {
+
+namespace {
+
+constexpr std::chrono::milliseconds kAnswerTakes{1000};
+constexpr std::chrono::milliseconds kInventoryTakes{500};
+
+}  // namespace
+
+CheckTalk::CheckTalk(const ConnectionOptions& options) {
+    const Survey survey = survey_service(options);
+    const std::string refusal = why_none(survey, options.device);
+    if (!refusal.empty()) throw DeviceError(refusal);
+    for (const SurveyedArm& arm : survey.arms) {
+        const bool meant = why_none({.stage = Stage::ready, .arms = {arm}}, options.device).empty();
+        if (meant && id_.empty()) {
+            if (!arm.usable()) throw DeviceError(arm.sentence);
+            id_ = arm.id;
+        }
+    }
+    version_ = survey.version;
+    const auto version = version_of(version_);
+    newer_ = version && version->at_least(3, 5);
+    link_.emplace(options.port, Clock::now() + kAnswerTakes);
+    if (link_->wait(nullptr, Clock::now() + kInventoryTakes)) {
+        inventory_ = link_->read(Clock::now() + kAnswerTakes);
+    }
+}
+
+CheckTalk::~CheckTalk() {
+    let_go();
+    link_->close(Clock::now() + std::chrono::milliseconds(100));
+}
+
+CheckTalk::Heard CheckTalk::exchange(const std::optional<Vec3>& force_newton,
+                                     ForceDialect dialect) {
+    const auto sent = Clock::now();
+    pushed_ = pushed_ || force_newton.has_value();
+    const std::string_view order =
+        writer_.write({.arm = DeviceId(id_), .force_newton = force_newton, .dialect = dialect});
+    link_->send(order, sent + kAnswerTakes);
+    if (!link_->wait(nullptr, sent + kAnswerTakes)) {
+        throw DeviceError("the service has been silent for a second: see whether it still runs");
+    }
+    const std::string_view text = link_->read(sent + kAnswerTakes);
+    const auto came = Clock::now();
+    if (!reader_.read(text, message_)) {
+        throw DeviceError("the service said what is not understood: see the record");
+    }
+    if (!message_.complaint.empty()) {
+        throw DeviceError("the service complains: " + std::string(message_.complaint.view()));
+    }
+    const Arm* const arm = message_.arm(DeviceId(id_));
+    if (arm == nullptr) throw DeviceError("the Inverse3 " + id_ + " was unplugged");
+    return {*arm, came - sent};
+}
+
+void CheckTalk::let_go() noexcept {
+    if (!pushed_) return;
+    constexpr int kZeros = 3;
+    try {
+        for (int k = 0; k < kZeros; ++k) {
+            for (const ForceDialect dialect : {ForceDialect::vector, ForceDialect::values}) {
+                const auto until = Clock::now() + kAnswerTakes;
+                link_->send(
+                    writer_.write(
+                        {.arm = DeviceId(id_), .force_newton = Vec3{0.0}, .dialect = dialect}),
+                    until);
+                if (link_->wait(nullptr, until)) (void)link_->read(until);
+            }
+        }
+    } catch (const LinkError&) {
+        pushed_ = false;  // it has gone, and its session with it
+    }
+}
+
+}  // namespace dibhr::inverse3

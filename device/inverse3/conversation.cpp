@@ -1,0 +1,363 @@
+// One connection to the service.
+#include "device/inverse3/conversation.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace dibhr::inverse3 {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::microseconds;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using Why = LinkError::Why;
+
+// README.md, Safety numbers.
+constexpr milliseconds kOldestForce{20};
+constexpr int kZerosAfterForce = 5;
+constexpr seconds kLongestSilence{2};
+constexpr milliseconds kMessageTakes{500};  // from its first byte to its last
+constexpr milliseconds kGoodbyeTakes{100};
+constexpr milliseconds kInventoryTakes{500};
+constexpr milliseconds kRatePeriod{500};
+constexpr milliseconds kLoopPauses{200};  // without a force from the haptic loop
+constexpr milliseconds kReadBackEvery{1000};
+
+// Between two messages: poses stay young, and a processor has time for other things.
+constexpr microseconds kPause{500};
+constexpr microseconds kPauseWithoutLoop{10'000};
+constexpr microseconds kPauseWithoutArm{100'000};
+
+bool named(const Arm& arm, const std::string& wish) noexcept {
+    if (wish.empty()) return true;
+    const Handedness hand = arm.config ? arm.config->handedness : Handedness::unknown;
+    if (wish == "left") return hand == Handedness::left;
+    if (wish == "right") return hand == Handedness::right;
+    return arm.id.view() == wish;
+}
+
+}  // namespace
+
+Conversation::Conversation(ServiceLink& link, const ConnectionOptions& options, bool newer,
+                           Exchange& exchange, Board& board, Memory& memory)
+    : link_(link),
+      options_(options),
+      newer_(newer),
+      exchange_(exchange),
+      board_(board),
+      memory_(memory),
+      loop_heard_(Clock::now()),
+      rate_from_(memory.exchanges),
+      rate_since_(loop_heard_) {
+    forget_arm();
+}
+
+Conversation::~Conversation() {
+    exchange_.poses.publish(TimedPose{});  // nobody acts on an old pose
+    memory_.buttons.release();
+}
+
+void Conversation::run(const std::stop_token& stop) {
+    const std::stop_callback wake_to_leave(stop, [this] { exchange_.wake.signal(); });
+    take_inventory(stop);
+    while (!stop.stop_requested()) {
+        exchange_once(stop);
+        if (stop.stop_requested()) break;
+        report(Clock::now());
+        pause();
+    }
+    say_goodbye();
+}
+
+/// It comes by itself, says the documentation; where it does not, it is asked for like any other.
+void Conversation::take_inventory(const std::stop_token& stop) {
+    if (await(Clock::now() + kInventoryTakes, &stop)) take();
+}
+
+void Conversation::exchange_once(const std::stop_token& stop) {
+    say(next_order());
+    if (!await(sent_at_ + kLongestSilence, &stop)) {
+        if (stop.stop_requested()) return;
+        throw LinkError(Why::lost, "it has been silent for 2 s");
+    }
+    take();
+    in_flight_ = false;
+    if (sent_drives_) force_answered_ = true;
+    ++memory_.exchanges;
+}
+
+bool Conversation::closed_on_force() const noexcept {
+    return in_flight_ && sent_drives_ && !force_answered_ && !memory_.dialect_confirmed;
+}
+
+/// Until the haptic loop has a new force, or a pose is due without; and hears what nobody asked
+/// for, which would else make every later answer one exchange older.
+void Conversation::pause() {
+    const bool paused = Clock::now() - loop_heard_ > kLoopPauses;
+    const Time until = sent_at_ + (arm_.empty() ? kPauseWithoutArm
+                                   : paused     ? kPauseWithoutLoop
+                                                : kPause);
+    while (!exchange_.forces.fresh()) {
+        if (link_.wait(&exchange_.wake, until)) {
+            take();
+            ++memory_.unasked;
+        }
+        if (Clock::now() >= until) return;
+    }
+}
+
+bool Conversation::await(Time until, const std::stop_token* stop) {
+    while (!link_.wait(&exchange_.wake, until)) {
+        if (Clock::now() >= until || (stop != nullptr && stop->stop_requested())) return false;
+    }
+    return true;
+}
+
+void Conversation::say_goodbye() noexcept {
+    try {
+        const Time until = Clock::now() + kGoodbyeTakes;
+        // What is in flight first: there is never more than one.
+        if (in_flight_ && link_.wait(nullptr, until)) (void)link_.read(until);
+        if (!arm_.empty() && drove_) {
+            link_.send(memory_.writer.write(
+                           {.arm = arm_, .force_newton = Vec3{0.0}, .dialect = dialect()}),
+                       until);
+            if (link_.wait(nullptr, until)) (void)link_.read(until);
+        }
+        link_.close(until);
+    } catch (const LinkError&) {
+        // It has gone before: nobody is left to say it to.
+        drove_ = false;
+    }
+}
+
+void Conversation::say(const Order& order) {
+    sent_drives_ = order.force_newton.has_value();
+    sent_newton_ = order.force_newton.value_or(Vec3{0.0});
+    const Time now = Clock::now();
+    if (sent_drives_) {
+        drove_ = true;
+        memory_.watch.drove(now);
+    }
+    zeros_owed_ = sent_newton_ != Vec3{0.0} ? kZerosAfterForce : std::max(zeros_owed_ - 1, 0);
+    in_flight_ = true;
+    link_.send(memory_.writer.write(order), now + kMessageTakes);
+    sent_at_ = now;
+}
+
+Order Conversation::next_order() {
+    const Time now = Clock::now();
+    const Vec3 force = wanted_force(now);
+    Order order{.arm = arm_, .dialect = dialect()};
+    const bool first = !introduced_ && !arm_.empty();
+    if (first && newer_) {
+        order.introduces = true;
+        order.preset = options_.preset;
+    }
+    introduced_ = introduced_ || first;
+    order.whole_state = arm_.empty() || first || now >= whole_state_due_;
+    if (order.whole_state) whole_state_due_ = now + kReadBackEvery;
+    const bool touches = memory_.watch.epoch() != kNoEpoch && !arm_.empty() && !deaf();
+    if (touches || zeros_owed_ > 0) order.force_newton = force;
+    return order;
+}
+
+Vec3 Conversation::wanted_force(Time now) {
+    if (exchange_.forces.fresh()) loop_heard_ = now;
+    const TimedForce& wanted = exchange_.forces.front();
+    const Epoch epoch = memory_.watch.epoch();
+    const bool may =
+        epoch != kNoEpoch && wanted.epoch == epoch && now < wanted.at + kOldestForce && !deaf();
+    return may ? wanted.newton : Vec3{0.0};
+}
+
+ForceDialect Conversation::dialect() const noexcept {
+    if (options_.dialect) return *options_.dialect;
+    return memory_.dialect.value_or(newer_ ? ForceDialect::vector : ForceDialect::values);
+}
+
+void Conversation::take() {
+    std::string_view text;
+    try {
+        text = link_.read(Clock::now() + kMessageTakes);
+    } catch (const LinkError& error) {
+        if (error.why() == Why::too_long) ++memory_.not_understood;
+        throw;
+    }
+    const Time now = Clock::now();
+    if (memory_.reader.read(text, message_)) {
+        take_message(message_, now);
+    } else {
+        take_nonsense(Stage::not_understood, {});
+    }
+}
+
+void Conversation::take_message(const ServiceMessage& message, Time at) {
+    if (!message.complaint.empty()) {
+        if (sent_drives_ && !memory_.dialect_confirmed) {
+            try_other_dialect();
+            memory_.watch.miss();
+            exchange_.poses.publish(TimedPose{});
+            return;
+        }
+        take_nonsense(Stage::not_understood, "the Haply Inverse Service complains: " +
+                                                 std::string(message.complaint.view()));
+        return;
+    }
+    take_grip(message, at);
+    if (arm_.empty()) choose(message);
+    const Arm* const arm = arm_.empty() ? nullptr : message.arm(arm_);
+    if (arm != nullptr) {
+        take_arm(*arm, at);
+    } else {
+        miss_arm(message);
+    }
+}
+
+void Conversation::take_nonsense(Stage why, const std::string& sentence) {
+    ++memory_.not_understood;
+    memory_.watch.miss();
+    exchange_.poses.publish(TimedPose{});
+    tell(why, sentence.empty() ? sentence_for(why, board_.draft()) : sentence, true);
+}
+
+/// The first in order of their names, so that another order of the list changes nothing.
+void Conversation::choose(const ServiceMessage& message) {
+    const Arm* chosen = nullptr;
+    for (std::size_t k = 0; k < message.arm_count; ++k) {
+        const Arm& arm = message.arms[k];
+        if (!named(arm, options_.device)) continue;
+        if (chosen == nullptr || arm.id.view() < chosen->id.view()) chosen = &arm;
+    }
+    if (chosen == nullptr) return;
+    arm_ = chosen->id;
+    introduced_ = false;
+    hearing_.begin();
+    memory_.watch.begin();
+    board_.draft().id = arm_.view();
+}
+
+void Conversation::forget_arm() {
+    arm_ = {};
+    zeros_owed_ = 0;
+    told_ = false;
+    memory_.watch.miss();
+    memory_.watch.begin();
+    exchange_.poses.publish(TimedPose{});
+    Status& status = board_.draft();
+    status.id.clear();
+    status.minverse = false;
+}
+
+/// None is there, or the chosen one has gone, or those that are there are not meant.
+void Conversation::miss_arm(const ServiceMessage& message) {
+    const bool had = !arm_.empty();
+    std::string sentence = sentence_for(Stage::no_device, board_.draft());
+    if (had) {
+        sentence = "the " + name_of(board_.draft()) + " was unplugged: plug it in again";
+        forget_arm();
+    } else if (message.arm_count > 0) {
+        sentence = "the Haply Inverse Service has no Inverse3 that is " + options_.device +
+                   ", but has " + std::string(message.arms[0].id.view());
+    } else if (board_.draft().stage == Stage::no_device) {
+        return;  // as was told
+    }
+    tell(Stage::no_device, sentence, had || message.arm_count > 0);
+}
+
+void Conversation::take_arm(const Arm& arm, Time at) {
+    memory_.watch.add(arm, at);
+    if (memory_.watch.jumped()) whole_state_due_ = at;
+    if (arm.config) {
+        Status& status = board_.draft();
+        // The Haply Hub may have put a profile of its own over ours.
+        const bool moved = newer_ && !arm.config->preset.empty() && introduced_ &&
+                           !(arm.config->preset == options_.preset);
+        if (moved) introduced_ = false;
+        status.minverse = arm.config->minverse;
+        status.handedness = arm.config->handedness;
+        status.preset = arm.config->preset.view();
+    }
+    learn_dialect(arm, at);
+    publish_pose(arm, at);
+    tell_stage(deaf() ? Stage::deaf : memory_.watch.stage());
+}
+
+/// The same stage again is told without a word being made.
+void Conversation::tell_stage(Stage stage) {
+    if (told_ && board_.draft().stage == stage) return;
+    const bool trouble = stage == Stage::deaf || stage == Stage::other_frame;
+    tell(stage, sentence_for(stage, board_.draft()), trouble);
+}
+
+void Conversation::take_grip(const ServiceMessage& message, Time at) {
+    std::uint8_t down = 0;
+    std::optional<GripStatus>& shown = board_.draft().grip;
+    if (message.grip_count == 0) shown.reset();
+    for (std::size_t k = 0; k < message.grip_count; ++k) {
+        const Grip& grip = message.grips[k];
+        down = static_cast<std::uint8_t>(down | grip.buttons);
+        if (k > 0) continue;
+        if (!shown) shown.emplace();
+        if (shown->id != grip.id.view()) shown->id = grip.id.view();
+        shown->wired = grip.wired;
+        shown->awake = grip.awake && grip.connected;
+        shown->battery = grip.battery;
+    }
+    buttons_ = memory_.buttons.add(down, at);
+}
+
+void Conversation::learn_dialect(const Arm& arm, Time at) {
+    if (!sent_drives_) return;
+    hearing_.add(sent_newton_, arm.force_newton, at);
+    if (hearing_.hears() == HearingWatch::Hears::yes) memory_.dialect_confirmed = true;
+    if (hearing_.hears() == HearingWatch::Hears::no) try_other_dialect();
+}
+
+/// It rises from zero then: nobody knows how the next one is obeyed.
+void Conversation::try_other_dialect() {
+    memory_.dialect_confirmed = false;
+    hearing_.begin();
+    memory_.watch.miss();
+    memory_.dialects_refused = options_.dialect ? 2 : memory_.dialects_refused + 1;
+    if (memory_.dialects_refused < 2) memory_.dialect = other(dialect());
+}
+
+void Conversation::publish_pose(const Arm& arm, Time at) {
+    TimedPose& pose = exchange_.poses.back();
+    pose.epoch = deaf() ? kNoEpoch : memory_.watch.epoch();
+    pose.position_m = arm.position_m.value_or(Vec3{0.0});
+    pose.buttons = buttons_;
+    pose.at = at;
+    pose.number = memory_.exchanges + 1;
+    exchange_.poses.publish();
+}
+
+void Conversation::report(Time now) {
+    Status& status = board_.draft();
+    status.presses = memory_.buttons.presses();
+    status.exchanges = memory_.exchanges;
+    status.unasked = memory_.unasked;
+    status.not_understood = memory_.not_understood;
+    status.dialect = dialect();
+    status.dialect_confirmed = memory_.dialect_confirmed;
+    if (now - rate_since_ >= kRatePeriod) {
+        const std::chrono::duration<double> passed = now - rate_since_;
+        status.exchanges_per_s =
+            static_cast<double>(memory_.exchanges - rate_from_) / passed.count();
+        rate_from_ = memory_.exchanges;
+        rate_since_ = now;
+    }
+    board_.publish_if_due(now);
+}
+
+void Conversation::tell(Stage stage, const std::string& sentence, bool trouble) {
+    told_ = true;
+    const Status& told = board_.draft();
+    if (told.stage == stage && told.sentence == sentence) return;
+    board_.enter(stage, sentence, trouble);
+}
+
+}  // namespace dibhr::inverse3

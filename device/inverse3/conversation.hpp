@@ -1,0 +1,109 @@
+// One connection to the service: exactly one message in flight, poses out, forces in.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+
+#include "device/hand/buttons.hpp"
+#include "device/inverse3/arm_watch.hpp"
+#include "device/inverse3/exchange.hpp"
+#include "device/inverse3/message.hpp"
+#include "device/inverse3/order.hpp"
+#include "device/inverse3/service_link.hpp"
+#include "device/inverse3/status.hpp"
+
+namespace dibhr::inverse3 {
+
+/// What outlives a connection.
+struct Memory {
+    MessageReader reader{};
+    OrderWriter writer{};
+    ArmWatch watch{};  // its epochs go on counting
+    ButtonDebounce buttons{};
+    std::optional<ForceDialect> dialect{};  ///< found out; nothing: by the version
+    bool dialect_confirmed{false};
+    int dialects_refused{0};  ///< 2: both
+    std::uint64_t exchanges{0};
+    std::uint64_t unasked{0};
+    std::uint64_t not_understood{0};
+};
+
+class Conversation {
+  public:
+    using Time = std::chrono::steady_clock::time_point;
+
+    /// All must outlive it. `newer`: a service of 3.5 or later.
+    Conversation(ServiceLink& link, const ConnectionOptions& options, bool newer,
+                 Exchange& exchange, Board& board, Memory& memory);
+    /// No pose is left behind.
+    ~Conversation();
+    Conversation(const Conversation&) = delete;
+    Conversation& operator=(const Conversation&) = delete;
+
+    /// Until it is to stop, which ends with a zero force and a goodbye. Throws LinkError.
+    void run(const std::stop_token& stop);
+
+    /// After run() has thrown: the service has gone on the first force that it was sent.
+    [[nodiscard]] bool closed_on_force() const noexcept;
+
+  private:
+    void take_inventory(const std::stop_token& stop);
+    void exchange_once(const std::stop_token& stop);
+    void pause();
+    void say_goodbye() noexcept;
+
+    // What is said.
+    void say(const Order& order);
+    [[nodiscard]] Order next_order();
+    [[nodiscard]] Vec3 wanted_force(Time now);
+
+    // What is heard.
+    [[nodiscard]] bool await(Time until, const std::stop_token* stop);
+    void take();
+    void take_message(const ServiceMessage& message, Time at);
+    void take_nonsense(Stage why, const std::string& sentence);
+    void take_arm(const Arm& arm, Time at);
+    void take_grip(const ServiceMessage& message, Time at);
+    void choose(const ServiceMessage& message);
+    void forget_arm();
+    void miss_arm(const ServiceMessage& message);
+    void learn_dialect(const Arm& arm, Time at);
+    void try_other_dialect();
+    [[nodiscard]] ForceDialect dialect() const noexcept;
+    [[nodiscard]] bool deaf() const noexcept { return memory_.dialects_refused >= 2; }
+    void publish_pose(const Arm& arm, Time at);
+    void report(Time now);
+    void tell_stage(Stage stage);
+    void tell(Stage stage, const std::string& sentence, bool trouble);
+
+    ServiceLink& link_;
+    const ConnectionOptions& options_;
+    const bool newer_;
+    Exchange& exchange_;
+    Board& board_;
+    Memory& memory_;
+
+    ServiceMessage message_{};
+    DeviceId arm_{};  // empty: none is chosen
+    HearingWatch hearing_{};
+    bool introduced_{false};
+    bool drove_{false};  // it was sent a force
+    bool force_answered_{false};
+    bool in_flight_{false};
+    bool told_{false};  // something of this arm
+    int zeros_owed_{0};
+    Vec3 sent_newton_{0.0};  // with the message in flight
+    bool sent_drives_{false};
+    Time sent_at_{};
+    Time whole_state_due_{};
+    Time loop_heard_{};
+    std::uint8_t buttons_{0};
+    std::uint64_t rate_from_{0};
+    Time rate_since_{};
+};
+
+}  // namespace dibhr::inverse3

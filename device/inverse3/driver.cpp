@@ -1,0 +1,119 @@
+// The network thread's life.
+#include "device/inverse3/driver.hpp"
+
+#include <exception>
+#include <utility>
+
+#include "core/realtime/tick_timer.hpp"
+#include "device/inverse3/service_version.hpp"
+
+namespace dibhr::inverse3 {
+
+namespace {
+
+using std::chrono::milliseconds;
+using Why = LinkError::Why;
+
+constexpr milliseconds kLookAgainAfter{500};
+constexpr milliseconds kBotherStrangerAfter{5000};  // who is no Inverse Service
+constexpr milliseconds kHandshakeTakes{1000};
+
+}  // namespace
+
+Driver::Driver(ConnectionOptions options, Exchange& exchange)
+    : options_(std::move(options)), exchange_(exchange) {
+    board_.enter(Stage::looking, "looking for the Haply Inverse Service");
+    thread_ = std::jthread([this](const std::stop_token& stop) { live(stop); });
+}
+
+Driver::~Driver() {
+    thread_.request_stop();
+    if (thread_.joinable()) thread_.join();
+}
+
+void Driver::live(const std::stop_token& stop) {
+    // What was refused stands in the Loop panel, for the haptic thread asks for the same.
+    (void)become_realtime("dibhr inverse3");
+    while (!stop.stop_requested()) {
+        pause_ = kLookAgainAfter;
+        try {
+            look(stop);
+        } catch (const std::exception& failure) {
+            tell(Stage::looking,
+                 std::string("the Inverse3's thread failed (") + failure.what() +
+                     ") and begins again: close other programs if this comes again",
+                 true);
+        }
+        std::unique_lock lock(mutex_);
+        news_.wait_for(lock, stop, pause_, [] { return false; });
+    }
+}
+
+void Driver::look(const std::stop_token& stop) {
+    Status& status = board_.draft();
+    status.installed = is_installed(options_);
+    const auto version = ask_version(options_);
+    status.version = version ? version->text : std::string{};
+    if (version && !version->at_least(3, 1)) {
+        tell(Stage::too_old, sentence_for(Stage::too_old, status), true);
+        return;
+    }
+    try {
+        ServiceLink link(options_.port, ServiceLink::Time::clock::now() + kHandshakeTakes);
+        talk(link, version && version->at_least(3, 5), stop);
+    } catch (const LinkError& error) {
+        miss(error, version.has_value());
+    }
+}
+
+void Driver::talk(ServiceLink& link, bool newer, const std::stop_token& stop) {
+    Conversation conversation(link, options_, newer, exchange_, board_, memory_);
+    lost_ = true;
+    try {
+        conversation.run(stop);
+    } catch (const LinkError& error) {
+        lose(error, conversation);
+    }
+}
+
+void Driver::lose(const LinkError& error, const Conversation& conversation) {
+    Status& status = board_.draft();
+    status.exchanges_per_s = 0.0;
+    status.id.clear();
+    status.grip.reset();
+    if (!conversation.closed_on_force()) {
+        memory_.dialects_refused = 0;
+        tell(error.why() == Why::too_long ? Stage::not_understood : Stage::looking,
+             "the Haply Inverse Service was lost (" + std::string(error.what()) +
+                 "): it is looked for again; start it if it has ended",
+             true);
+        return;
+    }
+    ++memory_.dialects_refused;
+    memory_.dialect = other(status.dialect.value_or(ForceDialect::vector));
+}
+
+/// Nobody to talk to.
+void Driver::miss(const LinkError& error, bool has_http) {
+    const Status& status = board_.draft();
+    if (error.why() == Why::refused && has_http) {
+        tell(Stage::too_old, sentence_for(Stage::too_old, status), true);
+    } else if (error.why() == Why::not_the_service) {
+        pause_ = kBotherStrangerAfter;
+        tell(Stage::looking,
+             "something else than the Haply Inverse Service answers (" + std::string(error.what()) +
+                 "): end it, or set the port on the Device panel",
+             false);
+    } else if (!lost_) {
+        tell(Stage::looking, sentence_for(Stage::looking, status), false);
+    }
+    // Else it stays told that it was lost.
+}
+
+void Driver::tell(Stage stage, const std::string& sentence, bool trouble) {
+    const Status& told = board_.draft();
+    if (told.stage == stage && told.sentence == sentence) return;
+    board_.enter(stage, sentence, trouble);
+}
+
+}  // namespace dibhr::inverse3

@@ -1,0 +1,37 @@
+// What passes between the haptic thread and the network thread: the newest pose one way, the newest
+// force the other, and a wake.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+#include "core/haptics/vec.hpp"
+#include "core/realtime/triple_buffer.hpp"
+#include "device/hand/epoch.hpp"
+#include "device/hand/wake.hpp"
+
+namespace dibhr::inverse3 {
+
+/// As it came, in the service's axes.
+struct TimedPose {
+    Vec3 position_m{0.0};
+    std::uint8_t buttons{0};  ///< steady
+    std::chrono::steady_clock::time_point at{};
+    Epoch epoch{kNoEpoch};
+    std::uint64_t number{0};  ///< 1 .., since the start
+};
+
+/// In the service's axes.
+struct TimedForce {
+    Vec3 newton{0.0};
+    std::chrono::steady_clock::time_point at{};
+    Epoch epoch{kNoEpoch};  ///< of the pose it was computed for
+};
+
+struct Exchange {
+    TripleBuffer<TimedPose> poses{};    ///< network thread to haptic thread
+    TripleBuffer<TimedForce> forces{};  ///< haptic thread to network thread
+    Wake wake{};
+};
+
+}  // namespace dibhr::inverse3

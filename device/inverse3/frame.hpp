@@ -1,0 +1,30 @@
+// The hand's axes over the image, and the service's.
+#pragma once
+
+#include "core/haptics/vec.hpp"
+#include "device/hand/workspace.hpp"
+
+namespace dibhr::inverse3 {
+
+/// Turns the service's axes (x right, y forward, z up) into the hand's over the image (x right, y
+/// up, z to the person), with the image upright (0) to lying flat on the table (90 degrees).
+class ImageTilt {
+  public:
+    /// Anything else than 0 .. 90 is taken as the nearest.
+    explicit ImageTilt(double tilt_deg) noexcept;
+    [[nodiscard]] Vec3 hand_from_service(Vec3 service) const noexcept;
+    [[nodiscard]] Vec3 service_from_hand(Vec3 hand) const noexcept;
+
+  private:
+    double cosine_{1.0};
+    double sine_{0.0};
+};
+
+/// Ends of the comfortable box's edge [mm].
+inline constexpr double kSmallestBox_mm = 20.0;
+inline constexpr double kLargestBox_mm = 200.0;
+
+/// The scale at which the image's longer side, and half its relief, fit into a box of that edge.
+[[nodiscard]] double fitting_scale_to_box(const ImageFrame& image, double box_mm) noexcept;
+
+}  // namespace dibhr::inverse3

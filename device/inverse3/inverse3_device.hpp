@@ -1,0 +1,72 @@
+// The Haply Inverse3 as a device: poses in, forces out, the service on its own thread.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/loop/device.hpp"
+#include "core/realtime/triple_buffer.hpp"
+#include "device/hand/workspace.hpp"
+#include "device/inverse3/driver.hpp"
+#include "device/inverse3/exchange.hpp"
+#include "device/inverse3/frame.hpp"
+#include "device/inverse3/status.hpp"
+
+namespace dibhr::inverse3 {
+
+/// Looks for the service from construction on, and again whenever it is lost; chooses a device, and
+/// then exchanges one message and one state after the other. Everything but read() and send()
+/// happens on the network thread. Its end is a zero force and a closed connection.
+class Inverse3Device final : public Device {
+  public:
+    explicit Inverse3Device(ConnectionOptions options);
+
+    [[nodiscard]] const DeviceSpecification& specification() const noexcept override {
+        return specification_;
+    }
+
+    /// The newest pose. `ready` is false, and no force will be sent, unless the device is
+    /// calibrated, powered, ours and obeying, its pose younger than 20 ms, and the clutch open.
+    /// Before the first pose the goal waits above the middle, higher than everything; later it
+    /// stays where it was. Workspace, tilt or centre that were changed make it `taken_over`, as
+    /// does every gap and jump.
+    HandReading read(const HandContext& context) noexcept override;
+
+    /// The force of this tick; it leaves with the next message. Zero for anything that is not
+    /// finite and whenever the last read() was not ready; no longer than Tuning::max_force_newton.
+    void send(Vec3 force_newton) noexcept override;
+
+    // The haptic thread's, of the last read():
+
+    /// Ready and linked: this hand touches, though it may be clutched, or its pose too old.
+    [[nodiscard]] bool in_hand() const noexcept { return epoch_ != kNoEpoch; }
+    /// How old the pose was.
+    [[nodiscard]] std::chrono::nanoseconds pose_age() const noexcept { return pose_age_; }
+
+    /// The window thread's end.
+    [[nodiscard]] TripleBuffer<Tuning>& tuning() noexcept { return tuning_; }
+    [[nodiscard]] Status status() const { return driver_.status(); }
+
+  private:
+    [[nodiscard]] bool take_tuning() noexcept;
+    void take_epoch(Epoch newest) noexcept;
+    void place_goal(Vec3 position_m, bool clutched, const HandContext& context) noexcept;
+
+    DeviceSpecification specification_;
+    TripleBuffer<Tuning> tuning_{};
+    Exchange exchange_{};
+
+    // The haptic thread's.
+    Tuning tuned_{};  // one for the whole tick
+    ImageTilt tilt_{0.0};
+    Epoch epoch_{kNoEpoch};
+    std::chrono::nanoseconds pose_age_{0};
+    Workspace workspace_{};
+    std::optional<Vec3> goal_in_grid_{};
+    bool may_push_{false};  // the last reading was ready
+    bool was_posed_{false};
+
+    Driver driver_;  // last: its thread uses the exchange
+};
+
+}  // namespace dibhr::inverse3

@@ -1,0 +1,52 @@
+// What is said to the service: one message, written into a buffer that is used again.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "core/haptics/vec.hpp"
+#include "device/inverse3/message.hpp"
+
+namespace dibhr::inverse3 {
+
+/// How a force is spelled. Sources differ; which service takes which nobody has told.
+enum class ForceDialect : std::uint8_t { vector, values };
+
+/// "vector", "values".
+[[nodiscard]] const char* name_of(ForceDialect dialect) noexcept;
+[[nodiscard]] constexpr ForceDialect other(ForceDialect dialect) noexcept {
+    return dialect == ForceDialect::vector ? ForceDialect::values : ForceDialect::vector;
+}
+
+/// One message to the service.
+struct Order {
+    DeviceId arm{};           ///< empty: no device is spoken to
+    bool introduces{false};   ///< names the session
+    ShortWord preset{};       ///< to be set; empty: as it is
+    bool whole_state{false};  ///< the answer is to hold every configuration
+    /// [N], the service's axes; nothing: the pose is asked for and nothing is driven.
+    std::optional<Vec3> force_newton{};
+    ForceDialect dialect{ForceDialect::vector};
+};
+
+class OrderWriter {
+  public:
+    /// Valid until the next call. A force that is not finite is written as zero.
+    [[nodiscard]] std::string_view write(const Order& order) noexcept;
+
+  private:
+    void add(std::string_view text) noexcept;
+    void add_quoted(std::string_view text) noexcept;
+    void add_number(double number) noexcept;
+    void add_session(const Order& order) noexcept;
+    void add_arm(const Order& order) noexcept;
+    void add_force(Vec3 force_newton, ForceDialect dialect) noexcept;
+
+    std::array<char, 1024> text_{};  // the longest has 660 bytes
+    std::size_t size_{0};
+};
+
+}  // namespace dibhr::inverse3

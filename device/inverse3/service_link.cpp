@@ -1,0 +1,200 @@
+// WebSocket and HTTP by Boost.Beast over a socket with deadlines. Beast takes long to compile: this
+// file alone includes it.
+#include "device/inverse3/service_link.hpp"
+
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/error.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/beast/core/flat_static_buffer.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/read.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <boost/beast/http/write.hpp>
+#include <boost/beast/websocket/stream.hpp>
+
+#include <exception>
+#include <utility>
+
+#include "device/inverse3/deadline_socket.hpp"
+
+namespace dibhr::inverse3 {
+
+namespace {
+
+namespace beast = boost::beast;
+namespace websocket = beast::websocket;
+using boost::system::error_code;
+using Why = LinkError::Why;
+
+error_code as_boost(const std::error_code& error) noexcept {
+    return error ? error_code(error.value(), boost::system::system_category()) : error_code();
+}
+
+/// What Beast asks of the layer below it; only its synchronous part is ever used.
+class SocketLayer {
+  public:
+    using executor_type = boost::asio::io_context::executor_type;
+
+    explicit SocketLayer(boost::asio::io_context& context) : context_(&context) {}
+
+    [[nodiscard]] executor_type get_executor() noexcept { return context_->get_executor(); }
+    [[nodiscard]] DeadlineSocket& socket() noexcept { return *socket_; }
+
+    template <typename Buffers>
+    std::size_t read_some(const Buffers& buffers, error_code& error) {
+        const boost::asio::mutable_buffer first = first_of<boost::asio::mutable_buffer>(buffers);
+        if (first.size() == 0) {
+            error = {};
+            return 0;
+        }
+        std::error_code failure;
+        const std::size_t got =
+            socket_->read({static_cast<std::uint8_t*>(first.data()), first.size()}, failure);
+        error = as_boost(failure);
+        if (got == 0 && !error) error = boost::asio::error::eof;
+        return got;
+    }
+    template <typename Buffers>
+    std::size_t read_some(const Buffers& buffers) {
+        error_code error;
+        const std::size_t got = read_some(buffers, error);
+        if (error) throw boost::system::system_error(error);
+        return got;
+    }
+    template <typename Buffers>
+    std::size_t write_some(const Buffers& buffers, error_code& error) {
+        const boost::asio::const_buffer first = first_of<boost::asio::const_buffer>(buffers);
+        std::error_code failure;
+        const std::size_t gone =
+            socket_->write({static_cast<const std::uint8_t*>(first.data()), first.size()}, failure);
+        error = as_boost(failure);
+        return gone;
+    }
+    template <typename Buffers>
+    std::size_t write_some(const Buffers& buffers) {
+        error_code error;
+        const std::size_t gone = write_some(buffers, error);
+        if (error) throw boost::system::system_error(error);
+        return gone;
+    }
+
+  private:
+    /// The first one that holds something.
+    template <typename Buffer, typename Buffers>
+    static Buffer first_of(const Buffers& buffers) {
+        auto it = boost::asio::buffer_sequence_begin(buffers);
+        const auto end = boost::asio::buffer_sequence_end(buffers);
+        for (; it != end; ++it) {
+            const Buffer buffer(*it);
+            if (buffer.size() > 0) return buffer;
+        }
+        return {};
+    }
+
+    boost::asio::io_context* context_;
+    std::unique_ptr<DeadlineSocket> socket_{std::make_unique<DeadlineSocket>()};
+};
+
+/// Beast calls these by their names when a WebSocket ends.
+void teardown(beast::role_type /*role*/, SocketLayer& layer, error_code& error) {
+    layer.socket().close();
+    error = {};
+}
+template <typename Handler>
+void async_teardown(beast::role_type /*role*/, SocketLayer& layer, Handler&& handler) {
+    layer.socket().close();
+    std::forward<Handler>(handler)(error_code());
+}
+
+LinkError failure_to_connect(std::uint16_t port, const std::string& why, Why kind) {
+    return {kind, "port " + std::to_string(port) + " of this machine: " + why};
+}
+
+/// Throws LinkError.
+void connect(SocketLayer& layer, std::uint16_t port, DeadlineSocket::Time deadline) {
+    layer.socket().set_deadline(deadline);
+    if (const std::error_code refusal = layer.socket().connect(port)) {
+        throw failure_to_connect(port, refusal.message(), Why::refused);
+    }
+}
+
+}  // namespace
+
+struct ServiceLink::Stream {
+    boost::asio::io_context context{1};  // never runs: Beast wants one to exist
+    websocket::stream<SocketLayer> socket{context};
+    beast::flat_static_buffer<kLongestMessage_bytes> message{};
+};
+
+ServiceLink::ServiceLink(std::uint16_t port, Time deadline) : stream_(std::make_unique<Stream>()) {
+    connect(stream_->socket.next_layer(), port, deadline);
+    stream_->socket.read_message_max(kLongestMessage_bytes);
+    error_code refusal;
+    stream_->socket.handshake("localhost:" + std::to_string(port), "/", refusal);
+    if (refusal) throw failure_to_connect(port, refusal.message(), Why::not_the_service);
+    stream_->socket.text(true);
+}
+
+ServiceLink::~ServiceLink() = default;
+
+void ServiceLink::send(std::string_view text, Time deadline) {
+    stream_->socket.next_layer().socket().set_deadline(deadline);
+    error_code failure;
+    stream_->socket.write(boost::asio::buffer(text.data(), text.size()), failure);
+    if (failure) throw LinkError(Why::lost, failure.message());
+}
+
+std::string_view ServiceLink::read(Time deadline) {
+    stream_->socket.next_layer().socket().set_deadline(deadline);
+    stream_->message.clear();
+    error_code failure;
+    stream_->socket.read(stream_->message, failure);
+    if (failure) {
+        const bool long_one = failure == websocket::error::message_too_big ||
+                              failure == websocket::error::buffer_overflow;
+        throw LinkError(long_one ? Why::too_long : Why::lost, failure.message());
+    }
+    const auto whole = stream_->message.data();
+    return {static_cast<const char*>(whole.data()), whole.size()};
+}
+
+bool ServiceLink::wait(const Wake* wake, Time until) const noexcept {
+    return stream_->socket.next_layer().socket().wait_readable(wake, until);
+}
+
+void ServiceLink::close(Time deadline) noexcept {
+    stream_->socket.next_layer().socket().set_deadline(deadline);
+    try {
+        error_code ignored;
+        stream_->socket.close(websocket::close_code::normal, ignored);
+    } catch (const std::exception&) {
+        // Beast has no memory for its goodbye: the socket is closed all the same.
+        stream_->socket.next_layer().socket().close();
+    }
+}
+
+std::string http_get(std::uint16_t port, std::string_view target, ServiceLink::Time deadline) {
+    namespace http = beast::http;
+    boost::asio::io_context context{1};
+    SocketLayer layer(context);
+    connect(layer, port, deadline);
+    http::request<http::empty_body> question(http::verb::get,
+                                             beast::string_view(target.data(), target.size()), 11);
+    question.set(http::field::host, "localhost:" + std::to_string(port));
+    question.set(http::field::connection, "close");
+    http::response_parser<http::string_body> answer;
+    answer.body_limit(ServiceLink::kLongestMessage_bytes);
+    beast::flat_static_buffer<8192> buffer;
+    error_code failure;
+    http::write(layer, question, failure);
+    if (!failure) http::read(layer, buffer, answer, failure);
+    if (failure) throw failure_to_connect(port, failure.message(), Why::not_the_service);
+    if (answer.get().result() != http::status::ok) {
+        throw failure_to_connect(port, "status " + std::to_string(answer.get().result_int()),
+                                 Why::not_the_service);
+    }
+    return std::move(answer.get().body());
+}
+
+}  // namespace dibhr::inverse3

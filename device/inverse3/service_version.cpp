@@ -1,0 +1,70 @@
+// Which version of the Inverse Service is there.
+#include "device/inverse3/service_version.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <filesystem>
+#include <system_error>
+
+#include "core/files/json.hpp"
+#include "device/inverse3/service_link.hpp"
+
+namespace dibhr::inverse3 {
+
+namespace {
+
+constexpr std::chrono::milliseconds kAnswerTakes{300};
+constexpr std::array kUnits{"/usr/lib/systemd/system/haply-inverse-service.service",
+                            "/lib/systemd/system/haply-inverse-service.service",
+                            "/etc/systemd/system/haply-inverse-service.service"};
+
+std::optional<ServiceVersion> version_at(std::uint16_t port) {
+    try {
+        const std::string text =
+            http_get(port, "/version", std::chrono::steady_clock::now() + kAnswerTakes);
+        const Json told = Json::parse(text, nullptr, false);
+        if (!told.is_object()) return {};
+        const auto version = told.find("project_version");
+        if (version == told.end() || !version->is_string()) return {};
+        return version_of(version->get_ref<const std::string&>());
+    } catch (const LinkError&) {
+        return {};
+    }
+}
+
+}  // namespace
+
+bool ServiceVersion::at_least(int wanted_major, int wanted_minor) const noexcept {
+    return major != wanted_major ? major > wanted_major : minor >= wanted_minor;
+}
+
+std::optional<ServiceVersion> version_of(std::string_view text) {
+    ServiceVersion version;
+    const char* const end = text.data() + text.size();
+    const auto first = std::from_chars(text.data(), end, version.major);
+    if (first.ec != std::errc() || first.ptr == end || *first.ptr != '.') return {};
+    const auto second = std::from_chars(first.ptr + 1, end, version.minor);
+    if (second.ec != std::errc()) return {};
+    // What is shown is one short word, whatever the service says.
+    version.text = text.substr(0, 32);
+    return version;
+}
+
+std::optional<ServiceVersion> ask_version(const ConnectionOptions& options) {
+    const auto version = version_at(options.port);
+    return version ? version : version_at(options.older_port);
+}
+
+bool is_installed(const ConnectionOptions& options) {
+    const auto is_there = [](const std::filesystem::path& file) {
+        std::error_code ignored;
+        return std::filesystem::exists(file, ignored);
+    };
+    const auto& given = options.installed_as;
+    return given.empty() ? std::any_of(kUnits.begin(), kUnits.end(), is_there)
+                         : std::any_of(given.begin(), given.end(), is_there);
+}
+
+}  // namespace dibhr::inverse3

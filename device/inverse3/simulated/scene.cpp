@@ -1,0 +1,152 @@
+// What is attached to the simulated service, as JSON and under orders.
+#include "device/inverse3/simulated/scene.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "core/files/json.hpp"
+
+namespace dibhr::inverse3::simulated {
+
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+ordered_json vector_of(Vec3 v) {
+    return {{"x", v.x}, {"y", v.y}, {"z", v.z}};
+}
+
+ordered_json config_of(const Arm& arm, bool newer) {
+    ordered_json config{{"type", arm.minverse ? "minverse" : "inverse3"},
+                        {"handedness", arm.handedness},
+                        {"gravity_compensation", {{"enabled", true}}}};
+    if (newer) config["preset"] = arm.preset;
+    config["basis"] = {{"permutation", arm.basis}};
+    return config;
+}
+
+constexpr const char* kPositionHere = "position is put here";
+
+ordered_json entry_of(const Arm& arm, const Scene& scene, bool whole) {
+    const bool newer = scene.manners.newer_shape;
+    ordered_json entry{{"device_id", arm.id}};
+    if (whole) entry["config"] = config_of(arm, newer);
+    ordered_json state{{"cursor_position", vector_of(arm.position_m)},
+                       {"cursor_velocity", vector_of(Vec3{0.0})}};
+    if (!arm.position_text.empty()) state["cursor_position"] = kPositionHere;
+    if (newer) state["current_cursor_force"] = vector_of(arm.force_newton);
+    entry["state"] = std::move(state);
+    entry["status"] = {{"calibrated", arm.calibrated},
+                       {"in_use", arm.in_use},
+                       {"power_supply", arm.powered},
+                       {"ready", arm.ready && arm.calibrated && arm.powered},
+                       {"started", true}};
+    return entry;
+}
+
+ordered_json entry_of(const Grip& grip) {
+    constexpr std::array kLetters{"a", "b", "c", "home"};
+    ordered_json buttons = ordered_json::object();
+    for (std::size_t k = 0; k < kLetters.size(); ++k) {
+        const std::string name = grip.numbered ? "button_" + std::to_string(k) : kLetters[k];
+        buttons[name] = (grip.buttons >> k & 1U) != 0;
+    }
+    ordered_json state{{"orientation", {{"w", 1}, {"x", 0}, {"y", 0}, {"z", 0}}}};
+    if (grip.list == "verse_grip") {
+        state["button"] = (grip.buttons & 1U) != 0;
+        state["hall"] = 3;
+    } else {
+        state["buttons"] = std::move(buttons);
+        state["battery_level"] = grip.battery;
+    }
+    return {{"device_id", grip.id},
+            {"state", std::move(state)},
+            {"status", {{"connected", true}, {"awake", grip.awake}, {"ready", grip.awake}}}};
+}
+
+std::optional<Vec3> vector_in(const json& force, const char* dialect) {
+    const auto found = force.find(dialect);
+    if (found == force.end() || !found->is_object()) return {};
+    return Vec3{found->value("x", 0.0), found->value("y", 0.0), found->value("z", 0.0)};
+}
+
+void obey_force(Scene& scene, const json& force, Arm* arm, Clock::time_point now, Obeyed& done) {
+    const Takes takes = scene.manners.takes;
+    const auto vector = vector_in(force, "vector");
+    const auto values = vector_in(force, "values");
+    done.drives = true;
+    done.force_newton = vector ? *vector : values.value_or(Vec3{0.0});
+    done.wrong_dialect = vector ? takes == Takes::values : takes == Takes::vector;
+    if (arm == nullptr || done.wrong_dialect) return;
+    arm->force_newton = done.force_newton;
+    arm->force_at = now;
+}
+
+void obey_device(Scene& scene, const json& device, Clock::time_point now, Obeyed& done) {
+    done.arm = device.value("device_id", "");
+    Arm* const arm = scene.arm(done.arm);
+    const json configure = device.value("configure", json::object());
+    if (arm != nullptr && configure.contains("preset")) {
+        arm->preset = configure["preset"].value("preset", arm->preset);
+        arm->basis = "XYZ";
+    }
+    const json commands = device.value("commands", json::object());
+    if (commands.contains("set_cursor_force")) {
+        obey_force(scene, commands["set_cursor_force"], arm, now, done);
+    }
+}
+
+void obey_message(Scene& scene, const json& root, Clock::time_point now, Obeyed& done) {
+    done.wants_whole = root.value("session", json::object()).contains("force_render_full_state");
+    for (const json& device : root.value("inverse3", json::array())) {
+        obey_device(scene, device, now, done);
+    }
+}
+
+}  // namespace
+
+Arm* Scene::arm(std::string_view id) {
+    const auto found =
+        std::find_if(arms.begin(), arms.end(), [&](const Arm& one) { return one.id == id; });
+    return found == arms.end() ? nullptr : &*found;
+}
+
+void Scene::forget_old_forces(Clock::time_point now) {
+    if (manners.force_held.count() == 0) return;
+    for (Arm& one : arms) {
+        if (now - one.force_at > manners.force_held) one.force_newton = Vec3{0.0};
+    }
+}
+
+std::string state_text(const Scene& scene, bool whole) {
+    ordered_json message;
+    if (scene.manners.newer_shape) message["session_id"] = 7;
+    message["inverse3"] = ordered_json::array();
+    for (const Arm& arm : scene.arms) message["inverse3"].push_back(entry_of(arm, scene, whole));
+    for (const Grip& grip : scene.grips) message[grip.list].push_back(entry_of(grip));
+    message["something_new"] = {{"of", "a later version"}};
+    std::string text = message.dump();
+    for (const Arm& arm : scene.arms) {
+        const std::string here = '"' + std::string(kPositionHere) + '"';
+        const auto at = text.find(here);
+        if (at != std::string::npos) text.replace(at, here.size(), arm.position_text);
+    }
+    return text;
+}
+
+Obeyed obey(Scene& scene, std::string_view message, Clock::time_point now) {
+    Obeyed done;
+    const json root = json::parse(message, nullptr, false);
+    if (!root.is_object()) return done;
+    try {
+        obey_message(scene, root, now, done);
+        done.understood = true;
+    } catch (const json::exception&) {
+        done.understood = false;  // a member of another kind than it has to be
+    }
+    return done;
+}
+
+}  // namespace dibhr::inverse3::simulated

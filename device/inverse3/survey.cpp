@@ -1,0 +1,149 @@
+// What the service has.
+#include "device/inverse3/survey.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+
+#include "device/inverse3/arm_watch.hpp"
+#include "device/inverse3/message.hpp"
+#include "device/inverse3/service_link.hpp"
+#include "device/inverse3/service_version.hpp"
+
+namespace dibhr::inverse3 {
+
+namespace {
+
+using std::chrono::milliseconds;
+using Why = LinkError::Why;
+
+constexpr milliseconds kStepTakes{1000};
+constexpr milliseconds kInventoryTakes{500};
+
+ServiceLink::Time in(milliseconds span) {
+    return ServiceLink::Time::clock::now() + span;
+}
+
+/// The inventory, or what is answered when it is asked for. Throws LinkError.
+bool read_inventory(const ConnectionOptions& options, ServiceMessage& message) {
+    ServiceLink link(options.port, in(kStepTakes));
+    if (!link.wait(nullptr, in(kInventoryTakes))) {
+        OrderWriter writer;
+        link.send(writer.write({.whole_state = true}), in(kStepTakes));
+        if (!link.wait(nullptr, in(kStepTakes))) {
+            throw LinkError(Why::lost, "it has been silent for a second");
+        }
+    }
+    MessageReader reader;
+    const bool understood = reader.read(link.read(in(kStepTakes)), message);
+    link.close(in(milliseconds(100)));
+    return understood;
+}
+
+/// A short line of whatever the service answers; empty: nothing.
+std::string kept_value(const ConnectionOptions& options, const std::string& target) {
+    constexpr std::size_t kLongest = 80;
+    try {
+        std::string text = http_get(options.port, target, in(milliseconds(300)));
+        std::replace_if(
+            text.begin(), text.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+        return text.size() > kLongest ? text.substr(0, kLongest) + "..." : text;
+    } catch (const LinkError&) {
+        return {};
+    }
+}
+
+std::vector<std::pair<std::string, std::string>> kept_for(const ConnectionOptions& options,
+                                                          const std::string& id) {
+    const std::string config = "/inverse3/" + id + "/config/";
+    const std::array<std::pair<const char*, std::string>, 4> questions{
+        {{"gravity compensation", config + "gravity_compensation"},
+         {"torque scaling", config + "torque_scaling"},
+         {"filters", config + "filters"},
+         {"force scale", "/settings/devices/force_scale"}}};
+    std::vector<std::pair<std::string, std::string>> kept;
+    for (const auto& [name, target] : questions) {
+        std::string value = kept_value(options, target);
+        if (!value.empty()) kept.emplace_back(name, std::move(value));
+    }
+    return kept;
+}
+
+SurveyedArm surveyed(const Arm& arm, const ConnectionOptions& options) {
+    ArmWatch watch;
+    watch.add(arm, {});
+    SurveyedArm found;
+    found.id = arm.id.view();
+    if (arm.config) {
+        found.minverse = arm.config->minverse;
+        found.handedness = arm.config->handedness;
+    }
+    found.stage = watch.stage();
+    Status status;
+    status.id = found.id;
+    status.minverse = found.minverse;
+    found.sentence = sentence_for(found.stage, status);
+    found.kept = kept_for(options, found.id);
+    return found;
+}
+
+GripStatus surveyed(const Grip& grip) {
+    return {std::string(grip.id.view()), grip.wired, grip.awake && grip.connected, grip.battery};
+}
+
+void take(const ServiceMessage& message, const ConnectionOptions& options, Survey& survey) {
+    for (std::size_t k = 0; k < message.arm_count; ++k) {
+        survey.arms.push_back(surveyed(message.arms[k], options));
+    }
+    for (std::size_t k = 0; k < message.grip_count; ++k) {
+        survey.grips.push_back(surveyed(message.grips[k]));
+    }
+    std::sort(survey.arms.begin(), survey.arms.end(),
+              [](const SurveyedArm& a, const SurveyedArm& b) { return a.id < b.id; });
+    survey.stage = survey.arms.empty() ? Stage::no_device : Stage::ready;
+}
+
+Stage stage_of(const LinkError& error, bool has_version) {
+    if (error.why() == Why::refused) return has_version ? Stage::too_old : Stage::looking;
+    return Stage::not_understood;
+}
+
+const char* word_of(Handedness hand) {
+    return hand == Handedness::left ? "left" : hand == Handedness::right ? "right" : "";
+}
+
+}  // namespace
+
+Survey survey_service(const ConnectionOptions& options) {
+    Survey survey;
+    Status status;
+    status.installed = is_installed(options);
+    const auto version = ask_version(options);
+    if (version) survey.version = status.version = version->text;
+    if (version && !version->at_least(3, 1)) {
+        survey.stage = Stage::too_old;
+    } else {
+        try {
+            ServiceMessage message;
+            survey.stage = Stage::not_understood;
+            if (read_inventory(options, message)) take(message, options, survey);
+        } catch (const LinkError& error) {
+            survey.stage = stage_of(error, version.has_value());
+        }
+    }
+    survey.sentence = sentence_for(survey.stage, status);
+    return survey;
+}
+
+std::string why_none(const Survey& survey, const std::string& device) {
+    if (survey.stage != Stage::ready) return survey.sentence;
+    std::string there;
+    for (const SurveyedArm& arm : survey.arms) {
+        if (device.empty() || arm.id == device || word_of(arm.handedness) == device) return {};
+        there += (there.empty() ? "" : ", ") + arm.id;
+    }
+    return "the Haply Inverse Service has no Inverse3 that is " + device + ", but " + there +
+           ": choose with --device inverse3:ID";
+}
+
+}  // namespace dibhr::inverse3

@@ -1,0 +1,283 @@
+// Whatever goes wrong at the service: the right state, a plain sentence, no force within 25 ms, and
+// back by the ramp.
+#include <glm/geometric.hpp>
+
+#include <functional>
+
+#include "tests/device/inverse3/service_desk.hpp"
+#include "tests/support/catch.hpp"
+
+namespace {
+
+using namespace dibhr;
+using namespace dibhr::test::inverse3;
+using simulated::Garble;
+using Clock = simulated::Clock;
+
+constexpr milliseconds kGrace{25};
+
+/// What is done to the service, and how it is undone.
+struct Fault {
+    const char* name;
+    std::function<void(simulated::Scene&)> begin;
+    std::function<void(simulated::Scene&)> end;
+    Stage stage;
+    const char* word;  ///< of the sentence
+};
+
+const std::vector<Fault>& faults() {
+    static const std::vector<Fault> all{
+        {"not calibrated", [](auto& s) { s.arms[0].calibrated = false; },
+         [](auto& s) { s.arms[0].calibrated = true; }, Stage::not_calibrated, "inkwell"},
+        {"no power", [](auto& s) { s.arms[0].powered = false; },
+         [](auto& s) { s.arms[0].powered = true; }, Stage::no_power, "power adapter"},
+        {"locked", [](auto& s) { s.arms[0].ready = false; },
+         [](auto& s) { s.arms[0].ready = true; }, Stage::locked, "not ready"},
+        {"unplugged", [](auto& s) { s.arms.clear(); }, [](auto& s) { s.arms = {simulated::Arm{}}; },
+         Stage::no_device, "unplugged"},
+        {"unplugged, and another one comes", [](auto& s) { s.arms.clear(); },
+         [](auto& s) { s.arms = {simulated::Arm{.id = "61F0"}}; }, Stage::no_device, "unplugged"},
+        {"grip only",
+         [](auto& s) {
+             s.arms.clear();
+             s.grips = {simulated::Grip{}};
+         },
+         [](auto& s) { s.arms = {simulated::Arm{}}; }, Stage::no_device, "unplugged"},
+        {"null", [](auto& s) { s.arms[0].position_text = R"({"x":null,"y":0,"z":0})"; },
+         [](auto& s) { s.arms[0].position_text.clear(); }, Stage::not_understood, "not understood"},
+        {"huge", [](auto& s) { s.arms[0].position_m.x = 1e12; },
+         [](auto& s) { s.arms[0].position_m.x = 0.0; }, Stage::not_understood, "not understood"},
+        {"NaN", [](auto& s) { s.arms[0].position_text = R"({"x":NaN,"y":0,"z":0})"; },
+         [](auto& s) { s.arms[0].position_text.clear(); }, Stage::not_understood, "not understood"},
+        {"malformed", [](auto& s) { s.manners.garble = Garble::malformed; },
+         [](auto& s) { s.manners.garble = Garble::none; }, Stage::not_understood, "not understood"},
+        {"cut", [](auto& s) { s.manners.garble = Garble::cut; },
+         [](auto& s) { s.manners.garble = Garble::none; }, Stage::not_understood, "not understood"},
+        {"empty", [](auto& s) { s.manners.garble = Garble::empty; },
+         [](auto& s) { s.manners.garble = Garble::none; }, Stage::not_understood, "not understood"},
+        {"an array", [](auto& s) { s.manners.garble = Garble::array; },
+         [](auto& s) { s.manners.garble = Garble::none; }, Stage::not_understood, "not understood"},
+    };
+    return all;
+}
+
+/// Forces that come back rise: none of the first is more than the ramp lets through.
+bool rises(const std::vector<simulated::Heard>& heard, Clock::time_point since) {
+    const simulated::Heard* last = nullptr;
+    for (const simulated::Heard& one : heard) {
+        if (one.at < since || !one.drives) continue;
+        const double length = glm::length(one.force_newton);
+        if (last == nullptr && length > 0.2) return false;
+        last = &one;
+    }
+    return last != nullptr && glm::length(last->force_newton) > 1.9;
+}
+
+}  // namespace
+
+TEST_CASE("whatever is said of the device that keeps it from touching takes the force off",
+          "[inverse3_faults]") {
+    const Fault& fault = GENERATE(from_range(faults()));
+    CAPTURE(fault.name);
+    ServiceDesk desk;
+    REQUIRE(desk.press());
+    const auto began = Clock::now();
+    desk.service.with(fault.begin);
+    CHECK(desk.tick_until([&] { return desk.stage() == fault.stage; }));
+    desk.tick_for(milliseconds(150));
+    CHECK(desk.stage() == fault.stage);
+    CHECK(desk.sentence().find(fault.word) != std::string::npos);
+    CHECK(desk.sentence().find('\n') == std::string::npos);
+    CHECK(desk.strongest_after(began, kGrace) == 0.0);
+    CHECK_FALSE(desk.loop.reading.ready);
+
+    const auto ended = Clock::now();
+    desk.service.with(fault.end);
+    CHECK(desk.press());
+    desk.tick_for(milliseconds(20));
+    CHECK(desk.stage() == Stage::ready);
+    CHECK(rises(desk.service.heard(), ended));
+    CHECK(desk.service.too_many_in_flight() == 0);
+}
+
+TEST_CASE("another program that uses the device from before on has it", "[inverse3_faults]") {
+    simulated::Scene scene;
+    scene.arms[0].in_use = true;
+    ServiceDesk desk(scene);
+    CHECK(desk.tick_until([&] { return desk.stage() == Stage::in_use; }));
+    desk.tick_for(milliseconds(100));
+    CHECK(desk.sentence().find("another program") != std::string::npos);
+    for (const simulated::Heard& one : desk.service.heard()) CHECK_FALSE(one.drives);
+    desk.service.with([](simulated::Scene& there) { there.arms[0].in_use = false; });
+    CHECK(desk.press());
+}
+
+TEST_CASE("a position that jumps takes the force off, and it rises again from where it is",
+          "[inverse3_faults]") {
+    ServiceDesk desk;
+    REQUIRE(desk.press());
+    desk.service.with([](simulated::Scene& scene) { scene.arms[0].position_m.x += 0.1; });
+    int taken_over = 0;
+    (void)desk.tick_until(
+        [&] {
+            taken_over += desk.loop.reading.taken_over ? 1 : 0;
+            return false;
+        },
+        milliseconds(100));
+    CHECK(taken_over == 1);
+    CHECK(desk.press());
+}
+
+TEST_CASE("a preset that is changed under us is set again, and the force rises anew",
+          "[inverse3_faults]") {
+    ServiceDesk desk;
+    REQUIRE(desk.press());
+    desk.service.with([](simulated::Scene& scene) { scene.arms[0].preset = "arm_front"; });
+    int taken_over = 0;
+    (void)desk.tick_until(
+        [&] {
+            taken_over += desk.loop.reading.taken_over ? 1 : 0;
+            return false;
+        },
+        milliseconds(2500));
+    CHECK(taken_over >= 1);
+    CHECK(desk.service.with([](simulated::Scene& scene) { return scene.arms[0].preset; }) ==
+          "defaults");
+    CHECK(desk.press());
+}
+
+TEST_CASE("a service that keeps silent takes the force off, is missed, and comes back",
+          "[inverse3_faults]") {
+    ServiceDesk desk;
+    REQUIRE(desk.press());
+    const auto began = Clock::now();
+    desk.service.with([](simulated::Scene& scene) { scene.manners.answers = false; });
+    desk.tick_for(milliseconds(60));
+    CHECK_FALSE(desk.loop.reading.ready);
+    const bool comes_back_soon = GENERATE(true, false);
+    if (!comes_back_soon) {
+        CHECK(desk.tick_until([&] { return desk.stage() == Stage::looking; }));
+        CHECK(desk.sentence().find("silent for 2 s") != std::string::npos);
+    }
+    const auto ended = Clock::now();
+    desk.service.with([](simulated::Scene& scene) { scene.manners.answers = true; });
+    CHECK(desk.press());
+    desk.tick_for(milliseconds(20));
+    CHECK(rises(desk.service.heard(), ended));
+    const double in_between = [&] {
+        double strongest = 0.0;
+        for (const simulated::Heard& one : desk.service.heard()) {
+            if (one.at > began + kGrace && one.at < ended) {
+                strongest = std::max(strongest, glm::length(one.force_newton));
+            }
+        }
+        return strongest;
+    }();
+    CHECK(in_between == 0.0);
+    CHECK(desk.service.too_many_in_flight() == 0);
+}
+
+TEST_CASE("a service that closes, breaks off, or cannot be reached for a while is found again",
+          "[inverse3_faults]") {
+    ServiceDesk desk;
+    REQUIRE(desk.press());
+    const auto how = GENERATE(simulated::Loss::closed, simulated::Loss::reset);
+    const bool restarts = GENERATE(true, false);
+    if (restarts) desk.service.refuse();
+    desk.service.drop_clients(how);
+    CHECK(desk.tick_until([&] { return desk.stage() == Stage::looking; }));
+    CHECK(desk.sentence().find("was lost") != std::string::npos);
+    desk.tick_for(milliseconds(50));
+    CHECK_FALSE(desk.loop.reading.ready);
+    const auto ended = Clock::now();
+    desk.service.listen();
+    CHECK(desk.press());
+    desk.tick_for(milliseconds(20));
+    CHECK(rises(desk.service.heard(), ended));
+}
+
+TEST_CASE("a megabyte in the place of an answer ends the connection, and the next one is fine",
+          "[inverse3_faults]") {
+    ServiceDesk desk;
+    REQUIRE(desk.press());
+    desk.service.with([](simulated::Scene& scene) { scene.manners.garble = Garble::megabyte; });
+    CHECK(desk.tick_until([&] { return desk.stage() == Stage::not_understood; }));
+    desk.service.with([](simulated::Scene& scene) { scene.manners.garble = Garble::none; });
+    CHECK(desk.press());
+}
+
+TEST_CASE("answers that nobody asked for make no pose older", "[inverse3_faults]") {
+    simulated::Scene scene;
+    scene.manners.garble = Garble::two;
+    ServiceDesk desk(scene);
+    REQUIRE(desk.press());
+    desk.tick_for(milliseconds(300));
+    CHECK(desk.stage() == Stage::ready);
+    CHECK(desk.loop.device.status().unasked > 50);
+    CHECK(desk.loop.device.pose_age() < milliseconds(10));
+}
+
+TEST_CASE("a service that takes no force is noticed within a second, and told",
+          "[inverse3_faults]") {
+    simulated::Scene scene;
+    // Neither dialect is what it takes: it ignores the one, and the other is not allowed.
+    scene.manners.takes = simulated::Takes::values;
+    simulated::Service service(scene);
+    ConnectionOptions options = options_for(service);
+    options.dialect = ForceDialect::vector;
+    TickingDevice<Inverse3Device> loop(options);
+    REQUIRE(loop.tick_until_ready());
+    loop.force_newton = {0.0, 0.0, 1.0};
+    const auto began = Clock::now();
+    CHECK(loop.tick_until([&] { return loop.device.status().stage == Stage::deaf; }));
+    CHECK(Clock::now() - began < milliseconds(1000));
+    CHECK(loop.device.status().sentence.find("takes no force") != std::string::npos);
+    loop.tick_for(milliseconds(50));
+    CHECK_FALSE(loop.reading.ready);
+}
+
+TEST_CASE("slow and shaky answers keep the hand safe, never two messages under way",
+          "[inverse3_faults]") {
+    simulated::Scene scene;
+    scene.manners.delay = GENERATE(std::chrono::microseconds(200), std::chrono::microseconds(5000),
+                                   std::chrono::microseconds(100000));
+    scene.manners.jitter = scene.manners.delay;
+    ServiceDesk desk(scene);
+    const bool usable = scene.manners.delay < milliseconds(10);
+    if (usable) {
+        CHECK(desk.press());
+    } else {
+        desk.tick_for(milliseconds(1500));
+        CHECK(desk.strongest_after({}, milliseconds(0)) < 0.2);
+    }
+    CHECK(desk.service.too_many_in_flight() == 0);
+}
+
+TEST_CASE("whether the service is not installed, not running, or too old is told",
+          "[inverse3_faults]") {
+    simulated::Service service;
+    ConnectionOptions options = options_for(service);
+    SECTION("not installed") {
+        service.refuse();
+        service.with([](simulated::Scene& scene) { scene.manners.http_older = false; });
+        TickingDevice<Inverse3Device> loop(options);
+        CHECK(loop.tick_until([&] {
+            return loop.device.status().sentence.find("not installed") != std::string::npos;
+        }));
+    }
+    SECTION("not running") {
+        service.refuse();
+        service.with([](simulated::Scene& scene) { scene.manners.http_older = false; });
+        options.installed_as = {"/proc/self/exe"};
+        TickingDevice<Inverse3Device> loop(options);
+        CHECK(loop.tick_until([&] {
+            return loop.device.status().sentence.find("not running") != std::string::npos;
+        }));
+    }
+    SECTION("too old") {
+        service.with([](simulated::Scene& scene) { scene.manners.version = "3.0.2"; });
+        TickingDevice<Inverse3Device> loop(options);
+        CHECK(loop.tick_until([&] { return loop.device.status().stage == Stage::too_old; }));
+        CHECK(loop.device.status().sentence.find("3.0.2") != std::string::npos);
+    }
+}

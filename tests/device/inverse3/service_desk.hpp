@@ -1,0 +1,103 @@
+// A simulated service, an Inverse3 in a haptic loop, and what of it arrived at the service.
+#pragma once
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/haptics/safety.hpp"
+#include "device/inverse3/inverse3_device.hpp"
+#include "device/inverse3/simulated/service.hpp"
+#include "tests/device/ticking_device.hpp"
+
+namespace dibhr::test::inverse3 {
+
+using namespace dibhr::inverse3;
+using dibhr::test::TickingDevice;
+using std::chrono::milliseconds;
+
+inline ConnectionOptions options_for(const simulated::Service& service) {
+    ConnectionOptions options;
+    options.port = service.port();
+    options.older_port = service.older_port();
+    options.installed_as = {"/nowhere"};
+    return options;
+}
+
+inline simulated::Scene scene_with(const simulated::Manners& manners) {
+    simulated::Scene scene;
+    scene.manners = manners;
+    return scene;
+}
+
+/// Presses with a force that the loop's own last stage limits and lets rise.
+class ServiceDesk {
+  public:
+    explicit ServiceDesk(simulated::Scene scene = {}, const std::string& device = {})
+        : service(std::move(scene)), loop([&] {
+              ConnectionOptions options = options_for(service);
+              options.device = device;
+              return options;
+          }()) {}
+
+    simulated::Service service;
+    TickingDevice<Inverse3Device> loop;
+    Vec3 pressed_newton{0.0, 0.0, 2.0};
+
+    /// Ticks until it is so; false when it never was.
+    template <typename IsSo>
+    bool tick_until(IsSo&& is_so, milliseconds patience = milliseconds(10'000)) {
+        return loop.tick_until(
+            [&] {
+                choose_force();
+                return is_so();
+            },
+            patience);
+    }
+    void tick_for(milliseconds span) {
+        (void)tick_until([] { return false; }, span);
+    }
+    bool press() {
+        return tick_until([&] { return loop.reading.ready && reaches_full_force(); });
+    }
+    [[nodiscard]] Stage stage() const { return loop.device.status().stage; }
+    [[nodiscard]] std::string sentence() const { return loop.device.status().sentence; }
+
+    /// What the simulated motors do.
+    [[nodiscard]] Vec3 felt_newton() {
+        return service.with([](simulated::Scene& scene) {
+            scene.forget_old_forces(simulated::Clock::now());
+            return scene.arms.empty() ? Vec3{0.0} : scene.arms.front().force_newton;
+        });
+    }
+    /// The longest force that came more than `grace` after `since`.
+    [[nodiscard]] double strongest_after(simulated::Clock::time_point since,
+                                         milliseconds grace) const {
+        double strongest = 0.0;
+        for (const simulated::Heard& one : service.heard()) {
+            if (one.at > since + grace) {
+                strongest = std::max(strongest, glm::length(one.force_newton));
+            }
+        }
+        return strongest;
+    }
+
+  private:
+    void choose_force() {
+        SafetyInput input;
+        input.device_ready = loop.reading.ready;
+        input.from_zero = loop.reading.taken_over;
+        loop.force_newton = safety_.limit(pressed_newton, input, SafetyLimits{});
+    }
+    [[nodiscard]] bool reaches_full_force() const {
+        return glm::length(loop.force_newton) > 0.99 * glm::length(pressed_newton);
+    }
+
+    SafetyStage safety_{};
+};
+
+}  // namespace dibhr::test::inverse3
