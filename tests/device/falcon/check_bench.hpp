@@ -14,8 +14,8 @@
 
 namespace dibhr::test::falcon {
 
-using dibhr::falcon::CheckOptions;
 using dibhr::CheckResult;
+using dibhr::falcon::CheckOptions;
 
 inline bool holds(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
