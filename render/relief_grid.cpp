@@ -24,13 +24,14 @@ void add_tile(GridMesh& mesh, int left, int top, int right, int bottom) {
             mesh.vertices.push_back({static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(j)});
         }
     }
+    // Both triangles of a cell end with its upper right vertex, which is no other cell's.
     for (int j = top; j < bottom; ++j) {
         for (int i = left; i < right; ++i) {
             const auto here = first + static_cast<std::uint32_t>(j - top) * width +
                               static_cast<std::uint32_t>(i - left);
             const auto below = here + width;
             mesh.indices.insert(mesh.indices.end(),
-                                {below, here + 1, here, here + 1, below, below + 1});
+                                {here, below, here + 1, below, below + 1, here + 1});
         }
     }
 }

@@ -6,9 +6,7 @@
 in vec3 lifted;
 in float shade;
 #ifdef SILHOUETTES
-flat in ivec2 vertex;    // the upper left or the lower right one of this cell
-uniform sampler2D torn;  // of each drawn vertex; 1: the cell to its lower right
-uniform int grid_step;
+flat in float cell_torn;
 #endif
 #ifdef RIM
 in vec2 layer;
@@ -26,14 +24,11 @@ uniform float relief_px;
 uniform int detail_step;
 uniform ivec2 image;
 uniform vec3 side;  // WALL: its colour in full light
-uniform vec4 dent;  // column, row, radius [px]
-uniform float shadow;  // of the proxy, where it is on the surface; 0: none
 
 out vec4 pixel;
 
 const vec3 kClay = vec3(0.70, 0.66, 0.61);
 const float kBackside = 0.35;  // seen from behind, as through a gap
-const float kShadowReach = 1.3;  // of the dent's radius
 
 // Where this place is in a texture of every `detail_step`-th vertex.
 vec2 in_detail(ivec2 size) {
@@ -72,9 +67,7 @@ void main() {
     if (abs(there - layer.x) > layer.y) discard;
 #endif
 #ifdef SILHOUETTES
-    vec2 from_vertex = lifted.xy * vec2(image) - 0.5 - vec2(vertex * grid_step);
-    ivec2 cell = from_vertex.x + from_vertex.y < 0.0 ? vertex - 1 : vertex;
-    if (texelFetch(torn, cell, 0).r > 0.5) discard;
+    if (cell_torn > 0.5) discard;
 #endif
 #if defined(TEXTURED)
     vec3 body = texture(colour, lifted.xy).rgb;
@@ -87,10 +80,6 @@ void main() {
     float none = texture(unseen, in_detail(textureSize(unseen, 0))).r;
     body = mix(body, not_seen(body), smoothstep(0.3, 0.7, none));
 #endif
-    if (shadow > 0.0) {
-        vec2 off = (lifted.xy * vec2(image) - 0.5 - dent.xy) / (kShadowReach * dent.z);
-        body *= 1.0 - shadow * exp(-dot(off, off));
-    }
     pixel = vec4(body * (gl_FrontFacing ? shade : shade * kBackside), 1.0);
 #endif
 }

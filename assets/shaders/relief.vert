@@ -2,7 +2,7 @@
 // The relief: one corner of the drawn grid, lifted by the two depth images, the blend and the bump map.
 // Defines: ROUGH (there is a bump map), PAINTED (there are painted heights), WALL (the sides that close
 // the relief; every second vertex is on the ground), RIM (a layer at a silhouette: a corner as high and
-// bright as another vertex).
+// bright as another vertex), SILHOUETTES (the torn cells are left out).
 
 layout(location = 0) in uvec2 corner;  // column and row in the drawn grid
 #ifdef RIM
@@ -21,19 +21,24 @@ uniform float roughness_px;
 uniform float slope_limit;  // steeper from pixel to pixel is a silhouette, and no guide to the light
 uniform float ground_px;
 uniform vec4 dent;  // column, row, radius, depth [px]
+uniform float shadow;  // of the proxy, where it is on the surface; 0: none
 uniform int grid_step;
 uniform ivec2 drawn;  // columns and rows of the drawn grid
 uniform ivec2 image;  // columns and rows of the depth image
 uniform float light;
 uniform mat4 clip_from_world;
 
-flat out ivec2 vertex;  // of the fragments of a triangle: its last one, in the drawn grid
+#ifdef SILHOUETTES
+uniform sampler2D torn;  // of each drawn vertex; 1: the cell to its lower right
+flat out float cell_torn;  // told by a cell's upper right vertex, with which both of its triangles end
+#endif
 out vec3 lifted;  // normalised place in the picture, elevation
 out float shade;  // factor on the colour; on walls, height over the ground in [0, 1]
 
 const vec3 kKey = vec3(-0.46, 0.55, 0.70);  // from the upper left, towards the viewer
 const vec3 kFill = vec3(0.64, -0.10, 0.76);
 const vec3 kGloss = vec3(-0.25, 0.30, 0.92);  // half way between key and eye
+const float kShadowReach = 1.3;  // of the dent's radius
 
 float level(ivec2 at) {
     return texelFetch(depth_from, at, 0).r * (1.0 - blend) + texelFetch(depth_to, at, 0).r * blend;
@@ -46,6 +51,13 @@ float pressed_in(ivec2 at) {
     if (dent.w <= 0.0) return 0.0;
     vec2 off = (in_image(at) - dent.xy) / dent.z;
     return dent.w * exp(-dot(off, off));
+}
+
+// What the proxy's shadow leaves of the light.
+float unshadowed(vec2 here) {
+    if (shadow <= 0.0) return 1.0;
+    vec2 off = (here - dent.xy) / (kShadowReach * dent.z);
+    return 1.0 - shadow * exp(-dot(off, off));
 }
 
 float elevation(ivec2 at) {
@@ -101,8 +113,14 @@ void main() {
                      vec2(to_low.y, to_high.y));
     shade = brightness(normalize(vec3(-dx, dy, 1.0)));
 #endif
-    vertex = ivec2(corner);
+    ivec2 vertex = ivec2(corner);
     here = in_image(vertex);
+#ifndef WALL
+    shade *= unshadowed(here);
+#endif
+#ifdef SILHOUETTES
+    cell_torn = texelFetch(torn, max(vertex - ivec2(1, 0), ivec2(0)), 0).r;
+#endif
     lifted = vec3((here + 0.5) / vec2(image), z);
     vec3 world = vec3(here.x - 0.5 * float(image.x - 1), 0.5 * float(image.y - 1) - here.y, z);
     gl_Position = clip_from_world * vec4(world, 1.0);
