@@ -364,7 +364,7 @@ int run_view(CLI::App& app, const Arguments& arguments) {
                  "Replays a session also over files that have changed since");
     add_algorithm_option(app, touch.given);
     add_touch_options(app, touch);
-    add_carry_option(app, touch.given, "on");
+    add_carry_option(app, touch.given, "off");
     std::optional<bool> stability;
     add_on_off_option(
         app, "--stability",

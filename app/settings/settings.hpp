@@ -66,7 +66,7 @@ struct Settings {
     PanelsOpen panels{};
     bool panels_visible{true};
     ChartsShown charts{};
-    TouchParameters touch{.carry = true};
+    TouchParameters touch{};
     std::string material{};        ///< what material_called() is asked for; empty: as recorded
     bool stability{true};          ///< energy that rendering creates is taken out
     bool damping_as_needed{true};  ///< with stability: not that of `touch`, but what the hand needs

@@ -626,7 +626,6 @@ void Viewer::hand_over_settings() {
 CleaningOptions Viewer::wanted_cleaning() const {
     CleaningOptions cleaning = cleaning_on(state_.media, state_.settings.cleaning);
     if (state_.as_recorded) return {.preset = CleaningPreset::raw};
-    cleaning.auto_in_betweens = true;
     const double radius_mm = finger_mm_on(state_.media, state_.settings.finger_mm);
     if (radius_mm > 0.0) cleaning.finger = fingertip_of(radius_mm, state_.settings.touch);
     return cleaning;

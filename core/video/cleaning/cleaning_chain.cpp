@@ -51,9 +51,7 @@ CleaningSteps steps_of(const CleaningOptions& options, const DepthNoise& noise,
     }
     const bool small = pixels <= kMostForSensor;
     const bool shakes = noise.at(0.5F) > kFelt || noise.of_scale;
-    CleaningSteps steps = shakes && small ? kSensorSteps : kQuietSteps;
-    steps.in_betweens = options.auto_in_betweens && small;
-    return steps;
+    return shakes && small ? kSensorSteps : kQuietSteps;
 }
 
 }  // namespace

@@ -101,7 +101,6 @@ inline constexpr double kThickestFinger_mm = 25.0;
 struct CleaningOptions {
     CleaningPreset preset{CleaningPreset::automatic};
     CleaningSteps own{kGentleSteps};  ///< of CleaningPreset::own
-    bool auto_in_betweens{false};     ///< of CleaningPreset::automatic: where there is colour
     Fingertip finger{};
 
     bool operator==(const CleaningOptions&) const = default;

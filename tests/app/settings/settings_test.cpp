@@ -36,8 +36,8 @@ Settings unusual_settings() {
     settings.panels_visible = false;
     settings.touch.shape.relief_px = 123.456789012345;
     settings.touch.algorithm = Algorithm::neighborhood;
-    CHECK(settings.touch.carry);  // the viewer carries
-    settings.touch.carry = false;
+    CHECK_FALSE(settings.touch.carry);
+    settings.touch.carry = true;
     settings.material = "my \"old\" oak";
     settings.touch.friction = {0.7, 0.3};
     settings.touch.coupling.damping_cutoff_hz = 62.5;

@@ -56,11 +56,10 @@ std::vector<Row> recorded(const std::string& commands, const std::string& fricti
     const Desk desk;
     const TemporaryFolder folder;
     make_films(folder);
-    // The colours move over a plane that stands: they would carry the proxy.
     Process viewer = desk.start_viewer(
-        folder, {"plane_color.mkv", "--raw-depth", "--carry", "off", "--relief", "100",
-                 "--friction", friction, "--device", "mouse", "--record", "hand.dibhr",
-                 "--screenshot", "last.png", "--size", "1280x800", "--seconds", "30"});
+        folder, {"plane_color.mkv", "--raw-depth", "--relief", "100", "--friction", friction,
+                 "--device", "mouse", "--record", "hand.dibhr", "--screenshot", "last.png",
+                 "--size", "1280x800", "--seconds", "30"});
     desk.act(kMeet + commands + "key q");
     REQUIRE(viewer.wait() == 0);
     const MediaDescription picture = describe_media(folder / "last.png");
