@@ -3,12 +3,9 @@
 
 #include <utility>
 
-#include "app/panels/device_state.hpp"
 #include "device/falcon/firmware_image.hpp"
 
 namespace dibhr {
-
-using falcon::Stage;
 
 ViewerFalcon::ViewerFalcon(const HandDevice& hand, ViewerState& state) : device_(hand.falcon) {
     if (device_ == nullptr) return;
@@ -23,17 +20,7 @@ std::optional<std::string> ViewerFalcon::take_news(ViewerState& state) {
     FalconNews& news = *state.falcon;
     news.status = device_->status();
     news.asked = true;
-    const Stage before = std::exchange(stage_, news.status.stage);
-    if (before == stage_) return {};
-    // Once for each need: one that comes again and again must not keep moving the panels.
-    if (needs_its_person(stage_) && shown_ != stage_) {
-        state.show_device = true;
-        shown_ = stage_;
-    }
-    if (stage_ != Stage::ready) return {};
-    shown_ = stage_;
-    const std::string again = std::exchange(news.was_ready, true) ? " again" : "";
-    return "The Falcon touches" + again;
+    return stages_.take(news.status.stage, "Falcon", news.was_ready, state);
 }
 
 std::vector<Action> ViewerFalcon::take_presses(const ViewerState& state) {

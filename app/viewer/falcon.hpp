@@ -8,6 +8,7 @@
 
 #include "app/panels/viewer_state.hpp"
 #include "app/settings/keys.hpp"
+#include "app/viewer/stage_news.hpp"
 #include "device/falcon/status.hpp"
 #include "device/hand_device.hpp"
 
@@ -39,8 +40,7 @@ class ViewerFalcon {
     falcon::FalconDevice* device_;
     falcon::Tuning handed_{};
     TakenPresses presses_{};
-    falcon::Stage stage_{falcon::Stage::looking};  // as told
-    falcon::Stage shown_{falcon::Stage::looking};  // for which the panel was brought into sight
+    StageNews<falcon::Stage> stages_{};
 };
 
 /// The file is for a Falcon, not to be looked at.

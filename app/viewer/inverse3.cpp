@@ -1,10 +1,6 @@
 // The window thread's end of the Inverse3.
 #include "app/viewer/inverse3.hpp"
 
-#include <utility>
-
-#include "app/panels/device_state.hpp"
-
 namespace dibhr {
 
 namespace {
@@ -24,22 +20,11 @@ ViewerInverse3::ViewerInverse3(const HandDevice& hand, ViewerState& state)
 }
 
 std::optional<std::string> ViewerInverse3::take_news(ViewerState& state) {
-    using inverse3::Stage;
     if (device_ == nullptr) return {};
     Inverse3News& news = *state.inverse3;
     news.status = device_->status();
     news.asked = true;
-    const Stage before = std::exchange(stage_, news.status.stage);
-    if (before == stage_) return {};
-    // Once for each need: one that comes again and again must not keep moving the panels.
-    if (needs_its_person(stage_) && shown_ != stage_) {
-        state.show_device = true;
-        shown_ = stage_;
-    }
-    if (stage_ != Stage::ready) return {};
-    shown_ = stage_;
-    const std::string again = std::exchange(news.was_ready, true) ? " again" : "";
-    return "The Inverse3 touches" + again;
+    return stages_.take(news.status.stage, "Inverse3", news.was_ready, state);
 }
 
 std::vector<Action> ViewerInverse3::take_presses(const ViewerState& state) {

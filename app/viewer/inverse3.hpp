@@ -7,6 +7,7 @@
 
 #include "app/panels/viewer_state.hpp"
 #include "app/settings/keys.hpp"
+#include "app/viewer/stage_news.hpp"
 #include "device/hand_device.hpp"
 #include "device/inverse3/status.hpp"
 
@@ -34,8 +35,7 @@ class ViewerInverse3 {
     inverse3::Inverse3Device* device_;
     inverse3::Tuning handed_{};
     TakenPresses presses_{};
-    inverse3::Stage stage_{inverse3::Stage::looking};  // as told
-    inverse3::Stage shown_{inverse3::Stage::looking};  // for which the panel was brought into sight
+    StageNews<inverse3::Stage> stages_{};
 };
 
 }  // namespace dibhr

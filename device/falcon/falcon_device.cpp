@@ -17,7 +17,6 @@ constexpr double kMaxStiffness_newton_per_mm = 1.0;
 constexpr DeviceDynamics kDynamics{
     .mass_kg = 0.1, .friction_newton_s_per_m = 0.5, .resolution_mm = 0.06, .delay_s = 0.002};
 constexpr double kMetre_mm = 1000.0;
-constexpr double kAboveAll_px = 6.0;
 
 DeviceSpecification specification_of(const ConnectionOptions& options) {
     DeviceSpecification specification;
@@ -70,9 +69,7 @@ HandReading FalconDevice::read(const HandContext& context) noexcept {
     was_posed_ = posed;
     may_push_ = reading.ready;
 
-    const Vec3 above{0.5 * (context.surface.columns() - 1), 0.5 * (context.surface.rows() - 1),
-                     context.surface.ceiling() + kAboveAll_px};
-    reading.goal_in_grid = goal_in_grid_.value_or(above);
+    reading.goal_in_grid = goal_in_grid_.value_or(above_image(context.surface));
     return reading;
 }
 
@@ -106,8 +103,7 @@ bool FalconDevice::find_pose(const Counts& encoder) noexcept {
 }
 
 void FalconDevice::place_goal(bool clutched, const HandContext& context) noexcept {
-    const ImageFrame image{context.surface.columns(), context.surface.rows(),
-                           context.surface.ceiling(), context.pixel_pitch_mm};
+    const ImageFrame image = image_frame(context.surface, context.pixel_pitch_mm);
     goal_in_grid_ =
         workspace_.goal_in_grid(*position_m_ * kMetre_mm, clutched, image, tuned_.workspace);
 }

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kLeastScale = 0.1;
 constexpr double kMostScale = 10.0;
+constexpr double kAboveAll_px = 6.0;
 
 double or_usual(double value, double usual) noexcept {
     return std::isfinite(value) ? value : usual;
@@ -37,6 +38,15 @@ Vec3 middle_in_grid(const ImageFrame& image) noexcept {
 }
 
 }  // namespace
+
+ImageFrame image_frame(const DepthSurface& surface, double pixel_pitch_mm) noexcept {
+    return {surface.columns(), surface.rows(), surface.ceiling(), pixel_pitch_mm};
+}
+
+Vec3 above_image(const DepthSurface& surface) noexcept {
+    return {0.5 * (surface.columns() - 1), 0.5 * (surface.rows() - 1),
+            surface.ceiling() + kAboveAll_px};
+}
 
 Vec3 Workspace::goal_in_grid(Vec3 grip_mm, bool clutched, const ImageFrame& image,
                              const WorkspaceOptions& options) noexcept {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/haptics/parameters.hpp"
+#include "core/haptics/surface.hpp"
 #include "core/haptics/vec.hpp"
 
 namespace dibhr {
@@ -26,6 +27,12 @@ struct ImageFrame {
     double relief_px{0.0};
     double pixel_pitch_mm{kPaperPitch_mm};
 };
+
+[[nodiscard]] ImageFrame image_frame(const DepthSurface& surface, double pixel_pitch_mm) noexcept;
+
+/// Where a hand rests of which no pose is known yet: over the middle of the image, above all that
+/// is there; grid space.
+[[nodiscard]] Vec3 above_image(const DepthSurface& surface) noexcept;
 
 /// Lays the device's millimetres over the image; the clutch shifts it. No allocation. Options and
 /// images beyond their ranges, or not finite, are taken as the nearest or the usual that is.

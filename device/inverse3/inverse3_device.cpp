@@ -21,7 +21,6 @@ constexpr std::chrono::milliseconds kOldestPose{20};
 constexpr double kMaxForce_newton = 10.0;  // for a moment; Tuning::max_force_newton lasts
 constexpr double kMaxStiffness_newton_per_mm = 1.0;
 constexpr double kMetre_mm = 1000.0;
-constexpr double kAboveAll_px = 6.0;
 
 DeviceSpecification specification_of(const ConnectionOptions& options) {
     DeviceSpecification specification;
@@ -71,9 +70,7 @@ HandReading Inverse3Device::read(const HandContext& context) noexcept {
     was_posed_ = posed;
     may_push_ = reading.ready;
 
-    const Vec3 above{0.5 * (context.surface.columns() - 1), 0.5 * (context.surface.rows() - 1),
-                     context.surface.ceiling() + kAboveAll_px};
-    reading.goal_in_grid = goal_in_grid_.value_or(above);
+    reading.goal_in_grid = goal_in_grid_.value_or(above_image(context.surface));
     return reading;
 }
 
@@ -98,8 +95,7 @@ void Inverse3Device::take_epoch(Epoch newest) noexcept {
 
 void Inverse3Device::place_goal(Vec3 position_m, bool clutched,
                                 const HandContext& context) noexcept {
-    const ImageFrame image{context.surface.columns(), context.surface.rows(),
-                           context.surface.ceiling(), context.pixel_pitch_mm};
+    const ImageFrame image = image_frame(context.surface, context.pixel_pitch_mm);
     const Vec3 hand_mm = tilt_.hand_from_service(position_m * kMetre_mm - tuned_.centre_mm);
     goal_in_grid_ = workspace_.goal_in_grid(hand_mm, clutched, image, tuned_.workspace);
 }

@@ -68,6 +68,12 @@ std::vector<Vec3> forces_of_touch(const Rows& rows) {
 
 }  // namespace
 
+double strongest(const Rows& rows) {
+    double newton = 0.0;
+    for (const Row& row : rows) newton = std::max(newton, glm::length(row.sent_newton));
+    return newton;
+}
+
 TouchedAgain touched_again(const Rows& rows) {
     TouchedAgain told;
     for (const Rows& stroke : strokes(rows)) {

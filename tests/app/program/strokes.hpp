@@ -17,4 +17,7 @@ struct TouchedAgain {
 /// The strokes over the sample of which the goals and the file are all there is.
 [[nodiscard]] TouchedAgain touched_again(const std::vector<Row>& rows);
 
+/// The longest force that was sent [N].
+[[nodiscard]] double strongest(const std::vector<Row>& rows);
+
 }  // namespace dibhr::test

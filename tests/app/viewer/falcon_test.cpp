@@ -84,12 +84,6 @@ Rows steps_of(const Rows& rows, double least_mm, double most_mm) {
     return steps;
 }
 
-double strongest(const Rows& rows) {
-    double newton = 0.0;
-    for (const Row& row : rows) newton = std::max(newton, glm::length(row.sent_newton));
-    return newton;
-}
-
 }  // namespace
 
 TEST_CASE(

@@ -93,12 +93,6 @@ class Inverse3Scene {
     }
 };
 
-double strongest(const Rows& rows) {
-    double newton = 0.0;
-    for (const Row& row : rows) newton = std::max(newton, glm::length(row.sent_newton));
-    return newton;
-}
-
 }  // namespace
 
 TEST_CASE(
