@@ -242,6 +242,7 @@ Player::~Player() {
     }
     implementation_->asked.notify_one();
     implementation_->thread.join();
+    implementation_->live.close();  // whose threads tell of news under the mutex
 }
 
 void Player::play_media(std::unique_ptr<Media> media, std::uint32_t number,
