@@ -13,7 +13,7 @@
 #include <string_view>
 
 #include "app/commands/documentation.hpp"
-#include "app/commands/spelling.hpp"
+#include "core/files/spelling.hpp"
 #include "app/settings/command_options.hpp"
 #include "app/settings/settings.hpp"
 #include "core/files/plain_text.hpp"

@@ -2,6 +2,7 @@
 // in them. Plain data, and its reading from study.toml (README.md describes the keys).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -62,24 +63,25 @@ struct Condition {
 };
 
 enum class TrialForm : std::uint8_t { explore, two_interval, three_interval, adjust, rating };
-inline constexpr Word<TrialForm> kTrialForms[] = {
-    {TrialForm::explore, "explore", "Free exploration"},
-    {TrialForm::two_interval, "two-interval", "Two-interval forced choice"},
-    {TrialForm::three_interval, "three-interval", "Three-interval oddity"},
-    {TrialForm::adjust, "adjust", "Method of adjustment"},
-    {TrialForm::rating, "rating", "Rating"}};
+inline constexpr std::array<Word<TrialForm>, 5> kTrialForms{
+    {{TrialForm::explore, "explore", "Free exploration"},
+     {TrialForm::two_interval, "two-interval", "Two-interval forced choice"},
+     {TrialForm::three_interval, "three-interval", "Three-interval oddity"},
+     {TrialForm::adjust, "adjust", "Method of adjustment"},
+     {TrialForm::rating, "rating", "Rating"}}};
 
 /// How the items of a block follow each other: any order; balanced over participants, each after
 /// each other equally often (Williams 1949); or as listed.
 enum class TrialOrder : std::uint8_t { random, latin, listed };
-inline constexpr Word<TrialOrder> kTrialOrders[] = {{TrialOrder::random, "random", "Random"},
-                                                    {TrialOrder::latin, "latin", "Latin square"},
-                                                    {TrialOrder::listed, "listed", "As listed"}};
+inline constexpr std::array<Word<TrialOrder>, 3> kTrialOrders{
+    {{TrialOrder::random, "random", "Random"},
+     {TrialOrder::latin, "latin", "Latin square"},
+     {TrialOrder::listed, "listed", "As listed"}}};
 
 /// What a person sees while feeling.
 enum class StudyView : std::uint8_t { relief, blank };
-inline constexpr Word<StudyView> kStudyViews[] = {{StudyView::relief, "relief", "The relief"},
-                                                  {StudyView::blank, "blank", "Nothing"}};
+inline constexpr std::array<Word<StudyView>, 2> kStudyViews{
+    {{StudyView::relief, "relief", "The relief"}, {StudyView::blank, "blank", "Nothing"}}};
 
 [[nodiscard]] const char* name_of(TrialForm form) noexcept;
 [[nodiscard]] const char* name_of(TrialOrder order) noexcept;

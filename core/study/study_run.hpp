@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,7 @@ enum class StudyStep : std::uint8_t {
     finished             ///< nothing is left
 };
 
-/// `StudyRun` calls nothing "next" that depends on anything but protocol, number and answers: the
-/// same ones give the same trial.
+/// What comes next depends on protocol, number and answers alone.
 class StudyRun {
   public:
     /// `number`: the participant's, from 1. `answered`: what was answered before, in order: the run
@@ -71,7 +71,9 @@ class StudyRun {
   private:
     /// The trial after those answered: its block's page first, or thanks.
     void find_next_trial();
+    void show_block_page();
     void begin_trial();
+    void leave_trial();
 
     Protocol protocol_;
     int number_;
@@ -85,7 +87,7 @@ class StudyRun {
 /// The trial that follows those answers (of all blocks, in order); nothing: the study is over. A
 /// pure function of its arguments.
 [[nodiscard]] std::optional<Trial> next_trial(const Protocol& protocol, int number,
-                                              const std::vector<AnsweredTrial>& answered);
+                                              std::span<const AnsweredTrial> answered);
 
 /// The order in which participant `number` (from 1) meets the block's items: indices, repetition
 /// after repetition, of constant stimuli item * levels + level. Not for staircases.
