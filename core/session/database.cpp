@@ -58,8 +58,8 @@ std::string file_size_limit_met(sqlite3* database) {
 
 SqliteStatement prepared(sqlite3* connection, const Database& database, std::string_view sql) {
     sqlite3_stmt* handle = nullptr;
-    const int result = sqlite3_prepare_v2(connection, sql.data(), static_cast<int>(sql.size()),
-                                          &handle, nullptr);
+    const int result =
+        sqlite3_prepare_v2(connection, sql.data(), static_cast<int>(sql.size()), &handle, nullptr);
     SqliteStatement statement(handle);
     if (result != SQLITE_OK) throw DatabaseError(database.last_error());
     return statement;

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 #include <iomanip>
+#include <locale>
 #include <sstream>
 #include <string_view>
 #include <system_error>
@@ -258,10 +259,12 @@ struct StudyFile::Implementation {
 
     explicit Implementation(const fs::path& path) : file(path), database(path) {}
 
-    /// Held from here until the program ends, however it does.
-    void hold() {
-        database.execute(
-            "PRAGMA busy_timeout = 0; PRAGMA locking_mode = EXCLUSIVE; PRAGMA synchronous = FULL");
+    /// Held from here until the program ends, however it does. A pilot can be run again: only a
+    /// person's answers wait for the disk.
+    void hold(bool pilot) {
+        database.execute(std::string("PRAGMA busy_timeout = 0; PRAGMA locking_mode = EXCLUSIVE; "
+                                     "PRAGMA synchronous = ") +
+                         (pilot ? "OFF" : "FULL"));
         distrust(database);
         database.execute("BEGIN EXCLUSIVE; COMMIT");
     }
@@ -337,7 +340,7 @@ StudyFile::StudyFile(const fs::path& file, const StudyIdentity& identity) {
     make_if_missing(file);
     of_file(file, [&] {
         implementation_ = std::make_unique<Implementation>(file);
-        implementation_->hold();
+        implementation_->hold(!identity.pilot.empty());
         if (implementation_->database.number("SELECT count(*) FROM sqlite_master") == 0)
             implementation_->begin(identity);
         else
