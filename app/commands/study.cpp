@@ -127,10 +127,13 @@ std::string levels_text(const Variation& vary) {
 }
 
 void print_summary(const Protocol& protocol) {
-    std::cout << protocol.title << '\n' << protocol.conditions.size() << " conditions\n";
+    const auto counted = [](std::size_t count, const char* what) {
+        return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
+    };
+    std::cout << protocol.title << '\n' << counted(protocol.conditions.size(), "condition") << '\n';
     for (const Condition& condition : protocol.conditions)
         std::cout << "  " << condition.name << ": " << values_text(condition.values) << '\n';
-    std::cout << protocol.blocks.size() << " blocks\n";
+    std::cout << counted(protocol.blocks.size(), "block") << '\n';
     double minutes = 0.0;
     bool adapts = false;
     for (const Block& block : protocol.blocks) {

@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/files/spelling.hpp"
-#include "core/psychophysics/random.hpp"
+#include "core/study/draws.hpp"
 #include "core/study/toml_page.hpp"
 
 namespace dibhr {
@@ -135,9 +135,9 @@ SimulatedParticipant simulated_participant(const std::string& text) {
 
 StudyAnswer answer_of(const SimulatedParticipant& who, const StudyRun& run) {
     const Trial& trial = run.trial();
-    Random draws(run.protocol().seed ^ (who.seed << 32U),
-                 (static_cast<std::uint64_t>(run.number()) << 24U) +
-                     static_cast<std::uint64_t>(trial.number));
+    Random draws =
+        draws_for(run.protocol().seed, {who.seed, static_cast<std::uint64_t>(run.number()),
+                                        static_cast<std::uint64_t>(trial.number)});
     StudyAnswer answer{.reaction_s = 0.4 + 1.2 * draws.uniform()};
     const int intervals = static_cast<int>(trial.intervals.size());
     switch (trial.form) {

@@ -1,12 +1,10 @@
 // Which trial comes next: a pure function of protocol, participant and answers.
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <initializer_list>
 #include <numeric>
 
-#include "core/psychophysics/random.hpp"
 #include "core/psychophysics/staircase.hpp"
+#include "core/study/draws.hpp"
 #include "core/study/study_run.hpp"
 
 namespace dibhr {
@@ -16,21 +14,12 @@ namespace {
 /// What chance decides, each by draws of its own.
 enum class Draw : std::uint64_t { order, target, odd_ones, track, start };
 
-/// Draws for one thing of one participant's block (SplitMix64's finaliser keeps streams apart).
-Random draws_of(const Protocol& protocol, int number, int block, Draw what,
-                std::initializer_list<int> which = {}) {
-    std::uint64_t stream = 0;
-    const auto mix = [&stream](std::uint64_t value) {
-        stream = (stream ^ value) + 0x9e3779b97f4a7c15U;
-        stream = (stream ^ (stream >> 30U)) * 0xbf58476d1ce4e5b9U;
-        stream = (stream ^ (stream >> 27U)) * 0x94d049bb133111ebU;
-        stream ^= stream >> 31U;
-    };
-    mix(static_cast<std::uint64_t>(number));
-    mix(static_cast<std::uint64_t>(block));
-    mix(static_cast<std::uint64_t>(what));
-    for (const int one : which) mix(static_cast<std::uint64_t>(one));
-    return Random(protocol.seed, stream);
+/// The n-th time of one thing of a participant's block.
+Random draws_of(const Protocol& protocol, int number, int block, Draw what, int thing = 0,
+                int time = 0) {
+    const auto plain = [](int one) { return static_cast<std::uint64_t>(one); };
+    return draws_for(protocol.seed, {plain(number), plain(block), static_cast<std::uint64_t>(what),
+                                     plain(thing), plain(time)});
 }
 
 const Block& block_at(const Protocol& protocol, int block) {
@@ -125,15 +114,15 @@ void fill_intervals(const Protocol& protocol, int number, const Task& task, Tria
     std::optional<double> value = reference;
     if (task.level) value = vary.reference + *task.level;
     if (trial.form == TrialForm::adjust) {
-        Random draws = draws_of(protocol, number, trial.block, Draw::start, {trial.position});
+        Random draws = draws_of(protocol, number, trial.block, Draw::start, trial.position);
         value = vary.lowest + (vary.highest - vary.lowest) * draws.uniform();
     }
     const StudyInterval plain = interval_of(protocol, block, item.reference, reference);
     const StudyInterval compared = interval_of(protocol, block, item.comparison, value);
     const auto kind = [&](int kinds, Draw what) {
-        return balanced_kind(kinds, task.repetition, task.chunk, number + task.cell,
-                             draws_of(protocol, number, trial.block, what,
-                                      {task.cell, task.repetition / task.chunk}));
+        return balanced_kind(
+            kinds, task.repetition, task.chunk, number + task.cell,
+            draws_of(protocol, number, trial.block, what, task.cell, task.repetition / task.chunk));
     };
     trial.intervals.assign(static_cast<std::size_t>(block.intervals()), plain);
     if (block.intervals() == 1) {
