@@ -1,14 +1,21 @@
 // Steps through a study with simulated answers.
 #include "app/commands/study_pilot.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
 
 #include "app/commands/output.hpp"
+#include "app/commands/study_hand.hpp"
 #include "core/study/simulated_participant.hpp"
 
 namespace dibhr {
 
 namespace {
+
+const std::string kHand = "hand";
 
 double utc_now_s() {
     return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
@@ -18,12 +25,19 @@ double utc_now_s() {
 }  // namespace
 
 void run_pilot(StudyRun& run, StudyFile& file, const std::string& pilot) {
-    const SimulatedParticipant who = simulated_participant(pilot);
+    const bool with_hand = pilot == kHand || pilot.starts_with(kHand + ',');
+    const std::string answers =
+        with_hand ? pilot.substr(std::min(kHand.size() + 1, pilot.size())) : pilot;
+    const SimulatedParticipant who = simulated_participant(answers.empty() ? "guess" : answers);
+    std::optional<StudyHand> hand;
+    if (with_hand) hand.emplace();
     ProgressBar bar(file.identity().participant);
     while (run.step() != StudyStep::finished) {
         if (run.step() == StudyStep::question || run.step() == StudyStep::adjust) {
             const AnsweredTrial answered = run.judged(answer_of(who, run), utc_now_s());
-            file.add(answered);
+            std::filesystem::path session;
+            if (hand) hand->explore(run.trial(), session = file.fresh_session());
+            file.add(answered, session);
             run.accept(answered);
             bar.show(run.share_done());
         } else {
