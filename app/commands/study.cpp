@@ -14,6 +14,7 @@
 
 #include "app/commands/command_line.hpp"
 #include "app/commands/study_pilot.hpp"
+#include "app/commands/study_readiness.hpp"
 #include "app/settings/assets_path.hpp"
 #include "app/settings/command_options.hpp"
 #include "app/settings/material.hpp"
@@ -165,8 +166,8 @@ int check(const StudyOptions& options) {
     print_summary(protocol);
     print_balance(protocol);
     require_media(protocol);
-    std::cout << "media, materials and pictures are there\n"
-                 "dibhr devices --check looks after the device, dibhr bench after the rate\n";
+    std::cout << "media, materials and pictures are there\n";
+    print_readiness(protocol);
     return 0;
 }
 

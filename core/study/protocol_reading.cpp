@@ -29,6 +29,7 @@ constexpr double kAnyNumber = 1e9;
 template <typename Table>
 std::vector<std::string> names_of(const Table& table) {
     std::vector<std::string> names;
+    names.reserve(table.size());
     for (const auto& word : table) names.emplace_back(word.name);
     return names;
 }

@@ -99,27 +99,27 @@ SimulatedParticipant simulated_participant(const std::string& text) {
         const char* name;
         double& value;
         double lowest, highest;
-    } kNumbers[] = {{"threshold", who.threshold, 1e-9, 1e9},
-                    {"slope", who.slope, 1e-9, 1e9},
-                    {"lapse", who.lapse, 0.0, 0.5},
-                    {"false-alarm", who.false_alarm, 0.0, 0.99},
-                    {"bias", who.bias, -1e9, 1e9},
-                    {"noise", who.noise, 0.0, 1e9},
-                    {"seed", seed, 0.0, 1e9}};
+    } numbers[] = {{"threshold", who.threshold, 1e-9, 1e9},
+                   {"slope", who.slope, 1e-9, 1e9},
+                   {"lapse", who.lapse, 0.0, 0.5},
+                   {"false-alarm", who.false_alarm, 0.0, 0.99},
+                   {"bias", who.bias, -1e9, 1e9},
+                   {"noise", who.noise, 0.0, 1e9},
+                   {"seed", seed, 0.0, 1e9}};
     std::vector<std::string> names{"guess", "prefer"};
-    for (const auto& number : kNumbers) names.emplace_back(number.name);
+    for (const auto& number : numbers) names.emplace_back(number.name);
     std::istringstream parts(text);
     for (std::string part; std::getline(parts, part, ',');) {
         const auto equals = part.find('=');
         const std::string name = part.substr(0, equals);
         const std::string value = equals == std::string::npos ? "" : part.substr(equals + 1);
-        const auto* const found = std::find_if(std::begin(kNumbers), std::end(kNumbers),
+        const auto* const found = std::find_if(std::begin(numbers), std::end(numbers),
                                                [&](const auto& one) { return name == one.name; });
         if (name == "prefer" && !value.empty()) {
             who.prefers = value;
             continue;
         }
-        if (found == std::end(kNumbers))
+        if (found == std::end(numbers))
             throw InputError("a pilot is guess, hand, or some of " + listed(names) +
                              " as NAME=VALUE, not " + in_quotes(part) + did_you_mean(name, names));
         std::istringstream number(value);

@@ -384,7 +384,7 @@ void StudyFile::finish() {
 }
 
 fs::path StudyFile::fresh_session() const {
-    const fs::path session = file().string() + ".trial.dibhr";
+    fs::path session = file().string() + ".trial.dibhr";
     remove_quietly(session);
     return session;
 }

@@ -68,9 +68,10 @@ std::optional<Task> adaptive_task(const Protocol& protocol, int block_number, in
     const int tracks = block.variation.tracks;
     std::vector<Staircase> runs(block.items.size() * static_cast<std::size_t>(tracks),
                                 Staircase(*block.variation.staircase));
-    for (const AnsweredTrial& one : in_block)
-        runs[static_cast<std::size_t>(one.trial.item * tracks + one.trial.track)].answer(
-            one.right.value_or(false));
+    for (const AnsweredTrial& one : in_block) {
+        const int cell = one.trial.item * tracks + one.trial.track;
+        runs[static_cast<std::size_t>(cell)].answer(one.right.value_or(false));
+    }
     std::vector<int> behind;
     std::size_t fewest = ~std::size_t{0};
     for (std::size_t k = 0; k < runs.size(); ++k) {
@@ -82,7 +83,7 @@ std::optional<Task> adaptive_task(const Protocol& protocol, int block_number, in
     }
     if (behind.empty()) return std::nullopt;
     Random draws =
-        draws_of(protocol, number, block_number, Draw::track, {static_cast<int>(in_block.size())});
+        draws_of(protocol, number, block_number, Draw::track, static_cast<int>(in_block.size()));
     const auto drawn = block.order == TrialOrder::listed
                            ? 0U
                            : draws.below(static_cast<std::uint32_t>(behind.size()));
