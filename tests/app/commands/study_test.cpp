@@ -187,6 +187,7 @@ TEST_CASE("a study says in one line what it cannot do", "[study]") {
     CHECK(contains(said(run_arguments("Anna B.", "guess"), 1), "letters, digits, - and _"));
     CHECK(contains(said(run_arguments("Anna", "guess"), 2), "--number"));
     CHECK(contains(said(run_arguments("P1", "gess"), 1), "did you mean guess?"));
+    CHECK(contains(said(run_arguments("P2", "prefer=other-on"), 1), "did you mean other-one?"));
     CHECK(contains(said({"study", "check", "paper-qestion"}, 1), "did you mean paper-question?"));
     CHECK(contains(said({"study", "chekc", "study.toml"}, 2), "did you mean check?"));
     CHECK(contains(said({"study", "sessions", "study.toml"}, 1), "study.toml"));
