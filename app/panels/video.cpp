@@ -138,6 +138,10 @@ void draw_live(const ViewerState& state, Player& player) {
     fact_row("Frames", formatted("%.1f/s, %lld left out", playback.frames_per_s,
                                  static_cast<long long>(live.dropped)));
     explain("Left out: they came before the one before them was ready");
+    if (live.motion_rests)
+        quiet_text("This machine has no time to find out how frames move: nothing is carried");
+    if (live.in_betweens_rest)
+        quiet_text("This machine has no time for in-betweens: frames fade into each other");
     if (!live.signal && !live.trouble.empty()) quiet_text(capitalised(live.trouble));
 }
 

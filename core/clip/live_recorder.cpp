@@ -41,9 +41,9 @@ LiveFiles live_files_beside(const fs::path& session) {
 
 /// Opened with the first frame.
 struct LiveRecorder::Tracks {
-    std::optional<LevelsEncoder> levels{};
+    std::optional<ExactEncoder> levels{};
     std::optional<LiveFile> depth_file{};
-    std::optional<PictureEncoder> colours{};
+    std::optional<ExactEncoder> colours{};
     std::optional<LiveFile> colour_file{};
 };
 
@@ -93,7 +93,7 @@ void LiveRecorder::write(Tracks& tracks, const LiveRecord& record) const {
     const ColourImage colour = files_.colour.empty() ? ColourImage{} : colour_of(record);
     if (colour.rgb.empty()) return;
     if (!tracks.colours) {
-        tracks.colours.emplace(colour.columns, colour.rows, kLiveQuality);
+        tracks.colours.emplace(colour);
         tracks.colour_file.emplace(files_.colour, tracks.colours->codec(),
                                    std::map<std::string, std::string>{});
     }
@@ -127,8 +127,6 @@ void LiveRecorder::run() {
     }
     lock.unlock();
     try_to([&] {
-        if (tracks.colours)
-            tracks.colours->drain([&](AVPacket& packet) { tracks.colour_file->write(packet); });
         if (tracks.depth_file) tracks.depth_file->finish();
         if (tracks.colour_file) tracks.colour_file->finish();
     });

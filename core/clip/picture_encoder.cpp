@@ -25,6 +25,7 @@ namespace {
 
 constexpr int kPicturesPerSecond = 30;  // about: what the encoder reckons with
 constexpr int kPicturesToKey = 30;      // between two that can be sought, and kept after a crash
+constexpr int kH264Quality = 20;        // its crf: what is lost is hardly seen
 constexpr int kMpeg4Quality = 3;        // 1: the best, 31
 
 /// By name: that a machine without their hardware has others, too, is found out too late.
@@ -45,7 +46,7 @@ void say_colours(AVCodecContext& codec) {
 
 /// On the thread that calls alone, a packet a picture: a hand is felt on the same machine. Null:
 /// this libav has no such encoder, or it takes no pictures of that size.
-AVCodecContext* opened(const char* name, int columns, int rows, int crf) {
+AVCodecContext* opened(const char* name, int columns, int rows) {
     const AVCodec* const encoder = avcodec_find_encoder_by_name(name);
     if (encoder == nullptr) return nullptr;
     AVCodecContext* codec = avcodec_alloc_context3(encoder);
@@ -66,7 +67,7 @@ AVCodecContext* opened(const char* name, int columns, int rows, int crf) {
     // Of libx264; the others do not know them.
     av_opt_set(codec->priv_data, "preset", "veryfast", 0);
     av_opt_set(codec->priv_data, "tune", "zerolatency", 0);
-    av_opt_set_int(codec->priv_data, "crf", crf, 0);
+    av_opt_set_int(codec->priv_data, "crf", kH264Quality, 0);
     if (avcodec_open2(codec, encoder, nullptr) < 0) avcodec_free_context(&codec);
     return codec;
 }
@@ -126,14 +127,14 @@ void PictureEncoder::Free::operator()(SwsContext* scaler) const {
     sws_freeContext(scaler);
 }
 
-PictureEncoder::PictureEncoder(int columns, int rows, int crf)
+PictureEncoder::PictureEncoder(int columns, int rows)
     : picture_(av_frame_alloc()),
       scaled_(av_frame_alloc()),
       frame_(av_frame_alloc()),
       packet_(av_packet_alloc()) {
     if (!picture_ || !scaled_ || !frame_ || !packet_) throw std::bad_alloc();
     for (const char* const name : kEncoders)
-        if (codec_ == nullptr) codec_.reset(opened(name, even(columns), even(rows), crf));
+        if (codec_ == nullptr) codec_.reset(opened(name, even(columns), even(rows)));
     if (codec_ == nullptr) {
         throw InputError("no clip can be made of " + std::to_string(columns) + " x " +
                          std::to_string(rows) +

@@ -16,17 +16,15 @@ struct ColourImage;
 
 /// Times of pictures and packets are in units of 1/kClipTimeBase s.
 inline constexpr int kClipTimeBase = 1000;
-/// Of clips what is lost is hardly seen; of colour that is kept to be touched again nothing is.
-inline constexpr int kClipQuality = 20, kLiveQuality = 14;
 
 class PictureEncoder {
   public:
     /// Called with each packet, whose content it may take.
     using Sink = std::function<void(AVPacket&)>;
 
-    /// Of a video of columns x rows, 2 or more, cut to even numbers; `crf` as of H.264, 0 the best.
+    /// Of a video of columns x rows, 2 or more, cut to even numbers.
     /// Throws InputError when libav has no encoder that takes it.
-    PictureEncoder(int columns, int rows, int crf = kClipQuality);
+    PictureEncoder(int columns, int rows);
     ~PictureEncoder();
     PictureEncoder(const PictureEncoder&) = delete;
     PictureEncoder& operator=(const PictureEncoder&) = delete;

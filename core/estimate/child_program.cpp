@@ -1,9 +1,9 @@
-// posix_spawn, a pipe, and signals to a group.
+// vfork, a pipe, and signals to a group.
 #include "core/estimate/child_program.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,6 +12,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <string_view>
 #include <thread>
@@ -61,28 +62,46 @@ std::vector<std::string> environment() {
     throw InputError("the estimator cannot be started: " + name + " (" + std::strerror(why) + ")");
 }
 
-/// 0, or why it could not be started.
+/// Of the child, between its beginning and the program's: it shares this program's memory, so it
+/// calls the system alone, and changes nothing but `why`. The kernel kills it when the thread that
+/// started it ends, which waits for it otherwise: so however this program ends.
+[[noreturn]] void become(char* const* words, char** variables, int output, pid_t parent,
+                         volatile int& why) {
+    struct sigaction usual {};
+    usual.sa_handler = SIG_DFL;  // NOLINT(cppcoreguidelines-pro-type-union-access): POSIX's
+    for (const int signal : {SIGPIPE, SIGTERM, SIGINT, SIGHUP, SIGQUIT})
+        ::sigaction(signal, &usual, nullptr);
+    sigset_t none;
+    ::sigemptyset(&none);
+    const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+    const bool ready = ::prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && ::setpgid(0, 0) == 0 &&
+                       nothing >= 0 && ::dup2(nothing, STDIN_FILENO) >= 0 &&
+                       ::dup2(output, STDOUT_FILENO) >= 0 && ::dup2(output, STDERR_FILENO) >= 0 &&
+                       ::sigprocmask(SIG_SETMASK, &none, nullptr) == 0;
+    if (ready && ::getppid() == parent) ::execvpe(words[0], words, variables);
+    why = errno;
+    ::_exit(EXIT_FAILURE);
+}
+
+/// 0, or why it could not be started. The child borrows this program's memory until the other
+/// program begins, as posix_spawn does it, which cannot say what it is killed by: a copy would
+/// disturb a hand that is felt meanwhile.
 int start(std::vector<std::string> words, int output, pid_t& child) {
-    posix_spawn_file_actions_t files;
-    ::posix_spawn_file_actions_init(&files);
-    ::posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    ::posix_spawn_file_actions_adddup2(&files, output, STDOUT_FILENO);
-    ::posix_spawn_file_actions_adddup2(&files, output, STDERR_FILENO);
-    posix_spawnattr_t manner;
-    ::posix_spawnattr_init(&manner);
-    sigset_t signals;
-    ::sigemptyset(&signals);
-    ::posix_spawnattr_setsigmask(&manner, &signals);  // it may be ended
-    ::sigaddset(&signals, SIGPIPE);
-    ::posix_spawnattr_setsigdefault(&manner, &signals);
-    ::posix_spawnattr_setpgroup(&manner, 0);
-    ::posix_spawnattr_setflags(
-        &manner, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
     std::vector<std::string> variables = environment();
-    const int failed = ::posix_spawnp(&child, words.front().c_str(), &files, &manner,
-                                      as_pointers(words).data(), as_pointers(variables).data());
-    ::posix_spawnattr_destroy(&manner);
-    ::posix_spawn_file_actions_destroy(&files);
+    const std::vector<char*> arguments = as_pointers(words);
+    std::vector<char*> entries = as_pointers(variables);
+    sigset_t all, before;
+    ::sigfillset(&all);
+    ::pthread_sigmask(SIG_SETMASK, &all, &before);  // a handler of ours would run in the child, too
+    const pid_t parent = ::getpid();
+    volatile int why = 0;
+    const pid_t started = ::vfork();  // NOLINT(clang-analyzer-security.insecureAPI.vfork)
+    if (started == 0) become(arguments.data(), entries.data(), output, parent, why);
+    if (started < 0) why = errno;
+    ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    child = started;
+    const int failed = why;
+    if (failed != 0 && started > 0) ::waitpid(started, nullptr, 0);
     return failed;
 }
 

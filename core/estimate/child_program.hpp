@@ -34,7 +34,8 @@ class ChildProgram {
     static constexpr std::chrono::milliseconds kGrace{400};
 
     /// Starts it, without a shell and without a keyboard. Throws InputError when that cannot be:
-    /// what, and what to do next.
+    /// what, and what to do next. It is killed when the thread that calls ends, even where that is
+    /// because this program was killed; what it started itself is not.
     ChildProgram(std::vector<std::string> words, ChildManner manner);
     /// Kills what is left of its group.
     ~ChildProgram();

@@ -330,7 +330,10 @@ void Player::set_cleaning(const CleaningOptions& options) {
 }
 
 void Player::set_motion(bool wanted) {
-    implementation_->ask({[wanted](Playback& playback, Time) { playback.set_motion(wanted); }});
+    implementation_->ask({[player = implementation_.get(), wanted](Playback& playback, Time) {
+        player->live.set_motion(wanted);
+        playback.set_motion(wanted);
+    }});
 }
 
 void Player::set_maps(std::shared_ptr<const TouchMaps> maps) {

@@ -46,9 +46,15 @@ void LiveClock::begin_with(Frame frame, double stamp_s, Time now, std::deque<Fra
     alone_ = true;
 }
 
+bool LiveClock::goes_on_to(double stamp_s, const std::deque<Frame>& frames) const noexcept {
+    const double since_s = stamp_s - last_stamp_s_;
+    return !begins_ && !frames.empty() && since_s > 0.0 && since_s < kOtherTime_s;
+}
+
 bool LiveClock::add(Frame frame, double stamp_s, Time now, std::deque<Frame>& frames) {
+    const bool goes_on = goes_on_to(stamp_s, frames);
     const double since_s = stamp_s - std::exchange(last_stamp_s_, stamp_s);
-    if (begins_ || frames.empty() || !(since_s > 0.0 && since_s < kOtherTime_s)) {
+    if (!goes_on) {
         begin_with(std::move(frame), stamp_s, now, frames);
         return true;
     }

@@ -20,6 +20,8 @@ class LiveClock {
 
     /// The next frame begins anew: after a pause, a lost signal, other stamps.
     void begin_again() noexcept { begins_ = true; }
+    /// Whether the surface moves on to a frame of that stamp [s] from those that are there.
+    [[nodiscard]] bool goes_on_to(double stamp_s, const std::deque<Frame>& frames) const noexcept;
     /// Puts a frame of that stamp [s], ready now, on the timeline behind `frames`, those on it,
     /// which may be held longer or let go. True: the timeline begins anew with it, alone.
     bool add(Frame frame, double stamp_s, Time now, std::deque<Frame>& frames);

@@ -90,6 +90,7 @@ void LivePlayback::close() {
     file_begin_s_.reset();
     dropped_ = 0;
     behind_s_ = 0.0;
+    budget_ = {};
     lost_ = force_off_ = false;
     ++discontinuity_;
 }
@@ -170,7 +171,10 @@ bool LivePlayback::take_frame(Time now) {
     keep(last_);
     if (std::exchange(lost_, false)) clock_.begin_again();
     force_off_ = false;
-    show(cleaned_frame(last_), now);
+    const Time begin = std::chrono::steady_clock::now();
+    Frame frame = cleaned_frame(last_);
+    connect(frame, begin);
+    show(std::move(frame), now);
     if (!playing_) clock_.stop(now);
     return true;
 }
@@ -189,14 +193,13 @@ void LivePlayback::make_plan() {
     const std::size_t pixels = static_cast<std::size_t>(description().depth_columns) *
                                static_cast<std::size_t>(description().depth_rows);
     plan_ = plan_of(options_, noise_.value_or(DepthNoise{}), pixels);
-    plan_.steps.steady = false;        // needs frames that are still to come
-    // A recording's colour is not kept bit by bit.
-    plan_.steps.colour_edges = plan_.steps.in_betweens = false;
+    plan_.steps.steady = false;  // needs frames that are still to come
 }
 
 Frame LivePlayback::cleaned_frame(const RawFrame& raw) {
     const auto begin = std::chrono::steady_clock::now();
-    const LoneDepth lone = chain_.alone(raw.depth, plan_, raw.held);
+    const ColourImage* const colour = raw.colour_of_view ? &raw.colour : nullptr;
+    const LoneDepth lone = chain_.alone(raw.depth, plan_, raw.held, colour);
     const LoneDepth* const one = &lone;
     const CleanedDepth cleaned = chain_.finished({&one, 1}, 0, plan_);
     Frame frame;
@@ -204,6 +207,7 @@ Frame LivePlayback::cleaned_frame(const RawFrame& raw) {
     frame.unseen = cleaned.unseen;
     frame.beneath = cleaned.beneath;
     frame.colour = std::make_shared<const ColourImage>(raw.colour);
+    frame.colour_of_view = raw.colour_of_view;
     frame.maps = maps_;
     frame.media_s = raw.media_s;
     frame.index = raw.index;
@@ -212,6 +216,16 @@ Frame LivePlayback::cleaned_frame(const RawFrame& raw) {
     cleaned_ = std::chrono::steady_clock::now();
     clean_ms_ = kMilliseconds * seconds_between(begin, cleaned_);
     return frame;
+}
+
+/// How the one before becomes this one, whose cleaning began then.
+void LivePlayback::connect(const Frame& next, Time begin) {
+    const MotionWanted wanted{motion_wanted_, plan_.steps.in_betweens};
+    if (!wanted.any() || !clock_.goes_on_to(last_stamp_s_, frames_)) return;
+    const MotionWanted affordable = budget_.affordable(wanted);
+    motion_.connect(frames_.back(), next, affordable);
+    cleaned_ = std::chrono::steady_clock::now();
+    budget_.took(affordable, seconds_between(begin, cleaned_), clock_.interval_s());
 }
 
 void LivePlayback::show(Frame frame, Time now) {
@@ -293,6 +307,9 @@ LiveStatus LivePlayback::status(Time now) const {
     status.trouble = signal.trouble;
     status.opened = opened_;
     status.media = frames_.empty() ? 0 : frames_.front().media;
+    status.motion_rests = motion_wanted_ && budget_.motion_rests();
+    status.in_betweens_rest =
+        plan_.steps.in_betweens && (budget_.in_betweens_rest() || budget_.motion_rests());
     status.noise = noise_.value_or(DepthNoise{});
     return status;
 }

@@ -14,13 +14,16 @@
 #include "core/video/live/live_feed.hpp"
 #include "core/video/live/live_record.hpp"
 #include "core/video/live/live_status.hpp"
+#include "core/video/live/motion_budget.hpp"
 #include "core/video/media.hpp"
+#include "core/video/motion/frame_motion.hpp"
 
 namespace dibhr {
 
 /// Belongs to the player's thread; every time comes in as an argument. A frame is cleaned by
-/// itself: what needs those after it would be felt too late. The surface follows the pictures by
-/// their stamps, a frame behind; pictures that cannot be made in time are left out.
+/// itself: what needs those after it would be felt too late; how it moves is known when the next
+/// one comes. The surface follows the pictures by their stamps, a frame behind; pictures that
+/// cannot be made in time are left out.
 class LivePlayback {
   public:
     using Time = std::chrono::steady_clock::time_point;
@@ -37,6 +40,8 @@ class LivePlayback {
     void pause(Time now);  ///< the surface stays as it is
     [[nodiscard]] bool playing() const { return playing_; }
     void set_cleaning(const CleaningOptions& options, Time now);
+    /// Whether the motion of frames is wanted where no in-betweens are.
+    void set_motion(bool wanted) { motion_wanted_ = wanted; }
     void set_maps(std::shared_ptr<const TouchMaps> maps);
     /// From the one that is there on frames carry that number, their presentation times count from
     /// it, and what was before it is forgotten: it is the first one of a file. Empty: no more.
@@ -61,6 +66,7 @@ class LivePlayback {
     void make_plan();
     [[nodiscard]] Frame cleaned_frame(const RawFrame& raw);
     void show(Frame frame, Time now);
+    void connect(const Frame& next, Time begin);
     void show_again(Time now);
     void keep(const RawFrame& raw);
     void notice_motion(const Frame& frame, Time now);
@@ -79,6 +85,9 @@ class LivePlayback {
     NoiseMeter meter_{};
     std::size_t measured_{0};  ///< frames
     std::optional<DepthNoise> noise_{};
+    bool motion_wanted_{false};
+    MotionBudget budget_{};
+    FrameMotion motion_{};
     LiveClock clock_{};
     std::deque<Frame> frames_{};  ///< from the shown one on
     RawFrame last_{};             ///< the newest as it came, with its colour

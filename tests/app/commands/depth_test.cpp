@@ -1,4 +1,5 @@
 // `dibhr depth` as people and scripts use it, with small programs in place of an estimator.
+#include <csignal>
 #include <filesystem>
 #include <string>
 #include <system_error>
@@ -180,5 +181,34 @@ TEST_CASE("Ctrl+C ends the estimator, and the next run goes on", "[depth]") {
     CHECK(contains(home.depth({"--list"}).output, ": 3 of 12 frames"));
     write_text(home.folder / "go", "");
     CHECK(home.depth({words[2], "--with", with}).exit_code == 0);
+    CHECK(home.starts() == 2);
+}
+
+TEST_CASE("a program that is killed leaves no estimator behind, and the next run goes on",
+          "[depth]") {
+    const Home home;
+    const fs::path pid = home.folder / "pid";
+    const fs::path go = home.folder / "go";
+    home.write_estimator("slow", "[ $n = 000004.png ] && [ ! -e '" + go.string() +
+                                     "' ] && echo $$ > '" + pid.string() + "' && exec sleep 60");
+    const std::string with = (home.folder / "slow").string() + " {frames} {output}";
+    const std::string clip = (home.folder / "clip.mp4").string();
+    {
+        Process slow({DIBHR_PROGRAM, "depth", clip, "--with", with},
+                     {"XDG_CACHE_HOME=" + (home.folder / "cache").string(),
+                      "XDG_CONFIG_HOME=" + home.folder.path().string()},
+                     home.folder / "errors.txt");
+        REQUIRE(eventually([&] { return read_text(pid).ends_with('\n'); }));
+        slow.send(SIGKILL);
+        slow.wait();
+    }
+    const std::string estimator = read_text(pid);
+    const fs::path there = "/proc/" + estimator.substr(0, estimator.find('\n')) + "/stat";
+    CHECK(eventually([&] {
+        const std::string state = read_text(there);
+        return state.empty() || state.find(") Z ") != std::string::npos;
+    }));
+    write_text(go, "");
+    CHECK(home.depth({clip, "--with", with}).exit_code == 0);
     CHECK(home.starts() == 2);
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <string>
 #include <thread>
 #include <vector>
@@ -123,4 +124,34 @@ TEST_CASE("a packed stream is recorded by key with its colour, and seen again wi
     CHECK(kept.depth_columns == 160);
     CHECK(kept.duration_s > 2.0);
     require_same_bits(folder, session);
+}
+
+TEST_CASE("a live session over what moves carries the hand, and replays to the same bits",
+          "[live]") {
+    const TemporaryFolder folder;
+    // A hill, on which a texture goes 3 px to the right from frame to frame; a finger that rests on
+    // it for most of the time.
+    std::ofstream goals(folder / "goals.csv");
+    goals << "t,x,y,z\n";
+    for (int k = 0; k < 2000; ++k)
+        goals << 0.001 * k << ",80,60,"
+              << std::max(10.0, 80.0 * std::cos(0.001 * std::numbers::pi * k)) << '\n';
+    goals.close();
+    const Desk desk;
+    Process viewer = desk.start_viewer(
+        folder,
+        {"lavfi:nullsrc=size=160x120:rate=30,format=gray,geq='128+50*sin(0.31*(X-3*N))*cos(0.23*Y)"
+         "+40*sin(0.13*Y+0.17*(X-3*N))',format=yuv444p[a];nullsrc=size=160x120:rate=30,format=gray,"
+         "geq='100+50*sin(0.02*X)',format=yuv444p[b];[a][b]hstack",
+         "--packing", "left-right", "--depth-range", "255:0", "--carry", "on", "--friction", "0.8",
+         "--record", (folder / "a.dibhr").string(), "--seconds", "5", "--device",
+         "goals:" + (folder / "goals.csv").string()});
+    REQUIRE(viewer.wait() == 0);
+    const Session session(folder / "a.dibhr");
+    int carried = 0;
+    Session::Ticks ticks(session);
+    for (TickRecord tick; ticks.next(tick);)
+        if (tick.contact && tick.frames.source.motion && !tick.motion_unknown) ++carried;
+    CHECK(carried > 500);
+    require_same_bits(folder, folder / "a.dibhr");
 }

@@ -17,6 +17,7 @@
 
 #include "core/error.hpp"
 #include "core/video/live/live_name.hpp"
+#include "core/video/live/motion_budget.hpp"
 #include "core/video/media.hpp"
 #include "core/video/player.hpp"
 #include "tests/core/video/clips.hpp"
@@ -441,4 +442,72 @@ TEST_CASE("packets that are lost or late leave out frames, and never show damage
     }
     CHECK(frames > 20);
     CHECK(worst < 25.0F);
+}
+
+TEST_CASE("how live frames move is known as they come, where it is wanted", "[live]") {
+    // Beside its depth, a texture that goes 3 px to the right from frame to frame.
+    const std::string scene =
+        "lavfi:nullsrc=size=160x120:rate=30,format=gray,geq='128+50*sin(0.31*(X-3*N))*cos(0.23*Y)"
+        "+40*sin(0.13*Y+0.17*(X-3*N))',format=yuv444p[a];color=gray:size=160x120:rate=30,"
+        "format=yuv444p[b];[a][b]hstack";
+    DepthRequest request = as_sent();
+    request.command_line.range = DepthRange{255.0, 0.0};
+    request.command_line.packing = DepthPacking::left_right;
+    Player player;
+    player.set_cleaning({.preset = CleaningPreset::raw});
+    player.play_media(open_media(scene, {}, request), 1);
+    REQUIRE(soon([&] { return player.haptics().front().count > 1; }));
+    CHECK(player.haptics().front().frames[0].motion == nullptr);  // nobody asked for it
+    player.set_motion(true);
+    REQUIRE(soon([&] {
+        const FrameWindow& window = player.haptics().front();
+        return window.count > 1 && window.frames[0].motion != nullptr;
+    }));
+    const Frame moving = player.haptics().front().frames[0];
+    std::vector<float> rights;
+    for (int j = 20; j < 100; j += 4)
+        for (int i = 20; i < 140; i += 4) {
+            rights.push_back(moving.motion->at(i, j).right);
+        }
+    std::sort(rights.begin(), rights.end());
+    CHECK_THAT(static_cast<double>(rights[rights.size() / 2]), WithinAbs(3.0, 0.1));
+    CHECK(moving.between == nullptr);
+    player.set_cleaning({.preset = CleaningPreset::own, .own = {.in_betweens = true}});
+    CHECK(soon([&] {
+        const FrameWindow& window = player.haptics().front();
+        return window.count > 1 && window.frames[0].between != nullptr;
+    }));
+    const auto live = player.status().live;
+    REQUIRE(live);
+    CHECK_FALSE(live->motion_rests);
+}
+
+TEST_CASE("where there is no time for motion in-betweens rest first, then all of it, and longer",
+          "[live]") {
+    constexpr MotionWanted kAll{true, true};
+    MotionBudget budget;
+    const auto frames_until = [&](const MotionWanted& wanted, double busy_s, auto changed) {
+        for (int k = 0; k < 10'000; ++k) {
+            const MotionWanted done = budget.affordable(wanted);
+            if (changed(done)) return k;
+            budget.took(done, busy_s, kInterval_s);
+        }
+        return -1;
+    };
+    const auto less = [&](const MotionWanted& done) { return !(done == kAll); };
+    const auto none = [](const MotionWanted& done) { return !done.any(); };
+    const auto all = [&](const MotionWanted& done) { return done == kAll; };
+    CHECK(frames_until(kAll, 0.5 * kInterval_s, less) == -1);  // there is time
+    const int begin = frames_until(kAll, 2.0 * kInterval_s, less);
+    CHECK(begin > 0);
+    CHECK(begin < 10);
+    CHECK(budget.in_betweens_rest());
+    CHECK_FALSE(budget.motion_rests());  // it may fit alone
+    CHECK(frames_until(kAll, 2.0 * kInterval_s, none) < 10);
+    CHECK(budget.motion_rests());
+    const int first = frames_until(kAll, 0.5 * kInterval_s, all);
+    REQUIRE(first > 30);
+    CHECK(frames_until(kAll, 2.0 * kInterval_s, none) < 20);
+    CHECK(frames_until(kAll, 0.5 * kInterval_s, all) > first);
+    CHECK(frames_until(kAll, 0.5 * kInterval_s, less) == -1);
 }
