@@ -316,8 +316,8 @@ TEST_CASE("it is the definition, over the finely sampled surface", "[fingertip]"
 }
 
 TEST_CASE("it is exact on surfaces of every roughness", "[fingertip]") {
-    const double radius_px = GENERATE(0.3, 1.0, 2.4, 6.0, 10.3);
-    const double deviation = GENERATE(0.05, 0.5, 3.0, 20.0, 100.0);
+    const double radius_px = GENERATE(some_of<double>({2.4, 6.0, 0.3, 1.0, 10.3}, 2));
+    const double deviation = GENERATE(some_of<double>({3.0, 100.0, 0.05, 0.5, 20.0}, 2));
     const double slope = GENERATE(0.0, 1.5);
     CAPTURE(radius_px, deviation, slope);
     CHECK(worst_error(rough(26, 20, 255.0, deviation, slope), {radius_px, kRelief_px}) < kExact_px);
@@ -338,8 +338,8 @@ TEST_CASE("it is exact on steps", "[fingertip]") {
 
 TEST_CASE("it is exact over combs of every pitch and direction", "[fingertip]") {
     const int pitch = GENERATE(some_of<int>({3, 7, 2, 5, 11}, 2));
-    const int direction = GENERATE(0, 1, 2);
-    const double lower = GENERATE(3.0, 60.0);
+    const int direction = GENERATE(some_of<int>({2, 0, 1}, 1));
+    const double lower = GENERATE(some_of<double>({60.0, 3.0}, 1));
     CAPTURE(pitch, direction, lower);
     CHECK(worst_error(comb(pitch, direction, 60.0, lower), {9.7, kRelief_px}) < kExact_px);
 }
@@ -347,14 +347,14 @@ TEST_CASE("it is exact over combs of every pitch and direction", "[fingertip]") 
 TEST_CASE("it is exact among needles and pits of all heights", "[fingertip]") {
     const unsigned one_of = GENERATE(some_of<unsigned>({9, 1, 2, 40}, 1));
     const double relief_px = GENERATE(4.0, kRelief_px, 3000.0);
-    const double radius_px = GENERATE(3.2, 10.0, 14.5);
+    const double radius_px = GENERATE(some_of<double>({10.0, 3.2, 14.5}, 1));
     CAPTURE(one_of, relief_px, radius_px);
     CHECK(worst_error(scattered(one_of, one_of), {radius_px, relief_px}) < kExact_px);
 }
 
 TEST_CASE("it is exact where the surface is rough in one direction alone", "[fingertip]") {
-    const double deviation = GENERATE(0.2, 2.0, 12.0);
-    const int direction = GENERATE(0, 1, 2);
+    const double deviation = GENERATE(some_of<double>({2.0, 0.2, 12.0}, 1));
+    const int direction = GENERATE(some_of<int>({2, 0, 1}, 1));
     CAPTURE(deviation, direction);
     std::mt19937 random(5);
     std::normal_distribution<double> noise(100.0, deviation);
@@ -378,7 +378,8 @@ TEST_CASE("a very wide finger is felt nearly as exactly, and as exactly on a pla
           "[fingertip]") {
     const double radius_px = GENERATE(some_of<double>({65.0, 130.0, 300.0}, 1));
     CAPTURE(radius_px);
-    const DepthImage bumpy = rough(60, 45, 255.0, 3.0, 0.2);
+    const DepthImage bumpy =
+        DIBHR_SANITIZED ? rough(24, 18, 255.0, 3.0, 0.2) : rough(60, 45, 255.0, 3.0, 0.2);
     const DepthImage felt = dilated(bumpy, radius_px);
     CHECK(least_lead(felt, dilated(bumpy, 8.0)) >= -kRounding_px);
     CHECK(worst_error(bumpy, {radius_px, kRelief_px}) < 0.5);

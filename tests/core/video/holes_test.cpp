@@ -115,7 +115,7 @@ bool in_rectangle(int i, int j, int left, int top, int width, int height) {
 
 TEST_CASE("nothing falls into a hole, wherever it is and however it flickers", "[holes]") {
     const double flicker = GENERATE(some_of<double>({0.013, 0.0, 0.007, 0.06}, 1));
-    const Level scene = GENERATE(Level(plane), Level(box), Level(far_and_near_box));
+    const Level scene = GENERATE(some_of<Level>({box, plane, far_and_near_box}, 1));
     const Lost always = GENERATE(
         Lost([](int, int) { return false; }),
         Lost([](int i, int j) { return in_rectangle(i, j, 60, 40, 30, 30); }),   // in the box
@@ -130,7 +130,7 @@ TEST_CASE("nothing falls into a hole, wherever it is and however it flickers", "
 }
 
 TEST_CASE("a finger at rest stays in contact where data flickers", "[holes]") {
-    const double flicker = GENERATE(0.007, 0.013, 0.06);
+    const double flicker = GENERATE(some_of<double>({0.013, 0.007, 0.06}, 1));
     const Level scene = GENERATE(Level(plane), Level(box), Level(far_and_near_box));
     const Lost always = [](int i, int j) { return in_rectangle(i, j, 60, 40, 30, 30); };
     CAPTURE(flicker);

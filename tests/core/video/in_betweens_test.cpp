@@ -23,6 +23,7 @@
 #include "tests/core/haptics/surfaces.hpp"
 #include "tests/core/video/moving_scene.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/some_of.hpp"
 
 using namespace dibhr;
 using test::MovingScene;
@@ -120,9 +121,12 @@ OutlineError outline_error(const DepthBlend& shown, const MovingScene& scene, do
 TEST_CASE("half way outlines and colours are far nearer the truth than faded", "[in-betweens]") {
     // The outline of a sphere that turns does not move.
     const auto [shape, goes] =
-        GENERATE(std::pair{Shape::sphere, Goes::along}, std::pair{Shape::sphere, Goes::apart},
-                 std::pair{Shape::hand, Goes::along}, std::pair{Shape::hand, Goes::round},
-                 std::pair{Shape::hand, Goes::apart});
+        GENERATE(some_of<std::pair<Shape, Goes>>({{Shape::hand, Goes::round},
+                                                  {Shape::sphere, Goes::along},
+                                                  {Shape::sphere, Goes::apart},
+                                                  {Shape::hand, Goes::along},
+                                                  {Shape::hand, Goes::apart}},
+                                                 1));
     const double speed = shape == Shape::hand ? 200.0 : 300.0;
     CAPTURE(static_cast<int>(shape), static_cast<int>(goes));
     const MovingScene scene({shape, goes, speed, 320, 240});

@@ -7,6 +7,7 @@
 #include "core/video/motion/motion_estimator.hpp"
 #include "tests/core/video/moving_scene.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/some_of.hpp"
 
 using namespace dibhr;
 using test::MovingScene;
@@ -69,7 +70,7 @@ MotionField motion_of(const Frame& from, const Frame& to) {
 }  // namespace
 
 TEST_CASE("nothing moves in a still scene, whatever the camera's noise", "[motion]") {
-    const Shape shape = GENERATE(Shape::plane, Shape::sphere, Shape::hand);
+    const Shape shape = GENERATE(some_of<Shape>({Shape::hand, Shape::plane, Shape::sphere}, 1));
     const double noise = GENERATE(0.0, 1.0, 4.0);
     const std::vector<Frame> frames =
         test::film(scene_of(shape, Goes::along, 0.0), 2, 30.0, noise, false);
@@ -78,7 +79,7 @@ TEST_CASE("nothing moves in a still scene, whatever the camera's noise", "[motio
 }
 
 TEST_CASE("nothing moves in a still scene that a video codec has coded", "[motion]") {
-    const Shape shape = GENERATE(Shape::plane, Shape::hand);
+    const Shape shape = GENERATE(some_of<Shape>({Shape::hand, Shape::plane}, 1));
     const std::vector<Frame> frames =
         test::film(scene_of(shape, Goes::along, 0.0), 12, 30.0, 3.0, true);
     MotionEstimator estimator;
@@ -106,8 +107,8 @@ TEST_CASE("a textured plane's pixels are found where they have gone", "[motion]"
 }
 
 TEST_CASE("a thing moves before a wall that stays", "[motion]") {
-    const Shape shape = GENERATE(Shape::sphere, Shape::hand);
-    const Goes goes = GENERATE(Goes::along, Goes::round, Goes::apart);
+    const Shape shape = GENERATE(some_of<Shape>({Shape::hand, Shape::sphere}, 1));
+    const Goes goes = GENERATE(some_of<Goes>({Goes::round, Goes::along, Goes::apart}, 1));
     const double speed = GENERATE(60.0, 200.0);
     CAPTURE(static_cast<int>(shape), static_cast<int>(goes), speed);
     const MovingScene scene = scene_of(shape, goes, speed);

@@ -11,6 +11,7 @@
 #include "core/video/pictures.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/some_of.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/text.hpp"
 
@@ -191,15 +192,16 @@ TEST_CASE("other text, and bytes that are none, are no lists", "[lists]") {
 }
 
 TEST_CASE("a list of a million lines is read", "[lists]") {
+    constexpr int kLines = DIBHR_SANITIZED ? 100'000 : 1'000'000;
     const TemporaryFolder folder;
     write_tum(folder.path());
     std::string text;
-    for (int line = 0; line < 1'000'000; ++line) {
+    for (int line = 0; line < kLines; ++line) {
         text += std::to_string(line) + ".5 ";
-        text += line % 500'000 == 0 ? "depth/1.png\n" : "depth/lost.png\n";
+        text += line % (kLines / 2) == 0 ? "depth/1.png\n" : "depth/lost.png\n";
     }
     write_text(folder / "depth.txt", text);
     const auto media = open_depth(folder.path());
     CHECK(media->description().frames == 2);
-    CHECK(contains(media->description().notice, "999998 missing"));
+    CHECK(contains(media->description().notice, std::to_string(kLines - 2) + " missing"));
 }

@@ -14,6 +14,7 @@
 
 #include "core/video/frame_window.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/some_of.hpp"
 
 using namespace dibhr;
 using Catch::Matchers::WithinAbs;
@@ -116,8 +117,8 @@ int step_in_row(const DepthImage& image, int row) {
 }  // namespace
 
 TEST_CASE("a ramp becomes a step where it was half way up, within a pixel", "[silhouettes]") {
-    const double ramp_px = GENERATE(1.0, 3.0, 7.0, 13.0);
-    const double noise_levels = GENERATE(0.0, 1.0, 2.0);
+    const double ramp_px = GENERATE(some_of<double>({7.0, 1.0, 3.0, 13.0}, 2));
+    const double noise_levels = GENERATE(some_of<double>({1.0, 0.0, 2.0}, 1));
     CAPTURE(ramp_px, noise_levels);
     const double tolerance_levels = 6.0 + 4.0 * noise_levels;
     SECTION("of a straight outline at any angle") {

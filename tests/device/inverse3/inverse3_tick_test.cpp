@@ -17,7 +17,7 @@ using namespace dibhr::test::inverse3;
 using Clock = simulated::Clock;
 using std::chrono::microseconds;
 
-constexpr std::uint64_t kExchanges = DIBHR_SANITIZED ? 10'000 : 100'000;
+constexpr std::uint64_t kExchanges = DIBHR_SANITIZED ? 10'000 : 30'000;
 
 /// DIBHR_INVERSE3_EXCHANGES=1000000 is the long form.
 std::uint64_t exchanges_wanted() {

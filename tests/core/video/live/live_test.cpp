@@ -23,6 +23,7 @@
 #include "tests/core/video/clips.hpp"
 #include "tests/core/video/live/senders.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/some_of.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace dibhr;
@@ -170,7 +171,7 @@ TEST_CASE("streams open by whatever protocol they come, and from a pipe", "[live
         {"-f rtp_mpegts rtp://127.0.0.1:" + port, "rtp://127.0.0.1:" + port},
         {"-f nut 'tcp://127.0.0.1:" + port + "?listen'", "tcp://127.0.0.1:" + port},
         {"-f matroska '" + fifo + "'", "pipe:" + fifo}};
-    const auto& [to, from] = ways[GENERATE(range(std::size_t{0}, std::size_t{5}))];
+    const auto& [to, from] = ways[GENERATE(some_of<std::size_t>({3, 0, 1, 2, 4}, 1))];
     CAPTURE(from);
     const Ffmpeg sender(
         "-re -f lavfi -i testsrc2=s=96x64:r=30,format=gray,boxblur=4 -c:v libx264 -preset "
@@ -202,7 +203,7 @@ TEST_CASE("a live stream is described by its first pictures, and has neither len
 }
 
 TEST_CASE("a step in the depth is felt two frames and 10 ms after it is sent, at most", "[live]") {
-    const int uneven_ms = GENERATE(0, 12);
+    const int uneven_ms = GENERATE(some_of<int>({12, 0}, 1));
     CAPTURE(uneven_ms);
     const int port = free_port();
     std::mutex mutex;
@@ -377,7 +378,7 @@ TEST_CASE("what is live is held by a pause, and goes on with what comes then", "
 }
 
 TEST_CASE("two streams are joined by their times, whatever their clocks say", "[live]") {
-    const bool own_clock = GENERATE(false, true);
+    const bool own_clock = GENERATE(some_of<int>({1, 0}, 1)) == 1;
     CAPTURE(own_clock);
     const int colour = free_port();
     const int depth = free_port();
