@@ -1,0 +1,62 @@
+// What participants' values say about all people: intervals and paired tests, one value a
+// participant and condition.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/psychophysics/proportions.hpp"
+
+namespace dibhr {
+
+/// A value with its 95 % interval; NaN for no values.
+struct Estimate {
+    double value{0.0};
+    Interval interval{};
+    double confidence{kConfidence};  ///< which the interval has: more for an order-statistic one
+    int count{0};
+};
+
+/// By Student's t; no bound for a single value.
+[[nodiscard]] Estimate mean_of(std::span<const double> values);
+
+/// Between two of the values themselves, so that it covers at least as often as it says; no bound
+/// for fewer than 6 values.
+[[nodiscard]] Estimate median_of(std::span<const double> values);
+
+/// A test's outcome.
+struct TestResult {
+    std::string test{};  ///< its name, with how it was computed
+    int count{0};        ///< of participants that it rests on
+    double statistic{0.0};
+    double p{1.0};
+    double effect{0.0};  ///< rank-biserial correlation in [-1, 1]; Cohen's d_z for t; Kendall's W
+                         ///< for Friedman
+};
+
+/// Of paired differences against 0, by signs and ranks (Wilcoxon 1945). Differences of 0 are left
+/// out; equal ones share their mean rank; the distribution is exact for just these ranks up to 40
+/// differences, normal with its continuity correction beyond. Exact tests may find an effect where
+/// there is none less often than in 5 %.
+[[nodiscard]] TestResult signed_rank_test(std::span<const double> differences);
+
+/// By signs alone, exact.
+[[nodiscard]] TestResult sign_test(std::span<const double> differences);
+
+/// By their mean: for values that are means themselves.
+[[nodiscard]] TestResult paired_t_test(std::span<const double> differences);
+
+/// One row a participant, one value a condition, three conditions or more (Friedman 1937, with
+/// ties). Its p is of 9,999 random orders within the rows, always the same ones.
+[[nodiscard]] TestResult friedman_test(const std::vector<std::vector<double>>& rows);
+
+/// For tests made together: each p such that in 5 % of such families one is below 0.05 by chance
+/// (Holm 1979). In the order given.
+[[nodiscard]] std::vector<double> holm_adjusted(const std::vector<double>& p);
+
+/// Fewer participants cannot reach p < 0.05 in a two-sided signed-rank test.
+inline constexpr int kFewestForRanks = 6;
+
+}  // namespace dibhr
