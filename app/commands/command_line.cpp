@@ -13,7 +13,7 @@
 #include <string_view>
 
 #include "app/commands/documentation.hpp"
-#include "app/commands/spelling.hpp"
+#include "core/files/spelling.hpp"
 #include "app/settings/command_options.hpp"
 #include "app/settings/settings.hpp"
 #include "core/files/plain_text.hpp"
@@ -45,6 +45,8 @@ constexpr std::array kCommands{
     Command{"export", "SESSION --csv FILE", "Every tick of a session, one row", run_export},
     Command{"report", "SESSION --out DIR", "Pictures: where people touched, force over time",
             run_report},
+    Command{"study", "check|run|sessions PROTOCOL|FILE",
+            "Do people feel a difference? Conditions, trials, answers", run_study},
     Command{"info", "FILE...", "What a media or session file holds", run_info},
     Command{"devices", "[--firmware FILE] [--check [--out FILE]] [--simulate inverse3]",
             "What is attached, its state and the next step", run_devices},

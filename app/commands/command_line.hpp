@@ -51,6 +51,8 @@ int run_experiment(CLI::App& app, const Arguments& arguments);
 int run_export(CLI::App& app, const Arguments& arguments);
 /// Prints where the page of the report is.
 int run_report(CLI::App& app, const Arguments& arguments);
+/// Checks a protocol, runs it with one participant, or takes sessions out of a study file.
+int run_study(CLI::App& app, const Arguments& arguments);
 /// Describes each file; says on stderr which could not be read. 1 when there are any.
 int run_info(CLI::App& app, const Arguments& arguments);
 /// 0: a device can be used, or none is attached and the mouse can be. Throws DeviceError when

@@ -45,4 +45,8 @@ fs::path shipped_materials_folder() {
     return assets_folder() / "materials";
 }
 
+fs::path shipped_studies_folder() {
+    return assets_folder() / "studies";
+}
+
 }  // namespace dibhr

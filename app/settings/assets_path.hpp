@@ -16,4 +16,7 @@ struct SampleFiles {
 /// The materials that come with the program. Throws InputError when its files are missing.
 [[nodiscard]] std::filesystem::path shipped_materials_folder();
 
+/// The studies that come with the program. Throws InputError when its files are missing.
+[[nodiscard]] std::filesystem::path shipped_studies_folder();
+
 }  // namespace dibhr

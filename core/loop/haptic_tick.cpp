@@ -17,6 +17,8 @@ double seconds(std::chrono::steady_clock::duration span) {
     return std::chrono::duration<double>(span).count();
 }
 
+}  // namespace
+
 FramePair frames_of(const DepthBlend& pair) {
     const Frame& from = *pair.from;
     const Frame& to = *pair.to;
@@ -40,8 +42,6 @@ FramePair frames_of(const DepthBlend& pair) {
             to.media_s,
             to.time_s - from.time_s};
 }
-
-}  // namespace
 
 HapticTick::HapticTick(const HapticConnections& connections) : to_(connections) {
     state_.hand = to_.device.unread();

@@ -79,6 +79,9 @@ struct HapticConnections {
     WalkedTickRing* walked{nullptr};  ///< for OtherProxies; null: nobody follows
 };
 
+/// The two frames as a session names them.
+[[nodiscard]] FramePair frames_of(const DepthBlend& pair);
+
 /// One tick of the loop, without a thread: nothing in it allocates, locks, waits or throws.
 /// Whatever the settings ask for, the device gets no more than it can stand.
 class HapticTick {

@@ -56,6 +56,15 @@ std::string file_size_limit_met(sqlite3* database) {
     return {};
 }
 
+SqliteStatement prepared(sqlite3* connection, const Database& database, std::string_view sql) {
+    sqlite3_stmt* handle = nullptr;
+    const int result =
+        sqlite3_prepare_v2(connection, sql.data(), static_cast<int>(sql.size()), &handle, nullptr);
+    SqliteStatement statement(handle);
+    if (result != SQLITE_OK) throw DatabaseError(database.last_error());
+    return statement;
+}
+
 }  // namespace
 
 void SqliteCloser::operator()(sqlite3* database) const noexcept {
@@ -109,13 +118,35 @@ std::string Database::last_error() const {
     return words;
 }
 
-Statement::Statement(Database& database, std::string_view sql) : database_(database) {
-    sqlite3_stmt* handle = nullptr;
-    const int result = sqlite3_prepare_v2(database.handle_.get(), sql.data(),
-                                          static_cast<int>(sql.size()), &handle, nullptr);
-    handle_.reset(handle);
-    if (result != SQLITE_OK) throw DatabaseError(database.last_error());
+Rows::Rows(Database& database, std::string_view sql)
+    : database_(database), handle_(prepared(database.handle_.get(), database, sql)) {}
+
+bool Rows::next() {
+    const int result = sqlite3_step(handle_.get());
+    if (result != SQLITE_ROW && result != SQLITE_DONE) throw DatabaseError(database_.last_error());
+    return result == SQLITE_ROW;
 }
+
+bool Rows::has(int column) const noexcept {
+    return sqlite3_column_type(handle_.get(), column) != SQLITE_NULL;
+}
+
+double Rows::real(int column) const noexcept {
+    return sqlite3_column_double(handle_.get(), column);
+}
+
+std::int64_t Rows::integer(int column) const noexcept {
+    return sqlite3_column_int64(handle_.get(), column);
+}
+
+std::string Rows::text(int column) const {
+    const void* const bytes = sqlite3_column_blob(handle_.get(), column);
+    const auto count = static_cast<std::size_t>(sqlite3_column_bytes(handle_.get(), column));
+    return bytes == nullptr ? std::string() : std::string(static_cast<const char*>(bytes), count);
+}
+
+Statement::Statement(Database& database, std::string_view sql)
+    : database_(database), handle_(prepared(database.handle_.get(), database, sql)) {}
 
 void Statement::cell(std::string_view text) noexcept {
     sqlite3_bind_text(handle_.get(), ++cells_, text.data(), static_cast<int>(text.size()),

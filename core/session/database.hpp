@@ -58,7 +58,28 @@ class Database {
 
   private:
     friend class Statement;
+    friend class Rows;
     SqliteDatabase handle_{};
+};
+
+/// The rows of a question, one after the other; must not outlive its database. Columns count from
+/// 0.
+class Rows {
+  public:
+    /// Throws DatabaseError, as next() does.
+    Rows(Database& database, std::string_view sql);
+
+    /// False after the last row.
+    [[nodiscard]] bool next();
+    [[nodiscard]] bool has(int column) const noexcept;  ///< a value, not NULL
+    [[nodiscard]] double real(int column) const noexcept;
+    [[nodiscard]] std::int64_t integer(int column) const noexcept;
+    /// The bytes of a text or of what is none.
+    [[nodiscard]] std::string text(int column) const;
+
+  private:
+    Database& database_;
+    SqliteStatement handle_{};
 };
 
 /// A prepared statement that writes; must not outlive its database. Takes the cells of a row one

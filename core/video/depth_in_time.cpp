@@ -36,8 +36,7 @@ DepthInTime::DepthInTime(std::unique_ptr<Media> media, Wanted wanted,
     }
     first_media_s_ = first->media_s;
     add(std::move(first));
-    if (wanted != Wanted::first && !reader_.description().still)
-        add(reader_.after(first_media_s_));
+    if (wanted != Wanted::first && !reader_.description().still) add(reader_.after(first_media_s_));
 }
 
 bool DepthInTime::advance_to(double playback_s) {
@@ -96,9 +95,13 @@ DepthClip::DepthClip(std::vector<Frame> frames, const SurfaceShape& shape,
 }
 
 DepthSurface DepthClip::at(double t_s) const noexcept {
+    return blend_at(t_s).surface(shape_, bump_.get());
+}
+
+DepthBlend DepthClip::blend_at(double t_s) const noexcept {
     const double begin_s = frames_.front().time_s;
     const double lap_s = frames_.size() > 1 ? std::fmod(std::max(t_s, 0.0), duration_s()) : 0.0;
-    return depth_at(frames_, begin_s + lap_s).surface(shape_, bump_.get());
+    return depth_at(frames_, begin_s + lap_s);
 }
 
 double DepthClip::time_of(std::int64_t frame, double blend) const noexcept {

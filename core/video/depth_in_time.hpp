@@ -59,6 +59,8 @@ class DepthClip {
 
     /// The surface `t_s` >= 0 after the first frame.
     [[nodiscard]] DepthSurface at(double t_s) const noexcept;
+    /// The frames that it is of. Valid as long as the clip.
+    [[nodiscard]] DepthBlend blend_at(double t_s) const noexcept;
 
     /// The time of frame number `frame` (from 0, held at the last), `blend` in [0, 1] of the way to
     /// the next [s].

@@ -18,16 +18,6 @@ constexpr DeviceDynamics kDynamics{
     .mass_kg = 0.1, .friction_newton_s_per_m = 0.5, .resolution_mm = 0.06, .delay_s = 0.002};
 constexpr double kMetre_mm = 1000.0;
 
-DeviceSpecification specification_of(const ConnectionOptions& options) {
-    DeviceSpecification specification;
-    specification.name =
-        options.serial.empty() ? "Novint Falcon" : "Novint Falcon (" + options.serial + ")";
-    specification.limits.max_force_newton = kMaxForce_newton;
-    specification.limits.max_stiffness_newton_per_mm = kMaxStiffness_newton_per_mm;
-    specification.limits.dynamics = kDynamics;
-    return specification;
-}
-
 Vec3 centre_of(const WorkspaceOptions& workspace) noexcept {
     return {0.0, 0.0, workspace.centre_z_mm / kMetre_mm};
 }
@@ -39,6 +29,16 @@ bool feel_alike(const Tuning& a, const Tuning& b) noexcept {
 }
 
 }  // namespace
+
+DeviceSpecification specification_of(const ConnectionOptions& options) {
+    DeviceSpecification specification;
+    specification.name =
+        options.serial.empty() ? "Novint Falcon" : "Novint Falcon (" + options.serial + ")";
+    specification.limits.max_force_newton = kMaxForce_newton;
+    specification.limits.max_stiffness_newton_per_mm = kMaxStiffness_newton_per_mm;
+    specification.limits.dynamics = kDynamics;
+    return specification;
+}
 
 FalconDevice::FalconDevice(ConnectionOptions options, FirmwareImage firmware)
     : specification_(specification_of(options)),

@@ -16,6 +16,9 @@
 
 namespace dibhr::falcon {
 
+/// What a Falcon can do, whether or not one is attached.
+[[nodiscard]] DeviceSpecification specification_of(const ConnectionOptions& options = {});
+
 /// Looks for the Falcon from construction on, and again whenever it is lost: opens it, asks whether
 /// firmware is there, loads it, waits for homing, and then exchanges one command and one reply a
 /// tick. Everything but read() and send() happens on the USB thread. Its end is five packets

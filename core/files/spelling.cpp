@@ -1,5 +1,5 @@
 // What somebody may have meant who mistyped a name.
-#include "app/commands/spelling.hpp"
+#include "core/files/spelling.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,0 +1,290 @@
+// `dibhr study`: a protocol checked, run with one participant, and its sessions taken out.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "app/commands/command_line.hpp"
+#include "app/commands/study_pilot.hpp"
+#include "app/commands/study_readiness.hpp"
+#include "app/settings/assets_path.hpp"
+#include "app/settings/command_options.hpp"
+#include "app/settings/material.hpp"
+#include "app/settings/settings.hpp"
+#include "core/error.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/files/spelling.hpp"
+#include "core/study/protocol.hpp"
+#include "core/study/study_file.hpp"
+#include "core/study/study_run.hpp"
+#include "core/video/cleaning/cleaning_options.hpp"
+#include "core/video/media.hpp"
+
+namespace dibhr {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StudyOptions {
+    std::string action{};
+    fs::path file{};  ///< a protocol or its name; of sessions a study file
+    std::string participant{};
+    std::optional<int> number{};
+    fs::path out{"."};
+    std::string pilot{};
+};
+
+StudyNames study_names() {
+    StudyNames names;
+    const MaterialNames materials = material_names();
+    names.materials = materials.shipped;
+    names.materials->insert(names.materials->end(), materials.own.begin(), materials.own.end());
+    names.materials->emplace_back(kAsRecorded);
+    names.thickest_finger_mm = kThickestFinger_mm;
+    return names;
+}
+
+std::vector<std::string> shipped_studies() {
+    std::vector<std::string> names;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(shipped_studies_folder(), none))
+        if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+/// A file, or a study that comes with the program by its name.
+fs::path protocol_called(const fs::path& name) {
+    std::error_code failed;
+    if (fs::exists(name, failed)) return name;
+    const std::vector<std::string> shipped = shipped_studies();
+    if (std::find(shipped.begin(), shipped.end(), name.string()) != shipped.end())
+        return shipped_studies_folder() / (name.string() + ".toml");
+    std::string list;
+    for (const std::string& one : shipped) list += (list.empty() ? "" : ", ") + one;
+    throw InputError(shown(name) + " is no file, and no study that comes with the program (" +
+                     list + ")" + did_you_mean(name.string(), shipped));
+}
+
+/// Files and materials that a condition names and that cannot be opened are told before anybody
+/// sits down.
+void require_media(const Protocol& protocol) {
+    for (const StudyMedia& media : protocol.media) {
+        const SampleFiles files =
+            media.name == kSampleMedia ? sample_files() : SampleFiles{media.colour, media.depth};
+        static_cast<void>(open_media(files.colour, files.depth, usual_depth_request()));
+    }
+    for (const Condition& condition : protocol.conditions) {
+        const auto bump = condition.values.words.find("bump");
+        if (bump != condition.values.words.end()) static_cast<void>(read_bump_map(bump->second));
+        const auto material = condition.values.words.find("material");
+        if (material != condition.values.words.end())
+            static_cast<void>(material_called(material->second));
+    }
+    const auto require_picture = [](const StudyPage& page) {
+        if (!page.picture.empty()) require_readable(page.picture);
+    };
+    require_picture(protocol.instructions);
+    require_picture(protocol.thanks);
+    for (const Block& block : protocol.blocks) require_picture(block.instructions);
+}
+
+/// Where no time is set, what people took in studies of this kind, by rule of thumb [s].
+double minutes_of(const Block& block) {
+    constexpr double kInterval_s = 6.0;
+    constexpr double kAnswer_s = 3.0;
+    const double interval_s = block.interval_s > 0.0 ? block.interval_s : kInterval_s;
+    return block.most_trials() * (block.intervals() * interval_s + kAnswer_s) / 60.0;
+}
+
+std::string values_text(const TouchValues& values) {
+    std::string text;
+    const auto add = [&text](const std::string& name, const std::string& value) {
+        text += (text.empty() ? "" : ", ") + name + " " + value;
+    };
+    for (const auto& [name, word] : values.words) add(name, word);
+    for (const auto& [name, number] : values.numbers) add(name, number_text(number));
+    return text.empty() ? "as the program has it" : text;
+}
+
+std::string levels_text(const Variation& vary) {
+    if (!vary.any()) return {};
+    std::string text = "; varies " + vary.parameter + " around " + number_text(vary.reference);
+    if (!vary.levels.empty()) text += ", " + std::to_string(vary.levels.size()) + " levels";
+    if (vary.staircase)
+        text += ", staircase 1-up/" + std::to_string(vary.staircase->down_after) +
+                "-down that ends near " +
+                short_text(100.0 * convergence_share(*vary.staircase), 3) + " % right";
+    return text;
+}
+
+void print_summary(const Protocol& protocol) {
+    const auto counted = [](std::size_t count, const char* what) {
+        return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
+    };
+    std::cout << protocol.title << '\n' << counted(protocol.conditions.size(), "condition") << '\n';
+    for (const Condition& condition : protocol.conditions)
+        std::cout << "  " << condition.name << ": " << values_text(condition.values) << '\n';
+    std::cout << counted(protocol.blocks.size(), "block") << '\n';
+    double minutes = 0.0;
+    bool adapts = false;
+    for (const Block& block : protocol.blocks) {
+        minutes += minutes_of(block);
+        adapts = adapts || block.variation.staircase;
+        std::cout << "  " << block.name << ": " << name_of(block.form) << ", "
+                  << (block.variation.staircase ? "at most " : "") << block.most_trials()
+                  << " trials, order " << name_of(block.order)
+                  << (block.practice ? ", practice" : "") << levels_text(block.variation) << '\n';
+    }
+    std::cout << (adapts ? "at most " : "") << protocol.most_trials() << " trials, about "
+              << std::ceil(minutes) << " minutes a participant\n";
+}
+
+/// Over so many participants (or a multiple) a Latin square is whole.
+void print_balance(const Protocol& protocol) {
+    std::set<int> rows;
+    for (const Block& block : protocol.blocks) {
+        if (block.order != TrialOrder::latin) continue;
+        const std::size_t levels = std::max<std::size_t>(1, block.variation.levels.size());
+        rows.insert(williams_rows(static_cast<int>(block.items.size() * levels)));
+    }
+    for (const int count : rows) std::cout << "balanced over every " << count << " participants\n";
+}
+
+int check(const StudyOptions& options) {
+    const fs::path file = protocol_called(options.file);
+    const Protocol protocol = read_protocol(file, study_names());
+    print_summary(protocol);
+    print_balance(protocol);
+    require_media(protocol);
+    std::cout << "media, materials and pictures are there\n";
+    print_readiness(protocol);
+    return 0;
+}
+
+int number_of(const StudyOptions& options) {
+    if (options.number) return *options.number;
+    if (const auto number = number_in(options.participant)) return *number;
+    throw UsageError("the label " + in_quotes(options.participant) +
+                     " does not end in a number: give --number, by which the order is chosen");
+}
+
+StudyIdentity identity_of(const StudyOptions& options, const Protocol& protocol,
+                          const fs::path& file) {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    return {.participant = options.participant,
+            .number = number_of(options),
+            .program = "dibhr " DIBHR_VERSION,
+            .protocol_name = file.filename().string(),
+            .protocol_text = protocol.text,
+            .protocol_sha256 = protocol.sha256,
+            .seed = protocol.seed,
+            .created_s = std::chrono::duration<double>(now).count(),
+            .pilot = options.pilot};
+}
+
+int run(const StudyOptions& options) {
+    if (options.participant.empty())
+        throw UsageError("run needs --participant LABEL (see dibhr study --help)");
+    require_label(options.participant);
+    const fs::path page = protocol_called(options.file);
+    const Protocol protocol = read_protocol(page, study_names());
+    if (options.pilot.empty())
+        throw UsageError(
+            "a person is led through a study in the viewer's window, which this version "
+            "does not have yet: give --pilot (see dibhr study --help)");
+    std::error_code ignored;
+    fs::create_directories(options.out, ignored);
+    StudyFile file(study_file_of(options.out, options.participant),
+                   identity_of(options, protocol, page));
+    StudyRun steps(protocol, file.identity().number, file.answered());
+    const bool finished = steps.step() == StudyStep::thanks;
+    if (finished) {
+        file.finish();
+        std::cout << file.file().string() << ": is finished\n";
+        return 0;
+    }
+    if (!file.answered().empty())
+        std::cout << "goes on at trial " << file.answered().size() + 1 << '\n';
+    run_pilot(steps, file, options.pilot);
+    std::cout << file.file().string() << ": " << steps.answered().size() << " trials\n";
+    return 0;
+}
+
+int take_sessions(const StudyOptions& options) {
+    const StudyRecord study = read_study(options.file);
+    std::error_code ignored;
+    fs::create_directories(options.out, ignored);
+    int written = 0;
+    for (std::size_t k = 0; k < study.answered.size(); ++k) {
+        const int trial = study.answered[k].trial.number;
+        if (study.session_bytes[k] == 0) continue;
+        if (write_study_session(options.file, trial, options.out / session_name(study, trial)))
+            ++written;
+    }
+    if (written == 0)
+        throw InputError(shown(options.file) +
+                         " holds no session: a pilot that only answers records none");
+    std::cout << written << " sessions in " << options.out.string() << '\n';
+    return 0;
+}
+
+void add_options(CLI::App& app, StudyOptions& options) {
+    app.add_option("ACTION", options.action,
+                   "check a protocol, run it with one participant, or take the sessions out of a "
+                   "study file")
+        ->required()
+        ->type_name("");
+    add_file(app, "FILE", options.file,
+             "The protocol, a file or a study that comes along; of sessions the study file", "")
+        ->required();
+    app.add_option("--participant", options.participant,
+                   "Label of who takes part: letters, digits, - and _; never a name")
+        ->type_name("LABEL");
+    app.add_option_function<int>(
+           "--number", [&options](int number) { options.number = number; },
+           "Chooses the order; without it the number at the label's end")
+        ->check(CLI::Range(1, 1000000))
+        ->type_name("N");
+    add_file(app, "--out", options.out, "Folder of study files, or of the sessions taken out",
+             "DIR")
+        ->default_str(".");
+    app.add_option("--pilot", options.pilot,
+                   "Nobody: guess, hand, or threshold=..,slope=..,lapse=..,prefer=CONDITION")
+        ->type_name("HOW");
+    app.footer(
+        "A study file is made for each participant, LABEL.dibhr-study; the same label goes on "
+        "where "
+        "it stopped.\n\n"
+        "Examples:\n"
+        "  dibhr study check paper-question\n"
+        "  dibhr study run paper-question --participant P07 --out answers --pilot guess\n"
+        "  dibhr study run mine.toml --participant P08 --pilot threshold=0.1,slope=20,lapse=0.02\n"
+        "  dibhr study sessions answers/P07.dibhr-study --out sessions");
+}
+
+}  // namespace
+
+int run_study(CLI::App& app, const Arguments& arguments) {
+    StudyOptions options;
+    add_options(app, options);
+    if (!parse(app, arguments)) return 0;
+    if (options.action == "check") return check(options);
+    if (options.action == "run") return run(options);
+    if (options.action == "sessions") return take_sessions(options);
+    const std::vector<std::string> actions{"check", "run", "sessions"};
+    throw UsageError("study does not know " + in_quotes(options.action) +
+                     " but check, run and sessions" + did_you_mean(options.action, actions) +
+                     " (see dibhr study --help)");
+}
+
+}  // namespace dibhr

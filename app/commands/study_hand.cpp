@@ -1,0 +1,161 @@
+// Explores and records.
+#include "app/commands/study_hand.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <thread>
+#include <utility>
+
+#include "app/settings/assets_path.hpp"
+#include "app/settings/study_values.hpp"
+#include "core/error.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/haptics/touch.hpp"
+#include "core/loop/haptic_tick.hpp"
+#include "core/session/recorder.hpp"
+#include "core/study/protocol.hpp"
+#include "core/video/cleaning/surface_version.hpp"
+#include "core/video/libraries.hpp"
+#include "core/video/media.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr std::uint32_t kMedia = 1;
+
+void require_sample(const StudyInterval& interval) {
+    const auto media = interval.values.words.find("media");
+    if (media != interval.values.words.end() && media->second != kSampleMedia)
+        throw InputError("the modelled hand explores the built-in sample, not the media " +
+                         in_quotes(media->second) + ": take another pilot");
+}
+
+TouchParameters parameters_of(const TouchRequest& request) {
+    TouchParameters parameters;
+    request.given.apply(parameters);
+    return parameters;
+}
+
+/// Ticks of a loop without a clock: one a millisecond.
+class HandTicking {
+  public:
+    HandTicking(TickRing& ring, const std::filesystem::path& session, const SessionFacts& facts)
+        : ring_(ring), recorder_(session, ring, facts) {
+        const SampleFiles files = sample_files();
+        recorder_.media(kMedia, files.colour, files.depth);
+    }
+
+    void explore(const DepthClip& clip, const PathRun& path, int updates,
+                 const TouchRequest& request, const TouchParameters& parameters) {
+        const std::uint64_t version = ++version_;
+        recorder_.parameters({.version = version,
+                              .touch = parameters,
+                              .limits = {},
+                              .bump = {request.given.bump_file()}});
+        if (version > 1) renderer_.let_go();
+        const std::shared_ptr<const BumpMap> bump = bumps_of(request, clip, parameters);
+        const auto count = std::min(path.goals.size(), static_cast<std::size_t>(updates));
+        for (std::size_t k = 0; k < count; ++k) {
+            const DepthBlend pair =
+                clip.blend_at(path.times_s.empty() ? seconds_of(k) : path.times_s[k]);
+            SafetyInput input{.dt_s = kUpdate_s, .from_zero = k == 0};
+            const Touch& touch = renderer_.update(pair.surface(parameters.shape, bump.get()),
+                                                  path.goals[k], parameters, input, SafetyLimits{});
+            push(touch, pair, version, k == 0);
+        }
+    }
+
+    void mark(const std::string& tag) { recorder_.mark(tag); }
+
+    void finish() {
+        const RecorderStatus status = recorder_.finish();
+        if (!status.failure.empty()) throw InputError(status.failure);
+    }
+
+  private:
+    static std::shared_ptr<const BumpMap> bumps_of(const TouchRequest& request,
+                                                   const DepthClip& clip,
+                                                   const TouchParameters& parameters) {
+        std::shared_ptr<const BumpMap> bump = request.given.read_bumps();
+        stretch(bump, clip.columns(), clip.rows(), parameters.shape.bump_size_px);
+        return bump;
+    }
+
+    void push(const Touch& touch, const DepthBlend& pair, std::uint64_t version, bool begins) {
+        ++tick_;
+        FramePair frames = frames_of(pair);
+        frames.source.media = kMedia;
+        const TickRecord row{.tick = tick_,
+                             .t_s = kUpdate_s * static_cast<double>(tick_),
+                             .dt_s = kUpdate_s,
+                             .settings = version,
+                             .frames = frames,
+                             .blend = pair.blend,
+                             .goal = touch.goal,
+                             .proxy = touch.proxy.position,
+                             .spring_newton = touch.spring_force_newton,
+                             .sent_newton = touch.sent_force_newton,
+                             .moves = touch.proxy.moves,
+                             .i = touch.proxy.active.i,
+                             .j = touch.proxy.active.j,
+                             .contact = touch.proxy.contact,
+                             .primitive = static_cast<std::uint8_t>(touch.proxy.active.kind),
+                             .cut = static_cast<std::uint8_t>(touch.cut),
+                             .from_zero = begins,
+                             .lets_go = begins && version > 1,
+                             .catching_up = touch.proxy.bound_met};
+        while (!ring_.push(row)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+
+    TickRing& ring_;
+    Recorder recorder_;
+    TouchRenderer renderer_{};
+    std::uint64_t version_{0};
+    std::int64_t tick_{0};
+};
+
+}  // namespace
+
+const StudyHand::Ground& StudyHand::ground_of(const StudyInterval& interval) {
+    const TouchRequest request = request_of(interval.values);
+    const TouchParameters parameters = parameters_of(request);
+    const CleaningPreset cleaning = request.preset.value_or(CleaningPreset::gentle);
+    const bool as_experiment =
+        cleaning == CleaningPreset::gentle || cleaning == CleaningPreset::raw;
+    if (!as_experiment || request.finger_mm.value_or(0.0) > 0.0)
+        throw InputError(
+            "the modelled hand knows cleaning gentle or raw, and a point instead of a "
+            "finger: take another pilot");
+    const std::string key =
+        std::string(name_of(cleaning)) + ' ' + number_text(parameters.shape.relief_px);
+    const auto known = grounds_.find(key);
+    if (known != grounds_.end()) return known->second;
+    HumanOptions options{.raw_depth = request.raw_depth};
+    options.shape.relief_px = parameters.shape.relief_px;
+    SampleClip sample = read_sample(options, {});
+    PathRun path = human_goals({}, sample, parameters.friction.dynamic_coefficient);
+    return grounds_.emplace(key, Ground{std::move(sample), std::move(path)}).first->second;
+}
+
+void StudyHand::explore(const Trial& trial, const std::filesystem::path& session) {
+    const auto ring = std::make_unique<TickRing>();
+    SessionFacts facts{{"program", "dibhr " DIBHR_VERSION},
+                       {"device", "modelled hand"},
+                       {"surface-version", std::to_string(kSurfaceVersion)}};
+    facts.merge(library_versions());
+    HandTicking ticking(*ring, session, facts);
+    int number = 0;
+    for (const StudyInterval& interval : trial.intervals) {
+        require_sample(interval);
+        const Ground& ground = ground_of(interval);
+        const TouchRequest request = request_of(interval.values);
+        ticking.mark("interval " + std::to_string(++number));
+        ticking.explore(ground.sample.depth, ground.path, updates_, request,
+                        parameters_of(request));
+    }
+    ticking.finish();
+}
+
+}  // namespace dibhr

@@ -1,0 +1,70 @@
+// What follows from a protocol.
+#include "core/study/protocol.hpp"
+
+#include <algorithm>
+
+#include "core/haptics/parameters.hpp"
+
+namespace dibhr {
+
+static_assert(has_all_in_order(kTrialForms, TrialForm::rating));
+static_assert(has_all_in_order(kTrialOrders, TrialOrder::listed));
+static_assert(has_all_in_order(kStudyViews, StudyView::blank));
+
+const char* name_of(TrialForm form) noexcept {
+    return entry_of(kTrialForms, form).name;
+}
+
+const char* name_of(TrialOrder order) noexcept {
+    return entry_of(kTrialOrders, order).name;
+}
+
+const char* name_of(StudyView view) noexcept {
+    return entry_of(kStudyViews, view).name;
+}
+
+TouchValues laid_over(const TouchValues& under, const TouchValues& over) {
+    TouchValues all = under;
+    if (over.numbers.contains("friction")) {
+        all.numbers.erase("static-friction");
+        all.numbers.erase("dynamic-friction");
+    }
+    for (const auto& [name, number] : over.numbers) all.numbers[name] = number;
+    for (const auto& [name, word] : over.words) all.words[name] = word;
+    return all;
+}
+
+int Block::intervals() const noexcept {
+    switch (form) {
+        case TrialForm::explore:
+        case TrialForm::rating:
+            return 1;
+        case TrialForm::two_interval:
+        case TrialForm::adjust:
+            return 2;
+        case TrialForm::three_interval:
+            return 3;
+    }
+    return 1;
+}
+
+int Block::most_trials() const noexcept {
+    const int count = static_cast<int>(items.size());
+    if (variation.staircase) return count * variation.tracks * variation.staircase->most_trials;
+    const int levels = std::max(1, static_cast<int>(variation.levels.size()));
+    return count * levels * repetitions;
+}
+
+int Protocol::most_trials() const noexcept {
+    int count = 0;
+    for (const Block& block : blocks) count += block.most_trials();
+    return count;
+}
+
+const Condition* Protocol::condition_named(const std::string& name) const noexcept {
+    for (const Condition& condition : conditions)
+        if (condition.name == name) return &condition;
+    return nullptr;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,182 @@
+// A study as a person writes it on a page: media, conditions, blocks of trials, and what is asked
+// in them. Plain data, and its reading from study.toml (README.md describes the keys).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/haptics/words.hpp"
+#include "core/psychophysics/staircase.hpp"
+
+namespace dibhr {
+
+/// What a surface is felt with: values by the names of the command line, later ones laid over
+/// earlier ones.
+struct TouchValues {
+    /// "friction" (both coefficients), "finger" (mm) and the names of touch_numbers().
+    std::map<std::string, double> numbers{};
+    /// "algorithm", "material", "cleaning", "bump" (a file, absolute), "media" (a name of
+    /// Protocol::media or "sample"), "carry" and "stability" ("on", "off").
+    std::map<std::string, std::string> words{};
+
+    bool operator==(const TouchValues&) const = default;
+};
+
+/// `over` laid over `under`. One coefficient of friction by itself beats "friction" of the same
+/// table; "friction" laid over takes both away that were below.
+[[nodiscard]] TouchValues laid_over(const TouchValues& under, const TouchValues& over);
+
+/// Text, a picture, or both; empty: nothing is shown.
+struct StudyPage {
+    std::string text{};
+    std::filesystem::path picture{};  ///< absolute
+
+    [[nodiscard]] bool empty() const noexcept { return text.empty() && picture.empty(); }
+    bool operator==(const StudyPage&) const = default;
+};
+
+/// Files of a name; the built-in sample has none and the name "sample".
+struct StudyMedia {
+    std::string name{};
+    std::filesystem::path colour{};  ///< absolute, as `depth`
+    std::filesystem::path depth{};   ///< empty: found beside the colour
+
+    bool operator==(const StudyMedia&) const = default;
+};
+
+/// The media that is always there, and is taken where none is named.
+inline constexpr const char* kSampleMedia = "sample";
+
+/// What is compared: base values with those of the condition laid over.
+struct Condition {
+    std::string name{};  ///< of crossed factors "dibhr+smooth"
+    TouchValues values{};
+    std::map<std::string, std::string> levels{};  ///< its level in each factor, if it is of such
+
+    bool operator==(const Condition&) const = default;
+};
+
+enum class TrialForm : std::uint8_t { explore, two_interval, three_interval, adjust, rating };
+inline constexpr std::array<Word<TrialForm>, 5> kTrialForms{
+    {{TrialForm::explore, "explore", "Free exploration"},
+     {TrialForm::two_interval, "two-interval", "Two-interval forced choice"},
+     {TrialForm::three_interval, "three-interval", "Three-interval oddity"},
+     {TrialForm::adjust, "adjust", "Method of adjustment"},
+     {TrialForm::rating, "rating", "Rating"}}};
+
+/// How the items of a block follow each other: any order; balanced over participants, each after
+/// each other equally often (Williams 1949); or as listed.
+enum class TrialOrder : std::uint8_t { random, latin, listed };
+inline constexpr std::array<Word<TrialOrder>, 3> kTrialOrders{
+    {{TrialOrder::random, "random", "Random"},
+     {TrialOrder::latin, "latin", "Latin square"},
+     {TrialOrder::listed, "listed", "As listed"}}};
+
+/// What a person sees while feeling.
+enum class StudyView : std::uint8_t { relief, blank };
+inline constexpr std::array<Word<StudyView>, 2> kStudyViews{
+    {{StudyView::relief, "relief", "The relief"}, {StudyView::blank, "blank", "Nothing"}}};
+
+[[nodiscard]] const char* name_of(TrialForm form) noexcept;
+[[nodiscard]] const char* name_of(TrialOrder order) noexcept;
+[[nodiscard]] const char* name_of(StudyView view) noexcept;
+
+/// One parameter whose value differs from interval to interval: in the comparison it is
+/// `reference` + level. Where `levels` is empty and there is no staircase, nothing varies.
+struct Variation {
+    std::string parameter{};                   ///< a name of TouchValues::numbers; empty: none
+    double reference{0.0};                     ///< its value in the reference interval
+    std::vector<double> levels{};              ///< constant stimuli: differences from it
+    std::optional<StaircaseRule> staircase{};  ///< adaptive, its levels are differences from it
+    int tracks{1};                             ///< interleaved runs of the rule, for each item
+    /// Method of adjustment: the parameter's own value, in which it starts and is turned.
+    double lowest{0.0}, highest{0.0};
+
+    [[nodiscard]] bool any() const noexcept { return !parameter.empty(); }
+};
+
+/// What is asked at a trial's end.
+struct Question {
+    std::string text{};
+    /// Of `explore`: names of the answers, the first of which counts as a hit ("yes").
+    std::vector<std::string> answers{};
+    /// Of `rating`: whole numbers, both ends included, and what the ends are called.
+    int lowest{1}, highest{7};
+    std::string lowest_label{}, highest_label{};
+};
+
+/// Two conditions side by side, or one: then both are the same number.
+struct StudyItem {
+    std::size_t reference{0};  ///< in Protocol::conditions
+    std::size_t comparison{0};
+
+    bool operator==(const StudyItem&) const = default;
+};
+
+/// Trials of one form.
+struct Block {
+    std::string name{};
+    bool practice{false};  ///< its answers count for nothing
+    bool feedback{false};  ///< right or wrong is said after each answer; in practice by default
+    TrialForm form{TrialForm::explore};
+    /// `explore` and `rating`: one condition each. The others: pairs.
+    std::vector<StudyItem> items{};
+    Variation variation{};
+    int repetitions{1};  ///< of each item (and each constant level); not of staircases
+    TrialOrder order{TrialOrder::random};
+    Question question{};
+    StudyPage instructions{};
+    StudyView view{StudyView::relief};
+    bool again{false};       ///< at the question, an interval may be felt once more
+    double interval_s{0.0};  ///< so long an interval lasts at most; 0: until the person goes on
+    double answer_s{0.0};    ///< so long one may think; after that no answer is noted; 0: any time
+    int break_after{0};      ///< trials between pauses; 0: none within the block
+
+    /// Intervals of a trial: 1, 2 or 3; of `adjust` 2, the second is the one that is turned.
+    [[nodiscard]] int intervals() const noexcept;
+    /// The trials of it; with staircases the most that they can take.
+    [[nodiscard]] int most_trials() const noexcept;
+};
+
+/// A whole study.
+struct Protocol {
+    std::string title{};
+    int version{1};
+    std::uint64_t seed{1};
+    StudyPage instructions{};
+    StudyPage thanks{};
+    std::vector<StudyMedia> media{};  ///< the sample comes first
+    std::vector<std::string> factors{};
+    std::vector<Condition> conditions{};  ///< crossed ones in order, the last factor the fastest
+    std::vector<Block> blocks{};
+    std::string text{};    ///< as it was read
+    std::string sha256{};  ///< of that text
+
+    [[nodiscard]] int most_trials() const noexcept;
+    /// Null: none has that name.
+    [[nodiscard]] const Condition* condition_named(const std::string& name) const noexcept;
+};
+
+/// What a protocol may name that this room does not know; data, so that it needs no other room.
+struct StudyNames {
+    /// Nothing: any name will do, as when a study file is read where materials are not at hand.
+    std::optional<std::vector<std::string>> materials{};
+    std::vector<std::string> cleanings{"auto", "raw", "gentle", "sensor"};
+    double thickest_finger_mm{25.0};
+};
+
+/// Reads and checks a page. Relative files are beside `file`. Throws InputError of one line:
+/// "FILE:LINE: what is wrong, and what is allowed".
+[[nodiscard]] Protocol read_protocol(const std::filesystem::path& file, const StudyNames& names);
+
+/// The same of a text, which `file` is the name and the place of.
+[[nodiscard]] Protocol protocol_of(const std::string& text, const std::filesystem::path& file,
+                                   const StudyNames& names);
+
+}  // namespace dibhr

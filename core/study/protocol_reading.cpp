@@ -1,0 +1,473 @@
+// Reads study.toml.
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/files/content_hash.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/files/spelling.hpp"
+#include "core/haptics/parameters.hpp"
+#include "core/study/protocol.hpp"
+#include "core/study/toml_page.hpp"
+
+namespace dibhr {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::uintmax_t kMostBytes = 1U << 20;  ///< a page of text; more is no protocol
+constexpr std::size_t kMostConditions = 1000;
+constexpr int kMostTrials = 10000;
+constexpr double kAnyNumber = 1e9;
+
+template <typename Table>
+std::vector<std::string> names_of(const Table& table) {
+    std::vector<std::string> names;
+    names.reserve(table.size());
+    for (const auto& word : table) names.emplace_back(word.name);
+    return names;
+}
+
+/// The range of a number by its name; nothing: there is none.
+std::optional<std::pair<double, double>> range_of(const std::string& name,
+                                                  const StudyNames& names) {
+    if (name == "finger") return std::pair(0.0, names.thickest_finger_mm);
+    const TouchNumber* const number = touch_number(name == "friction" ? "static-friction" : name);
+    if (number == nullptr) return std::nullopt;
+    return std::pair(number->lowest, number->highest);
+}
+
+std::vector<std::string> number_names() {
+    std::vector<std::string> all{"friction", "finger"};
+    for (const TouchNumber& number : touch_numbers()) all.emplace_back(number.name);
+    return all;
+}
+
+/// Fills in a protocol from its page.
+class ProtocolReading {
+  public:
+    ProtocolReading(PageTable& page, const StudyNames& names, Protocol& protocol)
+        : page_(page), names_(names), to_(protocol) {}
+
+    void read() {
+        to_.title = page_.needed_text("title");
+        to_.version = page_.whole("version", 1, 1).value_or(1);
+        to_.seed = static_cast<std::uint64_t>(
+            page_.whole("seed", 0, std::numeric_limits<int>::max()).value_or(1));
+        to_.instructions = read_page(page_, "instructions");
+        to_.thanks = read_page(page_, "thanks");
+        read_media();
+        if (auto base = page_.table("base", "[base]")) {
+            base_ = read_values(*base);
+            base->done();
+        }
+        read_conditions();
+        for (PageTable& block : page_.tables("block", "a block")) read_block(block);
+        if (to_.blocks.empty())
+            page_.refuse("block", "there is no block: add [[block]] with form and question");
+        page_.done();
+    }
+
+  private:
+    fs::path beside(const std::string& name) const {
+        return fs::absolute(page_.file()).parent_path() / name;
+    }
+
+    StudyPage read_page(PageTable& table, const std::string& key) const {
+        StudyPage page{.text = table.text(key).value_or("")};
+        if (const auto picture = table.text(key + "-picture")) page.picture = beside(*picture);
+        return page;
+    }
+
+    void read_media() {
+        to_.media.push_back({.name = kSampleMedia});
+        for (PageTable& table : page_.tables("media", "[[media]]")) {
+            StudyMedia media{.name = table.needed_text("name"),
+                             .colour = beside(table.needed_text("colour"))};
+            if (const auto depth = table.text("depth")) media.depth = beside(*depth);
+            if (has_media(media.name)) table.refuse("name", "there are two media of that name");
+            to_.media.push_back(std::move(media));
+            table.done();
+        }
+    }
+
+    bool has_media(const std::string& name) const {
+        return std::any_of(to_.media.begin(), to_.media.end(),
+                           [&](const StudyMedia& media) { return media.name == name; });
+    }
+
+    void take_word(PageTable& table, const std::string& key, const std::vector<std::string>& words,
+                   TouchValues& values) const {
+        if (const auto place = table.word(key, words)) values.words[key] = words[*place];
+    }
+
+    TouchValues read_values(PageTable& table) const {
+        TouchValues values;
+        for (const std::string& name : number_names()) {
+            const auto range = *range_of(name, names_);
+            if (const auto number = table.number(name, range.first, range.second))
+                values.numbers[name] = *number;
+        }
+        take_word(table, "algorithm", names_of(algorithm_words()), values);
+        take_word(table, "cleaning", names_.cleanings, values);
+        std::vector<std::string> media;
+        for (const StudyMedia& one : to_.media) media.push_back(one.name);
+        take_word(table, "media", media, values);
+        if (names_.materials)
+            take_word(table, "material", *names_.materials, values);
+        else if (const auto material = table.text("material"))
+            values.words["material"] = *material;
+        if (const auto bump = table.text("bump")) values.words["bump"] = beside(*bump).string();
+        for (const char* const name : {"carry", "stability"})
+            if (table.node(name) != nullptr)
+                values.words[name] = table.yes(name, false) ? "on" : "off";
+        require_friction(table, laid_over(base_, values));
+        return values;
+    }
+
+    static void require_friction(const PageTable& table, const TouchValues& values) {
+        const auto fixed = values.numbers.find("static-friction");
+        const auto moving = values.numbers.find("dynamic-friction");
+        if (fixed == values.numbers.end() || moving == values.numbers.end()) return;
+        if (moving->second > fixed->second)
+            table.refuse("dynamic-friction", "dynamic-friction is above static-friction (" +
+                                                 short_text(fixed->second) + ")");
+    }
+
+    void add_condition(const PageTable& table, Condition condition) {
+        if (to_.condition_named(condition.name) != nullptr)
+            table.refuse("name", "there are two conditions " + in_quotes(condition.name));
+        condition.values = laid_over(base_, condition.values);
+        to_.conditions.push_back(std::move(condition));
+        if (to_.conditions.size() > kMostConditions)
+            table.refuse("factor", "there are more than " + std::to_string(kMostConditions) +
+                                       " conditions: leave some away");
+    }
+
+    void read_conditions() {
+        for (PageTable& table : page_.tables("condition", "a condition")) {
+            Condition condition{.name = table.needed_text("name"), .values = read_values(table)};
+            table.done();
+            add_condition(table, std::move(condition));
+        }
+        read_factors();
+        if (to_.conditions.empty())
+            page_.refuse("condition",
+                         "there is no condition: add [[condition]] with a name, or [[factor]]");
+    }
+
+    void read_factors() {
+        std::vector<PageTable> factors = page_.tables("factor", "a factor");
+        if (factors.empty()) return;
+        std::vector<Condition> crossed{Condition{}};
+        for (PageTable& factor : factors) {
+            const std::string name = factor.needed_text("name");
+            if (std::find(to_.factors.begin(), to_.factors.end(), name) != to_.factors.end())
+                factor.refuse("name", "there are two factors " + in_quotes(name));
+            to_.factors.push_back(name);
+            std::vector<Condition> longer;
+            const std::vector<Condition> levels = read_levels(factor);
+            for (const Condition& so_far : crossed)
+                for (const Condition& level : levels) longer.push_back(joined(so_far, level, name));
+            crossed = std::move(longer);
+            if (crossed.size() > kMostConditions)
+                factor.refuse("levels", "the factors cross to more than " +
+                                            std::to_string(kMostConditions) + " conditions");
+            factor.done();
+        }
+        for (Condition& condition : crossed) add_condition(factors.front(), std::move(condition));
+    }
+
+    std::vector<Condition> read_levels(PageTable& factor) const {
+        std::vector<Condition> levels;
+        for (PageTable& table : factor.tables("levels", "a level")) {
+            Condition level{.name = table.needed_text("name"), .values = read_values(table)};
+            for (const Condition& other : levels)
+                if (other.name == level.name)
+                    table.refuse("name", "there are two levels " + in_quotes(level.name));
+            levels.push_back(std::move(level));
+            table.done();
+        }
+        if (levels.size() < 2)
+            factor.refuse("levels",
+                          "a factor has two levels at least: levels = [{name = \"...\", "
+                          "friction = 0.2}, {...}]");
+        return levels;
+    }
+
+    static Condition joined(const Condition& a, const Condition& b, const std::string& factor) {
+        Condition both = a;
+        both.name += (a.name.empty() ? "" : "+") + b.name;
+        both.values = laid_over(a.values, b.values);
+        both.levels[factor] = b.name;
+        return both;
+    }
+
+    void read_block(PageTable& table) {
+        Block block;
+        block.name = table.text("name").value_or("block " + std::to_string(to_.blocks.size() + 1));
+        block.practice = table.yes("practice", false);
+        block.feedback = table.yes("feedback", block.practice);
+        const auto form = table.word("form", names_of(kTrialForms));
+        if (!form)
+            table.refuse("form",
+                         "a block has no form: it is one of " + listed(names_of(kTrialForms)));
+        block.form = static_cast<TrialForm>(*form);
+        block.order =
+            static_cast<TrialOrder>(table.word("order", names_of(kTrialOrders)).value_or(0));
+        block.view = static_cast<StudyView>(table.word("view", names_of(kStudyViews)).value_or(0));
+        block.instructions = read_page(table, "instructions");
+        block.again = table.yes("again", false);
+        block.interval_s = table.number("interval-s", 0.0, 3600.0).value_or(0.0);
+        block.answer_s = table.number("answer-s", 0.0, 3600.0).value_or(0.0);
+        block.break_after = table.whole("break-after", 0, kMostTrials).value_or(0);
+        block.question.text = table.needed_text("question");
+        read_items(table, block);
+        read_variation(table, block);
+        read_question(table, block);
+        block.repetitions = table.whole("repetitions", 1, kMostTrials).value_or(1);
+        require_sense(table, block);
+        table.done();
+        to_.blocks.push_back(std::move(block));
+    }
+
+    std::size_t condition_at(const PageTable& table, const std::string& key,
+                             const std::string& name) const {
+        std::vector<std::string> all;
+        for (const Condition& condition : to_.conditions) all.push_back(condition.name);
+        const auto found = std::find(all.begin(), all.end(), name);
+        if (found == all.end())
+            table.refuse(key, "no condition is called " + in_quotes(name) + ": there are " +
+                                  listed(all) + did_you_mean(name, all));
+        return static_cast<std::size_t>(found - all.begin());
+    }
+
+    void read_items(PageTable& table, Block& block) const {
+        const std::vector<std::string> chosen = table.texts("conditions");
+        for (const std::string& name : chosen) {
+            const std::size_t at = condition_at(table, "conditions", name);
+            const StudyItem item{at, at};
+            if (std::find(block.items.begin(), block.items.end(), item) != block.items.end())
+                table.refuse("conditions", in_quotes(name) + " is there twice: leave one away");
+            block.items.push_back(item);
+        }
+        read_pairs(table, block);
+        if (!block.items.empty()) return;
+        for (std::size_t k = 0; k < to_.conditions.size(); ++k) block.items.push_back({k, k});
+    }
+
+    void read_pairs(PageTable& table, Block& block) const {
+        constexpr const char* kForm =
+            "pairs is \"all\" or a list of two conditions each: "
+            "[[\"a\", \"b\"], [\"a\", \"c\"]]";
+        const toml::node* const node = table.node("pairs");
+        if (node == nullptr) return;
+        if (block.intervals() == 1)
+            table.refuse("pairs", std::string("a trial of the form ") + name_of(block.form) +
+                                      " has one condition: give conditions instead of pairs");
+        if (!block.items.empty())
+            table.refuse("pairs", "a block has pairs or conditions, not both");
+        if (node->value<std::string>() == "all") {
+            for (std::size_t a = 0; a < to_.conditions.size(); ++a)
+                for (std::size_t b = a + 1; b < to_.conditions.size(); ++b)
+                    block.items.push_back({a, b});
+            if (block.items.empty()) table.refuse("pairs", "one condition alone makes no pair");
+            return;
+        }
+        const toml::array* const list = node->as_array();
+        if (list == nullptr || list->empty()) table.refuse("pairs", kForm);
+        for (const toml::node& entry : *list) {
+            const toml::array* const pair = entry.as_array();
+            if (pair == nullptr || pair->size() != 2 || !(*pair)[0].is_string() ||
+                !(*pair)[1].is_string())
+                refuse_at(table.file(), entry, kForm);
+            block.items.push_back(
+                {condition_at(table, "pairs", (*pair)[0].value_or(std::string())),
+                 condition_at(table, "pairs", (*pair)[1].value_or(std::string()))});
+        }
+    }
+
+    void read_variation(PageTable& table, Block& block) const {
+        Variation& vary = block.variation;
+        const auto all = number_names();
+        const auto parameter = table.word("vary", all);
+        vary.levels = table.numbers("levels", -kAnyNumber, kAnyNumber);
+        auto stairs = table.table("staircase", "[block.staircase]");
+        auto adjust = table.table("adjust", "[block.adjust]");
+        const auto reference = table.number("reference", -kAnyNumber, kAnyNumber);
+        if (!parameter) {
+            for (const char* const key : {"levels", "staircase", "adjust", "reference"})
+                if (table.raw().contains(key))
+                    table.refuse(key, std::string(key) +
+                                          " is of a parameter: name it, vary = "
+                                          "\"friction\"");
+            return;
+        }
+        vary.parameter = all[*parameter];
+        vary.reference = reference.value_or(0.0);
+        const auto range = *range_of(vary.parameter, names_);
+        if (vary.reference < range.first || vary.reference > range.second)
+            table.refuse("reference", "reference is not a number from " + short_text(range.first) +
+                                          " to " + short_text(range.second) + ", as " +
+                                          vary.parameter + " is");
+        if (stairs) read_staircase(*stairs, vary);
+        if (adjust) {
+            vary.lowest = adjust->number("lowest", range.first, range.second).value_or(range.first);
+            vary.highest =
+                adjust->number("highest", range.first, range.second).value_or(range.second);
+            if (!(vary.lowest < vary.highest))
+                adjust->refuse("highest", "highest is not above lowest");
+            adjust->done();
+        }
+        const double lowest = range.first - vary.reference;
+        const double highest = range.second - vary.reference;
+        for (const double level : vary.levels)
+            require_level(table, "levels", level, lowest, highest);
+        if (vary.staircase) {
+            require_level(*stairs, "lowest", vary.staircase->low, lowest, highest);
+            require_level(*stairs, "highest", vary.staircase->high, lowest, highest);
+        }
+    }
+
+    static void require_level(const PageTable& table, const std::string& key, double level,
+                              double lowest, double highest) {
+        if (level < lowest - 1e-9 || level > highest + 1e-9)
+            table.refuse(key, "the level " + short_text(level) +
+                                  " beyond the reference is out of range: it is from " +
+                                  short_text(lowest) + " to " + short_text(highest));
+    }
+
+    static void read_staircase(PageTable& table, Variation& vary) {
+        StaircaseRule rule;
+        const auto needed = [&](const char* key) {
+            const auto number = table.number(key, 0.0, kAnyNumber);
+            if (!number)
+                table.refuse(
+                    key, std::string("a staircase has no ") + key + ": add " + key + " = NUMBER");
+            return *number;
+        };
+        rule.start = needed("start");
+        rule.low = table.number("lowest", 0.0, kAnyNumber).value_or(0.0);
+        rule.high = needed("highest");
+        if (!(rule.low <= rule.start && rule.start <= rule.high))
+            table.refuse("start", "start is not between lowest and highest");
+        const auto step = table.number("step", 1e-9, kAnyNumber);
+        const auto factor = table.number("factor", 1.0 + 1e-6, 100.0);
+        if (step.has_value() == factor.has_value())
+            table.refuse("step",
+                         "a staircase has step = NUMBER (added) or factor = NUMBER "
+                         "(multiplied), one of them");
+        rule.factors = factor.has_value();
+        rule.step_down = step ? *step : *factor - 1.0;
+        rule.step_up = rule.step_down * table.number("up-weight", 0.01, 100.0).value_or(1.0);
+        rule.down_after = table.whole("down-after", 1, 10).value_or(2);
+        rule.first_reversals = table.whole("halve-after", 0, 100).value_or(0);
+        rule.first_steps = 2.0;
+        rule.stop_reversals = table.whole("reversals", 0, 1000).value_or(0);
+        rule.most_trials = table.whole("trials", 1, 1000).value_or(60);
+        vary.tracks = table.whole("tracks", 1, 10).value_or(1);
+        table.done();
+        vary.staircase = rule;
+    }
+
+    void read_question(PageTable& table, Block& block) const {
+        Question& question = block.question;
+        question.answers = table.texts("answers");
+        const bool takes_answers = block.form == TrialForm::explore;
+        if (takes_answers && question.answers.empty()) question.answers = {"yes", "no"};
+        if (takes_answers && (question.answers.size() < 2 || question.answers.size() > 9))
+            table.refuse("answers", "there are 2 to 9 answers");
+        if (!takes_answers && !question.answers.empty())
+            table.refuse("answers", std::string("the form ") + name_of(block.form) +
+                                        " has its own answers: leave them away, or take the form "
+                                        "explore");
+        auto scale = table.table("scale", "[block.scale]");
+        if (scale && block.form != TrialForm::rating)
+            table.refuse("scale", "only the form rating has a scale");
+        if (!scale) return;
+        question.lowest = scale->whole("lowest", 0, 1000).value_or(1);
+        question.highest = scale->whole("highest", 0, 1000).value_or(7);
+        if (question.highest <= question.lowest)
+            scale->refuse("highest", "highest is not above lowest");
+        question.lowest_label = scale->text("lowest-label").value_or("");
+        question.highest_label = scale->text("highest-label").value_or("");
+        scale->done();
+    }
+
+    void require_sense(PageTable& table, const Block& block) const {
+        const Variation& vary = block.variation;
+        const std::string form = name_of(block.form);
+        const bool adjusts = block.form == TrialForm::adjust;
+        const bool may_climb = !adjusts && block.form != TrialForm::rating;
+        if (adjusts && (!vary.any() || !(vary.lowest < vary.highest)))
+            table.refuse("adjust",
+                         "the form adjust turns a parameter: add vary = \"friction\", "
+                         "reference and [block.adjust]");
+        if (!adjusts && table.raw().contains("adjust"))
+            table.refuse("adjust", "only the form adjust has [block.adjust]");
+        if (vary.staircase && !vary.levels.empty())
+            table.refuse("levels", "a block has levels or a staircase, not both");
+        if (!may_climb && (vary.staircase || !vary.levels.empty()))
+            table.refuse(vary.staircase ? "staircase" : "levels",
+                         "the form " + form + " has neither levels nor a staircase");
+        if (vary.any() && !adjusts && !vary.staircase && vary.levels.empty())
+            table.refuse("vary", "vary needs levels = [...] or [block.staircase]");
+        if (vary.staircase && table.raw().contains("repetitions"))
+            table.refuse("repetitions",
+                         "a staircase ends by itself: give it trials and reversals "
+                         "instead of repetitions");
+        if (vary.staircase && block.order == TrialOrder::latin)
+            table.refuse("order", "staircases follow each other at random or as listed");
+        if (block.form == TrialForm::explore && vary.staircase &&
+            block.question.answers.size() != 2)
+            table.refuse("answers", "a staircase has two answers: yes and no");
+        for (const StudyItem& item : block.items)
+            if (block.intervals() > 1 && item.reference == item.comparison && !vary.any())
+                table.refuse("form", "the form " + form + " compares two: give pairs, or vary");
+        if (block.most_trials() > kMostTrials)
+            table.refuse("repetitions",
+                         "the block has more than " + std::to_string(kMostTrials) + " trials");
+    }
+
+    PageTable& page_;
+    const StudyNames& names_;
+    Protocol& to_;
+    TouchValues base_{};
+};
+
+std::string text_of(const fs::path& file) {
+    std::error_code failed;
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream content;
+    const bool fits =
+        fs::is_regular_file(file, failed) && fs::file_size(file, failed) <= kMostBytes;
+    if (in && fits && fs::file_size(file, failed) > 0) content << in.rdbuf();
+    if (!in || !fits)
+        throw InputError("cannot read the protocol " + one_line(file.string()) +
+                         ": name a small text file that can be read");
+    return content.str();
+}
+
+}  // namespace
+
+Protocol read_protocol(const fs::path& file, const StudyNames& names) {
+    return protocol_of(text_of(file), file, names);
+}
+
+Protocol protocol_of(const std::string& text, const fs::path& file, const StudyNames& names) {
+    const toml::table table = page_of(text, file);
+    Protocol protocol;
+    protocol.text = text;
+    protocol.sha256 = sha256_of({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    PageTable page(table, file, "a study");
+    ProtocolReading(page, names, protocol).read();
+    return protocol;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,166 @@
+// Answers by a psychometric function, a preference, or chance.
+#include "core/study/simulated_participant.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/files/spelling.hpp"
+#include "core/study/draws.hpp"
+#include "core/study/toml_page.hpp"
+
+namespace dibhr {
+
+namespace {
+
+bool has(const SimulatedParticipant& who, const StudyInterval& interval) {
+    return !who.prefers.empty() && interval.condition == who.prefers;
+}
+
+int any_of(int count, Random& draws) {
+    return static_cast<int>(draws.below(static_cast<std::uint32_t>(count)));
+}
+
+int another(int than, int count, Random& draws) {
+    return (than + 1 + any_of(count - 1, draws)) % count;
+}
+
+/// The target with the share of the level; below zero the other one.
+int chosen_by_level(const SimulatedParticipant& who, const Trial& trial, Random& draws) {
+    const int count = static_cast<int>(trial.intervals.size());
+    const double level = *trial.level;
+    if (level == 0.0) return any_of(count, draws);
+    const bool hit = draws.chance(who.function(1.0 / count).share(std::abs(level)));
+    const bool target = hit == (level > 0.0 || trial.form == TrialForm::three_interval);
+    return target ? trial.target : another(trial.target, count, draws);
+}
+
+int chosen_by_preference(const SimulatedParticipant& who, const Trial& trial, Random& draws) {
+    const int count = static_cast<int>(trial.intervals.size());
+    const bool attends = !draws.chance(who.lapse);
+    const auto& all = trial.intervals;
+    const bool noticed = std::any_of(all.begin(), all.end(),
+                                     [&](const StudyInterval& one) { return has(who, one); });
+    if (!attends || !noticed) return any_of(count, draws);
+    if (trial.form == TrialForm::three_interval) return trial.target;
+    return has(who, all[0]) ? 0 : 1;
+}
+
+int chosen_answer(const SimulatedParticipant& who, const StudyRun& run, Random& draws) {
+    const Trial& trial = run.trial();
+    const int count = static_cast<int>(run.block().question.answers.size());
+    if (who.guesses) return any_of(count, draws);
+    if (!trial.level) {
+        const bool best = has(who, trial.intervals.front()) && !draws.chance(who.lapse);
+        return best ? 0 : any_of(count, draws);
+    }
+    const double share =
+        *trial.level > 0.0 ? who.function(who.false_alarm).share(*trial.level) : who.false_alarm;
+    return draws.chance(share) ? 0 : another(0, count, draws);
+}
+
+double rating(const SimulatedParticipant& who, const StudyRun& run, Random& draws) {
+    const Question& question = run.block().question;
+    const int steps = question.highest - question.lowest;
+    if (who.guesses) return question.lowest + any_of(steps + 1, draws);
+    const double share = has(who, run.trial().intervals.front()) ? 0.75 : 0.5;
+    const double felt = question.lowest + share * steps + who.noise * draws.normal();
+    return std::clamp(std::round(felt), static_cast<double>(question.lowest),
+                      static_cast<double>(question.highest));
+}
+
+double adjusted(const SimulatedParticipant& who, const StudyRun& run, Random& draws) {
+    const Variation& vary = run.block().variation;
+    if (who.guesses) return vary.lowest + (vary.highest - vary.lowest) * draws.uniform();
+    return std::clamp(vary.reference + who.bias + who.noise * draws.normal(), vary.lowest,
+                      vary.highest);
+}
+
+}  // namespace
+
+PsychometricFunction SimulatedParticipant::function(double guess) const {
+    return {.curve = Curve::logistic,
+            .threshold = threshold,
+            .scale = 0.25 / slope,
+            .level = 0.5,
+            .guess = guess,
+            .lapse = lapse};
+}
+
+SimulatedParticipant simulated_participant(const std::string& text) {
+    SimulatedParticipant who;
+    if (text == "guess") return who;
+    who.guesses = false;
+    double seed = 1.0;
+    const struct {
+        const char* name;
+        double& value;
+        double lowest, highest;
+    } numbers[] = {{"threshold", who.threshold, 1e-9, 1e9},
+                   {"slope", who.slope, 1e-9, 1e9},
+                   {"lapse", who.lapse, 0.0, 0.5},
+                   {"false-alarm", who.false_alarm, 0.0, 0.99},
+                   {"bias", who.bias, -1e9, 1e9},
+                   {"noise", who.noise, 0.0, 1e9},
+                   {"seed", seed, 0.0, 1e9}};
+    std::vector<std::string> names{"guess", "prefer"};
+    for (const auto& number : numbers) names.emplace_back(number.name);
+    std::istringstream parts(text);
+    for (std::string part; std::getline(parts, part, ',');) {
+        const auto equals = part.find('=');
+        const std::string name = part.substr(0, equals);
+        const std::string value = equals == std::string::npos ? "" : part.substr(equals + 1);
+        const auto* const found = std::find_if(std::begin(numbers), std::end(numbers),
+                                               [&](const auto& one) { return name == one.name; });
+        if (name == "prefer" && !value.empty()) {
+            who.prefers = value;
+            continue;
+        }
+        if (found == std::end(numbers))
+            throw InputError("a pilot is guess, hand, or some of " + listed(names) +
+                             " as NAME=VALUE, not " + in_quotes(part) + did_you_mean(name, names));
+        std::istringstream number(value);
+        number.imbue(std::locale::classic());
+        if (!(number >> found->value) || !number.eof() || found->value < found->lowest ||
+            found->value > found->highest)
+            throw InputError("the pilot's " + name + " is not a number from " +
+                             short_text(found->lowest) + " to " + short_text(found->highest));
+    }
+    who.seed = static_cast<std::uint64_t>(seed);
+    return who;
+}
+
+StudyAnswer answer_of(const SimulatedParticipant& who, const StudyRun& run) {
+    const Trial& trial = run.trial();
+    Random draws =
+        draws_for(run.protocol().seed, {who.seed, static_cast<std::uint64_t>(run.number()),
+                                        static_cast<std::uint64_t>(trial.number)});
+    StudyAnswer answer{.reaction_s = 0.4 + 1.2 * draws.uniform()};
+    const int intervals = static_cast<int>(trial.intervals.size());
+    switch (trial.form) {
+        case TrialForm::explore:
+            answer.choice = chosen_answer(who, run, draws);
+            break;
+        case TrialForm::rating:
+            answer.number = rating(who, run, draws);
+            break;
+        case TrialForm::adjust:
+            answer.number = adjusted(who, run, draws);
+            break;
+        case TrialForm::two_interval:
+        case TrialForm::three_interval:
+            if (who.guesses)
+                answer.choice = any_of(intervals, draws);
+            else if (trial.level)
+                answer.choice = chosen_by_level(who, trial, draws);
+            else
+                answer.choice = chosen_by_preference(who, trial, draws);
+            break;
+    }
+    return answer;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,40 @@
+// Participants whose answers are known beforehand: for trying a protocol, and for knowing what an
+// analysis finds.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/psychophysics/psychometric.hpp"
+#include "core/study/study_run.hpp"
+
+namespace dibhr {
+
+/// How answers come about. A guess rate is not among it: that follows from the form.
+struct SimulatedParticipant {
+    bool guesses{true};  ///< feels nothing
+    /// Of the absolute level: logistic, half of what is not guessed at `threshold`.
+    double threshold{0.1};
+    double slope{10.0};       ///< of F at the threshold, per unit of the level
+    double lapse{0.0};        ///< share of answers by chance, whatever is felt
+    double false_alarm{0.0};  ///< says yes where there is nothing, of yes/no
+    /// Chosen where two conditions are compared, and rated best; empty: none.
+    std::string prefers{};
+    double bias{0.0};   ///< of an adjustment: point of subjective equality minus reference
+    double noise{0.0};  ///< standard deviation of adjustments and ratings, in their units
+    std::uint64_t seed{1};
+
+    /// Share of hits at a level, guesses at `guess`.
+    [[nodiscard]] PsychometricFunction function(double guess) const;
+};
+
+/// "guess", or "threshold=0.1,slope=20,lapse=0.02,prefer=dibhr,bias=0,noise=0.02,seed=1", any of
+/// them. Throws InputError that says what is allowed.
+[[nodiscard]] SimulatedParticipant simulated_participant(const std::string& text);
+
+/// The answer to the running trial, at its question or adjustment. The same protocol, number, trial
+/// and participant give the same answer.
+[[nodiscard]] StudyAnswer answer_of(const SimulatedParticipant& participant, const StudyRun& run);
+
+}  // namespace dibhr

@@ -1,0 +1,433 @@
+// The tables of a study, written trial by trial and read back.
+#include "core/study/study_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iomanip>
+#include <locale>
+#include <sstream>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/files/json.hpp"
+#include "core/files/output_file.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/session/database.hpp"
+
+namespace dibhr {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kLongestLabel = 40;
+
+constexpr const char* kTables =
+    "CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;"
+    "CREATE TABLE trial (trial INTEGER PRIMARY KEY, block INTEGER, position INTEGER, "
+    "practice INTEGER, form TEXT, item INTEGER, repetition INTEGER, target INTEGER, "
+    "track INTEGER, level REAL, choice INTEGER, number REAL, right INTEGER, reaction_s REAL, "
+    "utc_s REAL);"
+    "CREATE TABLE interval (trial INTEGER, interval INTEGER, condition TEXT, value REAL, "
+    "\"values\" TEXT, PRIMARY KEY (trial, interval)) WITHOUT ROWID;"
+    "CREATE TABLE session (trial INTEGER PRIMARY KEY, file BLOB);"
+    "CREATE TABLE explanation (\"table\" TEXT, \"column\" TEXT, meaning TEXT);"
+    "INSERT INTO explanation VALUES "
+    "('trial', 'trial', 'number in this study, from 0'),"
+    "('trial', 'block', 'in the protocol, from 0'),"
+    "('trial', 'position', 'in its block, from 0'),"
+    "('trial', 'practice', '1: counts for nothing'),"
+    "('trial', 'item', 'condition or pair of the block, from 0'),"
+    "('trial', 'repetition', 'how often it came before'),"
+    "('trial', 'target', 'interval of the comparison, or the odd one; -1: none'),"
+    "('trial', 'track', 'of interleaved staircases; -1: none'),"
+    "('trial', 'level', 'comparison minus reference in the varied parameter; NULL: none varies'),"
+    "('trial', 'choice', 'interval or answer, from 0; -1: none'),"
+    "('trial', 'number', 'rating, or value turned to'),"
+    "('trial', 'right', '1: right, 0: wrong, NULL: nothing is'),"
+    "('trial', 'reaction_s', 'since the question was put'),"
+    "('trial', 'utc_s', 'of the answer, since 1970'),"
+    "('interval', 'value', 'of the varied parameter; NULL: none varies'),"
+    "('interval', 'values', 'all that was set, as JSON'),"
+    "('session', 'file', 'the trial''s ticks: a file that ends in .dibhr');";
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& what) {
+    throw InputError(one_line(file.string() + ": " + what));
+}
+
+/// SQLite's words about the file, and what to do.
+[[noreturn]] void refuse_database(const fs::path& file, const std::string& words) {
+    if (words.find("locked") != std::string::npos)
+        refuse(file, "is being run by another program: end that first");
+    refuse(file, "cannot be used (" + words + "): make room, or take a copy that is whole");
+}
+
+/// What `work` gives; what SQLite says against it is said of the file.
+template <typename Work>
+auto of_file(const fs::path& file, const Work& work) {
+    try {
+        return work();
+    } catch (const DatabaseError& error) {
+        refuse_database(file, error.what());
+    }
+}
+
+/// A file that holds nothing is an empty database.
+void make_if_missing(const fs::path& file) {
+    const int made = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+    if (made < 0)
+        refuse(file, std::string("cannot be written (") + std::strerror(errno) +
+                         "): name a folder that can be, with --out");
+    ::close(made);
+}
+
+std::string json_text(const TouchValues& values) {
+    nlohmann::json json = nlohmann::json::object();
+    for (const auto& [name, number] : values.numbers) json[name] = number;
+    for (const auto& [name, word] : values.words) json[name] = word;
+    return json.dump();
+}
+
+TouchValues values_in(const std::string& text, const fs::path& file) {
+    TouchValues values;
+    const auto json = nlohmann::json::parse(text, nullptr, false);
+    if (!json.is_object()) refuse(file, "is damaged: the values of an interval are no JSON object");
+    for (const auto& [name, value] : json.items()) {
+        if (value.is_number()) values.numbers[name] = value.get<double>();
+        if (value.is_string()) values.words[name] = value.get<std::string>();
+    }
+    return values;
+}
+
+/// The facts of table study, in the order in which they are written.
+std::vector<std::pair<const char*, std::string>> facts_of(const StudyIdentity& identity) {
+    return {{"participant", identity.participant},
+            {"number", std::to_string(identity.number)},
+            {"program", identity.program},
+            {"protocol_name", identity.protocol_name},
+            {"protocol", identity.protocol_text},
+            {"protocol_sha256", identity.protocol_sha256},
+            {"seed", std::to_string(identity.seed)},
+            {"created_s", number_text(identity.created_s)},
+            {"pilot", identity.pilot},
+            {"schema_version", std::to_string(kStudySchemaVersion)},
+            {"units", "s, and those of dibhr's options"}};
+}
+
+std::string fact(Database& database, const std::string& key) {
+    Rows rows(database, "SELECT value FROM study WHERE key = '" + key + "'");
+    return rows.next() ? rows.text(0) : std::string();
+}
+
+double number_of_text(const std::string& text) {
+    double number = 0.0;
+    std::istringstream in(text);
+    in.imbue(std::locale::classic());
+    in >> number;
+    return number;
+}
+
+StudyIdentity identity_in(Database& database) {
+    return {.participant = fact(database, "participant"),
+            .number = static_cast<int>(number_of_text(fact(database, "number"))),
+            .program = fact(database, "program"),
+            .protocol_name = fact(database, "protocol_name"),
+            .protocol_text = fact(database, "protocol"),
+            .protocol_sha256 = fact(database, "protocol_sha256"),
+            .seed = static_cast<std::uint64_t>(number_of_text(fact(database, "seed"))),
+            .created_s = number_of_text(fact(database, "created_s")),
+            .pilot = fact(database, "pilot")};
+}
+
+std::vector<StudyInterval> intervals_in(Database& database, int trial, const fs::path& file) {
+    std::vector<StudyInterval> intervals;
+    Rows rows(database, "SELECT condition, value, \"values\" FROM interval WHERE trial = " +
+                            std::to_string(trial) + " ORDER BY interval");
+    while (rows.next()) {
+        StudyInterval interval{.condition = rows.text(0), .values = values_in(rows.text(2), file)};
+        if (rows.has(1)) interval.value = rows.real(1);
+        intervals.push_back(std::move(interval));
+    }
+    return intervals;
+}
+
+std::vector<AnsweredTrial> answered_in(Database& database, const fs::path& file) {
+    std::vector<AnsweredTrial> all;
+    Rows rows(database,
+              "SELECT trial, block, position, practice, form, item, repetition, target, track, "
+              "level, choice, number, right, reaction_s, utc_s FROM trial ORDER BY trial");
+    const auto whole = [&rows](int column) { return static_cast<int>(rows.integer(column)); };
+    while (rows.next()) {
+        const auto form = value_named(kTrialForms, rows.text(4));
+        if (!form) refuse(file, "is damaged: a trial has the form " + in_quotes(rows.text(4)));
+        AnsweredTrial one{.trial = {.number = whole(0),
+                                    .block = whole(1),
+                                    .position = whole(2),
+                                    .practice = whole(3) != 0,
+                                    .form = *form,
+                                    .item = whole(5),
+                                    .repetition = whole(6),
+                                    .target = whole(7),
+                                    .track = whole(8)},
+                          .answer = {.choice = whole(10), .reaction_s = rows.real(13)},
+                          .utc_s = rows.real(14)};
+        if (rows.has(9)) one.trial.level = rows.real(9);
+        if (rows.has(11)) one.answer.number = rows.real(11);
+        if (rows.has(12)) one.right = whole(12) != 0;
+        one.trial.intervals = intervals_in(database, one.trial.number, file);
+        all.push_back(std::move(one));
+    }
+    return all;
+}
+
+void require_kind(Database& database, const fs::path& file) {
+    if (database.number("PRAGMA application_id") != kStudyApplicationId)
+        refuse(file, "is no study of dibhr: name a file that dibhr study run made");
+    const auto version = database.number("PRAGMA user_version");
+    if (version != kStudySchemaVersion)
+        refuse(file, "is a study of another version (" + std::to_string(version) + "; this is " +
+                         std::to_string(kStudySchemaVersion) + "): use the program that made it");
+}
+
+/// Nothing of the file decides what is done with it.
+void distrust(Database& database) {
+    database.execute("PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON");
+}
+
+std::string bytes_of(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream bytes;
+    bytes << in.rdbuf();
+    if (!in || bytes.fail())
+        refuse(file, "the trial's session cannot be read: look after the disk");
+    return bytes.str();
+}
+
+void bind(Statement& row, const std::optional<double>& value) {
+    if (value)
+        row.plain_real(*value);
+    else
+        row.cell(std::optional<std::int64_t>());
+}
+
+void remove_quietly(const fs::path& session) {
+    std::error_code ignored;
+    for (const char* const ending : {"", "-wal", "-shm", "-journal"})
+        fs::remove(session.string() + ending, ignored);
+}
+
+}  // namespace
+
+void require_label(const std::string& label) {
+    const bool fits = !label.empty() && label.size() <= kLongestLabel &&
+                      std::all_of(label.begin(), label.end(), [](unsigned char c) {
+                          return c < 0x80 && (std::isalnum(c) != 0 || c == '-' || c == '_');
+                      });
+    if (!fits)
+        throw InputError(in_quotes(label) +
+                         " is no label of a participant: use letters, digits, - and _, at most 40");
+}
+
+std::optional<int> number_in(const std::string& label) {
+    constexpr int kMost = 1000000;
+    std::size_t digits = label.size();
+    while (digits > 0 && std::isdigit(static_cast<unsigned char>(label[digits - 1])) != 0) --digits;
+    const std::string text = label.substr(digits);
+    if (text.empty() || text.size() > 7) return std::nullopt;
+    const int number = std::stoi(text);
+    if (number < 1 || number > kMost) return std::nullopt;
+    return number;
+}
+
+fs::path study_file_of(const fs::path& folder, const std::string& label) {
+    return folder / (label + kStudyEnding);
+}
+
+struct StudyFile::Implementation {
+    fs::path file;
+    Database database;
+    StudyIdentity identity{};
+    std::vector<AnsweredTrial> answered{};
+
+    explicit Implementation(const fs::path& path) : file(path), database(path) {}
+
+    /// Held from here until the program ends, however it does. A pilot can be run again: only a
+    /// person's answers wait for the disk.
+    void hold(bool pilot) {
+        database.execute(std::string("PRAGMA busy_timeout = 0; PRAGMA locking_mode = EXCLUSIVE; "
+                                     "PRAGMA synchronous = ") +
+                         (pilot ? "OFF" : "FULL"));
+        distrust(database);
+        database.execute("BEGIN EXCLUSIVE; COMMIT");
+    }
+
+    void begin(const StudyIdentity& wanted) {
+        database.execute(
+            "BEGIN IMMEDIATE; PRAGMA application_id = " + std::to_string(kStudyApplicationId) +
+            "; PRAGMA user_version = " + std::to_string(kStudySchemaVersion) + ";" + kTables);
+        Statement row(database, "INSERT INTO study VALUES (?, ?)");
+        for (const auto& [key, value] : facts_of(wanted))
+            row.run(std::string_view(key), std::string_view(value));
+        database.execute("COMMIT");
+        identity = wanted;
+    }
+
+    void go_on(const StudyIdentity& wanted) {
+        require_kind(database, file);
+        identity = identity_in(database);
+        if (identity.protocol_sha256 != wanted.protocol_sha256)
+            refuse(file,
+                   "is of another protocol, or another version of it: give another "
+                   "--participant or --out, or the protocol it was begun with");
+        if (identity.participant != wanted.participant || identity.number != wanted.number)
+            refuse(file, "is of participant " + identity.participant + ", number " +
+                             std::to_string(identity.number) + ": give these, or another --out");
+        if (identity.pilot != wanted.pilot)
+            refuse(file, identity.pilot.empty()
+                             ? "is a person's: a pilot needs another --participant or --out"
+                             : "is of the pilot " + in_quotes(identity.pilot) +
+                                   ": give another --participant or --out");
+        answered = answered_in(database, file);
+    }
+
+    void insert(const AnsweredTrial& one, const fs::path& session) {
+        const Trial& trial = one.trial;
+        Statement row(database, "INSERT INTO trial VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
+        row.cell(trial.number);
+        row.cell(trial.block);
+        row.cell(trial.position);
+        row.cell(trial.practice ? 1 : 0);
+        row.cell(std::string_view(name_of(trial.form)));
+        row.cell(trial.item);
+        row.cell(trial.repetition);
+        row.cell(trial.target);
+        row.cell(trial.track);
+        bind(row, trial.level);
+        row.cell(one.answer.choice);
+        bind(row, one.answer.number);
+        row.cell(one.right ? std::optional<std::int64_t>(*one.right ? 1 : 0) : std::nullopt);
+        row.plain_real(one.answer.reaction_s);
+        row.plain_real(one.utc_s);
+        row.run();
+        Statement interval(database, "INSERT INTO interval VALUES (?,?,?,?,?)");
+        int number = 0;
+        for (const StudyInterval& felt : trial.intervals) {
+            interval.cell(trial.number);
+            interval.cell(number++);
+            interval.cell(std::string_view(felt.condition));
+            bind(interval, felt.value);
+            interval.run(std::string_view(json_text(felt.values)));
+        }
+        if (session.empty()) return;
+        const std::string bytes = bytes_of(session);
+        Statement blob(database, "INSERT INTO session VALUES (?,?)");
+        blob.cell(trial.number);
+        blob.bytes(bytes);
+        blob.run();
+    }
+};
+
+StudyFile::StudyFile(const fs::path& file, const StudyIdentity& identity) {
+    require_label(identity.participant);
+    make_if_missing(file);
+    of_file(file, [&] {
+        implementation_ = std::make_unique<Implementation>(file);
+        implementation_->hold(!identity.pilot.empty());
+        if (implementation_->database.number("SELECT count(*) FROM sqlite_master") == 0)
+            implementation_->begin(identity);
+        else
+            implementation_->go_on(identity);
+    });
+}
+
+StudyFile::~StudyFile() = default;
+
+const fs::path& StudyFile::file() const noexcept {
+    return implementation_->file;
+}
+
+const StudyIdentity& StudyFile::identity() const noexcept {
+    return implementation_->identity;
+}
+
+const std::vector<AnsweredTrial>& StudyFile::answered() const noexcept {
+    return implementation_->answered;
+}
+
+void StudyFile::add(const AnsweredTrial& answered, const fs::path& session) {
+    Database& database = implementation_->database;
+    of_file(file(), [&] {
+        database.execute("BEGIN IMMEDIATE");
+        try {
+            implementation_->insert(answered, session);
+            database.execute("COMMIT");
+        } catch (...) {
+            database.execute("ROLLBACK");
+            throw;
+        }
+    });
+    if (!session.empty()) remove_quietly(session);
+}
+
+void StudyFile::finish() {
+    of_file(file(), [&] {
+        implementation_->database.execute("INSERT OR REPLACE INTO study VALUES ('finished', '1')");
+    });
+}
+
+fs::path StudyFile::fresh_session() const {
+    fs::path session = file().string() + ".trial.dibhr";
+    remove_quietly(session);
+    return session;
+}
+
+StudyRecord read_study(const fs::path& file) {
+    std::error_code failed;
+    if (!fs::is_regular_file(file, failed)) refuse(file, "no such file; check its name");
+    return of_file(file, [&] {
+        Database database(file);
+        distrust(database);
+        require_kind(database, file);
+        StudyRecord record{.file = file,
+                           .identity = identity_in(database),
+                           .finished = fact(database, "finished") == "1",
+                           .answered = answered_in(database, file)};
+        Rows rows(database,
+                  "SELECT trial.trial, length(session.file) FROM trial LEFT JOIN session USING "
+                  "(trial) ORDER BY trial.trial");
+        while (rows.next()) record.session_bytes.push_back(rows.integer(1));
+        return record;
+    });
+}
+
+std::string session_name(const StudyRecord& study, int trial) {
+    std::ostringstream name;
+    name << study.identity.participant << '-' << std::setw(3) << std::setfill('0') << trial + 1
+         << ".dibhr";
+    return name.str();
+}
+
+bool write_study_session(const fs::path& study, int trial, const fs::path& session) {
+    const std::string bytes = of_file(study, [&] {
+        Database database(study);
+        distrust(database);
+        require_kind(database, study);
+        Rows rows(database, "SELECT file FROM session WHERE trial = " + std::to_string(trial));
+        return rows.next() ? rows.text(0) : std::string();
+    });
+    if (bytes.empty()) return false;
+    OutputFile out(session);
+    out.write(bytes);
+    out.commit();
+    return true;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,170 @@
+// Takes values out of a page of TOML.
+#include "core/study/toml_page.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/files/spelling.hpp"
+
+namespace dibhr {
+
+namespace {
+
+std::string range_text(double lowest, double highest) {
+    return "from " + short_text(lowest) + " to " + short_text(highest);
+}
+
+}  // namespace
+
+void refuse_at(const std::filesystem::path& file, const toml::node& node, const std::string& what) {
+    throw InputError(one_line(file.string() + ":" +
+                              std::to_string(std::max(1U, node.source().begin.line)) + ": " +
+                              what));
+}
+
+toml::table page_of(const std::string& text, const std::filesystem::path& file) {
+    try {
+        return toml::parse(text);
+    } catch (const toml::parse_error& error) {
+        std::ostringstream words;
+        words << file.string() << ":" << error.source().begin.line << ": cannot be understood ("
+              << error.description() << "); a line is NAME = VALUE, [TABLE] or [[TABLE]]";
+        throw InputError(one_line(words.str()));
+    }
+}
+
+std::string listed(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+    return text;
+}
+
+const toml::node* PageTable::node(const std::string& key) {
+    known_.insert(key);
+    return table_.get(key);
+}
+
+std::optional<std::string> PageTable::text(const std::string& key) {
+    const toml::node* const found = node(key);
+    if (found == nullptr) return std::nullopt;
+    auto value = found->value_exact<std::string>();
+    if (!value || value->empty()) refuse(key, key + " is not a text in quotes");
+    return value;
+}
+
+std::string PageTable::needed_text(const std::string& key) {
+    if (auto value = text(key)) return *value;
+    refuse(key, called_ + " has no " + key + ": add " + key + " = \"...\"");
+}
+
+std::optional<double> PageTable::number(const std::string& key, double lowest, double highest) {
+    const toml::node* const found = node(key);
+    if (found == nullptr) return std::nullopt;
+    const auto value = found->is_number() ? found->value<double>() : std::nullopt;
+    if (!value || !(*value >= lowest && *value <= highest))
+        refuse(key, key + " is not a number " + range_text(lowest, highest));
+    return value;
+}
+
+std::optional<int> PageTable::whole(const std::string& key, int lowest, int highest) {
+    const toml::node* const found = node(key);
+    if (found == nullptr) return std::nullopt;
+    const auto value = found->value_exact<std::int64_t>();
+    if (!value || *value < lowest || *value > highest)
+        refuse(key, key + " is not a whole number " + range_text(lowest, highest));
+    return static_cast<int>(*value);
+}
+
+bool PageTable::yes(const std::string& key, bool otherwise) {
+    const toml::node* const found = node(key);
+    if (found == nullptr) return otherwise;
+    const auto value = found->value_exact<bool>();
+    if (!value) refuse(key, key + " is not true or false");
+    return *value;
+}
+
+std::optional<std::size_t> PageTable::word(const std::string& key,
+                                           const std::vector<std::string>& words) {
+    const auto value = text(key);
+    if (!value) return std::nullopt;
+    const auto found = std::find(words.begin(), words.end(), *value);
+    if (found == words.end())
+        refuse(key, key + " is not " + in_quotes(*value) + " but one of " + listed(words) +
+                        did_you_mean(*value, words));
+    return static_cast<std::size_t>(found - words.begin());
+}
+
+std::vector<std::string> PageTable::texts(const std::string& key) {
+    const toml::node* const found = node(key);
+    if (found == nullptr) return {};
+    std::vector<std::string> values;
+    const toml::array* const list = found->as_array();
+    if (list == nullptr || list->empty()) refuse(key, key + " is not a list [\"...\", \"...\"]");
+    for (const toml::node& entry : *list) {
+        const auto value = entry.value_exact<std::string>();
+        if (!value || value->empty())
+            refuse_at(file_, entry, "an entry of " + key + " is not a text in quotes");
+        values.push_back(*value);
+    }
+    return values;
+}
+
+std::vector<double> PageTable::numbers(const std::string& key, double lowest, double highest) {
+    const toml::node* const found = node(key);
+    if (found == nullptr) return {};
+    std::vector<double> values;
+    const toml::array* const list = found->as_array();
+    if (list == nullptr || list->empty()) refuse(key, key + " is not a list of numbers [1, 2]");
+    for (const toml::node& entry : *list) {
+        const auto value = entry.is_number() ? entry.value<double>() : std::nullopt;
+        if (!value || !(*value >= lowest && *value <= highest))
+            refuse_at(file_, entry,
+                      "an entry of " + key + " is not a number " + range_text(lowest, highest));
+        if (std::find(values.begin(), values.end(), *value) != values.end())
+            refuse_at(file_, entry, key + " has " + short_text(*value) + " twice: leave one away");
+        values.push_back(*value);
+    }
+    return values;
+}
+
+std::optional<PageTable> PageTable::table(const std::string& key, const std::string& called) {
+    const toml::node* const found = node(key);
+    if (found == nullptr) return std::nullopt;
+    if (!found->is_table()) refuse(key, key + " is not a table [" + key + "]");
+    return PageTable(*found->as_table(), file_, called);
+}
+
+std::vector<PageTable> PageTable::tables(const std::string& key, const std::string& called) {
+    const toml::node* const found = node(key);
+    if (found == nullptr) return {};
+    std::vector<PageTable> all;
+    const toml::array* const list = found->as_array();
+    if (list == nullptr) refuse(key, key + " is not a list of tables [[" + key + "]]");
+    for (const toml::node& entry : *list) {
+        if (!entry.is_table()) refuse_at(file_, entry, "an entry of " + key + " is not a table");
+        all.emplace_back(*entry.as_table(), file_, called);
+    }
+    return all;
+}
+
+void PageTable::done() const {
+    const std::vector<std::string> names(known_.begin(), known_.end());
+    for (const auto& [key, value] : table_) {
+        const std::string name(key.str());
+        if (known_.contains(name)) continue;
+        const std::string nearest = did_you_mean(name, names);
+        refuse_at(file_, value,
+                  in_quotes(name) + " means nothing in " + called_ +
+                      (nearest.empty() ? ": there may be " + listed(names) : nearest));
+    }
+}
+
+void PageTable::refuse(const std::string& key, const std::string& what) const {
+    const toml::node* const found = table_.get(key);
+    refuse_at(file_, found == nullptr ? static_cast<const toml::node&>(table_) : *found, what);
+}
+
+}  // namespace dibhr

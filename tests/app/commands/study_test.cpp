@@ -1,0 +1,209 @@
+// `dibhr study` as a person runs it: checked, run with a simulated participant, killed and resumed.
+#include <cstddef>
+#include <cstdlib>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "app/commands/experiment_human.hpp"
+#include "core/metrics/force_variation.hpp"
+#include "core/session/session.hpp"
+#include "core/study/study_file.hpp"
+#include "tests/app/program/command_program.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/some_of.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+
+namespace {
+
+const std::string kPage = R"(title = "T"
+[base]
+friction = 0.4
+[[condition]]
+name = "smooth-one"
+algorithm = "dibhr"
+[[condition]]
+name = "other-one"
+algorithm = "pga"
+[[block]]
+form = "two-interval"
+pairs = "all"
+question = "Which was smoother?"
+)";
+
+const std::string kLongPage = kPage + R"(repetitions = 200
+[[block]]
+form = "two-interval"
+conditions = ["smooth-one"]
+question = "Which held more?"
+vary = "friction"
+reference = 0.2
+[block.staircase]
+start = 0.4
+highest = 0.6
+lowest = 0.01
+factor = 1.2
+trials = 150
+tracks = 2
+)";
+
+std::vector<std::string> run_arguments(const std::string& label, const std::string& pilot) {
+    return {"study", "run", "study.toml", "--participant", label, "--pilot", pilot};
+}
+
+/// What was answered, without when.
+std::vector<AnsweredTrial> answers_in(const std::filesystem::path& file) {
+    std::vector<AnsweredTrial> answered = read_study(file).answered;
+    for (AnsweredTrial& one : answered) one.utc_s = 0.0;
+    return answered;
+}
+
+/// Kills the program that is named after it, $1 seconds after the file $0 is there.
+const std::string kKilling =
+    "delay=$1; shift; \"$@\" & while [ ! -e \"$0\" ]; do sleep 0.002; done; sleep $delay; "
+    "kill -9 $!; wait";
+
+/// How many runs are killed: 50 where one has the time.
+int kills() {
+    const char* const asked = std::getenv("DIBHR_STUDY_KILLS");
+    return asked == nullptr ? (DIBHR_SANITIZED ? 3 : 8) : std::atoi(asked);
+}
+
+/// The forces of one interval of a trial's session.
+struct Felt {
+    std::vector<Vec3> goals{}, proxies{};
+    std::vector<char> contact{};
+};
+
+std::map<std::uint64_t, Felt> felt_in(const std::filesystem::path& file) {
+    const Session session(file);
+    std::map<std::uint64_t, Felt> felt;
+    Session::Ticks ticks(session);
+    for (TickRecord tick; ticks.next(tick);) {
+        Felt& one = felt[tick.settings & 0xffffffffU];
+        one.goals.push_back(tick.goal);
+        one.proxies.push_back(tick.proxy);
+        one.contact.push_back(tick.contact ? 1 : 0);
+    }
+    return felt;
+}
+
+}  // namespace
+
+TEST_CASE("the studies that come with the program are checked and run to their end", "[study]") {
+    const std::string name =
+        GENERATE("paper-question", "friction-threshold", "roughness-threshold");
+    const TemporaryFolder folder;
+    const ProgramResult checked = run_dibhr(folder, {"study", "check", name});
+    INFO(checked.errors);
+    REQUIRE(checked.exit_code == 0);
+    CHECK(contains(checked.output, "minutes a participant"));
+    CHECK(contains(checked.output, "are there"));
+    CHECK(contains(checked.output, "stability margin on a Falcon"));
+    const ProgramResult result = run_dibhr(
+        folder, {"study", "run", name, "--participant", "P07", "--out", "a", "--pilot", "guess"});
+    INFO(result.errors);
+    REQUIRE(result.exit_code == 0);
+    const StudyRecord record = read_study(folder / "a/P07.dibhr-study");
+    CHECK(record.finished);
+    CHECK(record.identity.number == 7);
+    CHECK(record.answered.size() > 20);
+}
+
+TEST_CASE("a study that is killed at any moment goes on at its trial, nothing lost or doubled",
+          "[study]") {
+    const std::string pilot = "threshold=0.1,slope=20,lapse=0.02,prefer=other-one";
+    const TemporaryFolder folder;
+    write_text(folder / "study.toml", kLongPage);
+    REQUIRE(run_dibhr(folder, run_arguments("P7", pilot)).exit_code == 0);
+    const auto whole = answers_in(folder / "P7.dibhr-study");
+    REQUIRE(whole.size() == 500);
+    std::set<std::size_t> stopped_at;
+    for (int k = 0; k < kills(); ++k) {
+        const std::string out = "run" + std::to_string(k);
+        auto arguments = run_arguments("P7", pilot);
+        arguments.insert(arguments.end(), {"--out", out});
+        const auto file = folder / (out + "/P7.dibhr-study");
+        const double delay_s = 0.001 * ((k * 37) % 50);  // after the file is there
+        const ProgramResult killed = run_dibhr(
+            folder, arguments, {"/bin/sh", "-c", kKilling, file.string(), std::to_string(delay_s)});
+        const ProgramResult resumed = run_dibhr(folder, arguments);
+        INFO(killed.output << killed.errors << resumed.output << resumed.errors);
+        REQUIRE(resumed.exit_code == 0);
+        CHECK(answers_in(file) == whole);
+        const auto at = resumed.output.find("trial ");
+        if (at != std::string::npos)
+            stopped_at.insert(std::strtoul(resumed.output.c_str() + at + 6, nullptr, 10));
+    }
+    CAPTURE(stopped_at);
+    CHECK(stopped_at.size() >= 2);  // or it was always killed before it began, or after its end
+}
+
+TEST_CASE("each trial is a session, and the modelled hand feels what the experiment feels",
+          "[study]") {
+    const TemporaryFolder folder;
+    write_text(folder / "study.toml", kPage);
+    const ProgramResult result = run_dibhr(folder, run_arguments("P1", "hand"));
+    INFO(result.errors);
+    REQUIRE(result.exit_code == 0);
+    REQUIRE(run_dibhr(folder, {"study", "sessions", "P1.dibhr-study", "--out", "s"}).exit_code ==
+            0);
+    CHECK(names_in(folder / "s") == std::vector<std::string>{"P1-001.dibhr"});
+    const ProgramResult replayed = run_dibhr(folder, {"replay", "s/P1-001.dibhr"});
+    CHECK(contains(replayed.output, "are identical, bit for bit"));
+
+    const SampleClip sample = read_sample({}, {});
+    PathRun path = human_goals({}, sample, 0.4);
+    const std::vector<Algorithm> both{Algorithm::dibhr, Algorithm::pga};
+    run_algorithms(path, sample.depth, both, Timing::quick);
+    const StudyRecord record = read_study(folder / "P1.dibhr-study");
+    const auto felt = felt_in(folder / "s/P1-001.dibhr");
+    REQUIRE(felt.size() == 2);
+    for (std::size_t k = 0; k < 2; ++k) {
+        const std::string& condition = record.answered.at(0).trial.intervals.at(k).condition;
+        const AlgorithmRun& expected = path.runs.at(condition == "smooth-one" ? 0 : 1);
+        const Felt& one = felt.at(k + 1);
+        const auto variation =
+            force_variation(one.goals, one.proxies, one.contact, path.reversal, 0);
+        CHECK(variation.pairs == expected.variation.pairs);
+        CHECK(variation.mean_deg == expected.variation.mean_deg);
+        CHECK(variation.sd_deg == expected.variation.sd_deg);
+    }
+}
+
+TEST_CASE("a study says in one line what it cannot do", "[study]") {
+    const TemporaryFolder folder;
+    write_text(folder / "study.toml", kPage);
+    const auto said = [&](const std::vector<std::string>& arguments, int exit_code) {
+        const ProgramResult result = run_dibhr(folder, arguments);
+        CHECK(result.exit_code == exit_code);
+        CHECK(split(result.errors, '\n').size() <= 2);
+        return result.errors;
+    };
+    CHECK(contains(said({"study", "run", "study.toml", "--pilot", "guess"}, 2), "--participant"));
+    CHECK(contains(said(run_arguments("Anna B.", "guess"), 1), "letters, digits, - and _"));
+    CHECK(contains(said(run_arguments("Anna", "guess"), 2), "--number"));
+    CHECK(contains(said(run_arguments("P1", "gess"), 1), "did you mean guess?"));
+    CHECK(contains(said(run_arguments("P2", "prefer=other-on"), 1), "did you mean other-one?"));
+    CHECK(contains(said({"study", "check", "paper-qestion"}, 1), "did you mean paper-question?"));
+    CHECK(contains(said({"study", "chekc", "study.toml"}, 2), "did you mean check?"));
+    CHECK(contains(said({"study", "sessions", "study.toml"}, 1), "study.toml"));
+    write_text(folder / "study.toml", kPage + "form = 3\n");
+    CHECK(contains(said({"study", "check", "study.toml"}, 1), "study.toml:14: "));
+}
+
+TEST_CASE("a study goes on under its label, and is finished once", "[study]") {
+    const TemporaryFolder folder;
+    write_text(folder / "study.toml", kPage);
+    REQUIRE(run_dibhr(folder, run_arguments("P1", "guess")).exit_code == 0);
+    const ProgramResult again = run_dibhr(folder, run_arguments("P1", "guess"));
+    CHECK(again.exit_code == 0);
+    CHECK(contains(again.output, "is finished"));
+    write_text(folder / "study.toml", kPage + "repetitions = 2\n");
+    const ProgramResult other = run_dibhr(folder, run_arguments("P1", "guess"));
+    CHECK(other.exit_code == 1);
+    CHECK(contains(other.errors, "another protocol"));
+}

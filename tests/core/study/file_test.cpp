@@ -1,0 +1,126 @@
+// The study file: whole after every answer, one program at a time, and not another study's.
+#include <fstream>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/study/study_file.hpp"
+#include "tests/core/study/pages.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace {
+
+using namespace dibhr;
+
+StudyIdentity identity() {
+    return {.participant = "P07",
+            .number = 7,
+            .program = "dibhr 0",
+            .protocol_name = "study.toml",
+            .protocol_text = "title = \"T\"",
+            .protocol_sha256 = "abc",
+            .seed = 12345678901U,
+            .created_s = 1.7e9 + 0.123};
+}
+
+AnsweredTrial some_trial(int number) {
+    return {.trial = {.number = number,
+                      .block = 1,
+                      .position = number,
+                      .form = TrialForm::two_interval,
+                      .item = 2,
+                      .repetition = 1,
+                      .intervals = {{"a", {.numbers = {{"friction", 0.1}}}, 0.1},
+                                    {"b",
+                                     {.numbers = {{"friction", 0.1 + 0.2}},
+                                      .words = {{"algorithm", "pga"}}},
+                                     0.1 + 0.2}},
+                      .target = 1,
+                      .track = 0,
+                      .level = 0.1 + 0.2 - 0.1},
+            .answer = {.choice = 1, .reaction_s = 0.7},
+            .right = true,
+            .utc_s = 1.7e9 + 1.0 / 3.0};
+}
+
+std::string refusal_of(const std::filesystem::path& file, const StudyIdentity& who) {
+    try {
+        const StudyFile study(file, who);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return {};
+}
+
+}  // namespace
+
+TEST_CASE("what is answered is read back to the last bit, with its session", "[study]") {
+    const test::TemporaryFolder folder;
+    const auto file = study_file_of(folder.path(), "P07");
+    AnsweredTrial rated{
+        .trial = {.number = 1, .form = TrialForm::rating, .intervals = {{"c", {}, {}}}},
+        .answer = {.number = 4.0, .reaction_s = 1.25},
+        .utc_s = 1.7e9};
+    {
+        StudyFile study(file, identity());
+        const auto session = study.fresh_session();
+        std::ofstream(session) << "ticks";
+        study.add(some_trial(0), session);
+        CHECK_FALSE(std::filesystem::exists(session));
+        study.add(rated);
+        study.finish();
+    }
+    const StudyRecord record = read_study(file);
+    CHECK(record.identity == identity());
+    CHECK(record.finished);
+    CHECK(record.answered == std::vector<AnsweredTrial>{some_trial(0), rated});
+    CHECK(record.session_bytes == std::vector<std::int64_t>{5, 0});
+    CHECK(session_name(record, 0) == "P07-001.dibhr");
+    CHECK(write_study_session(file, 0, folder.path() / "s.dibhr"));
+    CHECK(std::filesystem::file_size(folder.path() / "s.dibhr") == 5);
+    CHECK_FALSE(write_study_session(file, 1, folder.path() / "none.dibhr"));
+    const StudyFile again(file, identity());
+    CHECK(again.answered() == record.answered);
+}
+
+TEST_CASE("a study file is run by one program at a time", "[study]") {
+    const test::TemporaryFolder folder;
+    const auto file = study_file_of(folder.path(), "P07");
+    const StudyFile study(file, identity());
+    CHECK(refusal_of(file, identity()).find("run by another program") != std::string::npos);
+}
+
+TEST_CASE("a study file is not gone on with by another study", "[study]") {
+    const test::TemporaryFolder folder;
+    const auto file = study_file_of(folder.path(), "P07");
+    { const StudyFile study(file, identity()); }
+    StudyIdentity other = identity();
+    other.protocol_sha256 = "def";
+    CHECK(refusal_of(file, other).find("another protocol") != std::string::npos);
+    other = identity();
+    other.number = 8;
+    CHECK(refusal_of(file, other).find("number 7") != std::string::npos);
+    other = identity();
+    other.pilot = "guess";
+    CHECK(refusal_of(file, other).find("is a person's") != std::string::npos);
+    CHECK(refusal_of(file, identity()).empty());
+}
+
+TEST_CASE("what is no study is refused in one line", "[study]") {
+    const test::TemporaryFolder folder;
+    const auto file = folder.path() / "x.dibhr-study";
+    CHECK_THROWS_AS(read_study(file), InputError);
+    std::ofstream(file) << "not a database, and longer than a header of SQLite would be: "
+                        << std::string(200, 'x');
+    CHECK_THROWS_AS(read_study(file), InputError);
+    CHECK_FALSE(refusal_of(file, identity()).empty());
+}
+
+TEST_CASE("a label is letters, digits, - and _", "[study]") {
+    for (const char* const good : {"P07", "a-b_c", "7"}) CHECK_NOTHROW(require_label(good));
+    for (const char* const bad : {"", "Anna B.", "../x", "P/7", "\xc3\xa4", "P07\n"})
+        CHECK_THROWS_AS(require_label(bad), InputError);
+    CHECK(number_in("P07") == 7);
+    CHECK_FALSE(number_in("P00"));
+    CHECK_FALSE(number_in("Pilot"));
+}
