@@ -144,6 +144,7 @@ TestResult signed_rank_test(std::span<const double> differences) {
     TestResult result{"Wilcoxon signed-rank, exact", static_cast<int>(kept.size())};
     if (kept.empty()) return result;
     std::vector<double> sizes;
+    sizes.reserve(kept.size());
     for (const double each : kept) sizes.push_back(std::fabs(each));
     const std::vector<int> ranks = doubled_ranks(sizes);
     int positive = 0;
@@ -189,6 +190,7 @@ TestResult friedman_test(const std::vector<std::vector<double>>& rows) {
     TestResult result{"Friedman, 9,999 random orders", static_cast<int>(rows.size())};
     if (rows.empty() || rows.front().size() < 2) return result;
     std::vector<std::vector<int>> ranks;
+    ranks.reserve(rows.size());
     for (const auto& row : rows) ranks.push_back(doubled_ranks(row));
     const auto n = static_cast<double>(rows.size());
     const auto k = static_cast<double>(rows.front().size());

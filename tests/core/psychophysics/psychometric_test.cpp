@@ -75,7 +75,7 @@ TEST_CASE("thresholds are unbiased and their intervals cover as often as they sa
     const Form form = GENERATE(some_of(kForms, 1));
     const Curve curve = GENERATE(Curve::logistic, Curve::weibull);
     const bool staircase = GENERATE(false, true);
-    const int studies = all_studies() ? 1000 : DIBHR_SANITIZED ? 20 : 200;
+    const int studies = all_studies() ? 1000 : DIBHR_SANITIZED ? 20 : 100;
     const PsychometricFunction person = person_of(curve, form.guess);
     const Simulate simulate =
         staircase ? same_staircases(rule_of(form), 4) : same_levels(constant_levels(40));
