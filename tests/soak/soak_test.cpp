@@ -202,7 +202,7 @@ double growth_of(const std::vector<double>& resident_mb) {
 
 TEST_CASE("a long session of everything at random leaves sound recordings, and no memory behind",
           "[soak]") {
-    const seconds duration(number_from("DIBHR_SOAK_SECONDS", 60));
+    const seconds duration(number_from("DIBHR_SOAK_SECONDS", 30));
     const std::uint64_t seed = number_from("DIBHR_SOAK_SEED", std::random_device{}());
     const bool is_long = duration >= seconds(300);
     const seconds warm_up = is_long ? seconds(60) : duration / 4;
