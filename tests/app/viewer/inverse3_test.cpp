@@ -30,7 +30,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using Words = std::vector<std::string>;
-using Rows = std::vector<Row>;
+using TickRows = std::vector<Row>;
 
 constexpr const char* kMeet = "search --sync --onlyvisible --name dibhr sleep 0.1 ";
 
@@ -53,7 +53,7 @@ class Inverse3Scene {
         desk.act(kMeet);
     }
 
-    Rows finish() {
+    TickRows finish() {
         desk.act(std::string(kMeet) + "key q");
         REQUIRE(viewer.wait() == 0);
         CHECK(read_text(folder / "errors.txt").empty());
@@ -123,7 +123,7 @@ TEST_CASE(
         at.move_hand({14.0, 7.0, 0.0}, 1.0);
         at.move_hand({14.0, -30.0, 0.0}, 0.3);
     }
-    const Rows rows = at.finish();
+    const TickRows rows = at.finish();
     run_shell("sqlite3 '" + (at.folder / "hand.dibhr").string() +
               "' \"SELECT value FROM session WHERE key = 'inverse3-id'\" | grep -qx 049D");
     run_shell("sqlite3 '" + (at.folder / "hand.dibhr").string() +
@@ -160,7 +160,7 @@ TEST_CASE("with auto the mouse touches until an Inverse3 is ready, while it is g
     at.wait_for_force();
     at.tell("unplug");
     std::this_thread::sleep_for(300ms);
-    const Rows rows = at.finish();
+    const TickRows rows = at.finish();
 
     const auto first =
         std::find_if(rows.begin(), rows.end(), [](const Row& row) { return row.surface; });
@@ -194,7 +194,7 @@ TEST_CASE("the grip's buttons record and take the force off", "[inverse3][window
     press("C");  // the recording on the command line ends
     press("C");  // and a new one begins
     press("C");
-    const Rows rows = at.finish();
+    const TickRows rows = at.finish();
     CHECK(rows.back().cut == static_cast<int>(SafetyCut::off));
     std::size_t recordings = 0;
     for (const auto& entry : std::filesystem::directory_iterator(at.folder.path())) {
