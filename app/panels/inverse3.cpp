@@ -48,8 +48,16 @@ void draw_sentence(const Status& status) {
     }
 }
 
-void draw_exchange(const Status& status) {
+void draw_exchange(const Inverse3News& news) {
+    const Status& status = news.status;
     fact_row("Exchanges", formatted("%.0f per second", status.exchanges_per_s));
+    if (news.recent_ages.count() > 0) {
+        fact_row("Age of the pose",
+                 formatted("%.2f ms, 99 %% below %.2f ms", news.recent_ages.quantile_ms(0.5),
+                           news.recent_ages.quantile_ms(0.99)),
+                 "How long ago the position that a tick of the haptic loop uses had come from the "
+                 "service, in the last second: one above 20 ms gives no force");
+    }
     fact_row("Forces", dialect_text(status),
              "How forces are spelled to the service, and whether it told one back");
     if (!status.preset.empty()) fact_row("Preset", status.preset);
@@ -103,7 +111,7 @@ void draw_inverse3_state(ViewerState& state) {
     fact_row(status.minverse ? "Minverse" : "Inverse3", name_text(status));
     draw_sentence(status);
     if (!status.version.empty()) fact_row("Service", status.version);
-    if (status.stage == Stage::ready) draw_exchange(status);
+    if (status.stage == Stage::ready) draw_exchange(*state.inverse3);
     fact_row("Touches", touching_text(state));
 }
 

@@ -30,6 +30,7 @@
 #include "core/video/media.hpp"
 #include "core/video/player.hpp"
 #include "device/falcon/status.hpp"
+#include "device/hand/pose_ages.hpp"
 #include "device/inverse3/status.hpp"
 
 namespace dibhr {
@@ -302,8 +303,10 @@ struct FalconNews {
 /// What the window shows of the Inverse3.
 struct Inverse3News {
     inverse3::Status status{};
-    bool asked{false};      ///< the status is the device's answer; before, anything may be
-    bool was_ready{false};  ///< in this run: when it is not now, it was lost
+    PoseAges ages{};         ///< since the start of the program
+    PoseAges recent_ages{};  ///< of about the last second
+    bool asked{false};       ///< the status is the device's answer; before, anything may be
+    bool was_ready{false};   ///< in this run: when it is not now, it was lost
 };
 
 struct ViewerState {

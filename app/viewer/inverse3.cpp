@@ -24,7 +24,17 @@ std::optional<std::string> ViewerInverse3::take_news(ViewerState& state) {
     Inverse3News& news = *state.inverse3;
     news.status = device_->status();
     news.asked = true;
+    take_ages(news);
     return stages_.take(news.status.stage, "Inverse3", news.was_ready, state);
+}
+
+void ViewerInverse3::take_ages(Inverse3News& news) {
+    news.ages = device_->pose_ages();
+    const auto now = std::chrono::steady_clock::now();
+    if (now - second_begin_ < std::chrono::seconds(1)) return;
+    second_begin_ = now;
+    news.recent_ages = news.ages.since(told_ages_);
+    told_ages_ = news.ages;
 }
 
 std::vector<Action> ViewerInverse3::take_presses(const ViewerState& state) {

@@ -1,6 +1,7 @@
 // The window thread's end of the Inverse3: its news, its buttons, its tuning.
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "app/panels/viewer_state.hpp"
 #include "app/settings/keys.hpp"
 #include "app/viewer/stage_news.hpp"
+#include "device/hand/pose_ages.hpp"
 #include "device/hand_device.hpp"
 #include "device/inverse3/status.hpp"
 
@@ -32,10 +34,14 @@ class ViewerInverse3 {
     void hand_over(const ViewerState& state);
 
   private:
+    void take_ages(Inverse3News& news);
+
     inverse3::Inverse3Device* device_;
     inverse3::Tuning handed_{};
     TakenPresses presses_{};
     StageNews<inverse3::Stage> stages_{};
+    PoseAges told_ages_{};  // of the second before this one
+    std::chrono::steady_clock::time_point second_begin_{};
 };
 
 }  // namespace dibhr

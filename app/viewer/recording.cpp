@@ -143,6 +143,8 @@ void ViewerRecording::start(const std::filesystem::path& file, ViewerState& stat
     told_version_ = 0;
     falcon_serial_.clear();
     inverse3_id_.clear();
+    ages_told_ = 0;
+    ages_before_ = state.inverse3 ? state.inverse3->ages : PoseAges{};
     device_.clear();
     start_ = std::chrono::steady_clock::now();
     state.recording_trouble.clear();
@@ -264,12 +266,25 @@ void ViewerRecording::take_news(ViewerState& state) {
         for (const auto& [key, value] : found_facts(state.inverse3->status))
             recorder_->set_fact(key, value);
     }
+    tell_ages(state);
     state.recording->status = recorder_->status();
     state.recording->time_s = now_s();
     std::string failure = state.recording->status.failure;
     if (const std::string of_video = live_ ? live_->failure() : std::string{}; !of_video.empty())
         failure = "Recording the video of what is live stopped: " + of_video;
     if (!failure.empty()) break_off(state, failure);
+}
+
+/// Of the poses that the recorded ticks used, while the recording goes on.
+void ViewerRecording::tell_ages(const ViewerState& state) {
+    if (!state.inverse3) return;
+    const PoseAges ages = state.inverse3->ages.since(ages_before_);
+    if (ages.count() == 0 || ages.count() == ages_told_) return;
+    ages_told_ = ages.count();
+    for (const auto& [name, part] : {std::pair{"half", 0.5}, {"most", 0.99}, {"worst", 1.0}}) {
+        recorder_->set_fact(std::string("inverse3-pose-age-") + name + "-ms",
+                            number_text(ages.quantile_ms(part), 2));
+    }
 }
 
 void ViewerRecording::leave() {

@@ -17,6 +17,7 @@
 #include "core/session/recorder.hpp"
 #include "core/video/media.hpp"
 #include "core/video/player.hpp"
+#include "device/hand/pose_ages.hpp"
 
 namespace dibhr {
 
@@ -78,6 +79,7 @@ class ViewerRecording {
     void tell_media(std::uint32_t number, const Opened& opened);
     void begin_if_there(ViewerState& state);
     [[nodiscard]] std::string told(const RecorderStatus& recorded, ViewerState& state);
+    void tell_ages(const ViewerState& state);
     void break_off(ViewerState& state, const std::string& failure);
     [[nodiscard]] double now_s() const;
 
@@ -101,6 +103,8 @@ class ViewerRecording {
     std::string participant_{}, note_{};  // as told
     std::string falcon_serial_{};         // known only when it has been found
     std::string inverse3_id_{};           // likewise
+    PoseAges ages_before_{};              // an Inverse3's, when the recording began
+    std::uint64_t ages_told_{0};          // how many of them are in the file
     std::string device_{};                // told of the session, where not the one asked for
     std::chrono::steady_clock::time_point start_{};
     std::string failure_{};  // of the first recording that broke off

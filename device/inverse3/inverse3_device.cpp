@@ -20,6 +20,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kOldestPose{20};
 constexpr double kMaxForce_newton = 10.0;  // for a moment; Tuning::max_force_newton lasts
 constexpr double kMaxStiffness_newton_per_mm = 1.0;
+constexpr int kTellAgesEvery = 500;  // ticks
 constexpr double kMetre_mm = 1000.0;
 
 DeviceSpecification specification_of(const ConnectionOptions& options) {
@@ -55,6 +56,7 @@ HandReading Inverse3Device::read(const HandContext& context) noexcept {
     const TimedPose& newest = exchange_.poses.front();
     take_epoch(newest.epoch);
     pose_age_ = Clock::now() - newest.at;
+    count_age();
 
     const bool posed = epoch_ != kNoEpoch && pose_age_ < kOldestPose;
     HandReading reading;
@@ -72,6 +74,14 @@ HandReading Inverse3Device::read(const HandContext& context) noexcept {
 
     reading.goal_in_grid = goal_in_grid_.value_or(above_image(context.surface));
     return reading;
+}
+
+void Inverse3Device::count_age() noexcept {
+    if (epoch_ == kNoEpoch) return;
+    ages_.add(pose_age_);
+    if (++ages_untold_ < kTellAgesEvery) return;
+    ages_untold_ = 0;
+    told_ages_.publish(ages_);
 }
 
 /// The newest tuning for this tick; true when the hand feels something else with it.

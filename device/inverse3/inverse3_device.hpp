@@ -6,6 +6,7 @@
 
 #include "core/loop/device.hpp"
 #include "core/realtime/triple_buffer.hpp"
+#include "device/hand/pose_ages.hpp"
 #include "device/hand/workspace.hpp"
 #include "device/inverse3/driver.hpp"
 #include "device/inverse3/exchange.hpp"
@@ -43,17 +44,23 @@ class Inverse3Device final : public Device {
     /// How old the pose was.
     [[nodiscard]] std::chrono::nanoseconds pose_age() const noexcept { return pose_age_; }
 
-    /// The window thread's end.
+    // The window thread's end:
+
     [[nodiscard]] TripleBuffer<Tuning>& tuning() noexcept { return tuning_; }
+    /// How old poses were in the ticks in which this hand touched, since the start; at most half a
+    /// second behind.
+    [[nodiscard]] const PoseAges& pose_ages() noexcept { return told_ages_.front(); }
     [[nodiscard]] Status status() const { return driver_.status(); }
 
   private:
     [[nodiscard]] bool take_tuning() noexcept;
+    void count_age() noexcept;
     void take_epoch(Epoch newest) noexcept;
     void place_goal(Vec3 position_m, bool clutched, const HandContext& context) noexcept;
 
     DeviceSpecification specification_;
     TripleBuffer<Tuning> tuning_{};
+    TripleBuffer<PoseAges> told_ages_{};
     Exchange exchange_{};
 
     // The haptic thread's.
@@ -61,6 +68,8 @@ class Inverse3Device final : public Device {
     ImageTilt tilt_{0.0};
     Epoch epoch_{kNoEpoch};
     std::chrono::nanoseconds pose_age_{0};
+    PoseAges ages_{};
+    int ages_untold_{0};
     Workspace workspace_{};
     std::optional<Vec3> goal_in_grid_{};
     bool may_push_{false};  // the last reading was ready

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <glm/geometric.hpp>
+#include <iostream>
 #include <string>
 #include <thread>
 #include <utility>
@@ -32,6 +33,18 @@ using Words = std::vector<std::string>;
 using Rows = std::vector<Row>;
 
 constexpr const char* kMeet = "search --sync --onlyvisible --name dibhr sleep 0.1 ";
+
+/// Of 99 ticks in 100. Without other load it is about 2 ms; a busy machine adds to it.
+constexpr double kOldestPose_ms = 4.0;
+
+double number_in_session(const std::filesystem::path& session, const std::string& key) {
+    const std::filesystem::path told = session.parent_path() / "fact.txt";
+    run_shell("sqlite3 '" + session.string() + "' \"SELECT value FROM session WHERE key = '" + key +
+              "'\" > '" + told.string() + "'");
+    const std::string text = read_text(told);
+    REQUIRE_FALSE(text.empty());
+    return std::stod(text);
+}
 
 /// The program on its display, recording, and the service that it finds.
 class Inverse3Scene {
@@ -190,4 +203,27 @@ TEST_CASE("the grip's buttons record and take the force off", "[inverse3][window
         if (name.starts_with("dibhr-") && name.ends_with(".dibhr")) ++recordings;
     }
     CHECK(recordings == 1);
+}
+
+TEST_CASE("poses stay young while the program decodes, draws and records", "[inverse3][window]") {
+    Scene scene = Inverse3Scene::scene_with_grip();
+    scene.manners.tick = GENERATE(1000us, 250us);
+    std::vector<double> most_ms;  // a busy machine keeps threads from running now and then
+    while (most_ms.size() < 3 && (most_ms.empty() || most_ms.back() > kOldestPose_ms)) {
+        Inverse3Scene at({"--device", "inverse3"}, scene);
+        at.move_hand({0.0, 8.0, 0.0}, 0.3);
+        at.wait_for_force();
+        std::this_thread::sleep_for(4s);
+        (void)at.finish();
+        const auto age_ms = [&](const char* part) {
+            return number_in_session(at.folder / "hand.dibhr",
+                                     std::string("inverse3-pose-age-") + part + "-ms");
+        };
+        std::cout << "tick of the service " << scene.manners.tick.count()
+                  << " us: age of the pose p50 " << age_ms("half") << ", p99 " << age_ms("most")
+                  << ", worst " << age_ms("worst") << " ms\n";
+        CHECK(age_ms("half") > 0.0);
+        most_ms.push_back(age_ms("most"));
+    }
+    CHECK(most_ms.back() <= kOldestPose_ms);
 }
