@@ -305,8 +305,8 @@ struct Inverse3News {
     inverse3::Status status{};
     PoseAges ages{};         ///< since the start of the program
     PoseAges recent_ages{};  ///< of about the last second
-    bool asked{false};      ///< the status is the device's answer; before, anything may be
-    bool was_ready{false};  ///< in this run: when it is not now, it was lost
+    bool asked{false};       ///< the status is the device's answer; before, anything may be
+    bool was_ready{false};   ///< in this run: when it is not now, it was lost
 };
 
 struct ViewerState {

@@ -12,6 +12,7 @@
 #include "core/haptics/safety.hpp"
 #include "core/session/session.hpp"
 #include "core/video/media.hpp"
+#include "tests/app/program/command_program.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/text.hpp"
