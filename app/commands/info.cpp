@@ -126,9 +126,7 @@ std::string levels_text(const MediaDescription& media) {
 }
 
 std::string list_text(const std::vector<std::string>& words) {
-    std::string list;
-    for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
-    return list.empty() ? "nothing" : list;
+    return words.empty() ? "nothing" : listed(words);
 }
 
 /// Empty: the colour lies over the depth as it is.

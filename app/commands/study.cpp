@@ -69,10 +69,8 @@ fs::path protocol_called(const fs::path& name) {
     const std::vector<std::string> shipped = shipped_studies();
     if (std::find(shipped.begin(), shipped.end(), name.string()) != shipped.end())
         return shipped_studies_folder() / (name.string() + ".toml");
-    std::string list;
-    for (const std::string& one : shipped) list += (list.empty() ? "" : ", ") + one;
     throw InputError(shown(name) + " is no file, and no study that comes with the program (" +
-                     list + ")" + did_you_mean(name.string(), shipped));
+                     listed(shipped) + ")" + did_you_mean(name.string(), shipped));
 }
 
 /// Files and materials that a condition names and that cannot be opened are told before anybody
@@ -98,7 +96,7 @@ void require_media(const Protocol& protocol) {
     for (const Block& block : protocol.blocks) require_picture(block.instructions);
 }
 
-/// Where no time is set, what people took in studies of this kind, by rule of thumb [s].
+/// At most; by a rule of thumb where the block sets no time.
 double minutes_of(const Block& block) {
     constexpr double kInterval_s = 6.0;
     constexpr double kAnswer_s = 3.0;

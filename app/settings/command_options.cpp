@@ -99,16 +99,12 @@ std::string range_of(double lowest, double highest) {
 /// Throws CLI::ValidationError that names `option`.
 double parse_number(const std::string& option, const std::string& text, double lowest,
                     double highest) {
-    double value = 0.0;
-    const char* const end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, value);
-    if (error != std::errc{} || stop != end || !std::isfinite(value)) {
-        throw CLI::ValidationError(option, "'" + text + "' is not a number");
-    }
-    if (value < lowest || value > highest) {
+    const auto value = number_of_text(text);
+    if (!value) throw CLI::ValidationError(option, "'" + text + "' is not a number");
+    if (*value < lowest || *value > highest) {
         throw CLI::ValidationError(option, text + " is not in " + range_of(lowest, highest));
     }
-    return value;
+    return *value;
 }
 
 /// The shape on the picture plane, and how large a pixel of it is.

@@ -17,6 +17,7 @@
 #include "core/error.hpp"
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/files/text_file.hpp"
 #include "core/video/media.hpp"
 
 namespace dibhr {
@@ -26,7 +27,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kEnding = ".toml";
-constexpr std::uintmax_t kMostBytes = 1U << 20;  ///< a page of text; more is no material
 constexpr std::size_t kLongestName = 60;
 
 /// A number of the file, and what it is of the material.
@@ -109,17 +109,12 @@ void take(const fs::path& file, std::string_view name, const toml::node& node, M
 }
 
 toml::table table_of(const fs::path& file) {
-    std::error_code failed;
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream content;
-    const bool fits =
-        fs::is_regular_file(file, failed) && fs::file_size(file, failed) <= kMostBytes;
-    if (in && fits && fs::file_size(file, failed) > 0) content << in.rdbuf();
-    if (!in || !fits)
+    const auto content = small_text_in(file);
+    if (!content)
         throw InputError("cannot read the material " + shown(file) +
                          ": name a small text file that can be read");
     try {
-        return toml::parse(content.str());
+        return toml::parse(*content);
     } catch (const toml::parse_error& error) {
         std::ostringstream text;
         text << file.string() << ":" << error.source().begin.line << ": cannot be understood ("

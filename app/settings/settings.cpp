@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <set>
@@ -24,6 +23,7 @@
 #include "core/error.hpp"
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/files/text_file.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/video/depth/sidecar.hpp"
 
@@ -351,14 +351,9 @@ std::string toml_text(Settings settings) {
 }
 
 std::string content_of(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream content;
-    if (in && fs::is_regular_file(file) && fs::file_size(file) > 0) content << in.rdbuf();
-    if (!in || content.fail() || !fs::is_regular_file(file)) {
-        throw InputError("cannot read the settings file " + file.string() +
-                         ": make it readable or delete it");
-    }
-    return content.str();
+    if (auto content = small_text_in(file)) return *std::move(content);
+    throw InputError("cannot read the settings file " + file.string() +
+                     ": make it readable or delete it");
 }
 
 toml::table parsed(const fs::path& file) {

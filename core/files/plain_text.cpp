@@ -10,9 +10,11 @@ extern "C" {
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <iostream>
+#include <system_error>
 #include <utility>
 
 #include "core/files/terminal.hpp"
@@ -140,6 +142,20 @@ std::string percent_decoded(std::string_view text) {
         if (coded) k += 2;
     }
     return decoded;
+}
+
+std::string listed(const std::vector<std::string>& words) {
+    std::string list;
+    for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
+    return list;
+}
+
+std::optional<double> number_of_text(std::string_view text) {
+    double value = 0.0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc{} || stop != end || !std::isfinite(value)) return std::nullopt;
+    return value;
 }
 
 std::string base64_text(std::string_view bytes) {

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace dibhr {
 
@@ -17,6 +19,9 @@ namespace dibhr {
 
 /// In quotation marks on one line, cut short after `longest` bytes.
 [[nodiscard]] std::string in_quotes(std::string_view text, std::size_t longest = 40);
+
+/// "a, b, c".
+[[nodiscard]] std::string listed(const std::vector<std::string>& words);
 
 /// As utf8_text, and means nothing to a browser: for the text of an element or an attribute in
 /// double quotes.
@@ -39,6 +44,9 @@ namespace dibhr {
 
 /// With so many digits that count, at most 200, and no zeros at the end: 0.123, 12.3, 1.23e-05.
 [[nodiscard]] std::string short_text(double value, int digits = 6);
+
+/// A finite number as these write it, and nothing else before or after it; whatever the locale.
+[[nodiscard]] std::optional<double> number_of_text(std::string_view text);
 
 /// Appends with 17 significant digits, as CSV files have it: reads back to the same bits.
 void append_number(std::string& text, double value);

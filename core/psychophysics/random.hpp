@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <utility>
 
@@ -14,7 +15,8 @@ namespace dibhr {
 /// (`normal` to the last bit of the C library's `log`).
 class Random {
   public:
-    /// The same seed and stream give the same draws; another stream is independent of them.
+    /// The same seed and stream give the same draws. Those of neighbouring seeds and streams begin
+    /// alike: draws_for() does not.
     explicit Random(std::uint64_t seed, std::uint64_t stream = 0) noexcept
         : increment_(stream << 1U | 1U) {
         bits();
@@ -63,5 +65,19 @@ class Random {
     std::uint64_t state_{0};
     std::uint64_t increment_;
 };
+
+/// Draws of their own for every list of numbers. The streams of neighbouring numbers begin alike,
+/// so that they are mixed first (SplitMix64's finaliser).
+[[nodiscard]] inline Random draws_for(std::uint64_t seed,
+                                      std::initializer_list<std::uint64_t> which) noexcept {
+    std::uint64_t stream = 0;
+    for (const std::uint64_t one : which) {
+        stream = (stream ^ one) + 0x9e3779b97f4a7c15U;
+        stream = (stream ^ (stream >> 30U)) * 0xbf58476d1ce4e5b9U;
+        stream = (stream ^ (stream >> 27U)) * 0x94d049bb133111ebU;
+        stream ^= stream >> 31U;
+    }
+    return Random(seed, stream);
+}
 
 }  // namespace dibhr

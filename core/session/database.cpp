@@ -118,31 +118,38 @@ std::string Database::last_error() const {
     return words;
 }
 
+bool SqliteRow::has(int column) const noexcept {
+    return sqlite3_column_type(statement_.get(), column) != SQLITE_NULL;
+}
+
+double SqliteRow::real(int column) const noexcept {
+    return sqlite3_column_double(statement_.get(), column);
+}
+
+std::int64_t SqliteRow::integer(int column) const noexcept {
+    return sqlite3_column_int64(statement_.get(), column);
+}
+
+std::string SqliteRow::text(int column) const {
+    const unsigned char* const text = sqlite3_column_text(statement_.get(), column);
+    const int bytes = sqlite3_column_bytes(statement_.get(), column);
+    return text == nullptr ? std::string{} : std::string(text, text + bytes);
+}
+
+std::string SqliteRow::bytes(int column) const {
+    const auto* const bytes =
+        static_cast<const char*>(sqlite3_column_blob(statement_.get(), column));
+    const int count = sqlite3_column_bytes(statement_.get(), column);
+    return bytes == nullptr ? std::string{} : std::string(bytes, bytes + count);
+}
+
 Rows::Rows(Database& database, std::string_view sql)
-    : database_(database), handle_(prepared(database.handle_.get(), database, sql)) {}
+    : SqliteRow(prepared(database.handle_.get(), database, sql)), database_(database) {}
 
 bool Rows::next() {
-    const int result = sqlite3_step(handle_.get());
+    const int result = sqlite3_step(statement_.get());
     if (result != SQLITE_ROW && result != SQLITE_DONE) throw DatabaseError(database_.last_error());
     return result == SQLITE_ROW;
-}
-
-bool Rows::has(int column) const noexcept {
-    return sqlite3_column_type(handle_.get(), column) != SQLITE_NULL;
-}
-
-double Rows::real(int column) const noexcept {
-    return sqlite3_column_double(handle_.get(), column);
-}
-
-std::int64_t Rows::integer(int column) const noexcept {
-    return sqlite3_column_int64(handle_.get(), column);
-}
-
-std::string Rows::text(int column) const {
-    const void* const bytes = sqlite3_column_blob(handle_.get(), column);
-    const auto count = static_cast<std::size_t>(sqlite3_column_bytes(handle_.get(), column));
-    return bytes == nullptr ? std::string() : std::string(static_cast<const char*>(bytes), count);
 }
 
 Statement::Statement(Database& database, std::string_view sql)

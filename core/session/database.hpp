@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 struct sqlite3;
 struct sqlite3_stmt;
@@ -62,24 +63,34 @@ class Database {
     SqliteDatabase handle_{};
 };
 
-/// The rows of a question, one after the other; must not outlive its database. Columns count from
-/// 0.
-class Rows {
+/// What a question's row holds. Columns count from 0.
+class SqliteRow {
+  public:
+    [[nodiscard]] bool has(int column) const noexcept;  ///< a value, not NULL
+    [[nodiscard]] double real(int column) const noexcept;
+    [[nodiscard]] std::int64_t integer(int column) const noexcept;
+    /// Numbers, too, as text.
+    [[nodiscard]] std::string text(int column) const;
+    /// Of what is no text.
+    [[nodiscard]] std::string bytes(int column) const;
+
+  protected:
+    SqliteRow() = default;
+    explicit SqliteRow(SqliteStatement statement) noexcept : statement_(std::move(statement)) {}
+    SqliteStatement statement_{};
+};
+
+/// The rows of a question, one after the other; must not outlive its database.
+class Rows : public SqliteRow {
   public:
     /// Throws DatabaseError, as next() does.
     Rows(Database& database, std::string_view sql);
 
     /// False after the last row.
     [[nodiscard]] bool next();
-    [[nodiscard]] bool has(int column) const noexcept;  ///< a value, not NULL
-    [[nodiscard]] double real(int column) const noexcept;
-    [[nodiscard]] std::int64_t integer(int column) const noexcept;
-    /// The bytes of a text or of what is none.
-    [[nodiscard]] std::string text(int column) const;
 
   private:
     Database& database_;
-    SqliteStatement handle_{};
 };
 
 /// A prepared statement that writes; must not outlive its database. Takes the cells of a row one

@@ -210,14 +210,6 @@ bool SessionReader::Query::next() {
     return false;
 }
 
-double SessionReader::Query::real(int column) const noexcept {
-    return sqlite3_column_double(statement_.get(), column);
-}
-
-std::int64_t SessionReader::Query::integer(int column) const noexcept {
-    return sqlite3_column_int64(statement_.get(), column);
-}
-
 SessionReader::Kind SessionReader::Query::kind(int column) const noexcept {
     switch (sqlite3_column_type(statement_.get(), column)) {
         case SQLITE_INTEGER:
@@ -237,19 +229,6 @@ int SessionReader::Query::columns() const noexcept {
 
 std::string SessionReader::Query::name(int column) const {
     return sqlite3_column_name(statement_.get(), column);
-}
-
-std::string SessionReader::Query::text(int column) const {
-    const unsigned char* const text = sqlite3_column_text(statement_.get(), column);
-    const int bytes = sqlite3_column_bytes(statement_.get(), column);
-    return text == nullptr ? std::string{} : std::string(text, text + bytes);
-}
-
-std::string SessionReader::Query::bytes(int column) const {
-    const auto* const bytes =
-        static_cast<const char*>(sqlite3_column_blob(statement_.get(), column));
-    const int count = sqlite3_column_bytes(statement_.get(), column);
-    return bytes == nullptr ? std::string{} : std::string(bytes, bytes + count);
 }
 
 }  // namespace dibhr

@@ -48,26 +48,21 @@ class SessionReader {
     SqliteDatabase database_{};
 };
 
-/// The rows of a question, one after the other; must not outlive its reader. Columns count from 0.
-class SessionReader::Query {
+/// The rows of a question, one after the other; must not outlive its reader.
+class SessionReader::Query : public SqliteRow {
   public:
     /// Throws InputError when the file holds no such tables or columns.
     Query(const SessionReader& reader, const std::string& sql);
 
     /// False after the last row. Throws InputError for a damaged file.
     [[nodiscard]] bool next();
-    [[nodiscard]] double real(int column) const noexcept;
-    [[nodiscard]] std::int64_t integer(int column) const noexcept;
     [[nodiscard]] Kind kind(int column) const noexcept;
-    [[nodiscard]] std::string text(int column) const;
-    [[nodiscard]] std::string bytes(int column) const;
 
     [[nodiscard]] int columns() const noexcept;
     [[nodiscard]] std::string name(int column) const;
 
   private:
     const SessionReader& reader_;
-    SqliteStatement statement_{};
 };
 
 }  // namespace dibhr

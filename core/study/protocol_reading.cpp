@@ -1,16 +1,14 @@
 // Reads study.toml.
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <sstream>
-#include <system_error>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/files/content_hash.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/files/spelling.hpp"
+#include "core/files/text_file.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/study/protocol.hpp"
 #include "core/study/toml_page.hpp"
@@ -21,7 +19,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uintmax_t kMostBytes = 1U << 20;  ///< a page of text; more is no protocol
 constexpr std::size_t kMostConditions = 1000;
 constexpr int kMostTrials = 10000;
 constexpr double kAnyNumber = 1e9;
@@ -441,23 +438,14 @@ class ProtocolReading {
     TouchValues base_{};
 };
 
-std::string text_of(const fs::path& file) {
-    std::error_code failed;
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream content;
-    const bool fits =
-        fs::is_regular_file(file, failed) && fs::file_size(file, failed) <= kMostBytes;
-    if (in && fits && fs::file_size(file, failed) > 0) content << in.rdbuf();
-    if (!in || !fits)
-        throw InputError("cannot read the protocol " + one_line(file.string()) +
-                         ": name a small text file that can be read");
-    return content.str();
-}
-
 }  // namespace
 
 Protocol read_protocol(const fs::path& file, const StudyNames& names) {
-    return protocol_of(text_of(file), file, names);
+    const auto text = small_text_in(file);
+    if (!text)
+        throw InputError("cannot read the protocol " + one_line(file.string()) +
+                         ": name a small text file that can be read");
+    return protocol_of(*text, file, names);
 }
 
 Protocol protocol_of(const std::string& text, const fs::path& file, const StudyNames& names) {

@@ -9,8 +9,7 @@
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/files/spelling.hpp"
-#include "core/study/draws.hpp"
-#include "core/study/toml_page.hpp"
+#include "core/psychophysics/random.hpp"
 
 namespace dibhr {
 
@@ -122,12 +121,11 @@ SimulatedParticipant simulated_participant(const std::string& text) {
         if (found == std::end(numbers))
             throw InputError("a pilot is guess, hand, or some of " + listed(names) +
                              " as NAME=VALUE, not " + in_quotes(part) + did_you_mean(name, names));
-        std::istringstream number(value);
-        number.imbue(std::locale::classic());
-        if (!(number >> found->value) || !number.eof() || found->value < found->lowest ||
-            found->value > found->highest)
+        const auto number = number_of_text(value);
+        if (!number || *number < found->lowest || *number > found->highest)
             throw InputError("the pilot's " + name + " is not a number from " +
                              short_text(found->lowest) + " to " + short_text(found->highest));
+        found->value = *number;
     }
     who.seed = static_cast<std::uint64_t>(seed);
     return who;

@@ -10,7 +10,6 @@
 #include <cstring>
 #include <fstream>
 #include <iomanip>
-#include <locale>
 #include <sstream>
 #include <string_view>
 #include <system_error>
@@ -127,23 +126,19 @@ std::string fact(Database& database, const std::string& key) {
     return rows.next() ? rows.text(0) : std::string();
 }
 
-double number_of_text(const std::string& text) {
-    double number = 0.0;
-    std::istringstream in(text);
-    in.imbue(std::locale::classic());
-    in >> number;
-    return number;
+double number_fact(Database& database, const std::string& key) {
+    return number_of_text(fact(database, key)).value_or(0.0);
 }
 
 StudyIdentity identity_in(Database& database) {
     return {.participant = fact(database, "participant"),
-            .number = static_cast<int>(number_of_text(fact(database, "number"))),
+            .number = static_cast<int>(number_fact(database, "number")),
             .program = fact(database, "program"),
             .protocol_name = fact(database, "protocol_name"),
             .protocol_text = fact(database, "protocol"),
             .protocol_sha256 = fact(database, "protocol_sha256"),
-            .seed = static_cast<std::uint64_t>(number_of_text(fact(database, "seed"))),
-            .created_s = number_of_text(fact(database, "created_s")),
+            .seed = static_cast<std::uint64_t>(number_fact(database, "seed")),
+            .created_s = number_fact(database, "created_s"),
             .pilot = fact(database, "pilot")};
 }
 
@@ -421,7 +416,7 @@ bool write_study_session(const fs::path& study, int trial, const fs::path& sessi
         distrust(database);
         require_kind(database, study);
         Rows rows(database, "SELECT file FROM session WHERE trial = " + std::to_string(trial));
-        return rows.next() ? rows.text(0) : std::string();
+        return rows.next() ? rows.bytes(0) : std::string();
     });
     if (bytes.empty()) return false;
     OutputFile out(session);

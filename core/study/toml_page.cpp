@@ -36,12 +36,6 @@ toml::table page_of(const std::string& text, const std::filesystem::path& file) 
     }
 }
 
-std::string listed(const std::vector<std::string>& names) {
-    std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-    return text;
-}
-
 const toml::node* PageTable::node(const std::string& key) {
     known_.insert(key);
     return table_.get(key);

@@ -21,9 +21,6 @@ namespace dibhr {
 /// The page as a table. Throws InputError.
 [[nodiscard]] toml::table page_of(const std::string& text, const std::filesystem::path& file);
 
-/// "a, b, c".
-[[nodiscard]] std::string listed(const std::vector<std::string>& names);
-
 /// One table of it. Every question names a key, which then is known; done() refuses the others.
 /// All of them throw InputError.
 class PageTable {

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <numeric>
 
+#include "core/psychophysics/random.hpp"
 #include "core/psychophysics/staircase.hpp"
-#include "core/study/draws.hpp"
 #include "core/study/study_run.hpp"
 
 namespace dibhr {

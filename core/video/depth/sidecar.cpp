@@ -6,14 +6,15 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/files/text_file.hpp"
 #include "core/video/media.hpp"
 
 namespace dibhr {
@@ -22,7 +23,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uintmax_t kMostBytes = 1U << 20;  ///< a page of text; more is no sidecar
 constexpr std::size_t kMostNoData = 64;
 
 /// The finite numbers between `separator`s; nothing where one is none.
@@ -201,14 +201,8 @@ toml::table parsed(const std::string& toml, const std::string& name) {
 }
 
 std::string content_of(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream content;
-    std::error_code failed;
-    const bool small = fs::is_regular_file(file, failed) && fs::file_size(file) <= kMostBytes;
-    if (in && small && fs::file_size(file) > 0) content << in.rdbuf();
-    if (!in || !small || content.fail())
-        throw InputError(shown(file) + " cannot be read as a sidecar: make it readable or move it");
-    return content.str();
+    if (auto content = small_text_in(file)) return *std::move(content);
+    throw InputError(shown(file) + " cannot be read as a sidecar: make it readable or move it");
 }
 
 /// A folder's name may end with a slash.

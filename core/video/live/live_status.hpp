@@ -15,8 +15,8 @@ struct LiveStatus {
     double behind_s{0.0};
     std::int64_t dropped{0};       ///< pictures that came too soon after others to be shown
     double arrives_per_s{0.0};     ///< as of late; 0: not known yet
-    bool motion_rests{false};      ///< finding it out takes longer than there is time; then nothing
-    bool in_betweens_rest{false};  ///< is carried, or frames fade into each other
+    bool motion_rests{false};      ///< wanted, but there is no time to find it: nothing is carried
+    bool in_betweens_rest{false};  ///< likewise: frames fade into each other
     bool signal{true};
     double silent_s{0.0};     ///< since when it is lost
     bool force_off{false};    ///< because it moved when it was lost

@@ -1,24 +1,9 @@
 // Questions to the person beside a device that is checked.
 #include "device/hand/check/questions.hpp"
 
-#include <charconv>
-#include <string_view>
-#include <system_error>
-
 #include "core/files/plain_text.hpp"
 
 namespace dibhr {
-
-namespace {
-
-std::optional<double> number_of(std::string_view text) {
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return value;
-}
-
-}  // namespace
 
 void CheckQuestions::quit_if_interrupted() const {
     if (guide.interrupted()) throw PersonQuits{};
@@ -63,7 +48,7 @@ std::optional<double> CheckQuestions::number(const std::string& question, double
     for (;;) {
         const std::string text = word(question);
         if (text.empty()) return std::nullopt;
-        const auto value = number_of(text);
+        const auto value = number_of_text(text);
         if (value && *value >= lowest && *value <= highest) return value;
         guide.say("a number from " + number_text(lowest, 0) + " to " + number_text(highest, 0) +
                   ", please, or Enter alone when there is none");

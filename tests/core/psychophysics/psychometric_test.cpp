@@ -55,7 +55,7 @@ Recovery recovered(const PsychometricFunction& person, const Simulate& simulate,
     Recovery found;
     for (int study = 0; study < studies; ++study) {
         const auto seed = static_cast<std::uint64_t>(study);
-        Random random(7919 * (seed + 1), 1);  // streams of one seed are not independent
+        Random random = draws_for(seed, {1});
         const PsychometricFit fit = fitted(simulate(person, random), settings, simulate, seed);
         found.bias += (fit.function.threshold / person.threshold - 1.0) / studies;
         found.coverage += fit.threshold.holds(person.threshold) ? 1.0 / studies : 0.0;
