@@ -3,6 +3,8 @@
 
 #include <sqlite3.h>
 
+#include <system_error>
+
 namespace dibhr {
 
 namespace {
@@ -28,6 +30,18 @@ int SqliteBounds::is_work_over(void* bounds) noexcept {
     if (left == 0) return 1;
     --left;
     return 0;
+}
+
+std::uint64_t work_worth(const std::filesystem::path& file) {
+    constexpr std::uint64_t kStepsAnyway = 20'000'000;
+    constexpr std::uint64_t kStepsPerByte = 100;  // ten times what a session's longest row takes
+    std::uint64_t bytes = 0;
+    for (const char* const ending : {"", "-wal"}) {
+        std::error_code failed;
+        const std::uint64_t there = std::filesystem::file_size(file.string() + ending, failed);
+        if (!failed) bytes += there;
+    }
+    return kStepsAnyway + kStepsPerByte * bytes;
 }
 
 }  // namespace dibhr

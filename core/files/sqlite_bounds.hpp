@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 
 struct sqlite3;
 
@@ -25,5 +26,9 @@ class SqliteBounds {
 
     std::uint64_t looks_left_{0};  ///< at the work of the question being answered
 };
+
+/// Steps that a question about this file and its log may take at most, as all that they can hold is
+/// worth.
+[[nodiscard]] std::uint64_t work_worth(const std::filesystem::path& file);
 
 }  // namespace dibhr

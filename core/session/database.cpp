@@ -56,15 +56,6 @@ std::string file_size_limit_met(sqlite3* database) {
     return {};
 }
 
-SqliteStatement prepared(sqlite3* connection, const Database& database, std::string_view sql) {
-    sqlite3_stmt* handle = nullptr;
-    const int result =
-        sqlite3_prepare_v2(connection, sql.data(), static_cast<int>(sql.size()), &handle, nullptr);
-    SqliteStatement statement(handle);
-    if (result != SQLITE_OK) throw DatabaseError(database.last_error());
-    return statement;
-}
-
 }  // namespace
 
 void SqliteCloser::operator()(sqlite3* database) const noexcept {
@@ -75,7 +66,7 @@ void SqliteCloser::operator()(sqlite3_stmt* statement) const noexcept {
     sqlite3_finalize(statement);
 }
 
-Database::Database(const std::filesystem::path& file) {
+Database::Database(const std::filesystem::path& file) : file_(file) {
     sqlite3* handle = nullptr;
     const int result = sqlite3_open_v2(file.c_str(), &handle, SQLITE_OPEN_READWRITE, nullptr);
     handle_.reset(handle);
@@ -86,7 +77,27 @@ Database::Database(const std::filesystem::path& file) {
     sqlite3_busy_timeout(handle, kPatience_ms);
 }
 
+void Database::distrust(int longest_bytes) {
+    bounds_ = std::make_unique<SqliteBounds>();
+    bounds_->hold(handle_.get(), longest_bytes);
+}
+
+void Database::allow_work() {
+    if (bounds_) bounds_->allow(work_worth(file_));
+}
+
+SqliteStatement Database::prepared(std::string_view sql) {
+    allow_work();
+    sqlite3_stmt* handle = nullptr;
+    const int result = sqlite3_prepare_v2(handle_.get(), sql.data(), static_cast<int>(sql.size()),
+                                          &handle, nullptr);
+    SqliteStatement statement(handle);
+    if (result != SQLITE_OK) throw DatabaseError(last_error());
+    return statement;
+}
+
 void Database::execute(const std::string& sql) {
+    allow_work();
     if (sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) {
         throw DatabaseError(last_error());
     }
@@ -144,7 +155,7 @@ std::string SqliteRow::bytes(int column) const {
 }
 
 Rows::Rows(Database& database, std::string_view sql)
-    : SqliteRow(prepared(database.handle_.get(), database, sql)), database_(database) {}
+    : SqliteRow(database.prepared(sql)), database_(database) {}
 
 bool Rows::next() {
     const int result = sqlite3_step(statement_.get());
@@ -153,7 +164,7 @@ bool Rows::next() {
 }
 
 Statement::Statement(Database& database, std::string_view sql)
-    : database_(database), handle_(prepared(database.handle_.get(), database, sql)) {}
+    : database_(database), handle_(database.prepared(sql)) {}
 
 void Statement::cell(std::string_view text) noexcept {
     sqlite3_bind_text(handle_.get(), ++cells_, text.data(), static_cast<int>(text.size()),

@@ -15,6 +15,8 @@
 #include <thread>
 #include <utility>
 
+#include "core/files/sqlite_bounds.hpp"
+
 struct sqlite3;
 struct sqlite3_stmt;
 
@@ -47,6 +49,9 @@ class Database {
     /// Opens an existing file for reading and writing; an empty file is an empty database.
     explicit Database(const std::filesystem::path& file);
 
+    /// From here on the file is taken for anybody's (SqliteBounds): its tables run nothing, no
+    /// value is longer than that, and a question ends after the work that all of the file is worth.
+    void distrust(int longest_bytes);
     /// Runs statements that give no rows; throws DatabaseError.
     void execute(const std::string& sql);
     /// The one number that a question gives; throws DatabaseError.
@@ -60,6 +65,11 @@ class Database {
   private:
     friend class Statement;
     friend class Rows;
+    [[nodiscard]] SqliteStatement prepared(std::string_view sql);
+    void allow_work();
+
+    std::filesystem::path file_;
+    std::unique_ptr<SqliteBounds> bounds_{};  ///< null: trusted; outlives the connection
     SqliteDatabase handle_{};
 };
 

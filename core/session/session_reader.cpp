@@ -60,15 +60,7 @@ SessionReader::SessionReader(const std::filesystem::path& file) : file_(file) {
 }
 
 void SessionReader::allow_work() const {
-    constexpr std::uint64_t kStepsAnyway = 20'000'000;
-    constexpr std::uint64_t kStepsPerByte = 100;  // ten times what the view's longest row takes
-    std::uint64_t bytes = 0;
-    for (const char* const ending : {"", "-wal"}) {
-        std::error_code failed;
-        const std::uint64_t there = std::filesystem::file_size(file_.string() + ending, failed);
-        if (!failed) bytes += there;
-    }
-    bounds_.allow(kStepsAnyway + kStepsPerByte * bytes);
+    bounds_.allow(work_worth(file_));
 }
 
 /// What is read are the tables of a recording and the view that dibhr makes of them: no other that

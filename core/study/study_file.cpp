@@ -28,6 +28,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kLongestLabel = 40;
+constexpr int kLongestSession_bytes = 1 << 30;  ///< a trial's; an hour's recording has less
 
 constexpr const char* kTables =
     "CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;"
@@ -192,11 +193,6 @@ void require_kind(Database& database, const fs::path& file) {
                          std::to_string(kStudySchemaVersion) + "): use the program that made it");
 }
 
-/// Nothing of the file decides what is done with it.
-void distrust(Database& database) {
-    database.execute("PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON");
-}
-
 std::string bytes_of(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
     std::ostringstream bytes;
@@ -260,7 +256,7 @@ struct StudyFile::Implementation {
         database.execute(std::string("PRAGMA busy_timeout = 0; PRAGMA locking_mode = EXCLUSIVE; "
                                      "PRAGMA synchronous = ") +
                          (pilot ? "OFF" : "FULL"));
-        distrust(database);
+        database.distrust(kLongestSession_bytes);
         database.execute("BEGIN EXCLUSIVE; COMMIT");
     }
 
@@ -389,7 +385,7 @@ StudyRecord read_study(const fs::path& file) {
     if (!fs::is_regular_file(file, failed)) refuse(file, "no such file; check its name");
     return of_file(file, [&] {
         Database database(file);
-        distrust(database);
+        database.distrust(kLongestSession_bytes);
         require_kind(database, file);
         StudyRecord record{.file = file,
                            .identity = identity_in(database),
@@ -413,7 +409,7 @@ std::string session_name(const StudyRecord& study, int trial) {
 bool write_study_session(const fs::path& study, int trial, const fs::path& session) {
     const std::string bytes = of_file(study, [&] {
         Database database(study);
-        distrust(database);
+        database.distrust(kLongestSession_bytes);
         require_kind(database, study);
         Rows rows(database, "SELECT file FROM session WHERE trial = " + std::to_string(trial));
         return rows.next() ? rows.bytes(0) : std::string();

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/session/database.hpp"
 #include "core/study/study_file.hpp"
 #include "tests/core/study/pages.hpp"
 #include "tests/support/catch.hpp"
@@ -114,6 +115,24 @@ TEST_CASE("what is no study is refused in one line", "[study]") {
                         << std::string(200, 'x');
     CHECK_THROWS_AS(read_study(file), InputError);
     CHECK_FALSE(refusal_of(file, identity()).empty());
+}
+
+TEST_CASE("a study file whose trials never end is refused, and soon", "[study]") {
+    const test::TemporaryFolder folder;
+    const auto file = folder / "P07.dibhr-study";
+    StudyFile(file, identity()).add(some_trial(0));
+    Database(file).execute(
+        "DROP TABLE trial; CREATE VIEW trial AS WITH RECURSIVE c(x) AS (SELECT 0 UNION ALL "
+        "SELECT x + 1 FROM c) SELECT sum(x) AS trial, 1 AS block, 0 AS position, 0 AS practice, "
+        "'explore' AS form, 0 AS item, 0 AS repetition, 0 AS target, 0 AS track, 0 AS level, "
+        "0 AS choice, 0 AS number, 0 AS right, 0 AS reaction_s, 0 AS utc_s FROM c");
+    std::string refusal;
+    try {
+        (void)read_study(file);
+    } catch (const InputError& error) {
+        refusal = error.what();
+    }
+    CHECK(refusal.find(file.string() + ": cannot be used (interrupted)") == 0);
 }
 
 TEST_CASE("a label is letters, digits, - and _", "[study]") {
