@@ -30,7 +30,7 @@ DepthBlend depth_at(std::span<const Frame> frames, double time_s) noexcept {
         std::partition_point(frames.begin(), frames.end(),
                              [time_s](const Frame& frame) { return frame.time_s <= time_s; });
     const Frame& from = after == frames.begin() ? frames.front() : *(after - 1);
-    if (after == frames.end() || !(time_s > from.time_s)) return {&from, &from, 0.0};
+    if (after == frames.end() || !(time_s >= from.time_s)) return {&from, &from, 0.0};
     const double span_s = after->time_s - from.time_s;
     return {&from, &*after, std::min((time_s - from.time_s) / span_s, 1.0)};
 }

@@ -40,7 +40,7 @@ std::optional<std::vector<Frame>> made(const std::string& name, int count) {
     if (name != "hand" && name != "plane" && !still) return std::nullopt;
     const Shape shape = name == "plane" ? Shape::plane : Shape::hand;
     const MovingScene scene({shape, MovingScene::Goes::along, still ? 0.0 : 300.0, 640, 480});
-    return test::film(scene, count, 30.0, 3.0, false);
+    return test::film(scene, count, 30.0, {.brightness = 3.0}, false);
 }
 
 std::vector<Frame> read(const std::string& place, int count) {

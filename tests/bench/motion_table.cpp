@@ -147,7 +147,8 @@ class Carried {
 
 Measured measure(const MovingScene& scene, double rate, double seconds, bool raw) {
     const int count = std::max(3, static_cast<int>(std::lround(seconds * rate)) + 1);
-    std::vector<Frame> frames = test::film(scene, count, rate, raw ? 0.0 : 2.0, !raw);
+    std::vector<Frame> frames =
+        test::film(scene, count, rate, {.brightness = raw ? 0.0 : 2.0}, !raw);
     Measured measured;
     Carried carried(scene);
     FrameMotion motion;

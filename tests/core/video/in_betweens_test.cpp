@@ -81,7 +81,7 @@ class Film : public Media {
 
 std::unique_ptr<Media> waving_hand() {
     const MovingScene scene({Shape::hand, Goes::along, 200.0, 320, 240});
-    return std::make_unique<Film>(test::film(scene, 5, 30.0, 1.0, false));
+    return std::make_unique<Film>(test::film(scene, 5, 30.0, {.brightness = 1.0}, false));
 }
 
 /// Mean absolute errors where another thing is within what moved in this time.
@@ -306,7 +306,8 @@ constexpr double kFramesPerSecond = 30.0;
 /// Frames of a fast hand, connected.
 std::vector<Frame> connected_film(int count, const MotionWanted& wanted) {
     const MovingScene scene({Shape::hand, Goes::along, 300.0, 320, 240});
-    std::vector<Frame> frames = test::film(scene, count, kFramesPerSecond, 1.0, false);
+    std::vector<Frame> frames =
+        test::film(scene, count, kFramesPerSecond, {.brightness = 1.0}, false);
     FrameMotion motion;
     for (std::size_t k = 0; k + 1 < frames.size(); ++k)
         motion.connect(frames[k], frames[k + 1], wanted);

@@ -73,7 +73,7 @@ TEST_CASE("nothing moves in a still scene, whatever the camera's noise", "[motio
     const Shape shape = GENERATE(some_of<Shape>({Shape::hand, Shape::plane, Shape::sphere}, 1));
     const double noise = GENERATE(0.0, 1.0, 4.0);
     const std::vector<Frame> frames =
-        test::film(scene_of(shape, Goes::along, 0.0), 2, 30.0, noise, false);
+        test::film(scene_of(shape, Goes::along, 0.0), 2, 30.0, {.brightness = noise}, false);
     CAPTURE(noise);
     CHECK(MotionEstimator().between(frames[0], frames[1]) == nullptr);
 }
@@ -81,7 +81,7 @@ TEST_CASE("nothing moves in a still scene, whatever the camera's noise", "[motio
 TEST_CASE("nothing moves in a still scene that a video codec has coded", "[motion]") {
     const Shape shape = GENERATE(some_of<Shape>({Shape::hand, Shape::plane}, 1));
     const std::vector<Frame> frames =
-        test::film(scene_of(shape, Goes::along, 0.0), 12, 30.0, 3.0, true);
+        test::film(scene_of(shape, Goes::along, 0.0), 12, 30.0, {.brightness = 3.0}, true);
     MotionEstimator estimator;
     for (std::size_t k = 1; k < frames.size(); ++k)
         CHECK(estimator.between(frames[k - 1], frames[k]) == nullptr);
@@ -100,7 +100,7 @@ TEST_CASE("a textured plane's pixels are found where they have gone", "[motion]"
     const double rate = GENERATE(30.0, 60.0);
     CAPTURE(speed, rate);
     const MovingScene scene = scene_of(Shape::plane, Goes::along, speed);
-    const std::vector<Frame> frames = test::film(scene, 2, rate, 1.0, false);
+    const std::vector<Frame> frames = test::film(scene, 2, rate, {.brightness = 1.0}, false);
     const Errors errors = errors_of(scene, motion_of(frames[0], frames[1]), 0.0, 1.0 / rate, 1);
     CHECK(errors.quantile(0.5) < 0.08);
     CHECK(std::fabs(errors.along_px) < 0.04);
@@ -112,7 +112,7 @@ TEST_CASE("a thing moves before a wall that stays", "[motion]") {
     const double speed = GENERATE(60.0, 200.0);
     CAPTURE(static_cast<int>(shape), static_cast<int>(goes), speed);
     const MovingScene scene = scene_of(shape, goes, speed);
-    const std::vector<Frame> frames = test::film(scene, 2, 30.0, 2.0, false);
+    const std::vector<Frame> frames = test::film(scene, 2, 30.0, {.brightness = 2.0}, false);
     const MotionField field = motion_of(frames[0], frames[1]);
     const Errors thing = errors_of(scene, field, 0.0, 1.0 / 30.0, 1);
     const Errors wall = errors_of(scene, field, 0.0, 1.0 / 30.0, 0);
@@ -124,7 +124,7 @@ TEST_CASE("a thing moves before a wall that stays", "[motion]") {
 
 TEST_CASE("the colour of a video is as good a guide", "[motion]") {
     const MovingScene scene = scene_of(Shape::hand, Goes::along, 200.0);
-    const std::vector<Frame> frames = test::film(scene, 3, 30.0, 2.0, true);
+    const std::vector<Frame> frames = test::film(scene, 3, 30.0, {.brightness = 2.0}, true);
     const Errors errors =
         errors_of(scene, motion_of(frames[1], frames[2]), 1.0 / 30.0, 2.0 / 30.0, 1);
     CHECK(errors.quantile(0.5) < 0.25);
@@ -144,7 +144,7 @@ TEST_CASE("no way is longer than a sixteenth of the width to each side", "[motio
 
 TEST_CASE("the same two frames give the same bits, whatever was asked before", "[motion]") {
     const MovingScene scene = scene_of(Shape::hand, Goes::along, 150.0);
-    const std::vector<Frame> frames = test::film(scene, 3, 30.0, 2.0, false);
+    const std::vector<Frame> frames = test::film(scene, 3, 30.0, {.brightness = 2.0}, false);
     MotionEstimator busy;
     static_cast<void>(busy.between(frames[0], frames[1]));
     const auto again = busy.between(frames[1], frames[2]);

@@ -171,12 +171,12 @@ void code(std::vector<Frame>& frames, double frames_per_s) {
 }  // namespace
 
 std::vector<Frame> film(const MovingScene& scene, int count, double frames_per_s,
-                        double brightness_noise, bool coded) {
+                        const CameraNoise& noise, bool coded) {
     std::vector<Frame> frames;
     for (int k = 0; k < count; ++k) {
-        frames.push_back(scene.frame(
-            k / frames_per_s,
-            {.brightness = brightness_noise, .seed = static_cast<std::uint32_t>(k + 1)}));
+        CameraNoise now = noise;
+        now.seed += static_cast<std::uint32_t>(k);
+        frames.push_back(scene.frame(k / frames_per_s, now));
         frames.back().index = k;
     }
     if (coded) code(frames, frames_per_s);

@@ -10,7 +10,7 @@
 
 namespace dibhr::test {
 
-/// What a camera adds.
+/// What a camera adds, to each frame anew.
 struct CameraNoise {
     double brightness{0.0};  ///< standard deviation [levels of 255]
     double elevation_px{0.0};
@@ -63,6 +63,6 @@ class MovingScene {
 /// Frames of a scene in a row, the first at 0 s, without or after a video codec's own loss: the
 /// colour is coded by ffmpeg's H.264 (CRF 23, 4:2:0), where `coded`.
 [[nodiscard]] std::vector<Frame> film(const MovingScene& scene, int count, double frames_per_s,
-                                      double brightness_noise, bool coded);
+                                      const CameraNoise& noise, bool coded);
 
 }  // namespace dibhr::test

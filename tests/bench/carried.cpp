@@ -1,0 +1,211 @@
+// Fingers over a film and over the truth.
+#include "tests/bench/carried.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include "core/haptics/touch.hpp"
+#include "core/video/motion/frame_motion.hpp"
+#include "core/video/motion/motion_track.hpp"
+
+namespace dibhr::bench {
+
+namespace {
+
+using test::MovingScene;
+using Point = MovingScene::Point;
+
+constexpr double kTick_s = 0.001;
+constexpr double kPressed_px = 20.0;
+constexpr double kBeside_px = 12.0;  // of an outline no finger begins or ends
+
+std::shared_ptr<const MotionField> true_field(const MovingScene& scene, double from_s,
+                                              double to_s) {
+    MotionField field{scene.what().columns, scene.what().rows, {}};
+    field.ways.reserve(static_cast<std::size_t>(field.columns) *
+                       static_cast<std::size_t>(field.rows));
+    for (int j = 0; j < field.rows; ++j)
+        for (int i = 0; i < field.columns; ++i) {
+            const Point gone = scene.gone(from_s, {1.0 * i, 1.0 * j}, to_s);
+            field.ways.push_back({static_cast<float>(gone.x - i), static_cast<float>(gone.y - j)});
+        }
+    return std::make_shared<const MotionField>(std::move(field));
+}
+
+/// Frames, each with its motion to the next.
+std::vector<Frame> seen(const MovingScene& scene, const Filming& filming, int count) {
+    std::vector<Frame> frames =
+        test::film(scene, count, filming.frames_per_s,
+                   {.brightness = filming.brightness_levels, .elevation_px = filming.elevation_px},
+                   filming.coded);
+    FrameMotion motion;
+    for (std::size_t k = 0; k + 1 < frames.size(); ++k) {
+        const double from_s = static_cast<double>(k) / filming.frames_per_s;
+        if (filming.found)
+            motion.connect(frames[k], frames[k + 1], {.motion = true});
+        else
+            frames[k].motion = true_field(scene, from_s, from_s + 1.0 / filming.frames_per_s);
+    }
+    return frames;
+}
+
+std::vector<Frame> truth(const MovingScene& scene, double frames_per_s, int count) {
+    std::vector<Frame> frames;
+    for (int k = 0; k < count; ++k) {
+        frames.push_back(scene.frame(k / frames_per_s));
+        frames.back().motion = true_field(scene, k / frames_per_s, (k + 1) / frames_per_s);
+    }
+    return frames;
+}
+
+/// One update after the other over a film.
+class Finger {
+  public:
+    Finger(const std::vector<Frame>& frames, double friction, bool carry) : frames_(frames) {
+        parameters_.shape.relief_px = 255.0;
+        parameters_.friction = {friction, friction};
+        parameters_.carry = carry;
+    }
+
+    const Touch& tick(Vec3 goal, double now_s) {
+        const DepthBlend pair = depth_at(frames_, now_s);
+        SurfaceMotion motion = track_.go_on_to(pair, pair.from->motion.get(), kTick_s);
+        const SafetyInput input{.dt_s = kTick_s, .from_zero = begins_};
+        begins_ = false;
+        return renderer_.update(pair.surface(parameters_.shape), goal, parameters_, input, limits_,
+                                motion);
+    }
+
+  private:
+    const std::vector<Frame>& frames_;
+    TouchParameters parameters_{};
+    SafetyLimits limits_{.max_goal_speed_mm_per_ms = 1e3};
+    TouchRenderer renderer_{};
+    MotionTrack track_{};
+    bool begins_{true};
+};
+
+double median(std::vector<double> values) {
+    if (values.empty()) return CarriedFinger::kNone;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+double angle_deg(Vec3 a, Vec3 b) {
+    const double cosine = glm::dot(a, b) / (glm::length(a) * glm::length(b));
+    return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi;
+}
+
+/// Whether all around it, and it, is of the thing and in the picture.
+bool is_on_thing(const MovingScene& scene, double t_s, Point at) {
+    const auto& what = scene.what();
+    if (at.x < kBeside_px || at.y < kBeside_px || at.x > what.columns - 1 - kBeside_px ||
+        at.y > what.rows - 1 - kBeside_px)
+        return false;
+    for (const double x : {-kBeside_px, 0.0, kBeside_px})
+        for (const double y : {-kBeside_px, 0.0, kBeside_px})
+            if (scene.at(t_s, {at.x + x, at.y + y}).object == 0) return false;
+    return true;
+}
+
+/// Of a grid all over the picture those that stay in it on the thing, evenly chosen.
+std::vector<Point> places_that_stay(const MovingScene& scene, double seconds) {
+    std::vector<Point> found;
+    for (double y = 10.3; y < scene.what().rows; y += 17.0)
+        for (double x = 10.7; x < scene.what().columns; x += 17.0) {
+            bool stays = true;
+            for (int k = 0; stays && k <= 10; ++k)
+                stays = is_on_thing(scene, 0.1 * k * seconds,
+                                    scene.gone(0.0, {x, y}, 0.1 * k * seconds));
+            if (stays) found.push_back({x, y});
+        }
+    constexpr std::size_t kMost = 9;
+    if (found.size() <= kMost) return found;
+    std::vector<Point> chosen;
+    for (std::size_t k = 0; k < kMost; ++k)
+        chosen.push_back(found[(2 * k + 1) * found.size() / (2 * kMost)]);
+    return chosen;
+}
+
+Vec3 over(const MovingScene& scene, double t_s, Point at, double up_px) {
+    return {at.x, at.y, scene.at(t_s, at).elevation_px + up_px};
+}
+
+/// Pressed deep, with much friction, by a hand that goes along: how far from where it ought to be.
+double astray_px(const MovingScene& scene, const std::vector<Frame>& frames, Point begun,
+                 const Filming& filming) {
+    Finger finger(frames, 5.0, filming.carry);
+    finger.tick(over(scene, 0.0, begun, 2.0), 0.0);
+    const int ticks = static_cast<int>(std::lround(filming.seconds / kTick_s));
+    Vec2 place(0.0);
+    Vec2 held(0.0);  // where on the thing it came down, from where it was meant to
+    for (int k = 0; k <= ticks; ++k) {
+        const Point now = scene.gone(0.0, begun, k * kTick_s);
+        const Touch& touch = finger.tick(over(scene, k * kTick_s, now, -kPressed_px), k * kTick_s);
+        place = Vec2(touch.proxy.position);
+        if (k == 0) held = place - Vec2(begun.x, begun.y);
+    }
+    const Point there = scene.gone(0.0, {begun.x + held.x, begun.y + held.y}, ticks * kTick_s);
+    return glm::length(place - Vec2(there.x, there.y));
+}
+
+struct Resting {
+    std::vector<double> turned_deg{}, drag_share{};
+};
+
+/// It stays at its place in the picture, and presses evenly.
+Resting resting(const MovingScene& scene, const std::vector<Frame>& frames,
+                const std::vector<Frame>& true_frames, Point at, const Filming& filming) {
+    constexpr double kLeastDrag_newton = 0.05;
+    constexpr double kBack_s = 1e-3;
+    Finger measured(frames, 0.4, filming.carry);
+    Finger exact(true_frames, 0.4, true);
+    Resting result;
+    const int ticks = static_cast<int>(std::lround(filming.seconds / kTick_s));
+    for (int k = 0; k < ticks; ++k) {
+        const double now_s = k * kTick_s;
+        if (!is_on_thing(scene, now_s, at)) break;
+        const Vec3 goal = over(scene, now_s, at, k == 0 ? 2.0 : -kPressed_px);
+        const Vec3 got = measured.tick(goal, now_s).spring_force_newton;
+        const Vec3 wanted = exact.tick(goal, now_s).spring_force_newton;
+        const Point gone = scene.gone(now_s, at, now_s + kBack_s);
+        const Vec2 way(gone.x - at.x, gone.y - at.y);
+        if (glm::length(wanted) == 0.0 || glm::length(got) == 0.0 || glm::length(way) == 0.0)
+            continue;
+        result.turned_deg.push_back(angle_deg(got, wanted));
+        const double drag = glm::dot(Vec2(wanted), way) / glm::length(way);
+        if (drag > kLeastDrag_newton)
+            result.drag_share.push_back(glm::dot(Vec2(got), way) / glm::length(way) / drag);
+    }
+    return result;
+}
+
+}  // namespace
+
+CarriedFinger carried_finger(const MovingScene& scene, const Filming& filming) {
+    const int count = static_cast<int>(std::ceil(filming.seconds * filming.frames_per_s)) + 2;
+    const std::vector<Frame> frames = seen(scene, filming, count);
+    const std::vector<Frame> true_frames = truth(scene, filming.frames_per_s, count);
+    std::vector<double> astray, turned, drag;
+    for (const Point begun : places_that_stay(scene, filming.seconds))
+        astray.push_back(astray_px(scene, frames, begun, filming));
+    for (const Point at : places_that_stay(scene, 0.1)) {
+        const Resting one = resting(scene, frames, true_frames, at, filming);
+        if (!one.turned_deg.empty()) turned.push_back(median(one.turned_deg));
+        if (!one.drag_share.empty()) drag.push_back(median(one.drag_share));
+    }
+    return {.astray_px = median(astray),
+            .worst_astray_px = astray.empty() ? CarriedFinger::kNone
+                                              : *std::max_element(astray.begin(), astray.end()),
+            .turned_deg = median(turned),
+            .drag_share = median(drag),
+            .fingers = static_cast<int>(astray.size())};
+}
+
+}  // namespace dibhr::bench

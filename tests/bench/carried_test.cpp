@@ -1,0 +1,63 @@
+// Whether motion that was found in noisy and coded pictures carries a finger as the true one does.
+#include "tests/bench/carried.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tests/support/catch.hpp"
+#include "tests/support/some_of.hpp"
+
+namespace dibhr::bench {
+
+namespace {
+
+using test::MovingScene;
+using Shape = MovingScene::Shape;
+using Goes = MovingScene::Goes;
+
+struct Seen {
+    Shape shape;
+    Goes goes;
+    double px_per_s, frames_per_s;
+};
+
+CarriedFinger finger_on(const Seen& seen, Filming filming) {
+    filming.frames_per_s = seen.frames_per_s;
+    return carried_finger(MovingScene({seen.shape, seen.goes, seen.px_per_s, 320, 240}), filming);
+}
+
+}  // namespace
+
+TEST_CASE("a finger on what moves in a video ends at its material point, dragged as by the truth",
+          "[carried]") {
+    const Seen seen = GENERATE(some_of<Seen>({{Shape::hand, Goes::along, 50.0, 30.0},
+                                              {Shape::plane, Goes::along, 200.0, 15.0},
+                                              {Shape::sphere, Goes::along, 100.0, 60.0},
+                                              {Shape::hand, Goes::round, 25.0, 30.0},
+                                              {Shape::sphere, Goes::apart, 25.0, 15.0}},
+                                             1));
+    CAPTURE(static_cast<int>(seen.shape), static_cast<int>(seen.goes), seen.px_per_s);
+    const CarriedFinger felt = finger_on(seen, {});
+    REQUIRE(felt.fingers >= 3);
+    CHECK(felt.astray_px < 2.0);
+    CHECK(felt.turned_deg < 5.0);
+    CHECK(felt.drag_share > 0.9);
+    CHECK(felt.drag_share < 1.1);
+}
+
+TEST_CASE("true motion carries a finger without drift, though updates fall on frames",
+          "[carried]") {
+    const CarriedFinger felt =  // every fortieth update
+        finger_on({Shape::plane, Goes::along, 200.0, 25.0}, {.coded = false, .found = false});
+    CHECK(felt.worst_astray_px < 0.01);
+}
+
+TEST_CASE("a finger that nothing carries stays behind, and feels no drag", "[carried]") {
+    const CarriedFinger felt =
+        finger_on({Shape::plane, Goes::along, 100.0, 30.0}, {.coded = false, .carry = false});
+    CHECK(felt.astray_px > 20.0);
+    CHECK(felt.drag_share < 0.1);
+}
+
+}  // namespace dibhr::bench
