@@ -1,5 +1,8 @@
 // However the program ends: one plain line, the status that is due, and a recording that is whole.
+#include <netinet/in.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -23,6 +26,35 @@ using Clock = std::chrono::steady_clock;
 using Words = std::vector<std::string>;
 
 namespace {
+
+/// Takes connections, as an X server that stands still does, and says nothing.
+class SilentDisplay {
+  public:
+    SilentDisplay() {
+        sockaddr_in address{};
+        address.sin_family = AF_INET;
+        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        socklen_t size = sizeof address;
+        auto* const any = reinterpret_cast<sockaddr*>(&address);
+        REQUIRE(::bind(socket_, any, size) == 0);
+        REQUIRE(::listen(socket_, 4) == 0);
+        REQUIRE(::getsockname(socket_, any, &size) == 0);
+        number_ = ntohs(address.sin_port) - kPortOfDisplay0;
+    }
+    ~SilentDisplay() { ::close(socket_); }
+    SilentDisplay(const SilentDisplay&) = delete;
+    SilentDisplay& operator=(const SilentDisplay&) = delete;
+
+    /// What a program is started with that is to be on it.
+    [[nodiscard]] Words host() const {
+        return {"env", "DISPLAY=127.0.0.1:" + std::to_string(number_)};
+    }
+
+  private:
+    static constexpr int kPortOfDisplay0 = 6000;
+    int socket_{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
+    int number_{0};
+};
 
 /// The viewer on a display, recording.
 struct Recording {
@@ -128,17 +160,27 @@ TEST_CASE("a recording that breaks off takes the force off until somebody switch
     CHECK(contains(at.errors(), "the file-size limit of 614400 bytes is met"));
 }
 
-TEST_CASE("a signal ends the program while it opens files, and while it writes the last picture",
-          "[ways out]") {
-    SECTION("a settings file that is a pipe nobody writes to") {
+TEST_CASE("a settings file that is a pipe nobody writes to is refused at once", "[ways out]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    std::filesystem::create_directories(folder / "config/dibhr");
+    REQUIRE(::mkfifo((folder / "config/dibhr/settings.toml").c_str(), 0600) == 0);
+    Process viewer = desk.start_viewer(folder, {"--device", "mouse"});
+    CHECK(viewer.wait() == 1);
+    CHECK(contains(read_text(folder / "errors.txt"), "cannot read the settings file"));
+}
+
+TEST_CASE(
+    "a signal ends the program while it opens its window, and while it writes the last picture",
+    "[ways out]") {
+    SECTION("a display that never answers") {
         const Desk desk;
         const TemporaryFolder folder;
-        std::filesystem::create_directories(folder / "config/dibhr");
-        REQUIRE(::mkfifo((folder / "config/dibhr/settings.toml").c_str(), 0600) == 0);
-        Process viewer = desk.start_viewer(folder, {"--device", "mouse"});
-        std::this_thread::sleep_for(std::chrono::seconds(1));
+        const SilentDisplay display;
+        Process viewer = desk.start_viewer(folder, {"--device", "mouse"}, display.host());
+        std::this_thread::sleep_for(std::chrono::seconds(2));
         CHECK(seconds_to_end(viewer, SIGTERM, 1) < 1.0);
-        CHECK(contains(read_text(folder / "errors.txt"), "hung while starting"));
+        CHECK(contains(read_text(folder / "errors.txt"), "hung while opening the window"));
     }
     SECTION("a picture into a pipe nobody reads from") {
         const TemporaryFolder pipes;
