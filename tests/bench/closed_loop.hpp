@@ -61,7 +61,7 @@ struct ClosedLoopResult {
 
 [[nodiscard]] ClosedLoopResult run(const ClosedLoop& loop);
 
-/// More than 0.2 mm peak to peak in the last of four seconds.
+/// More than 0.2 mm peak to peak in the last second.
 [[nodiscard]] bool oscillates(const ClosedLoopResult& result);
 
 /// The lowest stiffness [N/mm] that oscillates, in steps of 12 %; `most` when none does.
