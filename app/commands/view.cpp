@@ -31,7 +31,7 @@
 #include "core/video/depth/depth_missing.hpp"
 #include "core/video/frame_window.hpp"
 #include "core/video/live/live_name.hpp"
-#include "device/falcon/guardian.hpp"
+#include "device/hand/guardian.hpp"
 
 namespace dibhr {
 
@@ -399,7 +399,7 @@ int run_view(CLI::App& app, const Arguments& arguments) {
     if (!options.clip.empty() && options.end_s && !options.looping) options.looping = false;
     if (names_session(options.open.colour)) require_replay_options(options, touch);
     LastWords words;
-    const CrashHandler crash(words, &falcon::Guardian::alarm);
+    const CrashHandler crash(words, &Guardian::alarm);
     Ending ending(words);
     options.settings_file = whole_path(options.settings_file);
     Errands errands;

@@ -110,6 +110,7 @@ void draw_inverse3_state(ViewerState& state) {
     const Status& status = state.inverse3->status;
     fact_row(status.minverse ? "Minverse" : "Inverse3", name_text(status));
     draw_sentence(status);
+    if (!status.unguarded.empty()) trouble_text(capitalised(status.unguarded));
     if (!status.version.empty()) fact_row("Service", status.version);
     if (status.stage == Stage::ready) draw_exchange(*state.inverse3);
     fact_row("Touches", touching_text(state));

@@ -234,6 +234,12 @@ void leave_without_force(FtdiPort& port) noexcept {
     unless_it_fails([&] { port.request(kNoEventCharacter); });
 }
 
+Farewell farewell() noexcept {
+    Farewell last{.over = Farewell::Over::usb, .endpoint = kOutEndpoint};
+    last.say(encode(no_force(Led::off)));
+    return last;
+}
+
 bool upload(FtdiPort& port, Bytes image, const UploadOptions& options,
             const std::stop_token& stop) {
     if (const std::string fault = fault_of_firmware(image); !fault.empty()) {

@@ -14,6 +14,7 @@
 #include "device/falcon/firmware_image.hpp"
 #include "device/falcon/packet.hpp"
 #include "device/falcon/usb.hpp"
+#include "device/hand/guardian.hpp"
 
 namespace dibhr::falcon {
 
@@ -29,6 +30,8 @@ namespace dibhr::falcon {
 /// Five packets without force, the last a Falcon gets; the chip is left without an event character,
 /// as other programs expect it. Whatever the USB says, it goes on.
 void leave_without_force(FtdiPort& port) noexcept;
+/// The same packet, for the guardian.
+[[nodiscard]] Farewell farewell() noexcept;
 
 /// The firmware did not get in; the sentence names the step that failed and what to do.
 class UploadError : public DeviceError {

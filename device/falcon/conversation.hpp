@@ -6,11 +6,11 @@
 #include <stop_token>
 
 #include "device/falcon/exchange.hpp"
-#include "device/falcon/guardian.hpp"
 #include "device/falcon/link.hpp"
 #include "device/falcon/reply_watch.hpp"
 #include "device/falcon/status.hpp"
 #include "device/falcon/usb.hpp"
+#include "device/hand/guardian.hpp"
 
 namespace dibhr::falcon {
 

@@ -137,7 +137,8 @@ void Driver::bring_up_and_talk(const UsbContext& usb, FtdiPort& port, const std:
 }
 
 void Driver::talk(const UsbContext& usb, FtdiPort& port, const std::stop_token& stop) {
-    const Guarded guarded(guardian_, port.descriptor(usb));  // until after the last packet
+    // Until after the last packet.
+    const Guarded guarded(guardian_, port.descriptor(usb), farewell());
     board_.draft().unguarded = guardian_.fault();
     std::optional<UsbError> loss;
     try {

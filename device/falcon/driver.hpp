@@ -12,9 +12,9 @@
 #include "device/falcon/conversation.hpp"
 #include "device/falcon/exchange.hpp"
 #include "device/falcon/firmware_image.hpp"
-#include "device/falcon/guardian.hpp"
 #include "device/falcon/status.hpp"
 #include "device/falcon/usb.hpp"
+#include "device/hand/guardian.hpp"
 
 namespace dibhr::falcon {
 
@@ -46,7 +46,7 @@ class Driver {
     StatusBoard board_{};
 
     // The USB thread's.
-    Guardian guardian_{};
+    Guardian guardian_{"Falcon"};
     Memory memory_{};
     std::string trouble_{};              // what went wrong last, until a Falcon answers again
     std::chrono::milliseconds pause_{};  // before the next look

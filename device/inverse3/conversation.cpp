@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "device/inverse3/farewell.hpp"
+
 namespace dibhr::inverse3 {
 
 namespace {
@@ -17,6 +19,7 @@ using Why = LinkError::Why;
 // README.md, Safety numbers.
 constexpr milliseconds kOldestForce{20};
 constexpr int kZerosAfterForce = 5;
+constexpr milliseconds kNeverSilentFor{10};  // to the guardian, who waits for 50
 constexpr seconds kLongestSilence{2};
 constexpr milliseconds kMessageTakes{500};  // from its first byte to its last
 constexpr milliseconds kGoodbyeTakes{100};
@@ -41,13 +44,14 @@ bool named(const Arm& arm, const std::string& wish) noexcept {
 }  // namespace
 
 Conversation::Conversation(ServiceLink& link, const ConnectionOptions& options, bool newer,
-                           Exchange& exchange, Board& board, Memory& memory)
+                           Exchange& exchange, Board& board, Memory& memory, Guardian& guardian)
     : link_(link),
       options_(options),
       newer_(newer),
       exchange_(exchange),
       board_(board),
       memory_(memory),
+      guardian_(guardian),
       loop_heard_(Clock::now()),
       rate_from_(memory.exchanges),
       rate_since_(loop_heard_) {
@@ -55,6 +59,7 @@ Conversation::Conversation(ServiceLink& link, const ConnectionOptions& options, 
 }
 
 Conversation::~Conversation() {
+    unguard();
     exchange_.poses.publish(TimedPose{});  // nobody acts on an old pose
     memory_.buttons.release();
 }
@@ -100,7 +105,7 @@ void Conversation::pause() {
                                    : paused     ? kPauseWithoutLoop
                                                 : kPause);
     while (!exchange_.forces.fresh()) {
-        if (link_.wait(&exchange_.wake, until)) {
+        if (wait(until)) {
             take();
             ++memory_.unasked;
         }
@@ -108,8 +113,24 @@ void Conversation::pause() {
     }
 }
 
+/// True: something comes. Ends at the wake, and whenever the guardian is to hear of us, too.
+bool Conversation::wait(Time until) {
+    const bool comes = link_.wait(&exchange_.wake, std::min(until, Clock::now() + kNeverSilentFor));
+    tell_guardian();
+    return comes;
+}
+
+/// What comes after it has spoken answers its words and not ours: the link ends, with a zero.
+void Conversation::tell_guardian() {
+    guardian_.beat();
+    if (!guardian_.spoken()) return;
+    link_.send(memory_.writer.write({.arm = arm_, .force_newton = Vec3{0.0}, .dialect = dialect()}),
+               Clock::now() + kGoodbyeTakes);
+    throw LinkError(Why::stood_still, "dibhr itself stood still");
+}
+
 bool Conversation::await(Time until, const std::stop_token* stop) {
-    while (!link_.wait(&exchange_.wake, until)) {
+    while (!wait(until)) {
         if (Clock::now() >= until || (stop != nullptr && stop->stop_requested())) return false;
     }
     return true;
@@ -119,13 +140,14 @@ void Conversation::say_goodbye() noexcept {
     try {
         const Time until = Clock::now() + kGoodbyeTakes;
         // What is in flight first: there is never more than one.
-        if (in_flight_ && link_.wait(nullptr, until)) (void)link_.read(until);
+        if (in_flight_ && await(until, nullptr)) (void)link_.read(until);
         if (!arm_.empty() && drove_) {
             link_.send(memory_.writer.write(
                            {.arm = arm_, .force_newton = Vec3{0.0}, .dialect = dialect()}),
                        until);
-            if (link_.wait(nullptr, until)) (void)link_.read(until);
+            if (await(until, nullptr)) (void)link_.read(until);
         }
+        unguard();  // the end is heard once nobody has the socket
         link_.close(until);
     } catch (const LinkError&) {
         // It has gone before: nobody is left to say it to.
@@ -140,11 +162,26 @@ void Conversation::say(const Order& order) {
     if (sent_drives_) {
         drove_ = true;
         memory_.watch.drove(now);
+        guard(order);
     }
     zeros_owed_ = sent_newton_ != Vec3{0.0} ? kZerosAfterForce : std::max(zeros_owed_ - 1, 0);
     in_flight_ = true;
     link_.send(memory_.writer.write(order), now + kMessageTakes);
     sent_at_ = now;
+}
+
+/// From the first force on, and anew where zero is said in another way.
+void Conversation::guard(const Order& order) {
+    tell_guardian();
+    if (guarded_in_ == order.dialect || Guardian::alarmed()) return;
+    guardian_.watch(link_.descriptor(), farewell(order.arm, order.dialect));
+    guarded_in_ = order.dialect;
+    board_.draft().unguarded = guardian_.fault();
+}
+
+void Conversation::unguard() noexcept {
+    if (guarded_in_) guardian_.dismiss();
+    guarded_in_.reset();
 }
 
 Order Conversation::next_order() {
@@ -168,8 +205,8 @@ Vec3 Conversation::wanted_force(Time now) {
     if (exchange_.forces.fresh()) loop_heard_ = now;
     const TimedForce& wanted = exchange_.forces.front();
     const Epoch epoch = memory_.watch.epoch();
-    const bool may =
-        epoch != kNoEpoch && wanted.epoch == epoch && now < wanted.at + kOldestForce && !deaf();
+    const bool may = epoch != kNoEpoch && wanted.epoch == epoch && now < wanted.at + kOldestForce &&
+                     !deaf() && !Guardian::alarmed();
     return may ? wanted.newton : Vec3{0.0};
 }
 
@@ -241,6 +278,7 @@ void Conversation::choose(const ServiceMessage& message) {
 
 void Conversation::forget_arm() {
     arm_ = {};
+    unguard();
     zeros_owed_ = 0;
     told_ = false;
     memory_.watch.miss();

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "device/hand/buttons.hpp"
+#include "device/hand/guardian.hpp"
 #include "device/inverse3/arm_watch.hpp"
 #include "device/inverse3/exchange.hpp"
 #include "device/inverse3/message.hpp"
@@ -38,8 +39,8 @@ class Conversation {
 
     /// All must outlive it. `newer`: a service of 3.5 or later.
     Conversation(ServiceLink& link, const ConnectionOptions& options, bool newer,
-                 Exchange& exchange, Board& board, Memory& memory);
-    /// No pose is left behind.
+                 Exchange& exchange, Board& board, Memory& memory, Guardian& guardian);
+    /// No pose is left behind, and nobody guards the link.
     ~Conversation();
     Conversation(const Conversation&) = delete;
     Conversation& operator=(const Conversation&) = delete;
@@ -58,10 +59,14 @@ class Conversation {
 
     // What is said.
     void say(const Order& order);
+    void guard(const Order& order);
+    void tell_guardian();
+    void unguard() noexcept;
     [[nodiscard]] Order next_order();
     [[nodiscard]] Vec3 wanted_force(Time now);
 
     // What is heard.
+    [[nodiscard]] bool wait(Time until);
     [[nodiscard]] bool await(Time until, const std::stop_token* stop);
     void take();
     void take_message(const ServiceMessage& message, Time at);
@@ -86,12 +91,15 @@ class Conversation {
     Exchange& exchange_;
     Board& board_;
     Memory& memory_;
+    Guardian& guardian_;
 
     ServiceMessage message_{};
     DeviceId arm_{};  // empty: none is chosen
     HearingWatch hearing_{};
     bool introduced_{false};
     bool drove_{false};  // it was sent a force
+    std::optional<ForceDialect>
+        guarded_in_{};  // how the guardian would say zero; nothing: no guard
     bool force_answered_{false};
     bool in_flight_{false};
     bool told_{false};  // something of this arm

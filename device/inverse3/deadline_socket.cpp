@@ -79,11 +79,13 @@ std::size_t DeadlineSocket::read(std::span<std::uint8_t> into, std::error_code& 
     return taken;
 }
 
-std::size_t DeadlineSocket::write(std::span<const std::uint8_t> from,
-                                  std::error_code& error) noexcept {
+std::size_t DeadlineSocket::write(std::span<const iovec> parts, std::error_code& error) noexcept {
     error.clear();
+    msghdr message{};
+    message.msg_iov = const_cast<iovec*>(parts.data());  // it is only read
+    message.msg_iovlen = parts.size();
     for (;;) {
-        const ssize_t gone = send(descriptor_, from.data(), from.size(), MSG_NOSIGNAL);
+        const ssize_t gone = sendmsg(descriptor_, &message, MSG_NOSIGNAL);
         if (gone >= 0) return static_cast<std::size_t>(gone);
         if (errno == EAGAIN || errno == EINTR) {
             if ((error = wait_for(POLLOUT))) return 0;

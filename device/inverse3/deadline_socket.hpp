@@ -1,6 +1,8 @@
 // A TCP connection to this machine on which nothing waits longer than it may.
 #pragma once
 
+#include <sys/uio.h>
+
 #include <array>
 #include <chrono>
 #include <cstddef>
@@ -31,9 +33,13 @@ class DeadlineSocket {
     /// At least one byte and at most to the end of the frame; 0 with an empty code: the other end
     /// has closed.
     [[nodiscard]] std::size_t read(std::span<std::uint8_t> into, std::error_code& error) noexcept;
-    [[nodiscard]] std::size_t write(std::span<const std::uint8_t> from,
-                                    std::error_code& error) noexcept;
+    /// The parts one behind the other, in one call of the system: whoever dies leaves no half of
+    /// them behind, unless there is no room.
+    [[nodiscard]] std::size_t write(std::span<const iovec> parts, std::error_code& error) noexcept;
     void close() noexcept;
+
+    /// -1: not connected.
+    [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
 
     /// Until something can be read (true), `wake` is signalled, or `until`. Also true when the
     /// other end has gone.

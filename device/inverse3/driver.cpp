@@ -22,6 +22,7 @@ constexpr milliseconds kHandshakeTakes{1000};
 
 Driver::Driver(ConnectionOptions options, Exchange& exchange)
     : options_(std::move(options)), exchange_(exchange) {
+    board_.draft().unguarded = guardian_.fault();
     board_.enter(Stage::looking, "looking for the Haply Inverse Service");
     thread_ = std::jthread([this](const std::stop_token& stop) { live(stop); });
 }
@@ -67,7 +68,7 @@ void Driver::look(const std::stop_token& stop) {
 }
 
 void Driver::talk(ServiceLink& link, bool newer, const std::stop_token& stop) {
-    Conversation conversation(link, options_, newer, exchange_, board_, memory_);
+    Conversation conversation(link, options_, newer, exchange_, board_, memory_, guardian_);
     lost_ = true;
     try {
         conversation.run(stop);
@@ -84,8 +85,10 @@ void Driver::lose(const LinkError& error, const Conversation& conversation) {
     if (!conversation.closed_on_force()) {
         memory_.dialects_refused = 0;
         tell(error.why() == Why::too_long ? Stage::not_understood : Stage::looking,
-             "the Haply Inverse Service was lost (" + std::string(error.what()) +
-                 "): it is looked for again; start it if it has ended",
+             error.why() == Why::stood_still
+                 ? "dibhr stood still for a moment and the force was taken off: it comes back"
+                 : "the Haply Inverse Service was lost (" + std::string(error.what()) +
+                       "): it is looked for again; start it if it has ended",
              true);
         return;
     }

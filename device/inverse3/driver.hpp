@@ -9,6 +9,7 @@
 #include <string>
 #include <thread>
 
+#include "device/hand/guardian.hpp"
 #include "device/inverse3/conversation.hpp"
 #include "device/inverse3/exchange.hpp"
 #include "device/inverse3/service_link.hpp"
@@ -16,6 +17,7 @@
 
 namespace dibhr::inverse3 {
 
+/// With a guardian of its own from construction on.
 class Driver {
   public:
     /// `exchange` must outlive it.
@@ -37,6 +39,7 @@ class Driver {
     const ConnectionOptions options_;
     Exchange& exchange_;
     Board board_{};
+    Guardian guardian_{"Inverse3"};
     Memory memory_{};
     bool lost_{false};                   // it was there in this run
     std::chrono::milliseconds pause_{};  // before the next look

@@ -13,7 +13,9 @@
 #include <boost/beast/http/write.hpp>
 #include <boost/beast/websocket/stream.hpp>
 
+#include <array>
 #include <exception>
+#include <span>
 #include <utility>
 
 #include "device/inverse3/deadline_socket.hpp"
@@ -43,7 +45,7 @@ class SocketLayer {
 
     template <typename Buffers>
     std::size_t read_some(const Buffers& buffers, error_code& error) {
-        const boost::asio::mutable_buffer first = first_of<boost::asio::mutable_buffer>(buffers);
+        const boost::asio::mutable_buffer first = first_of(buffers);
         if (first.size() == 0) {
             error = {};
             return 0;
@@ -64,10 +66,16 @@ class SocketLayer {
     }
     template <typename Buffers>
     std::size_t write_some(const Buffers& buffers, error_code& error) {
-        const boost::asio::const_buffer first = first_of<boost::asio::const_buffer>(buffers);
+        std::array<iovec, 8> parts{};  // what there is more comes with the next call
+        std::size_t count = 0;
+        auto it = boost::asio::buffer_sequence_begin(buffers);
+        const auto end = boost::asio::buffer_sequence_end(buffers);
+        for (; it != end && count < parts.size(); ++it) {
+            const boost::asio::const_buffer buffer(*it);
+            parts[count++] = {const_cast<void*>(buffer.data()), buffer.size()};
+        }
         std::error_code failure;
-        const std::size_t gone =
-            socket_->write({static_cast<const std::uint8_t*>(first.data()), first.size()}, failure);
+        const std::size_t gone = socket_->write(std::span(parts).first(count), failure);
         error = as_boost(failure);
         return gone;
     }
@@ -81,12 +89,12 @@ class SocketLayer {
 
   private:
     /// The first one that holds something.
-    template <typename Buffer, typename Buffers>
-    static Buffer first_of(const Buffers& buffers) {
+    template <typename Buffers>
+    static boost::asio::mutable_buffer first_of(const Buffers& buffers) {
         auto it = boost::asio::buffer_sequence_begin(buffers);
         const auto end = boost::asio::buffer_sequence_end(buffers);
         for (; it != end; ++it) {
-            const Buffer buffer(*it);
+            const boost::asio::mutable_buffer buffer(*it);
             if (buffer.size() > 0) return buffer;
         }
         return {};
@@ -161,6 +169,10 @@ std::string_view ServiceLink::read(Time deadline) {
 
 bool ServiceLink::wait(const Wake* wake, Time until) const noexcept {
     return stream_->socket.next_layer().socket().wait_readable(wake, until);
+}
+
+int ServiceLink::descriptor() const noexcept {
+    return stream_->socket.next_layer().socket().descriptor();
 }
 
 void ServiceLink::close(Time deadline) noexcept {

@@ -19,7 +19,8 @@ class LinkError : public DeviceError {
         refused,          ///< nobody listens there
         not_the_service,  ///< somebody does who speaks something else
         lost,             ///< closed, broken off, or silent in the middle of a message
-        too_long          ///< a message that no device's state fills
+        too_long,         ///< a message that no device's state fills
+        stood_still       ///< this program did, and its guardian has spoken to the service
     };
 
     LinkError(Why why, const std::string& text) : DeviceError(text), why_(why) {}
@@ -49,6 +50,8 @@ class ServiceLink {
     /// Until a message begins to come or the link has gone (true), `wake` is signalled, or `until`.
     /// What was not asked for is seen, too: nothing is read ahead.
     [[nodiscard]] bool wait(const Wake* wake, Time until) const noexcept;
+    /// The socket, for the guardian.
+    [[nodiscard]] int descriptor() const noexcept;
     /// Says goodbye and waits for the answer; no error is told.
     void close(Time deadline) noexcept;
 

@@ -81,6 +81,7 @@ struct Status {
     std::uint64_t exchanges{0};
     std::uint64_t unasked{0};         ///< messages that nobody had asked for
     std::uint64_t not_understood{0};  ///< messages that made no sense
+    std::string unguarded{};          ///< why nobody sends zero if the program is killed
 };
 
 /// The network thread writes it, the window reads it.

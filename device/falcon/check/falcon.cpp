@@ -39,7 +39,7 @@ bool CheckedFalcon::answers() {
 Link& CheckedFalcon::talk() {
     if (!talk_) {
         FtdiPort& opened = port();
-        guarded_.emplace(guardian_, opened.descriptor(usb_));
+        guarded_.emplace(guardian_, opened.descriptor(usb_), farewell());
         opened.request(event_character_ ? kFlushOnReplyEnd : kNoEventCharacter);
         talk_.emplace(usb_, opened, wake_);
     }

@@ -6,10 +6,10 @@
 #include <string>
 
 #include "device/falcon/exchange.hpp"
-#include "device/falcon/guardian.hpp"
 #include "device/falcon/link.hpp"
 #include "device/falcon/packet.hpp"
 #include "device/falcon/usb.hpp"
+#include "device/hand/guardian.hpp"
 
 namespace dibhr::falcon {
 
@@ -64,7 +64,7 @@ class CheckedFalcon {
     void end_talk() noexcept;
     void wait(Clock::time_point until);
 
-    Guardian guardian_{};
+    Guardian guardian_{"Falcon"};
     UsbContext usb_{};
     Wake wake_{};
     AttachedFalcon which_{};

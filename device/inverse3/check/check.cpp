@@ -56,6 +56,7 @@ CheckResult run_check(const CheckOptions& options, CheckGuide& guide) {
     CheckRecord record(options.record, {"inverse3", "device_id", talk.id()}, options.facts);
     guide.say("Checks the Inverse3 " + talk.id() + "; the record is " + record.file().string() +
               ", written again after every step.");
+    if (const std::string fault = talk.unguarded(); !fault.empty()) guide.say(fault);
     CheckRun run(desk, record, desk.findings, kSteps.size(), [&] { talk.let_go(); });
     for (const Step& step : kSteps) {
         run.step(

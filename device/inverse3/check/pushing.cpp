@@ -2,7 +2,6 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <thread>
 
 #include "core/files/plain_text.hpp"
 #include "device/inverse3/check/desk.hpp"
@@ -98,7 +97,7 @@ void check_silence(CheckDesk& desk, Json& measured) {
     for (const CheckTimes::Span silence : desk.options.times.silences) {
         Push push(desk);
         if (!push.hold(kWeak_newton, dialect, CheckTimes::Span(100))) throw StepSkipped{};
-        std::this_thread::sleep_for(silence);
+        desk.talk.keep_silent(silence);
         const Arm after = desk.talk.exchange(std::nullopt, dialect).arm;
         Json line{{"silence_ms", silence.count()}};
         if (!after.force_newton) {

@@ -1,6 +1,10 @@
 // One message and its answer at a time.
 #include "device/inverse3/check/talk.hpp"
 
+#include <algorithm>
+#include <thread>
+
+#include "device/inverse3/farewell.hpp"
 #include "device/inverse3/service_version.hpp"
 #include "device/inverse3/survey.hpp"
 
@@ -10,6 +14,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kAnswerTakes{1000};
 constexpr std::chrono::milliseconds kInventoryTakes{500};
+constexpr std::chrono::milliseconds kBeatsEvery{10};  // the guardian is told; it waits for 50 ms
 
 }  // namespace
 
@@ -42,10 +47,11 @@ CheckTalk::Heard CheckTalk::exchange(const std::optional<Vec3>& force_newton,
                                      ForceDialect dialect) {
     const auto sent = Clock::now();
     pushed_ = pushed_ || force_newton.has_value();
+    if (force_newton) guard(dialect);
     const std::string_view order =
         writer_.write({.arm = DeviceId(id_), .force_newton = force_newton, .dialect = dialect});
     link_->send(order, sent + kAnswerTakes);
-    if (!link_->wait(nullptr, sent + kAnswerTakes)) {
+    if (!hears(sent + kAnswerTakes)) {
         throw DeviceError("the service has been silent for a second: see whether it still runs");
     }
     const std::string_view text = link_->read(sent + kAnswerTakes);
@@ -61,6 +67,35 @@ CheckTalk::Heard CheckTalk::exchange(const std::optional<Vec3>& force_newton,
     return {*arm, came - sent};
 }
 
+bool CheckTalk::hears(Clock::time_point until) {
+    while (!link_->wait(nullptr, std::min(until, Clock::now() + kBeatsEvery))) {
+        guardian_.beat();
+        if (Clock::now() >= until) return false;
+    }
+    guardian_.beat();
+    if (guardian_.spoken()) {
+        throw LinkError(LinkError::Why::stood_still,
+                        "this check stood still and the force was taken off: begin it again");
+    }
+    return true;
+}
+
+void CheckTalk::keep_silent(std::chrono::milliseconds span) {
+    const auto end = Clock::now() + span;
+    for (auto now = Clock::now(); now < end; now = Clock::now()) {
+        guardian_.beat();
+        std::this_thread::sleep_until(std::min(end, now + kBeatsEvery));
+    }
+    guardian_.beat();
+}
+
+void CheckTalk::guard(ForceDialect dialect) noexcept {
+    guardian_.beat();
+    if (guarded_in_ == dialect) return;
+    guardian_.watch(link_->descriptor(), farewell(DeviceId(id_), dialect));
+    guarded_in_ = dialect;
+}
+
 void CheckTalk::let_go() noexcept {
     if (!pushed_) return;
     constexpr int kZeros = 3;
@@ -72,12 +107,14 @@ void CheckTalk::let_go() noexcept {
                     writer_.write(
                         {.arm = DeviceId(id_), .force_newton = Vec3{0.0}, .dialect = dialect}),
                     until);
-                if (link_->wait(nullptr, until)) (void)link_->read(until);
+                if (hears(until)) (void)link_->read(until);
             }
         }
     } catch (const LinkError&) {
         pushed_ = false;  // it has gone, and its session with it
     }
+    if (guarded_in_) guardian_.dismiss();
+    guarded_in_.reset();
 }
 
 }  // namespace dibhr::inverse3

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "device/hand/guardian.hpp"
 #include "device/inverse3/message.hpp"
 #include "device/inverse3/order.hpp"
 #include "device/inverse3/service_link.hpp"
@@ -33,6 +34,10 @@ class CheckTalk {
     Heard exchange(const std::optional<Vec3>& force_newton, ForceDialect dialect);
     /// Three zero forces, in both dialects. No error is told.
     void let_go() noexcept;
+    /// Without a word to the service, which the guardian knows of.
+    void keep_silent(std::chrono::milliseconds span);
+    /// Why no guardian watches while a force acts, in a line; empty when one does.
+    [[nodiscard]] std::string unguarded() const { return guardian_.fault(); }
 
     [[nodiscard]] const std::string& id() const noexcept { return id_; }
     [[nodiscard]] const std::string& version() const noexcept { return version_; }
@@ -40,6 +45,11 @@ class CheckTalk {
     [[nodiscard]] bool newer() const noexcept { return newer_; }
 
   private:
+    [[nodiscard]] bool hears(Clock::time_point until);
+    void guard(ForceDialect dialect) noexcept;
+
+    Guardian guardian_{"Inverse3"};  // first: forked before there is a connection
+    std::optional<ForceDialect> guarded_in_{};
     std::string version_{};
     bool newer_{false};
     std::string id_{};

@@ -205,7 +205,7 @@ TEST_CASE("the grip's buttons record and take the force off", "[inverse3][window
     CHECK(recordings == 1);
 }
 
-TEST_CASE("poses stay young while the program decodes, draws and records", "[inverse3][window]") {
+TEST_CASE("poses stay young while the program decodes, draws and records", "[inverse3][alone]") {
     Scene scene = Inverse3Scene::scene_with_grip();
     scene.manners.tick = GENERATE(1000us, 250us);
     std::vector<double> most_ms;  // a busy machine keeps threads from running now and then

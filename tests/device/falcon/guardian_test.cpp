@@ -1,8 +1,7 @@
 // What is on a Falcon's bus after the program that pressed has died, or while it stands still: the
 // unit is falcon_host's and outlives it.
-#include "device/falcon/guardian.hpp"
+#include "device/hand/guardian.hpp"
 
-#include <fcntl.h>
 #include <poll.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -14,131 +13,47 @@
 #include <chrono>
 #include <csignal>
 #include <cstddef>
-#include <filesystem>
-#include <fstream>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "tests/device/falcon/last_moment.hpp"
+#include "device/falcon/bring_up.hpp"
 #include "tests/device/falcon/packet_file.hpp"
 #include "tests/device/falcon/usb_bench.hpp"
+#include "tests/device/pressing_process.hpp"
 #include "tests/support/catch.hpp"
-#include "tests/support/temporary_folder.hpp"
-#include "tests/support/text.hpp"
 
 namespace {
 
 using namespace dibhr::test::falcon;
-using dibhr::falcon::encode;
-using dibhr::falcon::Guardian;
-using dibhr::falcon::Led;
-using dibhr::falcon::no_force;
-using dibhr::test::read_text;
-using dibhr::test::TemporaryFolder;
+using dibhr::Guardian;
+using dibhr::falcon::farewell;
+using dibhr::test::kWaysToDie;
+using dibhr::test::PressingProcess;
 using std::chrono::milliseconds;
 using Packets = std::vector<LoggedPacket>;
-namespace fs = std::filesystem;
 
-constexpr std::chrono::seconds kPatience{20};  // of a busy machine
+constexpr std::chrono::seconds kPatience = PressingProcess::kPatience;
 constexpr double kLatest_s = 0.1;
 constexpr double kSilence_s = 0.04;  ///< the guardian's 50 ms, looked at every 10
 
-/// The guardians whose programs were started with this folder in their environment.
-std::vector<pid_t> guardians_of(const fs::path& folder) {
-    std::vector<pid_t> found;
-    for (const auto& entry : fs::directory_iterator("/proc")) {
-        const std::string name = entry.path().filename().string();
-        if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-        if (read_text(entry.path() / "comm") != "dibhr guardian\n") continue;
-        if (read_text(entry.path() / "environ").find(folder.string()) == std::string::npos)
-            continue;
-        found.push_back(std::stoi(name));
-    }
-    return found;
-}
-
 /// The pressing program, with a homed unit whose motors hold a command for ever.
-class Pressing {
+class Pressing : public PressingProcess {
   public:
     explicit Pressing(const std::string& way) {
-        const std::string packets = file("packets.csv").string();
-        const std::string moment = file("moment").string();
-        std::vector<std::string> words{FALCON_HOST, "--packets", packets};
+        std::vector<std::string> words{FALCON_HOST, "--packets", file("packets.csv").string()};
         for (const char* command : {"firmware", "home", "hold 0", "realtime on"}) {
             words.insert(words.end(), {"--command", command});
         }
-        words.insert(words.end(), {"--", PRESSING_PROGRAM, way, moment});
-        host_ = ::fork();
-        REQUIRE(host_ >= 0);
-        if (host_ == 0) become(words);
-    }
-    ~Pressing() {
-        if (host_ > 0) {
-            for (const pid_t guardian : guardians_of(folder_.path())) ::kill(guardian, SIGKILL);
-            if (program_ > 0) ::kill(program_, SIGKILL);
-            ::kill(host_, SIGKILL);
-            ::waitpid(host_, nullptr, 0);
-        }
-    }
-    Pressing(const Pressing&) = delete;
-    Pressing& operator=(const Pressing&) = delete;
-
-    [[nodiscard]] fs::path file(const std::string& name) const { return folder_ / name; }
-    [[nodiscard]] std::vector<pid_t> guardians() const { return guardians_of(folder_.path()); }
-    /// Once there is one, which a busy machine may hide for a moment.
-    [[nodiscard]] std::vector<pid_t> guardians_at_work() const {
-        std::vector<pid_t> found;
-        (void)eventually([&] { return !(found = guardians()).empty(); }, std::chrono::seconds(2));
-        return found;
+        words.insert(words.end(), {"--", PRESSING_PROGRAM, way, file("moment").string()});
+        begin(words);
     }
 
-    /// Until it has pressed, just before it goes its way; then when that was.
-    double end_begins() {
-        LastMoment last;
-        const auto told = [&] {
-            std::ifstream(file("moment"), std::ios::binary)
-                .read(reinterpret_cast<char*>(&last), sizeof last);
-            return last.program != 0;
-        };
-        REQUIRE(eventually(told, kPatience));
-        program_ = last.program;
-        return last.t_s;
-    }
-    [[nodiscard]] pid_t program() const noexcept { return program_; }
-    /// The program's exit code, or 128 and its signal.
-    int ended() {
-        int status = 0;
-        REQUIRE(eventually([&] { return ::waitpid(host_, &status, WNOHANG) == host_; }, kPatience));
-        host_ = -1;
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    }
     [[nodiscard]] Packets after(double t_s) const {
         return packets_after(file("packets.csv"), t_s);
     }
-    [[nodiscard]] std::string errors() const { return read_text(file("errors")); }
-
-  private:
-    [[noreturn]] void become(std::vector<std::string>& words) const {
-        const int errors = ::open(file("errors").c_str(), O_WRONLY | O_CREAT, 0600);
-        ::dup2(errors, STDOUT_FILENO);
-        ::dup2(errors, STDERR_FILENO);
-        ::setenv("PRESSING", folder_.path().c_str(), 1);
-        // A sanitizer is to let it die, and to bear libraries before its own.
-        constexpr const char* kBear = "handle_segv=0:handle_sigbus=0:handle_abort=0";
-        ::setenv("TSAN_OPTIONS", kBear, 1);
-        ::setenv("ASAN_OPTIONS", (std::string(kBear) + ":verify_asan_link_order=0").c_str(), 1);
-        std::vector<char*> arguments;
-        for (std::string& word : words) arguments.push_back(word.data());
-        arguments.push_back(nullptr);
-        ::execv(arguments.front(), arguments.data());
-        ::_exit(127);
-    }
-
-    TemporaryFolder folder_{};
-    pid_t host_{-1};
-    pid_t program_{-1};
 };
 
 /// Keeps the machine busy.
@@ -187,18 +102,7 @@ constexpr int kTries = 3;
 
 TEST_CASE("however a program dies while it presses, zero is on the bus within 100 ms, five times",
           "[guardian]") {
-    struct Way {
-        const char* name;
-        int code;
-    };
-    const auto way = GENERATE(values<Way>({{"kill", 128 + SIGKILL},
-                                           {"kill-group", 128 + SIGKILL},
-                                           {"segmentation", 128 + SIGSEGV},
-                                           {"bus-error", 128 + SIGBUS},
-                                           {"abort", 128 + SIGABRT},
-                                           {"exception", 128 + SIGABRT},
-                                           {"file-size", 128 + SIGXFSZ},
-                                           {"exit", 3}}));
+    const auto way = GENERATE(from_range(std::begin(kWaysToDie), std::end(kWaysToDie)));
     CAPTURE(way.name);
     double soonest_s = 1.0;
     std::ptrdiff_t farewells = 0;  // one that such a machine takes too long for is given up
@@ -283,14 +187,14 @@ TEST_CASE("a guardian keeps nothing of the program's open, and is gone when it i
         return ::poll(&reader, 1, 0) == 1 && (reader.revents & POLLHUP) != 0;
     };
     SECTION("what was open before it") {
-        const Guardian guardian;
+        const Guardian guardian("Falcon");
         CHECK(guardian.fault().empty());
         ::close(ends[1]);
         CHECK(eventually(told_of_end));
     }
     SECTION("what it is given, until it is dismissed") {
-        Guardian guardian;
-        guardian.watch(ends[1], encode(no_force(Led::off)));
+        Guardian guardian("Falcon");
+        guardian.watch(ends[1], farewell());
         ::close(ends[1]);
         guardian.dismiss();
         CHECK(told_of_end());
@@ -307,8 +211,8 @@ TEST_CASE("where no process may be made the program goes on and says that nobody
         if (::getuid() == 0 && ::setuid(65534) != 0) ::_exit(2);  // no limit holds for root
         const rlimit none{0, 0};
         ::setrlimit(RLIMIT_NPROC, &none);
-        Guardian guardian;
-        guardian.watch(0, encode(no_force(Led::off)));
+        Guardian guardian("Falcon");
+        guardian.watch(0, farewell());
         guardian.beat();
         guardian.dismiss();
         ::_exit(guardian.fault().find("no guardian process (fork: ") == 0 ? 0 : 1);

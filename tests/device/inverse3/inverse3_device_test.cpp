@@ -171,10 +171,11 @@ TEST_CASE("on the network thread no exchange allocates, once there is a connecti
     Exchange exchange;
     Board board;
     Memory memory;
+    Guardian guardian("Inverse3");
     int allocations = 0;
     std::jthread network([&](const std::stop_token& stop) {
         ServiceLink link(options.port, ServiceLink::Time::clock::now() + milliseconds(1000));
-        Conversation conversation(link, options, true, exchange, board, memory);
+        Conversation conversation(link, options, true, exchange, board, memory, guardian);
         allocations = test::allocations_in([&] { conversation.run(stop); });
     });
     while (service.exchanges() <= 3000) {  // before it asks again it has taken the last answer

@@ -4,11 +4,11 @@
 
 #include <atomic>
 
-namespace dibhr::test::falcon {
+namespace dibhr::test {
 
 struct LastMoment {
     double t_s{0.0};              ///< CLOCK_MONOTONIC
     std::atomic<int> program{0};  ///< its process; 0: not yet
 };
 
-}  // namespace dibhr::test::falcon
+}  // namespace dibhr::test

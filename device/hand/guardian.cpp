@@ -1,6 +1,6 @@
 // The guardian's process, and the program's words to it. That process is forked from a program with
 // many threads: no lock, no memory, nothing but async-signal-safe calls.
-#include "device/falcon/guardian.hpp"
+#include "device/hand/guardian.hpp"
 
 #include <linux/usbdevice_fs.h>
 #include <poll.h>
@@ -12,7 +12,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -20,22 +22,27 @@
 #include <cstring>
 #include <ctime>
 #include <new>
+#include <utility>
 
-#include "device/falcon/usb.hpp"
+namespace dibhr {
 
-namespace dibhr::falcon {
+struct SharedPage {
+    std::atomic<std::uint32_t> beats{0};
+    std::atomic<std::uint32_t> sent{0};
+};
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-// README.md, Safety numbers.
+// ../falcon/README.md, Safety numbers.
 constexpr milliseconds kSilentAfter{50};
 constexpr milliseconds kLooksEvery{10};
 constexpr milliseconds kSendsEvery{5};
 constexpr int kLastPackets = 5;
 constexpr unsigned kPacketLimit_ms = 10;
+constexpr milliseconds kLingers{1000};  // for what a stream has still to hand over
 constexpr int kDismissLimit_ms = 100;
 
 // Words to the guardian; the second one it says back.
@@ -45,7 +52,7 @@ constexpr char kAlarm = 'a';
 
 struct Message {
     char word{0};
-    Packet farewell{};
+    Farewell farewell{};
 };
 
 /// A message as the sockets take it, with room for one descriptor.
@@ -97,8 +104,7 @@ void replace_in_all(int before, int after) noexcept {
 /// What the guardian's process does.
 class Watch {
   public:
-    Watch(int socket, const std::atomic<std::uint32_t>& beats) noexcept
-        : socket_(socket), beats_(beats) {}
+    Watch(int socket, SharedPage& page) noexcept : socket_(socket), page_(page) {}
 
     /// Until the program has ended.
     void run() noexcept {
@@ -111,6 +117,7 @@ class Watch {
             if (k > 0) (void)poll(nullptr, 0, kSendsEvery.count());
             send();
         }
+        if (file_ >= 0 && farewell_.over == Farewell::Over::stream) linger();
     }
 
   private:
@@ -133,27 +140,71 @@ class Watch {
             release();
             file_ = envelope.enclosed();
             farewell_ = message.farewell;
-            last_beats_ = beats_;
+            said_ = 0;
+            last_beats_ = page_.beats;
             heard_ = Clock::now();
         }
         return true;
     }
 
     void look(Clock::time_point now) noexcept {
-        const std::uint32_t beats = beats_;
+        const std::uint32_t beats = page_.beats;
         if (beats != last_beats_) heard_ = now;
         last_beats_ = beats;
-        sending_ = alarmed_ || now - heard_ >= kSilentAfter;
+        const bool arrives = farewell_.over == Farewell::Over::stream;
+        sending_ =
+            (alarmed_ || now - heard_ >= kSilentAfter) && !(arrives && said_ >= kLastPackets);
+    }
+
+    void send() noexcept {
+        if (farewell_.size == 0) return;
+        page_.sent.fetch_add(1);
+        ++said_;
+        if (farewell_.over == Farewell::Over::usb) {
+            send_by_usb();
+        } else {
+            send_by_stream();
+        }
     }
 
     /// Behind what the program still has in its queue.
-    void send() noexcept {
+    void send_by_usb() noexcept {
         usbdevfs_bulktransfer transfer{};
-        transfer.ep = kOutEndpoint;
-        transfer.len = static_cast<unsigned>(farewell_.size());
+        transfer.ep = farewell_.endpoint;
+        transfer.len = farewell_.size;
         transfer.timeout = kPacketLimit_ms;
-        transfer.data = farewell_.data();
+        transfer.data = farewell_.bytes.data();
         if (ioctl(file_, USBDEVFS_BULK, &transfer) < 0 && errno == ENODEV) release();  // unplugged
+    }
+
+    /// A part of it, where there is no room, would only be in the way of the next one: the other
+    /// end is to hear that nobody is left.
+    void send_by_stream() noexcept {
+        discard_answers();
+        const ssize_t gone =
+            ::send(file_, farewell_.bytes.data(), farewell_.size, MSG_NOSIGNAL | MSG_DONTWAIT);
+        if (gone == farewell_.size || (gone < 0 && errno == EINTR)) return;
+        (void)shutdown(file_, SHUT_RDWR);
+        release();
+    }
+
+    /// False: there will be no more.
+    bool discard_answers() noexcept {
+        std::array<char, 4096> unread;
+        ssize_t got = 0;
+        while ((got = recv(file_, unread.data(), unread.size(), MSG_DONTWAIT)) > 0) {
+        }
+        return got < 0 && (errno == EAGAIN || errno == EINTR);
+    }
+
+    /// A socket that is closed with something unread takes back what it has sent.
+    void linger() noexcept {
+        (void)shutdown(file_, SHUT_WR);
+        const Clock::time_point end = Clock::now() + kLingers;
+        while (discard_answers() && Clock::now() < end) {
+            pollfd other{file_, POLLIN, 0};
+            (void)poll(&other, 1, static_cast<int>(kSendsEvery.count()));
+        }
     }
 
     void release() noexcept {
@@ -163,9 +214,10 @@ class Watch {
     }
 
     int socket_;
-    const std::atomic<std::uint32_t>& beats_;
-    int file_{-1};  // of usbfs; -1: nothing to guard
-    Packet farewell_{};
+    SharedPage& page_;
+    int file_{-1};  // the device's; -1: nothing to guard
+    Farewell farewell_{};
+    int said_{0};  // of it, since it was given
     std::uint32_t last_beats_{0};
     Clock::time_point heard_{};  // when the beats had changed
     bool alarmed_{false};
@@ -192,7 +244,7 @@ void step_aside(int socket) noexcept {
 
 /// Forked twice, so that the guardian is no child of the program, which would have to wait for it.
 /// 0, or why not: an errno.
-int fork_guardian(int programs_end, int socket, const std::atomic<std::uint32_t>& beats) noexcept {
+int fork_guardian(int programs_end, int socket, SharedPage& page) noexcept {
     const pid_t between = fork();
     if (between < 0) return errno;
     if (between == 0) {
@@ -200,7 +252,7 @@ int fork_guardian(int programs_end, int socket, const std::atomic<std::uint32_t>
         if (guardian != 0) _exit(guardian < 0 ? errno : 0);
         close(programs_end);  // first of all: it is how the program's end is noticed
         step_aside(socket);
-        Watch(socket, beats).run();
+        Watch(socket, page).run();
         _exit(0);
     }
     int status = 0;
@@ -212,20 +264,26 @@ int fork_guardian(int programs_end, int socket, const std::atomic<std::uint32_t>
 
 }  // namespace
 
-Guardian::Guardian() {
+void Farewell::say(std::span<const std::uint8_t> message) noexcept {
+    if (message.size() > kMostBytes) return;
+    std::copy(message.begin(), message.end(), bytes.begin());
+    size = static_cast<std::uint16_t>(message.size());
+}
+
+Guardian::Guardian(std::string device) : device_(std::move(device)) {
     begin();
 }
 
 void Guardian::begin() noexcept {
-    void* const page =
-        mmap(nullptr, sizeof(Beats), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    void* const page = mmap(nullptr, sizeof(SharedPage), PROT_READ | PROT_WRITE,
+                            MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (page == MAP_FAILED) return give_up("memory");
-    beats_ = new (page) Beats(0);
+    page_ = new (page) SharedPage;
     std::array<int, 2> ends{};
     if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) {
         return give_up("socket");
     }
-    const int refused = fork_guardian(ends[0], ends[1], *beats_);
+    const int refused = fork_guardian(ends[0], ends[1], *page_);
     close(ends[1]);
     if (refused != 0) {
         close(ends[0]);
@@ -242,7 +300,7 @@ Guardian::~Guardian() {
         replace_in_all(socket_, 0);
         close(socket_);
     }
-    if (beats_ != nullptr) (void)munmap(beats_, sizeof(Beats));
+    if (page_ != nullptr) (void)munmap(page_, sizeof(SharedPage));
 }
 
 void Guardian::give_up(const char* step) noexcept {
@@ -253,11 +311,11 @@ void Guardian::give_up(const char* step) noexcept {
 std::string Guardian::fault() const {
     if (failed_ == nullptr) return {};
     return std::string("no guardian process (") + failed_ + ": " + std::strerror(error_) +
-           "): if dibhr is killed, only the Falcon itself lets go; close other programs and start "
-           "dibhr again";
+           "): if dibhr is killed, only the " + device_ +
+           " itself lets go; close other programs and start dibhr again";
 }
 
-bool Guardian::say(char word, int descriptor, const Packet& farewell) noexcept {
+bool Guardian::say(char word, int descriptor, const Farewell& farewell) noexcept {
     if (socket_ < 0) return false;
     Message message{word, farewell};
     Envelope envelope(message);
@@ -271,13 +329,13 @@ bool Guardian::say(char word, int descriptor, const Packet& farewell) noexcept {
     return false;
 }
 
-void Guardian::watch(int descriptor, const Packet& farewell) noexcept {
+void Guardian::watch(int descriptor, const Farewell& farewell) noexcept {
     beat();
     if (descriptor >= 0) {
         (void)say(kWatch, descriptor, farewell);
     } else if (socket_ >= 0) {
         errno = EBADF;
-        give_up("the Falcon's open file is not known");
+        give_up("the device's open file is not known");
     }
 }
 
@@ -289,10 +347,15 @@ void Guardian::dismiss() noexcept {
     }
     char word = 0;
     (void)recv(socket_, &word, sizeof word, MSG_DONTWAIT);
+    sent_before_ = page_->sent;
+}
+
+bool Guardian::spoken() const noexcept {
+    return page_ != nullptr && page_->sent != sent_before_;
 }
 
 void Guardian::beat() noexcept {
-    if (beats_ != nullptr) beats_->fetch_add(1);
+    if (page_ != nullptr) page_->beats.fetch_add(1);
 }
 
 void Guardian::alarm() noexcept {
@@ -310,4 +373,4 @@ bool Guardian::alarmed() noexcept {
     return alarm_sounded;
 }
 
-}  // namespace dibhr::falcon
+}  // namespace dibhr

@@ -1,0 +1,115 @@
+// A program that presses with a device until its life ends in a way of its choosing: what the
+// guardian's tests look at from outside.
+#pragma once
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <functional>
+#include <map>
+#include <new>
+#include <string>
+
+#include "device/hand/guardian.hpp"
+#include "tests/device/last_moment.hpp"
+
+namespace dibhr::test {
+
+inline constexpr int kExitCode = 3;
+
+inline void* map_page(int file) {
+    void* const page =
+        mmap(nullptr, sizeof(LastMoment), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    if (page == MAP_FAILED) std::exit(EXIT_FAILURE);
+    return page;
+}
+
+/// Of a program that presses in `Loop`, a TickingDevice.
+template <typename Loop>
+class Life {
+  public:
+    using Milliseconds = std::chrono::milliseconds;
+
+    /// `file` becomes the LastMoment.
+    Life(const char* file, Loop& loop) : loop_(loop) {
+        setpgid(0, 0);
+        const rlimit no_core{0, 0};
+        setrlimit(RLIMIT_CORE, &no_core);
+        const int opened = open(file, O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+        if (ftruncate(opened, sizeof(LastMoment)) != 0) std::exit(EXIT_FAILURE);
+        last_ = new (map_page(opened)) LastMoment;
+        loop_.force_newton = {0.0, 0.0, 1.0};
+        if (!loop_.tick_until_ready()) std::exit(EXIT_FAILURE);
+        loop_.tick_for(Milliseconds(500));
+    }
+
+    /// False: there is no such way to end it.
+    bool end(const std::string& way) {
+        const std::map<std::string, std::function<void()>> ways{
+            {"kill", told_before([] { (void)raise(SIGKILL); })},
+            {"kill-group", told_before([] { kill(0, SIGKILL); })},
+            {"segmentation", told_before([] { (void)raise(SIGSEGV); })},
+            {"bus-error", [this] { touch_what_is_not_there(); }},
+            {"abort", told_before([] { std::abort(); })},
+            {"exception", told_before([] { std::terminate(); })},
+            {"file-size", [this] { write_too_much(); }},
+            {"exit", told_before([] { _exit(kExitCode); })},
+            // These go on.
+            {"leave", told_before([this] { loop_.tick_for(Milliseconds(3000)); })},
+            {"stop", told_before([this] {
+                 (void)raise(SIGSTOP);
+                 loop_.tick_for(Milliseconds(2000));
+             })},
+            {"alarm", told_before([this] {
+                 Guardian::alarm();
+                 loop_.tick_for(Milliseconds(500));
+             })},
+        };
+        const auto found = ways.find(way);
+        if (found == ways.end()) return false;
+        found->second();
+        return true;
+    }
+
+  private:
+    template <typename End>
+    std::function<void()> told_before(End end) {
+        return [this, end] {
+            tell();
+            end();
+        };
+    }
+    void tell() {
+        loop_.tick();
+        last_->t_s =
+            std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+                .count();
+        last_->program = getpid();
+    }
+    /// A page of a file that has none.
+    void touch_what_is_not_there() {
+        std::FILE* const file = std::tmpfile();
+        auto* const page = static_cast<volatile char*>(map_page(fileno(file)));
+        tell();
+        *page = 1;
+    }
+    void write_too_much() {
+        std::FILE* const file = std::tmpfile();
+        const rlimit none{0, 0};
+        setrlimit(RLIMIT_FSIZE, &none);
+        tell();
+        (void)!write(fileno(file), "x", 1);
+    }
+
+    Loop& loop_;
+    LastMoment* last_{nullptr};
+};
+
+}  // namespace dibhr::test
