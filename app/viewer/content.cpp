@@ -472,7 +472,7 @@ void Viewer::start_loop() {
                                                             .video = &player_.heart(),
                                                             .recorder = &recording_.heart(),
                                                             .decoder = &player_.decoder_heart()},
-                                                           &ending_.asked(),
+                                                           &ending_.without_force(),
                                                            &touch_source_->ticks,
                                                            walked_.get()});
 }

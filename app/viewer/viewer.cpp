@@ -11,6 +11,7 @@
 #include "app/panels/device_state.hpp"
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
+#include "app/window/display_loss.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/surface.hpp"
 #include "render/drawing_threads.hpp"
@@ -106,6 +107,7 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
       recording_(*ticks_, ending.words(), player_) {
     if (software_) let_drawing_give_way();
     window_.on_display_loss([this] { close_without_display(); });
+    ending_.watch_display(display_connection());
     state_.device = hand_.device->specification();
     state_.haptic.hand = hand_.device->unread();
     state_.bump = std::move(parts.bump);
@@ -137,6 +139,11 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
     show_media(std::move(parts.media), options.open, parts.memory, std::move(parts.maps));
     if (!options.record.empty() && live) recording_.start_live(options.record, state_);
     play_as_asked(options, 0.0, player_);
+}
+
+Viewer::~Viewer() {
+    ending_.watch_display(-1);
+    window_.on_display_loss({});
 }
 
 void Viewer::run() {

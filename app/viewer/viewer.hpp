@@ -101,7 +101,7 @@ class Viewer {
     Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Errands& errands,
            ToldLog& log);
     /// From here on a display that goes away finds nothing left to close.
-    ~Viewer() { window_.on_display_loss({}); }
+    ~Viewer();
     Viewer(const Viewer&) = delete;
     Viewer& operator=(const Viewer&) = delete;
 

@@ -9,8 +9,21 @@ extern "C" [[gnu::weak]] Display* glfwGetX11Display();  // NOLINT: its name
 
 namespace dibhr {
 
+namespace {
+
+Display* x11_display() {
+    return glfwGetX11Display == nullptr ? nullptr : glfwGetX11Display();
+}
+
+}  // namespace
+
+int display_connection() {
+    Display* const display = x11_display();
+    return display == nullptr ? -1 : ConnectionNumber(display);
+}
+
 void when_display_goes(const std::function<void()>& act) {
-    Display* const display = glfwGetX11Display == nullptr ? nullptr : glfwGetX11Display();
+    Display* const display = x11_display();
     if (display == nullptr) return;
     XSetIOErrorHandler([](Display*) { return 0; });  // which would print
     const auto call = [](Display*, void* act_to_call) {

@@ -11,4 +11,8 @@ namespace dibhr {
 /// nothing under another display server.
 void when_display_goes(const std::function<void()>& act);
 
+/// The socket of the X server, which hangs up when it goes; -1 under another display server. For
+/// the thread that made the window.
+[[nodiscard]] int display_connection();
+
 }  // namespace dibhr

@@ -1,4 +1,4 @@
-// Waits for a signal, and then for the program.
+// Waits for a signal or the display's end, and then for the program.
 #include "app/window/ending.hpp"
 
 #include <poll.h>
@@ -8,7 +8,6 @@
 
 #include <array>
 #include <cerrno>
-#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <string>
@@ -17,8 +16,8 @@
 
 namespace dibhr {
 
-Ending::Ending(LastWords& words) : words_(words), over_(eventfd(0, EFD_CLOEXEC)) {
-    if (over_ < 0) {
+Ending::Ending(LastWords& words) : words_(words), told_(eventfd(0, EFD_CLOEXEC)) {
+    if (told_ < 0) {
         throw DeviceError(std::string("the thread for signals cannot be made (") +
                           std::strerror(errno) + "): close other programs");
     }
@@ -26,10 +25,15 @@ Ending::Ending(LastWords& words) : words_(words), over_(eventfd(0, EFD_CLOEXEC))
 }
 
 Ending::~Ending() {
-    const std::uint64_t one = 1;
-    [[maybe_unused]] const ssize_t told = write(over_, &one, sizeof one);
+    over_ = true;
+    eventfd_write(told_, 1);
     thread_.join();
-    close(over_);
+    close(told_);
+}
+
+void Ending::watch_display(int connection) {
+    display_ = connection;
+    eventfd_write(told_, 1);
 }
 
 void Ending::run() {
@@ -46,9 +50,15 @@ void Ending::run() {
             if (left.count() <= 0) break;
             timeout_ms = static_cast<int>(left.count());
         }
-        std::array<pollfd, 2> ready{{{over_, POLLIN, 0}, {signals_.descriptor(), POLLIN, 0}}};
+        int display = display_;
+        std::array<pollfd, 3> ready{
+            {{told_, POLLIN, 0}, {signals_.descriptor(), POLLIN, 0}, {display, POLLRDHUP, 0}}};
         poll(ready.data(), ready.size(), timeout_ms);
-        if (ready[0].revents != 0) return;
+        if (over_) return;
+        if (eventfd_t times = 0; ready[0].revents != 0) eventfd_read(told_, &times);
+        // Unless another one, or none, is to be watched by now.
+        if (ready[2].revents != 0 && display_.compare_exchange_strong(display, -1))
+            without_force_ = true;
         if (!signals_.arrived()) continue;
         const auto now = Clock::now();
         again = asked_ && now >= another_from;
@@ -56,6 +66,7 @@ void Ending::run() {
             patient_until = now + kPatience;
             another_from = now + kOneWish;
         }
+        without_force_ = true;
         asked_ = true;
     }
     words_.tell({again ? "asked twice to end" : "asked to end", ", but hung while ",

@@ -1,4 +1,5 @@
-// The end that somebody asks for by a signal, which comes whatever the window's thread does.
+// The end that somebody asks for by a signal, or that a display makes that goes away: the force is
+// off whatever the window's thread does.
 #pragma once
 
 #include <atomic>
@@ -27,8 +28,13 @@ class Ending {
     Ending(const Ending&) = delete;
     Ending& operator=(const Ending&) = delete;
 
-    /// To be looked at by any thread: once true, no force is sent and the window closes.
+    /// To be looked at by any thread: once true, the window closes.
     [[nodiscard]] const std::atomic<bool>& asked() const noexcept { return asked_; }
+    /// To be looked at by any thread: once true, no force is sent any more. A signal does it, and
+    /// the display's end, of which the thread that draws hears only after its picture.
+    [[nodiscard]] const std::atomic<bool>& without_force() const noexcept { return without_force_; }
+    /// `connection`: the display server's socket, from here on; -1: none any more.
+    void watch_display(int connection);
     [[nodiscard]] LastWords& words() noexcept { return words_; }
 
   private:
@@ -37,7 +43,10 @@ class Ending {
     LastWords& words_;
     EndingSignals signals_{};
     std::atomic<bool> asked_{false};
-    int over_;  // a descriptor that tells the thread to leave
+    std::atomic<bool> without_force_{false};
+    std::atomic<bool> over_{false};
+    std::atomic<int> display_{-1};
+    int told_;  // a descriptor that tells the thread to look at the two above
     std::thread thread_{};
 };
 
