@@ -101,7 +101,9 @@ class PressingProcess {
         // A sanitizer is to let it die, and to bear libraries before its own.
         constexpr const char* kBear = "handle_segv=0:handle_sigbus=0:handle_abort=0";
         ::setenv("TSAN_OPTIONS", kBear, 1);
-        ::setenv("ASAN_OPTIONS", (std::string(kBear) + ":verify_asan_link_order=0").c_str(), 1);
+        ::setenv("ASAN_OPTIONS",
+                 (std::string(kBear) + ":verify_asan_link_order=0:quarantine_size_mb=16").c_str(),
+                 1);
         std::vector<char*> arguments;
         for (std::string& word : words) arguments.push_back(word.data());
         arguments.push_back(nullptr);
