@@ -47,10 +47,17 @@ std::vector<int> doubled_ranks(const std::vector<double>& values) {
     return ranks;
 }
 
+/// In steps of a billionth of the largest, and without those of 0: 7/12 - 1/2 and 1/2 - 5/12 are
+/// as large as each other, whatever their last bits say. Ranks that hung on these would follow the
+/// sign.
 std::vector<double> without_zeros(std::span<const double> differences) {
+    constexpr double kSteps = 1e9;
+    double largest = 0.0;
+    for (const double each : differences) largest = std::fmax(largest, std::fabs(each));
     std::vector<double> kept;
     for (const double each : differences) {
-        if (each != 0.0) kept.push_back(each);
+        const double steps = largest > 0.0 ? std::round(each / largest * kSteps) : 0.0;
+        if (steps != 0.0) kept.push_back(steps);
     }
     return kept;
 }

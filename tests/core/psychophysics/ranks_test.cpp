@@ -36,6 +36,12 @@ TEST_CASE("signed ranks are exact, with ties and zeros too", "[ranks]") {
     CHECK_THAT(signed_rank_test(Values{1, 1, -2, 0}).p, WithinAbs(1.0, 1e-9));
     CHECK_THAT(signed_rank_test(Values{1, 1, 2, 0}).p, WithinAbs(0.25, 1e-9));
     CHECK(signed_rank_test(Values{0, 0}).p == 1.0);
+    // Equal distances whose last bits differ are ties: 7 of 12 is as far from half as 5 of 12.
+    const double above = 7.0 / 12.0 - 0.5;
+    const double below = 5.0 / 12.0 - 0.5;
+    REQUIRE(above != -below);
+    CHECK_THAT(signed_rank_test(Values{above, above, above, below, below}).p,
+               WithinAbs(sign_test(Values{1, 1, 1, -1, -1}).p, 1e-9));
     CHECK_THAT(sign_test(Values{1, 2, 3, 4, 5, -6}).p, WithinAbs(0.21875, 1e-9));
 }
 
