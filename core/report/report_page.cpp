@@ -11,61 +11,12 @@
 
 #include "core/files/plain_text.hpp"
 #include "core/plot/axes.hpp"
+#include "core/report/page_parts.hpp"
 #include "core/report/report_words.hpp"
 
 namespace dibhr {
 
 namespace {
-
-// Pictures keep their white paper in the dark: their inks are made for it.
-constexpr std::string_view kStyle = R"(
-:root { color-scheme: light dark; --ground: #fff; --ink: #222; --quiet: #666; --line: #ddd; --stripe: #f6f6f4; }
-@media (prefers-color-scheme: dark) {
-  :root { --ground: #16181b; --ink: #e6e6e4; --quiet: #a2a6ab; --line: #3a3e44; --stripe: #1e2125; }
-}
-* { box-sizing: border-box; }
-body { margin: 0 auto; padding: 2rem 1.25rem 4rem; max-width: 76rem; background: var(--ground); color: var(--ink);
-  font: 1rem/1.5 system-ui, "Segoe UI", "Liberation Sans", Arial, sans-serif; }
-h1 { font-size: 1.7rem; line-height: 1.2; margin: 0 0 .25rem; overflow-wrap: anywhere; }
-h2 { font-size: 1.2rem; margin: 2.5rem 0 .6rem; }
-.quiet, figcaption { color: var(--quiet); }
-.summary { font-size: 1.15rem; max-width: 60rem; }
-.text { white-space: pre-wrap; overflow-wrap: anywhere; }
-.note { border-left: 4px solid var(--line); padding-left: 1rem; }
-figure { margin: 1.5rem 0 0; }
-figure img { display: block; width: 100%; height: auto; background: #fff; border: 1px solid var(--line); border-radius: 6px; }
-figure.map img { width: auto; max-width: 100%; max-height: 92vh; }
-figcaption { margin-top: .4rem; max-width: 60rem; }
-.pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 24rem), 1fr)); gap: 0 1.5rem; }
-.wide { overflow-x: auto; }
-table { border-collapse: collapse; font-size: .9rem; font-variant-numeric: tabular-nums; }
-th, td { text-align: left; vertical-align: top; padding: .3rem .45rem; border-bottom: 1px solid var(--line); }
-th { color: var(--quiet); font-weight: 600; }
-tbody tr:nth-child(even) { background: var(--stripe); }
-code { font-size: .85em; overflow-wrap: anywhere; }
-dt { font-weight: 600; margin-top: .6rem; }
-dd { margin: 0; max-width: 60rem; }
-@media print {
-  :root { color-scheme: light; --ground: #fff; --ink: #000; --quiet: #444; --line: #bbb; --stripe: #fff; }
-  body { max-width: none; padding: 0; font-size: 10pt; }
-  figure, tr { break-inside: avoid; }
-  h2 { break-after: avoid; }
-  .wide { overflow: visible; }
-  table { font-size: 7.5pt; }
-  th, td { padding: .15rem .3rem; }
-  figure.map img { max-height: 20cm; }
-}
-)";
-
-std::string figure_html(const Figure& figure) {
-    const bool is_map = figure.name.starts_with("heat-map");
-    return std::string("<figure") + (is_map ? " class=\"map\"" : "") + ">\n<img alt=\"" +
-           html_text(figure.title) + "\" width=\"" + std::to_string(figure.columns) +
-           "\" height=\"" + std::to_string(figure.rows) + "\" src=\"data:image/png;base64," +
-           base64_text(figure.png) + "\">\n<figcaption>" + html_text(figure.caption) +
-           " <span class=\"quiet\">(" + html_text(figure.files) + ")</span></figcaption>\n" +
-           "</figure>\n";
-}
 
 /// The figures, histograms side by side where there is room.
 std::string figures_html(const SessionReport& report) {
@@ -75,15 +26,6 @@ std::string figures_html(const SessionReport& report) {
         (figure.name.ends_with("-histogram") ? pair : whole) += figure_html(figure);
     }
     return pair.empty() ? whole : whole + "<div class=\"pair\">\n" + pair + "</div>\n";
-}
-
-std::string head_html(const SessionReport& report) {
-    const std::string name = html_text(report.session.file().filename().string());
-    return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-           "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-           "<meta name=\"generator\" content=\"" +
-           html_text(report.program) + "\">\n<title>What was touched: " + name +
-           "</title>\n<style>" + std::string(kStyle) + "</style>\n</head>\n";
 }
 
 std::string remarks_html(const SessionReport& report) {
@@ -114,26 +56,6 @@ std::string opening_html(const SessionReport& report) {
 
 // A browser is slow with more, and nobody reads them: the JSON has them all.
 constexpr std::size_t kMostRows = 300;
-
-/// Cells of a row as HTML.
-using Cells = std::vector<std::string>;
-
-std::string row_of(const Cells& cells, const std::string& begin, const std::string& end) {
-    std::string row = "<tr>";
-    for (const std::string& text : cells) row.append(begin).append(text).append(end);
-    return row + "</tr>\n";
-}
-
-std::string table_of(const Cells& heads, const std::vector<Cells>& rows) {
-    std::string table = "<div class=\"wide\"><table>\n<thead>" +
-                        row_of(heads, "<th scope=\"col\">", "</th>") + "</thead>\n<tbody>\n";
-    for (const Cells& row : rows) table += row_of(row, "<td>", "</td>");
-    return table + "</tbody></table></div>\n";
-}
-
-std::string section(const std::string& heading, const std::string& body) {
-    return "<section>\n<h2>" + heading + "</h2>\n" + body + "</section>\n";
-}
 
 /// Which episodes are shown, in order: all, or the longest.
 std::vector<std::size_t> shown_episodes(const std::vector<Episode>& episodes) {
@@ -319,7 +241,9 @@ std::string definitions_section() {
 }  // namespace
 
 std::string page_of(const SessionReport& report) {
-    return head_html(report) + "<body>\n<header>\n" + opening_html(report) + "</header>\n<main>\n" +
+    return page_head("What was touched: " + report.session.file().filename().string(),
+                     report.program) +
+           "<body>\n<header>\n" + opening_html(report) + "</header>\n<main>\n" +
            remarks_html(report) + figures_html(report) + episodes_section(report) +
            marks_section(report) + parameters_section(report) + files_section(report) +
            facts_section(report) + definitions_section() +

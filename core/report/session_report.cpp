@@ -26,10 +26,6 @@ std::string map_name(std::size_t number) {
     return number == 1 ? "heat-map" : "heat-map-" + std::to_string(number);
 }
 
-std::string file_name(const std::string& picture, PlotFormat format) {
-    return picture + "." + std::string(name_of(format));
-}
-
 std::vector<std::string> all_names() {
     std::vector<std::string> pictures{"force-over-time", "speed-over-time", "force-histogram",
                                       "speed-histogram", "contact-histogram"};
@@ -38,7 +34,7 @@ std::vector<std::string> all_names() {
     }
     std::vector<std::string> names{"report.html", "report.json"};
     for (const std::string& picture : pictures) {
-        for (const PlotFormat format : kPlotFormats) names.push_back(file_name(picture, format));
+        for (const PlotFormat format : kPlotFormats) names.push_back(picture_file(picture, format));
     }
     return names;
 }
@@ -51,16 +47,8 @@ struct Making {
 
     void add_figure(const std::string& name, const std::string& title, const std::string& caption,
                     const Canvas& plot) const {
-        const ColourImage picture = plot.finished();
-        auto png = png_of(picture);
-        std::string names;
-        for (const PlotFormat format : request.plot_formats) {
-            const std::string file = file_name(name, format);
-            files.add(file, format == PlotFormat::png ? png : plot.encoded(format));
-            names += (names.empty() ? "" : ", ") + file;
-        }
         report.figures.push_back(
-            {name, names, title, caption, picture.columns, picture.rows, std::move(png)});
+            dibhr::add_figure(files, request.plot_formats, name, title, caption, plot));
     }
 };
 
@@ -124,7 +112,7 @@ void draw_map(const Making& making, const TouchedPlaces& places, std::uint32_t m
     if (touched.right == 0 || !(places.total_s() > 0.0)) return;  // no place that could be shown
     HeatMapFacts map;
     const std::string name = map_name(report.maps.size() + 1);
-    map.picture = file_name(name, making.request.plot_formats.front());
+    map.picture = picture_file(name, making.request.plot_formats.front());
     map.source = source_of(report.session, media);
     map.frame_s = places.longest_frame_s();
     map.contact_s = places.total_s();

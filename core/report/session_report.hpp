@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/plot/canvas.hpp"
+#include "core/report/page_parts.hpp"
 #include "core/report/session_numbers.hpp"
 #include "core/session/session.hpp"
 #include "core/video/frame_window.hpp"
@@ -33,16 +34,6 @@ struct HeatMapFacts {
     double contact_s{0.0};
     int columns{0}, rows{0};  ///< of the depth image, or of what is known of it
     double sigma_px{0.0};
-};
-
-/// A picture of the report.
-struct Figure {
-    std::string name{};   ///< "heat-map": of its files, without their endings
-    std::string files{};  ///< "heat-map.svg, heat-map.pdf"
-    std::string title{};
-    std::string caption{};
-    int columns{0}, rows{0};
-    std::string png{};
 };
 
 /// All that the page and the JSON say.
