@@ -67,7 +67,10 @@ class HandTicking {
         }
     }
 
-    void mark(const std::string& tag) { recorder_.mark(tag); }
+    /// Where the next tick begins.
+    void mark(const std::string& tag) {
+        recorder_.mark_at(kUpdate_s * static_cast<double>(tick_ + 1), tag);
+    }
 
     void finish() {
         const RecorderStatus status = recorder_.finish();

@@ -235,12 +235,15 @@ struct Recorder::Implementation {
     }
 
     void add_mark(Clock::time_point moment, const std::string& tag, const std::string& text) {
-        if (!zero_ns) {
+        const auto t_ns = static_cast<double>(nanoseconds(moment) - zero_ns.value_or(0));
+        add_mark_at(t_ns / kNanosecondsPerSecond, tag, text);
+    }
+
+    void add_mark_at(double t_s, const std::string& tag, const std::string& text) {
+        if (!zero_ns)
             early_marks.push_back({0.0, tag, text});
-            return;
-        }
-        const auto t_ns = static_cast<double>(nanoseconds(moment) - *zero_ns);
-        session->add_mark({std::max(first_s, t_ns / kNanosecondsPerSecond), tag, text});
+        else
+            session->add_mark({std::max(first_s, t_s), tag, text});
     }
 
     /// What was marked before the first tick, when there was no clock, is marked at that tick.
@@ -390,6 +393,11 @@ void Recorder::mark(const std::string& tag, const std::string& text) {
     implementation_->leave([moment = Clock::now(), tag, text](Implementation& writer) {
         writer.add_mark(moment, tag, text);
     });
+}
+
+void Recorder::mark_at(double t_s, const std::string& tag, const std::string& text) {
+    implementation_->leave(
+        [t_s, tag, text](Implementation& writer) { writer.add_mark_at(t_s, tag, text); });
 }
 
 void Recorder::set_fact(const std::string& key, const std::string& value) {

@@ -40,7 +40,7 @@ class Recorder {
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
 
-    // The next six wait for no disk. Each counts for the ticks that are pushed after it.
+    // The next seven wait for no disk. Each counts for the ticks that are pushed after it.
 
     /// Parameters that ticks may refer to from now on by their version.
     void parameters(const SessionParameters& parameters);
@@ -56,6 +56,8 @@ class Recorder {
     void maps(std::uint32_t version, std::vector<SessionMap> maps);
     /// Marks this moment.
     void mark(const std::string& tag, const std::string& text = {});
+    /// Marks a moment of ticks that have a clock of their own, from the first tick on.
+    void mark_at(double t_s, const std::string& tag, const std::string& text = {});
     /// Changes or adds a fact: "participant", "note".
     void set_fact(const std::string& key, const std::string& value);
 
