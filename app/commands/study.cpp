@@ -1,6 +1,8 @@
-// `dibhr study`: a protocol checked, run with one participant, and its sessions taken out.
+// `dibhr study`: a protocol checked, run with one participant, its answers reported and its
+// sessions taken out.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -10,9 +12,11 @@
 #include <sstream>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "app/commands/command_line.hpp"
+#include "app/commands/output.hpp"
 #include "app/commands/study_pilot.hpp"
 #include "app/commands/study_readiness.hpp"
 #include "app/settings/assets_path.hpp"
@@ -22,9 +26,12 @@
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/files/spelling.hpp"
+#include "core/haptics/words.hpp"
 #include "core/study/protocol.hpp"
 #include "core/study/study_file.hpp"
 #include "core/study/study_run.hpp"
+#include "core/study_report/study_plan.hpp"
+#include "core/study_report/study_report.hpp"
 #include "core/video/cleaning/cleaning_options.hpp"
 #include "core/video/media.hpp"
 
@@ -36,11 +43,18 @@ namespace fs = std::filesystem;
 
 struct StudyOptions {
     std::string action{};
-    fs::path file{};  ///< a protocol or its name; of sessions a study file
+    /// A protocol or its name; of sessions a study file, of report study files and folders of them.
+    std::vector<fs::path> files{};
     std::string participant{};
     std::optional<int> number{};
-    fs::path out{"."};
+    fs::path out{};  ///< a folder
     std::string pilot{};
+    AnalysisSettings analysis{};
+    PlanSettings plan{};
+    std::vector<PlotFormat> plot_formats{PlotFormat::png};
+
+    [[nodiscard]] const fs::path& file() const { return files.front(); }
+    [[nodiscard]] fs::path folder() const { return out.empty() ? fs::path(".") : out; }
 };
 
 StudyNames study_names() {
@@ -159,7 +173,7 @@ void print_balance(const Protocol& protocol) {
 }
 
 int check(const StudyOptions& options) {
-    const fs::path file = protocol_called(options.file);
+    const fs::path file = protocol_called(options.file());
     const Protocol protocol = read_protocol(file, study_names());
     print_summary(protocol);
     print_balance(protocol);
@@ -194,15 +208,16 @@ int run(const StudyOptions& options) {
     if (options.participant.empty())
         throw UsageError("run needs --participant LABEL (see dibhr study --help)");
     require_label(options.participant);
-    const fs::path page = protocol_called(options.file);
+    const fs::path page = protocol_called(options.file());
     const Protocol protocol = read_protocol(page, study_names());
     if (options.pilot.empty())
         throw UsageError(
             "a person is led through a study in the viewer's window, which this version "
             "does not have yet: give --pilot (see dibhr study --help)");
+    const Pilot pilot = pilot_called(options.pilot, protocol);
     std::error_code ignored;
-    fs::create_directories(options.out, ignored);
-    StudyFile file(study_file_of(options.out, options.participant),
+    fs::create_directories(options.folder(), ignored);
+    StudyFile file(study_file_of(options.folder(), options.participant),
                    identity_of(options, protocol, page));
     StudyRun steps(protocol, file.identity().number, file.answered());
     const bool finished = steps.step() == StudyStep::thanks;
@@ -213,38 +228,117 @@ int run(const StudyOptions& options) {
     }
     if (!file.answered().empty())
         std::cout << "goes on at trial " << file.answered().size() + 1 << '\n';
-    run_pilot(steps, file, options.pilot);
+    run_pilot(steps, file, pilot);
     std::cout << file.file().string() << ": " << steps.answered().size() << " trials\n";
     return 0;
 }
 
 int take_sessions(const StudyOptions& options) {
-    const StudyRecord study = read_study(options.file);
+    const StudyRecord study = read_study(options.file());
     std::error_code ignored;
-    fs::create_directories(options.out, ignored);
+    fs::create_directories(options.folder(), ignored);
     int written = 0;
     for (std::size_t k = 0; k < study.answered.size(); ++k) {
         const int trial = study.answered[k].trial.number;
         if (study.session_bytes[k] == 0) continue;
-        if (write_study_session(options.file, trial, options.out / session_name(study, trial)))
+        if (write_study_session(options.file(), trial,
+                                options.folder() / session_name(study, trial)))
             ++written;
     }
     if (written == 0)
-        throw InputError(shown(options.file) +
+        throw InputError(shown(options.file()) +
                          " holds no session: a pilot that only answers records none");
-    std::cout << written << " sessions in " << options.out.string() << '\n';
+    std::cout << written << " sessions in " << options.folder().string() << '\n';
+    return 0;
+}
+
+/// Files as they are given, and of folders the study files in them.
+std::vector<fs::path> study_files(const std::vector<fs::path>& given) {
+    std::vector<fs::path> files;
+    for (const fs::path& one : given) {
+        std::error_code failed;
+        if (!fs::is_directory(one, failed)) {
+            files.push_back(one);
+            continue;
+        }
+        const std::size_t before = files.size();
+        for (const auto& entry : fs::directory_iterator(one, failed))
+            if (entry.path().extension() == kStudyEnding) files.push_back(entry.path());
+        if (files.size() == before)
+            throw InputError(shown(one) + ": there is no study file (*" + kStudyEnding +
+                             ") in this folder");
+        std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
+    }
+    return files;
+}
+
+int report(const StudyOptions& options) {
+    if (options.out.empty())
+        throw UsageError("report needs --out DIR, the folder it is written to");
+    {
+        ProgressBar bar("measuring the study");
+        StudyReportRequest request{.folder = options.out,
+                                   .program = "dibhr " DIBHR_VERSION,
+                                   .analysis = options.analysis,
+                                   .plot_formats = options.plot_formats};
+        request.analysis.progress = [&bar](double share) { bar.show(share); };
+        write_study_report(study_files(options.files), request);
+    }
+    std::cout << (options.out / "report.html").string() << '\n';
+    return 0;
+}
+
+constexpr std::array<Word<Curve>, 3> kCurves{
+    {{Curve::logistic, "logistic", "Logistic"},
+     {Curve::cumulative_gaussian, "gaussian", "Cumulative Gaussian"},
+     {Curve::weibull, "weibull", "Weibull"}}};
+
+std::vector<std::string> curve_names() {
+    std::vector<std::string> names;
+    for (const auto& entry : kCurves) names.emplace_back(entry.name);
+    return names;
+}
+
+Curve curve_called(const std::string& name) {
+    if (const auto curve = value_named(kCurves, name)) return *curve;
+    throw UsageError("--curve is one of " + listed(curve_names()) + ", not " + in_quotes(name) +
+                     did_you_mean(name, curve_names()));
+}
+
+int plan(const StudyOptions& options) {
+    if (options.pilot.empty())
+        throw UsageError(
+            "plan needs --pilot, the effect that is to be found, as "
+            "prefer=CONDITION,share=0.7,spread=0.1 (see dibhr study --help)");
+    const Protocol protocol = read_protocol(protocol_called(options.file()), study_names());
+    PlanSettings settings = options.plan;
+    settings.effect = simulated_participant(options.pilot);
+    require_preferred(protocol, settings.effect);
+    std::vector<PlanLine> lines;
+    {
+        ProgressBar bar("simulating studies");
+        settings.progress = [&bar](double share) { bar.show(share); };
+        lines = plan_of(protocol, settings);
+    }
+    std::cout << plan_text(lines, settings);
     return 0;
 }
 
 void add_options(CLI::App& app, StudyOptions& options) {
     app.add_option("ACTION", options.action,
-                   "check a protocol, run it with one participant, or take the sessions out of a "
-                   "study file")
+                   "check a protocol, plan how many people it needs, run it with one participant, "
+                   "report what was answered, or take the sessions out of a study file")
         ->required()
         ->type_name("");
-    add_file(app, "FILE", options.file,
-             "The protocol, a file or a study that comes along; of sessions the study file", "")
-        ->required();
+    app.add_option_function<std::vector<std::string>>(
+           "FILE",
+           [&options](const std::vector<std::string>& files) {
+               options.files.assign(files.begin(), files.end());
+           },
+           "The protocol, a file or a study that comes along; of sessions the study file, of "
+           "report study files or folders of them")
+        ->required()
+        ->type_name("...");
     app.add_option("--participant", options.participant,
                    "Label of who takes part: letters, digits, - and _; never a name")
         ->type_name("LABEL");
@@ -253,20 +347,46 @@ void add_options(CLI::App& app, StudyOptions& options) {
            "Chooses the order; without it the number at the label's end")
         ->check(CLI::Range(1, 1000000))
         ->type_name("N");
-    add_file(app, "--out", options.out, "Folder of study files, or of the sessions taken out",
-             "DIR")
-        ->default_str(".");
-    app.add_option("--pilot", options.pilot,
-                   "Nobody: guess, hand, or threshold=..,slope=..,lapse=..,prefer=CONDITION")
+    add_file(app, "--out", options.out,
+             "Folder of study files, of the sessions taken out (this one by default), or of the "
+             "report",
+             "DIR");
+    app.add_option(
+           "--pilot", options.pilot,
+           "Nobody: guess, hand, or threshold=..,slope=..,lapse=..,prefer=CONDITION,"
+           "share=..; of plan the effect that is to be found, with spread=.. between people")
         ->type_name("HOW");
+    app.add_option("--power", options.plan.power,
+                   "So often a study is to find the effect that is planned for")
+        ->check(CLI::Range(0.5, 0.999))
+        ->default_str("0.8")
+        ->type_name("SHARE");
+    app.add_option("--studies", options.plan.studies, "Simulated for each line of a plan")
+        ->check(CLI::Range(20, 100000))
+        ->default_str("400")
+        ->type_name("N");
+    app.add_option_function<std::string>(
+           "--curve",
+           [&options](const std::string& name) { options.analysis.curve = curve_called(name); },
+           "Psychometric function of a report: " + listed(curve_names()))
+        ->default_str("logistic")
+        ->type_name("NAME");
+    app.add_option("--bootstraps", options.analysis.bootstraps,
+                   "Simulated studies behind the interval of each threshold")
+        ->check(CLI::Range(19, 100000))
+        ->default_str("399")
+        ->type_name("N");
+    add_plot_format_option(app, options.plot_formats);
     app.footer(
         "A study file is made for each participant, LABEL.dibhr-study; the same label goes on "
         "where "
         "it stopped.\n\n"
         "Examples:\n"
         "  dibhr study check paper-question\n"
+        "  dibhr study plan paper-question --pilot prefer=dibhr,share=0.7,spread=0.1\n"
         "  dibhr study run paper-question --participant P07 --out answers --pilot guess\n"
         "  dibhr study run mine.toml --participant P08 --pilot threshold=0.1,slope=20,lapse=0.02\n"
+        "  dibhr study report answers --out answers/report\n"
         "  dibhr study sessions answers/P07.dibhr-study --out sessions");
 }
 
@@ -276,13 +396,20 @@ int run_study(CLI::App& app, const Arguments& arguments) {
     StudyOptions options;
     add_options(app, options);
     if (!parse(app, arguments)) return 0;
-    if (options.action == "check") return check(options);
-    if (options.action == "run") return run(options);
-    if (options.action == "sessions") return take_sessions(options);
-    const std::vector<std::string> actions{"check", "run", "sessions"};
+    if (options.action == "report") return report(options);
+    const std::vector<std::pair<std::string, int (*)(const StudyOptions&)>> of_one_file{
+        {"check", check}, {"plan", plan}, {"run", run}, {"sessions", take_sessions}};
+    for (const auto& [name, act] : of_one_file) {
+        if (options.action != name) continue;
+        if (options.files.size() > 1)
+            throw UsageError("study " + name + " takes one file, not " +
+                             std::to_string(options.files.size()) + " (see dibhr study --help)");
+        return act(options);
+    }
+    const std::vector<std::string> actions{"check", "plan", "run", "report", "sessions"};
     throw UsageError("study does not know " + in_quotes(options.action) +
-                     " but check, run and sessions" + did_you_mean(options.action, actions) +
-                     " (see dibhr study --help)");
+                     " but check, plan, run, report and sessions" +
+                     did_you_mean(options.action, actions) + " (see dibhr study --help)");
 }
 
 }  // namespace dibhr

@@ -27,7 +27,10 @@ double utc_now_s() {
         .count();
 }
 
-void require_condition(const Protocol& protocol, const std::string& name) {
+}  // namespace
+
+void require_preferred(const Protocol& protocol, const SimulatedParticipant& who) {
+    const std::string& name = who.prefers;
     if (name.empty() || protocol.condition_named(name) != nullptr) return;
     std::vector<std::string> names;
     names.reserve(protocol.conditions.size());
@@ -36,20 +39,22 @@ void require_condition(const Protocol& protocol, const std::string& name) {
                      ", which the pilot is to prefer" + did_you_mean(name, names));
 }
 
-}  // namespace
-
-void run_pilot(StudyRun& run, StudyFile& file, const std::string& pilot) {
-    const bool with_hand = pilot == kHand || pilot.starts_with(std::string(kHand) + ",");
+Pilot pilot_called(const std::string& text, const Protocol& protocol) {
+    Pilot pilot{.has_hand = text == kHand || text.starts_with(std::string(kHand) + ",")};
     const std::string answers =
-        with_hand ? pilot.substr(std::min(kHand.size() + 1, pilot.size())) : pilot;
-    const SimulatedParticipant who = simulated_participant(answers.empty() ? "guess" : answers);
-    require_condition(run.protocol(), who.prefers);
+        pilot.has_hand ? text.substr(std::min(kHand.size() + 1, text.size())) : text;
+    pilot.answers = simulated_participant(answers.empty() ? "guess" : answers);
+    require_preferred(protocol, pilot.answers);
+    return pilot;
+}
+
+void run_pilot(StudyRun& run, StudyFile& file, const Pilot& pilot) {
     std::optional<StudyHand> hand;
-    if (with_hand) hand.emplace();
+    if (pilot.has_hand) hand.emplace();
     ProgressBar bar(file.identity().participant);
     while (run.step() != StudyStep::finished) {
         if (run.step() == StudyStep::question || run.step() == StudyStep::adjust) {
-            const AnsweredTrial answered = run.judged(answer_of(who, run), utc_now_s());
+            const AnsweredTrial answered = run.judged(answer_of(pilot.answers, run), utc_now_s());
             std::filesystem::path session;
             if (hand) hand->explore(run.trial(), session = file.fresh_session());
             file.add(answered, session);

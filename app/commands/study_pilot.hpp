@@ -3,14 +3,26 @@
 
 #include <string>
 
+#include "core/study/simulated_participant.hpp"
 #include "core/study/study_file.hpp"
 #include "core/study/study_run.hpp"
 
 namespace dibhr {
 
-/// Runs what is left of the study. `pilot`: "hand", where every interval is explored by the
-/// modelled hand of `dibhr experiment human` and recorded, and answered by guessing; or what
-/// simulated_participant() takes, of which nothing is recorded. Throws InputError.
-void run_pilot(StudyRun& run, StudyFile& file, const std::string& pilot);
+/// Throws InputError when the preferred condition is none of the protocol.
+void require_preferred(const Protocol& protocol, const SimulatedParticipant& who);
+
+struct Pilot {
+    SimulatedParticipant answers{};
+    /// Every interval is explored by the modelled hand of `dibhr experiment human` and recorded.
+    bool has_hand{false};
+};
+
+/// What simulated_participant() takes; "hand", which then guesses; or "hand," and that. Throws
+/// InputError.
+[[nodiscard]] Pilot pilot_called(const std::string& text, const Protocol& protocol);
+
+/// Runs what is left of the study. Throws InputError.
+void run_pilot(StudyRun& run, StudyFile& file, const Pilot& pilot);
 
 }  // namespace dibhr

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <sstream>
 
 #include "core/error.hpp"
@@ -39,13 +40,17 @@ int chosen_by_level(const SimulatedParticipant& who, const Trial& trial, Random&
 
 int chosen_by_preference(const SimulatedParticipant& who, const Trial& trial, Random& draws) {
     const int count = static_cast<int>(trial.intervals.size());
-    const bool attends = !draws.chance(who.lapse);
+    // So often noticed, and else guessed, that what is chosen comes to `share`; below chance the
+    // other one is liked.
+    const double noticing = (who.share - 1.0 / count) / (1.0 - 1.0 / count);
+    const bool attends =
+        !draws.chance(who.lapse) && (who.share >= 1.0 || draws.chance(std::abs(noticing)));
     const auto& all = trial.intervals;
     const bool noticed = std::any_of(all.begin(), all.end(),
                                      [&](const StudyInterval& one) { return has(who, one); });
     if (!attends || !noticed) return any_of(count, draws);
     if (trial.form == TrialForm::three_interval) return trial.target;
-    return has(who, all[0]) ? 0 : 1;
+    return has(who, all[0]) == (noticing > 0.0) ? 0 : 1;
 }
 
 int chosen_answer(const SimulatedParticipant& who, const StudyRun& run, Random& draws) {
@@ -65,8 +70,10 @@ double rating(const SimulatedParticipant& who, const StudyRun& run, Random& draw
     const Question& question = run.block().question;
     const int steps = question.highest - question.lowest;
     if (who.guesses) return question.lowest + any_of(steps + 1, draws);
-    const double share = has(who, run.trial().intervals.front()) ? 0.75 : 0.5;
-    const double felt = question.lowest + share * steps + who.noise * draws.normal();
+    const double middle = question.lowest + 0.5 * steps;
+    const double more =
+        has(who, run.trial().intervals.front()) ? who.difference.value_or(0.25 * steps) : 0.0;
+    const double felt = middle + more + who.noise * draws.normal();
     return std::clamp(std::round(felt), static_cast<double>(question.lowest),
                       static_cast<double>(question.highest));
 }
@@ -76,6 +83,20 @@ double adjusted(const SimulatedParticipant& who, const StudyRun& run, Random& dr
     if (who.guesses) return vary.lowest + (vary.highest - vary.lowest) * draws.uniform();
     return std::clamp(vary.reference + who.bias + who.noise * draws.normal(), vary.lowest,
                       vary.highest);
+}
+
+/// One of a kind of people, always the same one under the same number.
+SimulatedParticipant person_of(SimulatedParticipant who, const StudyRun& run) {
+    if (!(who.spread > 0.0)) return who;
+    constexpr std::uint64_t kPerson = 0x706572736f6eU;
+    Random draws = draws_for(run.protocol().seed,
+                             {who.seed, static_cast<std::uint64_t>(run.number()), kPerson});
+    const double off = who.spread * draws.normal();
+    who.threshold *= std::exp(off);
+    who.bias += off;
+    if (who.share < 1.0) who.share = std::clamp(who.share + off, 0.0, 1.0 - 1e-9);
+    if (who.difference) *who.difference += off;
+    return who;
 }
 
 }  // namespace
@@ -94,17 +115,17 @@ SimulatedParticipant simulated_participant(const std::string& text) {
     if (text == "guess") return who;
     who.guesses = false;
     double seed = 1.0;
+    double difference = std::numeric_limits<double>::quiet_NaN();
     const struct {
         const char* name;
         double& value;
         double lowest, highest;
-    } numbers[] = {{"threshold", who.threshold, 1e-9, 1e9},
-                   {"slope", who.slope, 1e-9, 1e9},
-                   {"lapse", who.lapse, 0.0, 0.5},
-                   {"false-alarm", who.false_alarm, 0.0, 0.99},
-                   {"bias", who.bias, -1e9, 1e9},
-                   {"noise", who.noise, 0.0, 1e9},
-                   {"seed", seed, 0.0, 1e9}};
+    } numbers[] = {
+        {"threshold", who.threshold, 1e-9, 1e9}, {"slope", who.slope, 1e-9, 1e9},
+        {"lapse", who.lapse, 0.0, 0.5},          {"false-alarm", who.false_alarm, 0.0, 0.99},
+        {"bias", who.bias, -1e9, 1e9},           {"noise", who.noise, 0.0, 1e9},
+        {"share", who.share, 1.0 / 3.0, 1.0},    {"difference", difference, -1e9, 1e9},
+        {"spread", who.spread, 0.0, 1e9},        {"seed", seed, 0.0, 1e9}};
     std::vector<std::string> names{"guess", "prefer"};
     for (const auto& number : numbers) names.emplace_back(number.name);
     std::istringstream parts(text);
@@ -128,10 +149,12 @@ SimulatedParticipant simulated_participant(const std::string& text) {
         found->value = *number;
     }
     who.seed = static_cast<std::uint64_t>(seed);
+    if (std::isfinite(difference)) who.difference = difference;
     return who;
 }
 
-StudyAnswer answer_of(const SimulatedParticipant& who, const StudyRun& run) {
+StudyAnswer answer_of(const SimulatedParticipant& kind, const StudyRun& run) {
+    const SimulatedParticipant who = person_of(kind, run);
     const Trial& trial = run.trial();
     Random draws =
         draws_for(run.protocol().seed, {who.seed, static_cast<std::uint64_t>(run.number()),
@@ -159,6 +182,18 @@ StudyAnswer answer_of(const SimulatedParticipant& who, const StudyRun& run) {
             break;
     }
     return answer;
+}
+
+std::vector<AnsweredTrial> answers_of(const SimulatedParticipant& participant,
+                                      const Protocol& protocol, int number) {
+    StudyRun run(protocol, number);
+    while (run.step() != StudyStep::finished) {
+        if (run.step() == StudyStep::question || run.step() == StudyStep::adjust)
+            run.accept(run.judged(answer_of(participant, run), 0.0));
+        else
+            run.go_on();
+    }
+    return run.answered();
 }
 
 }  // namespace dibhr

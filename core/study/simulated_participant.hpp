@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/psychophysics/psychometric.hpp"
 #include "core/study/study_run.hpp"
@@ -21,20 +22,31 @@ struct SimulatedParticipant {
     double false_alarm{0.0};  ///< says yes where there is nothing, of yes/no
     /// Chosen where two conditions are compared, and rated best; empty: none.
     std::string prefers{};
+    double share{1.0};  ///< of the comparisons in which that one is chosen, or found to be the odd
+                        ///< one, in [1/3, 1]; lapses go on top
+    /// So much higher it is rated than the others; nothing: a quarter of the scale.
+    std::optional<double> difference{};
     double bias{0.0};   ///< of an adjustment: point of subjective equality minus reference
     double noise{0.0};  ///< standard deviation of adjustments and ratings, in their units
+    /// How people differ: standard deviation of `share`, `bias` and `difference`, and of the
+    /// threshold's natural logarithm. Each participant's number is another person.
+    double spread{0.0};
     std::uint64_t seed{1};
 
     /// Share of hits at a level, guesses at `guess`.
     [[nodiscard]] PsychometricFunction function(double guess) const;
 };
 
-/// "guess", or "threshold=0.1,slope=20,lapse=0.02,prefer=dibhr,bias=0,noise=0.02,seed=1", any of
-/// them. Throws InputError that says what is allowed.
+/// "guess", or "threshold=0.1,slope=20,lapse=0.02,prefer=dibhr,share=0.8,spread=0.1,seed=1", any
+/// of them. Throws InputError that says what is allowed.
 [[nodiscard]] SimulatedParticipant simulated_participant(const std::string& text);
 
 /// The answer to the running trial, at its question or adjustment. The same protocol, number, trial
 /// and participant give the same answer.
 [[nodiscard]] StudyAnswer answer_of(const SimulatedParticipant& participant, const StudyRun& run);
+
+/// A whole study's answers by that participant, as `number`.
+[[nodiscard]] std::vector<AnsweredTrial> answers_of(const SimulatedParticipant& participant,
+                                                    const Protocol& protocol, int number);
 
 }  // namespace dibhr

@@ -1,0 +1,564 @@
+// Gathers answers into counts and values, and measures them.
+#include "core/study_report/study_findings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/psychophysics/staircase.hpp"
+
+namespace dibhr {
+
+namespace {
+
+/// The answers of a block, participant by participant.
+struct BlockAnswers {
+    const Study& study;
+    std::size_t block{0};
+    std::vector<std::vector<const AnsweredTrial*>> by_participant{};
+
+    [[nodiscard]] const Block& rule() const { return study.protocol.blocks[block]; }
+
+    /// Of each participant those that `is_one` picks, counted as hits where `is_hit`.
+    template <typename IsOne, typename IsHit>
+    [[nodiscard]] std::vector<Count> counts(const IsOne& is_one, const IsHit& is_hit) const {
+        std::vector<Count> counts;
+        for (const auto& answers : by_participant) {
+            Count count;
+            for (const AnsweredTrial* const one : answers) {
+                if (!is_one(*one)) continue;
+                ++count.trials;
+                count.hits += is_hit(*one) ? 1 : 0;
+            }
+            counts.push_back(count);
+        }
+        return counts;
+    }
+};
+
+bool has_answer(const AnsweredTrial& one) {
+    return one.answer.choice >= 0 || one.answer.number.has_value();
+}
+
+BlockAnswers answers_in(const Study& study, std::size_t block) {
+    BlockAnswers all{study, block, {}};
+    for (const StudyRecord& record : study.participants) {
+        auto& own = all.by_participant.emplace_back();
+        for (const AnsweredTrial& one : record.answered)
+            if (static_cast<std::size_t>(one.trial.block) == block) own.push_back(&one);
+    }
+    return all;
+}
+
+std::vector<double> known(std::span<const double> values) {
+    std::vector<double> kept;
+    for (const double value : values)
+        if (std::isfinite(value)) kept.push_back(value);
+    return kept;
+}
+
+double plain_median(std::vector<double> values) {
+    return values.empty() ? kNotKnown : median_of(values).value;
+}
+
+ShareFinding share_finding(std::string name, std::vector<Count> counts,
+                           std::optional<double> chance) {
+    ShareFinding found{
+        .name = std::move(name), .by_participant = std::move(counts), .chance = chance};
+    std::vector<double> shares;
+    for (const Count& count : found.by_participant) {
+        found.all.hits += count.hits;
+        found.all.trials += count.trials;
+        if (count.trials > 0) shares.push_back(count.share());
+    }
+    found.interval = exact_interval(found.all);
+    found.across = mean_of(shares);
+    if (chance) {
+        found.test = chance_test(found.by_participant, *chance);
+        found.adjusted_p = found.test->p;
+    }
+    return found;
+}
+
+void adjust_together(std::vector<ShareFinding>& shares) {
+    std::vector<double> p;
+    for (const ShareFinding& share : shares)
+        if (share.test) p.push_back(share.test->p);
+    const std::vector<double> adjusted = holm_adjusted(p);
+    std::size_t k = 0;
+    for (ShareFinding& share : shares)
+        if (share.test) share.adjusted_p = adjusted[k++];
+}
+
+/// A file that somebody made by hand is told, not read out of bounds. (Whether the order is the
+/// protocol's does not matter here.)
+void require_trials_of(const Protocol& protocol, const StudyRecord& record) {
+    const auto fits = [&protocol](const AnsweredTrial& one) {
+        const Trial& trial = one.trial;
+        if (trial.block < 0 || trial.block >= static_cast<int>(protocol.blocks.size()))
+            return false;
+        const Block& block = protocol.blocks[static_cast<std::size_t>(trial.block)];
+        const int intervals = block.intervals();
+        const bool leveled = block.variation.staircase || !block.variation.levels.empty();
+        const bool of_numbers = block.form == TrialForm::adjust || block.form == TrialForm::rating;
+        const int choices = block.form == TrialForm::explore
+                                ? static_cast<int>(block.question.answers.size())
+                                : intervals;
+        const bool answered = one.answer.choice >= 0 || one.answer.number;
+        return trial.form == block.form && trial.practice == block.practice && trial.item >= 0 &&
+               trial.item < static_cast<int>(block.items.size()) &&
+               static_cast<int>(trial.intervals.size()) == intervals &&
+               trial.level.has_value() == leveled && trial.target < intervals &&
+               one.answer.choice < choices && (!answered || of_numbers == !!one.answer.number);
+    };
+    for (const AnsweredTrial& one : record.answered) {
+        if (!fits(one))
+            throw InputError(record.file.string() + ": trial " +
+                             std::to_string(one.trial.number + 1) +
+                             " is none of the protocol in it: the file is damaged, or was made by "
+                             "another program");
+    }
+}
+
+std::string condition_name(const Protocol& protocol, std::size_t condition) {
+    return protocol.conditions[condition].name;
+}
+
+/// Which of two was chosen, and which of three was odd: of nothing that varies.
+void add_plain_choices(const BlockAnswers& answers, BlockFindings& found) {
+    const Block& block = answers.rule();
+    const Protocol& protocol = answers.study.protocol;
+    for (std::size_t item = 0; item < block.items.size(); ++item) {
+        const auto is_one = [item](const AnsweredTrial& one) {
+            return static_cast<std::size_t>(one.trial.item) == item && one.answer.choice >= 0;
+        };
+        const auto hit = [](const AnsweredTrial& one) {
+            return one.answer.choice == one.trial.target;
+        };
+        if (block.form == TrialForm::three_interval) {
+            ShareFinding share = share_finding("found: " + item_name(protocol, block, item),
+                                               answers.counts(is_one, hit), 1.0 / 3.0);
+            share.d_prime = oddity_sensitivity(share.all);
+            found.shares.push_back(std::move(share));
+            continue;
+        }
+        const StudyItem& pair = block.items[item];
+        if (pair.reference == pair.comparison) {
+            found.remarks.push_back("Both intervals of " + item_name(protocol, block, item) +
+                                    " are alike: which was chosen says nothing.");
+            continue;
+        }
+        // The reference is named first, as on the page: "dibhr rather than pga".
+        const auto reference_chosen = [](const AnsweredTrial& one) {
+            return one.answer.choice != one.trial.target;
+        };
+        ShareFinding share =
+            share_finding(condition_name(protocol, pair.reference) + " rather than " +
+                              condition_name(protocol, pair.comparison),
+                          answers.counts(is_one, reference_chosen), 0.5);
+        share.d_prime = two_interval_sensitivity(share.all);
+        found.shares.push_back(std::move(share));
+    }
+}
+
+std::string level_name(const Variation& vary, double level) {
+    return vary.parameter + " " + short_text(vary.reference, 4) + (level < 0.0 ? " - " : " + ") +
+           short_text(std::abs(level), 4);
+}
+
+/// Share right at each constant level.
+void add_levels(const BlockAnswers& answers, BlockFindings& found) {
+    const Block& block = answers.rule();
+    const bool yes_no = block.form == TrialForm::explore;
+    const double chance = block.form == TrialForm::two_interval ? 0.5 : 1.0 / 3.0;
+    for (std::size_t item = 0; item < block.items.size(); ++item) {
+        const auto of_item = [item](const AnsweredTrial& one) {
+            return static_cast<std::size_t>(one.trial.item) == item;
+        };
+        std::optional<Count> false_alarms;
+        if (yes_no) {
+            const auto caught = answers.counts(
+                [&](const AnsweredTrial& one) { return of_item(one) && *one.trial.level <= 0.0; },
+                [](const AnsweredTrial& one) { return one.answer.choice == 0; });
+            Count all;
+            for (const Count& one : caught) {
+                all.hits += one.hits;
+                all.trials += one.trials;
+            }
+            if (all.trials > 0) false_alarms = all;
+        }
+        for (const double level : block.variation.levels) {
+            const auto at_level = [&](const AnsweredTrial& one) {
+                return of_item(one) && one.trial.level == level && (yes_no || one.right);
+            };
+            const auto hit = [yes_no](const AnsweredTrial& one) {
+                return yes_no ? one.answer.choice == 0 : *one.right;
+            };
+            const std::vector<Count> counts = answers.counts(at_level, hit);
+            if (std::all_of(counts.begin(), counts.end(),
+                            [](const Count& one) { return one.trials == 0; }))
+                continue;
+            const std::string of = block.items.size() > 1
+                                       ? ", " + item_name(answers.study.protocol, block, item)
+                                       : std::string();
+            ShareFinding share = share_finding(
+                (yes_no ? block.question.answers.front() + ": " : std::string("right: ")) +
+                    level_name(block.variation, level) + of,
+                counts, yes_no ? std::nullopt : std::optional(chance));
+            share.level = level;
+            if (block.form == TrialForm::two_interval)
+                share.d_prime = two_interval_sensitivity(share.all);
+            else if (block.form == TrialForm::three_interval)
+                share.d_prime = oddity_sensitivity(share.all);
+            else if (false_alarms && level > 0.0)
+                share.d_prime = yes_no_sensitivity(share.all, *false_alarms).sensitivity;
+            found.shares.push_back(std::move(share));
+        }
+    }
+}
+
+/// What a participant guesses right: given by the form, or of yes and no by the trials in which
+/// there was nothing.
+double guess_rate(const Block& block, const std::vector<const AnsweredTrial*>& own,
+                  std::size_t item) {
+    if (block.form == TrialForm::two_interval) return 0.5;
+    if (block.form == TrialForm::three_interval) return 1.0 / 3.0;
+    Count caught;
+    for (const AnsweredTrial* const one : own) {
+        if (static_cast<std::size_t>(one->trial.item) != item || *one->trial.level > 0.0) continue;
+        ++caught.trials;
+        caught.hits += one->answer.choice == 0 ? 1 : 0;
+    }
+    constexpr double kMostGuessed = 0.9;
+    return caught.trials > 0 ? std::min(caught.share(), kMostGuessed) : 0.0;
+}
+
+/// Right (or yes) at each size of the difference. A time that was over is a trial without a hit.
+LevelCounts counts_by_size(const Block& block, const std::vector<const AnsweredTrial*>& own,
+                           std::size_t item) {
+    LevelCounts counts;
+    for (const AnsweredTrial* const one : own) {
+        if (static_cast<std::size_t>(one->trial.item) != item) continue;
+        const double level = *one->trial.level;
+        const bool yes_no = block.form == TrialForm::explore;
+        if (level == 0.0 || (yes_no && level < 0.0)) continue;
+        add_answer(counts, std::abs(level), one->right.value_or(false));
+    }
+    return counts;
+}
+
+/// Over a participant's tracks, of the last six reversals of each.
+double mean_of_reversals(const Block& block, const std::vector<const AnsweredTrial*>& own,
+                         std::size_t item) {
+    constexpr int kReversals = 6;
+    std::vector<double> means;
+    for (int track = 0; track < block.variation.tracks; ++track) {
+        Staircase staircase(*block.variation.staircase);
+        for (const AnsweredTrial* const one : own)
+            if (static_cast<std::size_t>(one->trial.item) == item && one->trial.track == track)
+                staircase.answer(one->right.value_or(false));
+        const double mean = reversal_mean(staircase.trials(), kReversals);
+        if (std::isfinite(mean)) means.push_back(mean);
+    }
+    return mean_of(means).value;
+}
+
+void add_all(LevelCounts& all, const LevelCounts& some) {
+    for (const LevelCount& level : some) {
+        for (int k = 0; k < level.count.trials; ++k) add_answer(all, level.x, k < level.count.hits);
+    }
+}
+
+/// A curve of two parameters needs two levels, and some answers more than it has parameters.
+bool can_be_fitted(const LevelCounts& counts) {
+    constexpr int kFewestTrials = 10;
+    const int trials =
+        std::accumulate(counts.begin(), counts.end(), 0,
+                        [](int sum, const LevelCount& level) { return sum + level.count.trials; });
+    return counts.size() >= 2 && trials >= kFewestTrials;
+}
+
+PsychometricFit fit_of(const LevelCounts& counts, const FitSettings& settings,
+                       const Simulate& simulate, std::uint64_t seed) {
+    if (settings.bootstraps > 0) return fitted(counts, settings, simulate, seed);
+    return {.function = most_likely(counts, settings)};
+}
+
+ThresholdFinding threshold_of(const BlockAnswers& answers, std::size_t item,
+                              const AnalysisSettings& settings, BlockFindings& found) {
+    const Block& block = answers.rule();
+    const Variation& vary = block.variation;
+    const std::string of = item_name(answers.study.protocol, block, item);
+    ThresholdFinding finding{
+        .name = vary.parameter + ", " + of,
+        .item = item,
+        .parameter = vary.parameter,
+        .reference = vary.reference,
+        .settings = {.curve = settings.curve, .bootstraps = settings.bootstraps}};
+    for (std::size_t who = 0; who < answers.by_participant.size(); ++who) {
+        const auto& own = answers.by_participant[who];
+        const LevelCounts counts = counts_by_size(block, own, item);
+        add_all(finding.all, counts);
+        const StudyRecord& record = answers.study.participants[who];
+        if (!can_be_fitted(counts)) {
+            found.remarks.push_back(record.identity.participant + " has too few answers of " + of +
+                                    " for a psychometric function.");
+            continue;
+        }
+        finding.settings.guess = guess_rate(block, own, item);
+        const Simulate simulate =
+            vary.staircase ? same_staircases(*vary.staircase, vary.tracks) : same_levels(counts);
+        const auto seed =
+            static_cast<std::uint64_t>(record.identity.number) * 1000 + answers.block * 100 + item;
+        finding.fits.push_back({who, counts, fit_of(counts, finding.settings, simulate, seed),
+                                vary.staircase ? mean_of_reversals(block, own, item) : kNotKnown});
+    }
+    std::vector<double> thresholds;
+    for (const ParticipantThreshold& one : finding.fits)
+        if (one.bounded()) thresholds.push_back(one.fit.function.threshold);
+    finding.across = mean_of(thresholds);
+    finding.median = plain_median(thresholds);
+    return finding;
+}
+
+/// Each participant's mean of what `value` gives for the trials that `is_one` picks, and all of
+/// the values.
+template <typename IsOne, typename Value>
+ValueFinding value_finding(const BlockAnswers& answers, std::string name, const IsOne& is_one,
+                           const Value& value) {
+    ValueFinding found{.name = std::move(name)};
+    std::vector<double> all;
+    for (const auto& own : answers.by_participant) {
+        std::vector<double> values;
+        for (const AnsweredTrial* const one : own)
+            if (is_one(*one) && has_answer(*one)) values.push_back(value(*one));
+        all.insert(all.end(), values.begin(), values.end());
+        found.by_participant.push_back(mean_of(values).value);
+    }
+    found.trials = static_cast<int>(all.size());
+    std::vector<double> each = known(found.by_participant);
+    if (each.size() == 1) each = all;
+    found.mean = mean_of(each);
+    found.median = median_of(each);
+    return found;
+}
+
+void add_adjustments(const BlockAnswers& answers, BlockFindings& found) {
+    const Block& block = answers.rule();
+    for (std::size_t item = 0; item < block.items.size(); ++item) {
+        const auto of_item = [item](const AnsweredTrial& one) {
+            return static_cast<std::size_t>(one.trial.item) == item;
+        };
+        const auto off = [&block](const AnsweredTrial& one) {
+            return *one.answer.number - block.variation.reference;
+        };
+        ValueFinding values = value_finding(answers,
+                                            block.variation.parameter + " - " +
+                                                short_text(block.variation.reference, 4) + ", " +
+                                                item_name(answers.study.protocol, block, item),
+                                            of_item, off);
+        std::vector<double> each = known(values.by_participant);
+        if (each.size() == 1) {
+            each.clear();
+            for (const auto& own : answers.by_participant)
+                for (const AnsweredTrial* const one : own)
+                    if (of_item(*one) && has_answer(*one)) each.push_back(off(*one));
+        }
+        if (each.size() >= 2) values.test = paired_t_test(each);
+        found.values.push_back(std::move(values));
+    }
+}
+
+/// Conditions against each other by their values, each participant against itself.
+void compare_conditions(BlockFindings& found) {
+    const std::vector<ValueFinding>& values = found.values;
+    if (values.size() < 2) return;
+    std::vector<std::vector<double>> rows;
+    for (std::size_t who = 0; who < values.front().by_participant.size(); ++who) {
+        std::vector<double> row;
+        for (const ValueFinding& value : values) row.push_back(value.by_participant[who]);
+        if (known(row).size() == row.size()) rows.push_back(std::move(row));
+    }
+    if (static_cast<int>(rows.size()) < kFewestForRanks) {
+        found.remarks.push_back("Conditions are not tested against each other: signed ranks need " +
+                                std::to_string(kFewestForRanks) + " participants, there are " +
+                                std::to_string(rows.size()) + ".");
+        return;
+    }
+    if (values.size() > 2) found.overall = friedman_test(rows);
+    std::vector<double> p;
+    for (std::size_t a = 0; a < values.size(); ++a) {
+        for (std::size_t b = a + 1; b < values.size(); ++b) {
+            std::vector<double> differences;
+            for (const auto& row : rows) differences.push_back(row[a] - row[b]);
+            found.pairs.push_back({values[a].name, values[b].name, mean_of(differences),
+                                   signed_rank_test(differences)});
+            p.push_back(found.pairs.back().test.p);
+        }
+    }
+    const std::vector<double> adjusted = holm_adjusted(p);
+    for (std::size_t k = 0; k < adjusted.size(); ++k) found.pairs[k].adjusted_p = adjusted[k];
+}
+
+void add_ratings(const BlockAnswers& answers, BlockFindings& found) {
+    const Block& block = answers.rule();
+    for (std::size_t item = 0; item < block.items.size(); ++item) {
+        found.values.push_back(value_finding(
+            answers, item_name(answers.study.protocol, block, item),
+            [item](const AnsweredTrial& one) {
+                return static_cast<std::size_t>(one.trial.item) == item;
+            },
+            [](const AnsweredTrial& one) { return *one.answer.number; }));
+    }
+    compare_conditions(found);
+}
+
+/// How often each answer was given to each condition, and the conditions by their first answer.
+void add_answers(const BlockAnswers& answers, BlockFindings& found) {
+    const Block& block = answers.rule();
+    for (std::size_t item = 0; item < block.items.size(); ++item) {
+        const std::string of = item_name(answers.study.protocol, block, item);
+        const auto of_item = [item](const AnsweredTrial& one) {
+            return static_cast<std::size_t>(one.trial.item) == item && one.answer.choice >= 0;
+        };
+        for (std::size_t answer = 0; answer < block.question.answers.size(); ++answer) {
+            found.shares.push_back(share_finding(
+                block.question.answers[answer] + ": " + of,
+                answers.counts(of_item,
+                               [answer](const AnsweredTrial& one) {
+                                   return static_cast<std::size_t>(one.answer.choice) == answer;
+                               }),
+                std::nullopt));
+        }
+        found.values.push_back(value_finding(answers, of, of_item, [](const AnsweredTrial& one) {
+            return one.answer.choice == 0 ? 1.0 : 0.0;
+        }));
+    }
+    compare_conditions(found);
+    found.values.clear();  // the shares say them
+}
+
+Estimate median_reaction(const BlockAnswers& answers) {
+    std::vector<double> medians;
+    for (const auto& own : answers.by_participant) {
+        std::vector<double> times;
+        for (const AnsweredTrial* const one : own)
+            if (has_answer(*one)) times.push_back(one->answer.reaction_s);
+        if (!times.empty()) medians.push_back(plain_median(times));
+    }
+    return median_of(medians);
+}
+
+BlockFindings block_findings(const Study& study, std::size_t block,
+                             const AnalysisSettings& settings) {
+    const BlockAnswers answers = answers_in(study, block);
+    const Block& rule = answers.rule();
+    BlockFindings found{.block = block};
+    for (const auto& own : answers.by_participant) {
+        for (const AnsweredTrial* const one : own) {
+            ++found.trials;
+            found.unanswered += has_answer(*one) ? 0 : 1;
+        }
+    }
+    if (found.trials == 0) return found;
+    const bool adaptive = rule.variation.staircase.has_value();
+    const bool leveled = adaptive || !rule.variation.levels.empty();
+    if (rule.form == TrialForm::adjust) {
+        add_adjustments(answers, found);
+    } else if (rule.form == TrialForm::rating) {
+        add_ratings(answers, found);
+    } else if (!leveled) {
+        rule.form == TrialForm::explore ? add_answers(answers, found)
+                                        : add_plain_choices(answers, found);
+    } else {
+        if (!adaptive) add_levels(answers, found);
+        for (std::size_t item = 0; item < rule.items.size(); ++item)
+            found.thresholds.push_back(threshold_of(answers, item, settings, found));
+    }
+    adjust_together(found.shares);
+    found.reaction_s = median_reaction(answers);
+    return found;
+}
+
+}  // namespace
+
+bool Study::has_pilots() const noexcept {
+    return std::any_of(participants.begin(), participants.end(),
+                       [](const StudyRecord& one) { return !one.identity.pilot.empty(); });
+}
+
+bool ParticipantThreshold::bounded() const noexcept {
+    return std::isfinite(fit.threshold.low) && std::isfinite(fit.threshold.high);
+}
+
+Study read_studies(const std::vector<std::filesystem::path>& files) {
+    Study study;
+    for (const std::filesystem::path& file : files) {
+        StudyRecord record = read_study(file);
+        if (study.participants.empty())
+            study.protocol = protocol_of(record.identity.protocol_text, file, {});
+        const StudyIdentity& who = record.identity;
+        require_trials_of(study.protocol, record);
+        if (who.protocol_sha256 != study.protocol.sha256)
+            throw InputError(file.string() + ": is of another protocol (" +
+                             in_quotes(who.protocol_name) + ") than " + files.front().string() +
+                             ": report on each protocol by itself");
+        for (const StudyRecord& other : study.participants) {
+            if (other.identity.participant == who.participant)
+                throw InputError(file.string() + ": participant " + who.participant + " is in " +
+                                 other.file.string() + ", too: give one of the two");
+        }
+        study.participants.push_back(std::move(record));
+    }
+    std::sort(study.participants.begin(), study.participants.end(),
+              [](const StudyRecord& a, const StudyRecord& b) {
+                  return std::pair(a.identity.number, a.identity.participant) <
+                         std::pair(b.identity.number, b.identity.participant);
+              });
+    return study;
+}
+
+std::string item_name(const Protocol& protocol, const Block& block, std::size_t item) {
+    const StudyItem& pair = block.items[item];
+    const std::string reference = condition_name(protocol, pair.reference);
+    return pair.reference == pair.comparison
+               ? reference
+               : reference + " against " + condition_name(protocol, pair.comparison);
+}
+
+TestResult chance_test(const std::vector<Count>& by_participant, double chance) {
+    Count all;
+    std::vector<double> differences;
+    for (const Count& count : by_participant) {
+        if (count.trials == 0) continue;
+        all.hits += count.hits;
+        all.trials += count.trials;
+        differences.push_back(count.share() - chance);
+    }
+    if (static_cast<int>(differences.size()) >= kFewestForRanks)
+        return signed_rank_test(differences);
+    return {.test = "binomial, mid-p, of all trials",
+            .count = static_cast<int>(differences.size()),
+            .statistic = static_cast<double>(all.hits),
+            .p = binomial_test(all, chance).mid_p,
+            .effect = all.trials > 0 ? all.share() - chance : 0.0};
+}
+
+std::vector<BlockFindings> findings_of(const Study& study, const AnalysisSettings& settings) {
+    std::vector<BlockFindings> all;
+    const std::size_t blocks = study.protocol.blocks.size();
+    for (std::size_t block = 0; block < blocks; ++block) {
+        if (!study.protocol.blocks[block].practice)
+            all.push_back(block_findings(study, block, settings));
+        if (settings.progress)
+            settings.progress(static_cast<double>(block + 1) / static_cast<double>(blocks));
+    }
+    return all;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,127 @@
+// What the answers of a study say: shares, thresholds, adjustments and ratings of its participants,
+// with intervals and tests.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/psychophysics/proportions.hpp"
+#include "core/psychophysics/psychometric.hpp"
+#include "core/psychophysics/ranks.hpp"
+#include "core/study/protocol.hpp"
+#include "core/study/study_file.hpp"
+
+namespace dibhr {
+
+inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
+
+/// The files of one protocol, one a participant.
+struct Study {
+    Protocol protocol{};
+    std::vector<StudyRecord> participants{};  ///< by number, then by label
+
+    /// A simulated participant's answers say nothing about people.
+    [[nodiscard]] bool has_pilots() const noexcept;
+};
+
+/// Throws InputError for a file that cannot be read, one of another protocol than the first, and a
+/// label that is there twice.
+[[nodiscard]] Study read_studies(const std::vector<std::filesystem::path>& files);
+
+/// How often something was answered where it could have been.
+struct ShareFinding {
+    std::string name{};  ///< "dibhr rather than pga", "right: friction 0.3 + 0.1", "yes: smooth"
+    std::vector<Count> by_participant{};  ///< as Study::participants; no trials: had none
+    Count all{};
+    Interval interval{};                   ///< exact, of all trials together
+    Estimate across{};                     ///< mean of the participants' shares
+    std::optional<double> chance{};        ///< who notices nothing; nothing: there is no such share
+    std::optional<TestResult> test{};      ///< against chance
+    double adjusted_p{1.0};                ///< of the tests of one block (Holm)
+    std::optional<Sensitivity> d_prime{};  ///< of all trials together
+    std::optional<double> level{};         ///< a constant one; nothing: none, or of a staircase
+};
+
+/// One participant's psychometric function.
+struct ParticipantThreshold {
+    std::size_t participant{0};  ///< in Study::participants
+    LevelCounts counts{};
+    PsychometricFit fit{};
+    /// Mean level of the last reversals over the tracks; NaN: of no staircase.
+    double reversal_mean{kNotKnown};
+
+    /// Whether the data say anything about where it is, as far as that was asked.
+    [[nodiscard]] bool bounded() const noexcept;
+};
+
+/// The threshold of one item of a block.
+struct ThresholdFinding {
+    std::string name{};  ///< "friction, plain"
+    std::size_t item{0};
+    std::string parameter{};
+    double reference{0.0};  ///< levels are differences from it
+    FitSettings
+        settings{};  ///< the participants' guess rates, where not the same, are in their fits
+    std::vector<ParticipantThreshold> fits{};
+    LevelCounts all{};         ///< of all participants
+    Estimate across{};         ///< mean of the bounded thresholds
+    double median{kNotKnown};  ///< likewise
+};
+
+/// Numbers that were given to one condition, or one pair: ratings, or how far from the reference an
+/// adjustment ended.
+struct ValueFinding {
+    std::string name{};
+    std::vector<double> by_participant{};  ///< each one's mean; NaN: gave none
+    int trials{0};
+    Estimate mean{};                   ///< over participants; of one participant over the trials
+    Estimate median{};                 ///< likewise
+    std::optional<TestResult> test{};  ///< of an adjustment: against the reference
+};
+
+/// Two conditions of a block against each other.
+struct PairTest {
+    std::string first{}, second{};
+    Estimate difference{};  ///< mean of first - second over the participants that have both
+    TestResult test{};
+    double adjusted_p{1.0};  ///< among the pairs of the block (Holm)
+};
+
+/// All that one block's answers say; practice has none.
+struct BlockFindings {
+    std::size_t block{0};  ///< in Protocol::blocks
+    int trials{0};
+    int unanswered{0};  ///< their time was over
+    std::vector<ShareFinding> shares{};
+    std::vector<ThresholdFinding> thresholds{};
+    std::vector<ValueFinding> values{};
+    std::optional<TestResult> overall{};  ///< of three conditions or more that have values
+    std::vector<PairTest> pairs{};
+    Estimate reaction_s{};               ///< median over participants of their medians
+    std::vector<std::string> remarks{};  ///< what could not be computed, and why
+};
+
+struct AnalysisSettings {
+    Curve curve{Curve::logistic};
+    int bootstraps{399};                     ///< 0: thresholds without intervals
+    std::function<void(double)> progress{};  ///< hears the share done; may be empty
+};
+
+/// The same files give the same numbers.
+[[nodiscard]] std::vector<BlockFindings> findings_of(const Study& study,
+                                                     const AnalysisSettings& settings);
+
+/// Against chance, by as many participants as there are: from kFewestForRanks on by signed ranks of
+/// their shares; of fewer by the binomial distribution of all their trials, which then says
+/// something of these people only.
+[[nodiscard]] TestResult chance_test(const std::vector<Count>& by_participant, double chance);
+
+/// "a against b" or "a".
+[[nodiscard]] std::string item_name(const Protocol& protocol, const Block& block, std::size_t item);
+
+}  // namespace dibhr

@@ -1,0 +1,241 @@
+// Simulates participants once, and takes studies of rising size from them.
+#include "core/study_report/study_plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iomanip>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/psychophysics/random.hpp"
+#include "core/report/report_words.hpp"
+#include "core/study_report/study_findings.hpp"
+
+namespace dibhr {
+
+namespace {
+
+/// One alone, and as many as signed ranks take.
+constexpr std::array<int, 11> kCounts{1, kFewestForRanks, 8, 10, 12, 16, 20, 24, 32, 40, 48};
+constexpr double kGoodPrecision = 0.1;
+
+/// The protocol with one block alone, which counts, so often repeated.
+Protocol with_one_block(Protocol protocol, std::size_t block, int repetitions) {
+    Block kept = protocol.blocks[block];
+    (kept.variation.staircase ? kept.variation.tracks : kept.repetitions) = repetitions;
+    protocol.blocks = {std::move(kept)};
+    protocol.instructions = {};
+    protocol.thanks = {};
+    return protocol;
+}
+
+/// Lets people take part until there are `count`. Another protocol seed gives other orders and
+/// other people.
+void fill_up(Study& study, const PlanSettings& settings, int number, int count) {
+    Protocol protocol = study.protocol;
+    protocol.seed = draws_for(settings.seed, {static_cast<std::uint64_t>(number)}).bits();
+    for (int who = static_cast<int>(study.participants.size()) + 1; who <= count; ++who)
+        study.participants.push_back(
+            {.identity = {.number = who}, .answered = answers_of(settings.effect, protocol, who)});
+}
+
+/// A finding of one simulated study: whether it was found, or where the threshold is.
+struct Outcome {
+    bool found{false};
+    double threshold{kNotKnown};
+};
+
+bool is_of_effect(const std::string& name, const Condition& condition) {
+    const std::string with = condition.name + " ";
+    return name.starts_with(with) || name.ends_with(" " + condition.name);
+}
+
+/// By the finding's name; those that the effect has no part in are left out.
+std::map<std::string, Outcome> outcomes_of(const Study& study, const PlanSettings& settings) {
+    const BlockFindings found = findings_of(study, {.bootstraps = 0}).front();
+    const Block& block = study.protocol.blocks.front();
+    const bool leveled = block.variation.staircase || !block.variation.levels.empty();
+    const Condition* const liked = settings.effect.prefers.empty()
+                                       ? nullptr
+                                       : study.protocol.condition_named(settings.effect.prefers);
+    std::map<std::string, Outcome> outcomes;
+    for (const ShareFinding& share : found.shares) {
+        const bool of_effect = leveled || (liked != nullptr && is_of_effect(share.name, *liked));
+        if (share.test && of_effect) outcomes[share.name].found = share.adjusted_p < kSignificance;
+    }
+    for (const ThresholdFinding& threshold : found.thresholds)
+        outcomes["threshold of " + threshold.name].threshold = threshold.across.value;
+    for (const ValueFinding& value : found.values)
+        if (value.test) outcomes[value.name].found = value.test->p < kSignificance;
+    // Pairs are tested only by enough participants; with fewer the finding is there, but not made.
+    const std::size_t items = block.items.size();
+    const bool paired =
+        block.form == TrialForm::rating || (block.form == TrialForm::explore && !leveled);
+    for (std::size_t a = 0; paired && a < items; ++a) {
+        for (std::size_t b = a + 1; b < items; ++b) {
+            const std::string first = item_name(study.protocol, block, a);
+            const std::string second = item_name(study.protocol, block, b);
+            if (liked == nullptr || (first != liked->name && second != liked->name)) continue;
+            Outcome& outcome = outcomes[first + " against " + second];
+            for (const PairTest& pair : found.pairs)
+                if (pair.first == first && pair.second == second)
+                    outcome.found = pair.adjusted_p < kSignificance;
+        }
+    }
+    return outcomes;
+}
+
+/// Outcomes of all studies of one size, by finding.
+using Gathered = std::map<std::string, std::vector<Outcome>>;
+
+PlannedStudies summed(int participants, const std::vector<Outcome>& outcomes, double truth) {
+    PlannedStudies planned{.participants = participants, .precision = kNotKnown};
+    std::vector<double> thresholds;
+    for (const Outcome& outcome : outcomes) {
+        planned.power += outcome.found ? 1.0 / static_cast<double>(outcomes.size()) : 0.0;
+        if (std::isfinite(outcome.threshold)) thresholds.push_back(outcome.threshold);
+    }
+    if (thresholds.size() < 2) return planned;
+    std::sort(thresholds.begin(), thresholds.end());
+    const auto at = [&thresholds](double share) {
+        const double place = share * static_cast<double>(thresholds.size() - 1);
+        return thresholds[static_cast<std::size_t>(std::lround(place))];
+    };
+    planned.precision = (at(0.975) - at(0.025)) / 2.0 / truth;
+    return planned;
+}
+
+bool is_enough(const PlannedStudies& planned, double power) {
+    return std::isfinite(planned.precision) ? planned.precision <= kGoodPrecision
+                                            : planned.power >= power;
+}
+
+/// The lines of one block at so many repetitions.
+std::vector<PlanLine> lines_of(const Protocol& whole, std::size_t block_number, int repetitions,
+                               const PlanSettings& settings,
+                               const std::function<void(double)>& progress) {
+    const Protocol protocol = with_one_block(whole, block_number, repetitions);
+    const Block& block = whole.blocks[block_number];
+    std::vector<Study> studies(static_cast<std::size_t>(settings.studies), Study{protocol, {}});
+    std::map<std::string, PlanLine> lines;
+    for (const int count : kCounts) {
+        if (count > settings.most_participants) break;
+        Gathered gathered;
+        for (int number = 0; number < settings.studies; ++number) {
+            // Whoever took part in the smaller study does in the larger one.
+            Study& study = studies[static_cast<std::size_t>(number)];
+            fill_up(study, settings, number, count);
+            for (const auto& [name, outcome] : outcomes_of(study, settings))
+                gathered[name].push_back(outcome);
+        }
+        if (gathered.empty()) break;  // nothing that the effect has a part in
+        bool all_enough = true;
+        for (const auto& [name, outcomes] : gathered) {
+            PlanLine& line = lines[name];
+            line.finding = name;
+            line.studies.push_back(summed(count, outcomes, settings.effect.threshold));
+            const bool of_people =
+                count >= kFewestForRanks || std::isfinite(line.studies.back().precision);
+            if (line.enough == 0 && of_people && is_enough(line.studies.back(), settings.power))
+                line.enough = count;
+            all_enough = all_enough && line.enough > 0;
+        }
+        if (progress) progress(static_cast<double>(count) / settings.most_participants);
+        if (all_enough) break;
+    }
+    double trials = 0.0;
+    for (const Study& study : studies)
+        trials +=
+            static_cast<double>(study.participants.front().answered.size()) / settings.studies;
+    std::vector<PlanLine> all;
+    for (auto& [name, line] : lines) {
+        line.block = block.name;
+        line.repetitions = repetitions;
+        line.trials = static_cast<int>(std::lround(trials));
+        line.as_on_the_page =
+            repetitions == (block.variation.staircase ? block.variation.tracks : block.repetitions);
+        all.push_back(std::move(line));
+    }
+    return all;
+}
+
+std::vector<int> repetitions_around(const Block& block) {
+    const int on_page = block.variation.staircase ? block.variation.tracks : block.repetitions;
+    std::vector<int> around;
+    if (on_page > 1) around.push_back(on_page / 2);
+    around.insert(around.end(), {on_page, 2 * on_page});
+    return around;
+}
+
+}  // namespace
+
+std::vector<PlanLine> plan_of(const Protocol& protocol, const PlanSettings& settings) {
+    if (settings.effect.guesses)
+        throw InputError(
+            "who guesses has no effect that could be found: state one, as "
+            "prefer=CONDITION,share=0.7 or threshold=0.1,slope=20");
+    std::vector<std::pair<std::size_t, int>> tasks;
+    for (std::size_t block = 0; block < protocol.blocks.size(); ++block) {
+        if (protocol.blocks[block].practice) continue;
+        for (const int repetitions : repetitions_around(protocol.blocks[block]))
+            tasks.emplace_back(block, repetitions);
+    }
+    std::vector<PlanLine> lines;
+    for (std::size_t k = 0; k < tasks.size(); ++k) {
+        const auto& [block, repetitions] = tasks[k];
+        const auto share_done = [&](double share) {
+            if (settings.progress)
+                settings.progress((static_cast<double>(k) + share) /
+                                  static_cast<double>(tasks.size()));
+        };
+        for (PlanLine& line : lines_of(protocol, block, repetitions, settings, share_done))
+            lines.push_back(std::move(line));
+    }
+    if (lines.empty())
+        throw InputError(
+            "this effect changes nothing that the protocol asks: for comparisons and "
+            "ratings say which condition is preferred, as prefer=NAME,share=0.7");
+    return lines;
+}
+
+std::string plan_text(const std::vector<PlanLine>& lines, const PlanSettings& settings) {
+    std::ostringstream text;
+    std::string block;
+    bool thresholds = false;
+    for (const PlanLine& line : lines) {
+        if (line.block != block) text << (block.empty() ? "" : "\n") << line.block << '\n';
+        block = line.block;
+        text << "  " << line.finding << ", " << counted(line.trials, "trial") << " each"
+             << (line.as_on_the_page ? " (as on the page)" : "") << ": ";
+        const bool threshold = std::isfinite(line.studies.back().precision);
+        thresholds = thresholds || threshold;
+        if (line.enough > 0)
+            text << counted(line.enough, "participant") << '\n';
+        else
+            text << "more than " << line.studies.back().participants << " participants\n";
+        text << "    " << (threshold ? "within" : "found");
+        for (const PlannedStudies& planned : line.studies)
+            text << "  "
+                 << (planned.participants == 1 ? "one alone" : std::to_string(planned.participants))
+                 << ": " << percent_text(threshold ? planned.precision : planned.power);
+        text << '\n';
+    }
+    text << "\nOf " << settings.studies
+         << " simulated studies each: in how many p < 0.05 (Holm's correction included) finds the "
+            "effect;\n"
+         << "enough is " << percent_text(settings.power) << ".";
+    if (thresholds)
+        text << " Of a threshold: within what share of the truth 95 % of the estimates\nlie; "
+                "enough is "
+             << percent_text(kGoodPrecision) << ".";
+    text << "\nIt holds for people as they were stated, and no others.\n";
+    return text.str();
+}
+
+}  // namespace dibhr

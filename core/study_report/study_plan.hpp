@@ -1,0 +1,54 @@
+// How many participants and trials a stated effect needs, by simulating the study over and over.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/study/protocol.hpp"
+#include "core/study/simulated_participant.hpp"
+
+namespace dibhr {
+
+struct PlanSettings {
+    SimulatedParticipant effect{};  ///< what is to be found; `spread`: how people differ in it
+    double power{0.8};              ///< so often it is to be found
+    int studies{400};               ///< simulated for each line; 2 at least
+    int most_participants{48};
+    std::uint64_t seed{1};
+    std::function<void(double)> progress{};  ///< hears the share done; may be empty
+};
+
+/// What so many participants give.
+struct PlannedStudies {
+    int participants{0};
+    /// Share of the studies whose test finds the effect (p < 0.05, Holm's correction included).
+    double power{0.0};
+    /// Half of the interval in which 95 % of the estimates lie, as a share of the truth: of a
+    /// threshold, which no test finds. NaN: there is a test.
+    double precision{0.0};
+};
+
+/// One finding of a block at so many repetitions.
+struct PlanLine {
+    std::string block{};
+    std::string finding{};  ///< "dibhr rather than pga"
+    int repetitions{1};     ///< of the block; of staircases: tracks
+    int trials{0};          ///< of one participant in the block, on average
+    bool as_on_the_page{false};
+    std::vector<PlannedStudies> studies{};  ///< by rising number of participants
+    /// The fewest of these participants with that power, so that it is said of people in general;
+    /// of a threshold with a precision of 10 %; 0: none.
+    int enough{0};
+};
+
+/// Half, all and twice the repetitions of each block that counts. The same arguments give the same
+/// numbers. Throws InputError for an effect that changes nothing in this protocol.
+[[nodiscard]] std::vector<PlanLine> plan_of(const Protocol& protocol, const PlanSettings& settings);
+
+/// As a table of plain text, and what it means.
+[[nodiscard]] std::string plan_text(const std::vector<PlanLine>& lines,
+                                    const PlanSettings& settings);
+
+}  // namespace dibhr

@@ -1,0 +1,290 @@
+// The sentences.
+#include "core/study_report/study_words.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <set>
+
+#include "core/files/plain_text.hpp"
+#include "core/psychophysics/staircase.hpp"
+#include "core/report/report_words.hpp"
+
+namespace dibhr {
+
+namespace {
+
+std::string end_text(double end) {
+    return std::isfinite(end) ? short_text(end, 3) : "not bounded";
+}
+
+std::string test_text(const TestResult& test) {
+    return test.test + ", " + p_text(test.p);
+}
+
+std::string corrected(double p, double adjusted_p) {
+    return adjusted_p > p ? ", " + p_text(adjusted_p) + " among the tests of this block (Holm)"
+                          : std::string();
+}
+
+/// Of whom a finding speaks.
+std::string people(int count) {
+    return count == 1 ? "this one participant" : "these " + std::to_string(count) + " participants";
+}
+
+int with_trials(const ShareFinding& share) {
+    return static_cast<int>(std::count_if(share.by_participant.begin(), share.by_participant.end(),
+                                          [](const Count& one) { return one.trials > 0; }));
+}
+
+std::string share_sentence(const ShareFinding& share) {
+    const int who = with_trials(share);
+    std::string text = share.name + ": " + percent_text(share.all.share()) + " of " +
+                       counted(share.all.trials, "answer") + " (95 % interval " +
+                       percent_text(share.interval.low) + " to " +
+                       percent_text(share.interval.high) + ").";
+    if (!share.test) return text;
+    text += " Against chance (" + percent_text(*share.chance) + "): " + test_text(*share.test) +
+            corrected(share.test->p, share.adjusted_p) + ".";
+    if (share.adjusted_p < kSignificance) {
+        if (who >= kFewestForRanks)
+            return text + " Chance alone seldom gives this: people like these " +
+                   std::to_string(who) + " participants notice a difference.";
+        return text + " Chance alone seldom gives this: " + people(who) +
+               (who == 1 ? " notices" : " together notice") +
+               " a difference. Whether other people do, so few participants cannot tell.";
+    }
+    // What would still be compatible with the answers, away from chance.
+    const double far =
+        std::max(share.interval.high - *share.chance, *share.chance - share.interval.low) +
+        *share.chance;
+    text += " This does not show a difference, nor that there is none: a share of up to " +
+            percent_text(std::min(far, 1.0)) + " would agree with these answers.";
+    return text;
+}
+
+std::string threshold_sentence(const ThresholdFinding& finding, const Study& study) {
+    if (finding.fits.empty()) return finding.name + ": too few answers for a threshold.";
+    const auto bounded = static_cast<std::size_t>(
+        std::count_if(finding.fits.begin(), finding.fits.end(),
+                      [](const ParticipantThreshold& one) { return one.bounded(); }));
+    const std::string what =
+        "Threshold of " + finding.name + ", a difference from " + short_text(finding.reference, 4);
+    if (finding.fits.size() == 1) {
+        const ParticipantThreshold& one = finding.fits.front();
+        std::string text = what + ": " +
+                           estimate_text(one.fit.function.threshold, one.fit.threshold) + " in " +
+                           std::to_string(one.fit.trials) + " trials of " +
+                           study.participants[one.participant].identity.participant + ".";
+        if (!one.bounded())
+            text +=
+                " An interval without bound means that the answers do not say where the "
+                "threshold is; they may be guesses.";
+        return text + " It says nothing of other people.";
+    }
+    std::string text = what + ": mean over " + std::to_string(bounded) + " participants " +
+                       estimate_text(finding.across.value, finding.across.interval) + ", median " +
+                       end_text(finding.median) + ".";
+    if (bounded < finding.fits.size())
+        text += " Left out: " +
+                counted(static_cast<std::int64_t>(finding.fits.size() - bounded), "participant") +
+                " whose answers set the threshold no bound.";
+    return text;
+}
+
+std::string poor_fit_sentence(const ThresholdFinding& finding, const Study& study) {
+    std::vector<std::string> who;
+    for (const ParticipantThreshold& one : finding.fits)
+        if (one.fit.fit_p < kSignificance)
+            who.push_back(study.participants[one.participant].identity.participant);
+    // One in twenty fits so badly by chance.
+    if (who.empty() || (finding.fits.size() >= 20 && who.size() * 20 <= finding.fits.size()))
+        return {};
+    return "The curve does not fit the answers of " + listed(who) +
+           " (deviance, p < 0.05): take that threshold with care.";
+}
+
+std::string value_sentence(const ValueFinding& value) {
+    const bool known = std::isfinite(value.mean.value);
+    if (!known) return value.name + ": no answers.";
+    std::string text = value.name + ": mean " +
+                       estimate_text(value.mean.value, value.mean.interval) + ", median " +
+                       short_text(value.median.value, 3) + ", of " +
+                       counted(value.trials, "trial") + ".";
+    if (value.test) {
+        text += " Against no difference: " + test_text(*value.test) + ".";
+        text += value.test->p < kSignificance
+                    ? " What was set equal differs from the reference."
+                    : " This does not show that what was set equal differs from the reference, nor "
+                      "that it does not; the interval says how far it may.";
+    }
+    return text;
+}
+
+std::string pair_sentence(const PairTest& pair) {
+    std::string text = pair.first + " against " + pair.second + ": mean difference " +
+                       estimate_text(pair.difference.value, pair.difference.interval) + "; " +
+                       test_text(pair.test) + corrected(pair.test.p, pair.adjusted_p) + ".";
+    return text + (pair.adjusted_p < kSignificance
+                       ? " People like these participants tell the two apart in this."
+                       : " This shows no difference, nor that there is none.");
+}
+
+}  // namespace
+
+std::string estimate_text(double value, const Interval& interval, double confidence) {
+    return end_text(value) + " (" + short_text(100.0 * confidence, 3) + " % interval " +
+           end_text(interval.low) + " to " + end_text(interval.high) + ")";
+}
+
+std::string p_text(double p) {
+    return p < 0.001 ? "p < 0.001" : "p = " + short_text(p, p < 0.1 ? 2 : 3);
+}
+
+std::string summary_of(const StudyReport& report) {
+    const Study& study = report.study;
+    std::size_t trials = 0;
+    std::size_t practice = 0;
+    for (const StudyRecord& record : study.participants) {
+        trials += record.answered.size();
+        practice += static_cast<std::size_t>(
+            std::count_if(record.answered.begin(), record.answered.end(),
+                          [](const AnsweredTrial& one) { return one.trial.practice; }));
+    }
+    std::string text =
+        counted(static_cast<std::int64_t>(study.participants.size()), "participant") +
+        (study.participants.size() == 1 ? " gave " : " gave ") +
+        counted(static_cast<std::int64_t>(trials - practice), "answer");
+    if (practice > 0) text += ", after " + std::to_string(practice) + " for practice";
+    return text + ".";
+}
+
+std::vector<std::string> conclusions_of(const StudyReport& report, const BlockFindings& block) {
+    std::vector<std::string> said;
+    for (const ShareFinding& share : block.shares) said.push_back(share_sentence(share));
+    for (const ThresholdFinding& threshold : block.thresholds) {
+        said.push_back(threshold_sentence(threshold, report.study));
+        if (std::string poor = poor_fit_sentence(threshold, report.study); !poor.empty())
+            said.push_back(std::move(poor));
+    }
+    for (const ValueFinding& value : block.values) said.push_back(value_sentence(value));
+    if (block.overall)
+        said.push_back("All conditions together: " + test_text(*block.overall) +
+                       (block.overall->p < kSignificance
+                            ? ": they are not all alike."
+                            : ": nothing shows that they are not all alike; the pairs below are "
+                              "then not to be read as findings."));
+    for (const PairTest& pair : block.pairs) said.push_back(pair_sentence(pair));
+    if (block.unanswered > 0)
+        said.push_back(counted(block.unanswered, "trial") +
+                       " had no answer in time; where something is right, they count as wrong.");
+    const Variation& vary = report.study.protocol.blocks[block.block].variation;
+    const bool adjusted = report.study.protocol.blocks[block.block].form == TrialForm::adjust;
+    const double middle = (vary.lowest + vary.highest) / 2.0;
+    if (adjusted && std::abs(middle - vary.reference) > 0.01 * (vary.highest - vary.lowest))
+        said.push_back(
+            "The range of the adjustment is not even around the reference: who turns at "
+            "random ends at " +
+            short_text(middle - vary.reference, 3) + " from it on average.");
+    said.insert(said.end(), block.remarks.begin(), block.remarks.end());
+    return said;
+}
+
+std::vector<std::string> limits_of(const StudyReport& report) {
+    const Study& study = report.study;
+    std::vector<std::string> limits;
+    if (study.has_pilots())
+        limits.emplace_back(
+            "Answers of a simulated participant are among these: they say nothing "
+            "about people.");
+    const auto count = study.participants.size();
+    if (static_cast<int>(count) < kFewestForRanks)
+        limits.push_back("With " + counted(static_cast<std::int64_t>(count), "participant") +
+                         " everything said here is of " + people(static_cast<int>(count)) +
+                         ": it takes " + std::to_string(kFewestForRanks) +
+                         " at the least for a word on people in general.");
+    std::vector<std::string> unfinished;
+    std::set<std::string> programs;
+    for (const StudyRecord& record : study.participants) {
+        if (!record.finished) unfinished.push_back(record.identity.participant);
+        programs.insert(record.identity.program);
+    }
+    if (!unfinished.empty())
+        limits.push_back("Not finished: " + listed(unfinished) + ". What they answered is in.");
+    if (programs.size() > 1)
+        limits.push_back("Made with different versions of the program: " +
+                         listed({programs.begin(), programs.end()}) + ".");
+    if (report.intervals.empty())
+        limits.emplace_back("No trial's session was recorded: there are no forces or motions.");
+    limits.emplace_back(
+        "What holds here holds for this device, these videos and these settings; a difference that "
+        "was felt is not by itself a better or worse one.");
+    return limits;
+}
+
+std::vector<StudyMethod> methods_of(const StudyReport& report) {
+    bool shares = false;
+    bool chance = false;
+    bool thresholds = false;
+    bool values = false;
+    bool pairs = false;
+    for (const BlockFindings& block : report.blocks) {
+        shares = shares || !block.shares.empty();
+        thresholds = thresholds || !block.thresholds.empty();
+        values = values || !block.values.empty();
+        pairs = pairs || !block.pairs.empty();
+        for (const ShareFinding& share : block.shares) chance = chance || share.test.has_value();
+    }
+    std::vector<StudyMethod> methods;
+    if (shares)
+        methods.push_back(
+            {"interval of a share",
+             "Exact, of all trials together (Clopper and Pearson 1934). It takes each trial as one "
+             "draw: where participants differ from each other it is too narrow for people in "
+             "general; the mean over participants beside it is not."});
+    if (chance)
+        methods.push_back(
+            {"test against chance",
+             "From " + std::to_string(kFewestForRanks) +
+                 " participants on signed ranks of their shares (Wilcoxon 1945), exact; of fewer "
+                 "the binomial distribution of all trials, mid-p (Lancaster 1961). Two-sided; 5 % "
+                 "of studies of people who guess come out below 0.05, or fewer."});
+    if (shares)
+        methods.push_back(
+            {"d'",
+             "Distance of what is felt in its own standard deviations: two intervals sqrt(2) z of "
+             "the share right (Macmillan and Creelman 2005); three intervals by comparing "
+             "differences (Ennis 1993); yes and no z of hits less z of false alarms (Hautus "
+             "1995)."});
+    if (thresholds)
+        methods.push_back(
+            {"threshold",
+             std::string("Where half of what is neither guessed nor lapsed is right: of a ") +
+                 name_of(report.analysis.curve) +
+                 " function fitted by maximum likelihood. Guess rate: 1/2 of two intervals, 1/3 of "
+                 "three, of yes and no the share of yes where there was nothing. Lapse rate: "
+                 "fitted, from 0 to 0.06 (Wichmann and Hill 2001). Intervals: profile likelihood, "
+                 "its critical value by a parametric bootstrap of " +
+                 std::to_string(report.analysis.bootstraps) +
+                 " studies; of several participants Student's t of their thresholds."});
+    if (values)
+        methods.push_back(
+            {"means and medians",
+             "Each participant's mean first; then mean (Student's t) and median (order statistics) "
+             "over participants, of a single participant over the trials. An adjustment against "
+             "its reference: paired t test."});
+    if (pairs)
+        methods.push_back(
+            {"conditions against each other",
+             "Each participant against itself: Wilcoxon's signed ranks, exact, with Holm's "
+             "correction over the pairs of the block; three conditions and more first together "
+             "(Friedman 1937)."});
+    if (!report.intervals.empty())
+        methods.push_back(
+            {"turning of the force",
+             "Angle between the force's directions in one update and the next, both in contact: "
+             "mean over all pairs of updates, as dibhr experiment has it with reversals."});
+    return methods;
+}
+
+}  // namespace dibhr

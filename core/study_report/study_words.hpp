@@ -1,0 +1,36 @@
+// A study's report in sentences: what each number is, what may be concluded, and what may not.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/study_report/study_report.hpp"
+
+namespace dibhr {
+
+/// "0.42 (95 % interval 0.31 to 0.55)"; "not bounded" for an end without bound.
+[[nodiscard]] std::string estimate_text(double value, const Interval& interval,
+                                        double confidence = kConfidence);
+
+/// "p = 0.013", "p < 0.001"
+[[nodiscard]] std::string p_text(double p);
+
+/// One paragraph: who took part in what.
+[[nodiscard]] std::string summary_of(const StudyReport& report);
+
+/// Of one block: what its answers show, and what they leave open.
+[[nodiscard]] std::vector<std::string> conclusions_of(const StudyReport& report,
+                                                      const BlockFindings& block);
+
+/// What limits all of it: pilots, few participants, unfinished studies, many tests.
+[[nodiscard]] std::vector<std::string> limits_of(const StudyReport& report);
+
+struct StudyMethod {
+    std::string name{};
+    std::string meaning{};
+};
+
+/// How the numbers were computed, with sources; only what the report has.
+[[nodiscard]] std::vector<StudyMethod> methods_of(const StudyReport& report);
+
+}  // namespace dibhr

@@ -1,0 +1,178 @@
+// `dibhr study report` and `dibhr study plan` as a person runs them.
+#include <cstddef>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/app/program/command_program.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/text.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+using Catch::Matchers::WithinAbs;
+using Catch::Matchers::WithinRel;
+using Json = nlohmann::json;
+
+namespace {
+
+const std::string kTwoAlgorithms = R"(title = "Which <b>was</b> smoother?"
+[base]
+friction = 0.4
+[[condition]]
+name = "smooth-one"
+algorithm = "dibhr"
+[[condition]]
+name = "other-one"
+algorithm = "pga"
+[[block]]
+name = "smoother"
+form = "two-interval"
+pairs = "all"
+question = "Which was smoother?"
+)";
+
+ProgramResult run_participant(const TemporaryFolder& folder, const std::string& label,
+                              const std::string& pilot) {
+    return run_dibhr(folder, {"study", "run", "study.toml", "--participant", label, "--pilot",
+                              pilot, "--out", "answers"});
+}
+
+Json report_in(const TemporaryFolder& folder, const std::string& name) {
+    return Json::parse(read_text(folder / name / "report.json"));
+}
+
+}  // namespace
+
+TEST_CASE("a report is a page, numbers, tables and pictures of all participants",
+          "[study report]") {
+    const TemporaryFolder folder;
+    write_text(folder / "study.toml", kTwoAlgorithms + "repetitions = 10\n");
+    for (int number = 1; number <= 8; ++number)
+        REQUIRE(run_participant(folder, "P" + std::to_string(number),
+                                "prefer=smooth-one,share=0.9,seed=3")
+                    .exit_code == 0);
+    const ProgramResult made =
+        run_dibhr(folder, {"study", "report", "answers", "--out", "r", "--plot-format", "svg"});
+    INFO(made.errors);
+    REQUIRE(made.exit_code == 0);
+    CHECK(made.output == "r/report.html\n");
+    CHECK(names_in(folder / "r") == std::vector<std::string>{"block-1-shares.svg", "intervals.csv",
+                                                             "report.html", "report.json",
+                                                             "trials.csv"});
+    const Json report = report_in(folder, "r");
+    CHECK(report["participants"].size() == 8);
+    const Json share = report["blocks"][0]["shares"][0];
+    CHECK(share["name"] == "smooth-one rather than other-one");
+    CHECK(share["trials"] == 80);
+    CHECK(share["test"]["test"] == "Wilcoxon signed-rank, exact");
+    CHECK(share["test"]["p"] < 0.05);
+    const std::vector<std::string> lines = split(read_text(folder / "r/trials.csv"), '\n');
+    CHECK(lines.at(0) ==
+          "participant,number,pilot,trial,block,position,practice,form,reference,comparison,"
+          "repetition,target,track,parameter,level,choice,chosen,answer,right,reaction_s,utc_s");
+    CHECK(lines.size() >= 81);
+    CHECK(contains(lines.at(1), "P1,1,\"prefer=smooth-one,share=0.9,seed=3\",1,smoother,1,0,"));
+    const std::string page = read_text(folder / "r/report.html");
+    CHECK(contains(page, "Which &lt;b&gt;was&lt;/b&gt; smoother?"));
+    CHECK(contains(page, "they say nothing about people"));
+    CHECK(contains(page, "people like these 8 participants notice a difference"));
+    CHECK(contains(page, "data:image/png;base64,"));
+    CHECK_FALSE(contains(page, "<script"));
+}
+
+TEST_CASE("the report's forces are those of dibhr experiment, where the modelled hand explored",
+          "[study report]") {
+    const TemporaryFolder folder;
+    write_text(folder / "study.toml", kTwoAlgorithms);
+    REQUIRE(run_participant(folder, "P1", "hand").exit_code == 0);
+    REQUIRE(
+        run_dibhr(folder, {"study", "report", "answers/P1.dibhr-study", "--out", "r"}).exit_code ==
+        0);
+    REQUIRE(run_dibhr(folder, {"experiment", "human", "--json", "e.json", "--algorithm", "dibhr",
+                               "--algorithm", "pga"})
+                .exit_code == 0);
+    std::map<std::string, Json> runs;
+    const Json experiment = Json::parse(read_text(folder / "e.json"));
+    for (const Json& run : experiment["paths"][0]["runs"])
+        runs[run["algorithm"] == "dibhr" ? "smooth-one" : "other-one"] = run;
+    const Json motion = report_in(folder, "r")["motion"];
+    REQUIRE(motion.size() == 2);
+    for (const Json& felt : motion) {
+        const Json& run = runs.at(felt["condition"]);
+        CHECK(felt["updates"] == experiment["paths"][0]["updates"]);
+        CHECK(felt["contact_updates"] == run["contact_updates"]);
+        CHECK_THAT(felt["moves_per_update"].get<double>(),
+                   WithinRel(run["moves_per_update"].get<double>(), 1e-9));
+        CHECK(felt["variation_deg"]["pairs"] == run["variation_deg"]["pairs"]);
+        CHECK_THAT(felt["variation_deg"]["mean"].get<double>(),
+                   WithinRel(run["variation_deg"]["mean"].get<double>(), 1e-12));
+        CHECK_THAT(felt["variation_deg"]["sd"].get<double>(),
+                   WithinRel(run["variation_deg"]["sd"].get<double>(), 1e-9));
+        CHECK(felt["force_sent_newton"]["mean"] > 0.1);
+    }
+    CHECK(split(read_text(folder / "r/intervals.csv"), '\n').size() >= 3);
+}
+
+TEST_CASE("each study that comes with the program gives a report", "[study report]") {
+    const std::string name =
+        GENERATE("paper-question", "friction-threshold", "roughness-threshold");
+    const TemporaryFolder folder;
+    const std::string pilot = name == "paper-question" ? "prefer=dibhr" : "threshold=0.1,slope=20";
+    for (const char* const label : {"P1", "P2"})
+        REQUIRE(run_dibhr(folder, {"study", "run", name, "--participant", label, "--out", "a",
+                                   "--pilot", pilot})
+                    .exit_code == 0);
+    const ProgramResult made =
+        run_dibhr(folder, {"study", "report", "a", "--out", "r", "--curve", "weibull"});
+    INFO(made.errors);
+    REQUIRE(made.exit_code == 0);
+    const Json block = report_in(folder, "r")["blocks"][0];
+    if (name == "paper-question")
+        CHECK(block["shares"].size() == 3);
+    else
+        CHECK(block["thresholds"][0]["fits"].size() == 2);
+}
+
+TEST_CASE("a plan says how many people an effect needs", "[study plan]") {
+    const TemporaryFolder folder;
+    write_text(folder / "study.toml", kTwoAlgorithms + "repetitions = 10\n");
+    const ProgramResult planned =
+        run_dibhr(folder, {"study", "plan", "study.toml", "--pilot", "prefer=smooth-one,share=0.8",
+                           "--studies", "50"});
+    INFO(planned.errors);
+    REQUIRE(planned.exit_code == 0);
+    CHECK(contains(planned.output,
+                   "smooth-one rather than other-one, 10 trials each (as on the "
+                   "page): "));
+    CHECK(contains(planned.output, "Of 50 simulated studies each"));
+}
+
+TEST_CASE("a report and a plan say in one line what they cannot do", "[study report]") {
+    const TemporaryFolder folder;
+    write_text(folder / "study.toml", kTwoAlgorithms);
+    REQUIRE(run_participant(folder, "P1", "guess").exit_code == 0);
+    const auto said = [&](std::vector<std::string> arguments, int exit_code) {
+        arguments.insert(arguments.begin(), "study");
+        const ProgramResult result = run_dibhr(folder, arguments);
+        CHECK(result.exit_code == exit_code);
+        CHECK(split(result.errors, '\n').size() <= 2);
+        CHECK_FALSE(std::filesystem::exists(folder / "r"));
+        return result.errors;
+    };
+    CHECK(contains(said({"report", "answers"}, 2), "--out DIR"));
+    CHECK(contains(said({"report", "nothing", "--out", "r"}, 1), "nothing"));
+    CHECK(contains(said({"report", ".", "--out", "r"}, 1), "no study file"));
+    CHECK(contains(said({"report", "study.toml", "--out", "r"}, 1), "study.toml"));
+    CHECK(contains(said({"report", "answers", "answers", "--out", "r"}, 1), "give one of the two"));
+    CHECK(contains(said({"report", "answers", "--out", "r", "--curve", "weibul"}, 2),
+                   "did you mean weibull?"));
+    CHECK(contains(said({"plan", "study.toml"}, 2), "--pilot"));
+    CHECK(contains(said({"plan", "study.toml", "--pilot", "guess"}, 1), "no effect"));
+    CHECK(contains(said({"plan", "study.toml", "--pilot", "threshold=0.1"}, 1), "changes nothing"));
+    CHECK(contains(said({"check", "study.toml", "study.toml"}, 2), "takes one file"));
+    write_text(folder / "study.toml", kTwoAlgorithms + "repetitions = 2\n");
+    REQUIRE(run_participant(folder, "P2", "guess").exit_code == 0);
+    CHECK(contains(said({"report", "answers", "--out", "r"}, 1), "another protocol"));
+}

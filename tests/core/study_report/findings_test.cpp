@@ -1,0 +1,347 @@
+// What a report finds of people whose answers are known beforehand.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/session/database.hpp"
+#include "tests/core/study_report/made_study.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/some_of.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/text.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+using Catch::Matchers::WithinAbs;
+
+namespace {
+
+/// A thousand studies each, as the README tells, where DIBHR_ALL_STUDIES is set.
+int studies() {
+    return std::getenv("DIBHR_ALL_STUDIES") != nullptr ? 1000 : DIBHR_SANITIZED ? 20 : 100;
+}
+
+/// Four standard errors of a share over so few studies.
+double slack(double share) {
+    return 4.0 * std::sqrt(share * (1.0 - share) / studies());
+}
+
+const std::string kVaried = R"(question = "Which?"
+vary = "friction"
+reference = 0.3
+)";
+const std::string kStaircase = R"([block.staircase]
+start = 0.4
+lowest = 0.01
+highest = 0.6
+factor = 1.25
+down-after = 2
+halve-after = 2
+trials = 60
+tracks = 4
+)";
+
+struct Found {
+    double value{0.0};
+    Interval interval{};
+};
+
+/// A form of trial with something about it that is known, and how the report says it.
+struct KnownForm {
+    std::string name{};
+    std::string block{};
+    int conditions{1};
+    SimulatedParticipant kind{};
+    int people{1};
+    double truth{0.0};
+    double scale{1.0};  ///< which 5 % are taken of
+    std::function<Found(const BlockFindings&)> found{};
+    bool exact_interval{false};  ///< of counts: covers more often than it says
+};
+
+SimulatedParticipant noticing(double threshold) {
+    return {.guesses = false, .threshold = threshold, .slope = 20.0, .lapse = 0.02};
+}
+
+Found threshold_found(const BlockFindings& block) {
+    const ParticipantThreshold& one = block.thresholds.at(0).fits.at(0);
+    return {one.fit.function.threshold, one.fit.threshold};
+}
+
+std::vector<KnownForm> known_forms() {
+    const std::string levels = "levels = [0.02, 0.06, 0.1, 0.14, 0.2, 0.3]\nrepetitions = 40\n";
+    const SimulatedParticipant wary{
+        .guesses = false, .threshold = 0.12, .slope = 20.0, .lapse = 0.02, .false_alarm = 0.0};
+    return {
+        {"two intervals, levels", "form = \"two-interval\"\n" + kVaried + levels, 1, noticing(0.12),
+         1, 0.12, 0.12, threshold_found},
+        {"two intervals, staircases", "form = \"two-interval\"\n" + kVaried + kStaircase, 1,
+         noticing(0.12), 1, 0.12, 0.12, threshold_found},
+        {"three intervals, levels", "form = \"three-interval\"\n" + kVaried + levels, 1,
+         noticing(0.12), 1, 0.12, 0.12, threshold_found},
+        {"three intervals, staircases", "form = \"three-interval\"\n" + kVaried + kStaircase, 1,
+         noticing(0.12), 1, 0.12, 0.12, threshold_found},
+        {"yes or no, levels",
+         "form = \"explore\"\n" + kVaried +
+             "levels = [0, 0.06, 0.1, 0.14, 0.2, 0.3]\nrepetitions = 40\n",
+         1, wary, 1, 0.12, 0.12, threshold_found},
+        {"adjustment, one person",
+         "form = \"adjust\"\n" + kVaried +
+             "repetitions = 12\n[block.adjust]\nlowest = 0\nhighest = 0.6\n",
+         1,
+         {.guesses = false, .bias = 0.05, .noise = 0.04},
+         1,
+         0.05,
+         0.3,
+         [](const BlockFindings& block) {
+             return Found{block.values.at(0).mean.value, block.values.at(0).mean.interval};
+         }},
+        {"adjustment, people who differ",
+         "form = \"adjust\"\n" + kVaried +
+             "repetitions = 4\n[block.adjust]\nlowest = 0\nhighest = 0.6\n",
+         1,
+         {.guesses = false, .bias = 0.02, .noise = 0.04, .spread = 0.03},
+         10,
+         0.02,
+         0.3,
+         [](const BlockFindings& block) {
+             return Found{block.values.at(0).mean.value, block.values.at(0).mean.interval};
+         }},
+        {"rating, people who differ",
+         "form = \"rating\"\nquestion = \"How smooth?\"\nrepetitions = 4\n[block.scale]\n"
+         "lowest = 0\nhighest = 100\n",
+         2,
+         {.guesses = false, .prefers = "a", .difference = 12.0, .noise = 10.0, .spread = 6.0},
+         12,
+         12.0,
+         100.0,
+         [](const BlockFindings& block) {
+             return Found{block.pairs.at(0).difference.value,
+                          block.pairs.at(0).difference.interval};
+         }},
+        {"which of two",
+         "form = \"two-interval\"\nquestion = \"Which?\"\npairs = \"all\"\n"
+         "repetitions = 60\n",
+         2,
+         {.guesses = false, .prefers = "a", .share = 0.7},
+         1,
+         0.7,
+         0.7,
+         [](const BlockFindings& block) {
+             return Found{block.shares.at(0).all.share(), block.shares.at(0).interval};
+         },
+         true},
+        {"which of two, people who differ",
+         "form = \"two-interval\"\nquestion = \"Which?\"\npairs = \"all\"\nrepetitions = 20\n",
+         2,
+         {.guesses = false, .prefers = "a", .share = 0.65, .spread = 0.08},
+         12,
+         0.65,
+         0.65,
+         [](const BlockFindings& block) {
+             return Found{block.shares.at(0).across.value, block.shares.at(0).across.interval};
+         }},
+    };
+}
+
+/// People who feel nothing, and the p of what the report tests.
+struct Guessing {
+    std::string name{};
+    std::string block{};
+    int conditions{1};
+    int people{1};
+    std::function<double(const BlockFindings&)> p{};
+};
+
+double p_of_share(const BlockFindings& block) {
+    return block.shares.at(0).test->p;
+}
+
+std::vector<Guessing> guessing() {
+    const std::string two = "form = \"two-interval\"\nquestion = \"Which?\"\npairs = \"all\"\n";
+    return {
+        {"which of two, one person", two + "repetitions = 60\n", 2, 1, p_of_share},
+        {"which of two, twelve people", two + "repetitions = 12\n", 2, 12, p_of_share},
+        {"which of two, three pairs of conditions", two + "repetitions = 12\n", 3, 12,
+         [](const BlockFindings& block) {
+             double least = 1.0;
+             for (const ShareFinding& share : block.shares)
+                 least = std::min(least, share.adjusted_p);
+             return least;
+         }},
+        {"which of three, one person",
+         "form = \"three-interval\"\nquestion = \"Which?\"\npairs = \"all\"\nrepetitions = 60\n", 2,
+         1, p_of_share},
+        {"adjustment, ten people",
+         "form = \"adjust\"\n" + kVaried +
+             "repetitions = 4\n[block.adjust]\nlowest = 0\nhighest = 0.6\n",
+         1, 10, [](const BlockFindings& block) { return block.values.at(0).test->p; }},
+        {"ratings of two, twelve people",
+         "form = \"rating\"\nquestion = \"How smooth?\"\nrepetitions = 3\n", 2, 12,
+         [](const BlockFindings& block) { return block.pairs.at(0).test.p; }},
+        {"ratings of four, twelve people",
+         "form = \"rating\"\nquestion = \"How smooth?\"\nrepetitions = 2\n", 4, 12,
+         [](const BlockFindings& block) { return block.overall->p; }},
+        {"yes or no of two, twelve people",
+         "form = \"explore\"\nquestion = \"Is it smooth?\"\nrepetitions = 6\n", 2, 12,
+         [](const BlockFindings& block) { return block.pairs.at(0).test.p; }},
+    };
+}
+
+std::string page(int conditions, const std::string& block) {
+    return page_of_conditions(conditions, "[[block]]\n" + block);
+}
+
+BlockFindings findings_in(const Study& study, int bootstraps = 399) {
+    return findings_of(study, {.bootstraps = bootstraps}).at(0);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "what is true of a participant is found without bias, and its interval covers it as often "
+    "as it says",
+    "[study report]") {
+    const KnownForm form = GENERATE(some_of(known_forms(), 4));
+    CAPTURE(form.name, studies());
+    double bias = 0.0;
+    double coverage = 0.0;
+    const int all = studies();
+    for (int study = 0; study < all; ++study) {
+        const Study made = made_study(page(form.conditions, form.block), form.kind, form.people,
+                                      static_cast<std::uint64_t>(study));
+        const Found found = form.found(findings_in(made, all >= 1000 ? 399 : 99));
+        bias += (found.value - form.truth) / form.scale / all;
+        coverage += found.interval.holds(form.truth) ? 1.0 / all : 0.0;
+    }
+    CAPTURE(bias, coverage);
+    WARN(form.name << ": bias " << 100.0 * bias << " %, coverage " << 100.0 * coverage << " %");
+    CHECK_THAT(bias, WithinAbs(0.0, 0.05));
+    const double beside = std::max(0.02, slack(0.95));
+    CHECK(coverage >= 0.95 - beside);
+    CHECK(coverage <= (form.exact_interval ? 1.0 : 0.95 + beside));
+}
+
+TEST_CASE("participants who guess give no effect but in one study of twenty", "[study report]") {
+    const Guessing form = GENERATE(some_of(guessing(), 4));
+    CAPTURE(form.name, studies());
+    const int all = studies();
+    double found = 0.0;
+    for (int study = 0; study < all; ++study) {
+        const Study made = made_study(page(form.conditions, form.block), {}, form.people,
+                                      static_cast<std::uint64_t>(study));
+        found += form.p(findings_in(made)) < kSignificance ? 1.0 / all : 0.0;
+    }
+    WARN(form.name << ": an effect in " << 100.0 * found << " % of studies");
+    CHECK(found <= 0.05 + std::max(0.015, slack(0.05)));
+}
+
+TEST_CASE("shares are tested by all trials of a few people, and by the ranks of many",
+          "[study report]") {
+    const std::vector<Count> few{{9, 10}, {8, 10}};
+    CHECK(chance_test(few, 0.5).test == "binomial, mid-p, of all trials");
+    CHECK(chance_test(few, 0.5).p < 0.01);
+    const std::vector<Count> many(8, Count{9, 10});
+    const TestResult ranks = chance_test(many, 0.5);
+    CHECK(ranks.test == "Wilcoxon signed-rank, exact");
+    CHECK_THAT(ranks.p, WithinAbs(2.0 / 256.0, 1e-12));
+    // One who differs wildly counts as one person, not as ninety trials.
+    std::vector<Count> uneven(6, Count{5, 10});
+    uneven.push_back({90, 90});
+    CHECK(chance_test(uneven, 0.5).p > 0.5);
+}
+
+TEST_CASE("tests of one block are corrected together", "[study report]") {
+    const Study made =
+        made_study(page(3,
+                        "form = \"two-interval\"\nquestion = \"Which?\"\npairs = \"all\"\n"
+                        "repetitions = 10\n"),
+                   {.guesses = false, .prefers = "a", .share = 0.75}, 8, 1);
+    const BlockFindings block = findings_in(made);
+    REQUIRE(block.shares.size() == 3);
+    CHECK(block.shares[0].name == "a rather than b");
+    CHECK(block.shares[0].all.share() > 0.6);
+    CHECK(block.shares[2].name == "b rather than c");
+    for (const ShareFinding& share : block.shares) CHECK(share.adjusted_p >= share.test->p);
+}
+
+TEST_CASE("practice counts for nothing", "[study report]") {
+    const std::string two = "form = \"two-interval\"\nquestion = \"Which?\"\npairs = \"all\"\n";
+    const Study made = made_study(
+        page_of_conditions(2, "[[block]]\npractice = true\n" + two + "[[block]]\n" + two), {}, 3,
+        1);
+    const auto blocks = findings_of(made, {});
+    REQUIRE(blocks.size() == 1);
+    CHECK(blocks[0].block == 1);
+    CHECK(blocks[0].trials == 3);
+}
+
+TEST_CASE("files of another protocol, of the same participant, or with made-up trials are refused",
+          "[study report]") {
+    const TemporaryFolder folder;
+    const std::string two =
+        "[[block]]\nform = \"two-interval\"\nquestion = \"?\"\npairs = \"all\"\n";
+    const auto made = [&](const std::string& name, const std::string& label,
+                          const std::string& text) {
+        const Protocol page = protocol(text);
+        StudyFile file(folder / name, {.participant = label,
+                                       .number = 1,
+                                       .protocol_name = "study.toml",
+                                       .protocol_text = page.text,
+                                       .protocol_sha256 = page.sha256});
+        for (const AnsweredTrial& one : answers_of({}, page, 1)) file.add(one);
+        return folder / name;
+    };
+    const auto refusal = [](const std::vector<std::filesystem::path>& files) {
+        try {
+            (void)read_studies(files);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    const std::string text = page_of_conditions(2, two);
+    const auto first = made("1", "P1", text);
+    CHECK(refusal({first}).empty());
+    CHECK(contains(refusal({first, made("2", "P1", text)}), "give one of the two"));
+    CHECK(contains(refusal({first, made("3", "P3", text + "repetitions = 2\n")}),
+                   "another protocol"));
+    for (const char* const lie : {"block = 7", "item = 9", "item = -1", "choice = 5", "level = 0.5",
+                                  "form = 'rating'", "practice = 1", "number = 3, choice = -1"}) {
+        CAPTURE(lie);
+        const auto damaged = made("4", "P4", text);
+        Database(damaged).execute("UPDATE trial SET " + std::string(lie));
+        CHECK_FALSE(refusal({damaged}).empty());
+        std::filesystem::remove(damaged);
+    }
+}
+
+TEST_CASE("a wary participant's d' tells what is felt from what is said", "[study report]") {
+    const auto d_prime = [](double false_alarm) {
+        const Study made = made_study(
+            page(1, "form = \"explore\"\n" + kVaried + "levels = [0, 0.3]\nrepetitions = 200\n"),
+            {.guesses = false, .threshold = 0.1, .slope = 40.0, .false_alarm = false_alarm}, 1, 3);
+        return findings_in(made, 19).shares.at(1).d_prime->d_prime;
+    };
+    CHECK(d_prime(0.0) > 4.0);  // never says yes for nothing
+    CHECK(d_prime(0.5) < d_prime(0.0) - 1.0);
+}
+
+TEST_CASE("a threshold that nobody has is not made up", "[study report]") {
+    const Study made = made_study(page(1, "form = \"two-interval\"\n" + kVaried +
+                                              "levels = [0.05, 0.1, 0.2, 0.3]\nrepetitions = 10\n"),
+                                  {}, 4, 2);
+    const BlockFindings block = findings_in(made, 99);
+    REQUIRE(block.thresholds.size() == 1);
+    int bounded = 0;
+    for (const ParticipantThreshold& one : block.thresholds[0].fits)
+        bounded += one.bounded() ? 1 : 0;
+    CHECK(bounded <= 1);
+    CHECK(block.thresholds[0].across.count == bounded);
+}
