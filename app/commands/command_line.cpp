@@ -6,18 +6,21 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <iomanip>
 #include <iostream>
 #include <memory>
 #include <sstream>
 #include <string_view>
+#include <system_error>
 
 #include "app/commands/documentation.hpp"
-#include "core/files/spelling.hpp"
 #include "app/settings/command_options.hpp"
 #include "app/settings/settings.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/files/spelling.hpp"
 #include "core/files/terminal.hpp"
+#include "device/hand_device.hpp"
 
 namespace dibhr {
 namespace {
@@ -53,6 +56,27 @@ constexpr std::array kCommands{
     Command{"bench", "[--json FILE]", "Updates, frame hand-over and loop timing on this machine",
             run_bench},
 };
+
+/// "1280x800" and nothing else.
+std::pair<int, int> parse_size(const std::string& text) {
+    std::array<int, 2> size{};
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    for (std::size_t k = 0; k < size.size(); ++k) {
+        const auto [stop, error] = std::from_chars(at, end, size[k]);
+        const bool ends_well = k == 0 ? stop != end && *stop == 'x' : stop == end;
+        if (error != std::errc{} || !ends_well) {
+            throw CLI::ValidationError("--size", "'" + text + "' is not a size like 1280x800");
+        }
+        if (size[k] < kSmallestWindow || size[k] > kLargestWindow) {
+            throw CLI::ValidationError("--size", text + " is not in " +
+                                                     std::to_string(kSmallestWindow) + " to " +
+                                                     std::to_string(kLargestWindow));
+        }
+        at = stop + 1;
+    }
+    return {size[0], size[1]};
+}
 
 /// Bold at a terminal: what stands at the begin of a line and ends with a colon.
 std::string with_bold_headings(const std::string& help) {
@@ -224,6 +248,30 @@ CLI::Option* add_session(CLI::App& app, std::filesystem::path& file) {
 CLI::Option* add_firmware(CLI::App& app, std::filesystem::path& file) {
     return add_file(app, "--firmware", file,
                     "Firmware for a Falcon that has none; checked, and kept for the next time");
+}
+
+CLI::Option* add_size_option(CLI::App& app, std::optional<std::pair<int, int>>& size,
+                             const std::string& help) {
+    return app
+        .add_option_function<std::string>(
+            "--size", [&size](const std::string& text) { size = parse_size(text); }, help)
+        ->type_name("WxH");
+}
+
+CLI::Option* add_device_option(CLI::App& app, std::string& device) {
+    return app
+        .add_option_function<std::string>(
+            "--device",
+            [&device](const std::string& name) {
+                if (!names_device(name))
+                    throw CLI::ValidationError(
+                        "--device", "'" + name + "' is none of " + std::string(kDeviceNames));
+                device = name;
+            },
+            "auto (a Falcon or an Inverse3, and the mouse until one is there), falcon, "
+            "falcon:SERIAL, inverse3, inverse3:ID, mouse or goals:FILE")
+        ->type_name("DEVICE")
+        ->default_str("auto");
 }
 
 int run_command_line(const Arguments& arguments) {

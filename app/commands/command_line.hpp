@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CLI {
@@ -31,6 +33,11 @@ CLI::Option* add_file(CLI::App& app, const std::string& name, std::filesystem::p
                       const std::string& help, const std::string& type = "FILE");
 CLI::Option* add_session(CLI::App& app, std::filesystem::path& file);
 CLI::Option* add_firmware(CLI::App& app, std::filesystem::path& file);
+/// --size WxH.
+CLI::Option* add_size_option(CLI::App& app, std::optional<std::pair<int, int>>& size,
+                             const std::string& help);
+/// --device, as make_hand_device() has it.
+CLI::Option* add_device_option(CLI::App& app, std::string& device);
 
 // Each declares its options in `app`, parses `arguments` after its name and runs. The exit code;
 // throws Error.

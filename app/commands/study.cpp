@@ -23,6 +23,10 @@
 #include "app/settings/command_options.hpp"
 #include "app/settings/material.hpp"
 #include "app/settings/settings.hpp"
+#include "app/study/study_window.hpp"
+#include "app/window/crash_handler.hpp"
+#include "app/window/ending.hpp"
+#include "app/window/last_words.hpp"
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/files/spelling.hpp"
@@ -34,6 +38,8 @@
 #include "core/study_report/study_report.hpp"
 #include "core/video/cleaning/cleaning_options.hpp"
 #include "core/video/media.hpp"
+#include "device/hand/guardian.hpp"
+#include "device/hand_device.hpp"
 
 namespace dibhr {
 
@@ -49,6 +55,10 @@ struct StudyOptions {
     std::optional<int> number{};
     fs::path out{};  ///< a folder
     std::string pilot{};
+    std::string device{"auto"};
+    fs::path firmware{};
+    bool mute{false};
+    std::optional<std::pair<int, int>> size{};
     AnalysisSettings analysis{};
     PlanSettings plan{};
     std::vector<PlotFormat> plot_formats{PlotFormat::png};
@@ -103,7 +113,7 @@ void require_media(const Protocol& protocol) {
             static_cast<void>(material_called(material->second));
     }
     const auto require_picture = [](const StudyPage& page) {
-        if (!page.picture.empty()) require_readable(page.picture);
+        if (!page.picture.empty()) static_cast<void>(read_colour_picture(page.picture));
     };
     require_picture(protocol.instructions);
     require_picture(protocol.thanks);
@@ -204,17 +214,31 @@ StudyIdentity identity_of(const StudyOptions& options, const Protocol& protocol,
             .pilot = options.pilot};
 }
 
+/// In a window of their own; until they are through, or leave.
+void lead_person(const StudyOptions& options, StudyRun& run, StudyFile& file) {
+    LastWords words;
+    const CrashHandler crash(words, &Guardian::alarm);
+    Ending ending(words);
+    StudyWindowOptions wished{.size = options.size, .settings = load_settings(settings_path())};
+    if (options.mute) wished.settings.mute = true;
+    HandDevice hand =
+        make_hand_device(options.device, {{wished.settings.falcon.connection, options.firmware},
+                                          connection_of(wished.settings.inverse3)});
+    StudyWindow window(wished, run, file, std::move(hand), ending);
+    window.lead();
+}
+
 int run(const StudyOptions& options) {
     if (options.participant.empty())
         throw UsageError("run needs --participant LABEL (see dibhr study --help)");
     require_label(options.participant);
     const fs::path page = protocol_called(options.file());
     const Protocol protocol = read_protocol(page, study_names());
+    std::optional<Pilot> pilot;
     if (options.pilot.empty())
-        throw UsageError(
-            "a person is led through a study in the viewer's window, which this version "
-            "does not have yet: give --pilot (see dibhr study --help)");
-    const Pilot pilot = pilot_called(options.pilot, protocol);
+        require_media(protocol);
+    else
+        pilot = pilot_called(options.pilot, protocol);
     std::error_code ignored;
     fs::create_directories(options.folder(), ignored);
     StudyFile file(study_file_of(options.folder(), options.participant),
@@ -228,8 +252,9 @@ int run(const StudyOptions& options) {
     }
     if (!file.answered().empty())
         std::cout << "goes on at trial " << file.answered().size() + 1 << '\n';
-    run_pilot(steps, file, pilot);
-    std::cout << file.file().string() << ": " << steps.answered().size() << " trials\n";
+    pilot ? run_pilot(steps, file, *pilot) : lead_person(options, steps, file);
+    std::cout << file.file().string() << ": " << steps.answered().size() << " trials"
+              << (steps.step() == StudyStep::finished ? "" : "; the same label goes on") << '\n';
     return 0;
 }
 
@@ -356,6 +381,11 @@ void add_options(CLI::App& app, StudyOptions& options) {
            "Nobody: guess, hand, or threshold=..,slope=..,lapse=..,prefer=CONDITION,"
            "share=..; of plan the effect that is to be found, with spread=.. between people")
         ->type_name("HOW");
+    add_device_option(app, options.device);
+    add_firmware(app, options.firmware);
+    app.add_flag("--mute", options.mute, "Touch makes no sound");
+    add_size_option(app, options.size,
+                    "Size of the window that leads a person; without it it fills the screen");
     app.add_option("--power", options.plan.power,
                    "So often a study is to find the effect that is planned for")
         ->check(CLI::Range(0.5, 0.999))
@@ -384,7 +414,8 @@ void add_options(CLI::App& app, StudyOptions& options) {
         "Examples:\n"
         "  dibhr study check paper-question\n"
         "  dibhr study plan paper-question --pilot prefer=dibhr,share=0.7,spread=0.1\n"
-        "  dibhr study run paper-question --participant P07 --out answers --pilot guess\n"
+        "  dibhr study run paper-question --participant P07 --out answers\n"
+        "  dibhr study run paper-question --participant P90 --out pilots --pilot guess\n"
         "  dibhr study run mine.toml --participant P08 --pilot threshold=0.1,slope=20,lapse=0.02\n"
         "  dibhr study report answers --out answers/report\n"
         "  dibhr study sessions answers/P07.dibhr-study --out sessions");

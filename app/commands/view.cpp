@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -58,27 +57,6 @@ Settings read_settings(const fs::path& file, ToldLog& log) {
     return settings;
 }
 
-/// "1280x800" and nothing else.
-std::pair<int, int> parse_size(const std::string& text) {
-    std::array<int, 2> size{};
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    for (std::size_t k = 0; k < size.size(); ++k) {
-        const auto [stop, error] = std::from_chars(at, end, size[k]);
-        const bool ends_well = k == 0 ? stop != end && *stop == 'x' : stop == end;
-        if (error != std::errc{} || !ends_well) {
-            throw CLI::ValidationError("--size", "'" + text + "' is not a size like 1280x800");
-        }
-        if (size[k] < kSmallestWindow || size[k] > kLargestWindow) {
-            throw CLI::ValidationError("--size", text + " is not in " +
-                                                     std::to_string(kSmallestWindow) + " to " +
-                                                     std::to_string(kLargestWindow));
-        }
-        at = stop + 1;
-    }
-    return {size[0], size[1]};
-}
-
 /// How what is opened begins to play.
 void add_playing_options(CLI::App& app, ViewOptions& options) {
     add_number_option(app, "--start", 0.0, kLongestRun_s,
@@ -115,12 +93,6 @@ bool gives_damping(const GivenParameters& given) {
 bool gives_relief(const TouchRequest& touch) {
     return touch.raw_depth || touch.given.fit_relief ||
            touch.given.value_of(*touch_number("relief")) != nullptr;
-}
-
-void check_device(const std::string& device) {
-    if (names_device(device)) return;
-    throw CLI::ValidationError("--device",
-                               "'" + device + "' is none of " + std::string(kDeviceNames));
 }
 
 /// A replay is what was recorded: there is nothing to record, and its surface is given.
@@ -272,16 +244,7 @@ int run_view(CLI::App& app, const Arguments& arguments) {
         "Depth video, image or folder, camera or stream; none: in the colour's file or folder, "
         "else *color* -> *depth* beside it",
         "");
-    app.add_option_function<std::string>(
-           "--device",
-           [&options](const std::string& device) {
-               check_device(device);
-               options.device = device;
-           },
-           "auto (a Falcon or an Inverse3, and the mouse until one is there), falcon, "
-           "falcon:SERIAL, inverse3, inverse3:ID, mouse or goals:FILE")
-        ->type_name("DEVICE")
-        ->default_str("auto");
+    add_device_option(app, options.device);
     add_firmware(app, options.firmware);
     add_file(app, "--record", options.record,
              "Records every tick into a new session file (.dibhr)");
@@ -301,10 +264,7 @@ int run_view(CLI::App& app, const Arguments& arguments) {
     app.add_flag_function(
         "--no-sync", [&options](std::int64_t) { options.sync = false; },
         "Does not wait for the display");
-    app.add_option_function<std::string>(
-           "--size", [&size](const std::string& text) { size = parse_size(text); },
-           "Size of the window")
-        ->type_name("WxH");
+    add_size_option(app, size, "Size of the window");
     std::optional<double> ui_scale;
     add_number_option(app, "--ui-scale", kSmallestUi, kLargestUi,
                       "Size of text and panels, times an ordinary display's",

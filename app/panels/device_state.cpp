@@ -116,6 +116,18 @@ const DeviceLimits& limits_of_hand(const ViewerState& state) {
     return now ? *now : state.device.limits;
 }
 
+HapticSettings asked_settings(const ViewerState& state) {
+    HapticSettings asked{
+        .parameters = state.settings.touch,
+        .limits = {.max_force_newton = state.settings.max_force_newton,
+                   .stability = state.settings.stability},
+        .force_enabled = state.force_enabled && !waits_for_front(state),
+        .bump = state.bump,
+    };
+    asked.parameters.coupling = asked_coupling(state);
+    return asked;
+}
+
 Coupling asked_coupling(const ViewerState& state) {
     const Settings& settings = state.settings;
     const Coupling& chosen = settings.touch.coupling;

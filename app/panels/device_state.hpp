@@ -11,6 +11,9 @@ namespace dibhr {
 /// where a person leaves it at that.
 [[nodiscard]] Coupling asked_coupling(const ViewerState& state);
 
+/// What the loop is asked for, but for recording, followers and the version.
+[[nodiscard]] HapticSettings asked_settings(const ViewerState& state);
+
 /// What the hand of the last tick can stand.
 [[nodiscard]] const DeviceLimits& limits_of_hand(const ViewerState& state);
 

@@ -238,6 +238,10 @@ std::string ViewerRecording::mark(ViewerState& state) {
     return "Marked at " + clock_text(now_s()) + ": " + tag;
 }
 
+void ViewerRecording::mark(const std::string& tag) {
+    if (recorder_) recorder_->mark(tag);
+}
+
 void ViewerRecording::take_news(ViewerState& state) {
     begin_if_there(state);
     if (!recorder_) return;

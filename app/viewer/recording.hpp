@@ -54,6 +54,9 @@ class ViewerRecording {
     /// Marks this moment with the tag that was typed. A short notice.
     std::string mark(ViewerState& state);
 
+    /// Marks this moment. Nothing is recorded: does nothing.
+    void mark(const std::string& tag);
+
     /// Once a picture: how it goes, into `state`; what a person typed, into the file. A recording
     /// that broke off ends.
     void take_news(ViewerState& state);

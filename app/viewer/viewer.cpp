@@ -595,27 +595,16 @@ void Viewer::hand_over_settings() {
     stretch(state_.bump, state_.media.depth_columns, state_.media.depth_rows,
             state_.settings.touch.shape.bump_size_px);
     // As they are wished: the loop holds them to what the hand it reads can stand.
-    TouchParameters parameters = state_.settings.touch;
-    parameters.coupling = asked_coupling(state_);
-    const SafetyLimits limits{.max_force_newton = state_.settings.max_force_newton,
-                              .stability = state_.settings.stability};
-    const bool force_enabled = state_.force_enabled && !waits_for_front(state_);
-    const bool same = handed_.version > 0 && handed_.parameters == parameters &&
-                      handed_.limits == limits && !falcon_.tuning_changed(state_) &&
-                      !inverse3_.tuning_changed(state_) && handed_.force_enabled == force_enabled &&
-                      handed_.bump == state_.bump;
-    const bool recording = recording_.active();
-    const bool followed = state_.settings.others;
-    if (handed_.version == 0 || handed_.parameters.carry != parameters.carry)
-        player_.set_motion(parameters.carry);
-    if (!same || handed_.recording != recording || handed_.followed != followed) {
-        handed_ = {parameters,
-                   limits,
-                   force_enabled,
-                   state_.bump,
-                   recording,
-                   followed,
-                   handed_.version + (same ? 0 : 1)};
+    HapticSettings asked = asked_settings(state_);
+    const bool same = handed_.version > 0 && same_touch(handed_, asked) &&
+                      !falcon_.tuning_changed(state_) && !inverse3_.tuning_changed(state_);
+    asked.recording = recording_.active();
+    asked.followed = state_.settings.others;
+    if (handed_.version == 0 || handed_.parameters.carry != asked.parameters.carry)
+        player_.set_motion(asked.parameters.carry);
+    if (!same || handed_.recording != asked.recording || handed_.followed != asked.followed) {
+        asked.version = handed_.version + (same ? 0 : 1);
+        handed_ = asked;
         recording_.hand_over(handed_, state_.bump_file);
         haptic_settings_.publish(handed_);
     }

@@ -63,10 +63,11 @@ std::vector<std::string> environment() {
 }
 
 /// Of the child, between its beginning and the program's: it shares this program's memory, so it
-/// calls the system alone, and changes nothing but `why`. The kernel kills it when the thread that
-/// started it ends, which waits for it otherwise: so however this program ends.
+/// calls the system alone, and changes nothing. What fails is written to `trouble`: an errno. The
+/// kernel kills it when the thread that started it ends, which waits for it otherwise: so however
+/// this program ends.
 [[noreturn]] void become(char* const* words, char** variables, int output, pid_t parent,
-                         volatile int& why) {
+                         int trouble) {
     struct sigaction usual {};
     usual.sa_handler = SIG_DFL;  // NOLINT(cppcoreguidelines-pro-type-union-access): POSIX's
     for (const int signal : {SIGPIPE, SIGTERM, SIGINT, SIGHUP, SIGQUIT})
@@ -79,7 +80,8 @@ std::vector<std::string> environment() {
                        ::dup2(output, STDOUT_FILENO) >= 0 && ::dup2(output, STDERR_FILENO) >= 0 &&
                        ::sigprocmask(SIG_SETMASK, &none, nullptr) == 0;
     if (ready && ::getppid() == parent) ::execvpe(words[0], words, variables);
-    why = errno;
+    const int why = errno;
+    [[maybe_unused]] const ssize_t told = ::write(trouble, &why, sizeof why);
     ::_exit(EXIT_FAILURE);
 }
 
@@ -90,19 +92,24 @@ int start(std::vector<std::string> words, int output, pid_t& child) {
     std::vector<std::string> variables = environment();
     const std::vector<char*> arguments = as_pointers(words);
     std::vector<char*> entries = as_pointers(variables);
+    const pid_t parent = ::getpid();
+    // Closed by the other program's beginning. (Where a sanitizer makes a copy of vfork(), no
+    // memory is shared through which it could be told.)
+    std::array<int, 2> trouble{};
+    if (::pipe2(trouble.data(), O_CLOEXEC) != 0) return errno;
+    int why = 0;
     sigset_t all, before;
     ::sigfillset(&all);
     ::pthread_sigmask(SIG_SETMASK, &all, &before);  // a handler of ours would run in the child, too
-    const pid_t parent = ::getpid();
-    volatile int why = 0;
     const pid_t started = ::vfork();  // NOLINT(clang-analyzer-security.insecureAPI.vfork)
-    if (started == 0) become(arguments.data(), entries.data(), output, parent, why);
+    if (started == 0) become(arguments.data(), entries.data(), output, parent, trouble[1]);
     if (started < 0) why = errno;
     ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
     child = started;
-    const int failed = why;
-    if (failed != 0 && started > 0) ::waitpid(started, nullptr, 0);
-    return failed;
+    ::close(trouble[1]);
+    if (started > 0 && ::read(trouble[0], &why, sizeof why) > 0) ::waitpid(started, nullptr, 0);
+    ::close(trouble[0]);
+    return why;
 }
 
 }  // namespace

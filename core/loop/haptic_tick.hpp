@@ -38,6 +38,12 @@ struct HapticSettings {
     std::uint64_t version{0};               ///< counts changes, for the recorder
 };
 
+/// But for recording, followers and the version.
+[[nodiscard]] inline bool same_touch(const HapticSettings& a, const HapticSettings& b) {
+    return a.parameters == b.parameters && a.limits == b.limits &&
+           a.force_enabled == b.force_enabled && a.bump == b.bump;
+}
+
 /// How the loop did over the last whole second.
 struct LoopSecond {
     double rate_hz{0.0};

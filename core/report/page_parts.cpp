@@ -31,7 +31,7 @@ figure img { display: block; width: 100%; height: auto; background: #fff; border
 figure.map img { width: auto; max-width: 100%; max-height: 92vh; }
 figcaption { margin-top: .4rem; max-width: 60rem; }
 .pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 24rem), 1fr)); gap: 0 1.5rem; }
-.wide { overflow-x: auto; }
+.wide { overflow-x: auto; margin-top: .8rem; }
 table { border-collapse: collapse; font-size: .9rem; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; vertical-align: top; padding: .3rem .45rem; border-bottom: 1px solid var(--line); }
 th { color: var(--quiet); font-weight: 600; }

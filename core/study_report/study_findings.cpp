@@ -358,9 +358,9 @@ void add_adjustments(const BlockAnswers& answers, BlockFindings& found) {
             return *one.answer.number - block.variation.reference;
         };
         ValueFinding values = value_finding(answers,
-                                            block.variation.parameter + " - " +
-                                                short_text(block.variation.reference, 4) + ", " +
-                                                item_name(answers.study.protocol, block, item),
+                                            item_name(answers.study.protocol, block, item) + ", " +
+                                                block.variation.parameter + " less " +
+                                                short_text(block.variation.reference, 4),
                                             of_item, off);
         std::vector<double> each = known(values.by_participant);
         if (each.size() == 1) {
@@ -426,7 +426,9 @@ void add_answers(const BlockAnswers& answers, BlockFindings& found) {
         const auto of_item = [item](const AnsweredTrial& one) {
             return static_cast<std::size_t>(one.trial.item) == item && one.answer.choice >= 0;
         };
-        for (std::size_t answer = 0; answer < block.question.answers.size(); ++answer) {
+        // Of two answers the second one is what is left.
+        const std::size_t count = block.question.answers.size();
+        for (std::size_t answer = 0; answer < (count == 2 ? 1 : count); ++answer) {
             found.shares.push_back(share_finding(
                 block.question.answers[answer] + ": " + of,
                 answers.counts(of_item,

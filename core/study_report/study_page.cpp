@@ -24,15 +24,31 @@ std::string number_cell(double value, int digits = 3) {
     return std::isfinite(value) ? short_text(value, digits) : "&ndash;";
 }
 
+/// On one line.
+std::string unbroken(const std::string& text) {
+    std::string html;
+    for (const char each : html_text(text)) {
+        if (each == ' ')
+            html += "&nbsp;";
+        else
+            html += each;
+    }
+    return html;
+}
+
 std::string interval_cell(const Interval& interval) {
     const auto end = [](double value) {
         return std::isfinite(value) ? short_text(value, 3) : std::string("not bounded");
     };
-    return end(interval.low) + " to " + end(interval.high);
+    return unbroken(end(interval.low) + " to " + end(interval.high));
 }
 
 std::string share_cell(const Interval& interval) {
-    return percent_text(interval.low) + " to " + percent_text(interval.high);
+    return unbroken(percent_text(interval.low) + " to " + percent_text(interval.high));
+}
+
+std::string p_cell(double p) {
+    return unbroken(p_text(p));
 }
 
 std::string test_cells(const TestResult& test) {
@@ -45,7 +61,7 @@ std::string shares_table(const BlockFindings& found) {
     for (const ShareFinding& share : found.shares) {
         Cells row{html_text(share.name),
                   std::to_string(share.all.hits) + " of " + std::to_string(share.all.trials),
-                  percent_text(share.all.share()), share_cell(share.interval)};
+                  unbroken(percent_text(share.all.share())), share_cell(share.interval)};
         row.push_back(share.across.count > 1 ? percent_text(share.across.value) : "&ndash;");
         if (share.d_prime) {
             row.push_back(number_cell(share.d_prime->d_prime));
@@ -54,8 +70,8 @@ std::string shares_table(const BlockFindings& found) {
             row.insert(row.end(), {"&ndash;", "&ndash;"});
         }
         row.push_back(share.test ? test_cells(*share.test) : "&ndash;");
-        row.push_back(share.test ? p_text(share.test->p) : "&ndash;");
-        row.push_back(share.test ? p_text(share.adjusted_p) : "&ndash;");
+        row.push_back(share.test ? p_cell(share.test->p) : "&ndash;");
+        row.push_back(share.test ? p_cell(share.adjusted_p) : "&ndash;");
         rows.push_back(std::move(row));
     }
     return table_of({"share", "answers", "of all", "95 % interval", "mean over participants", "d'",
@@ -88,7 +104,7 @@ std::string values_table(const BlockFindings& found) {
                         number_cell(value.mean.value), interval_cell(value.mean.interval),
                         number_cell(value.median.value), interval_cell(value.median.interval),
                         value.test ? test_cells(*value.test) : "&ndash;",
-                        value.test ? p_text(value.test->p) : "&ndash;"});
+                        value.test ? p_cell(value.test->p) : "&ndash;"});
     }
     return table_of(
         {"of", "trials", "mean", "95 % interval", "median", "interval of the median", "test", "p"},
@@ -102,7 +118,7 @@ std::string pairs_table(const BlockFindings& found) {
         rows.push_back({html_text(pair.first), html_text(pair.second),
                         number_cell(pair.difference.value), interval_cell(pair.difference.interval),
                         test_cells(pair.test), number_cell(pair.test.effect, 2),
-                        p_text(pair.test.p), p_text(pair.adjusted_p)});
+                        p_cell(pair.test.p), p_cell(pair.adjusted_p)});
     }
     return table_of({"first", "second", "mean difference", "95 % interval", "test",
                      "rank-biserial correlation", "p", "p, Holm"},

@@ -23,8 +23,9 @@ std::string test_text(const TestResult& test) {
 }
 
 std::string corrected(double p, double adjusted_p) {
-    return adjusted_p > p ? ", " + p_text(adjusted_p) + " among the tests of this block (Holm)"
-                          : std::string();
+    return p_text(adjusted_p) != p_text(p)
+               ? ", " + p_text(adjusted_p) + " among the tests of this block (Holm)"
+               : std::string();
 }
 
 /// Of whom a finding speaks.
@@ -152,8 +153,7 @@ std::string summary_of(const StudyReport& report) {
                           [](const AnsweredTrial& one) { return one.trial.practice; }));
     }
     std::string text =
-        counted(static_cast<std::int64_t>(study.participants.size()), "participant") +
-        (study.participants.size() == 1 ? " gave " : " gave ") +
+        counted(static_cast<std::int64_t>(study.participants.size()), "participant") + " gave " +
         counted(static_cast<std::int64_t>(trials - practice), "answer");
     if (practice > 0) text += ", after " + std::to_string(practice) + " for practice";
     return text + ".";

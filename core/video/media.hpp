@@ -174,6 +174,9 @@ class Media {
 /// highest 1.
 [[nodiscard]] BumpMap read_bump_map(const std::filesystem::path& file);
 
+/// A picture to be looked at, of any form that is read. Throws InputError.
+[[nodiscard]] ColourImage read_colour_picture(const std::filesystem::path& file);
+
 /// The bytes of an RGB picture's PNG file. Throws InputError for an empty picture.
 [[nodiscard]] std::string png_of(const ColourImage& picture);
 

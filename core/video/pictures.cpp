@@ -52,6 +52,11 @@ ColourImage colour_of(const cv::Mat& picture) {
     return colour;
 }
 
+ColourImage read_colour_picture(const fs::path& file) {
+    require_readable(file);
+    return colour_of(read_still(file, PictureRole::colour).picture);
+}
+
 BumpMap read_bump_map(const fs::path& file) {
     const StillPicture still = read_still(file, PictureRole::depth);
     const cv::Mat& picture = still.picture;

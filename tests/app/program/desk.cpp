@@ -14,6 +14,7 @@
 #include <stdexcept>
 
 #include "tests/support/catch.hpp"
+#include "tests/support/text.hpp"
 
 namespace dibhr::test {
 
@@ -81,6 +82,12 @@ int Process::wait() {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
+bool Process::has_ended() const {
+    siginfo_t news{};
+    REQUIRE(::waitid(P_PID, static_cast<id_t>(child_), &news, WEXITED | WNOHANG | WNOWAIT) == 0);
+    return news.si_pid != 0;
+}
+
 void Process::interrupt() {
     send(SIGINT);
 }
@@ -115,10 +122,24 @@ Desk::Desk()
 
 Process Desk::start_viewer(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
                            const std::vector<std::string>& host) const {
+    std::vector<std::string> words{"view"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return start(folder, words, host);
+}
+
+std::string Desk::picture() const {
+    const fs::path file = folder_ / "picture.rgb";
+    run_shell("ffmpeg -nostdin -v error -y -f x11grab -draw_mouse 0 -video_size 1280x800 -i " +
+              display_ + " -frames:v 1 -pix_fmt rgb24 -f rawvideo " + file.string());
+    return read_text(file);
+}
+
+Process Desk::start(const TemporaryFolder& folder, const std::vector<std::string>& program_words,
+                    const std::vector<std::string>& host) const {
     std::vector<std::string> words{"env", "-C", folder.path().string()};
     words.insert(words.end(), host.begin(), host.end());
-    words.insert(words.end(), {DIBHR_PROGRAM, "view"});
-    words.insert(words.end(), arguments.begin(), arguments.end());
+    words.emplace_back(DIBHR_PROGRAM);
+    words.insert(words.end(), program_words.begin(), program_words.end());
     return Process(words,
                    {"DISPLAY=" + display_, "WAYLAND_DISPLAY=", "LIBGL_ALWAYS_SOFTWARE=1",
                     "SDL_AUDIODRIVER=dummy", "DBUS_SESSION_BUS_ADDRESS=disabled:",

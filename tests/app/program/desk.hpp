@@ -28,6 +28,7 @@ class Process {
 
     /// Waits for its end. The exit code; 128 + signal when it was killed.
     int wait();
+    [[nodiscard]] bool has_ended() const;
     void interrupt();  ///< SIGINT, as Ctrl+C does
     void send(int signal) const;
     /// To the program that it has started, as falcon_host has; the test fails when there is none.
@@ -48,6 +49,13 @@ class Desk {
     [[nodiscard]] Process start_viewer(const TemporaryFolder& folder,
                                        const std::vector<std::string>& arguments,
                                        const std::vector<std::string>& host = {}) const;
+
+    /// The same of another command of the program: its words, "study", "run" and so on.
+    [[nodiscard]] Process start(const TemporaryFolder& folder,
+                                const std::vector<std::string>& words,
+                                const std::vector<std::string>& host = {}) const;
+    /// What is on the whole display, as raw RGB of 1280 x 800.
+    [[nodiscard]] std::string picture() const;
 
     // The server stands still, goes on, or dies.
     void stop() const { server_.send(SIGSTOP); }

@@ -47,6 +47,10 @@ std::vector<std::string> FalconOnUsb::host() const {
     return words;
 }
 
+bool FalconOnUsb::try_to_tell(const std::string& command) const {
+    return ask(socket_, command) == "ok";
+}
+
 void FalconOnUsb::tell(const std::string& command) const {
     INFO(command);
     REQUIRE(ask(socket_, command) == "ok");

@@ -27,6 +27,8 @@ class FalconOnUsb {
     /// One of the commands of the simulated unit, or `unplug`, `replug`; the test fails unless it
     /// is performed.
     void tell(const std::string& command) const;
+    /// The same; false: the program has ended.
+    [[nodiscard]] bool try_to_tell(const std::string& command) const;
     /// A number, or the first of three, of its state; the test fails when there is none.
     [[nodiscard]] double number(const std::string& name) const;
     [[nodiscard]] Vec3 vector(const std::string& name) const;

@@ -174,9 +174,20 @@ TEST_CASE("on the network thread no exchange allocates, once there is a connecti
     Guardian guardian("Inverse3");
     int allocations = 0;
     std::jthread network([&](const std::stop_token& stop) {
-        ServiceLink link(options.port, ServiceLink::Time::clock::now() + milliseconds(1000));
-        Conversation conversation(link, options, true, exchange, board, memory, guardian);
-        allocations = test::allocations_in([&] { conversation.run(stop); });
+        // Anew where a busy machine let it stand still, and its guardian spoke.
+        for (bool whole = false; !whole;) {
+            ServiceLink link(options.port, ServiceLink::Time::clock::now() + milliseconds(1000));
+            Conversation conversation(link, options, true, exchange, board, memory, guardian);
+            const int made = test::allocations_in([&] {
+                try {
+                    conversation.run(stop);
+                    whole = true;
+                } catch (const LinkError&) {
+                    whole = false;
+                }
+            });
+            allocations = std::max(allocations, made);
+        }
     });
     while (service.exchanges() <= 3000) {  // before it asks again it has taken the last answer
         const TimedPose pose = exchange.poses.front();

@@ -1,0 +1,66 @@
+// What a participant sees of a study beside the relief: pages, questions, and what is pressed
+// there.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/study/study_run.hpp"
+
+namespace dibhr {
+
+/// What a person does at a step, by key, mouse or the grip's buttons.
+struct StudyPress {
+    enum class Kind : std::uint8_t {
+        go_on,   ///< leaves a page, an interval, feedback, a break; "equal" of an adjustment
+        choose,  ///< answer `which`
+        rate,    ///< `value`
+        mark,    ///< moves the mark of a scale to `value`, without answering
+        feel,    ///< interval `which`: once more at a question; at an adjustment the other one
+        turn,    ///< the parameter, by `value` of its range
+        ask_to_leave,
+        stay,
+        leave
+    };
+
+    Kind kind{Kind::go_on};
+    int which{0};
+    double value{0.0};
+};
+
+/// What the pages show beside the run's own step.
+struct StudyShown {
+    bool waits{false};          ///< an interval whose surface is not there yet
+    bool asks_to_leave{false};  ///< the participant pressed Escape
+    double left_share{1.0};     ///< of the time of an interval or an answer; 1 without a limit
+    bool has_limit{false};
+    double mark{0.0};            ///< on a scale
+    bool by_mouse{false};        ///< no force device touches
+    std::string device_words{};  ///< what the device needs; empty: nothing
+    std::uintptr_t picture{0};   ///< texture of the page's picture; 0: none
+    int picture_columns{1}, picture_rows{1};
+    float scale{1.0F};  ///< of the display
+};
+
+/// Whether the question is answered on a line instead of by one button each.
+[[nodiscard]] bool has_wide_scale(const Question& question) noexcept;
+
+/// Into ImGui's picture, over all of it. What was clicked.
+[[nodiscard]] std::optional<StudyPress> draw_study(const StudyRun& run, const StudyShown& view);
+
+/// Whether the mouse is over something to click: elsewhere it touches the relief.
+[[nodiscard]] bool mouse_is_over_button();
+
+/// What a key does now; nothing: nothing. `key`: as name_of(Key) has it, or the character typed.
+[[nodiscard]] std::optional<StudyPress> press_of_key(const StudyRun& run, const StudyShown& view,
+                                                     std::string_view key, bool shift);
+
+/// What the grip's button does now: the answers by number; the first one also goes on. On a scale
+/// the first two move the mark and the third one answers; at an adjustment the first two turn, the
+/// third one feels the other.
+[[nodiscard]] std::optional<StudyPress> press_of_button(const StudyRun& run, const StudyShown& view,
+                                                        int button);
+
+}  // namespace dibhr

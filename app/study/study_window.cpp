@@ -1,0 +1,351 @@
+// Steps through a study with a person.
+#include "app/study/study_window.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/panels/device_state.hpp"
+#include "app/viewer/scene.hpp"
+#include "app/window/display_loss.hpp"
+#include "core/error.hpp"
+#include "core/video/media.hpp"
+#include "render/drawing_threads.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr float kTextTimes = 1.7F;  // as large as in the viewer
+/// Each interval begins after so long at the least, whatever it takes to make its surface: else the
+/// wait would tell a condition.
+constexpr double kPreparing_s = 0.9;
+constexpr double kLongestPreparing_s = 30.0;
+constexpr auto kPictureTime = std::chrono::nanoseconds(1'000'000'000 / 60);
+constexpr auto kSoftwarePictureTime = std::chrono::nanoseconds(1'000'000'000 / 30);
+constexpr auto kLongestDrawing = std::chrono::seconds(1);
+
+double utc_now_s() {
+    return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
+        .count();
+}
+
+WindowSize size_of(const StudyWindowOptions& options) {
+    if (options.size) return {options.size->first, options.size->second, std::nullopt};
+    return {options.settings.width, options.settings.height, std::nullopt};
+}
+
+std::chrono::nanoseconds shortest_picture(bool sync, bool software) {
+    if (!sync) return std::chrono::nanoseconds(0);
+    return software ? kSoftwarePictureTime : kPictureTime;
+}
+
+/// What is drawn tells nothing of what is felt: no texture, no force, no friction. (The height of
+/// the relief is seen, where it is felt.)
+void hide_condition(SceneContent& content) {
+    content.bump = nullptr;
+    content.maps = nullptr;
+    content.shape.roughness_px = 0.0;
+    content.dent = {};
+    TouchMarkers& markers = content.markers;
+    markers = {.visible = markers.visible,
+               .contact = markers.contact,
+               .goal = markers.goal,
+               .proxy = markers.proxy,
+               .normal = markers.normal};
+}
+
+}  // namespace
+
+StudyWindow::StudyWindow(const StudyWindowOptions& options, StudyRun& run, StudyFile& file,
+                         HandDevice hand, Ending& ending)
+    : run_(run),
+      file_(file),
+      ending_(ending),
+      window_(size_of(options), options.sync, "dibhr"),
+      gui_(window_,
+           {kTextTimes * window_.scale(options.settings.ui_scale), options.settings.theme}),
+      pace_(std::chrono::nanoseconds(0)),
+      software_(read_limits().software),
+      surface_(std::move(hand), options.settings,
+               {heart_, ending.without_force(), ending.words()}) {
+    pace_ = PicturePace(shortest_picture(options.sync, software_));
+    if (software_) let_drawing_give_way();
+    window_.on_display_loss([this] { leave_without_display(); });
+    ending_.watch_display(display_connection());
+    if (!options.size) window_.toggle_full_screen();
+}
+
+StudyWindow::~StudyWindow() {
+    ending_.watch_display(-1);
+    window_.on_display_loss({});
+}
+
+void StudyWindow::lead() {
+    ending_.words().doing("leading a study");
+    while (!over()) {
+        show_one_picture();
+        pace_.wait();
+    }
+    surface_.stop();
+    if (run_.step() == StudyStep::finished) file_.finish();
+}
+
+bool StudyWindow::over() const {
+    return left_ || run_.step() == StudyStep::finished || ending_.asked() ||
+           window_.wants_to_close();
+}
+
+/// The display is gone: what was answered is in the file already.
+void StudyWindow::leave_without_display() {
+    surface_.stop();
+}
+
+void StudyWindow::beat() {
+    window_.meet_display();
+    heart_.beat();
+}
+
+double StudyWindow::since_s(Clock::time_point moment) const {
+    return std::chrono::duration<double>(Clock::now() - moment).count();
+}
+
+bool StudyWindow::felt() const noexcept {
+    return (run_.step() == StudyStep::interval || run_.step() == StudyStep::adjust) &&
+           !view_.asks_to_leave;
+}
+
+void StudyWindow::show_one_picture() {
+    const WindowInput input = window_.take_input();
+    beat();
+    surface_.take_news(input.focus.in_front());
+    if (!entered_) enter_step();
+    begin_if_there();
+    look_at_time();
+    take(input);
+    if (over()) return;
+    draw(input);
+    surface_.hand_over();
+    if (software_) {
+        const auto latest = Clock::now() + kLongestDrawing;
+        wait_for_drawing([&] {
+            beat();
+            return Clock::now() < latest;
+        });
+    }
+    window_.show_picture();
+    require_graphics();
+    beat();
+}
+
+/// The next one is entered with the next picture: the loop has then seen the end of this one.
+void StudyWindow::leave_step() {
+    surface_.rest();
+    entered_ = false;
+    view_.waits = true;
+}
+
+/// What the step that the run has come to needs, once.
+void StudyWindow::enter_step() {
+    entered_ = true;
+    since_ = Clock::now();
+    view_.has_limit = false;
+    view_.left_share = 1.0;
+    view_.picture = 0;
+    view_.waits = false;
+    switch (run_.step()) {
+        case StudyStep::instructions:
+        case StudyStep::block_instructions:
+        case StudyStep::thanks:
+            load_picture(run_.page());
+            break;
+        case StudyStep::interval:
+        case StudyStep::adjust:
+            enter_interval();
+            break;
+        case StudyStep::question: {
+            surface_.rest();
+            const Question& question = run_.block().question;
+            view_.mark = std::round(0.5 * (question.lowest + question.highest));
+            break;
+        }
+        default:
+            surface_.rest();
+    }
+}
+
+void StudyWindow::load_picture(const StudyPage& page) {
+    surface_.rest();
+    if (page.picture.empty()) return;
+    const auto picture = std::make_shared<const ColourImage>(read_colour_picture(page.picture));
+    constexpr int kMost_px = 4096;
+    view_.picture = page_picture_.show(picture, kMost_px, true);
+    view_.picture_columns = picture->columns;
+    view_.picture_rows = picture->rows;
+}
+
+void StudyWindow::enter_interval() {
+    const Trial& trial = run_.trial();
+    const auto which = static_cast<std::size_t>(run_.interval());
+    if (!in_trial_) {
+        session_ = file_.fresh_session();
+        surface_.begin_trial(session_);
+        in_trial_ = true;
+        if (trial.form == TrialForm::adjust)
+            turned_ = trial.intervals.back().value.value_or(run_.block().variation.reference);
+    }
+    surface_.show(run_.protocol(), trial.intervals[which]);
+    if (trial.form == TrialForm::adjust && which == 1)
+        surface_.turn(run_.block().variation.parameter, turned_);
+    view_.waits = true;
+}
+
+/// From here on it is felt and seen.
+void StudyWindow::begin_if_there() {
+    if (!view_.waits || view_.asks_to_leave || since_s(since_) < kPreparing_s) return;
+    if (!surface_.is_there()) {
+        if (since_s(since_) > kLongestPreparing_s)
+            throw InputError("the video of trial " + std::to_string(run_.trial().number + 1) +
+                             " gives no surface: check its files with dibhr info");
+        return;
+    }
+    view_.waits = false;
+    since_ = Clock::now();
+    const MediaDescription& media = surface_.state().media;
+    camera_.frame_relief(media.depth_columns, media.depth_rows,
+                         surface_.state().settings.touch.shape.relief_px);
+    surface_.begin_interval(run_.interval() + 1);
+}
+
+void StudyWindow::look_at_time() {
+    if (view_.waits || view_.asks_to_leave) return;
+    const Block* const block =
+        run_.step() == StudyStep::interval || run_.step() == StudyStep::question ? &run_.block()
+                                                                                 : nullptr;
+    if (block == nullptr) return;
+    const bool question = run_.step() == StudyStep::question;
+    const double limit_s = question ? block->answer_s : block->interval_s;
+    view_.has_limit = limit_s > 0.0;
+    if (!view_.has_limit) return;
+    view_.left_share = std::clamp(1.0 - since_s(since_) / limit_s, 0.0, 1.0);
+    if (since_s(since_) < limit_s) return;
+    question ? answer({}) : act({StudyPress::Kind::go_on});
+}
+
+void StudyWindow::take(const WindowInput& input) {
+    for (const int button : surface_.take_presses())
+        if (const auto press = press_of_button(run_, view_, button)) act(*press);
+    for (const KeyPress& key : input.keys) {
+        const bool enter = list_key(key.key) == ListKey::take;
+        if (key.repeated && (enter || run_.step() != StudyStep::adjust)) continue;
+        const std::string name = enter ? "Enter" : name_of(Key{key.key});
+        if (const auto press = press_of_key(run_, view_, name, key.shift); press) act(*press);
+    }
+    for (const TypedCharacter& typed : input.characters) {
+        if (typed.repeated || typed.code > 0x7f) continue;
+        const char character = static_cast<char>(typed.code);
+        const auto press = press_of_key(run_, view_, std::string_view(&character, 1), typed.shift);
+        if (press) act(*press);
+    }
+}
+
+void StudyWindow::act(const StudyPress& press) {
+    using Kind = StudyPress::Kind;
+    switch (press.kind) {
+        case Kind::ask_to_leave:
+            view_.asks_to_leave = true;
+            surface_.rest();
+            return;
+        case Kind::stay:
+            view_.asks_to_leave = false;
+            // An interval that was broken off begins anew.
+            if (felt()) leave_step();
+            return;
+        case Kind::leave:
+            left_ = true;
+            return;
+        default:
+            break;
+    }
+    if (run_.step() == StudyStep::question) return act_at_question(press);
+    if (run_.step() == StudyStep::adjust) return act_at_adjustment(press);
+    if (press.kind != Kind::go_on || view_.waits) return;
+    run_.go_on();
+    leave_step();
+}
+
+void StudyWindow::act_at_question(const StudyPress& press) {
+    using Kind = StudyPress::Kind;
+    const Question& question = run_.block().question;
+    if (press.kind == Kind::mark) {
+        view_.mark = std::clamp(press.value, static_cast<double>(question.lowest),
+                                static_cast<double>(question.highest));
+    } else if (press.kind == Kind::feel) {
+        run_.feel_again(press.which);
+        leave_step();
+    } else if (press.kind == Kind::choose) {
+        answer({.choice = press.which});
+    } else if (press.kind == Kind::rate) {
+        answer({.number = press.value});
+    }
+}
+
+void StudyWindow::act_at_adjustment(const StudyPress& press) {
+    using Kind = StudyPress::Kind;
+    const Variation& vary = run_.block().variation;
+    if (press.kind == Kind::turn) {
+        turned_ = std::clamp(turned_ + press.value * (vary.highest - vary.lowest), vary.lowest,
+                             vary.highest);
+        surface_.turn(vary.parameter, turned_);
+    } else if (press.kind == Kind::feel) {
+        run_.compare(press.which);
+        leave_step();
+    } else if (press.kind == Kind::go_on && !view_.waits) {
+        answer({.number = turned_});
+    }
+}
+
+/// The session first, then both in one transaction, then the next page.
+void StudyWindow::answer(const StudyAnswer& given) {
+    StudyAnswer whole = given;
+    whole.reaction_s = since_s(since_);
+    if (!run_.takes(whole)) return;
+    const AnsweredTrial answered = run_.judged(whole, utc_now_s());
+    surface_.end_trial();
+    file_.add(answered, session_);
+    in_trial_ = false;
+    run_.accept(answered);
+    leave_step();
+}
+
+void StudyWindow::draw(const WindowInput& input) {
+    const glm::ivec2 size = window_.framebuffer_size();
+    const Pointer pointer = window_.pointer();
+    const PointerUse use =
+        mouse_.use(pointer, input.wheel_steps, mouse_is_over_button(), size, camera_);
+    hand_seen_ = use.over_relief || !surface_.by_mouse();
+    if (felt() && !view_.waits) {
+        PointerUse touching = use;
+        if (!surface_.by_mouse()) touching.pressed = false;
+        surface_.point(camera_.ray_under(pointer.position_px, size), touching);
+    }
+    draw_relief();
+    beat();
+    view_.device_words = device_banner(surface_.state());
+    gui_.begin(input.keys);
+    const auto press = draw_study(run_, view_);
+    gui_.end();
+    beat();
+    if (press) act(*press);
+}
+
+/// Nothing where there is nothing to be felt, or nothing to be seen.
+void StudyWindow::draw_relief() {
+    const bool seen = felt() && !view_.waits && run_.block().view == StudyView::relief;
+    SceneContent content = scene_content(surface_.state(), surface_.shown());
+    if (!seen) content = {.look = content.look, .light_wall = content.light_wall};
+    hide_condition(content);
+    content.markers.visible = content.markers.visible && hand_seen_;
+    scene_.draw(content, camera_, window_.framebuffer_size());
+}
+
+}  // namespace dibhr

@@ -1,0 +1,96 @@
+// The window that leads a participant through a study: pages, intervals, questions, breaks.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/settings/settings.hpp"
+#include "app/study/study_pages.hpp"
+#include "app/study/study_surface.hpp"
+#include "app/window/ending.hpp"
+#include "app/window/gui.hpp"
+#include "app/window/window.hpp"
+#include "core/realtime/heartbeat.hpp"
+#include "core/study/study_file.hpp"
+#include "core/study/study_run.hpp"
+#include "device/hand_device.hpp"
+#include "render/camera.hpp"
+#include "render/gl_objects.hpp"
+#include "render/scene_view.hpp"
+
+namespace dibhr {
+
+struct StudyWindowOptions {
+    std::optional<std::pair<int, int>> size{};  ///< nothing: the whole screen
+    bool sync{true};                            ///< with the display
+    Settings settings{};  ///< of which the device's, the limit of force and the loudness count
+};
+
+/// Shows no number, no name of a condition, file or parameter; no force while nothing is to be
+/// felt. Each answer is in the file, with its trial's session, before the next page is shown.
+class StudyWindow {
+  public:
+    /// Opens the window. `run` and `file` are of the same study; they and `ending` outlive it.
+    /// Throws Error.
+    StudyWindow(const StudyWindowOptions& options, StudyRun& run, StudyFile& file, HandDevice hand,
+                Ending& ending);
+    ~StudyWindow();
+    StudyWindow(const StudyWindow&) = delete;
+    StudyWindow& operator=(const StudyWindow&) = delete;
+
+    /// Until the study is finished, or left: a trial that is not answered is then forgotten. Throws
+    /// InputError when something cannot be opened or kept.
+    void lead();
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    void show_one_picture();
+    void enter_step();
+    void leave_step();
+    void enter_interval();
+    void look_at_time();
+    void begin_if_there();
+    void take(const WindowInput& input);
+    void act(const StudyPress& press);
+    void act_at_question(const StudyPress& press);
+    void act_at_adjustment(const StudyPress& press);
+    void answer(const StudyAnswer& answer);
+    void draw(const WindowInput& input);
+    void draw_relief();
+    void load_picture(const StudyPage& page);
+    void beat();
+    void leave_without_display();
+    [[nodiscard]] bool felt() const noexcept;
+    [[nodiscard]] bool over() const;
+    [[nodiscard]] double since_s(Clock::time_point moment) const;
+
+    StudyRun& run_;
+    StudyFile& file_;
+    Ending& ending_;
+    Heartbeat heart_{};  // of the window's thread and the display
+    Window window_;
+    Gui gui_;
+    SceneView scene_{};
+    PicturePace pace_;
+    bool software_;
+    Camera camera_{};
+    ReliefMouse mouse_{};
+    ColourTexture page_picture_{};
+    StudyShown view_{};
+    StudySurface surface_;
+    bool entered_{false};              // the step that the run is at
+    bool in_trial_{false};             // its session has begun,
+    std::filesystem::path session_{};  // in this file
+    bool left_{false};
+    bool hand_seen_{false};      // a mouse beside the relief is no hand
+    double turned_{0.0};         // the value an adjustment is at
+    Clock::time_point since_{};  // what is limited in time began
+};
+
+}  // namespace dibhr

@@ -1,0 +1,263 @@
+// A participant in front of the study's window: led by keys, by the grip's buttons, interrupted.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/session/session.hpp"
+#include "core/study/study_file.hpp"
+#include "tests/app/program/command_program.hpp"
+#include "tests/app/program/desk.hpp"
+#include "tests/app/program/falcon_on_usb.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/text.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+const std::string kTitle = R"(title = "T"
+instructions = "You will feel surfaces."
+thanks = "Thank you."
+)";
+
+const std::string kConditions = R"(friction = 0.4
+[[condition]]
+name = "secret-ice"
+material = "ice"
+[[condition]]
+name = "secret-bark"
+material = "bark"
+algorithm = "pga"
+)";
+
+const std::string kHead = kTitle + "[base]\n" + kConditions;
+
+/// Of a picture that stands still, so that two of the window can be compared.
+const std::string kStillHead =
+    kTitle + "[[media]]\nname = \"still\"\ncolour = \"c.png\"\ndepth = \"d.png\"\n[base]\n" +
+    "media = \"still\"\n" + kConditions;
+
+const std::string kPractice = R"([[block]]
+name = "practice"
+practice = true
+form = "two-interval"
+conditions = ["secret-ice"]
+vary = "friction"
+reference = 0.2
+levels = [0.5]
+question = "Which held you back more?"
+instructions = "First for practice."
+)";
+
+const std::string kPairs = R"([[block]]
+name = "pairs"
+form = "two-interval"
+pairs = "all"
+repetitions = 2
+break-after = 1
+question = "Which was smoother?"
+)";
+
+const std::string kOthers = R"([[block]]
+name = "rating"
+form = "rating"
+conditions = ["secret-bark"]
+question = "How smooth?"
+[[block]]
+name = "adjustment"
+form = "adjust"
+conditions = ["secret-ice"]
+vary = "friction"
+reference = 0.3
+question = "Turn it until equal"
+[block.adjust]
+lowest = 0
+highest = 0.6
+[[block]]
+name = "yes"
+form = "explore"
+conditions = ["secret-ice"]
+view = "blank"
+question = "Was it smooth?"
+)";
+
+/// A participant on a display of their own.
+struct Sitting {
+    explicit Sitting(const std::string& page) { write_text(folder / "study.toml", page); }
+
+    [[nodiscard]] std::vector<std::string> words(const std::string& device = "mouse") const {
+        return {"study",   "run",      "study.toml", "--participant", "P7",     "--out",
+                "answers", "--device", device,       "--mute",        "--size", "1280x800"};
+    }
+    void press(const std::string& keys) const { desk.act("key " + keys + " sleep 0.35"); }
+    /// Does it again and again until the study is finished, or the patience.
+    template <typename Act>
+    void until_it_ends(Process& program, const Act& act) const {
+        const auto patience = std::chrono::steady_clock::now() + 150s;
+        while (!program.has_ended() && std::chrono::steady_clock::now() < patience) act();
+    }
+    [[nodiscard]] StudyRecord record() const { return read_study(study_file()); }
+    [[nodiscard]] std::filesystem::path study_file() const {
+        return folder / "answers/P7.dibhr-study";
+    }
+    [[nodiscard]] std::filesystem::path running_session() const {
+        return folder / "answers/P7.dibhr-study.trial.dibhr";
+    }
+    [[nodiscard]] std::string errors() const { return read_text(folder / "errors.txt"); }
+
+    Desk desk{};
+    TemporaryFolder folder{};
+};
+
+/// Each key does something at its own step only, whatever is slow: pages and intervals go on by
+/// Enter, as do scales and adjustments; the others are answered by 1.
+void touch_and_answer(const Sitting& at) {
+    at.desk.act(
+        "mousemove 640 420 mousedown 1 sleep 0.2 mousemove_relative 30 10 sleep 0.2 mouseup 1");
+    at.press("Return");
+    at.press("1");
+}
+
+}  // namespace
+
+TEST_CASE("a newcomer is led from the first page to the thanks by keys alone", "[study window]") {
+    const Sitting at(kHead + kPractice + kPairs + kOthers);
+    Process program = at.desk.start(at.folder, at.words());
+    at.desk.act("search --sync --onlyvisible --name dibhr sleep 0.3");
+    at.until_it_ends(program, [&] { touch_and_answer(at); });
+    INFO(at.errors());
+    CHECK(program.wait() == 0);
+    CHECK(at.errors().empty());
+    const StudyRecord record = at.record();
+    CHECK(record.finished);
+    CHECK(record.identity.pilot.empty());
+    REQUIRE(record.answered.size() == 6);
+    CHECK(record.answered[0].trial.practice);
+    CHECK(record.answered[1].answer.choice == 0);
+    CHECK(record.answered[3].answer.number.value_or(0.0) >= 1.0);
+    CHECK(record.answered[4].answer.number.has_value());
+    for (const AnsweredTrial& one : record.answered) CHECK(one.answer.reaction_s > 0.0);
+    CHECK_FALSE(std::filesystem::exists(at.running_session()));
+
+    REQUIRE(run_dibhr(at.folder, {"study", "sessions", "answers/P7.dibhr-study", "--out", "s"})
+                .exit_code == 0);
+    CHECK(names_in(at.folder / "s").size() == 6);
+    bool touched = false;
+    for (const std::string& name : names_in(at.folder / "s")) {
+        CAPTURE(name);
+        CHECK_FALSE(contains(name, "secret"));
+        require_same_bits(at.folder, at.folder / "s" / name);
+        const Session session(at.folder / "s" / name);
+        REQUIRE_FALSE(session.marks().empty());
+        CHECK(session.marks().front().tag == "interval 1");
+        for (const Row& row : read_session(at.folder / "s" / name)) {
+            touched = touched || (row.contact && glm::length(row.sent_newton) > 0.05);
+            // Nothing is felt before it is to be felt.
+            if (row.t_s < session.marks().front().t_s - 0.01)
+                CHECK(glm::length(row.sent_newton) == 0.0);
+        }
+    }
+    CHECK(touched);
+}
+
+TEST_CASE("nothing on the display tells one condition from another", "[study window]") {
+    const Sitting at(kStillHead + kPairs);
+    run_shell("cd " + at.folder.path().string() +
+              " && ffmpeg -nostdin -v error -y -f lavfi -i testsrc=s=320x240:d=1:r=1 -frames:v 1 "
+              "c.png && ffmpeg -nostdin -v error -y -f lavfi -i "
+              "gradients=s=320x240:d=1:r=1:seed=3:c0=black:c1=white -frames:v 1 -pix_fmt gray "
+              "d.png");
+    Process program = at.desk.start(at.folder, at.words());
+    at.desk.act("search --sync --onlyvisible --name dibhr mousemove 640 731 sleep 0.3");
+    at.press("Return");
+    std::this_thread::sleep_for(3s);
+    const std::string first = at.desk.picture();
+    at.press("Return");
+    std::this_thread::sleep_for(3s);
+    const std::string second = at.desk.picture();
+    REQUIRE(first.size() == 1280 * 800 * 3);
+    std::size_t different = 0;
+    std::size_t bright = 0;
+    for (std::size_t y = 120; y < 640; ++y) {  // without "1 of 2" and the button
+        for (std::size_t k = y * 1280 * 3; k < (y + 1) * 1280 * 3; ++k) {
+            different += std::abs(static_cast<unsigned char>(first[k]) -
+                                  static_cast<unsigned char>(second[k])) > 2
+                             ? 1
+                             : 0;
+            bright += static_cast<unsigned char>(first[k]) > 120 ? 1 : 0;
+        }
+    }
+    CHECK(bright > 10'000);  // the relief is there
+    CHECK(different == 0);
+    at.press("Escape");
+    at.press("l");
+    CHECK(program.wait() == 0);
+    CHECK(at.record().answered.empty());
+}
+
+TEST_CASE("trials are felt and answered with the Falcon alone", "[study window]") {
+    const Sitting at(kHead + kPairs);
+    write_firmware(at.folder / "firmware.bin");
+    const FalconOnUsb falcon(at.folder.path(), {"firmware", "home", "place 0 0 140"});
+    std::vector<std::string> words = at.words("falcon");
+    words.insert(words.end(), {"--firmware", "firmware.bin"});
+    Process program = at.desk.start(at.folder, words, falcon.host());
+    at.desk.act("search --sync --onlyvisible --name dibhr sleep 0.5");
+    falcon.move_hand({0.0, 0.0, 105.0}, 0.3);
+    bool pushed = false;
+    at.until_it_ends(program, [&] {
+        // Goes on; at a question the first, or the second.
+        for (const char* const bit : {"1", "0", "2", "0"}) {
+            if (!falcon.try_to_tell(std::string("press ") + bit)) return;
+            std::this_thread::sleep_for(200ms);
+        }
+        for (int k = 0; k < 5; ++k) {
+            std::this_thread::sleep_for(200ms);
+            if (!falcon.try_to_tell("press 0")) return;
+            pushed = pushed || falcon.vector("motor_newton").z > 0.5;
+        }
+    });
+    INFO(at.errors());
+    CHECK(program.wait() == 0);
+    CHECK(pushed);
+    const StudyRecord record = at.record();
+    CHECK(record.finished);
+    REQUIRE(record.answered.size() == 2);
+    for (const AnsweredTrial& one : record.answered) CHECK(one.answer.choice >= 0);
+    REQUIRE(run_dibhr(at.folder, {"study", "sessions", "answers/P7.dibhr-study", "--out", "s"})
+                .exit_code == 0);
+    require_same_bits(at.folder, at.folder / "s/P7-001.dibhr");
+}
+
+TEST_CASE("a study that is killed while something is felt goes on at that trial",
+          "[study window]") {
+    const Sitting at(kHead + kPairs);
+    {
+        Process program = at.desk.start(at.folder, at.words());
+        at.desk.act("search --sync --onlyvisible --name dibhr sleep 0.5");
+        at.press("Return");
+        FalconOnUsb::wait_until([&] { return std::filesystem::exists(at.running_session()); });
+        std::this_thread::sleep_for(1500ms);
+        program.send(SIGKILL);
+        CHECK(program.wait() == 128 + SIGKILL);
+    }
+    CHECK(at.record().answered.empty());
+    Process again = at.desk.start(at.folder, at.words());
+    at.desk.act("search --sync --onlyvisible --name dibhr sleep 0.5");
+    at.until_it_ends(again, [&] { touch_and_answer(at); });
+    CHECK(again.wait() == 0);
+    const StudyRecord record = at.record();
+    CHECK(record.finished);
+    CHECK(record.answered.size() == 2);
+    CHECK_FALSE(std::filesystem::exists(at.running_session()));
+}
