@@ -320,6 +320,7 @@ constexpr std::array<Word<Curve>, 3> kCurves{
 
 std::vector<std::string> curve_names() {
     std::vector<std::string> names;
+    names.reserve(kCurves.size());
     for (const auto& entry : kCurves) names.emplace_back(entry.name);
     return names;
 }

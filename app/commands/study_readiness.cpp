@@ -1,11 +1,13 @@
 // Looks after device, clock and stability.
 #include "app/commands/study_readiness.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <limits>
 #include <string>
 
+#include "app/settings/settings.hpp"
 #include "app/settings/study_values.hpp"
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
@@ -14,6 +16,7 @@
 #include "core/realtime/tick_timer.hpp"
 #include "device/falcon/falcon_device.hpp"
 #include "device/falcon/survey.hpp"
+#include "device/inverse3/survey.hpp"
 
 namespace dibhr {
 
@@ -21,14 +24,26 @@ namespace {
 
 constexpr int kTicks = 1000;
 
+/// True: one can be used.
+bool print_inverse3() {
+    const inverse3::Survey survey =
+        inverse3::survey_service(connection_of(load_settings(settings_path()).inverse3));
+    const bool usable = std::any_of(survey.arms.begin(), survey.arms.end(),
+                                    [](const inverse3::SurveyedArm& arm) { return arm.usable(); });
+    for (const inverse3::SurveyedArm& arm : survey.arms)
+        std::cout << "a Haply Inverse3 (" << arm.id << ") is there: " << arm.sentence << '\n';
+    return usable;
+}
+
 void print_device() {
+    const bool inverse3 = print_inverse3();
     try {
         const auto falcons = falcon::attached_falcons();
-        std::cout
-            << (falcons.empty()
-                    ? "no Novint Falcon is attached: with the mouse nothing is felt, only seen "
-                      "and heard\n"
-                    : "a Novint Falcon is attached; dibhr devices says whether it can be used\n");
+        if (!falcons.empty())
+            std::cout << "a Novint Falcon is attached; dibhr devices says whether it can be used\n";
+        else if (!inverse3)
+            std::cout << "no Novint Falcon is attached, and no Haply Inverse3: with the mouse "
+                         "nothing is felt, only seen and heard\n";
     } catch (const DeviceError& error) {
         std::cout << "it is not known whether a Novint Falcon is attached: " << error.what()
                   << '\n';

@@ -220,6 +220,7 @@ Press draw_question(const StudyRun& run, const StudyShown& view) {
     if (!block.again) return press;
     gap(1.6F);
     std::vector<std::string> again;
+    again.reserve(static_cast<std::size_t>(block.intervals()));
     for (int k = 0; k < block.intervals(); ++k)
         again.push_back(block.intervals() > 1 ? "Feel " + std::to_string(k + 1) + " again"
                                               : "Feel it again");

@@ -19,9 +19,9 @@ namespace dibhr {
 namespace {
 
 const std::string& word_of(const TouchValues& values, const char* name) {
-    static const std::string kNone;
+    static const std::string none;
     const auto found = values.words.find(name);
-    return found == values.words.end() ? kNone : found->second;
+    return found == values.words.end() ? none : found->second;
 }
 
 /// A condition's own damping, instead of what the device needs.

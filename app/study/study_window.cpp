@@ -249,18 +249,18 @@ void StudyWindow::take(const WindowInput& input) {
 }
 
 void StudyWindow::act(const StudyPress& press) {
-    using Kind = StudyPress::Kind;
+    using enum StudyPress::Kind;
     switch (press.kind) {
-        case Kind::ask_to_leave:
+        case ask_to_leave:
             view_.asks_to_leave = true;
             surface_.rest();
             return;
-        case Kind::stay:
+        case stay:
             view_.asks_to_leave = false;
             // An interval that was broken off begins anew.
             if (felt()) leave_step();
             return;
-        case Kind::leave:
+        case leave:
             left_ = true;
             return;
         default:
@@ -268,38 +268,38 @@ void StudyWindow::act(const StudyPress& press) {
     }
     if (run_.step() == StudyStep::question) return act_at_question(press);
     if (run_.step() == StudyStep::adjust) return act_at_adjustment(press);
-    if (press.kind != Kind::go_on || view_.waits) return;
+    if (press.kind != go_on || view_.waits) return;
     run_.go_on();
     leave_step();
 }
 
 void StudyWindow::act_at_question(const StudyPress& press) {
-    using Kind = StudyPress::Kind;
+    using enum StudyPress::Kind;
     const Question& question = run_.block().question;
-    if (press.kind == Kind::mark) {
+    if (press.kind == mark) {
         view_.mark = std::clamp(press.value, static_cast<double>(question.lowest),
                                 static_cast<double>(question.highest));
-    } else if (press.kind == Kind::feel) {
+    } else if (press.kind == feel) {
         run_.feel_again(press.which);
         leave_step();
-    } else if (press.kind == Kind::choose) {
+    } else if (press.kind == choose) {
         answer({.choice = press.which});
-    } else if (press.kind == Kind::rate) {
+    } else if (press.kind == rate) {
         answer({.number = press.value});
     }
 }
 
 void StudyWindow::act_at_adjustment(const StudyPress& press) {
-    using Kind = StudyPress::Kind;
+    using enum StudyPress::Kind;
     const Variation& vary = run_.block().variation;
-    if (press.kind == Kind::turn) {
+    if (press.kind == turn) {
         turned_ = std::clamp(turned_ + press.value * (vary.highest - vary.lowest), vary.lowest,
                              vary.highest);
         surface_.turn(vary.parameter, turned_);
-    } else if (press.kind == Kind::feel) {
+    } else if (press.kind == feel) {
         run_.compare(press.which);
         leave_step();
-    } else if (press.kind == Kind::go_on && !view_.waits) {
+    } else if (press.kind == go_on && !view_.waits) {
         answer({.number = turned_});
     }
 }

@@ -224,12 +224,18 @@ std::vector<MotionFinding> motion_findings(const std::vector<IntervalRow>& rows)
     std::vector<MotionFinding> findings;
     for (const auto& [condition, by_participant] : by_condition) {
         MotionFinding found{.condition = condition, .intervals = intervals[condition]};
-        const auto mean = [&by_participant](const auto& quantity) {
+        std::vector<IntervalMotion> each;
+        each.reserve(by_participant.size());
+        for (const auto& [who, motion] : by_participant) {
+            each.push_back(motion);
+            found.all = joined(found.all, motion);
+        }
+        const auto mean = [&each](const auto& quantity) {
             std::vector<double> values;
-            for (const auto& [who, motion] : by_participant) values.push_back(quantity(motion));
+            values.reserve(each.size());
+            for (const IntervalMotion& motion : each) values.push_back(quantity(motion));
             return mean_of(values);
         };
-        for (const auto& [who, motion] : by_participant) found.all = joined(found.all, motion);
         found.contact_share = mean([](const IntervalMotion& m) { return m.contact_share(); });
         found.sent_newton = mean([](const IntervalMotion& m) { return m.sent_newton; });
         found.speed_mm_per_s = mean([](const IntervalMotion& m) { return m.speed_mm_per_s(); });

@@ -176,7 +176,7 @@ std::string conditions_section(const Study& study) {
     for (const Condition& condition : study.protocol.conditions) {
         std::string values;
         const auto add = [&values](const std::string& name, const std::string& value) {
-            values += (values.empty() ? "" : ", ") + name + " " + value;
+            values.append(values.empty() ? "" : ", ").append(name).append(" ").append(value);
         };
         for (const auto& [name, word] : condition.values.words) add(name, word);
         for (const auto& [name, number] : condition.values.numbers) add(name, number_text(number));

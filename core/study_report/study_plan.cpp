@@ -82,7 +82,8 @@ std::map<std::string, Outcome> outcomes_of(const Study& study, const PlanSetting
             const std::string first = item_name(study.protocol, block, a);
             const std::string second = item_name(study.protocol, block, b);
             if (liked == nullptr || (first != liked->name && second != liked->name)) continue;
-            Outcome& outcome = outcomes[first + " against " + second];
+            std::string name = first;
+            Outcome& outcome = outcomes[name.append(" against ").append(second)];
             for (const PairTest& pair : found.pairs)
                 if (pair.first == first && pair.second == second)
                     outcome.found = pair.adjusted_p < kSignificance;

@@ -4,14 +4,14 @@
 
 // libavcodec and its family order their decoding threads with atomics; where libavutil's pool of
 // pictures is not passed over from the start, each 8 bytes of a picture are a report, and a picture
-// takes seconds. libgdal comes with OpenCV's picture readers and writers; it takes two of its own
-// locks in either order while it registers its drivers. libudev's devices are written by libusb's
-// event thread, under a lock, before the thread that lists them reads them. A testbed of
-// libumockdev has a thread of its own, joined with GLib's atomics. Mesa's software driver counts
-// who still needs a fence with atomics, and destroys it when nobody does; it is swrast_dri.so, or
-// in newer ones libgallium. Pango matches fonts on a thread of its own and keeps what Fontconfig
-// found until the program ends. libsrt destroys what its queues still look at when a connection is
-// closed.
+// takes seconds. libavfilter and libswscale unlock what libavutil has locked for them. libgdal
+// comes with OpenCV's picture readers and writers; it takes two of its own locks in either order
+// while it registers its drivers. libudev's devices are written by libusb's event thread, under a
+// lock, before the thread that lists them reads them. A testbed of libumockdev has a thread of its
+// own, joined with GLib's atomics. Mesa's software driver counts who still needs a fence with
+// atomics, and destroys it when nobody does; it is swrast_dri.so, or in newer ones libgallium.
+// Pango matches fonts on a thread of its own and keeps what Fontconfig found until the program
+// ends. libsrt destroys what its queues still look at when a connection is closed.
 extern "C" const char* __tsan_default_suppressions();  // NOLINT: the sanitizer's name
 extern "C" const char* __lsan_default_suppressions();  // NOLINT: the sanitizer's name
 
@@ -22,6 +22,8 @@ extern "C" const char* __tsan_default_suppressions() {  // NOLINT
            "race:libswscale.so\n"
            "called_from_lib:libavcodec.so\n"
            "called_from_lib:libavutil.so\n"
+           "mutex:libavfilter.so\n"
+           "mutex:libswscale.so\n"
            "deadlock:libgdal.so\n"
            "race:libudev.so.1\n"
            "race:libumockdev.so.0\n"
