@@ -81,14 +81,6 @@ void add_playing_options(CLI::App& app, ViewOptions& options) {
     app.add_flag("--full-screen", options.full_screen, "Fills the screen");
 }
 
-/// A person's own damping, instead of what the device needs.
-bool gives_damping(const GivenParameters& given) {
-    return std::any_of(
-        touch_numbers().begin(), touch_numbers().end(), [&](const TouchNumber& number) {
-            return number.topic == TouchTopic::damper && given.value_of(number) != nullptr;
-        });
-}
-
 /// Which then beats what is remembered of the file.
 bool gives_relief(const TouchRequest& touch) {
     return touch.raw_depth || touch.given.fit_relief ||
@@ -378,7 +370,7 @@ int run_view(CLI::App& app, const Arguments& arguments) {
         if (screenshot_name) settings.screenshot_name = *screenshot_name;
         if (stability) settings.stability = *stability;
         if (options.resume) settings.resume = *options.resume;
-        if (gives_damping(touch.given)) settings.damping_as_needed = false;
+        if (touch.given.gives_damping()) settings.damping_as_needed = false;
         options.size_given = size.has_value();
         if (size) std::tie(settings.width, settings.height) = *size;
         if (touch.preset) settings.cleaning.preset = *touch.preset;

@@ -240,6 +240,13 @@ void make_felt(TouchParameters& parameters) {
     if (!(roughness_px > 0.0)) roughness_px = kFelt_px;
 }
 
+bool GivenParameters::gives_damping() const {
+    return std::any_of(touch_numbers().begin(), touch_numbers().end(),
+                       [this](const TouchNumber& number) {
+                           return number.topic == TouchTopic::damper && value_of(number) != nullptr;
+                       });
+}
+
 void GivenParameters::apply_texture(TouchParameters& parameters) const {
     if (material) lay_texture(*material, parameters);
     const auto* const roughness = value_of(number_of(parameters.shape.roughness_px, parameters));

@@ -42,6 +42,8 @@ struct GivenParameters {
 
     /// What was given for that entry of touch_numbers(); null: nothing.
     [[nodiscard]] const double* value_of(const TouchNumber& number) const;
+    /// A damping of its own, instead of what the device needs.
+    [[nodiscard]] bool gives_damping() const;
     /// The file of --bump or of the material; empty: none.
     [[nodiscard]] std::filesystem::path bump_file() const;
     /// What it holds; null: none. Throws InputError.

@@ -1,7 +1,6 @@
 // Wears a condition's values, plays its media, and records.
 #include "app/study/study_surface.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "app/panels/device_state.hpp"
@@ -22,14 +21,6 @@ const std::string& word_of(const TouchValues& values, const char* name) {
     static const std::string none;
     const auto found = values.words.find(name);
     return found == values.words.end() ? none : found->second;
-}
-
-/// A condition's own damping, instead of what the device needs.
-bool gives_damping(const GivenParameters& given) {
-    return std::any_of(
-        touch_numbers().begin(), touch_numbers().end(), [&](const TouchNumber& number) {
-            return number.topic == TouchTopic::damper && given.value_of(number) != nullptr;
-        });
 }
 
 /// All buttons of the grip are answers, but those that take the force off: these stay.
@@ -65,11 +56,9 @@ void StudySurface::wear(const TouchValues& values) {
     const TouchRequest request = request_of(values);
     Settings& settings = state_.settings = own_;
     settings.touch = {};
-    settings.touch.carry = false;
-    settings.others = settings.panes = settings.resume = false;
     settings.fit_relief = settings.fit_pitch = false;
     settings.stability = word_of(values, "stability") != "off";
-    settings.damping_as_needed = !gives_damping(request.given);
+    settings.damping_as_needed = !request.given.gives_damping();
     settings.cleaning = {.preset = request.preset.value_or(CleaningPreset::automatic)};
     settings.finger_mm = request.finger_mm.value_or(0.0);
     request.given.apply(settings.touch);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/panels/device_state.hpp"
+#include "app/viewer/picture_time.hpp"
 #include "app/viewer/scene.hpp"
 #include "app/window/display_loss.hpp"
 #include "core/error.hpp"
@@ -15,14 +16,12 @@ namespace dibhr {
 
 namespace {
 
+constexpr bool kInSync = true;      // with the display
 constexpr float kTextTimes = 1.7F;  // as large as in the viewer
 /// Each interval begins after so long at the least, whatever it takes to make its surface: else the
 /// wait would tell a condition.
 constexpr double kPreparing_s = 0.9;
 constexpr double kLongestPreparing_s = 30.0;
-constexpr auto kPictureTime = std::chrono::nanoseconds(1'000'000'000 / 60);
-constexpr auto kSoftwarePictureTime = std::chrono::nanoseconds(1'000'000'000 / 30);
-constexpr auto kLongestDrawing = std::chrono::seconds(1);
 
 double utc_now_s() {
     return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
@@ -32,11 +31,6 @@ double utc_now_s() {
 WindowSize size_of(const StudyWindowOptions& options) {
     if (options.size) return {options.size->first, options.size->second, std::nullopt};
     return {options.settings.width, options.settings.height, std::nullopt};
-}
-
-std::chrono::nanoseconds shortest_picture(bool sync, bool software) {
-    if (!sync) return std::chrono::nanoseconds(0);
-    return software ? kSoftwarePictureTime : kPictureTime;
 }
 
 /// What is drawn tells nothing of what is felt: no texture, no force, no friction. (The height of
@@ -61,14 +55,13 @@ StudyWindow::StudyWindow(const StudyWindowOptions& options, StudyRun& run, Study
     : run_(run),
       file_(file),
       ending_(ending),
-      window_(size_of(options), options.sync, "dibhr"),
+      window_(size_of(options), kInSync, "dibhr"),
       gui_(window_,
            {kTextTimes * window_.scale(options.settings.ui_scale), options.settings.theme}),
-      pace_(std::chrono::nanoseconds(0)),
       software_(read_limits().software),
+      pace_(shortest_picture(kInSync, software_)),
       surface_(std::move(hand), options.settings,
                {heart_, ending.without_force(), ending.words()}) {
-    pace_ = PicturePace(shortest_picture(options.sync, software_));
     if (software_) let_drawing_give_way();
     window_.on_display_loss([this] { leave_without_display(); });
     ending_.watch_display(display_connection());
@@ -125,13 +118,7 @@ void StudyWindow::show_one_picture() {
     if (over()) return;
     draw(input);
     surface_.hand_over();
-    if (software_) {
-        const auto latest = Clock::now() + kLongestDrawing;
-        wait_for_drawing([&] {
-            beat();
-            return Clock::now() < latest;
-        });
-    }
+    if (software_) beat_while_drawing([this] { beat(); });
     window_.show_picture();
     require_graphics();
     beat();

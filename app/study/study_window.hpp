@@ -27,7 +27,6 @@ namespace dibhr {
 
 struct StudyWindowOptions {
     std::optional<std::pair<int, int>> size{};  ///< nothing: the whole screen
-    bool sync{true};                            ///< with the display
     Settings settings{};  ///< of which the device's, the limit of force and the loudness count
 };
 
@@ -77,8 +76,8 @@ class StudyWindow {
     Window window_;
     Gui gui_;
     SceneView scene_{};
-    PicturePace pace_;
     bool software_;
+    PicturePace pace_;
     Camera camera_{};
     ReliefMouse mouse_{};
     ColourTexture page_picture_{};

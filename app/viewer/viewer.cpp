@@ -11,6 +11,7 @@
 #include "app/panels/device_state.hpp"
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
+#include "app/viewer/picture_time.hpp"
 #include "app/window/display_loss.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/surface.hpp"
@@ -27,15 +28,6 @@ constexpr double kNoticeTime_s = 4.0;
 constexpr double kCatchingUpTime_s = 0.3;  // also of a single tick: else it would flicker
 /// For the sums of large files, when the end is asked for by a signal or there is no display.
 constexpr auto kPatienceAtAnEnd = std::chrono::milliseconds(200);
-constexpr auto kPictureTime = std::chrono::nanoseconds(1'000'000'000 / 60);
-/// A software drawer that takes longer for a picture stands still.
-constexpr auto kLongestDrawing = std::chrono::seconds(1);
-constexpr auto kSoftwarePictureTime = std::chrono::nanoseconds(1'000'000'000 / 30);
-
-std::chrono::nanoseconds shortest_picture(bool sync, bool software) {
-    if (!sync) return std::chrono::nanoseconds(0);
-    return software ? kSoftwarePictureTime : kPictureTime;
-}
 
 std::string text_of(const Standstill& last) {
     const char* const of = last.of == Standstill::Of::window  ? "The window"
@@ -163,16 +155,6 @@ void Viewer::beat() {
     heart_.beat();
 }
 
-/// On a busy machine software takes long, and goes on: the processor's threads draw, while this one
-/// hears of keys only with the next picture.
-void Viewer::beat_while_drawing() {
-    const auto latest = steady_clock::now() + kLongestDrawing;
-    wait_for_drawing([&] {
-        beat();
-        return steady_clock::now() < latest;
-    });
-}
-
 /// Ends what goes on, and writes what is to last, without the window.
 void Viewer::close_without_display() {
     ending_.words().doing("closing without a display");
@@ -252,7 +234,7 @@ void Viewer::show_one_picture() {
     hand_over_settings();
     keep_settings();
     keep_told();
-    if (software_) beat_while_drawing();
+    if (software_) beat_while_drawing([this] { beat(); });
     window_.show_picture();
     require_graphics();
     beat();

@@ -163,7 +163,6 @@ class Viewer {
     [[nodiscard]] bool wants_picture(PictureOf of) const;
     void hand_out(PictureOf of, ColourImage picture);
     void beat();
-    void beat_while_drawing();
     void finish();
     void close_without_display();
     void write_last_picture();

@@ -8,6 +8,14 @@ namespace dibhr {
 
 using Json = nlohmann::ordered_json;
 
+/// A list of what `to_json` makes of each item.
+template <typename Items, typename ToJson>
+[[nodiscard]] Json json_list(const Items& items, ToJson to_json) {
+    Json list = Json::array();
+    for (const auto& item : items) list.push_back(to_json(item));
+    return list;
+}
+
 /// Indented, with a line break at the end. Numbers read back to the same bits; what is not finite
 /// becomes null, and bytes that are no UTF-8 become U+FFFD.
 [[nodiscard]] inline std::string json_text(const Json& json) {

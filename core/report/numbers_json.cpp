@@ -14,13 +14,6 @@ namespace {
 
 constexpr int kReportVersion = 1;  // changes when a name changes its meaning or goes
 
-template <typename Items, typename ToJson>
-Json list_of(const Items& items, ToJson to_json) {
-    Json list = Json::array();
-    for (const auto& item : items) list.push_back(to_json(item));
-    return list;
-}
-
 Json force_json(const ForceSummary& force) {
     return {{"mean_newton", force.mean_newton}, {"peak_newton", force.peak_newton}};
 }
@@ -164,13 +157,13 @@ std::string json_of(const SessionReport& report) {
          {"speed_proxy_mm_per_s", values_json(numbers.proxy_mm_per_s)},
          {"ticks", ticks_json(numbers.ticks)},
          {"episodes", episodes_json(report)},
-         {"heat_maps", list_of(report.maps, map_json)},
+         {"heat_maps", json_list(report.maps, map_json)},
          {"parameters",
-          list_of(session.parameters(),
-                  [&](const SessionParameters& p) { return parameters_json(session, p); })},
-         {"sources", list_of(session.sources(),
-                             [&](const SessionSource& s) { return source_json(session, s); })},
-         {"marks", list_of(session.marks(), mark_json)},
+          json_list(session.parameters(),
+                    [&](const SessionParameters& p) { return parameters_json(session, p); })},
+         {"sources", json_list(session.sources(),
+                               [&](const SessionSource& s) { return source_json(session, s); })},
+         {"marks", json_list(session.marks(), mark_json)},
          {"facts", texts_json(facts_of_hand(session.facts(), hand_of(numbers.ticks)))},
          {"definitions", texts_json(meanings)}});
 }

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -14,24 +13,11 @@
 #include "core/psychophysics/psychometric.hpp"
 #include "core/psychophysics/ranks.hpp"
 #include "core/study/protocol.hpp"
-#include "core/study/study_file.hpp"
+#include "core/study_report/studies.hpp"
 
 namespace dibhr {
 
 inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
-
-/// The files of one protocol, one a participant.
-struct Study {
-    Protocol protocol{};
-    std::vector<StudyRecord> participants{};  ///< by number, then by label
-
-    /// A simulated participant's answers say nothing about people.
-    [[nodiscard]] bool has_pilots() const noexcept;
-};
-
-/// Throws InputError for a file that cannot be read, one of another protocol than the first, and a
-/// label that is there twice.
-[[nodiscard]] Study read_studies(const std::vector<std::filesystem::path>& files);
 
 /// How often something was answered where it could have been.
 struct ShareFinding {

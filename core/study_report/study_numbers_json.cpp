@@ -13,13 +13,6 @@ namespace {
 
 constexpr int kStudyReportVersion = 1;  // changes when a name changes its meaning or goes
 
-template <typename Items, typename ToJson>
-Json json_list(const Items& items, ToJson to_json) {
-    Json list = Json::array();
-    for (const auto& item : items) list.push_back(to_json(item));
-    return list;
-}
-
 Json interval_json(double value, const Interval& interval, double confidence) {
     return {{"value", value},
             {"low", interval.low},

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/app/commands/study_page.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/text.hpp"
@@ -17,16 +18,8 @@ using Json = nlohmann::json;
 
 namespace {
 
-const std::string kTwoAlgorithms = R"(title = "Which <b>was</b> smoother?"
-[base]
-friction = 0.4
-[[condition]]
-name = "smooth-one"
-algorithm = "dibhr"
-[[condition]]
-name = "other-one"
-algorithm = "pga"
-[[block]]
+const std::string kTwoAlgorithms =
+    "title = \"Which <b>was</b> smoother?\"\n" + kTwoConditions + R"([[block]]
 name = "smoother"
 form = "two-interval"
 pairs = "all"

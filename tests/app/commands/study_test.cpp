@@ -10,6 +10,7 @@
 #include "core/metrics/force_variation.hpp"
 #include "core/session/session.hpp"
 #include "core/study/study_file.hpp"
+#include "tests/app/commands/study_page.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/some_of.hpp"
@@ -19,16 +20,7 @@ using namespace dibhr::test;
 
 namespace {
 
-const std::string kPage = R"(title = "T"
-[base]
-friction = 0.4
-[[condition]]
-name = "smooth-one"
-algorithm = "dibhr"
-[[condition]]
-name = "other-one"
-algorithm = "pga"
-[[block]]
+const std::string kPage = "title = \"T\"\n" + kTwoConditions + R"([[block]]
 form = "two-interval"
 pairs = "all"
 question = "Which was smoother?"
