@@ -70,8 +70,9 @@ class TouchRun {
                           "its silhouettes are those of the depth alone");
         std::shared_ptr<const TouchMaps> maps = options.touch.read_maps(media->description());
         using Wanted = DepthInTime::Wanted;
-        const Wanted moving = parameters.carry ? Wanted::all_with_motion : Wanted::all;
-        return {std::move(media), options.video ? moving : Wanted::first, cleaning,
+        const MotionWanted motion{.motion = parameters.carry,
+                                  .in_betweens = options.touch.in_betweens.value_or(false)};
+        return {std::move(media), options.video ? Wanted::all : Wanted::first, cleaning, motion,
                 std::move(maps)};
     }
 
@@ -144,6 +145,7 @@ int run_touch(CLI::App& app, const Arguments& arguments) {
              "FILE");
     add_algorithm_option(app, options.touch.given);
     add_carry_option(app, options.touch.given, "off");
+    add_in_betweens_option(app, options.touch);
     add_touch_options(app, options.touch);
     app.footer(
         "Examples:\n"
@@ -154,6 +156,9 @@ int run_touch(CLI::App& app, const Arguments& arguments) {
     options.touch.given.apply(options.parameters);
     if (options.parameters.carry && !options.video)
         print_warning("--carry on changes nothing over a picture that stands still; give --video");
+    if (options.touch.in_betweens.value_or(false) && !options.video)
+        print_warning(
+            "--in-betweens on changes nothing over a picture that stands still; give --video");
     print_warning(roughness_warning(options.touch.given, !options.touch.given.bump_file().empty()));
     touch_all(options);
     return 0;

@@ -95,8 +95,8 @@ void require_replay_options(const ViewOptions& options, const TouchRequest& touc
     throw UsageError(
         options.open.colour.string() +
         " is a session, which is replayed as it was recorded: leave away a depth "
-        "file, --record, --material, --bump, --maps, --raw-depth, --cleaning, --finger and "
-        "what depth means");
+        "file, --record, --material, --bump, --maps, --raw-depth, --cleaning, --finger, "
+        "--in-betweens and what depth means");
 }
 
 void require_writable_folder(const fs::path& file, const char* option) {
@@ -317,6 +317,7 @@ int run_view(CLI::App& app, const Arguments& arguments) {
     add_algorithm_option(app, touch.given);
     add_touch_options(app, touch);
     add_carry_option(app, touch.given, "off");
+    add_in_betweens_option(app, touch);
     std::optional<bool> stability;
     add_on_off_option(
         app, "--stability",
@@ -376,6 +377,7 @@ int run_view(CLI::App& app, const Arguments& arguments) {
         if (touch.preset) settings.cleaning.preset = *touch.preset;
         if (touch.raw_depth) settings.cleaning.preset = CleaningPreset::raw;
         if (touch.finger_mm) settings.finger_mm = *touch.finger_mm;
+        if (touch.in_betweens) settings.in_betweens = *touch.in_betweens;
         take_fitting(touch, settings);
         options.touch = touch;
         options.open.request = touch.depth_request();

@@ -168,6 +168,9 @@ void draw_cleaning(ViewerState& state) {
                 "Radius of the ball that touches; 0: a point, or as a sidecar says (--finger)",
                 false, unless_chosen.c_str()},
                state.settings.finger_mm);
+    flag_row("In-betweens", state.settings.in_betweens, Settings{}.in_betweens,
+             "Between two frames what moves is on its way, instead of one picture fading into the "
+             "other; a replay then needs the colour, too (--in-betweens)");
     if (!part("Cleaning steps")) return;
     const bool own = cleaning.preset == CleaningPreset::own;
     CleaningSteps steps = own ? cleaning.own : state.playback.steps;
@@ -191,9 +194,6 @@ void draw_cleaning(ViewerState& state) {
         "Rounds the terraces of 8-bit depth, by half a level at most");
     row("Smooth noise", steps.smooth_noise, standard.smooth_noise,
         "Within the noise of the recording; what is beyond it stays");
-    row("In-betweens", steps.in_betweens, standard.in_betweens,
-        "Between two frames what moves is on its way, instead of one picture fading into the "
-        "other; a replay then needs the colour, too");
     if (changed)
         cleaning = {.preset = CleaningPreset::own, .own = steps, .finger = cleaning.finger};
 }

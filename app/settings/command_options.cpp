@@ -200,7 +200,8 @@ Fingertip fingertip_of(double radius_mm, const TouchParameters& parameters) {
 }
 
 bool TouchRequest::asks_for_another_surface() const {
-    return !given.bump_file().empty() || raw_depth || preset || finger_mm || !feels_maps();
+    return !given.bump_file().empty() || raw_depth || preset || finger_mm || in_betweens ||
+           !feels_maps();
 }
 
 std::shared_ptr<const TouchMaps> TouchRequest::read_maps(const MediaDescription& media) const {
@@ -375,6 +376,13 @@ void add_carry_option(CLI::App& app, GivenParameters& given, const std::string& 
                       "on: what moves in the video takes along the proxy that touches it",
                       given.carry)
         ->default_str(otherwise);
+}
+
+void add_in_betweens_option(CLI::App& app, TouchRequest& touch) {
+    add_on_off_option(app, "--in-betweens",
+                      "on: between two frames what moves is on its way, instead of fading",
+                      touch.in_betweens)
+        ->default_str("off");
 }
 
 void add_level_options(CLI::App& app, DepthStatement& depth) {

@@ -65,11 +65,12 @@ struct TouchRequest {
     bool raw_depth{false};                   ///< --raw-depth, or --cleaning raw
     std::optional<CleaningPreset> preset{};  ///< --cleaning
     std::optional<double> finger_mm{};       ///< --finger
+    std::optional<bool> in_betweens{};       ///< --in-betweens
     DepthStatement depth{};                  ///< --near, --depth-unit and so on
     std::optional<bool> maps{};              ///< --maps
 
     [[nodiscard]] DepthRequest depth_request() const;
-    /// By what is no number of the touch: another bump map, cleaning or fingertip.
+    /// By what is no number of the touch: another bump map, cleaning, fingertip or in-betweens.
     [[nodiscard]] bool asks_for_another_surface() const;
     /// For a surface of these parameters, in which a finger has its size; of a media where that
     /// says which finger.
@@ -110,6 +111,9 @@ void add_algorithm_option(CLI::App& app, GivenParameters& given);
 /// --carry on|off; `otherwise` is what it is when it is not given. `given` must outlive the parsing
 /// of `app`.
 void add_carry_option(CLI::App& app, GivenParameters& given, const std::string& otherwise);
+
+/// --in-betweens on|off, off unless it is given. `touch` must outlive the parsing of `app`.
+void add_in_betweens_option(CLI::App& app, TouchRequest& touch);
 
 /// --algorithm NAME, several times. `algorithms` must outlive the parsing of `app`.
 void add_algorithms_option(CLI::App& app, std::vector<Algorithm>& algorithms);

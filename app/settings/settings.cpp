@@ -500,7 +500,8 @@ std::vector<Setting> list_of(Settings& s) {
     add_falcon(list, s.falcon);
     add_inverse3(list, s.inverse3);
     list.insert(list.end(), {{"cleaning", "preset", &s.cleaning.preset},
-                             {"cleaning", "finger", &s.finger_mm, 0.0, kThickestFinger_mm}});
+                             {"cleaning", "finger", &s.finger_mm, 0.0, kThickestFinger_mm},
+                             {"cleaning", "in-betweens", &s.in_betweens}});
     visit_steps(s.cleaning.own, [&list](std::string_view name, bool& step) {
         list.push_back({"cleaning", name, &step});
     });

@@ -72,6 +72,7 @@ struct Settings {
     bool damping_as_needed{true};  ///< with stability: not that of `touch`, but what the hand needs
     CleaningOptions cleaning{};    ///< but for the finger
     double finger_mm{0.0};         ///< radius of the fingertip
+    bool in_betweens{false};       ///< between frames what moves moves, instead of blending
     ReliefLook look{};
     bool straight_view{false};
     bool others{false};             ///< the proxies of the algorithms that do not run are shown

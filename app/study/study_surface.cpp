@@ -61,6 +61,7 @@ void StudySurface::wear(const TouchValues& values) {
     settings.damping_as_needed = !request.given.gives_damping();
     settings.cleaning = {.preset = request.preset.value_or(CleaningPreset::automatic)};
     settings.finger_mm = request.finger_mm.value_or(0.0);
+    settings.in_betweens = request.in_betweens.value_or(false);
     request.given.apply(settings.touch);
     state_.material = request.given.material.value_or(Material{});
     settings.material = state_.material.name;
@@ -150,8 +151,6 @@ void StudySurface::hand_over() {
     const bool same = handed_.version > 0 && same_touch(handed_, asked) &&
                       !falcon_.tuning_changed(state_) && !inverse3_.tuning_changed(state_);
     asked.recording = recording_.active();
-    if (handed_.version == 0 || handed_.parameters.carry != asked.parameters.carry)
-        player_.set_motion(asked.parameters.carry);
     if (!same || handed_.recording != asked.recording) {
         asked.version = handed_.version + (same ? 0 : 1);
         handed_ = asked;
@@ -165,6 +164,9 @@ void StudySurface::hand_over() {
     const double radius_mm = finger_mm_on(state_.media, state_.settings.finger_mm);
     if (radius_mm > 0.0) cleaning.finger = fingertip_of(radius_mm, state_.settings.touch);
     if (!(cleaning_handed_ == cleaning)) player_.set_cleaning(cleaning_handed_ = cleaning);
+    const MotionWanted motion{.motion = state_.settings.touch.carry,
+                              .in_betweens = state_.settings.in_betweens};
+    if (!(motion_handed_ == motion)) player_.set_motion(motion_handed_ = motion);
 }
 
 std::vector<int> StudySurface::take_presses() {

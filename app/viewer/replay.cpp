@@ -52,6 +52,7 @@ void ViewerReplay::begin(std::unique_ptr<OpenedSession> opened, const GivenParam
     if (!player_) {
         touch_ = state.settings.touch;
         cleaning_ = state.settings.cleaning;
+        in_betweens_ = state.settings.in_betweens;
         bump_ = state.bump;
         bump_file_ = state.bump_file;
     }
@@ -84,6 +85,7 @@ void ViewerReplay::end(ViewerState& state) {
     state.replay.reset();
     state.settings.touch = touch_;
     state.settings.cleaning = cleaning_;
+    state.settings.in_betweens = in_betweens_;
     state.bump = std::exchange(bump_, nullptr);
     state.bump_file = bump_file_;
     state.haptic = {};
@@ -133,6 +135,7 @@ void ViewerReplay::show(const SessionMoment& moment, ViewerState& state) {
         const FrameCleaning cleaning = cleaning_of(source);
         state.settings.cleaning = {
             .preset = CleaningPreset::own, .own = cleaning.steps, .finger = cleaning.finger};
+        state.settings.in_betweens = source.in_betweens;
     }
 }
 
@@ -159,6 +162,7 @@ Settings ViewerReplay::lasting(const ViewerState& state) const {
     if (player_) {
         settings.touch = touch_;
         settings.cleaning = cleaning_;
+        settings.in_betweens = in_betweens_;
     }
     return settings;
 }

@@ -582,8 +582,6 @@ void Viewer::hand_over_settings() {
                       !falcon_.tuning_changed(state_) && !inverse3_.tuning_changed(state_);
     asked.recording = recording_.active();
     asked.followed = state_.settings.others;
-    if (handed_.version == 0 || handed_.parameters.carry != asked.parameters.carry)
-        player_.set_motion(asked.parameters.carry);
     if (!same || handed_.recording != asked.recording || handed_.followed != asked.followed) {
         asked.version = handed_.version + (same ? 0 : 1);
         handed_ = asked;
@@ -598,6 +596,9 @@ void Viewer::hand_over_settings() {
         cleaning_handed_ = cleaning;
         player_.set_cleaning(cleaning_handed_);
     }
+    const MotionWanted motion{.motion = state_.settings.touch.carry,
+                              .in_betweens = state_.settings.in_betweens && !state_.as_recorded};
+    if (!(motion_handed_ == motion)) player_.set_motion(motion_handed_ = motion);
 }
 
 /// As the panel says; as recorded while the key for it is held.

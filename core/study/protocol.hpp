@@ -22,7 +22,7 @@ struct TouchValues {
     /// "friction" (both coefficients), "finger" (mm) and the names of touch_numbers().
     std::map<std::string, double> numbers{};
     /// "algorithm", "material", "cleaning", "bump" (a file, absolute), "media" (a name of
-    /// Protocol::media or "sample"), "carry" and "stability" ("on", "off").
+    /// Protocol::media or "sample"), "carry", "in-betweens" and "stability" ("on", "off").
     std::map<std::string, std::string> words{};
 
     bool operator==(const TouchValues&) const = default;

@@ -121,7 +121,7 @@ class ProtocolReading {
         else if (const auto material = table.text("material"))
             values.words["material"] = *material;
         if (const auto bump = table.text("bump")) values.words["bump"] = beside(*bump).string();
-        for (const char* const name : {"carry", "stability"})
+        for (const char* const name : {"carry", "in-betweens", "stability"})
             if (table.node(name) != nullptr)
                 values.words[name] = table.yes(name, false) ? "on" : "off";
         require_friction(table, laid_over(base_, values));

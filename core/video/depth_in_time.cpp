@@ -18,10 +18,11 @@ constexpr double kShortestLap_s = 1e-4;  ///< a shorter one is taken for a file 
 }  // namespace
 
 DepthInTime::DepthInTime(std::unique_ptr<Media> media, Wanted wanted,
-                         const CleaningOptions& cleaning, std::shared_ptr<const TouchMaps> maps)
+                         const CleaningOptions& cleaning, const MotionWanted& motion,
+                         std::shared_ptr<const TouchMaps> maps)
     : reader_(std::move(media)) {
     reader_.set_maps(std::move(maps));
-    reader_.set_motion(wanted == Wanted::all_with_motion);
+    reader_.set_motion(motion);
     const std::string name = reader_.description().depth_path.string();
     reader_.set_cleaning(cleaning);
     std::optional<Frame> first = reader_.at(0.0);
@@ -126,7 +127,6 @@ DepthClip read_depth_clip(std::unique_ptr<Media> media, const CleaningOptions& c
     std::vector<Frame> frames;
     for (auto frame = reader.at(0.0); frame; frame = reader.after(frames.back().media_s)) {
         frame->time_s = frame->media_s;
-        if (!frames.empty()) reader.connect(frames.back(), *frame);
         frames.push_back(std::move(*frame));
         if (progress) progress(static_cast<double>(frames.size()) / count);
     }

@@ -19,14 +19,14 @@ namespace dibhr {
 /// its last frame lasting as long as the one before it.
 class DepthInTime {
   public:
-    /// How much is wanted: the first frame and what it is cleaned with, all of them, or also how
-    /// each moves where no in-betweens tell.
-    enum class Wanted { first, all, all_with_motion };
+    /// How much is wanted: the first frame and what it is cleaned with, or all of them.
+    enum class Wanted { first, all };
 
-    /// Reads the first frame. `maps` lie on every frame; null: none. Throws InputError when there
-    /// is none or it is smaller than 2 x 2.
+    /// Reads the first frame. `motion` is found out of all that follow each other. `maps` lie on
+    /// every frame; null: none. Throws InputError when there is no frame or it is smaller than
+    /// 2 x 2.
     DepthInTime(std::unique_ptr<Media> media, Wanted wanted, const CleaningOptions& cleaning,
-                std::shared_ptr<const TouchMaps> maps = nullptr);
+                const MotionWanted& motion = {}, std::shared_ptr<const TouchMaps> maps = nullptr);
 
     /// Goes on to `playback_s`, which must not fall from call to call. True when the video started
     /// again on the way. Throws InputError when the file breaks off.

@@ -244,10 +244,7 @@ void FrameReader::make_plan() {
     }
     const std::size_t pixels = static_cast<std::size_t>(description().depth_columns) *
                                static_cast<std::size_t>(description().depth_rows);
-    CleaningPlan plan = plan_of(options_, noise_.value_or(DepthNoise{}), pixels);
-    // Of depth alone motion is known too badly, unless somebody asks for it.
-    if (options_.preset == CleaningPreset::automatic && description().colour_path.empty())
-        plan.steps.in_betweens = false;
+    const CleaningPlan plan = plan_of(options_, noise_.value_or(DepthNoise{}), pixels);
     if (!same_alone(plan.steps, plan_.steps)) {
         kept_.clear();
         jump_to(0.0);
@@ -459,8 +456,8 @@ void FrameReader::rest_from_motion() {
 void FrameReader::connect(Frame& from, const Frame& next) {
     const bool follows = next.media_s > from.media_s && next.index - from.index <= kMostApart;
     if (motion_rests_ > 0) --motion_rests_;
-    MotionWanted wanted{motion_wanted_, plan_.steps.in_betweens};
-    if (!follows || motion_rests_ > 0) wanted = {};
+    const bool rests = !follows || motion_rests_ > 0;
+    const MotionWanted wanted = rests ? MotionWanted{} : motion_wanted_;
     moved_ = wanted.any();
     const auto begin = Clock::now();
     motion_.connect(from, next, wanted);

@@ -61,8 +61,8 @@ class FrameReader {
     /// the other: its motion and what is between them, where that is wanted and this machine has
     /// time for it. Nothing is known of frames that are not next to each other in the file.
     void connect(Frame& from, const Frame& next);
-    /// Whether motion is wanted where no in-betweens are.
-    void set_motion(bool wanted) { motion_wanted_ = wanted; }
+    /// What connect() finds out from here on.
+    void set_motion(const MotionWanted& wanted) { motion_wanted_ = wanted; }
 
     /// From here on frames come cleaned so; those given out before are asked for again.
     void set_cleaning(const CleaningOptions& options);
@@ -183,7 +183,7 @@ class FrameReader {
     std::int64_t passed_over_{0};
     int in_time_{0};  ///< frames since one was passed over
     FrameMotion motion_{};
-    bool motion_wanted_{false};
+    MotionWanted motion_wanted_{};
     bool moved_{false};    ///< the last frame was connected
     int motion_rests_{0};  ///< for so many frames: this machine is too slow for it
     int next_rest_{kFirstRest};

@@ -149,9 +149,14 @@ void Playback::set_cleaning(const CleaningOptions& options) {
     cleaning_ = options;
 }
 
-void Playback::set_motion(bool wanted) {
+void Playback::set_motion(const MotionWanted& wanted) {
+    const bool other_surface = wanted.in_betweens != motion_wanted_.in_betweens;
     motion_wanted_ = wanted;
-    if (is_open()) reader_->set_motion(wanted);
+    if (!is_open()) return;
+    reader_->set_motion(wanted);
+    if (!other_surface || frames_.size() < 2) return;
+    for (std::size_t k = 0; k + 1 < frames_.size(); ++k) reader_->connect(frames_[k], frames_[k + 1]);
+    ++discontinuity_;
 }
 
 void Playback::set_maps(const std::shared_ptr<const TouchMaps>& maps) {

@@ -37,8 +37,9 @@ class Playback {
     void set_part(const std::optional<MediaPart>& part);
     void set_speed(double speed, Time now);
     void set_cleaning(const CleaningOptions& options);
-    /// Whether the motion of frames is wanted where no in-betweens are; of those read from now on.
-    void set_motion(bool wanted);
+    /// What is to be found out of the time between frames: of those read from now on, but
+    /// in-betweens of all at once.
+    void set_motion(const MotionWanted& wanted);
     /// Lays them on all frames at once; null: none.
     void set_maps(const std::shared_ptr<const TouchMaps>& maps);
 
@@ -106,7 +107,7 @@ class Playback {
     std::deque<Frame> frames_{};  ///< from the shown one on
     PlaybackClock clock_{};
     CleaningOptions cleaning_{};
-    bool motion_wanted_{false};
+    MotionWanted motion_wanted_{};
     std::uint64_t discontinuity_{0};
     double first_media_s_{0.0};
     double offset_s_{0.0};              ///< from media time to playback time, on this lap

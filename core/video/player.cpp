@@ -329,7 +329,7 @@ void Player::set_cleaning(const CleaningOptions& options) {
                           Kind::cleaning});
 }
 
-void Player::set_motion(bool wanted) {
+void Player::set_motion(const MotionWanted& wanted) {
     implementation_->ask({[player = implementation_.get(), wanted](Playback& playback, Time) {
         player->live.set_motion(wanted);
         playback.set_motion(wanted);

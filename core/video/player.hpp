@@ -13,6 +13,7 @@
 #include "core/video/live/live_record.hpp"
 #include "core/video/live/live_status.hpp"
 #include "core/video/media.hpp"
+#include "core/video/motion/motion_wanted.hpp"
 
 namespace dibhr {
 
@@ -64,8 +65,8 @@ class Player {
     void set_part(const std::optional<MediaPart>& part);
     void set_speed(double speed);  ///< kSlowestSpeed .. kFastestSpeed
     void set_cleaning(const CleaningOptions& options);
-    /// Whether the motion of frames is wanted where no in-betweens are.
-    void set_motion(bool wanted);
+    /// What is to be found out of the time between frames.
+    void set_motion(const MotionWanted& wanted);
     /// Lays them on the media that was given last; null: none.
     void set_maps(std::shared_ptr<const TouchMaps> maps);
 

@@ -18,7 +18,6 @@ struct CleaningSteps {
     bool steady{false};               ///< what does not move keeps its level, frame after frame
     bool smooth_steps{false};         ///< 8-bit terraces, within half a level of the data
     bool smooth_noise{false};         ///< within the noise of the recording
-    bool in_betweens{false};          ///< between frames, what moves moves instead of blending
 
     bool operator==(const CleaningSteps&) const = default;
 };
@@ -33,7 +32,6 @@ void visit_steps(Steps& steps, const Visit& visit) {
     visit("steady", steps.steady);
     visit("smooth-steps", steps.smooth_steps);
     visit("smooth-noise", steps.smooth_noise);
-    visit("in-betweens", steps.in_betweens);
 }
 
 /// Nothing: levels as they are in the file, no data the farthest.

@@ -220,9 +220,8 @@ Frame LivePlayback::cleaned_frame(const RawFrame& raw) {
 
 /// How the one before becomes this one, whose cleaning began then.
 void LivePlayback::connect(const Frame& next, Time begin) {
-    const MotionWanted wanted{motion_wanted_, plan_.steps.in_betweens};
-    if (!wanted.any() || !clock_.goes_on_to(last_stamp_s_, frames_)) return;
-    const MotionWanted affordable = budget_.affordable(wanted);
+    if (!motion_wanted_.any() || !clock_.goes_on_to(last_stamp_s_, frames_)) return;
+    const MotionWanted affordable = budget_.affordable(motion_wanted_);
     motion_.connect(frames_.back(), next, affordable);
     cleaned_ = std::chrono::steady_clock::now();
     budget_.took(affordable, seconds_between(begin, cleaned_), clock_.interval_s());
@@ -307,9 +306,9 @@ LiveStatus LivePlayback::status(Time now) const {
     status.trouble = signal.trouble;
     status.opened = opened_;
     status.media = frames_.empty() ? 0 : frames_.front().media;
-    status.motion_rests = motion_wanted_ && budget_.motion_rests();
+    status.motion_rests = motion_wanted_.motion && budget_.motion_rests();
     status.in_betweens_rest =
-        plan_.steps.in_betweens && (budget_.in_betweens_rest() || budget_.motion_rests());
+        motion_wanted_.in_betweens && (budget_.in_betweens_rest() || budget_.motion_rests());
     status.noise = noise_.value_or(DepthNoise{});
     return status;
 }

@@ -40,8 +40,8 @@ class LivePlayback {
     void pause(Time now);  ///< the surface stays as it is
     [[nodiscard]] bool playing() const { return playing_; }
     void set_cleaning(const CleaningOptions& options, Time now);
-    /// Whether the motion of frames is wanted where no in-betweens are.
-    void set_motion(bool wanted) { motion_wanted_ = wanted; }
+    /// What is to be found out of the time between the frames that come from now on.
+    void set_motion(const MotionWanted& wanted) { motion_wanted_ = wanted; }
     void set_maps(std::shared_ptr<const TouchMaps> maps);
     /// From the one that is there on frames carry that number, their presentation times count from
     /// it, and what was before it is forgotten: it is the first one of a file. Empty: no more.
@@ -85,7 +85,7 @@ class LivePlayback {
     NoiseMeter meter_{};
     std::size_t measured_{0};  ///< frames
     std::optional<DepthNoise> noise_{};
-    bool motion_wanted_{false};
+    MotionWanted motion_wanted_{};
     MotionBudget budget_{};
     FrameMotion motion_{};
     LiveClock clock_{};

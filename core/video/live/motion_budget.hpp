@@ -1,7 +1,7 @@
 // Whether there is time to find out how live frames move.
 #pragma once
 
-#include "core/video/motion/frame_motion.hpp"
+#include "core/video/motion/motion_wanted.hpp"
 
 namespace dibhr {
 

@@ -4,17 +4,9 @@
 #include "core/video/frame_window.hpp"
 #include "core/video/motion/in_betweens.hpp"
 #include "core/video/motion/motion_estimator.hpp"
+#include "core/video/motion/motion_wanted.hpp"
 
 namespace dibhr {
-
-/// What is wanted of it.
-struct MotionWanted {
-    bool motion{false};
-    bool in_betweens{false};  ///< of which motion is a part
-
-    [[nodiscard]] bool any() const noexcept { return motion || in_betweens; }
-    bool operator==(const MotionWanted&) const = default;
-};
 
 /// The same two frames give the same bits. One thread at a time.
 class FrameMotion {

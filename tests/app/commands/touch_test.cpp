@@ -328,6 +328,7 @@ TEST_CASE("carry is off unless it is asked for, and a picture that stands still 
     const ProgramResult still = touched({"--carry", "on"});
     CHECK(contains(still.errors, "--carry on changes nothing"));
     CHECK(contains(still.errors, "--video"));
+    CHECK(contains(touched({"--in-betweens", "on"}).errors, "--in-betweens on changes nothing"));
     CHECK(run_dibhr(folder,
                     {"touch", "--depth", "depth.mkv", "--goals", "goals.csv", "--carry", "maybe"})
               .exit_code == 2);
@@ -370,6 +371,37 @@ TEST_CASE("with carry a finger that sticks is dragged along by what moves, and f
     const Row stays = last("off");
     CHECK(stays.number("px") == 160.0);
     CHECK(stays.number("fx") == 0.0);
+}
+
+TEST_CASE("with in-betweens an outline passes under a finger as one step, else it fades", "[touch]") {
+    const TemporaryFolder folder;
+    // A bright square that goes to the right by 8 px a frame, over a plane far below.
+    run_shell(folder,
+              "ffmpeg -nostdin -v error -f lavfi -i 'color=gray:s=80x80:d=0.04,noise=alls=90,"
+              "gblur=sigma=1.5' -frames:v 1 square.png && "
+              "ffmpeg -nostdin -v error -f lavfi -i color=0x303030:s=320x240:r=30:d=0.5 -loop 1 "
+              "-framerate 30 -t 0.5 -i square.png -filter_complex "
+              "'overlay=x=60+8*n:y=80' -pix_fmt yuv444p -c:v ffv1 color.mkv && "
+              "ffmpeg -nostdin -v error -f lavfi -i color=0x101010:s=320x240:r=30:d=0.5 -f lavfi "
+              "-i color=0xd0d0d0:s=80x80:r=30:d=0.5 -filter_complex "
+              "'overlay=x=60+8*n:y=80,format=gray' -c:v ffv1 depth.mkv");
+    // Under x = 160 the square's front comes between frames 2 and 3, at 76 ms.
+    std::vector<Vec3> goals(100, Vec3{160, 120, 10});
+    write_text(folder / "goals.csv", goals_csv(goals));
+    const auto updates_between = [&](const std::string& in_betweens) {
+        const ProgramResult result =
+            run_dibhr(folder, {"touch", "--raw-depth", "--depth", "depth.mkv", "--color",
+                               "color.mkv", "--video", "--goals", "goals.csv", "--friction", "1",
+                               "--relief", "255", "--in-betweens", in_betweens});
+        INFO(result.errors);
+        REQUIRE(result.exit_code == 0);
+        const std::vector<Row> rows = rows_of(result.output);
+        return std::count_if(rows.begin(), rows.end(), [](const Row& row) {
+            return row.number("pz") > 30.0 && row.number("pz") < 190.0;
+        });
+    };
+    CHECK(updates_between("off") > 20);  // of the 33 ms of a frame
+    CHECK(updates_between("on") < 12);   // of a step on its way by 2 px at a time
 }
 
 TEST_CASE("a finished output file replaces the old one and leaves nothing beside it", "[touch]") {

@@ -33,7 +33,7 @@ using Goes = MovingScene::Goes;
 namespace {
 
 constexpr MotionWanted kInBetweens{.motion = true, .in_betweens = true};
-constexpr CleaningOptions kCleaning{.preset = CleaningPreset::own, .own = {.in_betweens = true}};
+constexpr CleaningOptions kRaw{.preset = CleaningPreset::raw};
 
 /// Two frames of a scene, connected.
 struct Pair {
@@ -237,7 +237,8 @@ TEST_CASE("a fingertip is felt over what is on its way", "[in-betweens]") {
 
 TEST_CASE("frames of a video are connected to those that follow them", "[in-betweens]") {
     FrameReader reader(waving_hand());
-    reader.set_cleaning(kCleaning);
+    reader.set_cleaning(kRaw);
+    reader.set_motion(kInBetweens);
     auto first = reader.at(0.0);
     REQUIRE(first);
     auto second = reader.after(first->media_s);
@@ -253,21 +254,12 @@ TEST_CASE("frames of a video are connected to those that follow them", "[in-betw
         CHECK(second->between == nullptr);
     }
     SECTION("only if that is asked for") {
-        reader.set_cleaning({.preset = CleaningPreset::gentle});
-        first = reader.at(0.0);
-        second = reader.after(first->media_s);
+        reader.set_motion({});
         reader.connect(*first, *second);
         CHECK(first->motion == nullptr);
-        reader.set_motion(true);
+        reader.set_motion({.motion = true});
         reader.connect(*first, *second);
         CHECK(first->motion);
-        CHECK(first->between == nullptr);
-    }
-    SECTION("not among those that the clip asks for") {
-        reader.set_cleaning({});
-        first = reader.at(0.0);
-        second = reader.after(first->media_s);
-        reader.connect(*first, *second);
         CHECK(first->between == nullptr);
     }
     SECTION("anew to the same bits, as a replay does") {
@@ -285,7 +277,8 @@ TEST_CASE("frames of a video are connected to those that follow them", "[in-betw
 TEST_CASE("what plays is felt and seen on its way", "[in-betweens]") {
     const auto now = Playback::Time{} + std::chrono::seconds(1);
     Playback playback;
-    playback.set_cleaning(kCleaning);
+    playback.set_cleaning(kRaw);
+    playback.set_motion(kInBetweens);
     playback.open(std::make_unique<FrameReader>(waving_hand()), now);
     while (playback.needs_frame())
         if (playback.read_ahead(now)) playback.arrived(now);
@@ -297,6 +290,26 @@ TEST_CASE("what plays is felt and seen on its way", "[in-betweens]") {
     const DepthBlend shown = window.at(half_s).shown();
     CHECK(shown.from != &window.frames[0]);
     CHECK(window.at(half_s).coloured().colour != window.frames[0].colour);
+}
+
+TEST_CASE("in-betweens come and go with the frames that are there, as another surface",
+          "[in-betweens]") {
+    const auto now = Playback::Time{} + std::chrono::seconds(1);
+    Playback playback;
+    playback.set_cleaning(kRaw);
+    playback.open(std::make_unique<FrameReader>(waving_hand()), now);
+    while (playback.needs_frame())
+        if (playback.read_ahead(now)) playback.arrived(now);
+    const FrameWindow faded = playback.window();
+    CHECK(faded.frames[0].between == nullptr);
+    playback.set_motion(kInBetweens);
+    const FrameWindow moved = playback.window();
+    CHECK(moved.frames[0].between);
+    CHECK(moved.discontinuity != faded.discontinuity);
+    playback.set_motion({.motion = true});
+    CHECK(playback.window().frames[0].between == nullptr);
+    CHECK(playback.window().frames[0].motion);
+    CHECK(playback.window().discontinuity != moved.discontinuity);
 }
 
 namespace {
@@ -412,7 +425,7 @@ TEST_CASE("an update over in-betweens takes no more than half as long again", "[
 #endif
 
 TEST_CASE("runs without a clock have them, too", "[in-betweens]") {
-    DepthInTime depth(waving_hand(), DepthInTime::Wanted::all, kCleaning);
+    DepthInTime depth(waving_hand(), DepthInTime::Wanted::all, kRaw, kInBetweens);
     depth.advance_to(0.05);
     CHECK(depth.now().from->between);
     CHECK(depth.now().shown().from != depth.now().from);

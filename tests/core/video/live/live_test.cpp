@@ -459,7 +459,7 @@ TEST_CASE("how live frames move is known as they come, where it is wanted", "[li
     player.play_media(open_media(scene, {}, request), 1);
     REQUIRE(soon([&] { return player.haptics().front().count > 1; }));
     CHECK(player.haptics().front().frames[0].motion == nullptr);  // nobody asked for it
-    player.set_motion(true);
+    player.set_motion({.motion = true});
     REQUIRE(soon([&] {
         const FrameWindow& window = player.haptics().front();
         return window.count > 1 && window.frames[0].motion != nullptr;
@@ -473,7 +473,8 @@ TEST_CASE("how live frames move is known as they come, where it is wanted", "[li
     std::sort(rights.begin(), rights.end());
     CHECK_THAT(static_cast<double>(rights[rights.size() / 2]), WithinAbs(3.0, 0.1));
     CHECK(moving.between == nullptr);
-    player.set_cleaning({.preset = CleaningPreset::own, .own = {.in_betweens = true}});
+    player.set_cleaning({.preset = CleaningPreset::raw});
+    player.set_motion({.in_betweens = true});
     CHECK(soon([&] {
         const FrameWindow& window = player.haptics().front();
         return window.count > 1 && window.frames[0].between != nullptr;
