@@ -31,10 +31,10 @@ void tell(const inverse3::GripStatus& grip) {
 void tell(const SurveyedArm& arm) {
     std::cout << name_of(arm) << ": " << (arm.usable() ? "usable, " : "not usable yet, ")
               << arm.sentence << '\n';
-    for (const auto& [name, value] : arm.kept) {
-        std::cout << "  " << name << " (kept by the service, not changed by dibhr): " << value
-                  << '\n';
-    }
+    if (arm.kept.empty()) return;
+    std::cout << "  kept by the service for all programs, not changed by dibhr:\n";
+    for (const inverse3::KeptSetting& kept : arm.kept)
+        std::cout << "    " << kept.name << ": " << kept.words << '\n';
 }
 
 }  // namespace

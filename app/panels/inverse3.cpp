@@ -83,6 +83,14 @@ void draw_workspace(ViewerState& state) {
     draw_device_numbers(inverse3_numbers(), Inverse3Topic::workspace, settings);
 }
 
+/// Of all programs: dibhr shows it.
+void draw_kept(const std::vector<inverse3::KeptSetting>& kept) {
+    for (const inverse3::KeptSetting& one : kept) {
+        quiet_text(capitalised(one.name) + ": " + one.words);
+        explain("The service keeps it for all programs; dibhr does not change it");
+    }
+}
+
 void draw_service(Inverse3Settings& settings) {
     choice_row("Forces spelled", kDialectWords, settings.dialect,
                "Sources differ on how the service wants a force. By its version is tried first, "
@@ -120,7 +128,9 @@ void draw_inverse3_settings(ViewerState& state) {
     Inverse3Settings& settings = state.settings.inverse3;
     if (part("Inverse3 workspace")) draw_workspace(state);
     if (part("Inverse3 buttons")) draw_grip_buttons(kInverse3Grip, settings.buttons);
-    if (part("Inverse3 service")) draw_service(settings);
+    if (!part("Inverse3 service")) return;
+    draw_kept(state.inverse3->kept);
+    draw_service(settings);
 }
 
 }  // namespace dibhr

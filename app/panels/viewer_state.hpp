@@ -31,6 +31,7 @@
 #include "core/video/player.hpp"
 #include "device/falcon/status.hpp"
 #include "device/hand/pose_ages.hpp"
+#include "device/inverse3/kept_settings.hpp"
 #include "device/inverse3/status.hpp"
 
 namespace dibhr {
@@ -305,6 +306,7 @@ struct Inverse3News {
     inverse3::Status status{};
     PoseAges ages{};         ///< since the start of the program
     PoseAges recent_ages{};  ///< of about the last second
+    std::vector<inverse3::KeptSetting> kept{};
     bool asked{false};       ///< the status is the device's answer; before, anything may be
     bool was_ready{false};   ///< in this run: when it is not now, it was lost
 };

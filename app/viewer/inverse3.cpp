@@ -1,6 +1,8 @@
 // The window thread's end of the Inverse3.
 #include "app/viewer/inverse3.hpp"
 
+#include <utility>
+
 namespace dibhr {
 
 namespace {
@@ -50,6 +52,19 @@ void ViewerInverse3::hand_over(const ViewerState& state) {
     if (device_ == nullptr) return;
     handed_ = tuning_in(state);
     device_->tuning().publish(handed_);
+}
+
+void ServiceSettings::follow(ViewerState& state) {
+    if (!state.inverse3) return;
+    Inverse3News& news = *state.inverse3;
+    if (auto kept = asking_.take()) news.kept = std::move(*kept);
+    if (news.status.id == device_ || asking_.under_way()) return;
+    device_ = news.status.id;
+    news.kept.clear();
+    if (device_.empty()) return;
+    asking_.start([connection = connection_of(state.settings.inverse3), device = device_] {
+        return ask_kept_settings(connection, device);
+    });
 }
 
 }  // namespace dibhr

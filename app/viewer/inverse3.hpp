@@ -8,6 +8,7 @@
 
 #include "app/panels/viewer_state.hpp"
 #include "app/settings/keys.hpp"
+#include "app/viewer/errand.hpp"
 #include "app/viewer/stage_news.hpp"
 #include "device/hand/pose_ages.hpp"
 #include "device/hand_device.hpp"
@@ -42,6 +43,20 @@ class ViewerInverse3 {
     StageNews<inverse3::Stage> stages_{};
     PoseAges told_ages_{};  // of the second before this one
     std::chrono::steady_clock::time_point second_begin_{};
+};
+
+/// What the service keeps of the device: asked once for each that comes, away from the window's
+/// thread.
+class ServiceSettings {
+  public:
+    explicit ServiceSettings(Errands& errands) : asking_(errands) {}
+
+    /// Once a picture, after ViewerInverse3::take_news().
+    void follow(ViewerState& state);
+
+  private:
+    std::string device_{};  ///< that was asked of last
+    Errand<std::vector<inverse3::KeptSetting>> asking_;
 };
 
 }  // namespace dibhr

@@ -84,6 +84,7 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
       state_{.settings = options.settings, .keys = KeyTable(options.settings.keys)},
       falcon_(hand_, state_),
       inverse3_(hand_, state_),
+      service_settings_(errands),
       opening_(errands),
       clip_(errands),
       estimating_(errands),
@@ -259,6 +260,7 @@ void Viewer::take_news() {
     notice_standstill();
     if (const auto notice = falcon_.take_news(state_)) tell(*notice);
     if (const auto notice = inverse3_.take_news(state_)) tell(*notice);
+    service_settings_.follow(state_);
     for (const Action action : falcon_.take_presses(state_)) perform(action);
     for (const Action action : inverse3_.take_presses(state_)) perform(action);
     state_.touched = state_.touched || state_.haptic.touch.proxy.contact;

@@ -208,6 +208,7 @@ class Viewer {
     ViewerState state_{};
     ViewerFalcon falcon_;
     ViewerInverse3 inverse3_;
+    ServiceSettings service_settings_;
     Errand<Opened> opening_;
     Screenshots screenshots_{};
     ViewerClip clip_;

@@ -2,7 +2,6 @@
 #include "device/inverse3/survey.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 
 #include "device/inverse3/arm_watch.hpp"
@@ -40,35 +39,6 @@ bool read_inventory(const ConnectionOptions& options, ServiceMessage& message) {
     return understood;
 }
 
-/// A short line of whatever the service answers; empty: nothing.
-std::string kept_value(const ConnectionOptions& options, const std::string& target) {
-    constexpr std::size_t kLongest = 80;
-    try {
-        std::string text = http_get(options.port, target, in(milliseconds(300)));
-        std::replace_if(
-            text.begin(), text.end(), [](unsigned char c) { return c < 0x20; }, ' ');
-        return text.size() > kLongest ? text.substr(0, kLongest) + "..." : text;
-    } catch (const LinkError&) {
-        return {};
-    }
-}
-
-std::vector<std::pair<std::string, std::string>> kept_for(const ConnectionOptions& options,
-                                                          const std::string& id) {
-    const std::string config = "/inverse3/" + id + "/config/";
-    const std::array<std::pair<const char*, std::string>, 4> questions{
-        {{"gravity compensation", config + "gravity_compensation"},
-         {"torque scaling", config + "torque_scaling"},
-         {"filters", config + "filters"},
-         {"force scale", "/settings/devices/force_scale"}}};
-    std::vector<std::pair<std::string, std::string>> kept;
-    for (const auto& [name, target] : questions) {
-        std::string value = kept_value(options, target);
-        if (!value.empty()) kept.emplace_back(name, std::move(value));
-    }
-    return kept;
-}
-
 SurveyedArm surveyed(const Arm& arm, const ConnectionOptions& options) {
     ArmWatch watch;
     watch.add(arm, {});
@@ -83,7 +53,7 @@ SurveyedArm surveyed(const Arm& arm, const ConnectionOptions& options) {
     status.id = found.id;
     status.minverse = found.minverse;
     found.sentence = sentence_for(found.stage, status);
-    found.kept = kept_for(options, found.id);
+    found.kept = ask_kept_settings(options, found.id);
     return found;
 }
 

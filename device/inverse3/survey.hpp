@@ -2,9 +2,9 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "device/inverse3/kept_settings.hpp"
 #include "device/inverse3/status.hpp"
 
 namespace dibhr::inverse3 {
@@ -15,9 +15,7 @@ struct SurveyedArm {
     Handedness handedness{Handedness::unknown};
     Stage stage{Stage::looking};
     std::string sentence{};  ///< what is, and what to do next
-    /// What the service keeps for all programs, such as gravity compensation: name and value, as
-    /// far as it answers. Shown, never changed.
-    std::vector<std::pair<std::string, std::string>> kept{};
+    std::vector<KeptSetting> kept{};
 
     [[nodiscard]] bool usable() const noexcept { return stage == Stage::ready; }
 };

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "device/inverse3/kept_settings.hpp"
 #include "device/inverse3/message.hpp"
 #include "device/inverse3/order.hpp"
 #include "tests/fuzz/entry.hpp"
@@ -41,6 +42,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                        "what was read before changes nothing");
     test::require_rule(understood || message.arm_count + message.grip_count == 0,
                        "nothing is known of what is not understood");
+    test::require_rule(words_of_setting(text).size() < 200, "a setting is told in a line");
     OrderWriter writer;
     for (std::size_t k = 0; k < message.arm_count; ++k) {
         require_safe(message.arms[k]);

@@ -46,6 +46,11 @@ constexpr std::array kSteps{
           "not give way, and set it to zero; hands and hair away. Any key lets go.",
           true},
          check_force},
+    Step{{"unplugged", "Unplugged and plugged in again",
+          "You move the grip about, pull its USB cable out for some seconds, and plug it in again. "
+          "No force.",
+          true},
+         check_unplugged},
 };
 
 }  // namespace

@@ -19,6 +19,8 @@ struct CheckTimes {
 
     Span rate{3000};      ///< of one measurement of the rate
     Span moving{10'000};  ///< while the person moves the grip about
+    Span unplugging{60'000};  ///< while the person pulls the cable out and plugs it in again
+    Span frozen{500};     ///< a position that stays for so long while the grip is moved
     Span ramp{500};       ///< up to a force
     Span hold{3000};      ///< of a force on the scale, at most
     Span dialect{700};    ///< of the weak force in each dialect

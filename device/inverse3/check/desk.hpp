@@ -23,19 +23,23 @@ enum class OpenQuestion : std::size_t {
     step,
     workspace,
     dialect,
+    in_use,
     silence,
-    force
+    force,
+    unplugged
 };
 
-inline constexpr std::array<CheckQuestion, 8> kQuestions{{
+inline constexpr std::array<CheckQuestion, 10> kQuestions{{
     {"service", "Version and devices"},
     {"rate", "Exchanges a second, and how long one takes"},
     {"device-rate", "New positions a second"},
     {"step", "Smallest step of the position"},
     {"workspace", "Workspace"},
     {"dialect", "How a force is spelled"},
+    {"in-use", "Whom in_use means"},
     {"silence", "The force without a new message"},
     {"force", "Force at the grip"},
+    {"unplugged", "The entry of an unplugged device"},
 }};
 
 /// While the person thinks, the device is asked for its pose alone.
@@ -68,5 +72,6 @@ void check_moving(CheckDesk& desk, Json& measured);
 void check_dialect(CheckDesk& desk, Json& measured);
 void check_silence(CheckDesk& desk, Json& measured);
 void check_force(CheckDesk& desk, Json& measured);
+void check_unplugged(CheckDesk& desk, Json& measured);
 
 }  // namespace dibhr::inverse3

@@ -57,6 +57,61 @@ struct Positions {
     Vec3 last_mm_{0.0};
 };
 
+/// What the service tells of a device while its cable is out.
+struct Absence {
+    using Clock = CheckTalk::Clock;
+    using Seconds = std::chrono::duration<double>;
+
+    Seconds gone{0.0};    ///< longest time without an entry
+    Seconds frozen{0.0};  ///< and with one whose position stayed
+    bool not_powered{false}, not_calibrated{false}, not_ready{false};  ///< told meanwhile
+    bool is_back{true};
+
+    void add(const std::optional<Arm>& arm, Clock::time_point now) {
+        is_back = arm.has_value();
+        if (!arm) {
+            gone = std::max<Seconds>(gone, now - seen_);
+            moved_ = now;
+            return;
+        }
+        seen_ = now;
+        not_powered = not_powered || !arm->powered;
+        not_calibrated = not_calibrated || !arm->calibrated;
+        not_ready = not_ready || arm->locked;
+        const Vec3 position_m = arm->position_m.value_or(last_m_);
+        if (position_m != last_m_) moved_ = now;
+        last_m_ = position_m;
+        frozen = std::max<Seconds>(frozen, now - moved_);
+    }
+
+    [[nodiscard]] std::string in_words(Seconds counts_as_frozen) const {
+        std::string words;
+        const auto say = [&words](const std::string& more) {
+            words += (words.empty() ? "" : ", ") + more;
+        };
+        if (gone.count() > 0.0) say("it goes (" + number_text(gone.count(), 1) + " s)");
+        if (frozen > counts_as_frozen)
+            say("it stays, frozen (" + number_text(frozen.count(), 1) + " s)");
+        if (not_powered) say("told to have no power");
+        if (not_calibrated) say("told not to be calibrated");
+        if (not_ready) say("told not to be ready");
+        if (words.empty()) say("nothing of it changed");
+        return words;
+    }
+
+  private:
+    Clock::time_point seen_{Clock::now()};
+    Clock::time_point moved_{Clock::now()};
+    Vec3 last_m_{0.0};
+};
+
+std::string names_in(const ServiceMessage& message) {
+    std::string names;
+    for (std::size_t k = 0; k < message.arm_count; ++k)
+        names += (names.empty() ? "" : ", ") + std::string(message.arms[k].id.view());
+    return names.empty() ? "nothing" : names;
+}
+
 }  // namespace
 
 void CheckDesk::keep_talking() {
@@ -69,7 +124,7 @@ void check_service(CheckDesk& desk, Json& measured) {
     measured["version"] = survey.version;
     measured["inventory"] = desk.talk.inventory();
     for (const SurveyedArm& arm : survey.arms) {
-        for (const auto& [name, value] : arm.kept) measured["kept"][arm.id][name] = value;
+        for (const KeptSetting& kept : arm.kept) measured["kept"][arm.id][kept.name] = kept.told;
     }
     desk.settle(OpenQuestion::service,
                 (survey.version.empty() ? "version not told" : survey.version) + ", " +
@@ -125,6 +180,29 @@ void check_moving(CheckDesk& desk, Json& measured) {
     desk.settle(OpenQuestion::workspace, number_text(size_mm.x, 0) + " x " +
                                              number_text(size_mm.y, 0) + " x " +
                                              number_text(size_mm.z, 0) + " mm were reached");
+}
+
+void check_unplugged(CheckDesk& desk, Json& measured) {
+    desk.guide.ask(
+        "Keep the grip moving. Pull the USB cable out, count to five, plug it in again, and wait "
+        "until the light is as before; then Enter");
+    Absence absence;
+    const auto begin = CheckTalk::Clock::now();
+    while (!desk.answered() && CheckTalk::Clock::now() < begin + desk.options.times.unplugging) {
+        absence.add(desk.talk.look(desk.likely_dialect()), CheckTalk::Clock::now());
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    measured = {{"gone_s", absence.gone.count()},
+                {"frozen_s", absence.frozen.count()},
+                {"told_no_power", absence.not_powered},
+                {"told_not_calibrated", absence.not_calibrated},
+                {"told_not_ready", absence.not_ready},
+                {"is_back", absence.is_back},
+                {"at_the_end", names_in(desk.talk.message())}};
+    desk.settle(OpenQuestion::unplugged,
+                absence.in_words(desk.options.times.frozen) +
+                    (absence.is_back ? "" : "; not back, there is " +
+                                                names_in(desk.talk.message())));
 }
 
 }  // namespace dibhr::inverse3

@@ -58,6 +58,17 @@ bool told_back(const std::optional<Arm>& state) {
            glm::length(*state->force_newton) >= kToldBack * glm::length(kWeak_newton);
 }
 
+/// What in_use said before a force of ours, at its end, and after it.
+struct InUse {
+    bool before{false}, during{false}, after{false};
+
+    [[nodiscard]] const char* in_words() const {
+        if (before) return "it is set before any force: by another program, or always";
+        if (!during && !after) return "it stays off while we push: another program";
+        return after ? "it is set by our force, and stays: us, too" : "it is set by our force: us, too";
+    }
+};
+
 /// Asked after the force has gone.
 bool was_felt(CheckDesk& desk, ForceDialect dialect) {
     const std::string answer = desk.word(std::string("Did the grip pull to the left with \"") +
@@ -69,12 +80,16 @@ bool was_felt(CheckDesk& desk, ForceDialect dialect) {
 
 void check_dialect(CheckDesk& desk, Json& measured) {
     std::string words;
+    InUse in_use;
+    in_use.before = desk.talk.exchange(std::nullopt, desk.likely_dialect()).arm.in_use;
     for (const ForceDialect dialect : {ForceDialect::vector, ForceDialect::values}) {
         Json& part = measured[name_of(dialect)];
         bool told = false;
         try {
             Push push(desk);
-            told = told_back(push.hold(kWeak_newton, dialect, desk.options.times.dialect));
+            const auto last = push.hold(kWeak_newton, dialect, desk.options.times.dialect);
+            told = told_back(last);
+            in_use.during = in_use.during || (last && last->in_use);
         } catch (const LinkError&) {
             throw;
         } catch (const DeviceError& complaint) {
@@ -89,6 +104,10 @@ void check_dialect(CheckDesk& desk, Json& measured) {
     }
     if (desk.dialect) desk.findings.set("dialect", '"' + std::string(name_of(*desk.dialect)) + '"');
     desk.settle(OpenQuestion::dialect, words);
+    in_use.after = desk.talk.exchange(std::nullopt, desk.likely_dialect()).arm.in_use;
+    measured["in_use"] = {
+        {"before", in_use.before}, {"during", in_use.during}, {"after", in_use.after}};
+    desk.settle(OpenQuestion::in_use, in_use.in_words());
 }
 
 void check_silence(CheckDesk& desk, Json& measured) {

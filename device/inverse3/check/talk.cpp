@@ -45,12 +45,28 @@ CheckTalk::~CheckTalk() {
 
 CheckTalk::Heard CheckTalk::exchange(const std::optional<Vec3>& force_newton,
                                      ForceDialect dialect) {
-    const auto sent = Clock::now();
     pushed_ = pushed_ || force_newton.has_value();
     if (force_newton) guard(dialect);
-    const std::string_view order =
-        writer_.write({.arm = DeviceId(id_), .force_newton = force_newton, .dialect = dialect});
-    link_->send(order, sent + kAnswerTakes);
+    const auto took =
+        ask({.arm = DeviceId(id_), .force_newton = force_newton, .dialect = dialect});
+    if (!message_.complaint.empty()) {
+        throw DeviceError("the service complains: " + std::string(message_.complaint.view()));
+    }
+    const Arm* const arm = message_.arm(DeviceId(id_));
+    if (arm == nullptr) throw DeviceError("the Inverse3 " + id_ + " was unplugged");
+    return {*arm, took};
+}
+
+std::optional<Arm> CheckTalk::look(ForceDialect dialect) {
+    (void)ask({.arm = DeviceId(id_), .dialect = dialect});
+    const Arm* const arm = message_.arm(DeviceId(id_));
+    return arm == nullptr ? std::nullopt : std::optional(*arm);
+}
+
+/// How long the answer took, which is in the message.
+std::chrono::nanoseconds CheckTalk::ask(const Order& order) {
+    const auto sent = Clock::now();
+    link_->send(writer_.write(order), sent + kAnswerTakes);
     if (!hears(sent + kAnswerTakes)) {
         throw DeviceError("the service has been silent for a second: see whether it still runs");
     }
@@ -59,12 +75,7 @@ CheckTalk::Heard CheckTalk::exchange(const std::optional<Vec3>& force_newton,
     if (!reader_.read(text, message_)) {
         throw DeviceError("the service said what is not understood: see the record");
     }
-    if (!message_.complaint.empty()) {
-        throw DeviceError("the service complains: " + std::string(message_.complaint.view()));
-    }
-    const Arm* const arm = message_.arm(DeviceId(id_));
-    if (arm == nullptr) throw DeviceError("the Inverse3 " + id_ + " was unplugged");
-    return {*arm, came - sent};
+    return came - sent;
 }
 
 bool CheckTalk::hears(Clock::time_point until) {

@@ -32,6 +32,8 @@ class CheckTalk {
     /// Sends it, and waits for what comes: at most a second. `force`: nothing asks for the pose
     /// alone. Throws DeviceError when nothing comes, or the device is not in it.
     Heard exchange(const std::optional<Vec3>& force_newton, ForceDialect dialect);
+    /// The same without a force, of a device that may be there or not; the message is message().
+    [[nodiscard]] std::optional<Arm> look(ForceDialect dialect);
     /// Three zero forces, in both dialects. No error is told.
     void let_go() noexcept;
     /// Without a word to the service, which the guardian knows of.
@@ -41,10 +43,12 @@ class CheckTalk {
 
     [[nodiscard]] const std::string& id() const noexcept { return id_; }
     [[nodiscard]] const std::string& version() const noexcept { return version_; }
+    [[nodiscard]] const ServiceMessage& message() const noexcept { return message_; }
     [[nodiscard]] const std::string& inventory() const noexcept { return inventory_; }
     [[nodiscard]] bool newer() const noexcept { return newer_; }
 
   private:
+    std::chrono::nanoseconds ask(const Order& order);
     [[nodiscard]] bool hears(Clock::time_point until);
     void guard(ForceDialect dialect) noexcept;
 

@@ -24,6 +24,7 @@ class Person final : public CheckGuide {
     explicit Person(simulated::Service& service) : service_(service) {}
 
     std::function<Wish()> wish_under_force{[] { return Wish::none; }};
+    bool entry_freezes{false};  ///< of a device whose cable is out
     std::string heard{};
     double most_newton{0.0};         ///< felt in the last push
     Vec3 last_newton{0.0};           ///< there, at its end
@@ -33,7 +34,11 @@ class Person final : public CheckGuide {
     void show(const std::string& state) override { heard += state + "\n"; }
     void ask(const std::string& question) override {
         heard += question + "\n";
-        if (question.find("Move the grip") != std::string::npos) {
+        if (question.find("Pull the USB cable") != std::string::npos) {
+            began_ = simulated::Clock::now();
+            moves_ = true;
+            pull_cable();
+        } else if (question.find("Move the grip") != std::string::npos) {
             began_ = simulated::Clock::now();
             service_.with([](simulated::Scene& scene) {
                 scene.hand_m = [](double t_s) {
@@ -54,7 +59,10 @@ class Person final : public CheckGuide {
         if (moves_) {
             if (simulated::Clock::now() - began_ < milliseconds(1500)) return {};
             moves_ = false;
-            service_.with([](simulated::Scene& scene) { scene.hand_m = nullptr; });
+            service_.with([this](simulated::Scene& scene) {
+                scene.hand_m = nullptr;
+                if (unplugged_) scene.arms = {*unplugged_};
+            });
             return "";
         }
         return std::exchange(line_, std::nullopt);
@@ -72,6 +80,12 @@ class Person final : public CheckGuide {
     }
 
   private:
+    void pull_cable() {
+        service_.with([this](simulated::Scene& scene) {
+            unplugged_ = scene.arms.front();
+            if (!entry_freezes) scene.arms.clear();
+        });
+    }
     Vec3 felt() {
         return service_.with([](simulated::Scene& scene) {
             scene.forget_old_forces(simulated::Clock::now());
@@ -81,6 +95,7 @@ class Person final : public CheckGuide {
 
     simulated::Service& service_;
     std::optional<std::string> line_{};
+    std::optional<simulated::Arm> unplugged_{};
     simulated::Clock::time_point began_{};
     bool moves_{false};
 };
@@ -134,10 +149,30 @@ TEST_CASE("the check measures what is not known of an Inverse3, and keeps it in 
                                         : "vector is not felt; values is felt and told back"));
     CHECK(says(found["silence"], "gone after 120 ms at most"));
     CHECK(says(found["force"], "1.00 N of 1, 2.00 N of 2, 3.00 N of 3"));
+    CHECK(says(found["in-use"], "another program"));
+    CHECK(says(found["unplugged"], "it goes"));
     CHECK(record["settings"]["dialect"] == (vector ? "\"vector\"" : "\"values\""));
     CHECK(person.heard.find("[inverse3]") != std::string::npos);
     CHECK_THAT(person.after_force_newton, WithinAbs(0.0, 1e-12));
     CHECK(service.too_many_in_flight() == 0);
+}
+
+TEST_CASE("the check tells a frozen entry from one that goes, and whom in_use means",
+          "[inverse3_check]") {
+    const test::TemporaryFolder folder;
+    simulated::Service service;
+    Person person(service);
+    person.entry_freezes = true;
+    person.wish_under_force = [&] {  // a service that counts us as a user of the device
+        service.with([](simulated::Scene& scene) { scene.arms[0].in_use = true; });
+        return CheckGuide::Wish::none;
+    };
+    const CheckResult result = run_check(quick(service, folder), person);
+    INFO(person.heard);
+    CHECK(result.fault.empty());
+    const Json record = record_in(folder);
+    CHECK(says(record["findings"]["in-use"], "us, too"));
+    CHECK(says(record["findings"]["unplugged"], "it stays, frozen"));
 }
 
 TEST_CASE("a person who lets go, or quits, is without force at once", "[inverse3_check]") {

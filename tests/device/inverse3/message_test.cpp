@@ -2,7 +2,10 @@
 #include "device/inverse3/message.hpp"
 
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "device/inverse3/kept_settings.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/support/catch.hpp"
 
@@ -168,4 +171,28 @@ TEST_CASE("reading allocates nothing", "[inverse3]") {
     });
     CHECK(understood);
     CHECK(allocations == 0);
+}
+
+TEST_CASE("what the service keeps is told in words, whatever JSON it comes in", "[inverse3]") {
+    const std::vector<std::pair<std::string, std::string>> cases{
+        {R"({"enabled":true,"gravity_scaling_factor":0.5})", "on, gravity scaling factor 0.5"},
+        {R"({"ok":true,"data":{"enabled":false}})", "off"},
+        {R"({"force_gate":{"gain":0.3},"damping":{"scalar":0}})",
+         "force gate gain 0.3, damping scalar 0"},
+        {R"({"ok":true,"value":1.25})", "1.25"},
+        {"0.75", "0.75"},
+        {R"([{"device_id":"049D","enabled":true}])", "on"},
+        {R"({"limits":[1,2.5,"soft"],"curve":null})", "limits 1, 2.5, soft, curve none"},
+        {R"({"ok":false,"error":"no such device"})", "not told: no such device"},
+        {R"({"ok":false})", "not told: refused"},
+        {"plain text\n", "plain text "},
+        {"{}", "{}"},
+        {"{\"cut", "{\"cut"}};
+    for (const auto& [told, words] : cases) {
+        CAPTURE(told);
+        CHECK(words_of_setting(told) == words);
+    }
+    CHECK(words_of_setting(std::string(5000, 'x')).size() < 130);
+    std::string deep(3000, '[');
+    CHECK(words_of_setting(deep + std::string(3000, ']')).size() < 130);
 }
