@@ -7,6 +7,8 @@
 #include <chrono>
 #include <utility>
 
+#include "core/realtime/time_slice.hpp"
+
 namespace dibhr {
 
 namespace {
@@ -202,6 +204,7 @@ void DecodedAhead::prepare(Decoded& waiting, std::unique_lock<std::mutex>& lock)
 
 void DecodedAhead::run() {
     pthread_setname_np(pthread_self(), "dibhr-decode");
+    (void)set_time_slice(kPatientSlice);
     if (hearts_.decoding != nullptr) hearts_.decoding->also_computes();
     std::unique_lock lock(mutex_);
     for (;;) {

@@ -34,8 +34,8 @@ TEST_CASE("a finger on what moves in a video ends at its material point, dragged
     const Seen seen = GENERATE(some_of<Seen>({{Shape::hand, Goes::along, 50.0, 30.0},
                                               {Shape::plane, Goes::along, 200.0, 15.0},
                                               {Shape::sphere, Goes::along, 100.0, 60.0},
-                                              {Shape::hand, Goes::round, 25.0, 30.0},
-                                              {Shape::sphere, Goes::apart, 25.0, 15.0}},
+                                              {Shape::plane, Goes::round, 200.0, 30.0},
+                                              {Shape::sphere, Goes::apart, 50.0, 15.0}},
                                              1));
     CAPTURE(static_cast<int>(seen.shape), static_cast<int>(seen.goes), seen.px_per_s);
     const CarriedFinger felt = finger_on(seen, {});

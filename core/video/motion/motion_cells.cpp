@@ -171,8 +171,12 @@ void MotionKin::find_far(const MotionCells& cells, int i, int j) {
                     alike_across(std::max(lowest - cells.highest.of[part].values[beside],
                                           cells.lowest.of[part].values[beside] - highest));
                 if (!(alike > 0.0F)) continue;
-                edges.push_back({here, beside, alike, 1, part});
-                if (part == 0) edges.push_back({beside, here, alike, 0, 1});
+                const auto right = static_cast<std::int8_t>(x - i);
+                const auto down = static_cast<std::int8_t>(y - j);
+                edges.push_back({here, beside, alike, 1, part, right, down});
+                if (part == 0)
+                    edges.push_back({beside, here, alike, 0, 1, static_cast<std::int8_t>(-right),
+                                     static_cast<std::int8_t>(-down)});
             }
         }
 }
@@ -181,7 +185,7 @@ void MotionKin::find(const MotionCells& cells) {
     columns_ = cells.columns;
     rows_ = cells.rows;
     count_ = cells.between.values.size();
-    near_.assign(kSide * kSide * count_, 0.0F);
+    near_.assign(kSide * kSide * count_ + kMargin, 0.0F);
     for (int down = -kReach; down <= kReach; ++down)
         for (int right = -kReach; right <= kReach; ++right) find_near(cells, right, down);
     for (auto& edges : far_) edges.clear();

@@ -107,11 +107,19 @@ inline constexpr float kMotionAlike = 12.0F;
     return std::min(std::max(alike, 0.0F), 1.0F);
 }
 
+/// Sums of values that lie about a place, each with its weight.
+struct MotionMoments {
+    float n{0.0F}, x{0.0F}, y{0.0F}, xx{0.0F}, xy{0.0F}, yy{0.0F};
+    float right{0.0F}, right_x{0.0F}, right_y{0.0F};
+    float down{0.0F}, down_x{0.0F}, down_y{0.0F};
+};
+
 /// Which parts are alike those around them: found once, asked for many sums. Near parts, which are
 /// everywhere, lie in planes; far ones in a list.
 class MotionKin {
   public:
-    static constexpr int kReach = 2;  ///< cells to each side
+    static constexpr int kReach = 2;             ///< cells to each side
+    static constexpr std::size_t kMargin = 16;  ///< read beyond an end, without meaning
 
     void find(const MotionCells& cells);
 
@@ -119,6 +127,10 @@ class MotionKin {
     /// the more the more alike their depths are.
     void gather(const MotionRows& rows, int reach, MotionMeasure measure, const MotionSums& from,
                 MotionSums& to) const;
+
+    /// For each wanted part the way that even motion would have, which turns and grows: that of the
+    /// plane through the ways of the wanted parts around it.
+    void smooth(const MotionLayers& wanted, const MotionWays& from, MotionWays& to);
 
     /// Of the near part of every cell beside the near one so many cells away: how alike they are;
     /// 0 where that is outside.
@@ -132,6 +144,7 @@ class MotionKin {
         std::uint32_t to, from;
         float alike;
         std::uint8_t to_part, from_part;
+        std::int8_t right, down;  ///< cells to `from`
     };
     [[nodiscard]] static std::size_t tap(int right, int down) {
         return static_cast<std::size_t>(down + kReach) * kSide +
@@ -139,6 +152,8 @@ class MotionKin {
     }
     void find_near(const MotionCells& cells, int right, int down);
     void find_far(const MotionCells& cells, int i, int j);
+    void add_near_moments(const MotionLayers& wanted, const MotionWays& ways);
+    void add_far_moments(const MotionLayers& wanted, const MotionWays& ways);
 
     int columns_{0}, rows_{0};
     std::size_t count_{0};
@@ -146,6 +161,9 @@ class MotionKin {
     std::vector<std::uint32_t> split_{};
     /// With a far part at an end, and at most so many cells long: beside each other, farther.
     std::array<std::vector<Edge>, kReach> far_{};
+    // For smooth(): of the ways around each part; and what each weighs, and its way, with a margin.
+    std::array<std::vector<MotionMoments>, 2> moments_{};
+    std::array<std::vector<float>, 3> padded_{};
 };
 
 }  // namespace dibhr

@@ -47,8 +47,8 @@ bool is_known(const MotionSums& sums, std::size_t part, std::size_t k) {
     return sums[MotionSum::n].of[part].values[k] > kFewPixels;
 }
 
-/// What the sums of a part would be for standing still, as far as slopes tell.
-void reckon_from_rest(MotionField::Way way, std::size_t part, std::size_t k, MotionSums& sums) {
+/// What the sums of a part would be if it went so much less, as far as slopes tell.
+void reckon_back(MotionField::Way way, std::size_t part, std::size_t k, MotionSums& sums) {
     const auto at = [&](MotionSum sum) -> float& { return sums[sum].of[part].values[k]; };
     at(MotionSum::r) -= at(MotionSum::x) * way.right + at(MotionSum::y) * way.down;
     at(MotionSum::xr) -= at(MotionSum::xx) * way.right + at(MotionSum::xy) * way.down;
@@ -177,27 +177,37 @@ void MotionEstimator::leave_noise() {
     find_rows();
 }
 
+/// Alike parts turn and grow together: what is the same of them is how far each goes beyond even
+/// motion.
 void MotionEstimator::go_downhill(std::size_t size) {
     const float scale = 1.0F / static_cast<float>(1 << size);
-    const float farthest = scale * static_cast<float>(kFarthestMotion) *
+    const float farthest = static_cast<float>(kFarthestMotion) *
                            static_cast<float>(kMotionCell_px * from_.cells.columns);
     sum(size, wanted_, ways_, MotionMeasure::slopes);
+    kin_.smooth(wanted_, ways_, even_);
+    const auto even_way = [&](const Part& part, std::size_t k) {
+        return Way{even_.right.of[part.part].values[k], even_.down.of[part.part].values[k]};
+    };
+    const auto beyond = [&](Way way, Way even) {
+        return Way{scale * (way.right - even.right), scale * (way.down - even.down)};
+    };
     const auto goes = [&](const Part& part, std::size_t k) {
         return wanted_.of[part.part].values[k] > 0.0F;
     };
     each_part([&](const Part& part, std::size_t k) {
-        const Way way = way_of(part);
         if (goes(part, k))
-            reckon_from_rest({way.right * scale, way.down * scale}, part.part, k, sums_);
+            reckon_back(beyond(way_of(part), even_way(part, k)), part.part, k, sums_);
     });
     gather(1, MotionMeasure::slopes);
     each_part([&](const Part& part, std::size_t k) {
         if (!goes(part, k) || !is_known(gathered_, part.part, k)) return;
-        const Way way = way_of(part);
-        const Way now{way.right * scale, way.down * scale};
+        const Way even = even_way(part, k);
+        const Way now = beyond(way_of(part), even);
         const Way there = lowest(gathered_, part.part, k, now);
-        go(part, {std::clamp(stepped(now.right, there.right), -farthest, farthest) / scale,
-                  std::clamp(stepped(now.down, there.down), -farthest, farthest) / scale});
+        const auto to = [&](float even_px, float from, float onto) {
+            return std::clamp(even_px + stepped(from, onto) / scale, -farthest, farthest);
+        };
+        go(part, {to(even.right, now.right, there.right), to(even.down, now.down, there.down)});
     });
 }
 

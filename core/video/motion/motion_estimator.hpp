@@ -75,7 +75,7 @@ class MotionEstimator {
     MotionLayers wanted_{};  ///< 1: the part is looked at
     MotionRows rows_{};
     MotionLayers differs_{};  ///< 1: what is tried is another way
-    MotionWays ways_{}, tried_{}, chosen_{};
+    MotionWays ways_{}, tried_{}, chosen_{}, even_{};
     MotionLayers best_{};   ///< how far off what was tried is
     MotionLayers still_{};  ///< and standing still
     std::array<std::vector<Verdict>, 2> verdicts_{};

@@ -4,7 +4,9 @@
 #include <memory>
 #include <vector>
 
+#include "core/video/motion/motion_cells.hpp"
 #include "core/video/motion/motion_estimator.hpp"
+#include "tests/core/haptics/surfaces.hpp"
 #include "tests/core/video/moving_scene.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/some_of.hpp"
@@ -152,4 +154,61 @@ TEST_CASE("the same two frames give the same bits, whatever was asked before", "
     REQUIRE(again);
     REQUIRE(afresh);
     CHECK(again->ways == afresh->ways);
+}
+
+TEST_CASE("smoothing leaves ways that turn and grow as they are, near and far, and nearly so at borders",
+          "[motion]") {
+    test::Dice dice(3);
+    MotionCells cells;
+    cells.columns = 21;
+    cells.rows = 13;
+    cells.between.resize(cells.columns, cells.rows);
+    cells.lowest.resize(cells.columns, cells.rows);
+    cells.highest.resize(cells.columns, cells.rows);
+    MotionLayers wanted;
+    wanted.resize(cells.columns, cells.rows);
+    wanted.fill(1.0F);
+    // Something near to the left, a wall to the right; where they meet cells have both.
+    for (int j = 0; j < cells.rows; ++j)
+        for (int i = 0; i < cells.columns; ++i) {
+            const bool both = i == 9 + j / 5;
+            const float depth = i <= 9 + j / 5 ? 200.0F : 20.0F;
+            cells.lowest.of[0].row(j)[i] = cells.highest.of[0].row(j)[i] = depth;
+            cells.lowest.of[1].row(j)[i] = both ? 20.0F : -MotionCells::kNoPart;
+            cells.highest.of[1].row(j)[i] = both ? 20.0F : MotionCells::kNoPart;
+            if (both) cells.split.push_back(static_cast<std::uint32_t>(cells.between.index(i, j)));
+            // Here and there nothing is known.
+            if (dice.uniform(0.0, 1.0) < 0.15) wanted.of[0].row(j)[i] = 0.0F;
+        }
+    const auto even = [](float x, float y, bool near) {
+        return near ? MotionField::Way{3.0F - 0.9F * y + 0.2F * x, 0.9F * x - 5.0F}
+                    : MotionField::Way{0.1F * x - 7.0F, 0.4F * y};
+    };
+    MotionWays ways, smooth;
+    ways.resize(cells.columns, cells.rows);
+    const auto each = [&](auto visit) {
+        for (std::size_t part = 0; part < 2; ++part)
+            for (int j = 0; j < cells.rows; ++j)
+                for (int i = 0; i < cells.columns; ++i)
+                    if (cells.has(part, i, j) && wanted.of[part].row(j)[i] > 0.0F)
+                        visit(part, i, j,
+                              even(static_cast<float>(i), static_cast<float>(j),
+                                   cells.lowest.of[part].row(j)[i] > 100.0F));
+    };
+    ways.fill(40.0F);  // where nothing is known anything may stand
+    each([&](std::size_t part, int i, int j, MotionField::Way way) {
+        ways.right.of[part].row(j)[i] = way.right;
+        ways.down.of[part].row(j)[i] = way.down;
+    });
+    MotionKin kin;
+    kin.find(cells);
+    kin.smooth(wanted, ways, smooth);
+    std::vector<float> off;  // what changes by 0.9 from cell to cell
+    each([&](std::size_t part, int i, int j, MotionField::Way way) {
+        off.push_back(std::fabs(smooth.right.of[part].row(j)[i] - way.right));
+        off.push_back(std::fabs(smooth.down.of[part].row(j)[i] - way.down));
+    });
+    std::sort(off.begin(), off.end());
+    CHECK(off[off.size() / 2] < 0.03F);
+    CHECK(off.back() < 0.4F);
 }

@@ -1,0 +1,162 @@
+// The way that even motion would have at a part, from those around it.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include "core/video/motion/motion_cells.hpp"
+#include "core/video/vector_clones.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr int kReach = MotionKin::kReach;
+constexpr std::size_t kAround = std::size_t{2 * kReach + 1} * std::size_t{2 * kReach + 1};
+constexpr std::size_t kLanes = 8;
+static_assert(kLanes <= MotionKin::kMargin);
+
+using Lanes [[gnu::vector_size(kLanes * sizeof(float))]] = float;
+
+/// What lies about each near part: at every tap how alike it is and where; what each part weighs,
+/// and its way, with that weight.
+struct About {
+    std::array<const float*, kAround> alike{};
+    std::array<std::ptrdiff_t, kAround> away{};
+    const float* weight{nullptr};
+    const float* right{nullptr};
+    const float* down{nullptr};
+};
+
+// What is not part of its caller is not compiled for wider vectors.
+
+[[gnu::always_inline]] inline void load(Lanes& lanes, const float* from) {
+    std::memcpy(&lanes, from, sizeof(lanes));
+}
+
+/// Of kLanes parts from `at` on.
+[[gnu::always_inline]] inline void sum_moments(const About& about, std::size_t at,
+                                               MotionMoments* to) {
+    Lanes n{}, x{}, y{}, xx{}, xy{}, yy{};
+    Lanes right{}, right_x{}, right_y{}, down{}, down_x{}, down_y{};
+    std::size_t tap = 0;
+    for (int v = -kReach; v <= kReach; ++v)
+        for (int u = -kReach; u <= kReach; ++u, ++tap) {
+            const auto fu = static_cast<float>(u);
+            const auto fv = static_cast<float>(v);
+            const std::ptrdiff_t there = static_cast<std::ptrdiff_t>(at) + about.away[tap];
+            Lanes alike, w, r, d;
+            load(alike, about.alike[tap] + at);
+            load(w, about.weight + there);
+            load(r, about.right + there);
+            load(d, about.down + there);
+            w *= alike;
+            r *= alike;
+            d *= alike;
+            n += w;
+            x += w * fu;
+            y += w * fv;
+            xx += w * (fu * fu);
+            xy += w * (fu * fv);
+            yy += w * (fv * fv);
+            right += r;
+            right_x += r * fu;
+            right_y += r * fv;
+            down += d;
+            down_x += d * fu;
+            down_y += d * fv;
+        }
+    for (std::size_t k = 0; k < kLanes; ++k)
+        to[k] = {n[k],     x[k],       y[k],       xx[k],   xy[k],     yy[k],
+                 right[k], right_x[k], right_y[k], down[k], down_x[k], down_y[k]};
+}
+
+DIBHR_VECTOR_CLONES void sum_all_moments(const About& about, std::size_t count, MotionMoments* to) {
+    for (std::size_t at = 0; at < count; at += kLanes) sum_moments(about, at, to + at);
+}
+
+/// What the plane that lies nearest to all is at their place; across a line in which they all lie
+/// it is level.
+void plane_through(const MotionMoments& moments, float& right, float& down) {
+    constexpr float kRidge = 0.3F;  // where they lie to one side the plane would tilt with noise
+    const float share = 1.0F / moments.n;
+    const float x = moments.x * share;
+    const float y = moments.y * share;
+    const float xx = moments.xx * share - x * x + kRidge;
+    const float xy = moments.xy * share - x * y;
+    const float yy = moments.yy * share - y * y + kRidge;
+    const float per_det = 1.0F / (xx * yy - xy * xy);
+    const auto at_place = [&](float sum, float sum_x, float sum_y) {
+        const float mean = sum * share;
+        const float by_x = sum_x * share - mean * x;
+        const float by_y = sum_y * share - mean * y;
+        return mean - per_det * (x * (yy * by_x - xy * by_y) + y * (xx * by_y - xy * by_x));
+    };
+    right = at_place(moments.right, moments.right_x, moments.right_y);
+    down = at_place(moments.down, moments.down_x, moments.down_y);
+}
+
+}  // namespace
+
+void MotionKin::add_near_moments(const MotionLayers& wanted, const MotionWays& ways) {
+    const std::size_t margin = kReach * (static_cast<std::size_t>(columns_) + 1);
+    for (auto& plane : padded_) plane.assign(count_ + 2 * margin + kMargin, 0.0F);
+    for (std::size_t k = 0; k < count_; ++k) {
+        const float weight = wanted.of[0].values[k];
+        padded_[0][margin + k] = weight;
+        padded_[1][margin + k] = weight * ways.right.of[0].values[k];
+        padded_[2][margin + k] = weight * ways.down.of[0].values[k];
+    }
+    About about;
+    about.weight = padded_[0].data() + margin;
+    about.right = padded_[1].data() + margin;
+    about.down = padded_[2].data() + margin;
+    std::size_t tap = 0;
+    for (int down = -kReach; down <= kReach; ++down)
+        for (int right = -kReach; right <= kReach; ++right, ++tap) {
+            about.alike[tap] = near_beside(right, down);
+            about.away[tap] = std::ptrdiff_t{down} * columns_ + right;
+        }
+    sum_all_moments(about, count_, moments_[0].data());
+}
+
+void MotionKin::add_far_moments(const MotionLayers& wanted, const MotionWays& ways) {
+    for (const std::uint32_t k : split_) moments_[1][k] = {};
+    for (const auto& edges : far_)
+        for (const Edge& edge : edges) {
+            const auto x = static_cast<float>(edge.right);
+            const auto y = static_cast<float>(edge.down);
+            const float w = edge.alike * wanted.of[edge.from_part].values[edge.from];
+            const float right = w * ways.right.of[edge.from_part].values[edge.from];
+            const float down = w * ways.down.of[edge.from_part].values[edge.from];
+            MotionMoments& to = moments_[edge.to_part][edge.to];
+            to.n += w;
+            to.x += w * x;
+            to.y += w * y;
+            to.xx += w * x * x;
+            to.xy += w * x * y;
+            to.yy += w * y * y;
+            to.right += right;
+            to.right_x += right * x;
+            to.right_y += right * y;
+            to.down += down;
+            to.down_x += down * x;
+            to.down_y += down * y;
+        }
+}
+
+void MotionKin::smooth(const MotionLayers& wanted, const MotionWays& from, MotionWays& to) {
+    to = from;
+    for (auto& moments : moments_) moments.resize(count_ + kMargin);
+    add_near_moments(wanted, from);
+    add_far_moments(wanted, from);
+    const auto fit = [&](std::size_t part, std::size_t k) {
+        if (wanted.of[part].values[k] > 0.0F)
+            plane_through(moments_[part][k], to.right.of[part].values[k],
+                          to.down.of[part].values[k]);
+    };
+    for (std::size_t k = 0; k < count_; ++k) fit(0, k);
+    for (const std::uint32_t k : split_) fit(1, k);
+}
+
+}  // namespace dibhr
