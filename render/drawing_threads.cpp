@@ -10,6 +10,8 @@
 #include <string>
 #include <system_error>
 
+#include "core/realtime/time_slice.hpp"
+
 namespace dibhr {
 
 namespace {
@@ -34,7 +36,9 @@ void let_drawing_give_way() {
         if (!draws(thread->path())) continue;
         const auto id = std::strtoul(thread->path().filename().c_str(), nullptr, 10);
         setpriority(PRIO_PROCESS, static_cast<id_t>(id), niceness);
+        (void)set_time_slice(kPatientSlice, static_cast<pid_t>(id));
     }
+    (void)set_time_slice(kPatientSlice);
 }
 
 }  // namespace dibhr

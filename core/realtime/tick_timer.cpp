@@ -19,6 +19,8 @@
 #include <ctime>
 #include <fstream>
 
+#include "core/realtime/time_slice.hpp"
+
 namespace dibhr {
 
 namespace {
@@ -173,6 +175,7 @@ RealtimeGrants become_realtime(const char* thread_name) {
     prctl(PR_SET_TIMERSLACK, 1UL);  // 1 ns instead of 50 us, should the priority be refused
     RealtimeGrants grants;
     grants.priority = ask_for_priority();
+    if (!grants.priority.granted) (void)set_time_slice(kPromptSlice);
     grants.memory_lock = ask_for_memory_lock();
     touch_stack();
     return grants;

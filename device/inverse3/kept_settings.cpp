@@ -1,14 +1,13 @@
 // Asks for them one after the other.
 #include "device/inverse3/kept_settings.hpp"
 
-#include <simdjson.h>
-
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <optional>
 #include <utility>
 
+#include "core/files/json.hpp"
 #include "core/files/plain_text.hpp"
 #include "device/inverse3/service_link.hpp"
 
@@ -16,12 +15,9 @@ namespace dibhr::inverse3 {
 
 namespace {
 
-using simdjson::dom::array;
-using simdjson::dom::element;
-using simdjson::dom::object;
-
 constexpr std::chrono::milliseconds kTakes{300};
 constexpr std::size_t kLongest = 120;
+constexpr std::size_t kLongestRead = 4096;
 
 std::string shortened(std::string text) {
     std::replace_if(
@@ -41,56 +37,41 @@ std::string joined(const std::string& name, const std::string& value) {
     return name.empty() ? value : value.empty() ? name : name + " " + value;
 }
 
-std::string words_of(const element& value, const std::string& name);
-
 void add(std::string& words, const std::string& more) {
     if (more.empty()) return;
     words += (words.empty() ? "" : ", ") + more;
 }
 
-std::string words_of(const object& members, const std::string& name) {
+std::string words_of(const Json& value, const std::string& name) {
     std::string words;
-    for (const auto& [key, value] : members) {
-        if (key == "ok" || key == "device_id") continue;
-        std::string spoken(key);
-        std::replace(spoken.begin(), spoken.end(), '_', ' ');
-        add(words, words_of(value, is_said_by_itself(key) ? name : joined(name, spoken)));
-    }
-    return words;
-}
-
-std::string words_of(const array& values, const std::string& name) {
-    std::string words;
-    for (const element& value : values) add(words, words_of(value, {}));
-    return joined(name, words);
-}
-
-std::string words_of(const element& value, const std::string& name) {
     switch (value.type()) {
-        case simdjson::dom::element_type::OBJECT:
-            return words_of(object(value), name);
-        case simdjson::dom::element_type::ARRAY:
-            return words_of(array(value), name);
-        case simdjson::dom::element_type::BOOL:
-            return joined(name, bool(value) ? "on" : "off");
-        case simdjson::dom::element_type::STRING:
-            return joined(name, std::string(std::string_view(value)));
-        case simdjson::dom::element_type::NULL_VALUE:
+        case Json::value_t::object:
+            for (const auto& [key, member] : value.items()) {
+                if (key == "ok" || key == "device_id") continue;
+                std::string spoken(key);
+                std::replace(spoken.begin(), spoken.end(), '_', ' ');
+                add(words, words_of(member, is_said_by_itself(key) ? name : joined(name, spoken)));
+            }
+            return words;
+        case Json::value_t::array:
+            for (const Json& one : value) add(words, words_of(one, {}));
+            return joined(name, words);
+        case Json::value_t::boolean:
+            return joined(name, value.get<bool>() ? "on" : "off");
+        case Json::value_t::string:
+            return joined(name, value.get<std::string>());
+        case Json::value_t::null:
             return joined(name, "none");
         default:
-            return joined(name, short_text(double(value)));
+            return joined(name, short_text(value.get<double>()));
     }
 }
 
 /// Of an answer that says that there is none.
-std::optional<std::string> refusal_in(const element& value) {
-    object members;
-    bool ok = true;
-    if (value.get(members) != simdjson::SUCCESS || members["ok"].get(ok) != simdjson::SUCCESS || ok)
-        return std::nullopt;
-    std::string_view why;
-    if (members["error"].get(why) != simdjson::SUCCESS) why = "refused";
-    return std::string(why);
+std::optional<std::string> refusal_in(const Json& value) {
+    if (!value.is_object() || value.value("ok", Json(true)) != Json(false)) return std::nullopt;
+    const Json why = value.value("error", Json());
+    return why.is_string() ? why.get<std::string>() : "refused";
 }
 
 /// Empty: nothing.
@@ -105,11 +86,9 @@ std::string told_of(const ConnectionOptions& options, const std::string& target)
 }  // namespace
 
 std::string words_of_setting(std::string_view told) {
-    simdjson::dom::parser parser;
-    element value;
-    // The parser reads a little beyond the end: of a copy of its own.
-    if (parser.parse(told.data(), told.size(), true).get(value) != simdjson::SUCCESS)
-        return shortened(std::string(told));
+    const Json value = told.size() > kLongestRead ? Json(Json::value_t::discarded)
+                                                  : Json::parse(told, nullptr, false);
+    if (value.is_discarded()) return shortened(std::string(told));
     if (const auto refusal = refusal_in(value)) return "not told: " + shortened(*refusal);
     const std::string words = words_of(value, {});
     return shortened(words.empty() ? std::string(told) : words);
