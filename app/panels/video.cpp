@@ -168,9 +168,6 @@ void draw_cleaning(ViewerState& state) {
                 "Radius of the ball that touches; 0: a point, or as a sidecar says (--finger)",
                 false, unless_chosen.c_str()},
                state.settings.finger_mm);
-    flag_row("In-betweens", state.settings.in_betweens, Settings{}.in_betweens,
-             "Between two frames what moves is on its way, instead of one picture fading into the "
-             "other; a replay then needs the colour, too (--in-betweens)");
     if (!part("Cleaning steps")) return;
     const bool own = cleaning.preset == CleaningPreset::own;
     CleaningSteps steps = own ? cleaning.own : state.playback.steps;
@@ -196,6 +193,9 @@ void draw_cleaning(ViewerState& state) {
         "Within the noise of the recording; what is beyond it stays");
     if (changed)
         cleaning = {.preset = CleaningPreset::own, .own = steps, .finger = cleaning.finger};
+    flag_row("In-betweens", state.settings.in_betweens, Settings{}.in_betweens,
+             "Between two frames what moves is on its way, instead of one picture fading into the "
+             "other; a replay then needs the colour, too (--in-betweens)");
 }
 
 }  // namespace
