@@ -2,6 +2,7 @@
 #include "core/psychophysics/psychometric.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/psychophysics/curves.hpp"
@@ -32,8 +33,10 @@ double PsychometricFunction::slope() const {
 }
 
 void add_answer(LevelCounts& counts, double x, bool hit) {
-    auto found = std::find_if(counts.begin(), counts.end(),
-                              [x](const LevelCount& level) { return level.x == x; });
+    constexpr double kSame = 1e-9;  // a staircase that goes up and down again comes back so near
+    auto found = std::find_if(counts.begin(), counts.end(), [x](const LevelCount& level) {
+        return std::abs(level.x - x) <= kSame * std::abs(x);
+    });
     if (found == counts.end()) found = counts.insert(counts.end(), LevelCount{x, {}});
     ++found->count.trials;
     found->count.hits += hit ? 1 : 0;

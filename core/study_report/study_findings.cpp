@@ -218,6 +218,8 @@ LevelCounts counts_by_size(const Block& block, const std::vector<const AnsweredT
         if (level == 0.0 || (yes_no && level < 0.0)) continue;
         add_answer(counts, std::abs(level), one->right.value_or(false));
     }
+    std::sort(counts.begin(), counts.end(),
+              [](const LevelCount& a, const LevelCount& b) { return a.x < b.x; });
     return counts;
 }
 

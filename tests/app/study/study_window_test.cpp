@@ -4,6 +4,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstddef>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <glm/geometric.hpp>
@@ -11,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/psychophysics/random.hpp"
 #include "core/session/session.hpp"
 #include "core/study/study_file.hpp"
 #include "tests/app/program/command_program.hpp"
@@ -102,9 +104,9 @@ struct Sitting {
     void press(const std::string& keys) const { desk.act("key " + keys + " sleep 0.35"); }
     /// Does it again and again until the study is finished, or the patience.
     template <typename Act>
-    void until_it_ends(Process& program, const Act& act) const {
-        const auto patience = std::chrono::steady_clock::now() + 150s;
-        while (!program.has_ended() && std::chrono::steady_clock::now() < patience) act();
+    void until_it_ends(Process& program, const Act& act, std::chrono::seconds patience = 150s) const {
+        const auto latest = std::chrono::steady_clock::now() + patience;
+        while (!program.has_ended() && std::chrono::steady_clock::now() < latest) act();
     }
     [[nodiscard]] StudyRecord record() const { return read_study(study_file()); }
     [[nodiscard]] std::filesystem::path study_file() const {
@@ -239,25 +241,65 @@ TEST_CASE("trials are felt and answered with the Falcon alone", "[study window]"
     require_same_bits(at.folder, at.folder / "s/P7-001.dibhr");
 }
 
-TEST_CASE("a study that is killed while something is felt goes on at that trial",
+TEST_CASE("where time is short a trial goes on by itself, and nobody has answered it",
           "[study window]") {
-    const Sitting at(kHead + kPairs);
-    {
+    const Sitting at(kHead + R"([[block]]
+name = "quick"
+form = "two-interval"
+pairs = "all"
+repetitions = 1
+feedback = true
+interval-s = 0.5
+answer-s = 0.7
+question = "Which was smoother?"
+)");
+    Process program = at.desk.start(at.folder, at.words());
+    at.desk.act("search --sync --onlyvisible --name dibhr sleep 0.5");
+    // Pages go on by Enter; nothing that is pressed answers a question.
+    at.until_it_ends(program, [&] { at.press("Return"); });
+    CHECK(program.wait() == 0);
+    const StudyRecord record = at.record();
+    CHECK(record.finished);
+    REQUIRE(record.answered.size() == 1);
+    CHECK(record.answered[0].answer.choice == -1);
+    CHECK_FALSE(record.answered[0].right.has_value());
+}
+
+TEST_CASE("a study that is killed at any moment goes on at that trial, no answer lost or doubled",
+          "[study window]") {
+    const char* const asked = std::getenv("DIBHR_STUDY_KILLS");  // 50 is the long form
+    const int kills = asked == nullptr ? 1 : std::atoi(asked);
+    const Sitting at(kHead + R"([[block]]
+name = "pairs"
+form = "two-interval"
+pairs = "all"
+repetitions = )" + std::to_string(2 * kills) +
+                     "\nquestion = \"Which was smoother?\"\n");
+    Random dice(7);
+    std::vector<AnsweredTrial> before;
+    for (int kill = 0; kill < kills; ++kill) {
         Process program = at.desk.start(at.folder, at.words());
         at.desk.act("search --sync --onlyvisible --name dibhr sleep 0.5");
         at.press("Return");
-        FalconOnUsb::wait_until([&] { return std::filesystem::exists(at.running_session()); });
-        std::this_thread::sleep_for(1500ms);
+        if (kill == 0)  // the first time while something is felt
+            FalconOnUsb::wait_until([&] { return std::filesystem::exists(at.running_session()); });
+        const auto moment = std::chrono::steady_clock::now() +
+                            std::chrono::duration<double>(1.0 + 5.0 * dice.uniform());
+        while (kill > 0 && std::chrono::steady_clock::now() < moment) touch_and_answer(at);
+        std::this_thread::sleep_until(moment);
         program.send(SIGKILL);
         CHECK(program.wait() == 128 + SIGKILL);
+        const std::vector<AnsweredTrial> now = at.record().answered;
+        REQUIRE(now.size() >= before.size());
+        for (std::size_t k = 0; k < before.size(); ++k) CHECK(now[k].answer == before[k].answer);
+        before = now;
     }
-    CHECK(at.record().answered.empty());
     Process again = at.desk.start(at.folder, at.words());
     at.desk.act("search --sync --onlyvisible --name dibhr sleep 0.5");
-    at.until_it_ends(again, [&] { touch_and_answer(at); });
+    at.until_it_ends(again, [&] { touch_and_answer(at); }, 150s + kills * 10s);
     CHECK(again.wait() == 0);
     const StudyRecord record = at.record();
     CHECK(record.finished);
-    CHECK(record.answered.size() == 2);
+    CHECK(record.answered.size() == 2 * static_cast<std::size_t>(kills));
     CHECK_FALSE(std::filesystem::exists(at.running_session()));
 }

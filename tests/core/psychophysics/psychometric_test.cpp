@@ -151,6 +151,25 @@ TEST_CASE("a staircase goes down after n right answers and up after a wrong one"
     CHECK_THAT(reversal_mean(staircase.trials(), 2), WithinAbs(0.85, 1e-9));
 }
 
+TEST_CASE("a staircase that goes down and up again has answers at one level, not at two",
+          "[staircase]") {
+    Staircase staircase({.start = 0.4,
+                         .low = 0.01,
+                         .high = 0.6,
+                         .step_down = 0.5,
+                         .step_up = 0.5,
+                         .factors = true});
+    LevelCounts counts;
+    for (int k = 0; k < 60; ++k) {
+        const bool right = k % 6 < 4;  // down twice, up twice
+        add_answer(counts, staircase.level(), right);
+        staircase.answer(right);
+    }
+    for (const LevelCount& one : counts)
+        for (const LevelCount& other : counts)
+            CHECK((&one == &other || std::abs(one.x - other.x) > 0.01 * one.x));
+}
+
 TEST_CASE("a staircase keeps within its bounds and ends as it is told", "[staircase]") {
     StaircaseRule rule;
     rule.down_after = 1;
