@@ -87,7 +87,9 @@ void draw_workspace(ViewerState& state) {
 void draw_kept(const std::vector<inverse3::KeptSetting>& kept) {
     for (const inverse3::KeptSetting& one : kept) {
         quiet_text(capitalised(one.name) + ": " + one.words);
-        explain("The service keeps it for all programs; dibhr does not change it");
+        explain(
+            "As it was when the device came. The service keeps it for all programs; dibhr does not "
+            "change it");
     }
 }
 

@@ -307,8 +307,8 @@ struct Inverse3News {
     PoseAges ages{};         ///< since the start of the program
     PoseAges recent_ages{};  ///< of about the last second
     std::vector<inverse3::KeptSetting> kept{};
-    bool asked{false};       ///< the status is the device's answer; before, anything may be
-    bool was_ready{false};   ///< in this run: when it is not now, it was lost
+    bool asked{false};      ///< the status is the device's answer; before, anything may be
+    bool was_ready{false};  ///< in this run: when it is not now, it was lost
 };
 
 struct ViewerState {

@@ -55,13 +55,23 @@ void ViewerInverse3::hand_over(const ViewerState& state) {
 }
 
 void ServiceSettings::follow(ViewerState& state) {
+    constexpr int kMostTries = 3;
+    constexpr std::chrono::seconds kBetween{3};
     if (!state.inverse3) return;
     Inverse3News& news = *state.inverse3;
     if (auto kept = asking_.take()) news.kept = std::move(*kept);
-    if (news.status.id == device_ || asking_.under_way()) return;
-    device_ = news.status.id;
-    news.kept.clear();
-    if (device_.empty()) return;
+    if (asking_.under_way()) return;
+    if (news.status.id != device_) {
+        device_ = news.status.id;
+        news.kept.clear();
+        tries_ = 0;
+        asked_ = {};
+    }
+    const auto now = std::chrono::steady_clock::now();
+    if (device_.empty() || !news.kept.empty() || tries_ == kMostTries || now < asked_ + kBetween)
+        return;
+    ++tries_;
+    asked_ = now;
     asking_.start([connection = connection_of(state.settings.inverse3), device = device_] {
         return ask_kept_settings(connection, device);
     });

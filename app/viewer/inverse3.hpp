@@ -45,8 +45,8 @@ class ViewerInverse3 {
     std::chrono::steady_clock::time_point second_begin_{};
 };
 
-/// What the service keeps of the device: asked once for each that comes, away from the window's
-/// thread.
+/// What the service keeps of the device: asked when one comes, a few times while nothing is
+/// answered, away from the window's thread.
 class ServiceSettings {
   public:
     explicit ServiceSettings(Errands& errands) : asking_(errands) {}
@@ -56,6 +56,8 @@ class ServiceSettings {
 
   private:
     std::string device_{};  ///< that was asked of last
+    int tries_{0};
+    std::chrono::steady_clock::time_point asked_{};
     Errand<std::vector<inverse3::KeptSetting>> asking_;
 };
 

@@ -57,6 +57,10 @@ void ViewerReplay::begin(std::unique_ptr<OpenedSession> opened, const GivenParam
         bump_file_ = state.bump_file;
     }
     const Session& session = opened->session;
+    // Of what moves: pairs that stand still have none.
+    state.settings.in_betweens =
+        std::any_of(session.sources().begin(), session.sources().end(),
+                    [](const SessionSource& one) { return one.source.in_betweens; });
     state.replay = ReplayNews{.file = session.file(),
                               .participant = session.fact("participant"),
                               .note = session.fact("note"),
@@ -135,7 +139,6 @@ void ViewerReplay::show(const SessionMoment& moment, ViewerState& state) {
         const FrameCleaning cleaning = cleaning_of(source);
         state.settings.cleaning = {
             .preset = CleaningPreset::own, .own = cleaning.steps, .finger = cleaning.finger};
-        state.settings.in_betweens = source.in_betweens;
     }
 }
 

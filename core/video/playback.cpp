@@ -154,9 +154,21 @@ void Playback::set_motion(const MotionWanted& wanted) {
     motion_wanted_ = wanted;
     if (!is_open()) return;
     reader_->set_motion(wanted);
-    if (!other_surface || frames_.size() < 2) return;
-    for (std::size_t k = 0; k + 1 < frames_.size(); ++k) reader_->connect(frames_[k], frames_[k + 1]);
-    ++discontinuity_;
+    if (other_surface && put_between(wanted.in_betweens)) ++discontinuity_;
+}
+
+/// Whether any of the frames that are there got in-betweens, or lost them.
+bool Playback::put_between(bool wanted) {
+    bool changed = false;
+    for (std::size_t k = 0; k + 1 < frames_.size(); ++k) {
+        const bool had = frames_[k].between != nullptr;
+        if (wanted)
+            reader_->connect(frames_[k], frames_[k + 1]);
+        else
+            frames_[k].between.reset();
+        changed = changed || had != (frames_[k].between != nullptr);
+    }
+    return changed;
 }
 
 void Playback::set_maps(const std::shared_ptr<const TouchMaps>& maps) {

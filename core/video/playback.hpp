@@ -95,6 +95,7 @@ class Playback {
     [[nodiscard]] std::optional<double> taken_s() const;
     [[nodiscard]] double interval_s() const;
     void clean_again(const CleaningOptions& options);
+    bool put_between(bool wanted);
     void anchor(double playback_s, Time now);
     [[nodiscard]] double moment(Time now) const;  ///< playback time, held at the newest frame
     [[nodiscard]] bool in_part() const;

@@ -118,7 +118,7 @@ struct MotionMoments {
 /// everywhere, lie in planes; far ones in a list.
 class MotionKin {
   public:
-    static constexpr int kReach = 2;             ///< cells to each side
+    static constexpr int kReach = 2;            ///< cells to each side
     static constexpr std::size_t kMargin = 16;  ///< read beyond an end, without meaning
 
     void find(const MotionCells& cells);

@@ -184,7 +184,10 @@ void MotionEstimator::go_downhill(std::size_t size) {
     const float farthest = static_cast<float>(kFarthestMotion) *
                            static_cast<float>(kMotionCell_px * from_.cells.columns);
     sum(size, wanted_, ways_, MotionMeasure::slopes);
-    kin_.smooth(wanted_, ways_, even_);
+    if (size <= kSmall)
+        kin_.smooth(wanted_, ways_, even_);
+    else
+        even_.fill(0.0F);  // the search is not even enough to tell
     const auto even_way = [&](const Part& part, std::size_t k) {
         return Way{even_.right.of[part.part].values[k], even_.down.of[part.part].values[k]};
     };
@@ -376,6 +379,7 @@ std::shared_ptr<const MotionField> MotionEstimator::between(const Frame& from, c
     wanted_.resize(from_.cells.columns, from_.cells.rows);
     still_.resize(from_.cells.columns, from_.cells.rows);
     ways_.resize(from_.cells.columns, from_.cells.rows);
+    even_.resize(from_.cells.columns, from_.cells.rows);
     sums_.resize(from_.cells.columns, from_.cells.rows);
     if (!find_changed()) return nullptr;
     sums_.fill(0.0F);

@@ -66,6 +66,7 @@ struct Absence {
     Seconds frozen{0.0};  ///< and with one whose position stayed
     bool not_powered{false}, not_calibrated{false}, not_ready{false};  ///< told meanwhile
     bool is_back{true};
+    std::string ended_by{};  ///< what the service did in the end instead of answering
 
     void add(const std::optional<Arm>& arm, Clock::time_point now) {
         is_back = arm.has_value();
@@ -79,9 +80,11 @@ struct Absence {
         not_calibrated = not_calibrated || !arm->calibrated;
         not_ready = not_ready || arm->locked;
         const Vec3 position_m = arm->position_m.value_or(last_m_);
-        if (position_m != last_m_) moved_ = now;
+        const bool moves = count_++ > 0 && position_m != last_m_;
+        if (moves) moved_ = now;
+        has_moved_ = has_moved_ || moves;
         last_m_ = position_m;
-        frozen = std::max<Seconds>(frozen, now - moved_);
+        if (has_moved_) frozen = std::max<Seconds>(frozen, now - moved_);
     }
 
     [[nodiscard]] std::string in_words(Seconds counts_as_frozen) const {
@@ -89,12 +92,14 @@ struct Absence {
         const auto say = [&words](const std::string& more) {
             words += (words.empty() ? "" : ", ") + more;
         };
-        if (gone.count() > 0.0) say("it goes (" + number_text(gone.count(), 1) + " s)");
-        if (frozen > counts_as_frozen)
+        if (gone.count() > 0.0)
+            say("it goes (" + number_text(gone.count(), 1) + " s)");
+        else if (frozen > counts_as_frozen)
             say("it stays, frozen (" + number_text(frozen.count(), 1) + " s)");
         if (not_powered) say("told to have no power");
         if (not_calibrated) say("told not to be calibrated");
         if (not_ready) say("told not to be ready");
+        if (!ended_by.empty()) say("and then: " + ended_by);
         if (words.empty()) say("nothing of it changed");
         return words;
     }
@@ -103,6 +108,8 @@ struct Absence {
     Clock::time_point seen_{Clock::now()};
     Clock::time_point moved_{Clock::now()};
     Vec3 last_m_{0.0};
+    int count_{0};
+    bool has_moved_{false};
 };
 
 std::string names_in(const ServiceMessage& message) {
@@ -188,21 +195,24 @@ void check_unplugged(CheckDesk& desk, Json& measured) {
         "until the light is as before; then Enter");
     Absence absence;
     const auto begin = CheckTalk::Clock::now();
-    while (!desk.answered() && CheckTalk::Clock::now() < begin + desk.options.times.unplugging) {
-        absence.add(desk.talk.look(desk.likely_dialect()), CheckTalk::Clock::now());
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    try {
+        while (!desk.answered() &&
+               CheckTalk::Clock::now() < begin + desk.options.times.unplugging) {
+            absence.add(desk.talk.look(desk.likely_dialect()), CheckTalk::Clock::now());
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+    } catch (const DeviceError& failure) {  // which is a finding, too
+        absence.ended_by = failure.what();
     }
-    measured = {{"gone_s", absence.gone.count()},
-                {"frozen_s", absence.frozen.count()},
-                {"told_no_power", absence.not_powered},
-                {"told_not_calibrated", absence.not_calibrated},
-                {"told_not_ready", absence.not_ready},
-                {"is_back", absence.is_back},
-                {"at_the_end", names_in(desk.talk.message())}};
-    desk.settle(OpenQuestion::unplugged,
-                absence.in_words(desk.options.times.frozen) +
-                    (absence.is_back ? "" : "; not back, there is " +
-                                                names_in(desk.talk.message())));
+    measured = {
+        {"gone_s", absence.gone.count()},       {"frozen_s", absence.frozen.count()},
+        {"told_no_power", absence.not_powered}, {"told_not_calibrated", absence.not_calibrated},
+        {"told_not_ready", absence.not_ready},  {"is_back", absence.is_back},
+        {"ended_by", absence.ended_by},         {"at_the_end", names_in(desk.talk.message())}};
+    desk.settle(
+        OpenQuestion::unplugged,
+        absence.in_words(desk.options.times.frozen) +
+            (absence.is_back ? "" : "; not back, there is " + names_in(desk.talk.message())));
 }
 
 }  // namespace dibhr::inverse3

@@ -63,9 +63,9 @@ struct InUse {
     bool before{false}, during{false}, after{false};
 
     [[nodiscard]] const char* in_words() const {
-        if (before) return "it is set before any force: by another program, or always";
-        if (!during && !after) return "it stays off while we push: another program";
-        return after ? "it is set by our force, and stays: us, too" : "it is set by our force: us, too";
+        if (before) return "set before any force: by another program, by us without one, or always";
+        if (!during && !after) return "stays off while we push: another program";
+        return after ? "set by our force, and stays: us, too" : "set by our force: us, too";
     }
 };
 
@@ -107,7 +107,7 @@ void check_dialect(CheckDesk& desk, Json& measured) {
     in_use.after = desk.talk.exchange(std::nullopt, desk.likely_dialect()).arm.in_use;
     measured["in_use"] = {
         {"before", in_use.before}, {"during", in_use.during}, {"after", in_use.after}};
-    desk.settle(OpenQuestion::in_use, in_use.in_words());
+    if (desk.dialect) desk.settle(OpenQuestion::in_use, in_use.in_words());  // a force acted
 }
 
 void check_silence(CheckDesk& desk, Json& measured) {

@@ -47,8 +47,7 @@ CheckTalk::Heard CheckTalk::exchange(const std::optional<Vec3>& force_newton,
                                      ForceDialect dialect) {
     pushed_ = pushed_ || force_newton.has_value();
     if (force_newton) guard(dialect);
-    const auto took =
-        ask({.arm = DeviceId(id_), .force_newton = force_newton, .dialect = dialect});
+    const auto took = ask({.arm = DeviceId(id_), .force_newton = force_newton, .dialect = dialect});
     if (!message_.complaint.empty()) {
         throw DeviceError("the service complains: " + std::string(message_.complaint.view()));
     }

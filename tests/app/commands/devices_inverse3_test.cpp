@@ -72,8 +72,9 @@ TEST_CASE("an Inverse3 that can be used is told with its service and its grip",
     CHECK(says(result.output, "Haply Inverse Service 3.5.0"));
     CHECK(says(result.output, "Haply Inverse3 049D: usable"));
     CHECK(says(result.output, "asleep: press its button"));
-    CHECK(says(result.output, "kept by the service for all programs, not changed by dibhr:\n"
-                              "    gravity compensation: on, gravity scaling factor 1\n"));
+    CHECK(says(result.output,
+               "kept by the service for all programs, not changed by dibhr:\n"
+               "    gravity compensation: on, gravity scaling factor 1\n"));
     CHECK(service.heard().empty());  // nothing was driven, nothing even asked
 }
 

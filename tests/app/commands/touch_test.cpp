@@ -373,7 +373,8 @@ TEST_CASE("with carry a finger that sticks is dragged along by what moves, and f
     CHECK(stays.number("fx") == 0.0);
 }
 
-TEST_CASE("with in-betweens an outline passes under a finger as one step, else it fades", "[touch]") {
+TEST_CASE("with in-betweens an outline passes under a finger as one step, else it fades",
+          "[touch]") {
     const TemporaryFolder folder;
     // A bright square that goes to the right by 8 px a frame, over a plane far below.
     run_shell(folder,

@@ -104,7 +104,8 @@ struct Sitting {
     void press(const std::string& keys) const { desk.act("key " + keys + " sleep 0.35"); }
     /// Does it again and again until the study is finished, or the patience.
     template <typename Act>
-    void until_it_ends(Process& program, const Act& act, std::chrono::seconds patience = 150s) const {
+    void until_it_ends(Process& program, const Act& act,
+                       std::chrono::seconds patience = 150s) const {
         const auto latest = std::chrono::steady_clock::now() + patience;
         while (!program.has_ended() && std::chrono::steady_clock::now() < latest) act();
     }
@@ -296,7 +297,8 @@ repetitions = )" + std::to_string(2 * kills) +
     }
     Process again = at.desk.start(at.folder, at.words());
     at.desk.act("search --sync --onlyvisible --name dibhr sleep 0.5");
-    at.until_it_ends(again, [&] { touch_and_answer(at); }, 150s + kills * 10s);
+    at.until_it_ends(
+        again, [&] { touch_and_answer(at); }, 150s + kills * 10s);
     CHECK(again.wait() == 0);
     const StudyRecord record = at.record();
     CHECK(record.finished);

@@ -36,8 +36,9 @@ TEST_CASE("a thread takes turns as long as it asks for, and keeps its priority",
     }).join();
 }
 
-TEST_CASE("slices out of the kernel's range are not granted as they are, those of others not at all",
-          "[realtime]") {
+TEST_CASE(
+    "slices out of the kernel's range are not granted as they are, those of others not at all",
+    "[realtime]") {
     std::thread([] { CHECK_FALSE(set_time_slice(std::chrono::seconds(5))); }).join();
     CHECK_FALSE(set_time_slice(kPatientSlice, 0x3fffffff));  // there is no such thread
 }

@@ -156,8 +156,9 @@ TEST_CASE("the same two frames give the same bits, whatever was asked before", "
     CHECK(again->ways == afresh->ways);
 }
 
-TEST_CASE("smoothing leaves ways that turn and grow as they are, near and far, and nearly so at borders",
-          "[motion]") {
+TEST_CASE(
+    "smoothing leaves ways that turn and grow as they are, near and far, and nearly so at borders",
+    "[motion]") {
     test::Dice dice(3);
     MotionCells cells;
     cells.columns = 21;

@@ -80,10 +80,19 @@ class Person final : public CheckGuide {
     }
 
   private:
+    /// Of a grip that is moved until then.
     void pull_cable() {
-        service_.with([this](simulated::Scene& scene) {
+        const auto begin = simulated::Clock::now();
+        service_.with([this, begin](simulated::Scene& scene) {
             unplugged_ = scene.arms.front();
-            if (!entry_freezes) scene.arms.clear();
+            if (!entry_freezes) {
+                scene.arms.clear();
+                return;
+            }
+            scene.hand_m = [begin](double) {
+                const std::chrono::duration<double> since = simulated::Clock::now() - begin;
+                return Vec3{0.1 * std::min(since.count(), 0.3), -0.15, 0.18};
+            };
         });
     }
     Vec3 felt() {
@@ -109,6 +118,7 @@ CheckOptions quick(const simulated::Service& service, const test::TemporaryFolde
     options.times.ramp = milliseconds(100);
     options.times.hold = milliseconds(200);
     options.times.dialect = milliseconds(100);
+    options.times.frozen = milliseconds(500);
     options.times.silences = {milliseconds(5), milliseconds(30), milliseconds(120)};
     return options;
 }
