@@ -51,7 +51,7 @@ constexpr std::array kCommands{
     Command{"study", "check|plan|run|report|sessions PROTOCOL|FILE...",
             "Do people feel a difference? Conditions, trials, answers, statistics", run_study},
     Command{"info", "FILE...", "What a media or session file holds", run_info},
-    Command{"devices", "[--firmware FILE] [--check [--out FILE]] [--simulate inverse3]",
+    Command{"devices", "[--check] [--simulate inverse3]",
             "What is attached, its state and the next step", run_devices},
     Command{"bench", "[--json FILE]", "Updates, frame hand-over and loop timing on this machine",
             run_bench},

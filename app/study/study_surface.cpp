@@ -160,13 +160,12 @@ void StudySurface::hand_over() {
     }
     if (falcon_.tuning_changed(state_)) falcon_.hand_over(state_);
     if (inverse3_.tuning_changed(state_)) inverse3_.hand_over(state_);
-    const MotionWanted motion{.motion = state_.settings.touch.carry,
-                              .in_betweens = state_.settings.in_betweens};
-    if (!(motion_handed_ == motion)) player_.set_motion(motion_handed_ = motion);
+    player_.set_motion(
+        {.motion = state_.settings.touch.carry, .in_betweens = state_.settings.in_betweens});
     CleaningOptions cleaning = cleaning_on(state_.media, state_.settings.cleaning);
     const double radius_mm = finger_mm_on(state_.media, state_.settings.finger_mm);
     if (radius_mm > 0.0) cleaning.finger = fingertip_of(radius_mm, state_.settings.touch);
-    if (!(cleaning_handed_ == cleaning)) player_.set_cleaning(cleaning_handed_ = cleaning);
+    player_.set_cleaning(cleaning);
 }
 
 std::vector<int> StudySurface::take_presses() {

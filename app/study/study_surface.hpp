@@ -93,8 +93,6 @@ class StudySurface {
     std::array<ButtonPresses, 2> pressed_{};  // as taken, by Grip
     HapticSettings handed_{};
     std::uint64_t handed_at_{0};  // the loop's ticks then
-    CleaningOptions cleaning_handed_{};
-    MotionWanted motion_handed_{};
     DepthBlend shown_{};
     Player player_{};
     TripleBuffer<HapticSettings> haptic_settings_{};

@@ -593,14 +593,9 @@ void Viewer::hand_over_settings() {
     // After the above, so that the force is already rising from zero when the goal moves elsewhere.
     if (falcon_.tuning_changed(state_)) falcon_.hand_over(state_);
     if (inverse3_.tuning_changed(state_)) inverse3_.hand_over(state_);
-    const MotionWanted motion{.motion = state_.settings.touch.carry,
-                              .in_betweens = state_.settings.in_betweens && !state_.as_recorded};
-    if (!(motion_handed_ == motion)) player_.set_motion(motion_handed_ = motion);
-    const CleaningOptions cleaning = wanted_cleaning();
-    if (!(cleaning_handed_ == cleaning)) {
-        cleaning_handed_ = cleaning;
-        player_.set_cleaning(cleaning_handed_);
-    }
+    player_.set_motion({.motion = state_.settings.touch.carry,
+                        .in_betweens = state_.settings.in_betweens && !state_.as_recorded});
+    player_.set_cleaning(wanted_cleaning());
 }
 
 /// As the panel says; as recorded while the key for it is held.

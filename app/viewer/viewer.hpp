@@ -221,8 +221,6 @@ class Viewer {
     ViewerPainting painting_;
     SettingsKeeper keeper_;
     HapticSettings handed_{};
-    CleaningOptions cleaning_handed_{};
-    MotionWanted motion_handed_{};
     DepthBlend shown_{};  // of the picture being made
     float hint_alpha_{1.0F};
     float wheel_hint_alpha_{1.0F};

@@ -89,8 +89,6 @@ DepthClip::DepthClip(std::vector<Frame> frames, const SurfaceShape& shape,
     }
     if (frames_.size() == 1) return;
     Frame again = frames_.front();
-    again.motion.reset();
-    again.between.reset();
     again.time_s = frames_.back().time_s + interval_s;
     frames_.push_back(std::move(again));
 }

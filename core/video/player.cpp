@@ -322,6 +322,7 @@ void Player::set_speed(double speed) {
 }
 
 void Player::set_cleaning(const CleaningOptions& options) {
+    if (std::exchange(cleaning_, options) == options) return;
     implementation_->ask({[player = implementation_.get(), options](Playback& playback, Time now) {
                               player->live.set_cleaning(options, now);
                               playback.set_cleaning(options);
@@ -330,6 +331,7 @@ void Player::set_cleaning(const CleaningOptions& options) {
 }
 
 void Player::set_motion(const MotionWanted& wanted) {
+    if (std::exchange(motion_, wanted) == wanted) return;
     implementation_->ask({[player = implementation_.get(), wanted](Playback& playback, Time) {
         player->live.set_motion(wanted);
         playback.set_motion(wanted);

@@ -64,8 +64,9 @@ class Player {
     /// Plays only that part of the media, nothing: all of it. Stops at its end, or begins it again.
     void set_part(const std::optional<MediaPart>& part);
     void set_speed(double speed);  ///< kSlowestSpeed .. kFastestSpeed
+    /// What is as it was asked for last changes nothing, so that it may be said once a picture.
     void set_cleaning(const CleaningOptions& options);
-    /// What is to be found out of the time between frames.
+    /// What is to be found out of the time between frames; likewise.
     void set_motion(const MotionWanted& wanted);
     /// Lays them on the media that was given last; null: none.
     void set_maps(std::shared_ptr<const TouchMaps> maps);
@@ -87,6 +88,8 @@ class Player {
   private:
     struct Implementation;
     std::unique_ptr<Implementation> implementation_;
+    CleaningOptions cleaning_{};
+    MotionWanted motion_{};
 };
 
 }  // namespace dibhr

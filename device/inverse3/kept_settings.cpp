@@ -25,11 +25,9 @@ std::string shortened(std::string text) {
     return text.size() > kLongest ? text.substr(0, kLongest) + "..." : text;
 }
 
-/// What stands around a value, and not for one: an answer's own envelope, and a switch, whose value
-/// says it all.
+/// A key whose value says it all: an answer's envelope, a switch.
 bool is_said_by_itself(std::string_view key) {
-    constexpr std::array<std::string_view, 6> kKeys{"ok",   "enabled", "value",
-                                                    "data", "result",  "device_id"};
+    constexpr std::array<std::string_view, 4> kKeys{"enabled", "value", "data", "result"};
     return std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end();
 }
 

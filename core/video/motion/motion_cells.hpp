@@ -107,19 +107,36 @@ inline constexpr float kMotionAlike = 12.0F;
     return std::min(std::max(alike, 0.0F), 1.0F);
 }
 
-/// Sums of values that lie about a place, each with its weight.
+/// Sums over ways that lie about a place, of one place or, in a vector, of several.
+template <typename Value>
 struct MotionMoments {
-    float n{0.0F}, x{0.0F}, y{0.0F}, xx{0.0F}, xy{0.0F}, yy{0.0F};
-    float right{0.0F}, right_x{0.0F}, right_y{0.0F};
-    float down{0.0F}, down_x{0.0F}, down_y{0.0F};
+    Value n{}, x{}, y{}, xx{}, xy{}, yy{};
+    Value right{}, right_x{}, right_y{};
+    Value down{}, down_x{}, down_y{};
+
+    /// Of what lies (i, j) away: its weight, and its way with that weight.
+    [[gnu::always_inline]] void add(Value weight, Value rights, Value downs, float i, float j) {
+        n += weight;
+        x += weight * i;
+        y += weight * j;
+        xx += weight * (i * i);
+        xy += weight * (i * j);
+        yy += weight * (j * j);
+        right += rights;
+        right_x += rights * i;
+        right_y += rights * j;
+        down += downs;
+        down_x += downs * i;
+        down_y += downs * j;
+    }
 };
 
 /// Which parts are alike those around them: found once, asked for many sums. Near parts, which are
 /// everywhere, lie in planes; far ones in a list.
 class MotionKin {
   public:
-    static constexpr int kReach = 2;            ///< cells to each side
-    static constexpr std::size_t kMargin = 16;  ///< read beyond an end, without meaning
+    static constexpr int kReach = 2;           ///< cells to each side
+    static constexpr std::size_t kMargin = 8;  ///< read beyond an end, without meaning
 
     void find(const MotionCells& cells);
 
@@ -162,7 +179,7 @@ class MotionKin {
     /// With a far part at an end, and at most so many cells long: beside each other, farther.
     std::array<std::vector<Edge>, kReach> far_{};
     // For smooth(): of the ways around each part; and what each weighs, and its way, with a margin.
-    std::array<std::vector<MotionMoments>, 2> moments_{};
+    std::array<std::vector<MotionMoments<float>>, 2> moments_{};
     std::array<std::vector<float>, 3> padded_{};
 };
 

@@ -36,48 +36,34 @@ struct About {
 
 /// Of kLanes parts from `at` on.
 [[gnu::always_inline]] inline void sum_moments(const About& about, std::size_t at,
-                                               MotionMoments* to) {
-    Lanes n{}, x{}, y{}, xx{}, xy{}, yy{};
-    Lanes right{}, right_x{}, right_y{}, down{}, down_x{}, down_y{};
+                                               MotionMoments<float>* to) {
+    MotionMoments<Lanes> sums;
     std::size_t tap = 0;
     for (int v = -kReach; v <= kReach; ++v)
         for (int u = -kReach; u <= kReach; ++u, ++tap) {
-            const auto fu = static_cast<float>(u);
-            const auto fv = static_cast<float>(v);
             const std::ptrdiff_t there = static_cast<std::ptrdiff_t>(at) + about.away[tap];
-            Lanes alike, w, r, d;
+            Lanes alike, weight, right, down;
             load(alike, about.alike[tap] + at);
-            load(w, about.weight + there);
-            load(r, about.right + there);
-            load(d, about.down + there);
-            w *= alike;
-            r *= alike;
-            d *= alike;
-            n += w;
-            x += w * fu;
-            y += w * fv;
-            xx += w * (fu * fu);
-            xy += w * (fu * fv);
-            yy += w * (fv * fv);
-            right += r;
-            right_x += r * fu;
-            right_y += r * fv;
-            down += d;
-            down_x += d * fu;
-            down_y += d * fv;
+            load(weight, about.weight + there);
+            load(right, about.right + there);
+            load(down, about.down + there);
+            sums.add(alike * weight, alike * right, alike * down, static_cast<float>(u),
+                     static_cast<float>(v));
         }
     for (std::size_t k = 0; k < kLanes; ++k)
-        to[k] = {n[k],     x[k],       y[k],       xx[k],   xy[k],     yy[k],
-                 right[k], right_x[k], right_y[k], down[k], down_x[k], down_y[k]};
+        to[k] = {sums.n[k],       sums.x[k],    sums.y[k],      sums.xx[k],
+                 sums.xy[k],      sums.yy[k],   sums.right[k],  sums.right_x[k],
+                 sums.right_y[k], sums.down[k], sums.down_x[k], sums.down_y[k]};
 }
 
-DIBHR_VECTOR_CLONES void sum_all_moments(const About& about, std::size_t count, MotionMoments* to) {
+DIBHR_VECTOR_CLONES void sum_all_moments(const About& about, std::size_t count,
+                                         MotionMoments<float>* to) {
     for (std::size_t at = 0; at < count; at += kLanes) sum_moments(about, at, to + at);
 }
 
 /// What the plane that lies nearest to all is at their place; across a line in which they all lie
 /// it is level.
-void plane_through(const MotionMoments& moments, float& right, float& down) {
+void plane_through(const MotionMoments<float>& moments, float& right, float& down) {
     constexpr float kRidge = 0.3F;  // where they lie to one side the plane would tilt with noise
     const float share = 1.0F / moments.n;
     const float x = moments.x * share;
@@ -124,24 +110,11 @@ void MotionKin::add_far_moments(const MotionLayers& wanted, const MotionWays& wa
     for (const std::uint32_t k : split_) moments_[1][k] = {};
     for (const auto& edges : far_)
         for (const Edge& edge : edges) {
-            const auto x = static_cast<float>(edge.right);
-            const auto y = static_cast<float>(edge.down);
-            const float w = edge.alike * wanted.of[edge.from_part].values[edge.from];
-            const float right = w * ways.right.of[edge.from_part].values[edge.from];
-            const float down = w * ways.down.of[edge.from_part].values[edge.from];
-            MotionMoments& to = moments_[edge.to_part][edge.to];
-            to.n += w;
-            to.x += w * x;
-            to.y += w * y;
-            to.xx += w * x * x;
-            to.xy += w * x * y;
-            to.yy += w * y * y;
-            to.right += right;
-            to.right_x += right * x;
-            to.right_y += right * y;
-            to.down += down;
-            to.down_x += down * x;
-            to.down_y += down * y;
+            const float weight = edge.alike * wanted.of[edge.from_part].values[edge.from];
+            moments_[edge.to_part][edge.to].add(
+                weight, weight * ways.right.of[edge.from_part].values[edge.from],
+                weight * ways.down.of[edge.from_part].values[edge.from],
+                static_cast<float>(edge.right), static_cast<float>(edge.down));
         }
 }
 

@@ -72,7 +72,7 @@ struct Absence {
         is_back = arm.has_value();
         if (!arm) {
             gone = std::max<Seconds>(gone, now - seen_);
-            moved_ = now;
+            if (moved_) moved_ = now;
             return;
         }
         seen_ = now;
@@ -80,11 +80,9 @@ struct Absence {
         not_calibrated = not_calibrated || !arm->calibrated;
         not_ready = not_ready || arm->locked;
         const Vec3 position_m = arm->position_m.value_or(last_m_);
-        const bool moves = count_++ > 0 && position_m != last_m_;
-        if (moves) moved_ = now;
-        has_moved_ = has_moved_ || moves;
+        if (count_++ > 0 && position_m != last_m_) moved_ = now;
         last_m_ = position_m;
-        if (has_moved_) frozen = std::max<Seconds>(frozen, now - moved_);
+        if (moved_) frozen = std::max<Seconds>(frozen, now - *moved_);
     }
 
     [[nodiscard]] std::string in_words(Seconds counts_as_frozen) const {
@@ -106,10 +104,9 @@ struct Absence {
 
   private:
     Clock::time_point seen_{Clock::now()};
-    Clock::time_point moved_{Clock::now()};
+    std::optional<Clock::time_point> moved_{};  ///< before it has moved nothing is frozen
     Vec3 last_m_{0.0};
     int count_{0};
-    bool has_moved_{false};
 };
 
 std::string names_in(const ServiceMessage& message) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -176,7 +177,7 @@ TEST_CASE("help and version answer on standard output", "[usage]") {
     CHECK(help.exit_code == 0);
     CHECK(help.errors.empty());
     for (const std::string command :
-         {"view", "touch", "surface", "depth", "info", "devices", "bench"}) {
+         {"view", "touch", "surface", "depth", "study", "info", "devices", "bench"}) {
         INFO(command);
         CHECK(help.output.find(command) != std::string::npos);
         const ProgramResult its_help = run_dibhr(folder, {command, "--help"});
@@ -193,9 +194,30 @@ TEST_CASE("help and version answer on standard output", "[usage]") {
     CHECK(run_dibhr(folder, {"help", "nothing"}).exit_code == 2);
 }
 
+TEST_CASE("app/run takes no command for the viewer but view", "[usage]") {
+    const TemporaryFolder folder;
+    const std::string script = read_text(DIBHR_RUN_SCRIPT);
+    std::istringstream help(run_dibhr(folder, {"--help"}).output);
+    int commands = 0;
+    for (std::string line; std::getline(help, line) && !line.starts_with("Examples");) {
+        std::istringstream words(line);
+        std::string program, command;
+        words >> program >> command;
+        if (program != "dibhr" || command == "[view]" || command.starts_with("-")) continue;
+        CAPTURE(command);
+        ++commands;
+        CHECK((script.find(" " + command + " |") != std::string::npos ||
+               script.find(" " + command + ")") != std::string::npos));
+        // Nor does what it takes run into what it does.
+        if (command != "help" && command != "completion")
+            CHECK(line.find("  ", line.find(command)) != std::string::npos);
+    }
+    CHECK(commands > 10);
+}
+
 TEST_CASE("the help of every command ends with examples of it", "[usage]") {
     for (const std::string command : {"view", "touch", "surface", "depth", "experiment", "replay",
-                                      "export", "report", "info", "devices", "bench"}) {
+                                      "export", "report", "study", "info", "devices", "bench"}) {
         CAPTURE(command);
         const TemporaryFolder folder;
         const std::string help = run_dibhr(folder, {"help", command}).output;
