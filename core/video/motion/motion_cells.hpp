@@ -115,7 +115,8 @@ struct MotionMoments {
     Value down{}, down_x{}, down_y{};
 
     /// Of what lies (i, j) away: its weight, and its way with that weight.
-    [[gnu::always_inline]] void add(Value weight, Value rights, Value downs, float i, float j) {
+    [[gnu::always_inline]] void add(const Value& weight, const Value& rights, const Value& downs,
+                                    float i, float j) {
         n += weight;
         x += weight * i;
         y += weight * j;
