@@ -2,6 +2,7 @@
 #include "app/commands/study_readiness.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <iostream>
 #include <limits>
@@ -16,6 +17,7 @@
 #include "core/realtime/tick_timer.hpp"
 #include "device/falcon/falcon_device.hpp"
 #include "device/falcon/survey.hpp"
+#include "device/inverse3/inverse3_device.hpp"
 #include "device/inverse3/survey.hpp"
 
 namespace dibhr {
@@ -25,9 +27,8 @@ namespace {
 constexpr int kTicks = 1000;
 
 /// True: one can be used.
-bool print_inverse3() {
-    const inverse3::Survey survey =
-        inverse3::survey_service(connection_of(load_settings(settings_path()).inverse3));
+bool print_inverse3(const Settings& settings) {
+    const inverse3::Survey survey = inverse3::survey_service(connection_of(settings.inverse3));
     const bool usable = std::any_of(survey.arms.begin(), survey.arms.end(),
                                     [](const inverse3::SurveyedArm& arm) { return arm.usable(); });
     for (const inverse3::SurveyedArm& arm : survey.arms)
@@ -35,8 +36,8 @@ bool print_inverse3() {
     return usable;
 }
 
-void print_device() {
-    const bool inverse3 = print_inverse3();
+void print_device(const Settings& settings) {
+    const bool inverse3 = print_inverse3(settings);
     try {
         const auto falcons = falcon::attached_falcons();
         if (!falcons.empty())
@@ -59,35 +60,50 @@ void print_rate() {
               << " ticks late, 99 % within " << us.count() << " us\n";
 }
 
-void print_stability(const Protocol& protocol) {
-    const DeviceLimits limits = falcon::specification_of().limits;
+/// A device as a person has set it up.
+struct SetUpDevice {
+    const char* name;   ///< with its article
+    const char* known;  ///< how well it is known how it moves
+    DeviceLimits limits{};
+};
+
+std::array<SetUpDevice, 2> devices_as_set_up(const Settings& settings) {
+    return {{{"a Falcon", "",
+              at_scale(falcon::specification_of().limits, settings.falcon.workspace.scale)},
+             {"an Inverse3", "; its mass and delay are assumed, not measured",
+              at_scale(inverse3::specification_of().limits,
+                       settings.inverse3.tuning.workspace.scale)}}};
+}
+
+void print_stability(const Protocol& protocol, const SetUpDevice& device) {
     double least = std::numeric_limits<double>::infinity();
     std::string of;
     for (const Condition& condition : protocol.conditions) {
         TouchParameters parameters;
         request_of(condition.values).given.apply(parameters);
-        const Coupling held = held_coupling(parameters.coupling, limits);
-        if (held.stiffness_newton_per_mm < parameters.coupling.stiffness_newton_per_mm)
-            std::cout << condition.name << ": asks for "
-                      << number_text(parameters.coupling.stiffness_newton_per_mm)
-                      << " N/mm, a Falcon stands " << number_text(held.stiffness_newton_per_mm)
-                      << '\n';
-        const Coupling felt = stable_coupling(held, held.stiffness_newton_per_mm, limits.dynamics);
-        const double margin = stability_margin(felt, limits.dynamics);
+        const double asked = parameters.coupling.stiffness_newton_per_mm;
+        const Coupling held = held_coupling(parameters.coupling, device.limits);
+        const double stood = held.stiffness_newton_per_mm;
+        if (stood < asked)
+            std::cout << condition.name << ": asks for " << number_text(asked) << " N/mm, "
+                      << device.name << " stands " << number_text(stood) << '\n';
+        const Coupling felt = stable_coupling(held, stood, device.limits.dynamics);
+        const double margin = stability_margin(felt, device.limits.dynamics);
         if (margin >= least) continue;
         least = margin;
         of = condition.name;
     }
-    std::cout << "stability margin on a Falcon, damped as it needs: at least "
-              << short_text(least, 3) << " N s/m (" << of << ")\n";
+    std::cout << "stability margin on " << device.name << ", damped as it needs: at least "
+              << short_text(least, 3) << " N s/m (" << of << ")" << device.known << '\n';
 }
 
 }  // namespace
 
 void print_readiness(const Protocol& protocol) {
-    print_device();
+    const Settings settings = load_settings(settings_path());
+    print_device(settings);
     print_rate();
-    print_stability(protocol);
+    for (const SetUpDevice& device : devices_as_set_up(settings)) print_stability(protocol, device);
 }
 
 }  // namespace dibhr

@@ -214,6 +214,10 @@ Press draw_question(const StudyRun& run, const StudyShown& view) {
     if (block.form == TrialForm::rating) {
         press = has_wide_scale(block.question) ? draw_scale(block.question, view)
                                                : draw_ratings(block.question, view);
+        if (!view.by_mouse) {
+            gap(0.6F);
+            column_text("On the grip: lower, higher, answer", true);
+        }
     } else if (const auto clicked = buttons(choices_of(run))) {
         press = StudyPress{Kind::choose, *clicked};
     }
@@ -255,6 +259,10 @@ Press draw_adjustment(const StudyRun& run, const StudyShown& view) {
             *clicked == 0 ? StudyPress{Kind::feel, 1 - run.interval()} : StudyPress{Kind::go_on};
     }
     ImGui::PopID();
+    if (!view.by_mouse) {
+        ImGui::SetCursorPosY(height - 1.6F * em());
+        column_text("On the grip: less, more, the other; hold the third when they are equal", true);
+    }
     return press;
 }
 
@@ -397,7 +405,8 @@ std::optional<StudyPress> press_of_key(const StudyRun& run, const StudyShown& vi
     return std::nullopt;
 }
 
-std::optional<StudyPress> press_of_button(const StudyRun& run, const StudyShown& view, int button) {
+std::optional<StudyPress> press_of_button(const StudyRun& run, const StudyShown& view, int button,
+                                          bool held) {
     if (view.waits || view.asks_to_leave) return std::nullopt;
     if (run.step() == StudyStep::question && run.block().form == TrialForm::rating) {
         if (button == 2) return StudyPress{Kind::rate, 0, view.mark};
@@ -406,8 +415,9 @@ std::optional<StudyPress> press_of_button(const StudyRun& run, const StudyShown&
     }
     if (run.step() == StudyStep::question) return answer_by_digit(run, button + 1);
     if (run.step() == StudyStep::adjust) {
-        if (button == 2) return StudyPress{Kind::feel, 1 - run.interval()};
-        if (button > 2 || run.interval() == 0) return std::nullopt;
+        if (button == kTwoFoldButton && held) return StudyPress{Kind::go_on};
+        if (button == kTwoFoldButton) return StudyPress{Kind::feel, 1 - run.interval()};
+        if (button > kTwoFoldButton || run.interval() == 0) return std::nullopt;
         return StudyPress{Kind::turn, 0, button == 0 ? -0.02 : 0.02};
     }
     return button == 0 ? Press(StudyPress{Kind::go_on}) : std::nullopt;

@@ -57,10 +57,13 @@ struct StudyShown {
 [[nodiscard]] std::optional<StudyPress> press_of_key(const StudyRun& run, const StudyShown& view,
                                                      std::string_view key, bool shift);
 
+/// The button that does one thing at an adjustment when it is let go of, another when it is held.
+inline constexpr int kTwoFoldButton = 2;
+
 /// What the grip's button does now: the answers by number; the first one also goes on. On a scale
 /// the first two move the mark and the third one answers; at an adjustment the first two turn, the
-/// third one feels the other.
+/// third one feels the other or, `held` for a second, says equal.
 [[nodiscard]] std::optional<StudyPress> press_of_button(const StudyRun& run, const StudyShown& view,
-                                                        int button);
+                                                        int button, bool held = false);
 
 }  // namespace dibhr

@@ -60,6 +60,9 @@ class StudySurface {
     void hand_over();
     /// Numbers of the device's buttons, from 0, that were pressed since the last call.
     [[nodiscard]] std::vector<int> take_presses();
+    [[nodiscard]] bool is_down(int button) const noexcept {
+        return (state_.haptic.hand.buttons >> button & 1) != 0;
+    }
     /// Where the mouse points, for the virtual hand; does nothing where there is none.
     void point(const Camera::Ray& ray, const PointerUse& use);
 

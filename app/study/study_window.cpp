@@ -22,6 +22,7 @@ constexpr float kTextTimes = 1.7F;  // as large as in the viewer
 /// wait would tell a condition.
 constexpr double kPreparing_s = 0.9;
 constexpr double kLongestPreparing_s = 30.0;
+constexpr double kHeld_s = 1.0;  // a button of the grip
 
 double utc_now_s() {
     return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
@@ -127,6 +128,7 @@ void StudyWindow::show_one_picture() {
 /// The next one is entered with the next picture: the loop has then seen the end of this one.
 void StudyWindow::leave_step() {
     surface_.rest();
+    two_fold_down_since_.reset();
     entered_ = false;
     view_.waits = true;
 }
@@ -177,6 +179,7 @@ void StudyWindow::enter_interval() {
         session_ = file_.fresh_session();
         surface_.begin_trial(session_);
         in_trial_ = true;
+        turned_since_.reset();
         if (trial.form == TrialForm::adjust)
             turned_ = trial.intervals.back().value.value_or(run_.block().variation.reference);
     }
@@ -197,6 +200,7 @@ void StudyWindow::begin_if_there() {
     }
     view_.waits = false;
     since_ = Clock::now();
+    if (!turned_since_) turned_since_ = since_;
     const MediaDescription& media = surface_.state().media;
     camera_.frame_relief(media.depth_columns, media.depth_rows,
                          surface_.state().settings.touch.shape.relief_px);
@@ -218,9 +222,26 @@ void StudyWindow::look_at_time() {
     question ? answer({}) : act({StudyPress::Kind::go_on});
 }
 
+void StudyWindow::take_buttons() {
+    for (const int button : surface_.take_presses()) {
+        if (button == kTwoFoldButton && run_.step() == StudyStep::adjust && !view_.waits)
+            two_fold_down_since_ = Clock::now();
+        else if (const auto press = press_of_button(run_, view_, button))
+            act(*press);
+    }
+    if (two_fold_down_since_) hold_button();
+}
+
+/// What it does is known when it is let go of, or has been held.
+void StudyWindow::hold_button() {
+    const bool held = since_s(*two_fold_down_since_) >= kHeld_s;
+    if (surface_.is_down(kTwoFoldButton) && !held) return;
+    two_fold_down_since_.reset();
+    if (const auto press = press_of_button(run_, view_, kTwoFoldButton, held)) act(*press);
+}
+
 void StudyWindow::take(const WindowInput& input) {
-    for (const int button : surface_.take_presses())
-        if (const auto press = press_of_button(run_, view_, button)) act(*press);
+    take_buttons();
     for (const KeyPress& key : input.keys) {
         const bool enter = list_key(key.key) == ListKey::take;
         if (key.repeated && (enter || run_.step() != StudyStep::adjust)) continue;
@@ -240,10 +261,12 @@ void StudyWindow::act(const StudyPress& press) {
     switch (press.kind) {
         case ask_to_leave:
             view_.asks_to_leave = true;
+            asked_ = Clock::now();
             surface_.rest();
             return;
         case stay:
             view_.asks_to_leave = false;
+            since_ += Clock::now() - asked_;
             // An interval that was broken off begins anew.
             if (felt()) leave_step();
             return;
@@ -294,7 +317,7 @@ void StudyWindow::act_at_adjustment(const StudyPress& press) {
 /// The session first, then both in one transaction, then the next page.
 void StudyWindow::answer(const StudyAnswer& given) {
     StudyAnswer whole = given;
-    whole.reaction_s = since_s(since_);
+    whole.reaction_s = since_s(run_.step() == StudyStep::adjust ? *turned_since_ : since_);
     if (!run_.takes(whole)) return;
     const AnsweredTrial answered = run_.judged(whole, utc_now_s());
     surface_.end_trial();
@@ -318,6 +341,7 @@ void StudyWindow::draw(const WindowInput& input) {
     draw_relief();
     beat();
     view_.device_words = device_banner(surface_.state());
+    view_.by_mouse = surface_.by_mouse();
     gui_.begin(input.keys);
     const auto press = draw_study(run_, view_);
     gui_.end();

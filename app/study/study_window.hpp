@@ -56,6 +56,8 @@ class StudyWindow {
     void look_at_time();
     void begin_if_there();
     void take(const WindowInput& input);
+    void take_buttons();
+    void hold_button();
     void act(const StudyPress& press);
     void act_at_question(const StudyPress& press);
     void act_at_adjustment(const StudyPress& press);
@@ -89,7 +91,10 @@ class StudyWindow {
     bool left_{false};
     bool hand_seen_{false};      // a mouse beside the relief is no hand
     double turned_{0.0};         // the value an adjustment is at
-    Clock::time_point since_{};  // what is limited in time began
+    Clock::time_point since_{};  // what is limited in time began,
+    Clock::time_point asked_{};  // and stood still from here on, while leaving was asked about
+    std::optional<Clock::time_point> turned_since_{};         // an adjustment was first felt
+    std::optional<Clock::time_point> two_fold_down_since_{};  // the button of that kind
 };
 
 }  // namespace dibhr

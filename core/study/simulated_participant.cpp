@@ -111,9 +111,7 @@ PsychometricFunction SimulatedParticipant::function(double guess) const {
 }
 
 SimulatedParticipant simulated_participant(const std::string& text) {
-    SimulatedParticipant who;
-    if (text == "guess") return who;
-    who.guesses = false;
+    SimulatedParticipant who{.guesses = false};
     double seed = 1.0;
     double difference = std::numeric_limits<double>::quiet_NaN();
     const struct {
@@ -126,7 +124,7 @@ SimulatedParticipant simulated_participant(const std::string& text) {
         {"bias", who.bias, -1e9, 1e9},           {"noise", who.noise, 0.0, 1e9},
         {"share", who.share, 1.0 / 3.0, 1.0},    {"difference", difference, -1e9, 1e9},
         {"spread", who.spread, 0.0, 1e9},        {"seed", seed, 0.0, 1e9}};
-    std::vector<std::string> names{"guess", "prefer"};
+    std::vector<std::string> names;
     for (const auto& number : numbers) names.emplace_back(number.name);
     std::istringstream parts(text);
     for (std::string part; std::getline(parts, part, ',');) {
@@ -135,13 +133,18 @@ SimulatedParticipant simulated_participant(const std::string& text) {
         const std::string value = equals == std::string::npos ? "" : part.substr(equals + 1);
         const auto* const found = std::find_if(std::begin(numbers), std::end(numbers),
                                                [&](const auto& one) { return name == one.name; });
+        if (part == "guess") {
+            who.guesses = true;
+            continue;
+        }
         if (name == "prefer" && !value.empty()) {
             who.prefers = value;
             continue;
         }
         if (found == std::end(numbers))
-            throw InputError("a pilot is guess, hand, or some of " + listed(names) +
-                             " as NAME=VALUE, not " + in_quotes(part) + did_you_mean(name, names));
+            throw InputError("a pilot is guess, hand, prefer=CONDITION, or some of " +
+                             listed(names) + " as NAME=VALUE, with commas, not " + in_quotes(part) +
+                             did_you_mean(name, names));
         const auto number = number_of_text(value);
         if (!number || *number < found->lowest || *number > found->highest)
             throw InputError("the pilot's " + name + " is not a number from " +

@@ -53,7 +53,7 @@ constexpr const char* kTables =
     "('trial', 'choice', 'interval or answer, from 0; -1: none'),"
     "('trial', 'number', 'rating, or value turned to'),"
     "('trial', 'right', '1: right, 0: wrong, NULL: nothing is'),"
-    "('trial', 'reaction_s', 'since the question was put'),"
+    "('trial', 'reaction_s', 'since the question was put, or an adjustment was first felt'),"
     "('trial', 'utc_s', 'of the answer, since 1970'),"
     "('interval', 'value', 'of the varied parameter; NULL: none varies'),"
     "('interval', 'values', 'all that was set, as JSON'),"

@@ -45,7 +45,7 @@ struct StudyAnswer {
     int choice{-1};
     /// A rating, or the value to which the parameter was turned.
     std::optional<double> number{};
-    double reaction_s{0.0};  ///< since the question was put
+    double reaction_s{0.0};  ///< since the question was put, or an adjustment was first felt
 
     bool operator==(const StudyAnswer&) const = default;
 };

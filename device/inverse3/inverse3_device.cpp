@@ -23,17 +23,6 @@ constexpr double kMaxStiffness_newton_per_mm = 1.0;
 constexpr int kTellAgesEvery = 500;  // ticks
 constexpr double kMetre_mm = 1000.0;
 
-DeviceSpecification specification_of(const ConnectionOptions& options) {
-    DeviceSpecification specification;
-    specification.name =
-        options.device.empty() ? "Haply Inverse3" : "Haply Inverse3 (" + options.device + ")";
-    specification.limits.max_force_newton = kMaxForce_newton;
-    specification.limits.max_stiffness_newton_per_mm = kMaxStiffness_newton_per_mm;
-    specification.limits.dynamics = kAssumedDynamics;
-    specification.workspace_mm = {460.0, 510.0, 230.0};
-    return specification;
-}
-
 /// The same pose gives the same goal.
 bool feel_alike(const Tuning& a, const Tuning& b) noexcept {
     return a.workspace == b.workspace && a.centre_mm == b.centre_mm && a.tilt_deg == b.tilt_deg &&
@@ -47,6 +36,17 @@ Vec3 no_longer_than(Vec3 force, double most) noexcept {
 }
 
 }  // namespace
+
+DeviceSpecification specification_of(const ConnectionOptions& options) {
+    DeviceSpecification specification;
+    specification.name =
+        options.device.empty() ? "Haply Inverse3" : "Haply Inverse3 (" + options.device + ")";
+    specification.limits.max_force_newton = kMaxForce_newton;
+    specification.limits.max_stiffness_newton_per_mm = kMaxStiffness_newton_per_mm;
+    specification.limits.dynamics = kAssumedDynamics;
+    specification.workspace_mm = {460.0, 510.0, 230.0};
+    return specification;
+}
 
 Inverse3Device::Inverse3Device(ConnectionOptions options)
     : specification_(specification_of(options)), driver_(std::move(options), exchange_) {}

@@ -15,6 +15,9 @@
 
 namespace dibhr::inverse3 {
 
+/// What an Inverse3 can do, whether or not one is attached; how it moves is assumed.
+[[nodiscard]] DeviceSpecification specification_of(const ConnectionOptions& options = {});
+
 /// Looks for the service from construction on, and again whenever it is lost; chooses a device, and
 /// then exchanges one message and one state after the other. Everything but read() and send()
 /// happens on the network thread. Its end is a zero force and a closed connection.

@@ -95,6 +95,7 @@ TEST_CASE("the studies that come with the program are checked and run to their e
     CHECK(contains(checked.output, "minutes a participant"));
     CHECK(contains(checked.output, "are there"));
     CHECK(contains(checked.output, "stability margin on a Falcon"));
+    CHECK(contains(checked.output, "stability margin on an Inverse3"));
     const ProgramResult result = run_dibhr(
         folder, {"study", "run", name, "--participant", "P07", "--out", "a", "--pilot", "guess"});
     INFO(result.errors);

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "core/psychophysics/random.hpp"
@@ -70,12 +71,7 @@ break-after = 1
 question = "Which was smoother?"
 )";
 
-const std::string kOthers = R"([[block]]
-name = "rating"
-form = "rating"
-conditions = ["secret-bark"]
-question = "How smooth?"
-[[block]]
+const std::string kAdjustment = R"([[block]]
 name = "adjustment"
 form = "adjust"
 conditions = ["secret-ice"]
@@ -85,7 +81,14 @@ question = "Turn it until equal"
 [block.adjust]
 lowest = 0
 highest = 0.6
-[[block]]
+)";
+
+const std::string kOthers = R"([[block]]
+name = "rating"
+form = "rating"
+conditions = ["secret-bark"]
+question = "How smooth?"
+)" + kAdjustment + R"([[block]]
 name = "yes"
 form = "explore"
 conditions = ["secret-ice"]
@@ -209,7 +212,7 @@ TEST_CASE("nothing on the display tells one condition from another", "[study win
 }
 
 TEST_CASE("trials are felt and answered with the Falcon alone", "[study window]") {
-    const Sitting at(kHead + kPairs);
+    const Sitting at(kHead + kPairs + kAdjustment);
     write_firmware(at.folder / "firmware.bin");
     const FalconOnUsb falcon(at.folder.path(), {"firmware", "home", "place 0 0 140"});
     std::vector<std::string> words = at.words("falcon");
@@ -224,9 +227,11 @@ TEST_CASE("trials are felt and answered with the Falcon alone", "[study window]"
             if (!falcon.try_to_tell(std::string("press ") + bit)) return;
             std::this_thread::sleep_for(200ms);
         }
-        for (int k = 0; k < 5; ++k) {
-            std::this_thread::sleep_for(200ms);
-            if (!falcon.try_to_tell("press 0")) return;
+        // At an adjustment: the other one, and, held, equal.
+        for (const auto& [bit, held] :
+             {std::pair{"4", 200ms}, {"0", 1500ms}, {"4", 1300ms}, {"0", 0ms}}) {
+            if (!falcon.try_to_tell(std::string("press ") + bit)) return;
+            std::this_thread::sleep_for(held);
             pushed = pushed || falcon.vector("motor_newton").z > 0.5;
         }
     });
@@ -235,8 +240,10 @@ TEST_CASE("trials are felt and answered with the Falcon alone", "[study window]"
     CHECK(pushed);
     const StudyRecord record = at.record();
     CHECK(record.finished);
-    REQUIRE(record.answered.size() == 2);
-    for (const AnsweredTrial& one : record.answered) CHECK(one.answer.choice >= 0);
+    REQUIRE(record.answered.size() == 3);
+    CHECK(record.answered[0].answer.choice >= 0);
+    CHECK(record.answered[1].answer.choice >= 0);
+    CHECK(record.answered[2].answer.number.has_value());
     REQUIRE(run_dibhr(at.folder, {"study", "sessions", "answers/P7.dibhr-study", "--out", "s"})
                 .exit_code == 0);
     require_same_bits(at.folder, at.folder / "s/P7-001.dibhr");

@@ -148,6 +148,13 @@ TEST_CASE("who prefers a condition chooses it, who guesses does not", "[study]")
     };
     CHECK(chosen(simulated_participant("prefer=b")) == 100);
     CHECK(std::abs(chosen(simulated_participant("guess")) - 50) < 20);
+    const auto guesses = [&](const char* who) {
+        std::vector<int> choices;
+        for (const AnsweredTrial& one : answers_of(simulated_participant(who), study, 1))
+            choices.push_back(one.answer.choice);
+        return choices;
+    };
+    CHECK(guesses("guess,seed=3") != guesses("guess"));
     CHECK_THROWS_AS(simulated_participant("lapes=0.1"), InputError);
     CHECK_THROWS_AS(simulated_participant("lapse=2"), InputError);
 }
