@@ -24,19 +24,6 @@ constexpr double kTick_s = 0.001;
 constexpr double kPressed_px = 20.0;
 constexpr double kBeside_px = 12.0;  // of an outline no finger begins or ends
 
-std::shared_ptr<const MotionField> true_field(const MovingScene& scene, double from_s,
-                                              double to_s) {
-    MotionField field{scene.what().columns, scene.what().rows, {}};
-    field.ways.reserve(static_cast<std::size_t>(field.columns) *
-                       static_cast<std::size_t>(field.rows));
-    for (int j = 0; j < field.rows; ++j)
-        for (int i = 0; i < field.columns; ++i) {
-            const Point gone = scene.gone(from_s, {1.0 * i, 1.0 * j}, to_s);
-            field.ways.push_back({static_cast<float>(gone.x - i), static_cast<float>(gone.y - j)});
-        }
-    return std::make_shared<const MotionField>(std::move(field));
-}
-
 /// Frames, each with its motion to the next.
 std::vector<Frame> seen(const MovingScene& scene, const Filming& filming, int count) {
     std::vector<Frame> frames =
@@ -49,7 +36,7 @@ std::vector<Frame> seen(const MovingScene& scene, const Filming& filming, int co
         if (filming.found)
             motion.connect(frames[k], frames[k + 1], {.motion = true});
         else
-            frames[k].motion = true_field(scene, from_s, from_s + 1.0 / filming.frames_per_s);
+            frames[k].motion = scene.motion(from_s, from_s + 1.0 / filming.frames_per_s);
     }
     return frames;
 }
@@ -58,7 +45,7 @@ std::vector<Frame> truth(const MovingScene& scene, double frames_per_s, int coun
     std::vector<Frame> frames;
     for (int k = 0; k < count; ++k) {
         frames.push_back(scene.frame(k / frames_per_s));
-        frames.back().motion = true_field(scene, k / frames_per_s, (k + 1) / frames_per_s);
+        frames.back().motion = scene.motion(k / frames_per_s, (k + 1) / frames_per_s);
     }
     return frames;
 }

@@ -29,8 +29,10 @@ void print_table(const Asked& asked) {
                 "astray", "worst", "of", "turned", "drag");
     for (const auto& [shape, name] :
          {std::pair{Shape::plane, "plane"}, {Shape::sphere, "sphere"}, {Shape::hand, "hand"}})
-        for (const auto& [goes, word] :
-             {std::pair{Goes::along, "along"}, {Goes::round, "round"}, {Goes::apart, "apart"}})
+        for (const auto& [goes, word] : {std::pair{Goes::along, "along"},
+                                         {Goes::round, "round"},
+                                         {Goes::apart, "apart"},
+                                         {Goes::swelling, "swell"}})
             for (const double speed : asked.speeds_px)
                 for (const double rate : asked.rates) {
                     if (goes != Goes::along && !(speed > 0.0)) continue;

@@ -1,6 +1,6 @@
 // Prints how near motion and in-betweens come to the truth (moving_scene.hpp): motion [--speeds
 // A,B]
-// [--rates A,B] [--seconds S] [--raw]
+// [--rates A,B] [--seconds S] [--raw] [--true-motion]
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/video/motion/frame_motion.hpp"
+#include "core/video/motion/in_betweens.hpp"
 #include "tests/core/video/moving_scene.hpp"
 
 namespace {
@@ -24,6 +25,7 @@ struct Asked {
     std::vector<double> rates{15.0, 30.0, 60.0};
     double seconds{0.2};
     bool raw{false};
+    bool found{true};
 };
 
 constexpr double kBeside_px = 6.0;  // nearer to an outline it is measured for itself
@@ -145,16 +147,22 @@ class Carried {
     std::vector<Followed> points_{};
 };
 
-Measured measure(const MovingScene& scene, double rate, double seconds, bool raw) {
-    const int count = std::max(3, static_cast<int>(std::lround(seconds * rate)) + 1);
+Measured measure(const MovingScene& scene, double rate, const Asked& asked) {
+    const int count = std::max(3, static_cast<int>(std::lround(asked.seconds * rate)) + 1);
     std::vector<Frame> frames =
-        test::film(scene, count, rate, {.brightness = raw ? 0.0 : 2.0}, !raw);
+        test::film(scene, count, rate, {.brightness = asked.raw ? 0.0 : 2.0}, !asked.raw);
     Measured measured;
     Carried carried(scene);
     FrameMotion motion;
+    InBetweenMaker maker;
     for (std::size_t k = 0; k + 1 < frames.size(); ++k) {
         const double from_s = static_cast<double>(k) / rate;
-        motion.connect(frames[k], frames[k + 1], {.motion = true, .in_betweens = true});
+        if (asked.found) {
+            motion.connect(frames[k], frames[k + 1], {.motion = true, .in_betweens = true});
+        } else {
+            frames[k].motion = scene.motion(from_s, from_s + 1.0 / rate);
+            frames[k].between = maker.between(frames[k], frames[k + 1]);
+        }
         MotionField still{frames[k].depth->columns, frames[k].depth->rows, {}};
         still.ways.resize(frames[k].depth->levels.size());
         const MotionField& field = frames[k].motion ? *frames[k].motion : still;
@@ -198,8 +206,7 @@ void print_table(const Asked& asked) {
                 for (const double rate : asked.rates) {
                     if (goes != Goes::along && !(speed > 0.0)) continue;
                     const MovingScene scene({shape, goes, speed, 640, 480});
-                    print_row(name, word, speed, rate,
-                              measure(scene, rate, asked.seconds, asked.raw));
+                    print_row(name, word, speed, rate, measure(scene, rate, asked));
                 }
 }
 
@@ -211,6 +218,7 @@ int main(int argc, char** argv) {
     app.add_option("--speeds", asked.speeds_px)->delimiter(',');
     app.add_option("--rates", asked.rates)->delimiter(',');
     app.add_flag("--raw", asked.raw, "Colour without noise and as it is, not coded");
+    app.add_flag("!--true-motion", asked.found, "As it is, not as it is found");
     app.add_option("--seconds", asked.seconds, "How long points are carried");
     CLI11_PARSE(app, argc, argv);
     try {

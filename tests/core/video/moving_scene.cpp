@@ -79,21 +79,26 @@ MovingScene::Point MovingScene::middle(double t_s) const {
     return {0.5 * what_.columns + 0.94 * gone_px, 0.54 * what_.rows + 0.34 * gone_px};
 }
 
+/// So many times as large as at first.
+double MovingScene::grown(double t_s) const {
+    const double rims = what_.speed_px_per_s / size_px() * t_s;
+    if (what_.goes == Goes::apart) return 1.0 + rims;
+    return what_.goes == Goes::swelling ? std::exp(rims) : 1.0;
+}
+
 MovingScene::Point MovingScene::on_thing(double t_s, Point place) const {
     const Point middle = this->middle(t_s);
     const double turn = what_.goes == Goes::round ? what_.speed_px_per_s / size_px() * t_s : 0.0;
-    const double grown = what_.goes == Goes::apart ? what_.speed_px_per_s / size_px() * t_s : 0.0;
-    const double x = (place.x - middle.x) * std::exp(-grown);
-    const double y = (place.y - middle.y) * std::exp(-grown);
+    const double x = (place.x - middle.x) / grown(t_s);
+    const double y = (place.y - middle.y) / grown(t_s);
     return {std::cos(turn) * x + std::sin(turn) * y, std::cos(turn) * y - std::sin(turn) * x};
 }
 
 MovingScene::Point MovingScene::off_thing(double t_s, Point on) const {
     const Point middle = this->middle(t_s);
     const double turn = what_.goes == Goes::round ? what_.speed_px_per_s / size_px() * t_s : 0.0;
-    const double grown = what_.goes == Goes::apart ? what_.speed_px_per_s / size_px() * t_s : 0.0;
-    return {middle.x + std::exp(grown) * (std::cos(turn) * on.x - std::sin(turn) * on.y),
-            middle.y + std::exp(grown) * (std::sin(turn) * on.x + std::cos(turn) * on.y)};
+    return {middle.x + grown(t_s) * (std::cos(turn) * on.x - std::sin(turn) * on.y),
+            middle.y + grown(t_s) * (std::sin(turn) * on.x + std::cos(turn) * on.y)};
 }
 
 MovingScene::Seen MovingScene::at(double t_s, Point place) const {
@@ -115,6 +120,19 @@ MovingScene::Seen MovingScene::at(double t_s, Point place) const {
 MovingScene::Point MovingScene::gone(double t_s, Point place, double later_s) const {
     if (at(t_s, place).object == 0) return place;
     return off_thing(later_s, on_thing(t_s, place));
+}
+
+std::shared_ptr<const MotionField> MovingScene::motion(double from_s, double to_s) const {
+    MotionField field{what_.columns, what_.rows, {}};
+    field.ways.reserve(static_cast<std::size_t>(field.columns) *
+                       static_cast<std::size_t>(field.rows));
+    for (int j = 0; j < field.rows; ++j)
+        for (int i = 0; i < field.columns; ++i) {
+            const Point there = gone(from_s, {1.0 * i, 1.0 * j}, to_s);
+            field.ways.push_back(
+                {static_cast<float>(there.x - i), static_cast<float>(there.y - j)});
+        }
+    return std::make_shared<const MotionField>(std::move(field));
 }
 
 Frame MovingScene::frame(double t_s, const CameraNoise& noise) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,9 @@ struct CameraNoise {
 class MovingScene {
   public:
     enum class Shape : std::uint8_t { plane, sphere, hand };
-    /// Of the whole; a turn and growth are of the shape's rim.
-    enum class Goes : std::uint8_t { along, round, apart };
+    /// Of the whole; a turn and growth are of the shape's rim: for ever, or (swelling) only at
+    /// first, and then as much faster as it is larger.
+    enum class Goes : std::uint8_t { along, round, apart, swelling };
     struct What {
         Shape shape{Shape::hand};
         Goes goes{Goes::along};
@@ -45,6 +47,9 @@ class MovingScene {
     /// Where the point that is seen at `place` at `t_s` is at `later_s`.
     [[nodiscard]] Point gone(double t_s, Point place, double later_s) const;
 
+    /// The same of every pixel.
+    [[nodiscard]] std::shared_ptr<const MotionField> motion(double from_s, double to_s) const;
+
     /// As a camera without lens has it: a pixel's brightness is the mean over it, its depth that of
     /// its middle.
     [[nodiscard]] Frame frame(double t_s, const CameraNoise& noise = {}) const;
@@ -54,6 +59,7 @@ class MovingScene {
   private:
     [[nodiscard]] double size_px() const;
     [[nodiscard]] Point middle(double t_s) const;
+    [[nodiscard]] double grown(double t_s) const;
     [[nodiscard]] Point on_thing(double t_s, Point place) const;
     [[nodiscard]] Point off_thing(double t_s, Point on) const;
 
