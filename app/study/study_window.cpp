@@ -351,7 +351,7 @@ void StudyWindow::draw(const WindowInput& input) {
 
 /// Nothing where there is nothing to be felt, or nothing to be seen.
 void StudyWindow::draw_relief() {
-    const bool seen = felt() && !view_.waits && run_.block().view == StudyView::relief;
+    const bool seen = felt() && !view_.waits && run_.block().view != StudyView::blank;
     SceneContent content = scene_content(surface_.state(), surface_.shown());
     if (!seen) content = {.look = content.look, .light_wall = content.light_wall};
     hide_condition(content);

@@ -9,7 +9,7 @@ namespace dibhr {
 
 static_assert(has_all_in_order(kTrialForms, TrialForm::rating));
 static_assert(has_all_in_order(kTrialOrders, TrialOrder::listed));
-static_assert(has_all_in_order(kStudyViews, StudyView::blank));
+static_assert(has_all_in_order(kStudyViews, StudyView::touch));
 
 const char* name_of(TrialForm form) noexcept {
     return entry_of(kTrialForms, form).name;

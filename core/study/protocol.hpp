@@ -78,10 +78,13 @@ inline constexpr std::array<Word<TrialOrder>, 3> kTrialOrders{
      {TrialOrder::latin, "latin", "Latin square"},
      {TrialOrder::listed, "listed", "As listed"}}};
 
-/// What a person sees while feeling.
-enum class StudyView : std::uint8_t { relief, blank };
-inline constexpr std::array<Word<StudyView>, 2> kStudyViews{
-    {{StudyView::relief, "relief", "The relief"}, {StudyView::blank, "blank", "Nothing"}}};
+/// What a person sees while feeling. `relief`: it, and the point of it that is under the hand.
+/// `touch`: with goal, proxy and normal, as in the viewer, which tells friction and stiffness.
+enum class StudyView : std::uint8_t { relief, blank, touch };
+inline constexpr std::array<Word<StudyView>, 3> kStudyViews{
+    {{StudyView::relief, "relief", "The relief"},
+     {StudyView::blank, "blank", "Nothing"},
+     {StudyView::touch, "touch", "The relief and the touch"}}};
 
 [[nodiscard]] const char* name_of(TrialForm form) noexcept;
 [[nodiscard]] const char* name_of(TrialOrder order) noexcept;
