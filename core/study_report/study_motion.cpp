@@ -69,10 +69,10 @@ class IntervalSums {
     bool last_in_contact_{false};
 };
 
-/// A piece of the session, from a mark to the next one.
+/// A piece of the session, from a mark to the next one of any kind.
 struct Piece {
     double from_s{0.0};
-    std::size_t interval{0};
+    std::optional<std::size_t> interval{};  ///< nothing: a rest, a question
 };
 
 std::optional<std::size_t> interval_marked(const std::string& tag, std::size_t intervals) {
@@ -86,8 +86,7 @@ std::optional<std::size_t> interval_marked(const std::string& tag, std::size_t i
 std::vector<Piece> pieces_of(const Session& session, std::size_t intervals) {
     std::vector<Piece> pieces;
     for (const SessionMark& mark : session.marks())
-        if (const auto interval = interval_marked(mark.tag, intervals))
-            pieces.push_back({mark.t_s, *interval});
+        pieces.push_back({mark.t_s, interval_marked(mark.tag, intervals)});
     return pieces;
 }
 
@@ -151,12 +150,14 @@ std::vector<IntervalMotion> motion_in(const Session& session, std::size_t interv
         more = ticks.next(next);
         while (next_piece < pieces.size() && pieces[next_piece].from_s <= tick.t_s + kSameMoment_s)
             ++next_piece;
-        if (next_piece == 0) continue;  // before the first mark
+        const bool counts = next_piece > 0 && pieces[next_piece - 1].interval;
+        if (!counts) continue;  // before the first mark, or at rest
         const double held_s = more ? next.t_s - tick.t_s : tick.dt_s;
         sums[next_piece - 1].add(tick, std::clamp(held_s, 0.0, kLongestUpdate_s), pitch_mm);
     }
     for (std::size_t k = 0; k < pieces.size(); ++k) {
-        IntervalMotion& of = motion[pieces[k].interval];
+        if (!pieces[k].interval) continue;
+        IntervalMotion& of = motion[*pieces[k].interval];
         of = joined(of, sums[k].finish());
     }
     return motion;

@@ -37,9 +37,9 @@ struct IntervalMotion {
     }
 };
 
-/// The intervals of a trial's session, from each mark "interval N" to the next one; an interval
-/// felt once more goes to the same entry. `intervals`: how many there are. Throws InputError for a
-/// damaged file.
+/// The intervals of a trial's session, from each mark "interval N" to the next mark of any kind (a
+/// person's have "rest" where the force goes off) or to the end; an interval felt once more goes to
+/// the same entry. `intervals`: how many there are. Throws InputError for a damaged file.
 [[nodiscard]] std::vector<IntervalMotion> motion_in(const Session& session, std::size_t intervals);
 
 /// Both together: sums, and means weighted by time and by updates.

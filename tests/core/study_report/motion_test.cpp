@@ -1,0 +1,65 @@
+// What hands did in the intervals of a trial, from its session.
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/session/session.hpp"
+#include "core/study_report/study_motion.hpp"
+#include "tests/core/report/made_session.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+using Catch::Matchers::WithinAbs;
+
+namespace {
+
+struct Mark {
+    double t_s{0.0};
+    std::string tag{};
+};
+
+/// Two seconds of a hand that presses all the time, whatever the marks say.
+std::vector<IntervalMotion> measured(const std::vector<Mark>& marks, std::size_t intervals) {
+    const TemporaryFolder folder;
+    const auto file = folder / "trial.dibhr";
+    record(file, {.ticks = ticks_touching(2000, 0, 2000), .also = [&marks](Recorder& recorder) {
+                      for (const Mark& mark : marks) recorder.mark_at(mark.t_s, mark.tag);
+                  }});
+    return motion_in(Session(file), intervals);
+}
+
+}  // namespace
+
+TEST_CASE("an interval ends at its rest: waits and the question are no part of it",
+          "[study motion]") {
+    const auto motion =
+        measured({{0.1, "interval 1"}, {0.4, "rest"}, {0.9, "interval 2"}, {1.1, "rest"}}, 2);
+    CHECK_THAT(motion.at(0).duration_s, WithinAbs(0.3, 1e-9));
+    CHECK(motion.at(0).updates == 300);
+    CHECK_THAT(motion.at(0).contact_s, WithinAbs(0.3, 1e-9));
+    CHECK_THAT(motion.at(0).sent_newton, WithinAbs(0.5, 1e-9));
+    CHECK_THAT(motion.at(1).duration_s, WithinAbs(0.2, 1e-9));
+}
+
+TEST_CASE("an interval that is felt again counts on, and any mark ends it", "[study motion]") {
+    const auto motion = measured({{0.1, "interval 1"},
+                                  {0.2, "rest"},
+                                  {0.5, "interval 2"},
+                                  {0.8, "rest"},
+                                  {1.2, "interval 1"},
+                                  {1.6, "a note"}},
+                                 2);
+    CHECK(motion.at(0).updates == 500);
+    CHECK(motion.at(1).updates == 300);
+}
+
+TEST_CASE("intervals without a rest between them, as the modelled hand has them, end at the next",
+          "[study motion]") {
+    const auto motion = measured({{0.0, "interval 1"}, {0.75, "interval 2"}}, 2);
+    CHECK(motion.at(0).updates == 750);
+    CHECK(motion.at(1).updates == 1250);
+    // Of a trial with fewer intervals a mark beyond them is none of its own.
+    CHECK(measured({{0.0, "interval 1"}, {0.75, "interval 2"}}, 1).at(0).updates == 750);
+}
