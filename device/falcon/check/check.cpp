@@ -13,7 +13,7 @@ namespace dibhr::falcon {
 namespace {
 
 /// What a step needs to make sense.
-enum class Needs { nothing, replies, replies_and_person };
+enum class Needs { nothing, replies, replies_and_person, replies_and_force };
 
 struct Step {
     const char* name;     ///< in the record
@@ -48,12 +48,12 @@ constexpr std::array kSteps{
          "FORCE, a weak one: the grip presses down on a kitchen scale while the program "
          "falls silent. Put the scale under the grip, on books, so that the ball rests on it "
          "at about half its height; keep hands and hair away; then set the scale to zero.",
-         Needs::replies_and_person, check_silence},
+         Needs::replies_and_force, check_silence},
     Step{"torque-scale", "Force on a kitchen scale",
          "FORCE, from weak to the strongest there is: the grip presses down on the scale for "
          "at most 3 s each time, and you type the grams. The scale stands as before, on "
          "something that does not give way; hands and hair away.",
-         Needs::replies_and_person, check_force},
+         Needs::replies_and_force, check_force},
     Step{"buttons", "Buttons",
          "You press the four buttons of the grip, one after the other. No force.",
          Needs::replies_and_person, check_buttons},
@@ -77,10 +77,9 @@ class Check {
         if (const std::string fault = falcon_.unguarded(); !fault.empty()) guide_.say(fault);
         CheckRun run(desk_, record_, desk_.findings, kSteps.size(), [this] { falcon_.let_go(); });
         for (const Step& step : kSteps) {
-            const bool needs_person = step.needs == Needs::replies_and_person;
             run.step(
-                {step.name, step.title, step.meaning, needs_person}, [&] { return why_not(step); },
-                [&](Json& measured) { step.run(desk_, measured); });
+                {step.name, step.title, step.meaning, whom(step.needs)},
+                [&] { return why_not(step); }, [&](Json& measured) { step.run(desk_, measured); });
         }
         falcon_.let_go();
         guide_.say(desk_.findings.summary() + "The record: " + record_.file().string());
@@ -88,6 +87,12 @@ class Check {
     }
 
   private:
+    static StepNeeds whom(Needs needs) {
+        return needs == Needs::replies_and_force    ? StepNeeds::person_for_force
+               : needs == Needs::replies_and_person ? StepNeeds::person
+                                                    : StepNeeds::nobody;
+    }
+
     /// Why the step makes no sense; empty: it does.
     std::string why_not(const Step& step) {
         const bool can = step.needs == Needs::nothing || falcon_.answering() || falcon_.answers();

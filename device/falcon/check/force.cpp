@@ -55,10 +55,10 @@ PushEnd push_and_fall_silent(CheckDesk& desk, const Counts& motor, milliseconds 
 std::string check_one(CheckDesk& desk, milliseconds time, Json& part) {
     const Vec3 without_force = sample_counts(desk).mean;
     const Counts motor = downward(desk, without_force, kWeak_counts);
-    desk.word("The grip will press down with " + strength_of(desk, motor, without_force) +
-              " for about a second, then the program is silent for " +
-              std::to_string(time.count()) +
-              " ms. Any key lets go. Look at the scale. Enter = force, s = skip, q = quit");
+    desk.agree_to_force(
+        "The grip will press down with " + strength_of(desk, motor, without_force) +
+        " for about a second, then the program is silent for " + std::to_string(time.count()) +
+        " ms. Any key lets go. Look at the scale. F and Enter = force, s = skip, q = quit");
     Silence silence;
     const PushEnd end = push_and_fall_silent(desk, motor, time, silence);
     part["silence_ms"] = time.count();
@@ -122,7 +122,7 @@ void agree(CheckDesk& desk, int counts, const std::string& strength) {
                                 std::to_string(counts) +
                                 " counts, for 3 s. Any key lets go. Read the scale meanwhile. ";
     if (counts < kFullScale) {
-        desk.word(warning + "Enter = force, s = skip, q = quit");
+        desk.agree_to_force(warning + "F and Enter = force, s = skip, q = quit");
         return;
     }
     const std::string answer =

@@ -5,6 +5,14 @@
 
 namespace dibhr {
 
+namespace {
+
+bool is_letter(const std::string& line, char letter) {
+    return line.size() == 1 && (line[0] == letter || line[0] == letter - 'a' + 'A');
+}
+
+}  // namespace
+
 void CheckQuestions::quit_if_interrupted() const {
     if (guide.interrupted()) throw PersonQuits{};
 }
@@ -12,8 +20,8 @@ void CheckQuestions::quit_if_interrupted() const {
 std::optional<std::string> CheckQuestions::typed() {
     quit_if_interrupted();
     auto line = guide.next_line();
-    if (line == "q") throw PersonQuits{};
-    if (line == "s") throw StepSkipped{};
+    if (line && is_letter(*line, 'q')) throw PersonQuits{};
+    if (line && is_letter(*line, 's')) throw StepSkipped{};
     return line;
 }
 
@@ -41,6 +49,19 @@ std::string CheckQuestions::word(const std::string& question) {
     auto typed_word = line();
     if (!typed_word) throw StepSkipped{};
     return *typed_word;
+}
+
+void CheckQuestions::agree_to_force(const std::string& question) {
+    while (!is_letter(word(question), 'f')) guide.say("No force without an F.");
+}
+
+bool CheckQuestions::yes_or_no(const std::string& question) {
+    for (;;) {
+        const std::string answer = word(question + " y or n");
+        if (is_letter(answer, 'y') || answer == "yes") return true;
+        if (is_letter(answer, 'n') || answer == "no") return false;
+        guide.say("y or n, please, or s to skip this step");
+    }
 }
 
 std::optional<double> CheckQuestions::number(const std::string& question, double lowest,

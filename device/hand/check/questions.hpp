@@ -12,9 +12,11 @@ namespace dibhr {
 struct StepSkipped {};
 /// The person leaves the check.
 struct PersonQuits {};
+/// The person let go of a force, and with it of the step.
+struct ForceLetGo {};
 
 /// Every question may throw StepSkipped (the answer "s") and PersonQuits ("q", Ctrl+C). When nobody
-/// can answer, what needs a person is skipped.
+/// can answer, what needs a person is skipped. Single letters count small and large.
 class CheckQuestions {
   public:
     /// `person` outlives it.
@@ -25,6 +27,11 @@ class CheckQuestions {
 
     /// Any answer goes on; so does nobody.
     void begin(const std::string& question);
+    /// Until the person typed "f": an Enter may have been meant for what came before, and begins no
+    /// force.
+    void agree_to_force(const std::string& question);
+    /// Asked again until it is y or n.
+    [[nodiscard]] bool yes_or_no(const std::string& question);
     /// The typed word, when the person has done what was asked; empty: Enter alone.
     std::string word(const std::string& question);
     /// The typed number, asked for again until it is one in the range; nothing: Enter alone.

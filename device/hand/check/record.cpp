@@ -12,7 +12,7 @@ namespace dibhr {
 
 namespace {
 
-constexpr std::array kNamesOfEnds{"done", "skipped", "quit", "failed", "not begun"};
+constexpr std::array kNamesOfEnds{"done", "skipped", "let go", "quit", "failed", "not begun"};
 static_assert(kNamesOfEnds.size() == static_cast<std::size_t>(CheckEnd::not_begun) + 1);
 
 /// Now, in UTC, as strftime() has it.

@@ -43,7 +43,7 @@ class CheckFindings {
 };
 
 /// How a step ended.
-enum class CheckEnd : std::size_t { done, skipped, quit, failed, not_begun };
+enum class CheckEnd : std::size_t { done, skipped, let_go, quit, failed, not_begun };
 
 struct CheckedDevice {
     std::string kind{};      ///< "falcon"

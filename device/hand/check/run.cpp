@@ -45,6 +45,9 @@ CheckEnd CheckRun::guarded(const CheckStep& step, const std::function<std::strin
         return CheckEnd::done;
     } catch (const StepSkipped&) {
         return CheckEnd::skipped;
+    } catch (const ForceLetGo&) {
+        questions_.guide.say("Let go: no force any more. This step ends here.");
+        return CheckEnd::let_go;
     } catch (const PersonQuits&) {
         return CheckEnd::quit;
     } catch (const DeviceError& failure) {
@@ -57,10 +60,16 @@ void CheckRun::introduce(const CheckStep& step) {
     questions_.guide.say("\n" + std::to_string(number_) + " of " + std::to_string(steps_) + ": " +
                          step.title + "\n" + step.meaning);
     const char* const question = "Enter = go on, s = skip, q = quit";
-    if (step.needs_person) {
-        questions_.word(question);
-    } else {
-        questions_.begin(question);
+    switch (step.needs) {
+        case StepNeeds::nobody:
+            questions_.begin(question);
+            break;
+        case StepNeeds::person:
+            questions_.word(question);
+            break;
+        case StepNeeds::person_for_force:
+            questions_.agree_to_force("F and Enter = begin with force, s = skip, q = quit");
+            break;
     }
 }
 

@@ -11,12 +11,19 @@
 
 namespace dibhr {
 
+/// Whom a step needs to begin.
+enum class StepNeeds {
+    nobody,           ///< it is done when nobody can answer, too
+    person,           ///< who types Enter
+    person_for_force  ///< who types more than that: an Enter may have been meant for the last step
+};
+
 /// What of a step is told and asked before it.
 struct CheckStep {
     const char* name;     ///< in the record
     const char* title;    ///< for people
     const char* meaning;  ///< what will happen, and what the person does
-    bool needs_person;    ///< else it is done when nobody can answer, too
+    StepNeeds needs;
 };
 
 class CheckRun {
@@ -26,7 +33,8 @@ class CheckRun {
              std::size_t steps, std::function<void()> let_go);
 
     /// Introduces and runs it, unless the check is over or `why_not` says why it makes no sense;
-    /// the record is written after it. `run` may throw StepSkipped, PersonQuits and DeviceError.
+    /// the record is written after it. `run` may throw StepSkipped, ForceLetGo, PersonQuits and
+    /// DeviceError.
     void step(const CheckStep& step, const std::function<std::string()>& why_not,
               const std::function<void(Json&)>& run);
 

@@ -20,36 +20,36 @@ constexpr std::array kSteps{
     Step{{"service", "What the service says",
           "Keeps the service's own words about itself and its devices. Nothing moves; you need do "
           "nothing.",
-          false},
+          StepNeeds::nobody},
          check_service},
     Step{{"rate", "Exchanges a second",
           "Exchanges messages without force as fast as they come. Some seconds; nothing moves.",
-          false},
+          StepNeeds::nobody},
          check_rate},
     Step{{"moving", "Steps and workspace",
           "You move the grip about, slowly at first, then to every end that it has. No force.",
-          true},
+          StepNeeds::person},
          check_moving},
     Step{{"dialect", "How a force is spelled",
           "FORCE, a weak one of 0.5 N to the left, twice for less than a second. Hold the grip "
           "loosely in the middle of its reach; any key lets go.",
-          true},
+          StepNeeds::person_for_force},
          check_dialect},
     Step{{"silence", "The force after the last message",
           "FORCE, 0.5 N to the left, while the program falls silent for up to a second each time. "
           "Hold the grip loosely; any key lets go.",
-          true},
+          StepNeeds::person_for_force},
          check_silence},
     Step{{"force", "Force on a kitchen scale",
           "FORCE, 1, 2 and 3 N downwards for at most 3 s each: the grip presses on a kitchen "
           "scale, and you type the grams. Put the scale under the grip, on something that does "
           "not give way, and set it to zero; hands and hair away. Any key lets go.",
-          true},
+          StepNeeds::person_for_force},
          check_force},
     Step{{"unplugged", "Unplugged and plugged in again",
           "You move the grip about, pull its USB cable out for some seconds, and plug it in again. "
           "No force.",
-          true},
+          StepNeeds::person},
          check_unplugged},
 };
 

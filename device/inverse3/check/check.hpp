@@ -17,13 +17,14 @@ namespace dibhr::inverse3 {
 struct CheckTimes {
     using Span = std::chrono::milliseconds;
 
-    Span rate{3000};          ///< of one measurement of the rate
-    Span moving{10'000};      ///< while the person moves the grip about
-    Span unplugging{60'000};  ///< while the person pulls the cable out and plugs it in again
-    Span frozen{3000};        ///< a position that stays for longer, once it has moved
-    Span ramp{500};           ///< up to a force
-    Span hold{3000};          ///< of a force on the scale, at most
-    Span dialect{700};        ///< of the weak force in each dialect
+    Span rate{3000};       ///< of one measurement of the rate
+    Span moving{300'000};  ///< while the person moves the grip about, at most
+    Span unplugging{
+        300'000};       ///< of each half of pulling the cable out and plugging it in, at most
+    Span frozen{3000};  ///< a position that stays for longer, once it has moved
+    Span ramp{500};     ///< up to a force
+    Span hold{3000};    ///< of a force on the scale, at most
+    Span dialect{700};  ///< of the weak force in each dialect
     /// Without a message, after which the force is looked for.
     std::vector<Span> silences{Span(5),   Span(10),  Span(20),  Span(50),
                                Span(100), Span(200), Span(500), Span(1000)};

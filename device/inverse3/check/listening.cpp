@@ -163,18 +163,26 @@ void check_rate(CheckDesk& desk, Json& measured) {
 }
 
 void check_moving(CheckDesk& desk, Json& measured) {
-    desk.guide.ask("Move the grip slowly, then to every end; Enter when you have been everywhere");
+    desk.guide.ask(
+        "Move the grip slowly, then to every end; Enter when you have been everywhere. No force.");
     Positions positions;
     const auto begin = CheckTalk::Clock::now();
-    while (!desk.answered() && CheckTalk::Clock::now() < begin + desk.options.times.moving) {
+    const auto limit = begin + desk.options.times.moving;
+    bool answered = false;
+    while (!(answered = desk.answered()) && CheckTalk::Clock::now() < limit) {
         const auto heard = desk.talk.exchange(std::nullopt, desk.likely_dialect());
         if (heard.arm.position_m) positions.add(*heard.arm.position_m * kMetre_mm);
     }
     const std::chrono::duration<double> took = CheckTalk::Clock::now() - begin;
+    if (!answered) {
+        desk.guide.say("It went on by itself, after " + number_text(took.count(), 0) +
+                       " s without an Enter.");
+    }
     if (positions.count == 0) throw DeviceError("no position came that makes sense");
     const double changes_per_s = positions.changes / took.count();
     const Vec3 size_mm = positions.highest_mm - positions.lowest_mm;
     measured = {{"positions", positions.count},
+                {"ended_by_enter", answered},
                 {"new_positions_per_s", changes_per_s},
                 {"smallest_step_mm", positions.smallest_step_mm},
                 {"lowest_mm", as_json(positions.lowest_mm)},

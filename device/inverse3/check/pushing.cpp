@@ -28,34 +28,44 @@ class Push {
     Push(const Push&) = delete;
     Push& operator=(const Push&) = delete;
 
-    /// Rises to the force and holds it for `hold`; the last state. Nothing when the person let go.
-    /// Throws PersonQuits and DeviceError.
-    std::optional<Arm> hold(Vec3 force_newton, ForceDialect dialect, CheckTimes::Span hold) {
+    // These throw ForceLetGo, PersonQuits and DeviceError.
+
+    /// Rises to the force and holds it for `hold`; the last state.
+    Arm hold(Vec3 force_newton, ForceDialect dialect, CheckTimes::Span hold) {
         const auto begin = Clock::now();
         const auto ramp = std::chrono::duration<double>(desk_.options.times.ramp);
         const auto end = begin + desk_.options.times.ramp + hold;
-        std::optional<Arm> last;
+        Arm last;
         while (Clock::now() < end) {
-            const CheckGuide::Wish wish = desk_.guide.wish();
-            if (wish == CheckGuide::Wish::quit) throw PersonQuits{};
-            if (wish == CheckGuide::Wish::let_go) return {};
+            if (!goes_on()) throw ForceLetGo{};
             const std::chrono::duration<double> since = Clock::now() - begin;
             const double share = std::min(1.0, since / ramp);
             last = desk_.talk.exchange(share * force_newton, dialect).arm;
-            if (!last->calibrated || !last->powered) {
+            if (!last.calibrated || !last.powered) {
                 throw DeviceError("the Inverse3 lost its calibration or its power");
             }
         }
         return last;
     }
 
+    /// Sends nothing.
+    void be_silent(CheckTimes::Span span) {
+        if (!desk_.talk.keep_silent(span, [this] { return goes_on(); })) throw ForceLetGo{};
+    }
+
   private:
+    [[nodiscard]] bool goes_on() {
+        const CheckGuide::Wish wish = desk_.guide.wish();
+        if (wish == CheckGuide::Wish::quit) throw PersonQuits{};
+        return wish == CheckGuide::Wish::none;
+    }
+
     CheckDesk& desk_;
 };
 
-bool told_back(const std::optional<Arm>& state) {
-    return state && state->force_newton &&
-           glm::length(*state->force_newton) >= kToldBack * glm::length(kWeak_newton);
+bool told_back(const Arm& state) {
+    return state.force_newton &&
+           glm::length(*state.force_newton) >= kToldBack * glm::length(kWeak_newton);
 }
 
 /// What in_use said before a force of ours, at its end, and after it.
@@ -83,13 +93,16 @@ void check_dialect(CheckDesk& desk, Json& measured) {
     InUse in_use;
     in_use.before = desk.talk.exchange(std::nullopt, desk.likely_dialect()).arm.in_use;
     for (const ForceDialect dialect : {ForceDialect::vector, ForceDialect::values}) {
-        Json& part = measured[name_of(dialect)];
+        Json& part = measured[name_of(dialect)] = Json::object();
+        if (dialect != ForceDialect::vector) {
+            desk.agree_to_force("F and Enter = pull with the other spelling, s = skip, q = quit");
+        }
         bool told = false;
         try {
             Push push(desk);
-            const auto last = push.hold(kWeak_newton, dialect, desk.options.times.dialect);
+            const Arm last = push.hold(kWeak_newton, dialect, desk.options.times.dialect);
             told = told_back(last);
-            in_use.during = in_use.during || (last && last->in_use);
+            in_use.during = in_use.during || last.in_use;
         } catch (const LinkError&) {
             throw;
         } catch (const DeviceError& complaint) {
@@ -115,8 +128,8 @@ void check_silence(CheckDesk& desk, Json& measured) {
     std::optional<CheckTimes::Span> gone_after;
     for (const CheckTimes::Span silence : desk.options.times.silences) {
         Push push(desk);
-        if (!push.hold(kWeak_newton, dialect, CheckTimes::Span(100))) throw StepSkipped{};
-        desk.talk.keep_silent(silence);
+        (void)push.hold(kWeak_newton, dialect, CheckTimes::Span(100));
+        push.be_silent(silence);
         const Arm after = desk.talk.exchange(std::nullopt, dialect).arm;
         Json line{{"silence_ms", silence.count()}};
         if (!after.force_newton) {
@@ -137,7 +150,8 @@ void check_silence(CheckDesk& desk, Json& measured) {
 void check_force(CheckDesk& desk, Json& measured) {
     std::string words;
     for (const double wanted_newton : {1.0, 2.0, 3.0}) {
-        desk.word("Enter: press with " + number_text(wanted_newton, 0) + " N, s: skip");
+        desk.agree_to_force("F and Enter = press with " + number_text(wanted_newton, 0) +
+                            " N, s = skip, q = quit");
         {
             Push push(desk);
             (void)push.hold({0.0, 0.0, -wanted_newton}, desk.likely_dialect(),

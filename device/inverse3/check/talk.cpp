@@ -15,6 +15,7 @@ namespace {
 constexpr std::chrono::milliseconds kAnswerTakes{1000};
 constexpr std::chrono::milliseconds kInventoryTakes{500};
 constexpr std::chrono::milliseconds kBeatsEvery{10};  // the guardian is told; it waits for 50 ms
+constexpr std::chrono::milliseconds kLooksEvery{5};   // whether the person lets go
 
 }  // namespace
 
@@ -90,13 +91,15 @@ bool CheckTalk::hears(Clock::time_point until) {
     return true;
 }
 
-void CheckTalk::keep_silent(std::chrono::milliseconds span) {
+bool CheckTalk::keep_silent(std::chrono::milliseconds span, const std::function<bool()>& goes_on) {
     const auto end = Clock::now() + span;
     for (auto now = Clock::now(); now < end; now = Clock::now()) {
         guardian_.beat();
-        std::this_thread::sleep_until(std::min(end, now + kBeatsEvery));
+        if (!goes_on()) return false;
+        std::this_thread::sleep_until(std::min(end, now + kLooksEvery));
     }
     guardian_.beat();
+    return goes_on();
 }
 
 void CheckTalk::guard(ForceDialect dialect) noexcept {
@@ -109,9 +112,10 @@ void CheckTalk::guard(ForceDialect dialect) noexcept {
 void CheckTalk::let_go() noexcept {
     if (!pushed_) return;
     constexpr int kZeros = 3;
+    const ForceDialect first = guarded_in_.value_or(ForceDialect::vector);
     try {
         for (int k = 0; k < kZeros; ++k) {
-            for (const ForceDialect dialect : {ForceDialect::vector, ForceDialect::values}) {
+            for (const ForceDialect dialect : {first, other(first)}) {
                 const auto until = Clock::now() + kAnswerTakes;
                 link_->send(
                     writer_.write(

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -34,10 +35,12 @@ class CheckTalk {
     Heard exchange(const std::optional<Vec3>& force_newton, ForceDialect dialect);
     /// The same without a force, of a device that may be there or not; the message is message().
     [[nodiscard]] std::optional<Arm> look(ForceDialect dialect);
-    /// Three zero forces, in both dialects. No error is told.
+    /// Three zero forces in both dialects, that of the last force first. No error is told.
     void let_go() noexcept;
-    /// Without a word to the service, which the guardian knows of.
-    void keep_silent(std::chrono::milliseconds span);
+    /// Without a word to the service, which the guardian knows of; `goes_on` is asked every 5 ms.
+    /// Whether it was silent for the whole time.
+    [[nodiscard]] bool keep_silent(std::chrono::milliseconds span,
+                                   const std::function<bool()>& goes_on);
     /// Why no guardian watches while a force acts, in a line; empty when one does.
     [[nodiscard]] std::string unguarded() const { return guardian_.fault(); }
 

@@ -115,14 +115,14 @@ struct BeforeForce {
         for (const int step : {1, 2, 3, 4, 5, 6}) {
             person.answer(std::to_string(step) + " of 9", "s");
         }
-        person.answer("7 of 9", "");
+        person.answer("7 of 9", "f");
         person.read_until("500 counts");
         person.read_until("> ");
     }
 
     /// Risen, and held.
     void begin_force() {
-        person.type("\n");
+        person.type("f\n");
         FalconOnUsb::wait_until([this] { return falcon.number("largest") > 499.5; });
         constexpr double kPackets = 100.0;  // some 0.1 s
         const double risen = falcon.number("with_force");
@@ -185,13 +185,23 @@ TEST_CASE("a check that cannot be done ends with 1 and one line", "[falcon][chec
 TEST_CASE("any key lets go of a force, and the check goes on", "[falcon][check]") {
     BeforeForce at;
     at.begin_force();
-    at.person.type("x");
+    at.person.type("x71\nf\n");  // all of it before the next question: none of it answers one
     at.wait_for_no_force();
     at.person.answer("What did the scale show", "70");
     at.person.answer("1000 counts", "q");
     at.person.read_until("Motor counts a newton metre");
     CHECK(at.person.ended() == 0);
     CHECK(says(read_text(at.folder / "record.json"), "\"scale_g\": 70"));
+    CHECK(at.falcon.number("largest") < 500.5);
+}
+
+TEST_CASE("an Enter, which may have been meant for the step before, begins no force",
+          "[falcon][check]") {
+    BeforeForce at;
+    at.person.type("\n");
+    at.person.answer("No force without an F.", "q");
+    CHECK(at.person.ended() == 0);
+    CHECK(at.falcon.number("with_force") < 0.5);
 }
 
 TEST_CASE("q, Ctrl+C and a terminal that is closed end a force and the check at once",

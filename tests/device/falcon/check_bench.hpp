@@ -53,10 +53,12 @@ struct Checked {
     /// Skips every step but the one whose title this is, with a Falcon that is homed.
     void only(const std::string& title) {
         person.instead = [this, title](const std::string& question) -> std::optional<std::string> {
-            if (question != "Enter = go on, s = skip, q = quit") return std::nullopt;
+            const bool begins_step = question == "Enter = go on, s = skip, q = quit" ||
+                                     holds(question, "begin with force");
+            if (!begins_step) return std::nullopt;
             const std::size_t step = person.heard.rfind(" of 9: ");
             const bool wanted = person.heard.find(" of 9: " + title + "\n", step) == step;
-            return wanted ? "" : "s";
+            return wanted ? "f" : "s";
         };
         start_firmware(unit);
         home(unit);

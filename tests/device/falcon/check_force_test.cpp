@@ -130,6 +130,26 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("no force begins by Enter alone", "[check]") {
+    const std::string title =
+        GENERATE(as<std::string>(), "The force after the last packet", "Force on a kitchen scale");
+    const bool at_step = GENERATE(true, false);  // else at the force itself
+    CAPTURE(title, at_step);
+    Checked check;
+    check.only(title);
+    const auto usual = check.person.instead;
+    int enters = 0;
+    check.person.instead = [&](const std::string& question) -> std::optional<std::string> {
+        const auto as_usual = usual(question);
+        if (as_usual == "s" || !holds(question, "F and Enter")) return as_usual;
+        if (!at_step && holds(question, "begin with force")) return "f";
+        return ++enters > 3 ? "s" : "";
+    };
+    CHECK(check.run().fault.empty());
+    CHECK(enters == 4);
+    CHECK(log_of(check.unit).with_force == 0);
+}
+
 TEST_CASE("all its force is for a person who types yes", "[check]") {
     const std::string answer = GENERATE("", "y", "YES please");
     Checked check;

@@ -96,7 +96,7 @@ std::optional<std::string> CheckPerson::do_it(const std::string& question) {
     if (holds(question, "Plug the power adapter in") || holds(question, "wait ten seconds")) {
         unit_.with([](FalconModel& model) { model.board().set_powered(true); });
     }
-    return "";
+    return holds(question, "F and Enter") ? "f" : "";
 }
 
 dibhr::falcon::CheckTimes short_times() {

@@ -4,6 +4,8 @@
 #include <fstream>
 #include <functional>
 #include <glm/geometric.hpp>
+#include <map>
+#include <optional>
 #include <string>
 
 #include "core/error.hpp"
@@ -24,6 +26,9 @@ class Person final : public CheckGuide {
     explicit Person(simulated::Service& service) : service_(service) {}
 
     std::function<Wish()> wish_under_force{[] { return Wish::none; }};
+    /// Answers instead; nothing: as usual.
+    std::function<std::optional<std::string>(const std::string&)> instead{
+        [](const std::string&) { return std::nullopt; }};
     bool entry_freezes{false};  ///< of a device whose cable is out
     std::string heard{};
     double most_newton{0.0};         ///< felt in the last push
@@ -34,6 +39,8 @@ class Person final : public CheckGuide {
     void show(const std::string& state) override { heard += state + "\n"; }
     void ask(const std::string& question) override {
         heard += question + "\n";
+        line_ = instead(question);
+        if (line_) return;
         if (question.find("Pull the USB cable") != std::string::npos) {
             began_ = simulated::Clock::now();
             moves_ = true;
@@ -52,7 +59,7 @@ class Person final : public CheckGuide {
         } else if (question.find("Grams") != std::string::npos) {
             line_ = std::to_string(-last_newton.z / 9.80665 * 1000.0);
         } else {
-            line_ = "";
+            line_ = question.find("F and Enter") != std::string::npos ? "f" : "";
         }
     }
     std::optional<std::string> next_line() override {
@@ -127,6 +134,14 @@ Json record_in(const test::TemporaryFolder& folder) {
     return Json::parse(std::ifstream(folder / "check.json"));
 }
 
+Json step_in(const Json& record, const std::string& name) {
+    for (const Json& step : record["steps"]) {
+        if (step["step"] == name) return step;
+    }
+    FAIL("no step " << name);
+    return {};
+}
+
 bool says(const Json& value, const std::string& part) {
     return value.is_string() && value.get<std::string>().find(part) != std::string::npos;
 }
@@ -199,6 +214,77 @@ TEST_CASE("a person who lets go, or quits, is without force at once", "[inverse3
     if (wish == CheckGuide::Wish::quit) {
         CHECK(record_in(folder)["steps"].back()["end"] == "not begun");
     }
+}
+
+TEST_CASE("no force begins by Enter alone", "[inverse3_check]") {
+    const test::TemporaryFolder folder;
+    simulated::Service service;
+    Person person(service);
+    const bool at_step = GENERATE(true, false);  // else at the force itself
+    std::map<std::string, int> enters;
+    person.instead = [&](const std::string& question) -> std::optional<std::string> {
+        if (question.find("F and Enter") == std::string::npos) return {};
+        if (!at_step && question.find("begin with force") != std::string::npos) {
+            const bool pulls_at_once =
+                person.heard.rfind("Force on a kitchen scale") == std::string::npos;
+            return pulls_at_once ? "s" : "f";
+        }
+        return ++enters[question] % 3 == 0 ? "s" : "";
+    };
+    CHECK(run_check(quick(service, folder), person).fault.empty());
+    CHECK_FALSE(enters.empty());
+    CHECK(person.heard.find("No force without an F") != std::string::npos);
+    for (const simulated::Heard& one : service.heard()) {
+        REQUIRE(glm::length(one.force_newton) < 1e-12);
+    }
+}
+
+TEST_CASE("a key in a silence is answered by a zero force within 25 ms", "[inverse3_check]") {
+    const test::TemporaryFolder folder;
+    simulated::Scene scene;
+    scene.manners.force_held = milliseconds(0);
+    simulated::Service service(scene);
+    Person person(service);
+    person.instead = [&](const std::string& question) -> std::optional<std::string> {
+        const bool is_silence = person.heard.rfind("The force after the last message") >
+                                person.heard.rfind("How a force is spelled") + 1;
+        if (question.find("begin with force") != std::string::npos && !is_silence) return "s";
+        return {};
+    };
+    CheckOptions options = quick(service, folder);
+    options.times.silences = {milliseconds(1000)};
+    std::optional<simulated::Clock::time_point> key;
+    person.wish_under_force = [&] {
+        const auto last = service.heard().back().at;
+        const bool silent = simulated::Clock::now() - last > milliseconds(200);
+        if (silent && !key) key = simulated::Clock::now();
+        return key ? CheckGuide::Wish::let_go : CheckGuide::Wish::none;
+    };
+    CHECK(run_check(options, person).fault.empty());
+    REQUIRE(key);
+    const auto heard = service.heard();
+    const auto next = std::find_if(heard.begin(), heard.end(),
+                                   [&](const simulated::Heard& one) { return one.at > *key; });
+    REQUIRE(next != heard.end());
+    CHECK(next->drives);
+    CHECK_THAT(glm::length(next->force_newton), WithinAbs(0.0, 1e-12));
+    CHECK(next->at - *key < milliseconds(25));
+    CHECK(step_in(record_in(folder), "silence")["end"] == "let go");
+}
+
+TEST_CASE("the step of the workspace waits for its Enter, and tells when it waits no longer",
+          "[inverse3_check]") {
+    const test::TemporaryFolder folder;
+    simulated::Service service;
+    Person person(service);
+    person.wish_under_force = [] { return CheckGuide::Wish::quit; };
+    CheckOptions options = quick(service, folder);
+    const bool waits = GENERATE(true, false);  // the person takes 1.5 s
+    if (!waits) options.times.moving = milliseconds(300);
+    CHECK(run_check(options, person).fault.empty());
+    CHECK((person.heard.find("It went on by itself") == std::string::npos) == waits);
+    const Json measured = step_in(record_in(folder), "moving")["measured"];
+    CHECK(measured["ended_by_enter"] == waits);
 }
 
 TEST_CASE("an Inverse3 that goes in the middle of the check ends it with a reason",
