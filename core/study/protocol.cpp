@@ -34,6 +34,10 @@ TouchValues laid_over(const TouchValues& under, const TouchValues& over) {
     return all;
 }
 
+TouchValues felt_values(const Condition& condition, const Variation& vary, double value) {
+    return laid_over(condition.values, {.numbers = {{vary.parameter, value}}});
+}
+
 int Block::intervals() const noexcept {
     switch (form) {
         case TrialForm::explore:

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -166,12 +167,28 @@ struct Protocol {
     [[nodiscard]] const Condition* condition_named(const std::string& name) const noexcept;
 };
 
-/// What a protocol may name that this room does not know; data, so that it needs no other room.
+/// A condition's values where a parameter has this value: what such an interval is felt with.
+[[nodiscard]] TouchValues felt_values(const Condition& condition, const Variation& vary,
+                                      double value);
+
+/// What only rooms know that make surfaces and open files. Each throws Error with what is wrong
+/// (a number's own name first), which is told with its line; empty: that is not looked after.
+struct StudyChecks {
+    /// All that can be felt: each condition, and each value that a block gives it.
+    std::function<void(const TouchValues&)> values{};
+    std::function<void(const StudyMedia&)> media{};
+    std::function<void(const std::filesystem::path&)> picture{};  ///< of a StudyPage
+    std::function<void(const std::filesystem::path&)> bump{};
+};
+
+/// What a protocol may name that this room does not know; given, so that it needs no other room.
 struct StudyNames {
-    /// Nothing: any name will do, as when a study file is read where materials are not at hand.
+    /// Nothing: the page was run before, as a study file holds it. Any name will do, and nothing is
+    /// refused that only spoils a study to come: what was answered stays readable.
     std::optional<std::vector<std::string>> materials{};
     std::vector<std::string> cleanings{"auto", "raw", "gentle", "sensor"};
     double thickest_finger_mm{25.0};
+    StudyChecks checks{};
 };
 
 /// Reads and checks a page. Relative files are beside `file`. Throws InputError of one line:

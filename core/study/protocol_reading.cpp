@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <system_error>
 #include <utility>
 
 #include "core/error.hpp"
@@ -10,6 +11,7 @@
 #include "core/files/spelling.hpp"
 #include "core/files/text_file.hpp"
 #include "core/haptics/parameters.hpp"
+#include "core/study/block_sense.hpp"
 #include "core/study/protocol.hpp"
 #include "core/study/toml_page.hpp"
 
@@ -20,7 +22,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kMostConditions = 1000;
-constexpr int kMostTrials = 10000;
 constexpr double kAnyNumber = 1e9;
 
 template <typename Table>
@@ -53,7 +54,7 @@ class ProtocolReading {
         : page_(page), names_(names), to_(protocol) {}
 
     void read() {
-        to_.title = page_.needed_text("title");
+        to_.title = page_.needed_name("title");
         to_.version = page_.whole("version", 1, 1).value_or(1);
         to_.seed = static_cast<std::uint64_t>(
             page_.whole("seed", 0, std::numeric_limits<int>::max()).value_or(1));
@@ -78,17 +79,21 @@ class ProtocolReading {
 
     StudyPage read_page(PageTable& table, const std::string& key) const {
         StudyPage page{.text = table.text(key).value_or("")};
-        if (const auto picture = table.text(key + "-picture")) page.picture = beside(*picture);
+        if (const auto picture = table.text(key + "-picture")) {
+            page.picture = beside(*picture);
+            require(names_.checks.picture, page.picture, table, key + "-picture");
+        }
         return page;
     }
 
     void read_media() {
         to_.media.push_back({.name = kSampleMedia});
         for (PageTable& table : page_.tables("media", "[[media]]")) {
-            StudyMedia media{.name = table.needed_text("name"),
+            StudyMedia media{.name = table.needed_name("name"),
                              .colour = beside(table.needed_text("colour"))};
             if (const auto depth = table.text("depth")) media.depth = beside(*depth);
             if (has_media(media.name)) table.refuse("name", "there are two media of that name");
+            require(names_.checks.media, media, table, "colour");
             to_.media.push_back(std::move(media));
             table.done();
         }
@@ -120,7 +125,10 @@ class ProtocolReading {
             take_word(table, "material", *names_.materials, values);
         else if (const auto material = table.text("material"))
             values.words["material"] = *material;
-        if (const auto bump = table.text("bump")) values.words["bump"] = beside(*bump).string();
+        if (const auto bump = table.text("bump")) {
+            values.words["bump"] = beside(*bump).string();
+            require(names_.checks.bump, beside(*bump), table, "bump");
+        }
         for (const char* const name : {"carry", "in-betweens", "stability"})
             if (table.node(name) != nullptr)
                 values.words[name] = table.yes(name, false) ? "on" : "off";
@@ -141,6 +149,8 @@ class ProtocolReading {
         if (to_.condition_named(condition.name) != nullptr)
             table.refuse("name", "there are two conditions " + in_quotes(condition.name));
         condition.values = laid_over(base_, condition.values);
+        require_values(names_.checks, condition.values, table, "name",
+                       "the condition " + in_quotes(condition.name));
         to_.conditions.push_back(std::move(condition));
         if (to_.conditions.size() > kMostConditions)
             table.refuse("factor", "there are more than " + std::to_string(kMostConditions) +
@@ -149,7 +159,7 @@ class ProtocolReading {
 
     void read_conditions() {
         for (PageTable& table : page_.tables("condition", "a condition")) {
-            Condition condition{.name = table.needed_text("name"), .values = read_values(table)};
+            Condition condition{.name = table.needed_name("name"), .values = read_values(table)};
             table.done();
             add_condition(table, std::move(condition));
         }
@@ -164,7 +174,7 @@ class ProtocolReading {
         if (factors.empty()) return;
         std::vector<Condition> crossed{Condition{}};
         for (PageTable& factor : factors) {
-            const std::string name = factor.needed_text("name");
+            const std::string name = factor.needed_name("name");
             if (std::find(to_.factors.begin(), to_.factors.end(), name) != to_.factors.end())
                 factor.refuse("name", "there are two factors " + in_quotes(name));
             to_.factors.push_back(name);
@@ -184,7 +194,7 @@ class ProtocolReading {
     std::vector<Condition> read_levels(PageTable& factor) const {
         std::vector<Condition> levels;
         for (PageTable& table : factor.tables("levels", "a level")) {
-            Condition level{.name = table.needed_text("name"), .values = read_values(table)};
+            Condition level{.name = table.needed_name("name"), .values = read_values(table)};
             for (const Condition& other : levels)
                 if (other.name == level.name)
                     table.refuse("name", "there are two levels " + in_quotes(level.name));
@@ -208,7 +218,7 @@ class ProtocolReading {
 
     void read_block(PageTable& table) {
         Block block;
-        block.name = table.text("name").value_or("block " + std::to_string(to_.blocks.size() + 1));
+        block.name = table.name("name").value_or("block " + std::to_string(to_.blocks.size() + 1));
         block.practice = table.yes("practice", false);
         block.feedback = table.yes("feedback", block.practice);
         const auto form = table.word("form", names_of(kTrialForms));
@@ -225,11 +235,13 @@ class ProtocolReading {
         block.answer_s = table.number("answer-s", 0.0, 3600.0).value_or(0.0);
         block.break_after = table.whole("break-after", 0, kMostTrials).value_or(0);
         block.question.text = table.needed_text("question");
+        require_keys_of_form(table, block.form);
         read_items(table, block);
         read_variation(table, block);
         read_question(table, block);
         block.repetitions = table.whole("repetitions", 1, kMostTrials).value_or(1);
         require_sense(table, block);
+        if (!is_run_already()) require_worth(table, to_, base_, block, names_.checks);
         table.done();
         to_.blocks.push_back(std::move(block));
     }
@@ -249,10 +261,7 @@ class ProtocolReading {
         const std::vector<std::string> chosen = table.texts("conditions");
         for (const std::string& name : chosen) {
             const std::size_t at = condition_at(table, "conditions", name);
-            const StudyItem item{at, at};
-            if (std::find(block.items.begin(), block.items.end(), item) != block.items.end())
-                table.refuse("conditions", in_quotes(name) + " is there twice: leave one away");
-            block.items.push_back(item);
+            block.items.push_back({at, at});
         }
         read_pairs(table, block);
         if (!block.items.empty()) return;
@@ -284,9 +293,16 @@ class ProtocolReading {
             if (pair == nullptr || pair->size() != 2 || !(*pair)[0].is_string() ||
                 !(*pair)[1].is_string())
                 refuse_at(table.file(), entry, kForm);
-            block.items.push_back(
-                {condition_at(table, "pairs", (*pair)[0].value_or(std::string())),
-                 condition_at(table, "pairs", (*pair)[1].value_or(std::string()))});
+            const StudyItem item{condition_at(table, "pairs", (*pair)[0].value_or(std::string())),
+                                 condition_at(table, "pairs", (*pair)[1].value_or(std::string()))};
+            const auto same = [&item](const StudyItem& other) {
+                return other == item || other == StudyItem{item.comparison, item.reference};
+            };
+            if (!is_run_already() && std::any_of(block.items.begin(), block.items.end(), same))
+                refuse_at(table.file(), entry,
+                          "this pair is there already, in this order or the other: give "
+                          "repetitions instead, the order of the intervals is balanced");
+            block.items.push_back(item);
         }
     }
 
@@ -340,26 +356,24 @@ class ProtocolReading {
                                   short_text(lowest) + " to " + short_text(highest));
     }
 
-    static void read_staircase(PageTable& table, Variation& vary) {
+    void read_staircase(PageTable& table, Variation& vary) const {
         StaircaseRule rule;
         const auto needed = [&](const char* key) {
-            const auto number = table.number(key, 0.0, kAnyNumber);
+            const auto number = table.number_above(key, 0.0, kAnyNumber);
             if (!number)
                 table.refuse(
                     key, std::string("a staircase has no ") + key + ": add " + key + " = NUMBER");
             return *number;
         };
         rule.start = needed("start");
-        rule.low = table.number("lowest", 0.0, kAnyNumber).value_or(0.0);
         rule.high = needed("highest");
-        if (!(rule.low <= rule.start && rule.start <= rule.high))
-            table.refuse("start", "start is not between lowest and highest");
-        const auto step = table.number("step", 1e-9, kAnyNumber);
-        const auto factor = table.number("factor", 1.0 + 1e-6, 100.0);
+        const auto step = table.number_above("step", 0.0, kAnyNumber);
+        const auto factor = table.number_above("factor", 1.0, 100.0);
         if (step.has_value() == factor.has_value())
             table.refuse("step",
                          "a staircase has step = NUMBER (added) or factor = NUMBER "
                          "(multiplied), one of them");
+        read_lowest(table, step, rule);
         rule.factors = factor.has_value();
         rule.step_down = step ? *step : *factor - 1.0;
         rule.step_up = rule.step_down * table.number("up-weight", 0.01, 100.0).value_or(1.0);
@@ -371,6 +385,28 @@ class ProtocolReading {
         vary.tracks = table.whole("tracks", 1, 10).value_or(1);
         table.done();
         vary.staircase = rule;
+    }
+
+    /// No level is 0, where nothing can be told: a track that came there would stay, or be led by
+    /// answers that are neither right nor wrong.
+    void read_lowest(PageTable& table, const std::optional<double>& step,
+                     StaircaseRule& rule) const {
+        const double smallest = step ? *step : 0.01 * rule.start;
+        const char* const otherwise = step ? "one step" : "a hundredth of start";
+        const auto lowest = table.number("lowest", 0.0, kAnyNumber);
+        rule.low = lowest.value_or(smallest);
+        if (is_run_already()) return;
+        if (lowest == 0.0)
+            table.refuse("lowest",
+                         "lowest is not above 0, where there is nothing to tell: give the "
+                         "smallest difference worth asking for, or leave it out (it is then " +
+                             std::string(otherwise) + ", " + short_text(smallest) + ")");
+        const std::string low_text = "lowest (" + short_text(rule.low) +
+                                     (lowest ? ")" : std::string(", ") + otherwise + ")");
+        if (!(rule.low < rule.high)) table.refuse("highest", "highest is not above " + low_text);
+        if (!(rule.low <= rule.start && rule.start <= rule.high))
+            table.refuse("start", "start is not between " + low_text + " and highest (" +
+                                      short_text(rule.high) + ")");
     }
 
     void read_question(PageTable& table, Block& block) const {
@@ -392,45 +428,13 @@ class ProtocolReading {
         question.highest = scale->whole("highest", 0, 1000).value_or(7);
         if (question.highest <= question.lowest)
             scale->refuse("highest", "highest is not above lowest");
-        question.lowest_label = scale->text("lowest-label").value_or("");
-        question.highest_label = scale->text("highest-label").value_or("");
+        question.lowest_label = scale->name("lowest-label").value_or("");
+        question.highest_label = scale->name("highest-label").value_or("");
         scale->done();
     }
 
-    void require_sense(PageTable& table, const Block& block) const {
-        const Variation& vary = block.variation;
-        const std::string form = name_of(block.form);
-        const bool adjusts = block.form == TrialForm::adjust;
-        const bool may_climb = !adjusts && block.form != TrialForm::rating;
-        if (adjusts && (!vary.any() || !(vary.lowest < vary.highest)))
-            table.refuse("adjust",
-                         "the form adjust turns a parameter: add vary = \"friction\", "
-                         "reference and [block.adjust]");
-        if (!adjusts && table.raw().contains("adjust"))
-            table.refuse("adjust", "only the form adjust has [block.adjust]");
-        if (vary.staircase && !vary.levels.empty())
-            table.refuse("levels", "a block has levels or a staircase, not both");
-        if (!may_climb && (vary.staircase || !vary.levels.empty()))
-            table.refuse(vary.staircase ? "staircase" : "levels",
-                         "the form " + form + " has neither levels nor a staircase");
-        if (vary.any() && !adjusts && !vary.staircase && vary.levels.empty())
-            table.refuse("vary", "vary needs levels = [...] or [block.staircase]");
-        if (vary.staircase && table.raw().contains("repetitions"))
-            table.refuse("repetitions",
-                         "a staircase ends by itself: give it trials and reversals "
-                         "instead of repetitions");
-        if (vary.staircase && block.order == TrialOrder::latin)
-            table.refuse("order", "staircases follow each other at random or as listed");
-        if (block.form == TrialForm::explore && vary.staircase &&
-            block.question.answers.size() != 2)
-            table.refuse("answers", "a staircase has two answers: yes and no");
-        for (const StudyItem& item : block.items)
-            if (block.intervals() > 1 && item.reference == item.comparison && !vary.any())
-                table.refuse("form", "the form " + form + " compares two: give pairs, or vary");
-        if (block.most_trials() > kMostTrials)
-            table.refuse("repetitions",
-                         "the block has more than " + std::to_string(kMostTrials) + " trials");
-    }
+    /// As a study file holds it: StudyNames::materials.
+    bool is_run_already() const noexcept { return !names_.materials; }
 
     PageTable& page_;
     const StudyNames& names_;
@@ -442,9 +446,12 @@ class ProtocolReading {
 
 Protocol read_protocol(const fs::path& file, const StudyNames& names) {
     const auto text = small_text_in(file);
+    std::error_code failed;
+    if (fs::is_directory(file, failed))
+        throw InputError(one_line(file.string()) + " is a folder: name the study's page in it");
     if (!text)
         throw InputError("cannot read the protocol " + one_line(file.string()) +
-                         ": name a small text file that can be read");
+                         ": name a text file that can be read, of a megabyte at most");
     return protocol_of(*text, file, names);
 }
 

@@ -17,6 +17,10 @@ std::string range_text(double lowest, double highest) {
     return "from " + short_text(lowest) + " to " + short_text(highest);
 }
 
+bool is_blank(const std::string& text) {
+    return text.find_first_not_of(" \t\r\n") == std::string::npos;
+}
+
 }  // namespace
 
 void refuse_at(const std::filesystem::path& file, const toml::node& node, const std::string& what) {
@@ -45,13 +49,26 @@ std::optional<std::string> PageTable::text(const std::string& key) {
     const toml::node* const found = node(key);
     if (found == nullptr) return std::nullopt;
     auto value = found->value_exact<std::string>();
-    if (!value || value->empty()) refuse(key, key + " is not a text in quotes");
+    if (!value) refuse(key, key + " is not a text in quotes");
+    if (is_blank(*value)) refuse(key, key + " is blank: write a text between the quotes");
     return value;
 }
 
 std::string PageTable::needed_text(const std::string& key) {
     if (auto value = text(key)) return *value;
     refuse(key, called_ + " has no " + key + ": add " + key + " = \"...\"");
+}
+
+std::optional<std::string> PageTable::name(const std::string& key) {
+    auto value = text(key);
+    if (value && one_line(*value) != *value)
+        refuse(key, key + " is not one line without control characters: take them out");
+    return value;
+}
+
+std::string PageTable::needed_name(const std::string& key) {
+    static_cast<void>(name(key));
+    return needed_text(key);
 }
 
 std::optional<double> PageTable::number(const std::string& key, double lowest, double highest) {
@@ -63,12 +80,24 @@ std::optional<double> PageTable::number(const std::string& key, double lowest, d
     return value;
 }
 
+std::optional<double> PageTable::number_above(const std::string& key, double bound,
+                                              double highest) {
+    const toml::node* const found = node(key);
+    if (found == nullptr) return std::nullopt;
+    const auto value = found->is_number() ? found->value<double>() : std::nullopt;
+    if (!value || !(*value > bound && *value <= highest))
+        refuse(key, key + " is not a number above " + short_text(bound) + ", up to " +
+                        short_text(highest));
+    return value;
+}
+
 std::optional<int> PageTable::whole(const std::string& key, int lowest, int highest) {
     const toml::node* const found = node(key);
     if (found == nullptr) return std::nullopt;
     const auto value = found->value_exact<std::int64_t>();
     if (!value || *value < lowest || *value > highest)
-        refuse(key, key + " is not a whole number " + range_text(lowest, highest));
+        refuse(key, key + " is not a whole number from " + std::to_string(lowest) + " to " +
+                        std::to_string(highest));
     return static_cast<int>(*value);
 }
 
@@ -99,8 +128,10 @@ std::vector<std::string> PageTable::texts(const std::string& key) {
     if (list == nullptr || list->empty()) refuse(key, key + " is not a list [\"...\", \"...\"]");
     for (const toml::node& entry : *list) {
         const auto value = entry.value_exact<std::string>();
-        if (!value || value->empty())
-            refuse_at(file_, entry, "an entry of " + key + " is not a text in quotes");
+        if (!value || is_blank(*value) || one_line(*value) != *value)
+            refuse_at(file_, entry, "an entry of " + key + " is not a line of text in quotes");
+        if (std::find(values.begin(), values.end(), *value) != values.end())
+            refuse_at(file_, entry, key + " has " + in_quotes(*value) + " twice: leave one away");
         values.push_back(*value);
     }
     return values;

@@ -32,13 +32,20 @@ class PageTable {
     [[nodiscard]] const toml::node* node(const std::string& key);
     [[nodiscard]] std::optional<std::string> text(const std::string& key);
     [[nodiscard]] std::string needed_text(const std::string& key);
+    /// Of one line and without control characters, as it is shown on a button or in a table.
+    [[nodiscard]] std::optional<std::string> name(const std::string& key);
+    [[nodiscard]] std::string needed_name(const std::string& key);
     [[nodiscard]] std::optional<double> number(const std::string& key, double lowest,
                                                double highest);
+    /// In (bound, highest].
+    [[nodiscard]] std::optional<double> number_above(const std::string& key, double bound,
+                                                     double highest);
     [[nodiscard]] std::optional<int> whole(const std::string& key, int lowest, int highest);
     [[nodiscard]] bool yes(const std::string& key, bool otherwise);
     /// One of the words: its place among them.
     [[nodiscard]] std::optional<std::size_t> word(const std::string& key,
                                                   const std::vector<std::string>& words);
+    /// Names, none of them twice; as numbers().
     [[nodiscard]] std::vector<std::string> texts(const std::string& key);
     [[nodiscard]] std::vector<double> numbers(const std::string& key, double lowest,
                                               double highest);

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <numeric>
 
+#include "core/files/plain_text.hpp"
 #include "core/psychophysics/random.hpp"
 #include "core/psychophysics/staircase.hpp"
 #include "core/study/study_run.hpp"
@@ -61,6 +62,13 @@ Task constant_task(const Protocol& protocol, int block_number, int number, int p
     return task;
 }
 
+/// Steps up and down leave dust (0.1 + 0.2 is not 0.3): the same level is the same number.
+double without_dust(const StaircaseRule& rule, double level) {
+    constexpr int kDigits = 12;
+    const double clean = number_of_text(short_text(level, kDigits)).value_or(level);
+    return std::clamp(clean, rule.low, rule.high);
+}
+
 /// The track that is behind the others, one of them by chance; nothing: all have ended.
 std::optional<Task> adaptive_task(const Protocol& protocol, int block_number, int number,
                                   std::span<const AnsweredTrial> in_block) {
@@ -94,15 +102,15 @@ std::optional<Task> adaptive_task(const Protocol& protocol, int block_number, in
                 .track = cell % tracks,
                 .chunk = kChunk,
                 .cell = cell,
-                .level = runs[static_cast<std::size_t>(cell)].level()};
+                .level = without_dust(*block.variation.staircase,
+                                      runs[static_cast<std::size_t>(cell)].level())};
 }
 
 StudyInterval interval_of(const Protocol& protocol, const Block& block, std::size_t condition,
                           std::optional<double> value) {
     const Condition& one = protocol.conditions[condition];
     StudyInterval interval{.condition = one.name, .values = one.values, .value = value};
-    if (value)
-        interval.values = laid_over(one.values, {.numbers = {{block.variation.parameter, *value}}});
+    if (value) interval.values = felt_values(one, block.variation, *value);
     return interval;
 }
 

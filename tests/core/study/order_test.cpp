@@ -1,6 +1,8 @@
 // The order of trials: balanced over participants, and the same everywhere.
+#include <algorithm>
 #include <map>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -149,6 +151,30 @@ TEST_CASE("interleaved staircases each follow their own answers and end by thems
     }
     CHECK_THAT(last[0], Catch::Matchers::WithinAbs(0.1, 1e-9));
     CHECK_THAT(last[1], Catch::Matchers::WithinAbs(0.5, 1e-9));
+}
+
+TEST_CASE("the levels of a staircase are whole steps to the last bit, and none of them is 0",
+          "[study]") {
+    const std::string form = GENERATE("two-interval", "three-interval", "explore");
+    const Protocol study = test::protocol(test::page_of_conditions(
+        1, "[[block]]\nform = \"" + form +
+               "\"\nquestion = \"Q\"\nvary = \"friction\"\nreference = 0.3\n"
+               "[block.staircase]\nstart = 0.4\nhighest = 1\nstep = 0.1\ndown-after = 1\n"
+               "trials = 60\n"));
+    // Ten times all is found, and ten times nothing is.
+    const auto all = test::all_trials(study, 1, [](const Trial& trial) {
+        const bool finds = trial.number / 10 % 2 == 0;
+        const int hit = std::max(0, trial.target);
+        return StudyAnswer{.choice = finds ? hit : (hit == 0 ? 1 : 0)};
+    });
+    REQUIRE(all.size() == 60);
+    const std::set<double> whole{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0};
+    std::set<double> met;
+    for (const AnsweredTrial& one : all) {
+        CHECK(one.right.has_value());
+        met.insert(*one.trial.level);
+    }
+    CHECK(met == whole);
 }
 
 TEST_CASE("an adjustment begins anywhere in its range", "[study]") {
