@@ -20,6 +20,7 @@
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/session/database.hpp"
+#include "core/study/toml_page.hpp"
 
 namespace dibhr {
 
@@ -209,6 +210,19 @@ void bind(Statement& row, const std::optional<double>& value) {
         row.cell(std::optional<std::int64_t>());
 }
 
+/// Whose a session is and of which trial: the facts that a recording of a person's own has, too.
+void sign_session(const fs::path& session, const StudyIdentity& identity, int trial,
+                  const fs::path& study) {
+    const std::string title =
+        page_of(identity.protocol_text, study)["title"].value_or(std::string());
+    Database database(session);
+    database.distrust(kLongestSession_bytes);
+    Statement row(database, "INSERT OR REPLACE INTO session VALUES (?, ?)");
+    row.run(std::string_view("participant"), std::string_view(identity.participant));
+    const std::string note = title + ", trial " + std::to_string(trial + 1);
+    row.run(std::string_view("note"), std::string_view(note));
+}
+
 void remove_quietly(const fs::path& session) {
     std::error_code ignored;
     for (const char* const ending : {"", "-wal", "-shm", "-journal"})
@@ -218,13 +232,15 @@ void remove_quietly(const fs::path& session) {
 }  // namespace
 
 void require_label(const std::string& label) {
-    const bool fits = !label.empty() && label.size() <= kLongestLabel &&
+    const bool fits = !label.empty() && label.size() <= kLongestLabel && label.front() != '-' &&
+                      label.front() != '_' &&
                       std::all_of(label.begin(), label.end(), [](unsigned char c) {
                           return c < 0x80 && (std::isalnum(c) != 0 || c == '-' || c == '_');
                       });
     if (!fits)
         throw InputError(in_quotes(label) +
-                         " is no label of a participant: use letters, digits, - and _, at most 40");
+                         " is no label of a participant: use letters, digits, - and _, at most 40, "
+                         "and a letter or a digit first");
 }
 
 std::optional<int> number_in(const std::string& label) {
@@ -407,16 +423,19 @@ std::string session_name(const StudyRecord& study, int trial) {
 }
 
 bool write_study_session(const fs::path& study, int trial, const fs::path& session) {
+    StudyIdentity identity;
     const std::string bytes = of_file(study, [&] {
         Database database(study);
         database.distrust(kLongestSession_bytes);
         require_kind(database, study);
+        identity = identity_in(database);
         Rows rows(database, "SELECT file FROM session WHERE trial = " + std::to_string(trial));
         return rows.next() ? rows.bytes(0) : std::string();
     });
     if (bytes.empty()) return false;
     OutputFile out(session);
     out.write(bytes);
+    of_file(session, [&] { sign_session(out.written(), identity, trial, study); });
     out.commit();
     return true;
 }

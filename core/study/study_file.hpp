@@ -92,7 +92,8 @@ struct StudyRecord {
 /// "P07-003.dibhr": participant and trial, from 1; never a condition's name.
 [[nodiscard]] std::string session_name(const StudyRecord& study, int trial);
 
-/// Writes one trial's session as a file of its own, which Session reads. False: there is none.
+/// Writes one trial's session as a file of its own, which Session reads, with the label as its
+/// participant and title and trial as its note. False: there is none.
 /// Throws InputError.
 bool write_study_session(const std::filesystem::path& study, int trial,
                          const std::filesystem::path& session);
