@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <set>
 #include <sstream>
 
 #include "core/error.hpp"
@@ -126,6 +127,7 @@ SimulatedParticipant simulated_participant(const std::string& text) {
         {"spread", who.spread, 0.0, 1e9},        {"seed", seed, 0.0, 1e9}};
     std::vector<std::string> names;
     for (const auto& number : numbers) names.emplace_back(number.name);
+    std::set<std::string> given;
     std::istringstream parts(text);
     for (std::string part; std::getline(parts, part, ',');) {
         const auto equals = part.find('=');
@@ -133,6 +135,8 @@ SimulatedParticipant simulated_participant(const std::string& text) {
         const std::string value = equals == std::string::npos ? "" : part.substr(equals + 1);
         const auto* const found = std::find_if(std::begin(numbers), std::end(numbers),
                                                [&](const auto& one) { return name == one.name; });
+        if (!given.insert(name).second)
+            throw InputError("the pilot has " + in_quotes(name) + " twice: leave one away");
         if (part == "guess") {
             who.guesses = true;
             continue;
@@ -141,16 +145,23 @@ SimulatedParticipant simulated_participant(const std::string& text) {
             who.prefers = value;
             continue;
         }
-        if (found == std::end(numbers))
+        if (found == std::end(numbers)) {
+            std::vector<std::string> words = names;
+            words.insert(words.end(), {"guess", "hand", "prefer"});
             throw InputError("a pilot is guess, hand, prefer=CONDITION, or some of " +
                              listed(names) + " as NAME=VALUE, with commas, not " + in_quotes(part) +
-                             did_you_mean(name, names));
+                             did_you_mean(name, words));
+        }
         const auto number = number_of_text(value);
         if (!number || *number < found->lowest || *number > found->highest)
             throw InputError("the pilot's " + name + " is not a number from " +
                              short_text(found->lowest) + " to " + short_text(found->highest));
         found->value = *number;
     }
+    for (const std::string& name : given)
+        if (who.guesses && name != "guess" && name != "seed")
+            throw InputError("a pilot that guesses feels nothing and has no " + name +
+                             ": leave it away, or guess");
     who.seed = static_cast<std::uint64_t>(seed);
     if (std::isfinite(difference)) who.difference = difference;
     return who;

@@ -37,8 +37,8 @@ struct SimulatedParticipant {
     [[nodiscard]] PsychometricFunction function(double guess) const;
 };
 
-/// "guess,threshold=0.1,slope=20,lapse=0.02,prefer=dibhr,share=0.8,spread=0.1,seed=1", any of them;
-/// one that guesses does nothing else. Throws InputError that says what is allowed.
+/// "threshold=0.1,slope=20,lapse=0.02,prefer=dibhr,share=0.8,spread=0.1,seed=1", any of them, each
+/// once; or "guess", with a seed or without. Throws InputError that says what is allowed.
 [[nodiscard]] SimulatedParticipant simulated_participant(const std::string& text);
 
 /// The answer to the running trial, at its question or adjustment. The same protocol, number, trial

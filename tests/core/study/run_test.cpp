@@ -157,4 +157,8 @@ TEST_CASE("who prefers a condition chooses it, who guesses does not", "[study]")
     CHECK(guesses("guess,seed=3") != guesses("guess"));
     CHECK_THROWS_AS(simulated_participant("lapes=0.1"), InputError);
     CHECK_THROWS_AS(simulated_participant("lapse=2"), InputError);
+    CHECK_THROWS_AS(simulated_participant("guess,threshold=1"), InputError);
+    CHECK_THROWS_AS(simulated_participant("prefer=b,guess"), InputError);
+    CHECK_THROWS_AS(simulated_participant("lapse=0.1,lapse=0.1"), InputError);
+    CHECK_THROWS_AS(simulated_participant("prefer=a,prefer=b"), InputError);
 }
