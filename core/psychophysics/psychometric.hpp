@@ -83,10 +83,19 @@ using Simulate = std::function<LevelCounts(const PsychometricFunction&, Random&)
 [[nodiscard]] PsychometricFunction most_likely(const LevelCounts& counts,
                                                const FitSettings& settings);
 
-/// The fit with its intervals: profile likelihood, its critical value not chi squared's but found
-/// by a parametric bootstrap: the deviance of a known threshold among studies simulated with the
-/// fitted function. An end is infinite where no value within the search is refused. The same
-/// `seed` gives the same intervals.
+/// The fit without bootstraps, for many of them: of the threshold it says only whether it has
+/// bounds. An end is that of the search, or infinite where the likelihood there is not refused (by
+/// chi squared).
+[[nodiscard]] PsychometricFit fitted_roughly(const LevelCounts& counts,
+                                             const FitSettings& settings);
+
+/// Of fewer trials the threshold's interval covers clearly less often than it says (README.md).
+inline constexpr int kFewestTrialsOfThreshold = 36;
+
+/// The fit with its intervals: profile likelihood, its critical value found by a parametric
+/// bootstrap (the deviance of a known threshold among studies simulated with the fitted function),
+/// or chi squared's where that is larger. An end is infinite where no value within the search is
+/// refused. The same `seed` gives the same intervals; there must be a bootstrap.
 [[nodiscard]] PsychometricFit fitted(const LevelCounts& counts, const FitSettings& settings,
                                      const Simulate& simulate, std::uint64_t seed);
 

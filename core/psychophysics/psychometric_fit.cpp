@@ -14,6 +14,10 @@ namespace dibhr {
 namespace {
 
 constexpr std::size_t kParameters = 3;
+
+/// Chi squared's 95 % with one degree of freedom: what a deviance reaches by chance of many trials.
+constexpr double kUsualCritical = 3.841459;
+
 enum Parameter : std::size_t { kThreshold, kLogScale, kLapse };
 
 /// Threshold and scale on the curve's axis.
@@ -289,6 +293,13 @@ Interval profile_of(const Problem& problem, Parameter held, const Point& best, d
             end_of(problem, held, best, problem.bounds.high[held], critical)};
 }
 
+PsychometricFit fit_at(const Problem& problem, const Point& best, const LevelCounts& counts) {
+    const auto add = [](int sum, const LevelCount& level) { return sum + level.count.trials; };
+    return {.function = function_of(problem, best),
+            .deviance = deviance_of(counts, best),
+            .trials = std::accumulate(counts.begin(), counts.end(), 0, add)};
+}
+
 }  // namespace
 
 PsychometricFunction most_likely(const LevelCounts& counts, const FitSettings& settings) {
@@ -296,19 +307,34 @@ PsychometricFunction most_likely(const LevelCounts& counts, const FitSettings& s
     return function_of(problem, best_point(problem));
 }
 
+PsychometricFit fitted_roughly(const LevelCounts& counts, const FitSettings& settings) {
+    const Problem problem = problem_of(counts, settings);
+    const Point best = best_point(problem);
+    PsychometricFit fit = fit_at(problem, best, counts);
+    const auto end = [&](double bound) {
+        const Point there = best_with(problem, kThreshold, bound, best);
+        const bool refused = 2.0 * (best.log_likelihood - there.log_likelihood) > kUsualCritical;
+        constexpr double kNoBound = std::numeric_limits<double>::infinity();
+        return off_axis(settings.curve,
+                        refused ? bound : std::copysign(kNoBound, bound - best.values[kThreshold]));
+    };
+    fit.threshold = {end(problem.bounds.low[kThreshold]), end(problem.bounds.high[kThreshold])};
+    return fit;
+}
+
 PsychometricFit fitted(const LevelCounts& counts, const FitSettings& settings,
                        const Simulate& simulate, std::uint64_t seed) {
     const Problem problem = problem_of(counts, settings);
     const Point best = best_point(problem);
-    PsychometricFit fit;
-    fit.function = function_of(problem, best);
-    fit.deviance = deviance_of(counts, best);
-    fit.trials =
-        std::accumulate(counts.begin(), counts.end(), 0,
-                        [](int sum, const LevelCount& level) { return sum + level.count.trials; });
+    PsychometricFit fit = fit_at(problem, best, counts);
     const Bootstrap bootstrap = bootstrapped(fit.function, settings, simulate, seed);
     const auto interval = [&](Parameter held) {
-        return profile_of(problem, held, best, quantile_of(bootstrap.refusals[held], kConfidence));
+        // Of few trials the fitted function is often one that simulated studies cannot but find
+        // again (all right, or a step between two levels), and then they say that every other
+        // value is refused.
+        const double critical =
+            std::fmax(kUsualCritical, quantile_of(bootstrap.refusals[held], kConfidence));
+        return profile_of(problem, held, best, critical);
     };
     const Interval threshold = interval(kThreshold);
     const Interval log_scale = interval(kLogScale);

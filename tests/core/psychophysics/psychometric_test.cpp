@@ -87,6 +87,45 @@ TEST_CASE("thresholds are unbiased and their intervals cover as often as they sa
     CHECK_THAT(found.coverage, WithinAbs(0.95, 0.02 + slack));
 }
 
+TEST_CASE("of few trials the threshold's interval covers it nearly as often as it says",
+          "[psychometric]") {
+    // Steep between three levels: the fit often is a step, of which a bootstrap alone thinks that
+    // nothing else is possible.
+    const Form form = GENERATE(some_of(kForms, 1));
+    const int trials = GENERATE(12, 33, 99);
+    const int studies = all_studies() ? 1000 : DIBHR_SANITIZED ? 20 : 200;
+    LevelCounts levels;
+    for (const double x : {0.05, 0.15, 0.3}) levels.push_back({x, {0, trials}});
+    const PsychometricFunction person{Curve::logistic, 0.15, 0.025, 0.5, form.guess, 0.05};
+    const Recovery found =
+        recovered(person, same_levels(levels), studies, all_studies() ? 399 : 99);
+    CAPTURE(form.name, trials, studies, found.coverage);
+    CHECK(found.coverage >= 0.95 - 0.02 - 2.5 * std::sqrt(0.95 * 0.05 / studies));
+}
+
+TEST_CASE("a rough fit is the same function, and knows who has a threshold", "[psychometric]") {
+    int guessing = 0;
+    int noticing = 0;
+    for (std::uint64_t study = 0; study < 40; ++study) {
+        Random random(study);
+        const PsychometricFunction person = person_of(Curve::logistic, 0.5);
+        const FitSettings settings{Curve::logistic, 0.5, 0.5};
+        LevelCounts chance = constant_levels(40);
+        for (LevelCount& level : chance) level.count.hits = random.binomial(40, 0.5);
+        const LevelCounts felt = same_levels(constant_levels(40))(person, random);
+        const PsychometricFit rough = fitted_roughly(felt, settings);
+        CHECK(rough.function.threshold == most_likely(felt, settings).threshold);
+        const auto bounded = [&settings](const LevelCounts& counts) {
+            const Interval interval = fitted_roughly(counts, settings).threshold;
+            return std::isfinite(interval.low) && std::isfinite(interval.high) ? 1 : 0;
+        };
+        guessing += bounded(chance);
+        noticing += bounded(felt);
+    }
+    CHECK(guessing <= 6);
+    CHECK(noticing >= 38);
+}
+
 TEST_CASE("a function has its level at its threshold, its guess and lapse rates at its ends",
           "[psychometric]") {
     const Curve curve = GENERATE(Curve::logistic, Curve::cumulative_gaussian, Curve::weibull);
