@@ -2,6 +2,7 @@
 #include "core/psychophysics/ranks.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -21,15 +22,21 @@ constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
 struct Moments {
     double mean{0.0};
-    double sd{0.0};  ///< of the population, n - 1
+    double sd{0.0};  ///< of the population, n - 1; 0: all alike
 };
 
 Moments moments_of(std::span<const double> values) {
     const auto n = static_cast<double>(values.size());
     const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
     double squares = 0.0;
-    for (const double value : values) squares += (value - mean) * (value - mean);
-    return {mean, values.size() > 1 ? std::sqrt(squares / (n - 1.0)) : 0.0};
+    double largest = 0.0;
+    for (const double value : values) {
+        squares += (value - mean) * (value - mean);
+        largest = std::fmax(largest, std::fabs(value));
+    }
+    const double sd = values.size() > 1 ? std::sqrt(squares / (n - 1.0)) : 0.0;
+    constexpr double kRounding = 1e-12;  // the mean of three tenths is no tenth to the last bit
+    return {mean, sd > kRounding * largest ? sd : 0.0};
 }
 
 /// Twice each value's rank, so that shared ranks are whole, too.
@@ -120,7 +127,7 @@ Estimate mean_of(std::span<const double> values) {
     if (values.empty()) return found;
     const Moments moments = moments_of(values);
     found.value = moments.mean;
-    if (values.size() < 2) return found;
+    if (!(moments.sd > 0.0)) return found;
     const boost::math::students_t_distribution<> t(static_cast<double>(values.size()) - 1.0);
     const double half = boost::math::quantile(t, (1.0 + kConfidence) / 2.0) * moments.sd /
                         std::sqrt(static_cast<double>(values.size()));
@@ -177,14 +184,10 @@ TestResult sign_test(std::span<const double> differences) {
     return result;
 }
 
-TestResult paired_t_test(std::span<const double> differences) {
-    TestResult result{"paired t", static_cast<int>(differences.size())};
-    if (differences.size() < 2) return result;
+TestResult one_sample_t_test(std::span<const double> differences) {
+    TestResult result{"one-sample t", static_cast<int>(differences.size())};
     const Moments moments = moments_of(differences);
-    if (moments.sd == 0.0) {
-        result.p = moments.mean == 0.0 ? 1.0 : 0.0;
-        return result;
-    }
+    assert(moments.sd > 0.0);
     const auto n = static_cast<double>(differences.size());
     result.effect = moments.mean / moments.sd;
     result.statistic = result.effect * std::sqrt(n);

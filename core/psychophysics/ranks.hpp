@@ -19,7 +19,8 @@ struct Estimate {
     int count{0};
 };
 
-/// By Student's t; no bound for a single value.
+/// By Student's t; no bound for a single value, or for values that are all the same: these do not
+/// say how others vary.
 [[nodiscard]] Estimate mean_of(std::span<const double> values);
 
 /// Between two of the values themselves, so that it covers at least as often as it says; no bound
@@ -45,8 +46,8 @@ struct TestResult {
 /// By signs alone, exact.
 [[nodiscard]] TestResult sign_test(std::span<const double> differences);
 
-/// By their mean: for values that are means themselves.
-[[nodiscard]] TestResult paired_t_test(std::span<const double> differences);
+/// By their mean: for values that are means themselves. There must be two that differ.
+[[nodiscard]] TestResult one_sample_t_test(std::span<const double> differences);
 
 /// One row a participant, one value a condition, three conditions or more (Friedman 1937, with
 /// ties). Its p is of 9,999 random orders within the rows, always the same ones.

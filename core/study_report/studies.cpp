@@ -2,6 +2,11 @@
 #include "core/study_report/studies.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <fstream>
+#include <map>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "core/error.hpp"
@@ -41,6 +46,58 @@ void require_trials_of(const Protocol& protocol, const StudyRecord& record) {
     }
 }
 
+/// A text or a picture is told from a study that is damaged.
+void require_study_file(const std::filesystem::path& file) {
+    constexpr std::string_view kBegins = "SQLite format 3";
+    std::ifstream in(file, std::ios::binary);
+    std::string begins(kBegins.size(), ' ');
+    const bool holds_something = in.read(begins.data(), 1).good();
+    if (!holds_something) return;  // read_study says what is wrong
+    in.read(begins.data() + 1, static_cast<std::streamsize>(begins.size()) - 1);
+    if (begins != kBegins)
+        throw InputError(file.string() +
+                         ": is no study file: name one that dibhr study run made "
+                         "(*.dibhr-study), or a folder of them");
+}
+
+/// Says which files are of which protocol; of many of one a few.
+void require_one_protocol(const std::vector<StudyRecord>& records) {
+    constexpr std::size_t kMostNamed = 4;
+    struct Group {
+        std::string protocol{};
+        std::vector<std::string> files{};
+        std::size_t others{0};
+    };
+    std::map<std::string, Group> groups;
+    for (const StudyRecord& record : records) {
+        Group& group = groups[record.identity.protocol_sha256];
+        group.protocol = record.identity.protocol_name;
+        if (group.files.size() < kMostNamed)
+            group.files.push_back(record.file.string());
+        else
+            ++group.others;
+    }
+    if (groups.size() == 1) return;
+    std::string text = "the files are of " + std::to_string(groups.size()) +
+                       " protocols, or versions of one: report on each by itself";
+    for (const auto& [sha256, group] : groups)
+        text += "; of " + in_quotes(group.protocol) + " (SHA-256 " + sha256.substr(0, 8) +
+                "..): " + listed(group.files) +
+                (group.others > 0 ? " and " + std::to_string(group.others) + " more" : "");
+    throw InputError(text);
+}
+
+void require_other_labels(const std::vector<StudyRecord>& records) {
+    std::map<std::string, std::string> files;
+    for (const StudyRecord& record : records) {
+        const auto [known, is_new] =
+            files.emplace(record.identity.participant, record.file.string());
+        if (!is_new)
+            throw InputError(record.file.string() + ": participant " + record.identity.participant +
+                             " is in " + known->second + ", too: give one of the two");
+    }
+}
+
 }  // namespace
 
 bool Study::has_pilots() const noexcept {
@@ -51,22 +108,15 @@ bool Study::has_pilots() const noexcept {
 Study read_studies(const std::vector<std::filesystem::path>& files) {
     Study study;
     for (const std::filesystem::path& file : files) {
-        StudyRecord record = read_study(file);
-        if (study.participants.empty())
-            study.protocol = protocol_of(record.identity.protocol_text, file, {});
-        const StudyIdentity& who = record.identity;
-        require_trials_of(study.protocol, record);
-        if (who.protocol_sha256 != study.protocol.sha256)
-            throw InputError(file.string() + ": is of another protocol (" +
-                             in_quotes(who.protocol_name) + ") than " + files.front().string() +
-                             ": report on each protocol by itself");
-        for (const StudyRecord& other : study.participants) {
-            if (other.identity.participant == who.participant)
-                throw InputError(file.string() + ": participant " + who.participant + " is in " +
-                                 other.file.string() + ", too: give one of the two");
-        }
-        study.participants.push_back(std::move(record));
+        require_study_file(file);
+        study.participants.push_back(read_study(file));
     }
+    if (study.participants.empty()) return study;
+    require_one_protocol(study.participants);
+    require_other_labels(study.participants);
+    const StudyRecord& first = study.participants.front();
+    study.protocol = protocol_of(first.identity.protocol_text, first.file, {});
+    for (const StudyRecord& record : study.participants) require_trials_of(study.protocol, record);
     std::sort(study.participants.begin(), study.participants.end(),
               [](const StudyRecord& a, const StudyRecord& b) {
                   return std::pair(a.identity.number, a.identity.participant) <

@@ -18,8 +18,8 @@ struct Study {
     [[nodiscard]] bool has_pilots() const noexcept;
 };
 
-/// Throws InputError for a file that cannot be read, one of another protocol than the first, and a
-/// label that is there twice.
+/// Throws InputError for a file that is no study or cannot be read, for files of several protocols,
+/// and for a label that is there twice.
 [[nodiscard]] Study read_studies(const std::vector<std::filesystem::path>& files);
 
 }  // namespace dibhr

@@ -65,6 +65,10 @@ double plain_median(std::vector<double> values) {
     return values.empty() ? kNotKnown : median_of(values).value;
 }
 
+Interval clamped(const Interval& interval, double low, double high) {
+    return {std::clamp(interval.low, low, high), std::clamp(interval.high, low, high)};
+}
+
 ShareFinding share_finding(std::string name, std::vector<Count> counts,
                            std::optional<double> chance) {
     ShareFinding found{
@@ -77,17 +81,24 @@ ShareFinding share_finding(std::string name, std::vector<Count> counts,
     }
     found.interval = exact_interval(found.all);
     found.across = mean_of(shares);
-    if (chance) {
-        found.test = chance_test(found.by_participant, *chance);
-        found.adjusted_p = found.test->p;
-    }
+    const bool alike = shares.size() > 1 && std::isinf(found.across.interval.low);
+    // Of people who do not differ at all, trials are all that varies.
+    found.across.interval = alike ? found.interval : clamped(found.across.interval, 0.0, 1.0);
     return found;
 }
 
-void adjust_together(std::vector<ShareFinding>& shares) {
+/// By ranks only where each of them has enough participants: tests that are read side by side are
+/// of one kind.
+void test_together(std::vector<ShareFinding>& shares) {
+    const bool by_ranks = std::all_of(shares.begin(), shares.end(), [](const ShareFinding& share) {
+        return !share.chance || with_trials(share.by_participant) >= kFewestForRanks;
+    });
     std::vector<double> p;
-    for (const ShareFinding& share : shares)
-        if (share.test) p.push_back(share.test->p);
+    for (ShareFinding& share : shares) {
+        if (!share.chance) continue;
+        share.test = chance_test(share.by_participant, *share.chance, by_ranks);
+        p.push_back(share.test->p);
+    }
     const std::vector<double> adjusted = holm_adjusted(p);
     std::size_t k = 0;
     for (ShareFinding& share : shares)
@@ -152,7 +163,7 @@ void add_levels(const BlockAnswers& answers, BlockFindings& found) {
         std::optional<Count> false_alarms;
         if (yes_no) {
             const auto caught = answers.counts(
-                [&](const AnsweredTrial& one) { return of_item(one) && *one.trial.level <= 0.0; },
+                [&](const AnsweredTrial& one) { return of_item(one) && *one.trial.level == 0.0; },
                 [](const AnsweredTrial& one) { return one.answer.choice == 0; });
             Count all;
             for (const Count& one : caught) {
@@ -199,7 +210,7 @@ double guess_rate(const Block& block, const std::vector<const AnsweredTrial*>& o
     if (block.form == TrialForm::three_interval) return 1.0 / 3.0;
     Count caught;
     for (const AnsweredTrial* const one : own) {
-        if (static_cast<std::size_t>(one->trial.item) != item || *one->trial.level > 0.0) continue;
+        if (static_cast<std::size_t>(one->trial.item) != item || *one->trial.level != 0.0) continue;
         ++caught.trials;
         caught.hits += one->answer.choice == 0 ? 1 : 0;
     }
@@ -207,16 +218,21 @@ double guess_rate(const Block& block, const std::vector<const AnsweredTrial*>& o
     return caught.trials > 0 ? std::min(caught.share(), kMostGuessed) : 0.0;
 }
 
+/// A difference that can be found. Of yes and no less of it than in the reference is none: "no" is
+/// right there.
+bool has_difference(const Block& block, const AnsweredTrial& one) {
+    const double level = *one.trial.level;
+    return block.form == TrialForm::explore ? level > 0.0 : level != 0.0;
+}
+
 /// Right (or yes) at each size of the difference. A time that was over is a trial without a hit.
 LevelCounts counts_by_size(const Block& block, const std::vector<const AnsweredTrial*>& own,
                            std::size_t item) {
     LevelCounts counts;
     for (const AnsweredTrial* const one : own) {
-        if (static_cast<std::size_t>(one->trial.item) != item) continue;
-        const double level = *one->trial.level;
-        const bool yes_no = block.form == TrialForm::explore;
-        if (level == 0.0 || (yes_no && level < 0.0)) continue;
-        add_answer(counts, std::abs(level), one->right.value_or(false));
+        if (static_cast<std::size_t>(one->trial.item) != item || !has_difference(block, *one))
+            continue;
+        add_answer(counts, std::abs(*one->trial.level), one->right.value_or(false));
     }
     std::sort(counts.begin(), counts.end(),
               [](const LevelCount& a, const LevelCount& b) { return a.x < b.x; });
@@ -257,7 +273,28 @@ bool can_be_fitted(const LevelCounts& counts) {
 PsychometricFit fit_of(const LevelCounts& counts, const FitSettings& settings,
                        const Simulate& simulate, std::uint64_t seed) {
     if (settings.bootstraps > 0) return fitted(counts, settings, simulate, seed);
-    return {.function = most_likely(counts, settings)};
+    return fitted_roughly(counts, settings);
+}
+
+/// What all fits say together.
+void summarize(ThresholdFinding& finding) {
+    if (!finding.all.empty()) finding.lowest = finding.all.front().x;
+    for (const LevelCount& level : finding.all) {
+        finding.lowest = std::min(finding.lowest, level.x);
+        finding.highest = std::max(finding.highest, level.x);
+    }
+    std::vector<double> thresholds;
+    std::vector<double> or_sides;
+    for (const ParticipantThreshold& one : finding.fits) {
+        thresholds.push_back(one.fit.function.threshold);
+        or_sides.push_back(one.threshold_or_side());
+        finding.unbounded += one.bounded() ? 0 : 1;
+        finding.below += std::isinf(or_sides.back()) && or_sides.back() < 0.0 ? 1 : 0;
+        finding.above += std::isinf(or_sides.back()) && or_sides.back() > 0.0 ? 1 : 0;
+    }
+    if (finding.unbounded > 0) thresholds.clear();
+    finding.across = mean_of(thresholds);
+    finding.median = median_of(or_sides);
 }
 
 ThresholdFinding threshold_of(const BlockAnswers& answers, std::size_t item,
@@ -289,12 +326,58 @@ ThresholdFinding threshold_of(const BlockAnswers& answers, std::size_t item,
         finding.fits.push_back({who, counts, fit_of(counts, finding.settings, simulate, seed),
                                 vary.staircase ? mean_of_reversals(block, own, item) : kNotKnown});
     }
-    std::vector<double> thresholds;
-    for (const ParticipantThreshold& one : finding.fits)
-        if (one.bounded()) thresholds.push_back(one.fit.function.threshold);
-    finding.across = mean_of(thresholds);
-    finding.median = plain_median(thresholds);
+    summarize(finding);
     return finding;
+}
+
+/// Trials that go into no threshold, and guess rates that nobody measured, by name.
+void remark_on_levels(const BlockAnswers& answers, BlockFindings& found) {
+    const Block& block = answers.rule();
+    const bool yes_no = block.form == TrialForm::explore;
+    int of_nothing = 0;
+    int below = 0;
+    for (const auto& own : answers.by_participant) {
+        for (const AnsweredTrial* const one : own) {
+            of_nothing += *one->trial.level == 0.0 ? 1 : 0;
+            below += *one->trial.level < 0.0 ? 1 : 0;
+        }
+    }
+    if (!yes_no && of_nothing > 0) {
+        found.not_counted = of_nothing;
+        found.remarks.push_back(std::to_string(of_nothing) + " of the " +
+                                std::to_string(found.trials) +
+                                " trials had no difference (level 0): nothing in them is right or "
+                                "wrong, and they are in no share and no threshold.");
+    }
+    if (yes_no && below > 0)
+        found.remarks.push_back(
+            std::to_string(below) + " of the " + std::to_string(found.trials) +
+            " trials had less of it than the reference (a level below 0): their shares of yes are "
+            "told, but they are in no threshold, guess rate or d'.");
+    if (yes_no && of_nothing == 0)
+        found.remarks.emplace_back(
+            "No trial had nothing to notice (level 0), so that the guess rate is taken as 0: of "
+            "people who say yes for nothing the threshold comes out too low.");
+}
+
+/// Each participant counts as one, however few the answers; who reads it must know. Staircases end
+/// as they go.
+void remark_on_answers(const BlockAnswers& answers, BlockFindings& found) {
+    if (answers.rule().variation.staircase) return;
+    std::size_t most = 0;
+    for (const auto& own : answers.by_participant) most = std::max(most, own.size());
+    std::vector<std::string> fewer;
+    for (std::size_t who = 0; who < answers.by_participant.size(); ++who) {
+        const std::size_t count = answers.by_participant[who].size();
+        if (count > 0 && count < most)
+            fewer.push_back(answers.study.participants[who].identity.participant + " " +
+                            std::to_string(count));
+    }
+    if (!fewer.empty())
+        found.remarks.push_back("Not all gave the same number of answers here (the most " +
+                                std::to_string(most) + "; " + listed(fewer) +
+                                "): in means, medians and tests over participants each counts as "
+                                "one all the same.");
 }
 
 /// Each participant's mean of what `value` gives for the trials that `is_one` picks, and all of
@@ -340,7 +423,7 @@ void add_adjustments(const BlockAnswers& answers, BlockFindings& found) {
                 for (const AnsweredTrial* const one : own)
                     if (of_item(*one) && has_answer(*one)) each.push_back(off(*one));
         }
-        if (each.size() >= 2) values.test = paired_t_test(each);
+        if (std::isfinite(values.mean.interval.low)) values.test = one_sample_t_test(each);
         found.values.push_back(std::move(values));
     }
 }
@@ -415,6 +498,9 @@ void add_answers(const BlockAnswers& answers, BlockFindings& found) {
         }));
     }
     compare_conditions(found);
+    found.compared = "share of " + in_quotes(block.question.answers.front());
+    for (PairTest& pair : found.pairs)
+        pair.difference.interval = clamped(pair.difference.interval, -1.0, 1.0);
     found.values.clear();  // the shares say them
 }
 
@@ -451,11 +537,13 @@ BlockFindings block_findings(const Study& study, std::size_t block,
         rule.form == TrialForm::explore ? add_answers(answers, found)
                                         : add_plain_choices(answers, found);
     } else {
+        remark_on_levels(answers, found);
         if (!adaptive) add_levels(answers, found);
         for (std::size_t item = 0; item < rule.items.size(); ++item)
             found.thresholds.push_back(threshold_of(answers, item, settings, found));
     }
-    adjust_together(found.shares);
+    remark_on_answers(answers, found);
+    test_together(found.shares);
     found.reaction_s = median_reaction(answers);
     return found;
 }
@@ -463,7 +551,25 @@ BlockFindings block_findings(const Study& study, std::size_t block,
 }  // namespace
 
 bool ParticipantThreshold::bounded() const noexcept {
-    return std::isfinite(fit.threshold.low) && std::isfinite(fit.threshold.high);
+    // Weibull's has no level below 0: there 0 is no bound.
+    const bool low = fit.function.curve == Curve::weibull ? fit.threshold.low > 0.0
+                                                          : std::isfinite(fit.threshold.low);
+    return low && std::isfinite(fit.threshold.high);
+}
+
+double ParticipantThreshold::threshold_or_side() const noexcept {
+    const double threshold = fit.function.threshold;
+    if (bounded() || counts.empty()) return threshold;
+    const auto [low, high] =
+        std::minmax_element(counts.begin(), counts.end(),
+                            [](const LevelCount& a, const LevelCount& b) { return a.x < b.x; });
+    constexpr double kOutside = std::numeric_limits<double>::infinity();
+    return threshold < low->x ? -kOutside : threshold > high->x ? kOutside : threshold;
+}
+
+int with_trials(const std::vector<Count>& by_participant) {
+    return static_cast<int>(std::count_if(by_participant.begin(), by_participant.end(),
+                                          [](const Count& one) { return one.trials > 0; }));
 }
 
 std::string item_name(const Protocol& protocol, const Block& block, std::size_t item) {
@@ -474,7 +580,7 @@ std::string item_name(const Protocol& protocol, const Block& block, std::size_t 
                : reference + " against " + condition_name(protocol, pair.comparison);
 }
 
-TestResult chance_test(const std::vector<Count>& by_participant, double chance) {
+TestResult chance_test(const std::vector<Count>& by_participant, double chance, bool by_ranks) {
     Count all;
     std::vector<double> differences;
     for (const Count& count : by_participant) {
@@ -483,8 +589,7 @@ TestResult chance_test(const std::vector<Count>& by_participant, double chance) 
         all.trials += count.trials;
         differences.push_back(count.share() - chance);
     }
-    if (static_cast<int>(differences.size()) >= kFewestForRanks)
-        return signed_rank_test(differences);
+    if (by_ranks) return signed_rank_test(differences);
     return {.test = "binomial, mid-p, of all trials",
             .count = static_cast<int>(differences.size()),
             .statistic = static_cast<double>(all.hits),

@@ -41,8 +41,11 @@ struct ParticipantThreshold {
     /// Mean level of the last reversals over the tracks; NaN: of no staircase.
     double reversal_mean{kNotKnown};
 
-    /// Whether the data say anything about where it is, as far as that was asked.
+    /// Whether the data say anything about where it is.
     [[nodiscard]] bool bounded() const noexcept;
+    /// Infinite where it is not bounded and its most likely value lies below or above all levels
+    /// that were tested: that value then says nothing but the side.
+    [[nodiscard]] double threshold_or_side() const noexcept;
 };
 
 /// The threshold of one item of a block.
@@ -54,9 +57,15 @@ struct ThresholdFinding {
     FitSettings
         settings{};  ///< the participants' guess rates, where not the same, are in their fits
     std::vector<ParticipantThreshold> fits{};
-    LevelCounts all{};         ///< of all participants
-    Estimate across{};         ///< mean of the bounded thresholds
-    double median{kNotKnown};  ///< likewise
+    LevelCounts all{};  ///< of all participants
+    /// Mean of the participants' thresholds; NaN where one of them is not bounded. Those that are
+    /// bounded are no random selection, and a mean of them alone is not that of people.
+    Estimate across{};
+    /// Of all fits, those outside the levels as below or above them: infinite where it lies there.
+    Estimate median{};
+    int below{0}, above{0};            ///< of the fits, outside the levels
+    int unbounded{0};                  ///< of the fits, inside the levels or outside
+    double lowest{0.0}, highest{0.0};  ///< levels that were tested
 };
 
 /// Numbers that were given to one condition, or one pair: ratings, or how far from the reference an
@@ -82,10 +91,12 @@ struct PairTest {
 struct BlockFindings {
     std::size_t block{0};  ///< in Protocol::blocks
     int trials{0};
-    int unanswered{0};  ///< their time was over
+    int unanswered{0};   ///< their time was over
+    int not_counted{0};  ///< nothing in them is right or wrong, they are in no share or threshold
     std::vector<ShareFinding> shares{};
     std::vector<ThresholdFinding> thresholds{};
     std::vector<ValueFinding> values{};
+    std::string compared{};               ///< what pairs are compared in; empty: the values
     std::optional<TestResult> overall{};  ///< of three conditions or more that have values
     std::vector<PairTest> pairs{};
     Estimate reaction_s{};               ///< median over participants of their medians
@@ -102,10 +113,13 @@ struct AnalysisSettings {
 [[nodiscard]] std::vector<BlockFindings> findings_of(const Study& study,
                                                      const AnalysisSettings& settings);
 
-/// Against chance, by as many participants as there are: from kFewestForRanks on by signed ranks of
-/// their shares; of fewer by the binomial distribution of all their trials, which then says
-/// something of these people only.
-[[nodiscard]] TestResult chance_test(const std::vector<Count>& by_participant, double chance);
+/// Against chance: by signed ranks of the participants' shares, or by the binomial distribution of
+/// all their trials, which says something of these people only.
+[[nodiscard]] TestResult chance_test(const std::vector<Count>& by_participant, double chance,
+                                     bool by_ranks);
+
+/// How many of them have trials.
+[[nodiscard]] int with_trials(const std::vector<Count>& by_participant);
 
 /// "a against b" or "a".
 [[nodiscard]] std::string item_name(const Protocol& protocol, const Block& block, std::size_t item);

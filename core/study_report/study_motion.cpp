@@ -202,7 +202,7 @@ std::vector<IntervalRow> motion_of(const Study& study,
             for (std::size_t n = 0; n < motion.size(); ++n)
                 rows.push_back({who, trial.number, static_cast<int>(n),
                                 motion_condition(block, trial.intervals[n]), trial.practice,
-                                motion[n]});
+                                motion[n], trial.intervals[n].value});
             if (progress)
                 progress(
                     (static_cast<double>(who) +

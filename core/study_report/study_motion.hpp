@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,7 @@ struct IntervalRow {
     std::string condition{};  ///< with the varied parameter's part in it: motion_condition()
     bool practice{false};
     IntervalMotion motion{};
+    std::optional<double> value{};  ///< of the varied parameter; nothing: none varies
 };
 
 /// "dibhr"; of a block that varies one: "plain, friction 0.3" or "plain, friction above 0.3".

@@ -84,7 +84,16 @@ Json threshold_json(const Study& study, const ThresholdFinding& finding) {
             {"bootstraps", finding.settings.bootstraps},
             {"most_lapse", finding.settings.most_lapse},
             {"participants_mean", estimate_json(finding.across)},
-            {"participants_median", finding.median},
+            {"participants_median", finding.median.value},
+            {"participants_median_interval",
+             {{"low", finding.median.interval.low},
+              {"high", finding.median.interval.high},
+              {"confidence", finding.median.confidence},
+              {"count", finding.median.count}}},
+            {"levels", {{"lowest", finding.lowest}, {"highest", finding.highest}}},
+            {"below_levels", finding.below},
+            {"above_levels", finding.above},
+            {"unbounded", finding.unbounded},
             {"fits", json_list(finding.fits, [&study](const ParticipantThreshold& one) {
                  return fit_json(study, one);
              })}};
@@ -114,6 +123,7 @@ Json block_json(const StudyReport& report, const BlockFindings& found) {
             {"form", name_of(block.form)},
             {"trials", found.trials},
             {"unanswered", found.unanswered},
+            {"not_counted", found.not_counted},
             {"reaction_s", estimate_json(found.reaction_s)},
             {"shares", json_list(found.shares, share_json)},
             {"thresholds", json_list(found.thresholds,
@@ -121,6 +131,7 @@ Json block_json(const StudyReport& report, const BlockFindings& found) {
                                          return threshold_json(report.study, finding);
                                      })},
             {"values", json_list(found.values, value_json)},
+            {"compared", utf8_text(found.compared)},
             {"overall", test_json(found.overall)},
             {"pairs", json_list(found.pairs, pair_json)},
             {"conclusions", texts_json(conclusions_of(report, found))}};

@@ -62,7 +62,9 @@ std::string shares_table(const BlockFindings& found) {
         Cells row{html_text(share.name),
                   std::to_string(share.all.hits) + " of " + std::to_string(share.all.trials),
                   unbroken(percent_text(share.all.share())), share_cell(share.interval)};
-        row.push_back(share.across.count > 1 ? percent_text(share.across.value) : "&ndash;");
+        const bool several = share.across.count > 1;
+        row.push_back(several ? percent_text(share.across.value) : "&ndash;");
+        row.push_back(several ? share_cell(share.across.interval) : "&ndash;");
         if (share.d_prime) {
             row.push_back(number_cell(share.d_prime->d_prime));
             row.push_back(interval_cell(share.d_prime->interval));
@@ -74,8 +76,8 @@ std::string shares_table(const BlockFindings& found) {
         row.push_back(share.test ? p_cell(share.adjusted_p) : "&ndash;");
         rows.push_back(std::move(row));
     }
-    return table_of({"share", "answers", "of all", "95 % interval", "mean over participants", "d'",
-                     "95 % interval", "test against chance", "p", "p, Holm"},
+    return table_of({"share", "answers", "of all", "95 % interval", "mean over participants",
+                     "95 % interval", "d'", "95 % interval", "test against chance", "p", "p, Holm"},
                     rows);
 }
 
@@ -120,7 +122,8 @@ std::string pairs_table(const BlockFindings& found) {
                         test_cells(pair.test), number_cell(pair.test.effect, 2),
                         p_cell(pair.test.p), p_cell(pair.adjusted_p)});
     }
-    return table_of({"first", "second", "mean difference", "95 % interval", "test",
+    const std::string of = found.compared.empty() ? "" : " of the " + html_text(found.compared);
+    return table_of({"first", "second", "mean difference" + of, "95 % interval", "test",
                      "rank-biserial correlation", "p", "p, Holm"},
                     rows);
 }

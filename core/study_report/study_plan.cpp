@@ -8,6 +8,7 @@
 #include <iomanip>
 #include <limits>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -48,12 +49,18 @@ void fill_up(Study& study, const PlanSettings& settings, int number, int count) 
 /// A finding of one simulated study: whether it was found, or where the threshold is.
 struct Outcome {
     bool found{false};
-    double threshold{kNotKnown};
+    std::optional<double> threshold{};  ///< NaN or infinite: no bound
 };
 
 bool is_of_effect(const std::string& name, const Condition& condition) {
     const std::string with = condition.name + " ";
     return name.starts_with(with) || name.ends_with(" " + condition.name);
+}
+
+/// What a report says of it: of people the median, of one alone the threshold if it is bounded.
+double estimate_of(const ThresholdFinding& threshold) {
+    const bool alone = threshold.fits.size() == 1;
+    return alone ? threshold.across.value : threshold.median.value;
 }
 
 /// By the finding's name; those that the effect has no part in are left out.
@@ -70,7 +77,7 @@ std::map<std::string, Outcome> outcomes_of(const Study& study, const PlanSetting
         if (share.test && of_effect) outcomes[share.name].found = share.adjusted_p < kSignificance;
     }
     for (const ThresholdFinding& threshold : found.thresholds)
-        outcomes["threshold of " + threshold.name].threshold = threshold.across.value;
+        outcomes["threshold of " + threshold.name].threshold = estimate_of(threshold);
     for (const ValueFinding& value : found.values)
         if (value.test) outcomes[value.name].found = value.test->p < kSignificance;
     // Pairs are tested only by enough participants; with fewer the finding is there, but not made.
@@ -97,24 +104,37 @@ using Gathered = std::map<std::string, std::vector<Outcome>>;
 
 PlannedStudies summed(int participants, const std::vector<Outcome>& outcomes, double truth) {
     PlannedStudies planned{.participants = participants, .precision = kNotKnown};
-    std::vector<double> thresholds;
+    const auto all = static_cast<double>(outcomes.size());
+    std::vector<double> errors;
     for (const Outcome& outcome : outcomes) {
-        planned.power += outcome.found ? 1.0 / static_cast<double>(outcomes.size()) : 0.0;
-        if (std::isfinite(outcome.threshold)) thresholds.push_back(outcome.threshold);
+        planned.power += outcome.found ? 1.0 / all : 0.0;
+        if (!outcome.threshold) continue;
+        const bool bounded = std::isfinite(*outcome.threshold);
+        planned.unbounded += bounded ? 0.0 : 1.0 / all;
+        errors.push_back(bounded ? std::abs(*outcome.threshold - truth) / truth
+                                 : std::numeric_limits<double>::infinity());
     }
-    if (thresholds.size() < 2) return planned;
-    std::sort(thresholds.begin(), thresholds.end());
-    const auto at = [&thresholds](double share) {
-        const double place = share * static_cast<double>(thresholds.size() - 1);
-        return thresholds[static_cast<std::size_t>(std::lround(place))];
-    };
-    planned.precision = (at(0.975) - at(0.025)) / 2.0 / truth;
+    if (errors.empty()) return planned;
+    std::sort(errors.begin(), errors.end());
+    const auto within = static_cast<std::size_t>(std::ceil(kConfidence * all));
+    planned.precision = errors[within - 1];
     return planned;
 }
 
 bool is_enough(const PlannedStudies& planned, double power) {
-    return std::isfinite(planned.precision) ? planned.precision <= kGoodPrecision
-                                            : planned.power >= power;
+    return planned.of_threshold() ? planned.precision <= kGoodPrecision : planned.power >= power;
+}
+
+std::string precision_text(double precision) {
+    return std::isfinite(precision) ? percent_text(precision) : "no bound";
+}
+
+/// Of a threshold that the largest study does not find.
+std::string not_found_text(const PlannedStudies& largest) {
+    if (std::isfinite(largest.precision)) return {};
+    return "    this design does not find it: of " + counted(largest.participants, "participant") +
+           " still " + percent_text(largest.unbounded) +
+           " of the studies give it no bound;\n    ask at other levels, or more often\n";
 }
 
 /// The lines of one block at so many repetitions.
@@ -135,14 +155,14 @@ std::vector<PlanLine> lines_of(const Protocol& whole, std::size_t block_number, 
             for (const auto& [name, outcome] : outcomes_of(study, settings))
                 gathered[name].push_back(outcome);
         }
-        if (gathered.empty()) break;  // nothing that the effect has a part in
-        bool all_enough = true;
+        // Nothing that the effect has a part in; of one alone there may be no test yet.
+        if (gathered.empty() && count >= kFewestForRanks) break;
+        bool all_enough = !gathered.empty();
         for (const auto& [name, outcomes] : gathered) {
             PlanLine& line = lines[name];
             line.finding = name;
             line.studies.push_back(summed(count, outcomes, settings.effect.threshold));
-            const bool of_people =
-                count >= kFewestForRanks || std::isfinite(line.studies.back().precision);
+            const bool of_people = count >= kFewestForRanks || line.studies.back().of_threshold();
             if (line.enough == 0 && of_people && is_enough(line.studies.back(), settings.power))
                 line.enough = count;
             all_enough = all_enough && line.enough > 0;
@@ -201,7 +221,8 @@ std::vector<PlanLine> plan_of(const Protocol& protocol, const PlanSettings& sett
     if (lines.empty())
         throw InputError(
             "this effect changes nothing that the protocol asks: for comparisons and "
-            "ratings say which condition is preferred, as prefer=NAME,share=0.7");
+            "ratings say which condition is preferred, as prefer=NAME,share=0.7, for adjustments "
+            "how they scatter, as bias=0.05,noise=0.03");
     return lines;
 }
 
@@ -214,7 +235,7 @@ std::string plan_text(const std::vector<PlanLine>& lines, const PlanSettings& se
         block = line.block;
         text << "  " << line.finding << ", " << counted(line.trials, "trial") << " each"
              << (line.as_on_the_page ? " (as on the page)" : "") << ": ";
-        const bool threshold = std::isfinite(line.studies.back().precision);
+        const bool threshold = line.studies.back().of_threshold();
         thresholds = thresholds || threshold;
         if (line.enough > 0)
             text << counted(line.enough, "participant") << '\n';
@@ -224,16 +245,18 @@ std::string plan_text(const std::vector<PlanLine>& lines, const PlanSettings& se
         for (const PlannedStudies& planned : line.studies)
             text << "  "
                  << (planned.participants == 1 ? "one alone" : std::to_string(planned.participants))
-                 << ": " << percent_text(threshold ? planned.precision : planned.power);
+                 << ": "
+                 << (threshold ? precision_text(planned.precision) : percent_text(planned.power));
         text << '\n';
+        if (threshold) text << not_found_text(line.studies.back());
     }
     text << "\nOf " << settings.studies
          << " simulated studies each: in how many p < 0.05 (Holm's correction included) finds the "
             "effect;\n"
          << "enough is " << percent_text(settings.power) << ".";
     if (thresholds)
-        text << " Of a threshold: within what share of the truth 95 % of the estimates\nlie; "
-                "enough is "
+        text << " Of a threshold: within what share of the truth 95 % of the estimates\nlie, "
+                "those without a bound being nowhere near it; enough is "
              << percent_text(kGoodPrecision) << ".";
     text << "\nIt holds for people as they were stated, and no others.\n";
     return text.str();

@@ -25,9 +25,13 @@ struct PlannedStudies {
     int participants{0};
     /// Share of the studies whose test finds the effect (p < 0.05, Holm's correction included).
     double power{0.0};
-    /// Half of the interval in which 95 % of the estimates lie, as a share of the truth: of a
-    /// threshold, which no test finds. NaN: there is a test.
+    /// How far at most 95 % of the estimates lie from the truth, as a share of it: of a threshold,
+    /// which no test finds. Infinite: more than 5 % of the studies do not bound it. NaN: there is a
+    /// test.
     double precision{0.0};
+    double unbounded{0.0};  ///< share of the studies that give the threshold no bound
+
+    [[nodiscard]] bool of_threshold() const noexcept { return precision == precision; }
 };
 
 /// One finding of a block at so many repetitions.

@@ -103,6 +103,35 @@ std::vector<double> steps_of_decades(ValueSpan span) {
     return steps;
 }
 
+/// On one line, cut short where it is wider than that.
+std::string shortened(const std::string& text, double widest_px, const TextStyle& style) {
+    constexpr std::size_t kMostLetters = 200;  // no picture is so wide
+    std::size_t letters = std::min(text.size(), kMostLetters);
+    std::string kept = one_line(text, letters);
+    while (letters > 2 && text_width(kept, style) > widest_px) kept = one_line(text, --letters);
+    return kept;
+}
+
+/// Two lines where one is too short, broken at a space.
+std::vector<std::string> in_two_lines(const std::string& text, double widest_px,
+                                      const TextStyle& style) {
+    if (text_width(text, style) <= widest_px) return {text};
+    std::size_t end = text.rfind(' ');
+    while (end != std::string::npos && end > 0 &&
+           text_width(text.substr(0, end), style) > widest_px)
+        end = text.rfind(' ', end - 1);
+    if (end == std::string::npos || end == 0) return {shortened(text, widest_px, style)};
+    return {text.substr(0, end), shortened(text.substr(end + 1), widest_px, style)};
+}
+
+/// A title as long as a question may be, on what the picture has room for.
+void draw_fitting_title(Canvas& canvas, const std::string& title, const std::string& subtitle) {
+    const double widest_px = kColumns - 2.0 * kLeft_px;
+    const TextStyle bold{kTextInk, kTitleCap_px, Align::left, true};
+    draw_title(canvas, shortened(one_line(title), widest_px, bold),
+               shortened(subtitle, widest_px, {kQuietInk, kLabelCap_px}));
+}
+
 /// Where half of what is not guessed nor lapsed is right.
 double height_at_threshold(const PsychometricFunction& function) {
     return function.share(function.threshold);
@@ -115,11 +144,13 @@ Canvas plot_rows(const RowsPlot& plot) {
     const TextStyle label{kTextInk, kLabelCap_px, Align::right};
     double names_px = 0.0;
     for (const PlotRow& row : plot.rows) names_px = std::max(names_px, text_width(row.name, label));
-    const double left = std::min(kLeft_px + names_px + 18.0, 520.0);
+    constexpr double kWidestNames_px = 466.0;
+    constexpr double kLine_px = 18.0;
+    const double left = kLeft_px + std::min(names_px, kWidestNames_px) + 18.0;
     const Box area{left, kTop_px, 950.0,
                    kTop_px + kRow_px * static_cast<double>(plot.rows.size()) + 12.0};
     Canvas canvas(kColumns, static_cast<int>(area.bottom) + 76, kPaper);
-    draw_title(canvas, plot.title, plot.subtitle);
+    draw_fitting_title(canvas, plot.title, plot.subtitle);
     Axis y{{0.0, static_cast<double>(plot.rows.size())}, ""};
     y.numbered = false;
     y.ticks = {0.0};  // the rows have names
@@ -133,7 +164,12 @@ Canvas plot_rows(const RowsPlot& plot) {
     double y_px = area.top + 6.0 + kRow_px / 2.0;
     for (const PlotRow& row : plot.rows) {
         canvas.clip_to_whole();
-        canvas.text({area.left - 12.0, y_px + label.cap_px / 2.0}, row.name, label);
+        const std::vector<std::string> lines = in_two_lines(row.name, kWidestNames_px, label);
+        const double first_px =
+            y_px + label.cap_px / 2.0 - kLine_px / 2.0 * static_cast<double>(lines.size() - 1);
+        for (std::size_t k = 0; k < lines.size(); ++k)
+            canvas.text({area.left - 12.0, first_px + kLine_px * static_cast<double>(k)}, lines[k],
+                        label);
         canvas.clip_to({area.left - 6.0, area.top, area.right + 6.0, area.bottom});
         for (std::size_t k = 0; k < row.each.size(); ++k) {
             if (!std::isfinite(row.each[k])) continue;
@@ -162,7 +198,7 @@ Canvas plot_threshold(const ThresholdFinding& finding, const std::string& title,
     for (const LevelCount& point : points) highest = std::max(highest, point.x);
     const ValueSpan span{0.0, 1.06 * highest};
     Canvas canvas(kColumns, kRows, kPaper);
-    draw_title(canvas, title, subtitle);
+    draw_fitting_title(canvas, title, subtitle);
     const Axes axes(
         kArea,
         {span, "difference in " + finding.parameter + " from " + short_text(finding.reference, 4)},
@@ -183,15 +219,20 @@ Canvas plot_threshold(const ThresholdFinding& finding, const std::string& title,
                       kTextInk, kPaper);
     }
     const PsychometricFunction& first = finding.fits.front().fit.function;
-    const Interval interval = alone ? finding.fits.front().fit.threshold : finding.across.interval;
-    const double threshold = alone ? first.threshold : finding.across.value;
+    // Of few people only the mean has an interval, of all others the median says more.
+    const bool has_median =
+        std::isfinite(finding.median.value) && finding.fits.size() >= kFewestForRanks;
+    const Estimate& of_people = has_median ? finding.median : finding.across;
+    const Interval interval = alone ? finding.fits.front().fit.threshold : of_people.interval;
+    const double threshold = alone ? first.threshold : of_people.value;
     const double height = height_at_threshold(first);
     if (std::isfinite(threshold)) {
         const Vec2 at = axes.at(threshold, height);
         canvas.clip_to(kArea);
-        canvas.line({axes.at(std::max(interval.low, span.low), height).x, at.y},
-                    {axes.at(std::min(interval.high, span.high), height).x, at.y},
-                    {look_of(Algorithm::pga).stroke.ink, 4.0});
+        if (std::isfinite(interval.low) || std::isfinite(interval.high))
+            canvas.line({axes.at(std::max(interval.low, span.low), height).x, at.y},
+                        {axes.at(std::min(interval.high, span.high), height).x, at.y},
+                        {look_of(Algorithm::pga).stroke.ink, 4.0});
         canvas.line(at, {at.x, kArea.bottom},
                     {look_of(Algorithm::pga).stroke.ink, 1.5, Dash::dashed});
         canvas.clip_to_whole();
@@ -231,7 +272,7 @@ Canvas plot_tracks(const Study& study, std::size_t block, std::size_t item,
         span.low = std::max(span.low, 0.0);
     }
     Canvas canvas(kColumns, kRows, kPaper);
-    draw_title(canvas, title, subtitle);
+    draw_fitting_title(canvas, title, subtitle);
     Axis y{span, "difference in " + vary.parameter, logarithmic};
     if (logarithmic) y.ticks = steps_of_decades(span);
     const Axes axes(kArea, {{0.0, static_cast<double>(longest) + 1.0}, "trial of the staircase"},

@@ -145,7 +145,7 @@ void draw_motion(const Drawing& drawing) {
         for (const MotionFinding& found : report.motion) {
             const Estimate& of = found.*quantity;
             PlotRow row{.name = found.condition, .value = of.value, .interval = of.interval};
-            if (of.count < 2) row.interval = {of.value, of.value};
+            if (!std::isfinite(of.interval.low)) row.interval = {of.value, of.value};
             rows.push_back(std::move(row));
         }
         return rows;

@@ -46,7 +46,8 @@ void write_study_report(const std::vector<std::filesystem::path>& files,
 
 /// A row is an interval that was recorded: `participant,trial,interval,condition,practice,
 /// duration_s,contact_s,updates,contact_updates,moves,sent_newton,sent_peak_newton,spring_newton,
-/// spring_peak_newton,path_mm,speed_mm_per_s,turning_mean_deg,turning_sd_deg,turning_pairs`.
+/// spring_peak_newton,path_mm,speed_mm_per_s,turning_mean_deg,turning_sd_deg,turning_pairs,value`.
+/// `value`: of the varied parameter, in an adjustment that of the start; empty: none varies.
 [[nodiscard]] std::string intervals_csv(const Study& study, const std::vector<IntervalRow>& rows);
 
 /// `{"report_version", "program", "protocol": {...}, "participants": [...], "blocks": [{"name",

@@ -107,7 +107,7 @@ std::string intervals_csv(const Study& study, const std::vector<IntervalRow>& ro
     std::string text =
         "participant,trial,interval,condition,practice,duration_s,contact_s,updates,"
         "contact_updates,moves,sent_newton,sent_peak_newton,spring_newton,spring_peak_newton,"
-        "path_mm,speed_mm_per_s,turning_mean_deg,turning_sd_deg,turning_pairs\n";
+        "path_mm,speed_mm_per_s,turning_mean_deg,turning_sd_deg,turning_pairs,value\n";
     for (const IntervalRow& row : rows) {
         const IntervalMotion& motion = row.motion;
         CsvLine line;
@@ -130,6 +130,7 @@ std::string intervals_csv(const Study& study, const std::vector<IntervalRow>& ro
         line.number(motion.turning.mean_deg);
         line.number(motion.turning.sd_deg);
         line.whole(static_cast<std::int64_t>(motion.turning.pairs));
+        line.maybe(row.value.has_value(), row.value.value_or(0.0));
         text += line.finish();
     }
     return text;

@@ -18,6 +18,22 @@ std::string end_text(double end) {
     return std::isfinite(end) ? short_text(end, 3) : "not bounded";
 }
 
+/// A threshold or an end of its interval: where it lies beside the levels, that is all it says.
+std::string threshold_text(const ThresholdFinding& finding, double value) {
+    if (std::isnan(value)) return "not known";
+    if (std::isfinite(value)) return short_text(value, 3);
+    return value < 0.0 ? "below " + short_text(finding.lowest, 3)
+                       : "above " + short_text(finding.highest, 3);
+}
+
+std::string levels_text(const ThresholdFinding& finding) {
+    return short_text(finding.lowest, 3) + " to " + short_text(finding.highest, 3);
+}
+
+std::string participants_text(int count) {
+    return counted(count, "participant");
+}
+
 std::string test_text(const TestResult& test) {
     return test.test + ", " + p_text(test.p);
 }
@@ -33,13 +49,9 @@ std::string people(int count) {
     return count == 1 ? "this one participant" : "these " + std::to_string(count) + " participants";
 }
 
-int with_trials(const ShareFinding& share) {
-    return static_cast<int>(std::count_if(share.by_participant.begin(), share.by_participant.end(),
-                                          [](const Count& one) { return one.trials > 0; }));
-}
-
 std::string share_sentence(const ShareFinding& share) {
-    const int who = with_trials(share);
+    const int who = with_trials(share.by_participant);
+    const bool of_people = share.test && share.test->test.starts_with("Wilcoxon");
     std::string text = share.name + ": " + percent_text(share.all.share()) + " of " +
                        counted(share.all.trials, "answer") + " (95 % interval " +
                        percent_text(share.interval.low) + " to " +
@@ -48,27 +60,76 @@ std::string share_sentence(const ShareFinding& share) {
     text += " Against chance (" + percent_text(*share.chance) + "): " + test_text(*share.test) +
             corrected(share.test->p, share.adjusted_p) + ".";
     if (share.adjusted_p < kSignificance) {
-        if (who >= kFewestForRanks)
+        if (of_people)
             return text + " Chance alone seldom gives this: people like these " +
                    std::to_string(who) + " participants notice a difference.";
         return text + " Chance alone seldom gives this: " + people(who) +
                (who == 1 ? " notices" : " together notice") +
                " a difference. Whether other people do, so few participants cannot tell.";
     }
-    // What would still be compatible with the answers, away from chance.
-    const double far =
-        std::max(share.interval.high - *share.chance, *share.chance - share.interval.low) +
-        *share.chance;
-    text += " This does not show a difference, nor that there is none: a share of up to " +
-            percent_text(std::min(far, 1.0)) + " would agree with these answers.";
+    // What would still be compatible with the answers, of people where the test speaks of them.
+    const Interval& agrees = of_people ? share.across.interval : share.interval;
+    text += " This does not show a difference, nor that there is none: any share from " +
+            percent_text(agrees.low) + " to " + percent_text(agrees.high) +
+            " would agree with these answers.";
     return text;
+}
+
+/// Who lies beside the levels, or anywhere, as far as the answers tell.
+std::string unbounded_text(const ThresholdFinding& finding) {
+    std::string text;
+    const std::string levels = " the levels that were tested (" + levels_text(finding) + ")";
+    if (finding.below > 0)
+        text += " Below" + levels + ": " + participants_text(finding.below) + ".";
+    if (finding.above > 0)
+        text += " Above" + levels + ", or guessing: " + participants_text(finding.above) + ".";
+    if (finding.unbounded > 0)
+        text += " The answers of " + participants_text(finding.unbounded) +
+                " set the threshold no bound; the others are no random selection, so that no mean "
+                "is taken" +
+                (finding.fits.size() > 1 ? " and the median is of all." : ".");
+    return text;
+}
+
+std::string group_text(const ThresholdFinding& finding) {
+    const auto people = static_cast<int>(finding.fits.size());
+    const Estimate& median = finding.median;
+    if (!std::isfinite(median.value)) {
+        const bool beside = std::isinf(median.value);
+        return ": not found. " +
+               (beside ? "The median over " + participants_text(people) + " lies " +
+                             threshold_text(finding, median.value) + "."
+                       : "It has no median.") +
+               unbounded_text(finding);
+    }
+    std::string text =
+        ": median over " + participants_text(people) + " " + threshold_text(finding, median.value);
+    if (people < kFewestForRanks)
+        text += " (no interval: it takes " + participants_text(kFewestForRanks) + ")";
+    else
+        text += " (" + short_text(100.0 * median.confidence, 3) + " % interval " +
+                threshold_text(finding, median.interval.low) + " to " +
+                threshold_text(finding, median.interval.high) + ")";
+    if (std::isfinite(finding.across.value))
+        text += ", mean " + estimate_text(finding.across.value, finding.across.interval);
+    return text + "." + unbounded_text(finding);
+}
+
+std::string few_trials_text(const ThresholdFinding& finding) {
+    const auto fewest =
+        std::min_element(finding.fits.begin(), finding.fits.end(),
+                         [](const ParticipantThreshold& a, const ParticipantThreshold& b) {
+                             return a.fit.trials < b.fit.trials;
+                         });
+    if (fewest->fit.trials >= kFewestTrialsOfThreshold) return {};
+    return " An interval of " + std::to_string(fewest->fit.trials) +
+           " trials covers the threshold less often than in 95 % of studies (about 85 to 94 %): it "
+           "takes " +
+           std::to_string(kFewestTrialsOfThreshold) + " at the least.";
 }
 
 std::string threshold_sentence(const ThresholdFinding& finding, const Study& study) {
     if (finding.fits.empty()) return finding.name + ": too few answers for a threshold.";
-    const auto bounded = static_cast<std::size_t>(
-        std::count_if(finding.fits.begin(), finding.fits.end(),
-                      [](const ParticipantThreshold& one) { return one.bounded(); }));
     const std::string what =
         "Threshold of " + finding.name + ", a difference from " + short_text(finding.reference, 4);
     if (finding.fits.size() == 1) {
@@ -76,21 +137,15 @@ std::string threshold_sentence(const ThresholdFinding& finding, const Study& stu
         std::string text = what + ": " +
                            estimate_text(one.fit.function.threshold, one.fit.threshold) + " in " +
                            std::to_string(one.fit.trials) + " trials of " +
-                           study.participants[one.participant].identity.participant + ".";
+                           study.participants[one.participant].identity.participant + "." +
+                           few_trials_text(finding);
         if (!one.bounded())
             text +=
                 " An interval without bound means that the answers do not say where the "
                 "threshold is; they may be guesses.";
         return text + " It says nothing of other people.";
     }
-    std::string text = what + ": mean over " + std::to_string(bounded) + " participants " +
-                       estimate_text(finding.across.value, finding.across.interval) + ", median " +
-                       end_text(finding.median) + ".";
-    if (bounded < finding.fits.size())
-        text += " Left out: " +
-                counted(static_cast<std::int64_t>(finding.fits.size() - bounded), "participant") +
-                " whose answers set the threshold no bound.";
-    return text;
+    return what + group_text(finding) + few_trials_text(finding);
 }
 
 std::string poor_fit_sentence(const ThresholdFinding& finding, const Study& study) {
@@ -122,8 +177,9 @@ std::string value_sentence(const ValueFinding& value) {
     return text;
 }
 
-std::string pair_sentence(const PairTest& pair) {
+std::string pair_sentence(const PairTest& pair, const std::string& compared) {
     std::string text = pair.first + " against " + pair.second + ": mean difference " +
+                       (compared.empty() ? "" : "of the " + compared + " ") +
                        estimate_text(pair.difference.value, pair.difference.interval) + "; " +
                        test_text(pair.test) + corrected(pair.test.p, pair.adjusted_p) + ".";
     return text + (pair.adjusted_p < kSignificance
@@ -131,9 +187,24 @@ std::string pair_sentence(const PairTest& pair) {
                        : " This shows no difference, nor that there is none.");
 }
 
+/// What must be known before any number is read.
+std::string pilots_text(const Study& study) {
+    std::vector<std::string> simulated;
+    for (const StudyRecord& record : study.participants)
+        if (!record.identity.pilot.empty()) simulated.push_back(record.identity.participant);
+    if (simulated.empty()) return {};
+    if (simulated.size() == study.participants.size())
+        return "Simulated: no person has answered, and nothing here speaks of people. ";
+    return "Warning: " + listed(simulated) + (simulated.size() == 1 ? " is" : " are") +
+           " simulated, and every number below is of these and of people together: report on the "
+           "people's files alone. ";
+}
+
 }  // namespace
 
 std::string estimate_text(double value, const Interval& interval, double confidence) {
+    if (std::isinf(interval.low) && std::isinf(interval.high))
+        return end_text(value) + " (no interval)";
     return end_text(value) + " (" + short_text(100.0 * confidence, 3) + " % interval " +
            end_text(interval.low) + " to " + end_text(interval.high) + ")";
 }
@@ -146,17 +217,25 @@ std::string summary_of(const StudyReport& report) {
     const Study& study = report.study;
     std::size_t trials = 0;
     std::size_t practice = 0;
+    int answering = 0;
+    std::vector<std::string> silent;
     for (const StudyRecord& record : study.participants) {
-        trials += record.answered.size();
-        practice += static_cast<std::size_t>(
+        const auto of_practice = static_cast<std::size_t>(
             std::count_if(record.answered.begin(), record.answered.end(),
                           [](const AnsweredTrial& one) { return one.trial.practice; }));
+        trials += record.answered.size();
+        practice += of_practice;
+        if (record.answered.size() > of_practice)
+            ++answering;
+        else
+            silent.push_back(record.identity.participant);
     }
-    std::string text =
-        counted(static_cast<std::int64_t>(study.participants.size()), "participant") + " gave " +
-        counted(static_cast<std::int64_t>(trials - practice), "answer");
+    std::string text = pilots_text(study) + participants_text(answering) + " gave " +
+                       counted(static_cast<std::int64_t>(trials - practice), "answer");
     if (practice > 0) text += ", after " + std::to_string(practice) + " for practice";
-    return text + ".";
+    text += ".";
+    if (!silent.empty()) text += " No answer that counts is of " + listed(silent) + ".";
+    return text;
 }
 
 std::vector<std::string> conclusions_of(const StudyReport& report, const BlockFindings& block) {
@@ -169,12 +248,14 @@ std::vector<std::string> conclusions_of(const StudyReport& report, const BlockFi
     }
     for (const ValueFinding& value : block.values) said.push_back(value_sentence(value));
     if (block.overall)
-        said.push_back("All conditions together: " + test_text(*block.overall) +
+        said.push_back("All conditions together" +
+                       (block.compared.empty() ? "" : ", by the " + block.compared) + ": " +
+                       test_text(*block.overall) +
                        (block.overall->p < kSignificance
                             ? ": they are not all alike."
                             : ": nothing shows that they are not all alike; the pairs below are "
                               "then not to be read as findings."));
-    for (const PairTest& pair : block.pairs) said.push_back(pair_sentence(pair));
+    for (const PairTest& pair : block.pairs) said.push_back(pair_sentence(pair, block.compared));
     if (block.unanswered > 0)
         said.push_back(counted(block.unanswered, "trial") +
                        " had no answer in time; where something is right, they count as wrong.");
@@ -241,12 +322,14 @@ std::vector<StudyMethod> methods_of(const StudyReport& report) {
             {"interval of a share",
              "Exact, of all trials together (Clopper and Pearson 1934). It takes each trial as one "
              "draw: where participants differ from each other it is too narrow for people in "
-             "general; the mean over participants beside it is not."});
+             "general. That of the mean over participants (Student's t of their shares, within 0 "
+             "and 100 %; of shares that are all the same the exact one) takes each person as "
+             "one."});
     if (chance)
         methods.push_back(
             {"test against chance",
-             "From " + std::to_string(kFewestForRanks) +
-                 " participants on signed ranks of their shares (Wilcoxon 1945), exact; of fewer "
+             "Where each share of the block is of " + std::to_string(kFewestForRanks) +
+                 " participants or more, signed ranks of their shares (Wilcoxon 1945), exact; else "
                  "the binomial distribution of all trials, mid-p (Lancaster 1961). Two-sided; 5 % "
                  "of studies of people who guess come out below 0.05, or fewer."});
     if (shares)
@@ -255,7 +338,9 @@ std::vector<StudyMethod> methods_of(const StudyReport& report) {
              "Distance of what is felt in its own standard deviations: two intervals sqrt(2) z of "
              "the share right (Macmillan and Creelman 2005); three intervals by comparing "
              "differences (Ennis 1993); yes and no z of hits less z of false alarms (Hautus "
-             "1995)."});
+             "1995). The value is of (hits + 1/2) / (trials + 1), so that it is finite for all "
+             "right, too; of two and three intervals the interval is the exact one of the share, "
+             "carried over without that correction."});
     if (thresholds)
         methods.push_back(
             {"threshold",
@@ -266,13 +351,16 @@ std::vector<StudyMethod> methods_of(const StudyReport& report) {
                  "fitted, from 0 to 0.06 (Wichmann and Hill 2001). Intervals: profile likelihood, "
                  "its critical value by a parametric bootstrap of " +
                  std::to_string(report.analysis.bootstraps) +
-                 " studies; of several participants Student's t of their thresholds."});
+                 " studies, or chi squared's where that is larger. Of several participants the "
+                 "median (order statistics), in which those whose answers set no bound and whose "
+                 "most likely threshold lies outside the levels count as below or above them; "
+                 "the mean (Student's t) only where all are bounded."});
     if (values)
         methods.push_back(
             {"means and medians",
              "Each participant's mean first; then mean (Student's t) and median (order statistics) "
              "over participants, of a single participant over the trials. An adjustment against "
-             "its reference: paired t test."});
+             "its reference: one-sample t test; none of values that are all the same."});
     if (pairs)
         methods.push_back(
             {"conditions against each other",

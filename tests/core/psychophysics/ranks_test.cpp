@@ -16,6 +16,7 @@ TEST_CASE("a mean has Student's interval, one value none", "[ranks]") {
     CHECK(mean.value == 2.5);
     CHECK_THAT(mean.interval.high, WithinAbs(4.554260, 1e-6));  // R: t.test(1:4)
     CHECK(std::isinf(mean_of(Values{1.0}).interval.low));
+    CHECK(std::isinf(mean_of(Values{0.1, 0.1, 0.1}).interval.low));  // nothing varies: no interval
     CHECK(std::isnan(mean_of(Values{}).value));
 }
 
@@ -45,8 +46,9 @@ TEST_CASE("signed ranks are exact, with ties and zeros too", "[ranks]") {
     CHECK_THAT(sign_test(Values{1, 2, 3, 4, 5, -6}).p, WithinAbs(0.21875, 1e-9));
 }
 
-TEST_CASE("the paired t test is Student's", "[ranks]") {
-    const TestResult t = paired_t_test(Values{1.0, 2.0, 3.0, 4.0});
+TEST_CASE("the t test of one sample is Student's", "[ranks]") {
+    const TestResult t = one_sample_t_test(Values{1.0, 2.0, 3.0, 4.0});
+    CHECK(t.test == "one-sample t");
     CHECK_THAT(t.statistic, WithinAbs(3.872983, 1e-6));
     CHECK_THAT(t.p, WithinAbs(0.030466, 1e-6));
 }

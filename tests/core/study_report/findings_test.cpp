@@ -22,9 +22,13 @@ using Catch::Matchers::WithinAbs;
 
 namespace {
 
+bool all_studies() {
+    return std::getenv("DIBHR_ALL_STUDIES") != nullptr;
+}
+
 /// A thousand studies each, as the README tells, where DIBHR_ALL_STUDIES is set.
 int studies() {
-    return std::getenv("DIBHR_ALL_STUDIES") != nullptr ? 1000 : DIBHR_SANITIZED ? 20 : 100;
+    return all_studies() ? 1000 : DIBHR_SANITIZED ? 20 : 100;
 }
 
 /// Four standard errors of a share over so few studies.
@@ -245,16 +249,16 @@ TEST_CASE("participants who guess give no effect but in one study of twenty", "[
 TEST_CASE("shares are tested by all trials of a few people, and by the ranks of many",
           "[study report]") {
     const std::vector<Count> few{{9, 10}, {8, 10}};
-    CHECK(chance_test(few, 0.5).test == "binomial, mid-p, of all trials");
-    CHECK(chance_test(few, 0.5).p < 0.01);
+    CHECK(chance_test(few, 0.5, false).test == "binomial, mid-p, of all trials");
+    CHECK(chance_test(few, 0.5, false).p < 0.01);
     const std::vector<Count> many(8, Count{9, 10});
-    const TestResult ranks = chance_test(many, 0.5);
+    const TestResult ranks = chance_test(many, 0.5, true);
     CHECK(ranks.test == "Wilcoxon signed-rank, exact");
     CHECK_THAT(ranks.p, WithinAbs(2.0 / 256.0, 1e-12));
     // One who differs wildly counts as one person, not as ninety trials.
     std::vector<Count> uneven(6, Count{5, 10});
     uneven.push_back({90, 90});
-    CHECK(chance_test(uneven, 0.5).p > 0.5);
+    CHECK(chance_test(uneven, 0.5, true).p > 0.5);
 }
 
 TEST_CASE("tests of one block are corrected together", "[study report]") {
@@ -310,8 +314,16 @@ TEST_CASE("files of another protocol, of the same participant, or with made-up t
     const auto first = made("1", "P1", text);
     CHECK(refusal({first}).empty());
     CHECK(contains(refusal({first, made("2", "P1", text)}), "give one of the two"));
-    CHECK(contains(refusal({first, made("3", "P3", text + "repetitions = 2\n")}),
-                   "another protocol"));
+    CHECK(
+        contains(refusal({first, made("3", "P3", text + "repetitions = 2\n")}), "of 2 protocols"));
+    const auto text_file = folder / "notes.txt";
+    write_text(text_file, "P1 was tired");
+    CHECK(contains(refusal({first, text_file}), "is no study file"));
+    // Of a protocol with other blocks: told as such, though its trials would fit none here.
+    const auto other =
+        made("5", "P5", page_of_conditions(2, "[[block]]\nform = \"rating\"\nquestion = \"?\"\n"));
+    CHECK(contains(refusal({first, other}), "of 2 protocols"));
+    CHECK(contains(refusal({first, other}), other.string()));
     for (const char* const lie : {"block = 7", "item = 9", "item = -1", "choice = 5", "level = 0.5",
                                   "form = 'rating'", "practice = 1", "number = 3, choice = -1"}) {
         CAPTURE(lie);
@@ -339,9 +351,140 @@ TEST_CASE("a threshold that nobody has is not made up", "[study report]") {
                                   {}, 4, 2);
     const BlockFindings block = findings_in(made, 99);
     REQUIRE(block.thresholds.size() == 1);
-    int bounded = 0;
-    for (const ParticipantThreshold& one : block.thresholds[0].fits)
-        bounded += one.bounded() ? 1 : 0;
-    CHECK(bounded <= 1);
-    CHECK(block.thresholds[0].across.count == bounded);
+    CHECK(block.thresholds[0].unbounded >= 3);
+    CHECK(std::isnan(block.thresholds[0].across.value));
+}
+
+TEST_CASE("of people of whom some set the threshold no bound all are in the median",
+          "[study report]") {
+    // At the lowest level: those without a bound are those who seem to feel it better.
+    const std::string levels = "form = \"two-interval\"\n" + kVaried +
+                               "levels = [-0.2, -0.1, 0.1, 0.2]\nrepetitions = 20\n";
+    const int all = all_studies() ? 400 : DIBHR_SANITIZED ? 5 : 20;
+    std::vector<double> medians;
+    double covered = 0.0;
+    int unbounded = 0;
+    for (int study = 0; study < all; ++study) {
+        const Study made = made_study(
+            page(1, levels), {.guesses = false, .threshold = 0.1, .slope = 15.0, .lapse = 0.05}, 12,
+            static_cast<std::uint64_t>(study));
+        const ThresholdFinding found = findings_in(made, 99).thresholds.at(0);
+        unbounded += found.unbounded;
+        CHECK(std::isfinite(found.across.value) == (found.unbounded == 0));
+        CHECK(found.below + found.above <= found.unbounded);
+        CHECK(found.median.count == 12);
+        CHECK(found.lowest == 0.1);
+        CHECK(found.highest == 0.2);
+        medians.push_back(found.median.value);
+        covered += found.median.interval.holds(0.1) ? 1.0 / all : 0.0;
+    }
+    CHECK(unbounded > all);
+    CHECK_THAT(median_of(medians).value, WithinAbs(0.1, 0.01));
+    CHECK(covered >= 0.95 - 4.0 * std::sqrt(0.05 * 0.95 / all));
+}
+
+TEST_CASE("a median that lies beside all levels is told as beside them", "[study report]") {
+    const auto finding = [](double threshold) {
+        const Study made =
+            made_study(page(1, "form = \"two-interval\"\n" + kVaried +
+                                   "levels = [0.1, 0.15, 0.2]\nrepetitions = 30\n"),
+                       {.guesses = false, .threshold = threshold, .slope = 40.0}, 8, 4);
+        return findings_in(made, 99).thresholds.at(0);
+    };
+    const ThresholdFinding high = finding(5.0);
+    CHECK(high.above >= 6);
+    CHECK(high.median.value > 1e300);
+    const ThresholdFinding low = finding(0.001);
+    CHECK(low.below >= 6);
+    CHECK(low.median.value < -1e300);
+}
+
+TEST_CASE("tests of one block are of one kind, and who answered less is named", "[study report]") {
+    Study made = made_study(page(3,
+                                 "form = \"two-interval\"\nquestion = \"Which?\"\npairs = \"all\"\n"
+                                 "repetitions = 4\n"),
+                            {.guesses = false, .prefers = "a", .share = 0.8}, 7, 1);
+    // Two stop before they have met one of the pairs.
+    for (std::size_t who = 0; who < 2; ++who)
+        std::erase_if(made.participants[who].answered,
+                      [](const AnsweredTrial& one) { return one.trial.item == 2; });
+    const BlockFindings block = findings_in(made);
+    CHECK(with_trials(block.shares[0].by_participant) == 7);
+    CHECK(with_trials(block.shares[2].by_participant) == 5);
+    for (const ShareFinding& share : block.shares)
+        CHECK(share.test->test == "binomial, mid-p, of all trials");
+    REQUIRE(block.remarks.size() == 1);
+    CHECK(contains(block.remarks[0], "the most 12; P1 8, P2 8"));
+}
+
+TEST_CASE("intervals of shares lie in their range, and of equal shares are not of no width",
+          "[study report]") {
+    const auto findings = [](double share, int repetitions) {
+        return findings_in(
+            made_study(page(2,
+                            "form = \"two-interval\"\nquestion = \"Which?\"\npairs = \"all\"\n"
+                            "repetitions = " +
+                                std::to_string(repetitions) + "\n"),
+                       {.guesses = false, .prefers = "a", .share = share}, 7, 3));
+    };
+    const ShareFinding some = findings(0.95, 4).shares.at(0);
+    CHECK(some.across.value < 1.0);
+    CHECK(some.across.interval.high <= 1.0);
+    const ShareFinding always = findings(1.0, 4).shares.at(0);
+    CHECK(always.across.value == 1.0);
+    CHECK(always.across.interval.low == exact_interval({28, 28}).low);
+}
+
+TEST_CASE("adjustments that are all the same are not tested", "[study report]") {
+    const std::string adjust = "form = \"adjust\"\n" + kVaried +
+                               "repetitions = 3\n[block.adjust]\nlowest = 0\nhighest = 0.6\n";
+    const auto value = [&](double noise, int people) {
+        return findings_in(made_study(page(1, adjust),
+                                      {.guesses = false, .bias = 0.1, .noise = noise}, people, 1))
+            .values.at(0);
+    };
+    CHECK_FALSE(value(0.0, 1).test.has_value());
+    CHECK_FALSE(value(0.0, 4).test.has_value());
+    CHECK(std::isinf(value(0.0, 4).mean.interval.high));
+    CHECK(value(0.02, 1).test->test == "one-sample t");
+}
+
+TEST_CASE("trials that are in no threshold are counted and named", "[study report]") {
+    const auto study = [](const std::string& form, const std::string& levels) {
+        return made_study(page(1, "form = \"" + form + "\"\n" + kVaried + "levels = " + levels +
+                                      "\nrepetitions = 10\n"),
+                          noticing(0.1), 1, 1);
+    };
+    // No page may ask for it any more, but files of earlier ones hold it.
+    const std::string form = GENERATE("two-interval", "three-interval");
+    Study of_nothing = study(form, "[0.05, 0.1, 0.2]");
+    of_nothing.protocol.blocks[0].variation.levels[0] = 0.0;
+    for (AnsweredTrial& one : of_nothing.participants[0].answered)
+        if (one.trial.level == 0.05) {
+            one.trial.level = 0.0;
+            one.right = std::nullopt;
+        }
+    const BlockFindings two = findings_in(of_nothing, 19);
+    CHECK(two.trials == 30);
+    CHECK(two.not_counted == 10);
+    CHECK(two.shares.size() == 2);
+    CHECK(contains(two.remarks.at(0), "10 of the 30 trials had no difference"));
+    CHECK(findings_in(study(form, "[-0.1, 0.1, 0.2]"), 19).remarks.empty());
+
+    const BlockFindings yes_no = findings_in(study("explore", "[-0.1, 0, 0.1, 0.2]"), 19);
+    CHECK(yes_no.not_counted == 0);
+    CHECK(yes_no.shares.size() == 4);
+    CHECK(yes_no.thresholds.at(0).fits.at(0).fit.trials == 20);
+    CHECK(contains(yes_no.remarks.at(0), "10 of the 40 trials had less of it"));
+    CHECK(contains(findings_in(study("explore", "[0.1, 0.2]"), 19).remarks.at(0),
+                   "the guess rate is taken as 0"));
+}
+
+TEST_CASE("yes for less than the reference is no false alarm", "[study report]") {
+    Study made = made_study(page(1, "form = \"explore\"\n" + kVaried +
+                                        "levels = [-0.1, 0, 0.1, 0.3]\nrepetitions = 20\n"),
+                            noticing(0.1), 1, 1);
+    for (AnsweredTrial& one : made.participants[0].answered)
+        if (*one.trial.level <= 0.0) one.answer.choice = *one.trial.level < 0.0 ? 0 : 1;
+    CHECK(findings_in(made, 19).thresholds.at(0).fits.at(0).fit.function.guess == 0.0);
 }

@@ -1,6 +1,8 @@
 // How many people a study needs.
 #include <cmath>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -8,6 +10,7 @@
 #include "core/study_report/study_plan.hpp"
 #include "tests/core/study_report/made_study.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/text.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -83,6 +86,40 @@ TEST_CASE("more trials make a threshold more precise", "[study plan]") {
     REQUIRE(precision.size() == 3);
     CHECK(precision[0] > precision[1]);
     CHECK(precision[1] > precision[2]);
+}
+
+TEST_CASE("the precision of a threshold is how far 95 % of all studies' estimates lie from it",
+          "[study plan]") {
+    const auto line = [](const std::string& levels, double threshold) {
+        const Protocol page = protocol(page_of_conditions(
+            1,
+            "[[block]]\nform = \"two-interval\"\nquestion = \"Which?\"\nvary = \"friction\"\n"
+            "reference = 0.3\n" +
+                levels));
+        const PlanSettings settings{
+            .effect = {.guesses = false, .threshold = threshold, .slope = 20.0},
+            .studies = DIBHR_SANITIZED ? 20 : 60,
+            .most_participants = 8};
+        for (const PlanLine& one : plan_of(page, settings))
+            if (one.finding.starts_with("threshold") && one.as_on_the_page)
+                return std::pair(one, plan_text({one}, settings));
+        throw std::runtime_error("no line of a threshold");
+    };
+    const std::string good = "levels = [0.02, 0.06, 0.1, 0.14, 0.2, 0.3]\nrepetitions = 40\n";
+    const auto [found, found_text] = line(good, 0.12);
+    CHECK(found.enough > 0);
+    CHECK(found.studies.back().precision < 0.1);
+    // Who only guesses goes to the top of a staircase, all alike and far from the truth.
+    const auto [never, never_text] = line(
+        "[block.staircase]\nstart = 0.4\nlowest = 0.01\nhighest = 1\nfactor = 1.2\n"
+        "down-after = 3\ntrials = 20\n",
+        50.0);
+    CHECK(never.enough == 0);
+    for (const PlannedStudies& one : never.studies) CHECK(one.precision > 0.9);
+    CHECK(std::isinf(never.studies.back().precision));
+    CHECK(never.studies.back().unbounded > 0.5);
+    CHECK(contains(never_text, "does not find it"));
+    CHECK_FALSE(contains(found_text, "does not find it"));
 }
 
 TEST_CASE("an effect that changes nothing is told", "[study plan]") {
