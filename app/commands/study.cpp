@@ -4,12 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <optional>
-#include <set>
-#include <sstream>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -18,11 +15,13 @@
 #include "app/commands/command_line.hpp"
 #include "app/commands/output.hpp"
 #include "app/commands/study_pilot.hpp"
+#include "app/commands/study_protocol.hpp"
 #include "app/commands/study_readiness.hpp"
 #include "app/settings/assets_path.hpp"
 #include "app/settings/command_options.hpp"
 #include "app/settings/material.hpp"
 #include "app/settings/settings.hpp"
+#include "app/settings/study_values.hpp"
 #include "app/study/study_window.hpp"
 #include "app/window/crash_handler.hpp"
 #include "app/window/ending.hpp"
@@ -67,13 +66,24 @@ struct StudyOptions {
     [[nodiscard]] fs::path folder() const { return out.empty() ? fs::path(".") : out; }
 };
 
-StudyNames study_names() {
+/// `files`: media, pictures and bump maps are opened, too, so that what cannot be is told before
+/// anybody sits down.
+StudyNames study_names(bool files) {
     StudyNames names;
     const MaterialNames materials = material_names();
     names.materials = materials.shipped;
     names.materials->insert(names.materials->end(), materials.own.begin(), materials.own.end());
     names.materials->emplace_back(kAsRecorded);
     names.thickest_finger_mm = kThickestFinger_mm;
+    names.checks.values = require_felt;
+    if (!files) return names;
+    names.checks.media = [](const StudyMedia& media) {
+        static_cast<void>(open_media(media.colour, media.depth, usual_depth_request()));
+    };
+    names.checks.picture = [](const fs::path& picture) {
+        static_cast<void>(read_colour_picture(picture));
+    };
+    names.checks.bump = [](const fs::path& bump) { static_cast<void>(read_bump_map(bump)); };
     return names;
 }
 
@@ -97,97 +107,17 @@ fs::path protocol_called(const fs::path& name) {
                      listed(shipped) + ")" + did_you_mean(name.string(), shipped));
 }
 
-/// Files and materials that a condition names and that cannot be opened are told before anybody
-/// sits down.
-void require_media(const Protocol& protocol) {
-    for (const StudyMedia& media : protocol.media) {
-        const SampleFiles files =
-            media.name == kSampleMedia ? sample_files() : SampleFiles{media.colour, media.depth};
-        static_cast<void>(open_media(files.colour, files.depth, usual_depth_request()));
-    }
-    for (const Condition& condition : protocol.conditions) {
-        const auto bump = condition.values.words.find("bump");
-        if (bump != condition.values.words.end()) static_cast<void>(read_bump_map(bump->second));
-        const auto material = condition.values.words.find("material");
-        if (material != condition.values.words.end())
-            static_cast<void>(material_called(material->second));
-    }
-    const auto require_picture = [](const StudyPage& page) {
-        if (!page.picture.empty()) static_cast<void>(read_colour_picture(page.picture));
-    };
-    require_picture(protocol.instructions);
-    require_picture(protocol.thanks);
-    for (const Block& block : protocol.blocks) require_picture(block.instructions);
-}
-
-/// At most; by a rule of thumb where the block sets no time.
-double minutes_of(const Block& block) {
-    constexpr double kInterval_s = 6.0;
-    constexpr double kAnswer_s = 3.0;
-    const double interval_s = block.interval_s > 0.0 ? block.interval_s : kInterval_s;
-    return block.most_trials() * (block.intervals() * interval_s + kAnswer_s) / 60.0;
-}
-
-std::string values_text(const TouchValues& values) {
-    std::string text;
-    const auto add = [&text](const std::string& name, const std::string& value) {
-        text += (text.empty() ? "" : ", ") + name + " " + value;
-    };
-    for (const auto& [name, word] : values.words) add(name, word);
-    for (const auto& [name, number] : values.numbers) add(name, number_text(number));
-    return text.empty() ? "as the program has it" : text;
-}
-
-std::string levels_text(const Variation& vary) {
-    if (!vary.any()) return {};
-    std::string text = "; varies " + vary.parameter + " around " + number_text(vary.reference);
-    if (!vary.levels.empty()) text += ", " + std::to_string(vary.levels.size()) + " levels";
-    if (vary.staircase)
-        text += ", staircase 1-up/" + std::to_string(vary.staircase->down_after) +
-                "-down that ends near " +
-                short_text(100.0 * convergence_share(*vary.staircase), 3) + " % right";
-    return text;
-}
-
-void print_summary(const Protocol& protocol) {
-    const auto counted = [](std::size_t count, const char* what) {
-        return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
-    };
-    std::cout << protocol.title << '\n' << counted(protocol.conditions.size(), "condition") << '\n';
-    for (const Condition& condition : protocol.conditions)
-        std::cout << "  " << condition.name << ": " << values_text(condition.values) << '\n';
-    std::cout << counted(protocol.blocks.size(), "block") << '\n';
-    double minutes = 0.0;
-    bool adapts = false;
-    for (const Block& block : protocol.blocks) {
-        minutes += minutes_of(block);
-        adapts = adapts || block.variation.staircase;
-        std::cout << "  " << block.name << ": " << name_of(block.form) << ", "
-                  << (block.variation.staircase ? "at most " : "") << block.most_trials()
-                  << " trials, order " << name_of(block.order)
-                  << (block.practice ? ", practice" : "") << levels_text(block.variation) << '\n';
-    }
-    std::cout << (adapts ? "at most " : "") << protocol.most_trials() << " trials, about "
-              << std::ceil(minutes) << " minutes a participant\n";
-}
-
-/// Over so many participants (or a multiple) a Latin square is whole.
-void print_balance(const Protocol& protocol) {
-    std::set<int> rows;
-    for (const Block& block : protocol.blocks) {
-        if (block.order != TrialOrder::latin) continue;
-        const std::size_t levels = std::max<std::size_t>(1, block.variation.levels.size());
-        rows.insert(williams_rows(static_cast<int>(block.items.size() * levels)));
-    }
-    for (const int count : rows) std::cout << "balanced over every " << count << " participants\n";
+/// The media that no page has a line for.
+void require_sample() {
+    const SampleFiles files = sample_files();
+    static_cast<void>(open_media(files.colour, files.depth, usual_depth_request()));
 }
 
 int check(const StudyOptions& options) {
     const fs::path file = protocol_called(options.file());
-    const Protocol protocol = read_protocol(file, study_names());
-    print_summary(protocol);
-    print_balance(protocol);
-    require_media(protocol);
+    const Protocol protocol = read_protocol(file, study_names(true));
+    require_sample();
+    print_protocol(protocol);
     std::cout << "media, materials and pictures are there\n";
     print_readiness(protocol);
     return 0;
@@ -197,7 +127,8 @@ int number_of(const StudyOptions& options) {
     if (options.number) return *options.number;
     if (const auto number = number_in(options.participant)) return *number;
     throw UsageError("the label " + in_quotes(options.participant) +
-                     " does not end in a number: give --number, by which the order is chosen");
+                     " does not end in a number from 1 to 1000000: give --number, by which the "
+                     "order is chosen");
 }
 
 StudyIdentity identity_of(const StudyOptions& options, const Protocol& protocol,
@@ -233,10 +164,11 @@ int run(const StudyOptions& options) {
         throw UsageError("run needs --participant LABEL (see dibhr study --help)");
     require_label(options.participant);
     const fs::path page = protocol_called(options.file());
-    const Protocol protocol = read_protocol(page, study_names());
+    const bool leads = options.pilot.empty();
+    const Protocol protocol = read_protocol(page, study_names(leads));
     std::optional<Pilot> pilot;
-    if (options.pilot.empty())
-        require_media(protocol);
+    if (leads)
+        require_sample();
     else
         pilot = pilot_called(options.pilot, protocol);
     std::error_code ignored;
@@ -336,7 +268,7 @@ int plan(const StudyOptions& options) {
         throw UsageError(
             "plan needs --pilot, the effect that is to be found, as "
             "prefer=CONDITION,share=0.7,spread=0.1 (see dibhr study --help)");
-    const Protocol protocol = read_protocol(protocol_called(options.file()), study_names());
+    const Protocol protocol = read_protocol(protocol_called(options.file()), study_names(false));
     PlanSettings settings = options.plan;
     settings.effect = simulated_participant(options.pilot);
     require_preferred(protocol, settings.effect);
@@ -377,8 +309,14 @@ void add_options(CLI::App& app, StudyOptions& options) {
              "Folder of study files, of the sessions taken out (this one by default), or of the "
              "report",
              "DIR");
-    app.add_option(
-           "--pilot", options.pilot,
+    app.add_option_function<std::string>(
+           "--pilot",
+           [&options](const std::string& how) {
+               if (how.empty())
+                   throw CLI::ValidationError(
+                       "--pilot", "is empty: give guess, hand or NAME=VALUE, or leave it out");
+               options.pilot = how;
+           },
            "Nobody: guess, hand, or threshold=..,slope=..,lapse=..,prefer=CONDITION,"
            "share=..; of plan the effect that is to be found, with spread=.. between people")
         ->type_name("HOW");
@@ -387,9 +325,9 @@ void add_options(CLI::App& app, StudyOptions& options) {
     app.add_flag("--mute", options.mute, "Touch makes no sound");
     add_size_option(app, options.size,
                     "Size of the window that leads a person; without it it fills the screen");
-    app.add_option("--power", options.plan.power,
-                   "So often a study is to find the effect that is planned for")
-        ->check(CLI::Range(0.5, 0.999))
+    add_number_option(app, "--power", 0.5, 0.999,
+                      "So often a study is to find the effect that is planned for",
+                      [&options](double power) { options.plan.power = power; })
         ->default_str("0.8")
         ->type_name("SHARE");
     app.add_option("--studies", options.plan.studies, "Simulated for each line of a plan")

@@ -1,10 +1,54 @@
 // Takes a condition's values by their names.
 #include "app/settings/study_values.hpp"
 
+#include <string>
+
 #include "app/settings/material.hpp"
+#include "core/error.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/video/cleaning/cleaning_options.hpp"
 
 namespace dibhr {
+
+namespace {
+
+/// The command line's words about its options, as a page has them: without "--".
+std::string as_on_a_page(std::string words) {
+    for (auto at = words.find("--"); at != std::string::npos; at = words.find("--", at))
+        words.erase(at, 2);
+    return words;
+}
+
+/// Static friction that is given alone is not to lower the dynamic one unseen.
+void require_dynamic_below(const GivenParameters& given) {
+    TouchParameters any;
+    const double* const fixed = given.value_of(number_of(any.friction.static_coefficient, any));
+    if (fixed == nullptr || given.value_of(number_of(any.friction.dynamic_coefficient, any)))
+        return;
+    GivenParameters without = given;
+    without.numbers.clear();
+    TouchParameters parameters;
+    without.apply(parameters);
+    const double dynamic = parameters.friction.dynamic_coefficient;
+    if (*fixed < dynamic)
+        throw InputError("static-friction " + short_text(*fixed) +
+                         " is below the dynamic friction " + short_text(dynamic) +
+                         ", which it would lower, too: give dynamic-friction of at most as much, "
+                         "or friction for both");
+}
+
+void require_bump(const GivenParameters& given) {
+    if (!given.bump_file().empty()) return;
+    for (const char* const name : {"roughness", "bump-size"}) {
+        const double* const number = given.value_of(*touch_number(name));
+        if (number != nullptr && *number > 0.0)
+            throw InputError(std::string(name) + ' ' + short_text(*number) +
+                             " changes nothing without a bump map: it needs bump = \"FILE\" or a "
+                             "material that has one");
+    }
+}
+
+}  // namespace
 
 TouchRequest request_of(const TouchValues& values) {
     TouchRequest request;
@@ -30,6 +74,18 @@ TouchRequest request_of(const TouchValues& values) {
     request.preset = cleaning_named(word("cleaning"));
     request.raw_depth = request.preset == CleaningPreset::raw;
     return request;
+}
+
+void require_felt(const TouchValues& values) {
+    const GivenParameters given = request_of(values).given;
+    TouchParameters parameters;
+    try {
+        given.apply(parameters);
+    } catch (const UsageError& error) {
+        throw InputError(as_on_a_page(error.what()));
+    }
+    require_dynamic_below(given);
+    require_bump(given);
 }
 
 }  // namespace dibhr

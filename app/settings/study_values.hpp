@@ -10,4 +10,9 @@ namespace dibhr {
 /// TouchValues' own words. Throws InputError for a material that is not there.
 [[nodiscard]] TouchRequest request_of(const TouchValues& values);
 
+/// That a surface of these values can be felt, and as they say: throws InputError, in the names of
+/// a study's page, where friction contradicts itself, one coefficient would take the other along,
+/// or a texture has no bump map. Reads the material.
+void require_felt(const TouchValues& values);
+
 }  // namespace dibhr

@@ -1,7 +1,9 @@
 // `dibhr study` as a person runs it: checked, run with a simulated participant, killed and resumed.
 #include <cstddef>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
+#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -145,6 +147,9 @@ TEST_CASE("each trial is a session, and the modelled hand feels what the experim
     REQUIRE(run_dibhr(folder, {"study", "sessions", "P1.dibhr-study", "--out", "s"}).exit_code ==
             0);
     CHECK(names_in(folder / "s") == std::vector<std::string>{"P1-001.dibhr"});
+    const ProgramResult told = run_dibhr(folder, {"info", "s/P1-001.dibhr"});
+    CHECK(std::regex_search(told.output, std::regex("participant +P1\n")));
+    CHECK(std::regex_search(told.output, std::regex("note +T, trial 1\n")));
     const ProgramResult replayed = run_dibhr(folder, {"replay", "s/P1-001.dibhr"});
     CHECK(contains(replayed.output, "are identical, bit for bit"));
 
@@ -183,9 +188,109 @@ TEST_CASE("a study says in one line what it cannot do", "[study]") {
     CHECK(contains(said(run_arguments("P2", "prefer=other-on"), 1), "did you mean other-one?"));
     CHECK(contains(said({"study", "check", "paper-qestion"}, 1), "did you mean paper-question?"));
     CHECK(contains(said({"study", "chekc", "study.toml"}, 2), "did you mean check?"));
+    CHECK(contains(said(run_arguments("P0", "guess"), 2), "a number from 1 to 1000000"));
+    CHECK(contains(said(run_arguments("-1", "guess"), 1), "a letter or a digit first"));
+    CHECK(contains(said(run_arguments("P3", ""), 2), "--pilot"));
+    CHECK(contains(said(run_arguments("P3", "guess,threshold=1"), 1), "has no threshold"));
+    CHECK_FALSE(std::filesystem::exists(folder / "P3.dibhr-study"));
+    CHECK(contains(
+        said({"study", "plan", "study.toml", "--pilot", "prefer=other-one", "--power", "nan"}, 2),
+        "--power"));
+    CHECK(contains(said({"study", "check", "."}, 1), "is a folder"));
     CHECK(contains(said({"study", "sessions", "study.toml"}, 1), "study.toml"));
     write_text(folder / "study.toml", kPage + "form = 3\n");
     CHECK(contains(said({"study", "check", "study.toml"}, 1), "study.toml:14: "));
+}
+
+TEST_CASE("a page that could not be felt to its end is refused with its line, before anything else",
+          "[study]") {
+    const std::string head = "title = \"T\"\n[[condition]]\nname = \"a\"\n";  // 3 lines
+    const std::string block = "[[block]]\nform = \"two-interval\"\nquestion = \"Q\"\n";
+    const std::string rating = "[[block]]\nform = \"rating\"\nquestion = \"Q\"\n";
+    struct Mistake {
+        std::string page;
+        int line;
+        std::string said;
+    };
+    const auto mistake = GENERATE_COPY(values<Mistake>({
+        {head + block + "vary = \"dynamic-friction\"\nreference = 0.3\nlevels = [0.05, 0.2]\n", 9,
+         "dynamic-friction 0.5 is above the static friction 0.4: give static-friction"},
+        {head + block + "vary = \"static-friction\"\nreference = 0.5\nlevels = [-0.2]\n", 9,
+         "static-friction 0.3 is below the dynamic friction 0.4"},
+        {head + "static-friction = 0.2\n" + rating, 4, "is below the dynamic friction 0.4"},
+        {head + block +
+             "vary = \"dynamic-friction\"\nreference = 0.2\n[block.staircase]\n"
+             "start = 0.1\nhighest = 0.3\nstep = 0.1\n",
+         11, "dynamic-friction 0.5 in the condition 'a'"},
+        {head + "[[block]]\nform = \"adjust\"\nquestion = \"Q\"\nvary = \"static-friction\"\n"
+                "reference = 0.4\n[block.adjust]\nlowest = 0\nhighest = 1\n",
+         10, "static-friction 0 in the condition 'a'"},
+        {head + block + "vary = \"roughness\"\nlevels = [1, 2]\n", 8, "needs bump"},
+        {head + "roughness = 3\n" + rating, 4, "needs bump = \"FILE\" or a material that has one"},
+        {"title = \"T\"\n[[media]]\nname = \"m\"\ncolour = \"none.mp4\"\n", 4, "none.mp4"},
+        {"title = \"T\"\n[[media]]\nname = \"m\"\ncolour = \"text.png\"\n", 4, "text.png"},
+        {"title = \"T\"\ninstructions-picture = \"none.png\"\n", 2, "none.png"},
+        {"title = \"T\"\nthanks-picture = \"text.png\"\n", 2, "text.png"},
+        {"title = \"T\"\nthanks-picture = \".\"\n", 2, ""},
+        {head + "bump = \"none.png\"\n", 4, "none.png"},
+        {head + "bump = \"text.png\"\n", 4, "text.png"},
+    }));
+    CAPTURE(mistake.page);
+    const TemporaryFolder folder;
+    write_text(folder / "text.png", "hello\n");
+    write_text(folder / "study.toml", mistake.page);
+    const ProgramResult checked = run_dibhr(folder, {"study", "check", "study.toml"});
+    INFO(checked.errors);
+    CHECK(checked.exit_code == 1);
+    CHECK(checked.output.empty());
+    CHECK(contains(checked.errors, "study.toml:" + std::to_string(mistake.line) + ": "));
+    CHECK(contains(checked.errors, mistake.said));
+    CHECK(split(checked.errors, '\n').size() <= 2);
+}
+
+TEST_CASE("a pilot is refused what cannot be felt, but needs no files", "[study]") {
+    const TemporaryFolder folder;
+    write_text(folder / "study.toml", "thanks-picture = \"none.png\"\n" + kPage);
+    CHECK(run_dibhr(folder, run_arguments("P1", "guess")).exit_code == 0);
+    write_text(folder / "study.toml", kPage + "vary = \"roughness\"\nlevels = [1]\n");
+    const ProgramResult refused = run_dibhr(folder, run_arguments("P2", "guess"));
+    CHECK(refused.exit_code == 1);
+    CHECK(contains(refused.errors, "study.toml:15: roughness 1 in the condition 'other-one'"));
+}
+
+TEST_CASE("a check tells what may not be meant", "[study]") {
+    const TemporaryFolder folder;
+    write_text(folder / "study.toml", R"(title = "T"
+[[condition]]
+name = "one"
+[[condition]]
+name = "two"
+[[block]]
+name = "yes or no"
+form = "explore"
+conditions = ["one"]
+question = "Q"
+vary = "friction"
+reference = 0.3
+levels = [0.1]
+practice = true
+[[block]]
+name = "rated"
+form = "rating"
+question = "Q"
+order = "latin"
+practice = true
+)");
+    const ProgramResult checked = run_dibhr(folder, {"study", "check", "study.toml"});
+    INFO(checked.errors);
+    REQUIRE(checked.exit_code == 0);
+    CHECK(contains(checked.output, "one and two have the same values"));
+    CHECK(contains(checked.output, "yes or no: without a level 0"));
+    CHECK(contains(checked.output, "explore, 1 trial, order random"));
+    CHECK(contains(checked.output, "around 0.3, 1 level\n"));
+    CHECK(contains(checked.output, "order latin, balanced over every 2 participants"));
+    CHECK(contains(checked.output, "3 trials, about 1 minute a participant"));
+    CHECK(contains(checked.output, "all of it is practice"));
 }
 
 TEST_CASE("a study goes on under its label, and is finished once", "[study]") {

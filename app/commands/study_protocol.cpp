@@ -1,0 +1,121 @@
+// Says what a study will be.
+#include "app/commands/study_protocol.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iostream>
+#include <string>
+
+#include "core/files/plain_text.hpp"
+#include "core/psychophysics/staircase.hpp"
+#include "core/study/study_run.hpp"
+
+namespace dibhr {
+
+namespace {
+
+/// At most; by a rule of thumb where the block sets no time.
+double minutes_of(const Block& block) {
+    constexpr double kInterval_s = 6.0;
+    constexpr double kAnswer_s = 3.0;
+    const double interval_s = block.interval_s > 0.0 ? block.interval_s : kInterval_s;
+    return block.most_trials() * (block.intervals() * interval_s + kAnswer_s) / 60.0;
+}
+
+std::string counted(int count, const char* what) {
+    return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
+}
+
+std::string values_text(const TouchValues& values) {
+    std::string text;
+    const auto add = [&text](const std::string& name, const std::string& value) {
+        text += (text.empty() ? "" : ", ") + name + " " + value;
+    };
+    for (const auto& [name, word] : values.words) add(name, word);
+    for (const auto& [name, number] : values.numbers) add(name, number_text(number));
+    return text.empty() ? "as the program has it" : text;
+}
+
+std::string levels_text(const Variation& vary) {
+    if (!vary.any()) return {};
+    std::string text = "; varies " + vary.parameter + " around " + number_text(vary.reference);
+    if (!vary.levels.empty()) text += ", " + counted(static_cast<int>(vary.levels.size()), "level");
+    if (vary.staircase)
+        text += ", staircase 1-up/" + std::to_string(vary.staircase->down_after) + "-down from " +
+                number_text(vary.staircase->start) + ", within " +
+                number_text(vary.staircase->low) + " to " + number_text(vary.staircase->high) +
+                ", that ends near " + short_text(100.0 * convergence_share(*vary.staircase), 3) +
+                " % right";
+    return text;
+}
+
+/// Over so many participants (or a multiple) a Latin square is whole.
+std::string balance_text(const Block& block) {
+    if (block.order != TrialOrder::latin) return {};
+    const std::size_t levels = std::max<std::size_t>(1, block.variation.levels.size());
+    const int rows = williams_rows(static_cast<int>(block.items.size() * levels));
+    return ", balanced over every " + counted(rows, "participant");
+}
+
+void print_summary(const Protocol& protocol) {
+    std::cout << protocol.title << '\n'
+              << counted(static_cast<int>(protocol.conditions.size()), "condition") << '\n';
+    for (const Condition& condition : protocol.conditions)
+        std::cout << "  " << condition.name << ": " << values_text(condition.values) << '\n';
+    std::cout << counted(static_cast<int>(protocol.blocks.size()), "block") << '\n';
+    double minutes = 0.0;
+    bool adapts = false;
+    for (const Block& block : protocol.blocks) {
+        minutes += minutes_of(block);
+        adapts = adapts || block.variation.staircase;
+        std::cout << "  " << block.name << ": " << name_of(block.form) << ", "
+                  << (block.variation.staircase ? "at most " : "")
+                  << counted(block.most_trials(), "trial") << ", order " << name_of(block.order)
+                  << balance_text(block) << (block.practice ? ", practice" : "")
+                  << levels_text(block.variation) << '\n';
+    }
+    std::cout << (adapts ? "at most " : "") << counted(protocol.most_trials(), "trial")
+              << ", about " << counted(static_cast<int>(std::ceil(minutes)), "minute")
+              << " a participant\n";
+}
+
+/// Which may be meant, as what chance alone does.
+void tell_same_conditions(const Protocol& protocol) {
+    const auto& all = protocol.conditions;
+    for (auto one = all.begin(); one != all.end(); ++one) {
+        const auto before = std::find_if(
+            all.begin(), one, [&](const Condition& other) { return other.values == one->values; });
+        if (before != one)
+            std::cout << before->name << " and " << one->name
+                      << " have the same values: nobody can tell them apart\n";
+    }
+}
+
+/// Yes and no, without trials in which there is nothing.
+void tell_unknown_guesses(const Block& block) {
+    const Variation& vary = block.variation;
+    const bool has_nothing = std::any_of(vary.levels.begin(), vary.levels.end(),
+                                         [](double level) { return level <= 0.0; });
+    if (block.form != TrialForm::explore || !vary.any() || has_nothing) return;
+    std::cout << block.name
+              << ": without a level 0 it is not known how often yes is said of nothing; the guess "
+                 "rate is then taken as 0\n";
+}
+
+void tell_only_practice(const Protocol& protocol) {
+    if (std::all_of(protocol.blocks.begin(), protocol.blocks.end(),
+                    [](const Block& block) { return block.practice; }))
+        std::cout << "all of it is practice: no answer will count\n";
+}
+
+}  // namespace
+
+void print_protocol(const Protocol& protocol) {
+    print_summary(protocol);
+    tell_same_conditions(protocol);
+    for (const Block& block : protocol.blocks) tell_unknown_guesses(block);
+    tell_only_practice(protocol);
+}
+
+}  // namespace dibhr
