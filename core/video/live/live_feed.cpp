@@ -27,6 +27,7 @@ constexpr std::size_t kMostWaiting = 2;
 constexpr double kNewest = 0.1;  ///< the weight of the newest of a moving mean
 constexpr double kLongestInterval_s = 0.5;
 constexpr std::size_t kLongestName = 100;
+constexpr std::chrono::milliseconds kUnheard{1500};  ///< what sent no packet since sends none
 
 double seconds_of(Clock::time_point time) {
     return std::chrono::duration<double>(time.time_since_epoch()).count();
@@ -72,12 +73,14 @@ LiveFeed::LiveFeed(std::filesystem::path colour, std::filesystem::path depth)
         require_camera(live_name(colour_), colour_);
         colour_stream_ = std::make_unique<LiveStream>(
             live_name(colour_), in_quotes(public_name(colour_), kLongestName),
-            [this](LivePicture picture) { return take_colour(std::move(picture)); });
+            [this](LivePicture picture) { return take_colour(std::move(picture)); },
+            [this] { take_refusal(); });
         colour_stream_->want(true, false);
     }
     depth_stream_ = std::make_unique<LiveStream>(
         std::move(depth_name), in_quotes(public_name(depth_), kLongestName),
-        [this](LivePicture picture) { return take_depth(std::move(picture)); });
+        [this](LivePicture picture) { return take_depth(std::move(picture)); },
+        [this] { take_refusal(); });
 }
 
 LiveFeed::~LiveFeed() {
@@ -116,6 +119,7 @@ bool LiveFeed::take_depth(LivePicture picture) {
         if (signal_.last != Clock::time_point{} && since_s < kLongestInterval_s)
             interval_s_ += kNewest * (since_s - interval_s_);
         signal_.last = now;
+        signal_.refused = false;
         depth_line_.add(picture.stamp_s, seconds_of(picture.arrived));
         if (two_) {
             waiting_.push_back(std::move(picture));
@@ -148,6 +152,12 @@ bool LiveFeed::take_colour(LivePicture picture) {
     const std::lock_guard lock(telling_);
     if (news_) news_();
     return true;
+}
+
+void LiveFeed::take_refusal() {
+    const std::lock_guard lock(mutex_);
+    signal_.refused = true;
+    came_.notify_all();
 }
 
 /// When a colour picture was taken, by the depth's clock.
@@ -195,7 +205,7 @@ std::shared_ptr<const LivePair> LiveFeed::after(std::uint64_t number, Clock::tim
     for (;;) {
         join(Clock::now());
         if (newest_ && newest_->number > number) return newest_;
-        if (Clock::now() >= latest || signal_.other_form) return nullptr;
+        if (Clock::now() >= latest || signal_.other_form || signal_.refused) return nullptr;
         Clock::time_point until = latest;
         if (!waiting_.empty())
             until = std::min(until, waiting_.front().arrived + duration_of(0.5 * interval_s_));
@@ -217,6 +227,7 @@ LiveSignal LiveFeed::signal() const {
     }
     signal.trouble = depth_stream_->trouble();
     if (signal.trouble.empty() && colour_stream_) signal.trouble = colour_stream_->trouble();
+    signal.heard = Clock::now() - depth_stream_->heard() < kUnheard;
     return signal;
 }
 

@@ -30,6 +30,8 @@ struct LiveSignal {
         last{};              ///< when a depth picture came; never: at the begin
     bool other_form{false};  ///< pictures of another size or kind came: it is to be opened again
     std::string trouble{};   ///< why it cannot be opened again; empty: it is open, or not yet tried
+    bool refused{false};     ///< trouble that nobody need wait for: it would be the same again
+    bool heard{false};       ///< packets come, whether or not they make pictures
 };
 
 /// How much later than its stamp a source's picture comes when it comes quickly: by that, stamps of
@@ -67,7 +69,7 @@ class LiveFeed {
     /// Of one connection: whether its colours, and its levels, are looked at.
     void want(bool colour, bool levels);
 
-    /// The newest pair after that number; waits until then. Null: none came.
+    /// The newest pair after that number; waits until then. Null: none came, or none will.
     [[nodiscard]] std::shared_ptr<const LivePair> after(std::uint64_t number,
                                                         Clock::time_point latest);
     /// When a picture that waits for its colour goes without; nothing: none waits.
@@ -80,6 +82,7 @@ class LiveFeed {
   private:
     bool take_depth(LivePicture picture);
     bool take_colour(LivePicture picture);
+    void take_refusal();
     /// What pictures of one connection have in common.
     struct Form {
         cv::Size size{};

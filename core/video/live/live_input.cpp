@@ -34,8 +34,6 @@ namespace dibhr {
 
 namespace {
 
-using Clock = LivePicture::Clock;
-
 constexpr std::chrono::milliseconds kToOpen{4000};  ///< so long it may be silent at the begin
 constexpr std::chrono::milliseconds kSilent{1500};  ///< and so long later
 constexpr std::chrono::milliseconds kBetweenLooks{2};
@@ -71,6 +69,13 @@ struct Options {
     }
 };
 
+/// It is no video. A pipe has what it has, and a server gives the same page again; what is sent to
+/// everybody may be met at a better moment.
+[[noreturn]] void refuse_content(const LiveName& name, const std::string& what) {
+    if (name.kind == LiveKind::pipe || name.url.starts_with("http")) throw LiveRefusal(what);
+    throw InputError(what);
+}
+
 /// One channel, whole numbers.
 cv::Mat whole_levels(cv::Mat levels) {
     if (levels.channels() > 1) levels = grey_of(levels);
@@ -86,13 +91,14 @@ cv::Mat whole_levels(cv::Mat levels) {
 struct LiveInput::Pipe {
     explicit Pipe(const std::string& file, const std::string& shown)
         : descriptor(file.empty() ? ::dup(STDIN_FILENO)
-                                  : ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
+                                  : ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)),
+          has_writer(file.empty()) {
         if (descriptor < 0)
             throw InputError(shown +
                              " cannot be opened: make it with mkfifo, and let something "
                              "write a video into it");
         if (::isatty(descriptor) != 0)
-            throw InputError(
+            throw LiveRefusal(
                 "nothing is piped into standard input: let another program write a "
                 "video into it, as in: ffmpeg ... -f nut - | dibhr -");
     }
@@ -103,6 +109,7 @@ struct LiveInput::Pipe {
     Pipe& operator=(const Pipe&) = delete;
 
     int descriptor;
+    bool has_writer;  ///< from the begin on
     bool began{false};
 };
 
@@ -142,7 +149,8 @@ int LiveInput::read_pipe(void* input, std::uint8_t* bytes, int size) noexcept {
             return static_cast<int>(got);
         }
         if (got < 0 && errno != EAGAIN && errno != EINTR) return AVERROR(errno);
-        if (got == 0 && (pipe.began || (wanted.revents & POLLIN) != 0)) return AVERROR_EOF;
+        if (got == 0 && (pipe.began || pipe.has_writer || (wanted.revents & POLLIN) != 0))
+            return AVERROR_EOF;
         std::this_thread::sleep_for(std::chrono::milliseconds(kLooked_ms));
     }
     return AVERROR_EXIT;
@@ -152,8 +160,13 @@ void LiveInput::patience(std::chrono::milliseconds patience) {
     latest_ = Clock::now() + patience;
 }
 
-LiveInput::LiveInput(const LiveName& name, const std::string& shown, const LiveWants& wants)
-    : wants_(wants), kind_(name.kind), frame_(av_frame_alloc()), packet_(av_packet_alloc()) {
+LiveInput::LiveInput(const LiveName& name, const std::string& shown, const LiveWants& wants,
+                     std::atomic<Clock::time_point>& heard)
+    : wants_(wants),
+      heard_(heard),
+      kind_(name.kind),
+      frame_(av_frame_alloc()),
+      packet_(av_packet_alloc()) {
     if (!frame_ || !packet_) throw std::bad_alloc();
     set_up_libraries();
     set_up_devices();
@@ -164,13 +177,28 @@ LiveInput::LiveInput(const LiveName& name, const std::string& shown, const LiveW
     if (camera_) return;
     int result = may_be_depth ? open(name, true) : -1;
     if (result < 0) result = open(name, false);
-    if (result < 0) {
-        const bool silent = result == AVERROR_EXIT || result == AVERROR(EAGAIN);
-        throw InputError(
-            shown + (silent ? " sends nothing" : " cannot be opened (" + reason_of(result) + ")") +
-            ": start what sends, and check the name");
-    }
-    open_decoder(shown);
+    if (result < 0) refuse(name, shown, result);
+    open_decoder(name, shown);
+}
+
+void LiveInput::refuse(const LiveName& name, const std::string& shown, int result) const {
+    if (kind_ == LiveKind::made)
+        throw LiveRefusal(shown + " is nothing that libav can make (" + reason_of(result) +
+                          "): see ffmpeg -filters");
+    const bool silent = result == AVERROR_EXIT || result == AVERROR(EAGAIN);
+    if (silent)
+        throw InputError(shown +
+                         " sends nothing that can be read: start what sends, and check the name");
+    if (pipe_ && !pipe_->began)
+        throw LiveRefusal(shown + " ended without a picture: let what writes into it send a video");
+    if (result == AVERROR_INVALIDDATA || result == AVERROR_EOF)
+        refuse_content(name, shown + (pipe_ ? " holds" : " sends") +
+                                 " no video that can be read: let it be one in NUT, Matroska or "
+                                 "MPEG-TS");
+    if (result == AVERROR(EIO) && !has_known_host(name))
+        throw LiveRefusal(shown + " cannot be opened, as its host is not found: check the name");
+    throw InputError(shown + " cannot be opened (" + reason_of(result) +
+                     "): start what sends, and check the name");
 }
 
 LiveInput::~LiveInput() = default;
@@ -204,8 +232,10 @@ int LiveInput::open(const LiveName& name, bool as_depth) {
     }
     int result = avformat_open_input(&context, pipe_ ? nullptr : name.url.c_str(), format,
                                      &options.dictionary);
-    if (result < 0) return result;  // the context is freed
+    if (result < 0) return is_over(this) != 0 ? AVERROR_EXIT : result;  // the context is freed
     context_.reset(context);
+    // The packets that tell what it holds are pictures, too, and all others may refer to the first.
+    if (kind_ == LiveKind::network || pipe_) context->flags &= ~AVFMT_FLAG_NOBUFFER;
     // A packet of a transport stream is a picture: nothing waits for the begin of the next one.
     if (std::string_view(context->iformat->name) == "mpegts") context->flags |= AVFMT_FLAG_NOPARSE;
     do {
@@ -215,7 +245,7 @@ int LiveInput::open(const LiveName& name, bool as_depth) {
 }
 
 /// Threads that share a picture, none that take one each.
-void LiveInput::open_decoder(const std::string& shown) {
+void LiveInput::open_decoder(const LiveName& name, const std::string& shown) {
     const AVCodec* codec = nullptr;
     const int track = av_find_best_stream(context_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
     if (track >= 0 && codec != nullptr) {
@@ -233,7 +263,8 @@ void LiveInput::open_decoder(const std::string& shown) {
         opened = avcodec_open2(decoder_.get(), codec, nullptr) >= 0;
     }
     if (!opened)
-        throw InputError(shown + " sends no video that can be decoded: let it send another form");
+        refuse_content(name,
+                       shown + " sends no video that can be decoded: let it send another form");
     for (unsigned k = 0; k < context_->nb_streams; ++k)
         if (context_->streams[k] != stream_) context_->streams[k]->discard = AVDISCARD_ALL;
 }
@@ -251,6 +282,7 @@ bool LiveInput::send_next() {
         if (got < 0) return false;
         if (packet_->stream_index != stream_->index) continue;
         arrived_ = Clock::now();
+        heard_ = arrived_;
         if ((packet_->flags & AV_PKT_FLAG_CORRUPT) != 0) damaged_ = true;
         if (avcodec_send_packet(decoder_.get(), packet_.get()) < 0) damaged_ = true;
         return true;

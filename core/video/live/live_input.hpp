@@ -7,6 +7,7 @@
 #include <opencv2/core/mat.hpp>
 #include <string>
 
+#include "core/error.hpp"
 #include "core/video/formats/av_frame.hpp"
 #include "core/video/live/depth_camera.hpp"
 #include "core/video/live/live_name.hpp"
@@ -41,13 +42,23 @@ struct LiveWants {
     std::atomic<bool> leaving{false};  ///< whatever waits ends
 };
 
+/// What nobody need wait for: it would be the same another time.
+class LiveRefusal : public InputError {
+  public:
+    using InputError::InputError;
+};
+
 /// Keeps nothing back that has come: no frames of a decoder's threads, no buffer of a demuxer's.
 /// Pictures that hold damage are left out up to the next whole one.
 class LiveInput {
   public:
+    using Clock = LivePicture::Clock;
+
     /// Waits for the first packets. Throws InputError: what, which place, what to do next; also
-    /// where nothing comes for a while. `wants` outlives it.
-    LiveInput(const LiveName& name, const std::string& shown, const LiveWants& wants);
+    /// where nothing comes for a while; LiveRefusal where it never will. `heard`: when the last
+    /// packet came, whether or not it makes a picture. Both outlive it.
+    LiveInput(const LiveName& name, const std::string& shown, const LiveWants& wants,
+              std::atomic<Clock::time_point>& heard);
     ~LiveInput();
     LiveInput(const LiveInput&) = delete;
     LiveInput& operator=(const LiveInput&) = delete;
@@ -68,7 +79,8 @@ class LiveInput {
     static int is_over(void* input) noexcept;
     static int read_pipe(void* input, std::uint8_t* bytes, int size) noexcept;
     [[nodiscard]] int open(const LiveName& name, bool as_depth);
-    void open_decoder(const std::string& shown);
+    [[noreturn]] void refuse(const LiveName& name, const std::string& shown, int result) const;
+    void open_decoder(const LiveName& name, const std::string& shown);
     void patience(std::chrono::milliseconds patience);
     [[nodiscard]] bool send_next();
     [[nodiscard]] bool is_whole();
@@ -77,6 +89,7 @@ class LiveInput {
     [[nodiscard]] bool read_camera(LivePicture& picture);
 
     const LiveWants& wants_;
+    std::atomic<Clock::time_point>& heard_;
     LiveKind kind_;
     CameraCalls calls_{};
     std::unique_ptr<DepthCamera> camera_{};  // then there is nothing of libav's
@@ -87,10 +100,10 @@ class LiveInput {
     std::unique_ptr<AVFrame, Closer> frame_;
     std::unique_ptr<AVPacket, Closer> packet_;
     FramePictures pictures_{};
-    AVStream* stream_{nullptr};                // the context's
-    LivePicture::Clock::time_point latest_{};  // then nothing has come for too long
-    LivePicture::Clock::time_point arrived_{};
-    LivePicture::Clock::time_point begin_{};  // when the stamp first_s_ was due
+    AVStream* stream_{nullptr};   // the context's
+    Clock::time_point latest_{};  // then nothing has come for too long
+    Clock::time_point arrived_{};
+    Clock::time_point begin_{};  // when the stamp first_s_ was due
     double first_s_{0.0};
     bool damaged_{false};
 };

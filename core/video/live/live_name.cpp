@@ -1,8 +1,11 @@
 // What stands before the colon.
 #include "core/video/live/live_name.hpp"
 
+#include <netdb.h>
+
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <string_view>
 #include <system_error>
 
@@ -16,17 +19,19 @@ namespace {
 struct Scheme {
     std::string_view begin;
     std::string_view allowed;  ///< and what it runs on
+    bool needs_port;           ///< as it has none of its own
 };
 
 /// Nothing that leads to a file of this machine, whatever a playlist says.
-constexpr std::array<Scheme, 8> kNetwork{{{"rtsp://", "rtsp,rtp,udp,tcp"},
-                                          {"rtsps://", "rtsp,rtsps,rtp,srtp,udp,tcp,tls,crypto"},
-                                          {"rtp://", "rtp,udp"},
-                                          {"udp://", "udp"},
-                                          {"srt://", "srt"},
-                                          {"tcp://", "tcp"},
-                                          {"http://", "http,tcp"},
-                                          {"https://", "https,http,tls,tcp,crypto"}}};
+constexpr std::array<Scheme, 8> kNetwork{
+    {{"rtsp://", "rtsp,rtp,udp,tcp", false},
+     {"rtsps://", "rtsp,rtsps,rtp,srtp,udp,tcp,tls,crypto", false},
+     {"rtp://", "rtp,udp", true},
+     {"udp://", "udp", true},
+     {"srt://", "srt", true},
+     {"tcp://", "tcp", true},
+     {"http://", "http,tcp", false},
+     {"https://", "https,http,tls,tcp,crypto", false}}};
 constexpr std::string_view kCamera = "v4l2:";
 constexpr std::string_view kPipe = "pipe:";
 constexpr std::string_view kMade = "lavfi:";
@@ -42,6 +47,38 @@ bool is_camera_device(const std::filesystem::path& place) {
     if (!place.string().starts_with("/dev/video")) return false;
     std::error_code gone;
     return std::filesystem::is_character_file(place, gone);
+}
+
+/// As the name of a network's has them.
+struct HostAndPort {
+    std::string host{};
+    std::string port{};  ///< empty: there is none
+};
+
+HostAndPort host_and_port(std::string_view name) {
+    name.remove_prefix(std::min(name.find("://") + 3, name.size()));
+    name = name.substr(0, name.find_first_of("/?"));
+    if (const auto at = name.rfind('@'); at != std::string_view::npos) name.remove_prefix(at + 1);
+    const auto bracket = name.find(']');  // of an IPv6 address
+    const auto colon = name.find(':', bracket == std::string_view::npos ? 0 : bracket);
+    HostAndPort found;
+    if (colon != std::string_view::npos) found.port = name.substr(colon + 1);
+    name = name.substr(0, colon);
+    if (bracket != std::string_view::npos) name = name.substr(1, bracket - 1);
+    found.host = name;
+    return found;
+}
+
+void require_port(const std::string& name, const Scheme& scheme) {
+    const std::string port = host_and_port(name).port;
+    int number = 0;
+    const auto [end, failed] = std::from_chars(port.data(), port.data() + port.size(), number);
+    const bool whole = failed == std::errc{} && end == port.data() + port.size();
+    if (port.empty() && !scheme.needs_port) return;
+    if (whole && number >= 1 && number <= 65535) return;
+    throw InputError(in_quotes(public_name(name)) +
+                     (port.empty() ? " lacks a port" : " has no port from 1 to 65535") +
+                     ": name it as in " + std::string(scheme.begin) + "127.0.0.1:5000");
 }
 
 /// "size=640x480&rate=30" in libav's words.
@@ -95,8 +132,10 @@ LiveName live_name(const std::filesystem::path& place) {
     const std::string& name = place.native();
     const std::string_view text = name;
     const auto after = [text](std::string_view begin) { return text.substr(begin.size()); };
-    if (const Scheme* const scheme = network_scheme(text))
+    if (const Scheme* const scheme = network_scheme(text)) {
+        require_port(name, *scheme);
         return {.kind = LiveKind::network, .url = name, .allowed = std::string(scheme->allowed)};
+    }
     if (text.starts_with(kMade) && text.size() > kMade.size())
         return {.kind = LiveKind::made, .url = std::string(after(kMade)), .format = "lavfi"};
     if (name == "-" || name == kPipe) return {.kind = LiveKind::pipe, .allowed = "none"};
@@ -108,6 +147,15 @@ LiveName live_name(const std::filesystem::path& place) {
     throw InputError(in_quotes(name) +
                      " names nothing live: give v4l2:/dev/video0, udp://..., rtsp://..., "
                      "srt://..., tcp://..., http://..., pipe:NAME or lavfi:SPEC");
+}
+
+bool has_known_host(const LiveName& name) {
+    const std::string host = host_and_port(name.url).host;
+    addrinfo* found = nullptr;
+    if (name.kind != LiveKind::network || host.empty()) return true;
+    const bool known = ::getaddrinfo(host.c_str(), nullptr, nullptr, &found) == 0;
+    if (found != nullptr) ::freeaddrinfo(found);
+    return known;
 }
 
 }  // namespace dibhr

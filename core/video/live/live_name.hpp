@@ -31,7 +31,11 @@ struct LiveName {
 /// The name as others may read it: without a user and a password before the host.
 [[nodiscard]] std::string public_name(const std::filesystem::path& place);
 
-/// Of a camera `?size=640x480&rate=30` may follow. Throws InputError for what names nothing.
+/// Of a camera `?size=640x480&rate=30` may follow. Throws InputError for what names nothing, and
+/// for a stream without the port that it needs.
 [[nodiscard]] LiveName live_name(const std::filesystem::path& place);
+
+/// Whether the host of a network's name is found; asks the network, and waits for it.
+[[nodiscard]] bool has_known_host(const LiveName& name);
 
 }  // namespace dibhr

@@ -22,7 +22,9 @@ namespace fs = std::filesystem;
 using Clock = LiveFeed::Clock;
 
 constexpr std::chrono::seconds kPatience{6};  ///< without a picture, who waits for one is told
-constexpr int kMostSamples = 10;              ///< a third of a second
+/// Where packets come: for a key frame, which encoders send every 250 frames unless told else.
+constexpr std::chrono::seconds kPatienceWithKey{12};
+constexpr int kMostSamples = 10;  ///< a third of a second
 constexpr int kLookedAt = 4;
 
 /// Where one reader of a feed is.
@@ -34,17 +36,29 @@ struct LiveCursor {
 
     /// Waits for the next one. Throws InputError when none comes.
     void advance() {
-        auto next = feed->after(pair ? pair->number : 0, Clock::now() + kPatience);
-        if (!next) throw InputError(why_none());
+        if (!goes_on()) throw InputError(why_none());
+    }
+    /// Waits for the next one. False: none will come.
+    bool goes_on() {
+        const std::uint64_t number = pair ? pair->number : 0;
+        const auto begin = Clock::now();
+        auto next = feed->after(number, begin + kPatience);
+        if (!next && feed->signal().heard) next = feed->after(number, begin + kPatienceWithKey);
+        if (!next) return false;
         if (!pair) first_s = next->depth.stamp_s;
         pair = std::move(next);
         ++index;
+        return true;
     }
     [[nodiscard]] std::string why_none() const {
         const LiveSignal signal = feed->signal();
         if (signal.other_form)
             return shown(feed->depth()) + " now sends pictures of another form: open it again";
         if (!signal.trouble.empty()) return signal.trouble;
+        if (signal.heard)
+            return shown(feed->depth()) +
+                   " sends, but no whole key frame has come yet: let it send one more often "
+                   "(-g 30), and lose less on the way";
         return "no signal from " + shown(feed->depth()) + " for " +
                std::to_string(kPatience.count()) + " s: start what sends, and check the name";
     }
@@ -88,10 +102,7 @@ class LivePictures : public PictureSource {
     std::vector<cv::Mat> samples(int most) override {
         std::vector<cv::Mat> pictures{mat()};
         const auto wanted = static_cast<std::size_t>(std::clamp(most, 1, kMostSamples));
-        while (pictures.size() < wanted) {
-            cursor_->advance();
-            pictures.push_back(mat());
-        }
+        while (pictures.size() < wanted && cursor_->goes_on()) pictures.push_back(mat());
         return pictures;
     }
 

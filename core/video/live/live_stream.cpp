@@ -18,8 +18,11 @@ constexpr std::chrono::milliseconds kLongestRest{1000};
 
 }  // namespace
 
-LiveStream::LiveStream(LiveName name, std::string shown, Take take)
-    : name_(std::move(name)), shown_(std::move(shown)), take_(std::move(take)) {
+LiveStream::LiveStream(LiveName name, std::string shown, Take take, std::function<void()> refused)
+    : name_(std::move(name)),
+      shown_(std::move(shown)),
+      take_(std::move(take)),
+      refused_(std::move(refused)) {
     thread_ = std::thread([this] { run(); });
 }
 
@@ -51,20 +54,31 @@ void LiveStream::run() {
     }
 }
 
-/// False: it is to end.
+void LiveStream::tell(std::string trouble) {
+    const std::lock_guard lock(mutex_);
+    trouble_ = std::move(trouble);
+}
+
+/// False: it is to end, as standard input is when it has ended.
 bool LiveStream::connect() {
-    std::string trouble;
+    const bool once = name_.kind == LiveKind::pipe && name_.url.empty();
     try {
-        LiveInput input(name_, shown_, wants_);
+        LiveInput input(name_, shown_, wants_, heard_);
+        tell({});
         for (LivePicture picture; input.read(picture);) {
             began_ = true;
             if (!take_(std::move(picture))) return false;
         }
+        if (once && !wants_.leaving)
+            throw LiveRefusal(shown_ + (began_ ? " has ended" : " ended without a picture") +
+                              ": let what writes into it go on");
+    } catch (const LiveRefusal& refusal) {
+        tell(refusal.what());
+        refused_();
+        if (once) return false;
     } catch (const std::exception& error) {
-        trouble = error.what();
+        tell(error.what());
     }
-    const std::lock_guard lock(mutex_);
-    trouble_ = std::move(trouble);
     return !wants_.leaving;
 }
 

@@ -2,6 +2,7 @@
 // room.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
@@ -18,7 +19,8 @@ class LiveStream {
     /// given up.
     using Take = std::function<bool(LivePicture)>;
 
-    LiveStream(LiveName name, std::string shown, Take take);
+    /// `refused` is called there, too, when it is said that no picture will come.
+    LiveStream(LiveName name, std::string shown, Take take, std::function<void()> refused);
     ~LiveStream();  ///< ends whatever it waits for
     LiveStream(const LiveStream&) = delete;
     LiveStream& operator=(const LiveStream&) = delete;
@@ -27,16 +29,21 @@ class LiveStream {
     void want(bool colour, bool levels);
     /// Why the last connection could not be made; empty: it could.
     [[nodiscard]] std::string trouble() const;
+    /// When the last packet came, whether or not it made a picture; never: at the begin.
+    [[nodiscard]] LiveInput::Clock::time_point heard() const { return heard_; }
 
   private:
     void run();
     [[nodiscard]] bool connect();
+    void tell(std::string trouble);
     [[nodiscard]] bool rest(std::chrono::milliseconds time);
 
     const LiveName name_;
     const std::string shown_;
     const Take take_;
+    const std::function<void()> refused_;
     LiveWants wants_{};
+    std::atomic<LiveInput::Clock::time_point> heard_{};
     bool began_{false};  // the thread's: pictures came of this connection
 
     mutable std::mutex mutex_{};

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <fstream>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -25,6 +26,7 @@
 #include "tests/support/catch.hpp"
 #include "tests/support/some_of.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/text.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -158,6 +160,73 @@ TEST_CASE("a stream that nobody sends is refused in a line that says so", "[live
     CHECK(why.find(url) != std::string::npos);
     CHECK(why.find("start what sends") != std::string::npos);
     CHECK(why.find('\n') == std::string::npos);
+}
+
+TEST_CASE("what no waiting would mend is refused at once, in words that say what is wrong",
+          "[live]") {
+    const TemporaryFolder folder;
+    const std::string fifo = (folder / "noise").string();
+    REQUIRE(::mkfifo(fifo.c_str(), 0600) == 0);
+    std::jthread writer([&] {
+        std::ofstream out(fifo, std::ios::binary);
+        for (unsigned k = 1; k < 200'000; ++k) out.put(static_cast<char>(k * 2654435761U >> 11U));
+    });
+    const std::vector<std::pair<std::string, std::string>> wrong{
+        {"udp://", "lacks a port"},
+        {"udp://127.0.0.1?pkt_size=1316", "lacks a port"},
+        {"rtp://127.0.0.1:99999", "1 to 65535"},
+        {"rtsp://camera:0/depth", "1 to 65535"},
+        {"tcp://[::1]", "lacks a port"},
+        {"lavfi:nosuch", "libav can make"},
+        {"tcp://nosuchhost.invalid:5000", "host is not found"},
+        {"pipe:" + fifo, "holds no video"}};
+    for (const auto& [name, words] : wrong) {
+        CAPTURE(name);
+        const auto begin = Clock::now();
+        const std::string why =
+            refusal([&, &one = name] { static_cast<void>(open_media(one, {}, as_sent())); });
+        CHECK(contains(why, words));
+        CHECK(contains(why, name));
+        CHECK(seconds(Clock::now() - begin) < 4.0);
+    }
+    for (const char* const name : {"udp://@239.0.0.1:5000", "tcp://[::1]:5000?listen",
+                                   "rtsp://me:secret@camera/depth", "udp://127.0.0.1:5000?a=b/c"})
+        CHECK_NOTHROW(live_name(name));
+}
+
+TEST_CASE("a stream is seen from its first key frame on, however seldom one comes", "[live]") {
+    const std::string port = std::to_string(free_port());
+    const TemporaryFolder folder;
+    const std::string fifo = (folder / "depth").string();
+    REQUIRE(::mkfifo(fifo.c_str(), 0600) == 0);
+    const std::vector<std::pair<std::string, std::string>> ways{
+        {"-t 2 -f nut '" + fifo + "'", "pipe:" + fifo},  // shorter than from key frame to key frame
+        {"-f mpegts 'tcp://127.0.0.1:" + port + "?listen'", "tcp://127.0.0.1:" + port}};
+    const auto& [to, from] = ways[GENERATE(some_of<std::size_t>({0, 1}, 2))];
+    CAPTURE(from);
+    const Ffmpeg sender(
+        "-re -f lavfi -i testsrc2=s=96x64:r=30,format=gray,boxblur=4 -c:v libx264 -preset "
+        "ultrafast -tune zerolatency -g 250 -pix_fmt yuvj420p " +
+        to);
+    const auto begin = Clock::now();
+    const auto media = open_media(from, {}, as_sent());
+    CHECK(media->next());
+    CHECK(seconds(Clock::now() - begin) < 5.0);
+}
+
+TEST_CASE("a stream that is met behind its key frame is waited for, and then asked for another",
+          "[live]") {
+    const std::string url = "udp://127.0.0.1:" + std::to_string(free_port());
+    const Ffmpeg sender(
+        "-re -f lavfi -i testsrc2=s=96x64:r=30 -c:v libx264 -preset ultrafast -tune zerolatency "
+        "-g 9999 -f mpegts " +
+        url);
+    std::this_thread::sleep_for(milliseconds(1500));
+    const auto begin = Clock::now();
+    const std::string why = refusal([&] { static_cast<void>(open_media(url, {}, as_sent())); });
+    CHECK(contains(why, "no whole key frame has come yet"));
+    CHECK(contains(why, "-g 30"));
+    CHECK(seconds(Clock::now() - begin) > 10.0);  // encoders send one in 8.3 s unless told else
 }
 
 TEST_CASE("streams open by whatever protocol they come, and from a pipe", "[live]") {
