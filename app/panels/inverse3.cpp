@@ -36,6 +36,11 @@ std::string grip_text(const inverse3::GripStatus& grip) {
     return text;
 }
 
+/// The histogram's last bin has no upper end.
+std::string age_text(double ms) {
+    return ms > PoseAges::kLongest_ms ? "20 ms or more" : formatted("%.2f ms", ms);
+}
+
 void draw_sentence(const Status& status) {
     if (status.sentence.empty()) return;
     const std::string sentence = capitalised(status.sentence);
@@ -50,11 +55,17 @@ void draw_sentence(const Status& status) {
 
 void draw_exchange(const Inverse3News& news) {
     const Status& status = news.status;
-    fact_row("Exchanges", formatted("%.0f per second", status.exchanges_per_s));
+    fact_row(
+        "Exchanges",
+        formatted("%.0f per second, %.1f ms each", status.exchanges_per_s, status.exchange_ms),
+        "From a message to the service's answer: beyond 2 ms springs are held softer, beyond "
+        "5 ms there is no force");
+    if (status.softened)
+        quiet_text("The service answers slowly: springs are softer, so that they do not swing.");
     if (news.recent_ages.count() > 0) {
         fact_row("Age of the pose",
-                 formatted("%.2f ms, 99 %% below %.2f ms", news.recent_ages.quantile_ms(0.5),
-                           news.recent_ages.quantile_ms(0.99)),
+                 age_text(news.recent_ages.quantile_ms(0.5)) + ", 99 % below " +
+                     age_text(news.recent_ages.quantile_ms(0.99)),
                  "How long ago the position that a tick of the haptic loop uses had come from the "
                  "service, in the last second: one above 20 ms gives no force");
     }

@@ -679,10 +679,14 @@ void Viewer::take_last_screenshot() {
         draw_picture();
 }
 
-/// Messages are set wherever something goes wrong.
+/// Messages are set wherever something goes wrong; a banner is what a device lacks.
 void Viewer::keep_told() {
-    if (state_.message != message_kept_) log_.keep("message", state_.message);
-    message_kept_ = state_.message;
+    const auto keep = [this](std::string_view kind, const std::string& now, std::string& kept) {
+        if (now != kept) log_.keep(kind, now);
+        kept = now;
+    };
+    keep("message", state_.message, message_kept_);
+    keep("device", device_banner(state_), banner_kept_);
     attempt([this] { log_.write(); });
 }
 

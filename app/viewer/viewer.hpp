@@ -194,6 +194,7 @@ class Viewer {
     Ending& ending_;
     ToldLog& log_;
     std::string message_kept_{};  // in the log
+    std::string banner_kept_{};
     Heartbeat heart_{};           // of the window's thread and the display
     HandDevice hand_;
     Window window_;

@@ -60,6 +60,13 @@ double needed_damping(double stiffness_newton_per_mm, const DeviceDynamics& devi
     return std::max(0.0, device.margin_newton_s_per_m - stability_margin(undamped, device));
 }
 
+double most_stiffness(const DeviceDynamics& device) noexcept {
+    if (!device.moves()) return std::numeric_limits<double>::infinity();
+    const double left =
+        most_damping(device) + device.friction_newton_s_per_m - device.margin_newton_s_per_m;
+    return std::max(0.0, left / lateness_s(device) / kMetre_mm);
+}
+
 Coupling stable_coupling(Coupling coupling, double felt_stiffness,
                          const DeviceDynamics& device) noexcept {
     const double needed = needed_damping(felt_stiffness, device);

@@ -45,6 +45,10 @@ struct DeviceDynamics {
 [[nodiscard]] double needed_damping(double stiffness_newton_per_mm,
                                     const DeviceDynamics& device) noexcept;
 
+/// The stiffest spring [N/mm] whose needed damping is itself stable on the device; infinite for one
+/// that no force moves, 0 where none is.
+[[nodiscard]] double most_stiffness(const DeviceDynamics& device) noexcept;
+
 /// The coupling with the damping, and the low-pass on it, that the device needs at the stiffness
 /// that is felt [N/mm]; as it is for one that needs none.
 [[nodiscard]] Coupling stable_coupling(Coupling coupling, double felt_stiffness,

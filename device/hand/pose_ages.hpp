@@ -14,7 +14,8 @@ namespace dibhr {
 class PoseAges {
   public:
     static constexpr std::chrono::microseconds kBin{50};
-    static constexpr std::size_t kBins = 401;  ///< the last one: 20 ms and older
+    static constexpr std::size_t kBins = 401;    ///< the last one: 20 ms and older
+    static constexpr double kLongest_ms = 20.0;  ///< what is above it was that old, or older
 
     /// One tick's; below zero counts as zero.
     void add(std::chrono::nanoseconds age) noexcept {

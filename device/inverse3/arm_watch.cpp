@@ -10,9 +10,10 @@ namespace {
 using std::chrono::milliseconds;
 
 // README.md, Safety numbers.
-constexpr double kFastest_m_per_s = 10.0;  // no hand is
-constexpr double kJumpAnyway_m = 0.02;     // whatever time it took
-constexpr milliseconds kOurUseBegins{1000};
+constexpr double kFastest_m_per_s = 10.0;    // no hand is
+constexpr double kJumpAnyway_m = 0.02;       // whatever time it took
+constexpr milliseconds kOurUseBegins{1000};  // from the first force on,
+constexpr milliseconds kOurPushBegins{100};  // and whenever it rises from zero
 constexpr double kWorthHearing_newton = 0.3;
 constexpr double kHeardShare = 0.05;  // filters in the service take most of a force away
 constexpr milliseconds kDeafAfter{250};
@@ -50,8 +51,10 @@ void ArmWatch::miss() noexcept {
     last_m_.reset();
 }
 
-void ArmWatch::drove(Time at) noexcept {
+void ArmWatch::drove(Time at, bool pushes) noexcept {
     if (!driven_since_) driven_since_ = at;
+    if (pushes && !pushes_) pushed_since_ = at;
+    pushes_ = pushes;
 }
 
 Stage ArmWatch::stage_of(const Arm& arm) const noexcept {
@@ -67,7 +70,8 @@ void ArmWatch::follow_use(bool in_use, Time at) noexcept {
     // Nobody knows whether the service means us, too: what begins as we begin is ours.
     if (!in_use) used_by_us_ = false;
     if (in_use && !was_in_use_) {
-        used_by_us_ = driven_since_ && at - *driven_since_ < kOurUseBegins;
+        used_by_us_ = (driven_since_ && at - *driven_since_ < kOurUseBegins) ||
+                      (pushed_since_ && at - *pushed_since_ < kOurPushBegins);
     }
     was_in_use_ = in_use;
 }

@@ -23,8 +23,8 @@ class ArmWatch {
     void add(const Arm& arm, Time at) noexcept;
     /// A message without it, or one that made no sense.
     void miss() noexcept;
-    /// A force was sent to it at `at`, zero or not.
-    void drove(Time at) noexcept;
+    /// A force was sent to it at `at`; `pushes`: it was not zero.
+    void drove(Time at, bool pushes) noexcept;
 
     /// What keeps it from touching; `ready`: nothing.
     [[nodiscard]] Stage stage() const noexcept { return stage_; }
@@ -46,6 +46,8 @@ class ArmWatch {
     Time last_at_{};
     std::optional<ArmConfig> config_{};  // the last one that was told
     std::optional<Time> driven_since_{};
+    std::optional<Time> pushed_since_{};  // the last force that was not zero, after one that was
+    bool pushes_{false};
     bool was_in_use_{false};
     bool used_by_us_{false};
 };

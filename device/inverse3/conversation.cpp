@@ -27,6 +27,7 @@ constexpr milliseconds kInventoryTakes{500};
 constexpr milliseconds kRatePeriod{500};
 constexpr milliseconds kLoopPauses{200};  // without a force from the haptic loop
 constexpr milliseconds kReadBackEvery{1000};
+constexpr int kPresetsAsked = 3;
 
 // Between two messages: poses stay young, and a processor has time for other things.
 constexpr microseconds kPause{500};
@@ -39,6 +40,10 @@ bool named(const Arm& arm, const std::string& wish) noexcept {
     if (wish == "left") return hand == Handedness::left;
     if (wish == "right") return hand == Handedness::right;
     return arm.id.view() == wish;
+}
+
+bool is_in(const std::array<DeviceId, ServiceMessage::kMost>& ids, const DeviceId& id) noexcept {
+    return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
 }  // namespace
@@ -85,12 +90,25 @@ void Conversation::exchange_once(const std::stop_token& stop) {
     say(next_order());
     if (!await(sent_at_ + kLongestSilence, &stop)) {
         if (stop.stop_requested()) return;
-        throw LinkError(Why::lost, "it has been silent for 2 s");
+        give_up();
     }
+    memory_.pace.add(sent_at_, Clock::now());
     take();
     in_flight_ = false;
     if (sent_drives_) force_answered_ = true;
     ++memory_.exchanges;
+}
+
+/// What the service still reads of this connection ends with a zero: the one time that two are in
+/// flight, since nothing follows.
+void Conversation::give_up() {
+    if (!arm_.empty() && drove_) say_zero(Clock::now() + kGoodbyeTakes);
+    throw LinkError(Why::lost, "it has been silent for 2 s");
+}
+
+void Conversation::say_zero(Time until) {
+    link_.send(memory_.writer.write({.arm = arm_, .force_newton = Vec3{0.0}, .dialect = dialect()}),
+               until);
 }
 
 bool Conversation::closed_on_force() const noexcept {
@@ -124,8 +142,7 @@ bool Conversation::wait(Time until) {
 void Conversation::tell_guardian() {
     guardian_.beat();
     if (!guardian_.spoken()) return;
-    link_.send(memory_.writer.write({.arm = arm_, .force_newton = Vec3{0.0}, .dialect = dialect()}),
-               Clock::now() + kGoodbyeTakes);
+    say_zero(Clock::now() + kGoodbyeTakes);
     throw LinkError(Why::stood_still, "dibhr itself stood still");
 }
 
@@ -142,9 +159,7 @@ void Conversation::say_goodbye() noexcept {
         // What is in flight first: there is never more than one.
         if (in_flight_ && await(until, nullptr)) (void)link_.read(until);
         if (!arm_.empty() && drove_) {
-            link_.send(memory_.writer.write(
-                           {.arm = arm_, .force_newton = Vec3{0.0}, .dialect = dialect()}),
-                       until);
+            say_zero(until);
             if (await(until, nullptr)) (void)link_.read(until);
         }
         unguard();  // the end is heard once nobody has the socket
@@ -161,7 +176,7 @@ void Conversation::say(const Order& order) {
     const Time now = Clock::now();
     if (sent_drives_) {
         drove_ = true;
-        memory_.watch.drove(now);
+        memory_.watch.drove(now, sent_newton_ != Vec3{0.0});
         guard(order);
     }
     zeros_owed_ = sent_newton_ != Vec3{0.0} ? kZerosAfterForce : std::max(zeros_owed_ - 1, 0);
@@ -196,17 +211,15 @@ Order Conversation::next_order() {
     introduced_ = introduced_ || first;
     order.whole_state = arm_.empty() || first || now >= whole_state_due_;
     if (order.whole_state) whole_state_due_ = now + kReadBackEvery;
-    const bool touches = memory_.watch.epoch() != kNoEpoch && !arm_.empty() && !deaf();
-    if (touches || zeros_owed_ > 0) order.force_newton = force;
+    if ((epoch() != kNoEpoch && !arm_.empty()) || zeros_owed_ > 0) order.force_newton = force;
     return order;
 }
 
 Vec3 Conversation::wanted_force(Time now) {
     if (exchange_.forces.fresh()) loop_heard_ = now;
     const TimedForce& wanted = exchange_.forces.front();
-    const Epoch epoch = memory_.watch.epoch();
-    const bool may = epoch != kNoEpoch && wanted.epoch == epoch && now < wanted.at + kOldestForce &&
-                     !deaf() && !Guardian::alarmed();
+    const bool may = epoch() != kNoEpoch && wanted.epoch == epoch() &&
+                     now < wanted.at + kOldestForce && !Guardian::alarmed();
     return may ? wanted.newton : Vec3{0.0};
 }
 
@@ -243,6 +256,8 @@ void Conversation::take_message(const ServiceMessage& message, Time at) {
                                                  std::string(message.complaint.view()));
         return;
     }
+    // Where no version was told, its words tell it.
+    newer_ = newer_ || message.has_session;
     take_grip(message, at);
     if (arm_.empty()) choose(message);
     const Arm* const arm = arm_.empty() ? nullptr : message.arm(arm_);
@@ -262,18 +277,28 @@ void Conversation::take_nonsense(Stage why, const std::string& sentence) {
 
 /// The first in order of their names, so that another order of the list changes nothing.
 void Conversation::choose(const ServiceMessage& message) {
+    for (DeviceId& id : left_alone_)
+        if (message.arm(id) == nullptr) id = {};  // it is a new one when it comes again
     const Arm* chosen = nullptr;
     for (std::size_t k = 0; k < message.arm_count; ++k) {
         const Arm& arm = message.arms[k];
-        if (!named(arm, options_.device)) continue;
+        if (!named(arm, options_.device) || is_in(left_alone_, arm.id)) continue;
         if (chosen == nullptr || arm.id.view() < chosen->id.view()) chosen = &arm;
     }
     if (chosen == nullptr) return;
     arm_ = chosen->id;
+    left_alone_ = {};
     introduced_ = false;
+    presets_asked_ = 0;
+    other_preset_ = false;
     hearing_.begin();
     memory_.watch.begin();
     board_.draft().id = arm_.view();
+}
+
+/// Somebody else may hold another one: it counts as ours when it is plugged in anew, or named.
+void Conversation::leave_others(const ServiceMessage& message) {
+    for (std::size_t k = 0; k < message.arm_count; ++k) left_alone_[k] = message.arms[k].id;
 }
 
 void Conversation::forget_arm() {
@@ -281,6 +306,7 @@ void Conversation::forget_arm() {
     unguard();
     zeros_owed_ = 0;
     told_ = false;
+    gone_ = false;
     memory_.watch.miss();
     memory_.watch.begin();
     exchange_.poses.publish(TimedPose{});
@@ -291,11 +317,24 @@ void Conversation::forget_arm() {
 
 /// None is there, or the chosen one has gone, or those that are there are not meant.
 void Conversation::miss_arm(const ServiceMessage& message) {
+    if (gone_ && zeros_owed_ > 0) return;  // to the end, should anybody still hear them
+    if (gone_) {
+        forget_arm();
+        return;
+    }
     const bool had = !arm_.empty();
     std::string sentence = sentence_for(Stage::no_device, board_.draft());
     if (had) {
         sentence = "the " + name_of(board_.draft()) + " was unplugged: plug it in again";
-        forget_arm();
+        if (options_.device.empty() && message.arm_count > 0)
+            sentence += "; to touch with " + std::string(message.arms[0].id.view()) +
+                        " instead, plug that one in anew";
+        if (options_.device.empty()) leave_others(message);
+        memory_.watch.miss();
+        exchange_.poses.publish(TimedPose{});
+        gone_ = true;
+    } else if (message.arm_count > 0 && is_in(left_alone_, message.arms[0].id)) {
+        return;  // as was told
     } else if (message.arm_count > 0) {
         sentence = "the Haply Inverse Service has no Inverse3 that is " + options_.device +
                    ", but has " + std::string(message.arms[0].id.view());
@@ -306,27 +345,52 @@ void Conversation::miss_arm(const ServiceMessage& message) {
 }
 
 void Conversation::take_arm(const Arm& arm, Time at) {
+    gone_ = false;
     memory_.watch.add(arm, at);
     if (memory_.watch.jumped()) whole_state_due_ = at;
-    if (arm.config) {
-        Status& status = board_.draft();
-        // The Haply Hub may have put a profile of its own over ours.
-        const bool moved = newer_ && !arm.config->preset.empty() && introduced_ &&
-                           !(arm.config->preset == options_.preset);
-        if (moved) introduced_ = false;
-        status.minverse = arm.config->minverse;
-        status.handedness = arm.config->handedness;
-        status.preset = arm.config->preset.view();
-    }
+    if (arm.config) read_back(*arm.config);
     learn_dialect(arm, at);
     publish_pose(arm, at);
-    tell_stage(deaf() ? Stage::deaf : memory_.watch.stage());
+    tell_stage(stage());
+}
+
+/// The Haply Hub may have put a profile of its own over ours, or the service may not take it.
+void Conversation::read_back(const ArmConfig& config) {
+    Status& status = board_.draft();
+    status.minverse = config.minverse;
+    status.handedness = config.handedness;
+    status.preset = config.preset.view();
+    const bool is_ours =
+        !newer_ || !introduced_ || config.preset.empty() || config.preset == options_.preset;
+    if (is_ours) {
+        presets_asked_ = 0;
+        other_preset_ = false;
+    } else if (presets_asked_ < kPresetsAsked) {
+        ++presets_asked_;
+        introduced_ = false;
+    } else {
+        other_preset_ = true;
+    }
+}
+
+/// What keeps it from touching.
+Stage Conversation::stage() const noexcept {
+    if (deaf()) return Stage::deaf;
+    const Stage of_arm = memory_.watch.stage();
+    if (of_arm != Stage::ready) return of_arm;
+    if (other_preset_) return Stage::other_preset;
+    return memory_.pace.pace() == Pace::too_slow ? Stage::slow : Stage::ready;
+}
+
+Epoch Conversation::epoch() const noexcept {
+    return stage() == Stage::ready && !gone_ ? memory_.watch.epoch() : kNoEpoch;
 }
 
 /// The same stage again is told without a word being made.
 void Conversation::tell_stage(Stage stage) {
     if (told_ && board_.draft().stage == stage) return;
-    const bool trouble = stage == Stage::deaf || stage == Stage::other_frame;
+    const bool trouble = stage == Stage::deaf || stage == Stage::other_frame ||
+                         stage == Stage::other_preset || stage == Stage::slow;
     tell(stage, sentence_for(stage, board_.draft()), trouble);
 }
 
@@ -365,7 +429,8 @@ void Conversation::try_other_dialect() {
 
 void Conversation::publish_pose(const Arm& arm, Time at) {
     TimedPose& pose = exchange_.poses.back();
-    pose.epoch = deaf() ? kNoEpoch : memory_.watch.epoch();
+    pose.epoch = epoch();
+    pose.pace = memory_.pace.pace();
     pose.position_m = arm.position_m.value_or(Vec3{0.0});
     pose.buttons = buttons_;
     pose.at = at;
@@ -381,6 +446,8 @@ void Conversation::report(Time now) {
     status.not_understood = memory_.not_understood;
     status.dialect = dialect();
     status.dialect_confirmed = memory_.dialect_confirmed;
+    status.exchange_ms = memory_.pace.exchange_ms();
+    status.softened = memory_.pace.pace() != Pace::prompt;
     if (now - rate_since_ >= kRatePeriod) {
         const std::chrono::duration<double> passed = now - rate_since_;
         status.exchanges_per_s =

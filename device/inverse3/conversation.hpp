@@ -1,6 +1,7 @@
 // One connection to the service: exactly one message in flight, poses out, forces in.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "device/inverse3/exchange.hpp"
 #include "device/inverse3/message.hpp"
 #include "device/inverse3/order.hpp"
+#include "device/inverse3/pace_watch.hpp"
 #include "device/inverse3/service_link.hpp"
 #include "device/inverse3/status.hpp"
 
@@ -24,6 +26,7 @@ struct Memory {
     MessageReader reader{};
     OrderWriter writer{};
     ArmWatch watch{};  // its epochs go on counting
+    PaceWatch pace{};
     ButtonDebounce buttons{};
     std::optional<ForceDialect> dialect{};  ///< found out; nothing: by the version
     bool dialect_confirmed{false};
@@ -37,7 +40,7 @@ class Conversation {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// All must outlive it. `newer`: a service of 3.5 or later.
+    /// All must outlive it. `newer`: a service of 3.5 or later, which it also tells by its words.
     Conversation(ServiceLink& link, const ConnectionOptions& options, bool newer,
                  Exchange& exchange, Board& board, Memory& memory, Guardian& guardian);
     /// No pose is left behind, and nobody guards the link.
@@ -55,10 +58,12 @@ class Conversation {
     void take_inventory(const std::stop_token& stop);
     void exchange_once(const std::stop_token& stop);
     void pause();
+    [[noreturn]] void give_up();
     void say_goodbye() noexcept;
 
     // What is said.
     void say(const Order& order);
+    void say_zero(Time until);
     void guard(const Order& order);
     void tell_guardian();
     void unguard() noexcept;
@@ -74,8 +79,12 @@ class Conversation {
     void take_arm(const Arm& arm, Time at);
     void take_grip(const ServiceMessage& message, Time at);
     void choose(const ServiceMessage& message);
+    void leave_others(const ServiceMessage& message);
     void forget_arm();
     void miss_arm(const ServiceMessage& message);
+    void read_back(const ArmConfig& config);
+    [[nodiscard]] Stage stage() const noexcept;
+    [[nodiscard]] Epoch epoch() const noexcept;
     void learn_dialect(const Arm& arm, Time at);
     void try_other_dialect();
     [[nodiscard]] ForceDialect dialect() const noexcept;
@@ -87,7 +96,7 @@ class Conversation {
 
     ServiceLink& link_;
     const ConnectionOptions& options_;
-    const bool newer_;
+    bool newer_;
     Exchange& exchange_;
     Board& board_;
     Memory& memory_;
@@ -95,6 +104,10 @@ class Conversation {
 
     ServiceMessage message_{};
     DeviceId arm_{};  // empty: none is chosen
+    /// That were there when ours went: nobody has one of them in the hand for us.
+    std::array<DeviceId, ServiceMessage::kMost> left_alone_{};
+    int presets_asked_{0};
+    bool other_preset_{false};
     HearingWatch hearing_{};
     bool introduced_{false};
     bool drove_{false};  // it was sent a force
@@ -103,6 +116,7 @@ class Conversation {
     bool force_answered_{false};
     bool in_flight_{false};
     bool told_{false};  // something of this arm
+    bool gone_{false};  // the arm, but zeros are owed to it
     int zeros_owed_{0};
     Vec3 sent_newton_{0.0};  // with the message in flight
     bool sent_drives_{false};

@@ -63,7 +63,7 @@ void Driver::look(const std::stop_token& stop) {
         ServiceLink link(options_.port, ServiceLink::Time::clock::now() + kHandshakeTakes);
         talk(link, version && version->at_least(3, 5), stop);
     } catch (const LinkError& error) {
-        miss(error, version.has_value());
+        miss(error);
     }
 }
 
@@ -97,20 +97,12 @@ void Driver::lose(const LinkError& error, const Conversation& conversation) {
 }
 
 /// Nobody to talk to.
-void Driver::miss(const LinkError& error, bool has_http) {
-    const Status& status = board_.draft();
-    if (error.why() == Why::refused && has_http) {
-        tell(Stage::too_old, sentence_for(Stage::too_old, status), true);
-    } else if (error.why() == Why::not_the_service) {
-        pause_ = kBotherStrangerAfter;
-        tell(Stage::looking,
-             "something else than the Haply Inverse Service answers (" + std::string(error.what()) +
-                 "): end it, or set the port on the Device panel",
-             false);
-    } else if (!lost_) {
-        tell(Stage::looking, sentence_for(Stage::looking, status), false);
-    }
-    // Else it stays told that it was lost.
+void Driver::miss(const LinkError& error) {
+    const auto [stage, sentence] = why_unheard(error, board_.draft());
+    if (error.why() == Why::not_the_service) pause_ = kBotherStrangerAfter;
+    // What was lost and is not there again stays told so.
+    if (lost_ && stage == Stage::looking && error.why() == Why::refused) return;
+    tell(stage, sentence, stage != Stage::looking);
 }
 
 void Driver::tell(Stage stage, const std::string& sentence, bool trouble) {

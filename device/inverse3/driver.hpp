@@ -33,7 +33,7 @@ class Driver {
     void look(const std::stop_token& stop);
     void talk(ServiceLink& link, bool newer, const std::stop_token& stop);
     void lose(const LinkError& error, const Conversation& conversation);
-    void miss(const LinkError& error, bool has_http);
+    void miss(const LinkError& error);
     void tell(Stage stage, const std::string& sentence, bool trouble);
 
     const ConnectionOptions options_;

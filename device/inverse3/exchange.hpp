@@ -9,6 +9,7 @@
 #include "core/realtime/triple_buffer.hpp"
 #include "device/hand/epoch.hpp"
 #include "device/hand/wake.hpp"
+#include "device/inverse3/pace_watch.hpp"
 
 namespace dibhr::inverse3 {
 
@@ -19,6 +20,7 @@ struct TimedPose {
     std::chrono::steady_clock::time_point at{};
     Epoch epoch{kNoEpoch};
     std::uint64_t number{0};  ///< 1 .., since the start
+    Pace pace{Pace::prompt};  ///< of the service; too slow has no epoch
 };
 
 /// In the service's axes.

@@ -42,6 +42,7 @@ bool ServiceVersion::at_least(int wanted_major, int wanted_minor) const noexcept
 
 std::optional<ServiceVersion> version_of(std::string_view text) {
     ServiceVersion version;
+    if (text.starts_with('v')) text.remove_prefix(1);
     const char* const end = text.data() + text.size();
     const auto first = std::from_chars(text.data(), end, version.major);
     if (first.ec != std::errc() || first.ptr == end || *first.ptr != '.') return {};
@@ -50,6 +51,27 @@ std::optional<ServiceVersion> version_of(std::string_view text) {
     // What is shown is one short word, whatever the service says.
     version.text = text.substr(0, 32);
     return version;
+}
+
+Unheard why_unheard(const LinkError& error, const Status& status) {
+    using Why = LinkError::Why;
+    const auto version = version_of(status.version);
+    const std::string service = "the Haply Inverse Service";
+    if (error.why() == Why::refused && version && version->at_least(3, 1))
+        return {Stage::looking, service + " (" + status.version +
+                                    ") does not answer: start it again, or set port under "
+                                    "[inverse3] in the settings"};
+    if (error.why() == Why::refused) {
+        const Stage stage = version ? Stage::too_old : Stage::looking;
+        return {stage, sentence_for(stage, status)};
+    }
+    if (error.why() == Why::not_the_service)
+        return {Stage::looking, "something else than the Haply Inverse Service answers (" +
+                                    std::string(error.what()) +
+                                    "): end it, or set port under [inverse3] in the settings"};
+    if (error.why() == Why::too_long)
+        return {Stage::not_understood, sentence_for(Stage::not_understood, status)};
+    return {Stage::looking, service + " does not talk (" + error.what() + "): start it again"};
 }
 
 std::optional<ServiceVersion> ask_version(const ConnectionOptions& options) {

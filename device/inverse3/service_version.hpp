@@ -1,10 +1,11 @@
-// Which version of the Inverse Service is there.
+// Which version of the Inverse Service is there, and why none talks.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "device/inverse3/service_link.hpp"
 #include "device/inverse3/status.hpp"
 
 namespace dibhr::inverse3 {
@@ -23,6 +24,14 @@ struct ServiceVersion {
 /// What /version tells, on the WebSocket's port or else the older one; nothing when none answers.
 /// Takes at most 0.6 s.
 [[nodiscard]] std::optional<ServiceVersion> ask_version(const ConnectionOptions& options);
+
+/// What to tell of a service that does not talk.
+struct Unheard {
+    Stage stage{};
+    std::string sentence{};
+};
+/// `status`: its version, and whether it is installed.
+[[nodiscard]] Unheard why_unheard(const LinkError& error, const Status& status);
 
 /// The service is installed, as far as can be seen.
 [[nodiscard]] bool is_installed(const ConnectionOptions& options);

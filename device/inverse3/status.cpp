@@ -39,6 +39,13 @@ std::string sentence_for(Stage stage, const Status& status) {
             return name + " is in use by another program: end that one";
         case Stage::other_frame:
             return name + " has its axes exchanged: set its basis to XYZ in the Haply Hub";
+        case Stage::other_preset:
+            return name + " keeps the preset " + status.preset +
+                   " though another is asked for: choose that one in the Haply Hub, or " +
+                   status.preset + " on the Device panel";
+        case Stage::slow:
+            return "the Haply Inverse Service answers too slowly: no force; close other programs, "
+                   "or start it again";
         case Stage::deaf:
             return "the Haply Inverse Service takes no force, however it is spelled: no force; "
                    "update the service or dibhr";

@@ -49,11 +49,13 @@ enum class Stage {
     no_device,       ///< the service has no Inverse3, or not the one that is meant
     no_power,
     not_calibrated,
-    locked,       ///< calibrated and powered, but not ready: a Minverse without a grip
-    in_use,       ///< by another program
-    other_frame,  ///< its axes are permuted
-    deaf,         ///< the service takes no force, however it is spelled
-    ready         ///< poses and forces
+    locked,        ///< calibrated and powered, but not ready: a Minverse without a grip
+    in_use,        ///< by another program
+    other_frame,   ///< its axes are permuted
+    other_preset,  ///< it keeps another one than is asked for
+    deaf,          ///< the service takes no force, however it is spelled
+    slow,          ///< the service answers too slowly for a force
+    ready          ///< poses and forces
 };
 
 struct GripStatus {
@@ -78,6 +80,8 @@ struct Status {
     std::optional<GripStatus> grip{};
     ButtonPresses presses{};
     double exchanges_per_s{0.0};
+    double exchange_ms{0.0};  ///< from a message to its answer, lately
+    bool softened{false};     ///< they take so long that springs are held softer
     std::uint64_t exchanges{0};
     std::uint64_t unasked{0};         ///< messages that nobody had asked for
     std::uint64_t not_understood{0};  ///< messages that made no sense

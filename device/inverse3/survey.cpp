@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "device/inverse3/arm_watch.hpp"
 #include "device/inverse3/message.hpp"
@@ -73,11 +74,6 @@ void take(const ServiceMessage& message, const ConnectionOptions& options, Surve
     survey.stage = survey.arms.empty() ? Stage::no_device : Stage::ready;
 }
 
-Stage stage_of(const LinkError& error, bool has_version) {
-    if (error.why() == Why::refused) return has_version ? Stage::too_old : Stage::looking;
-    return Stage::not_understood;
-}
-
 const char* word_of(Handedness hand) {
     return hand == Handedness::left ? "left" : hand == Handedness::right ? "right" : "";
 }
@@ -98,7 +94,10 @@ Survey survey_service(const ConnectionOptions& options) {
             survey.stage = Stage::not_understood;
             if (read_inventory(options, message)) take(message, options, survey);
         } catch (const LinkError& error) {
-            survey.stage = stage_of(error, version.has_value());
+            auto [stage, sentence] = why_unheard(error, status);
+            survey.stage = stage;
+            survey.sentence = std::move(sentence);
+            return survey;
         }
     }
     survey.sentence = sentence_for(survey.stage, status);

@@ -88,7 +88,8 @@ void obey_device(Scene& scene, const json& device, Clock::time_point now, Obeyed
     done.arm = device.value("device_id", "");
     Arm* const arm = scene.arm(done.arm);
     const json configure = device.value("configure", json::object());
-    if (arm != nullptr && configure.contains("preset")) {
+    done.asks_preset = configure.contains("preset");
+    if (arm != nullptr && done.asks_preset && scene.manners.takes_preset) {
         arm->preset = configure["preset"].value("preset", arm->preset);
         arm->basis = "XYZ";
     }

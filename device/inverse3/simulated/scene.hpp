@@ -65,6 +65,7 @@ struct Manners {
     Takes takes{Takes::vector};
     OnWrong on_wrong{OnWrong::ignores};
     bool inventory_at_once{true};
+    bool takes_preset{true};  ///< else it keeps its own
     bool answers{true};                 ///< else it keeps silent: half open
     std::chrono::microseconds tick{0};  ///< answers come at its own ticks; 0: at once
     std::chrono::microseconds delay{0};
@@ -99,6 +100,7 @@ struct Obeyed {
     bool drives{false};      ///< it held a force, whatever became of it
     bool wrong_dialect{false};
     bool wants_whole{false};
+    bool asks_preset{false};
     Vec3 force_newton{0.0};
     std::string arm{};
 };

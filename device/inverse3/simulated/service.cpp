@@ -16,6 +16,7 @@
 
 #include "core/error.hpp"
 #include "device/inverse3/simulated/frames.hpp"
+#include "device/inverse3/simulated/name.hpp"
 
 namespace dibhr::inverse3::simulated {
 
@@ -85,8 +86,8 @@ std::string page_of(const Scene& scene, const std::string& head, bool older) {
     const Manners& manners = scene.manners;
     if (!(older ? manners.http_older : manners.http_beside)) return {};
     if (head.starts_with("GET /version ")) {
-        return R"({"project_name":"haply-inverse-service","project_version":")" + manners.version +
-               "\"}";
+        return R"({"project_name":")" + std::string(kProjectName) + R"(","project_version":")" +
+               manners.version + "\"}";
     }
     for (const Arm& arm : scene.arms) {
         if (head.starts_with("GET /inverse3/" + arm.id + "/config/gravity_compensation")) {
@@ -260,7 +261,7 @@ bool Service::answer(Client& client, const std::string& message) {
         done = obey(scene_, message, now);
         manners = scene_.manners;
         if (heard_.size() < kMostHeard) {
-            heard_.push_back({now, done.drives, done.force_newton, done.arm});
+            heard_.push_back({now, done.drives, done.force_newton, done.arm, done.asks_preset});
         }
     }
     if (!done.understood) ++not_understood_;

@@ -21,6 +21,7 @@ struct Heard {
     bool drives{false};
     Vec3 force_newton{0.0};
     std::string arm{};
+    bool asks_preset{false};
 };
 
 /// How clients are to lose it.

@@ -148,7 +148,7 @@ TEST_CASE("with auto the mouse touches until an Inverse3 is ready, while it is g
           "[inverse3][window]") {
     Scene none;
     none.arms.clear();
-    Inverse3Scene at({"--device", "auto"}, none);
+    Inverse3Scene at({"--device", "auto", "--log-file", "told.log"}, none);
     at.desk.act("mousemove 330 400 sleep 0.5");
     at.tell("plug");
     at.move_hand({0.0, -30.0, 0.0}, 0.1);
@@ -168,6 +168,9 @@ TEST_CASE("with auto the mouse touches until an Inverse3 is ready, while it is g
     REQUIRE(first != rows.end());
     CHECK(first->stand_in);
     CHECK(rows.back().stand_in);
+    const std::string told = read_text(at.folder / "told.log");
+    CHECK(contains(told, "device: the Inverse3 049D is not calibrated"));
+    CHECK(contains(told, "device: the Inverse3 049D was unplugged"));
     const auto changes = [&] {
         std::size_t count = 0;
         for (std::size_t k = 1; k < rows.size(); ++k) {

@@ -51,6 +51,29 @@ TEST_CASE("the needed damping leaves the device its margin, at every stiffness, 
     CHECK(needed_damping(10.0, DeviceDynamics{}) == 0.0);
 }
 
+TEST_CASE("the stiffest spring of a device has the most damping that is stable on it, and no more",
+          "[stability]") {
+    test::Dice dice(2);
+    for (int k = 0; k < 2000; ++k) {
+        const DeviceDynamics device{.mass_kg = dice.uniform(0.05, 1.0),
+                                    .friction_newton_s_per_m = dice.uniform(0.0, 2.0),
+                                    .resolution_mm = 0.01,
+                                    .delay_s = dice.uniform(0.0, 0.03)};
+        const double most = most_stiffness(device);
+        const double strongest = 0.75 * device.mass_kg / (0.0005 + device.delay_s);
+        CAPTURE(device.mass_kg, device.delay_s, most);
+        REQUIRE(most >= 0.0);
+        if (most > 0.0)
+            CHECK_THAT(needed_damping(most, device), WithinRel(strongest, 1e-9));
+        else
+            CHECK(needed_damping(0.0, device) >= strongest);
+        DeviceDynamics later = device;
+        later.delay_s += 0.001;
+        CHECK(most_stiffness(later) <= most);
+    }
+    CHECK(std::isinf(most_stiffness(DeviceDynamics{})));
+}
+
 TEST_CASE("the window reads a steady speed exactly, and through a device's steps nearly",
           "[stability]") {
     AdaptiveWindow exact;

@@ -1,12 +1,14 @@
-// When an arm's poses may be trusted, and when a service is deaf.
+// When an arm's poses may be trusted, and when a service is deaf or slow.
 #include "device/inverse3/arm_watch.hpp"
 
+#include "device/inverse3/pace_watch.hpp"
 #include "tests/support/catch.hpp"
 
 namespace {
 
 using namespace dibhr;
 using namespace dibhr::inverse3;
+using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using Hears = HearingWatch::Hears;
 
@@ -130,7 +132,7 @@ TEST_CASE("a fast hand is no jump", "[inverse3]") {
 TEST_CASE("a use that begins as we begin to drive is ours, until it has ended once", "[inverse3]") {
     States states;
     states.come(5);
-    states.watch.drove(states.now);
+    states.watch.drove(states.now, false);
     states.arm.in_use = true;
     states.come(5);
     CHECK(states.watch.stage() == Stage::ready);
@@ -145,7 +147,7 @@ TEST_CASE("a service that was in use before we drive is another program's", "[in
     States states;
     states.arm.in_use = true;
     states.come(5);
-    states.watch.drove(states.now);
+    states.watch.drove(states.now, true);
     states.come(5);
     CHECK(states.watch.stage() == Stage::in_use);
 }
@@ -160,4 +162,58 @@ TEST_CASE("a service that tells back no force is deaf after a quarter of a secon
 TEST_CASE("of weak forces, and where none is told back, nothing is concluded", "[inverse3]") {
     CHECK(hears_after({0.0, 0.0, 0.1}, Vec3{0.0}, milliseconds(5000)) == Hears::unknown);
     CHECK(hears_after({0.0, 0.0, 1.0}, std::nullopt, milliseconds(5000)) == Hears::unknown);
+}
+
+TEST_CASE("a service that says in use whenever it is pushed means us, each time", "[inverse3]") {
+    States states;
+    states.come(5);
+    states.watch.drove(states.now, false);
+    states.come(3000);
+    for (int push = 0; push < 3; ++push) {
+        states.watch.drove(states.now, true);
+        states.arm.in_use = true;
+        states.come(500);
+        CHECK(states.watch.stage() == Stage::ready);
+        states.watch.drove(states.now, false);
+        states.arm.in_use = false;
+        states.come(500);
+    }
+}
+
+namespace {
+
+/// Exchanges one after the other, each of which takes so long, for a time.
+struct Exchanges {
+    PaceWatch watch{};
+    PaceWatch::Time now{};
+
+    Pace come(microseconds each, milliseconds span) {
+        for (const auto end = now + span; now < end;) {
+            watch.add(now, now + each);
+            now += each + microseconds(500);
+        }
+        return watch.pace();
+    }
+};
+
+}  // namespace
+
+TEST_CASE("answers that come late lately are slow, later ones too slow, and prompt ones are again",
+          "[inverse3]") {
+    Exchanges exchanges;
+    CHECK(exchanges.come(microseconds(1000), milliseconds(1000)) == Pace::prompt);
+    CHECK(exchanges.come(microseconds(4000), milliseconds(1000)) == Pace::slow);
+    CHECK(exchanges.come(microseconds(8000), milliseconds(400)) == Pace::too_slow);
+    CHECK(exchanges.watch.exchange_ms() > 5.0);
+    CHECK(exchanges.come(microseconds(4500), milliseconds(5000)) == Pace::too_slow);  // nearly back
+    CHECK(exchanges.come(microseconds(1000), milliseconds(1500)) == Pace::too_slow);  // not long
+    CHECK(exchanges.come(microseconds(1000), milliseconds(1500)) == Pace::prompt);
+}
+
+TEST_CASE("one answer that comes late among prompt ones changes nothing", "[inverse3]") {
+    Exchanges exchanges;
+    (void)exchanges.come(microseconds(500), milliseconds(500));
+    const auto late =
+        GENERATE(microseconds(15'000), microseconds(100'000), microseconds(1'000'000));
+    CHECK(exchanges.come(late, milliseconds(1)) == Pace::prompt);
 }
