@@ -90,7 +90,7 @@ using Simulate = std::function<LevelCounts(const PsychometricFunction&, Random&)
                                              const FitSettings& settings);
 
 /// Of fewer trials the threshold's interval covers clearly less often than it says (README.md).
-inline constexpr int kFewestTrialsOfThreshold = 36;
+inline constexpr int kFewestTrialsOfThreshold = 60;
 
 /// The fit with its intervals: profile likelihood, its critical value found by a parametric
 /// bootstrap (the deviance of a known threshold among studies simulated with the fitted function),

@@ -40,6 +40,7 @@ std::string interval_cell(const Interval& interval) {
     const auto end = [](double value) {
         return std::isfinite(value) ? short_text(value, 3) : std::string("not bounded");
     };
+    if (std::isinf(interval.low) && std::isinf(interval.high)) return "none";
     return unbroken(end(interval.low) + " to " + end(interval.high));
 }
 

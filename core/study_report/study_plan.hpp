@@ -1,6 +1,7 @@
 // How many participants and trials a stated effect needs, by simulating the study over and over.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -31,7 +32,7 @@ struct PlannedStudies {
     double precision{0.0};
     double unbounded{0.0};  ///< share of the studies that give the threshold no bound
 
-    [[nodiscard]] bool of_threshold() const noexcept { return precision == precision; }
+    [[nodiscard]] bool of_threshold() const noexcept { return !std::isnan(precision); }
 };
 
 /// One finding of a block at so many repetitions.

@@ -179,8 +179,9 @@ Canvas plot_rows(const RowsPlot& plot) {
         }
         const double low = axes.at(std::max(row.interval.low, -1e300), 0.0).x;
         const double high = axes.at(std::min(row.interval.high, 1e300), 0.0).x;
-        canvas.line({std::max(low, area.left - 6.0), y_px},
-                    {std::min(high, area.right + 6.0), y_px}, {kTextInk, 2.5});
+        if (std::isfinite(row.interval.low) || std::isfinite(row.interval.high))
+            canvas.line({std::max(low, area.left - 6.0), y_px},
+                        {std::min(high, area.right + 6.0), y_px}, {kTextInk, 2.5});
         if (std::isfinite(row.value))
             canvas.marker({axes.at(row.value, 0.0).x, y_px}, Marker::diamond, 13.0, found_ink(),
                           kPaper);

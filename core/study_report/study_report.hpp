@@ -55,7 +55,9 @@ void write_study_report(const std::vector<std::filesystem::path>& files,
 ///   "values": [...], "overall": TEST, "pairs": [...], "remarks": [...]}], "motion": [...],
 ///   "conclusions": [...]}`
 /// ESTIMATE is `{"value", "low", "high", "confidence", "count"}`, TEST `{"test", "count",
-/// "statistic", "p", "effect"}` or null. What is not known, and an end without bound, is null.
+/// "statistic", "p", "effect"}` or null. A threshold's `participants_median` is null where it lies
+/// beside the levels, of which `below_levels` and `above_levels` say more. What is not known, and
+/// an end without bound, is null.
 [[nodiscard]] std::string json_of(const StudyReport& report);
 
 /// HTML5, pictures and style inside, no script.

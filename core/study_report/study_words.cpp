@@ -69,10 +69,12 @@ std::string share_sentence(const ShareFinding& share) {
     }
     // What would still be compatible with the answers, of people where the test speaks of them.
     const Interval& agrees = of_people ? share.across.interval : share.interval;
-    text += " This does not show a difference, nor that there is none: any share from " +
-            percent_text(agrees.low) + " to " + percent_text(agrees.high) +
-            " would agree with these answers.";
-    return text;
+    const std::string range = percent_text(agrees.low) + " to " + percent_text(agrees.high);
+    if (!agrees.holds(*share.chance))
+        return text + " The test does not show a difference, although chance lies outside the " +
+               "interval of " + range + ": more participants would tell.";
+    return text + " This does not show a difference, nor that there is none: any share from " +
+           range + " would agree with these answers.";
 }
 
 /// Who lies beside the levels, or anywhere, as far as the answers tell.
@@ -83,11 +85,14 @@ std::string unbounded_text(const ThresholdFinding& finding) {
         text += " Below" + levels + ": " + participants_text(finding.below) + ".";
     if (finding.above > 0)
         text += " Above" + levels + ", or guessing: " + participants_text(finding.above) + ".";
-    if (finding.unbounded > 0)
-        text += " The answers of " + participants_text(finding.unbounded) +
-                " set the threshold no bound; the others are no random selection, so that no mean "
-                "is taken" +
-                (finding.fits.size() > 1 ? " and the median is of all." : ".");
+    const auto people = static_cast<int>(finding.fits.size());
+    if (finding.unbounded == people)
+        text += " No one's answers set the threshold a bound.";
+    else if (finding.unbounded > 0)
+        text += " The answers of " + std::to_string(finding.unbounded) + " of the " +
+                std::to_string(people) +
+                " set the threshold no bound, and a mean of the others would not be that of "
+                "people: there is none.";
     return text;
 }
 
@@ -123,8 +128,8 @@ std::string few_trials_text(const ThresholdFinding& finding) {
                          });
     if (fewest->fit.trials >= kFewestTrialsOfThreshold) return {};
     return " An interval of " + std::to_string(fewest->fit.trials) +
-           " trials covers the threshold less often than in 95 % of studies (about 85 to 94 %): it "
-           "takes " +
+           " trials covers the threshold less often than in 95 % of studies (of 12 trials in 86 to "
+           "95 %, of 36 in 91 to 96 %): it takes " +
            std::to_string(kFewestTrialsOfThreshold) + " at the least.";
 }
 

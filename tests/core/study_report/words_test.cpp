@@ -50,11 +50,20 @@ TEST_CASE("what chance would agree with is told with both ends, of people as the
                                         " would agree"));
 }
 
+TEST_CASE("what a test of few people cannot show is not said to agree with chance",
+          "[study words]") {
+    const std::string said = said_of(report_of(kTwo + "pairs = \"all\"\nrepetitions = 9\n", 3,
+                                               {.guesses = false, .prefers = "a"}, 6));
+    CHECK(contains(said, "a rather than b: 100 % of 54 answers"));
+    CHECK(contains(said, "although chance lies outside the interval of 93 % to 100 %"));
+}
+
 TEST_CASE("of people who guess no threshold is told but where it is not", "[study words]") {
     const std::string said = said_of(
         report_of(kLevels + "repetitions = 15\n", 1, {.guesses = false, .threshold = 9.0}, 7));
     CHECK(contains(said, ": not found. The median over 7 participants lies above 0.2."));
     CHECK(contains(said, "Above the levels that were tested (0.05 to 0.2), or guessing: "));
+    CHECK_FALSE(contains(said, ", mean "));
     CHECK_FALSE(contains(said, "mean over 0"));
     CHECK_FALSE(contains(said, "not bounded to not bounded"));
 }
@@ -63,7 +72,7 @@ TEST_CASE("an interval of few trials has its warning beside it", "[study words]"
     const SimulatedParticipant kind{.guesses = false, .threshold = 0.1, .slope = 30.0};
     const std::string few = said_of(report_of(kLevels + "repetitions = 5\n", 1, kind, 1));
     CHECK(contains(few, "An interval of 15 trials covers the threshold less often"));
-    CHECK(contains(few, "36 at the least"));
+    CHECK(contains(few, "60 at the least"));
     const std::string many = said_of(report_of(kLevels + "repetitions = 20\n", 1, kind, 1));
     CHECK_FALSE(contains(many, "less often"));
 }
