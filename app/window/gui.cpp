@@ -132,9 +132,18 @@ std::optional<FontFile> desktop_font(int weight) {
     return font;
 }
 
-/// What names of files are written with in Europe; other letters are shown as "?".
-constexpr ImWchar kLetters[] = {0x20,  0xFF,   0x100,  0x24F,  0x370,  0x3FF, 0x400,
-                                0x52F, 0x2010, 0x2027, 0x20A0, 0x20BF, 0};
+/// Alphabets that are written from left to right, letter by letter, with their signs; what the font
+/// lacks, and other letters, are shown as "?".
+constexpr ImWchar kLetters[] = {0x20,   0x36F,   // Latin, and accents that follow their letter
+                                0x370,  0x58F,   // Greek, Cyrillic, Armenian
+                                0x10A0, 0x10FF,  // Georgian
+                                0x1E00, 0x1FFF,  // Latin of Vietnamese, Greek with all accents
+                                0x2010, 0x205E,  // dashes, quotation marks
+                                0x2070, 0x20BF,  // raised and lowered digits, currencies
+                                0x2100, 0x22FF,  // letterlike signs, fractions, arrows, mathematics
+                                0x25A0, 0x25FF,  // shapes
+                                0x2713, 0x2717,  // ticks
+                                0};
 
 ImFont* load_font(int weight, float height_px) {
     const auto file = desktop_font(weight);
