@@ -109,6 +109,11 @@ void StudySurface::begin_interval(int number) {
     state_.force_enabled = true;
 }
 
+void StudySurface::rest() {
+    rests_ = rests_ || state_.force_enabled;
+    state_.force_enabled = false;
+}
+
 void StudySurface::turn(const std::string& parameter, double value) {
     TouchParameters& touch = state_.settings.touch;
     if (parameter == "friction")
@@ -122,6 +127,7 @@ void StudySurface::turn(const std::string& parameter, double value) {
 
 void StudySurface::end_trial() {
     rest();
+    hand_over();  // while it is recorded
     static_cast<void>(recording_.stop(state_));
     if (!state_.recording_trouble.empty()) throw InputError(state_.recording_trouble);
 }
@@ -158,6 +164,8 @@ void StudySurface::hand_over() {
         recording_.hand_over(handed_, state_.bump_file);
         haptic_settings_.publish(handed_);
     }
+    // The next tick has no force.
+    if (std::exchange(rests_, false)) recording_.mark("rest");
     if (falcon_.tuning_changed(state_)) falcon_.hand_over(state_);
     if (inverse3_.tuning_changed(state_)) inverse3_.hand_over(state_);
     player_.set_motion(

@@ -46,8 +46,8 @@ class StudySurface {
     [[nodiscard]] bool is_there() const;
     /// From here on it is felt: the force rises from zero. `number`: of the interval, from 1.
     void begin_interval(int number);
-    /// The force goes to zero.
-    void rest() { state_.force_enabled = false; }
+    /// The force goes to zero; the session has the mark "rest" where it was on.
+    void rest();
     /// Turns one parameter of what is felt.
     void turn(const std::string& parameter, double value);
     /// Ends the session, whole. Throws InputError when it could not be written.
@@ -93,6 +93,7 @@ class StudySurface {
     std::string media_{};  // the name of what is open
     std::uint32_t number_{0};
     std::filesystem::path session_{};         // of a trial whose recording has not begun
+    bool rests_{false};                       // from the next hand-over on, to be marked
     std::array<ButtonPresses, 2> pressed_{};  // as taken, by Grip
     HapticSettings handed_{};
     std::uint64_t handed_at_{0};  // the loop's ticks then
