@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
-#include "app/panels/widgets.hpp"
+#include "app/study/page_layout.hpp"
 #include "core/files/plain_text.hpp"
 
 namespace dibhr {
@@ -21,91 +23,27 @@ using Kind = StudyPress::Kind;
 constexpr int kMostButtonsInARow = 9;
 constexpr const char* kOrdinals[]{"The first", "The second", "The third"};
 
-float em() {
-    return ImGui::GetFontSize();
+FootPart go_on_part(const char* label = "Go on  (Enter)") {
+    return button_part({.labels = {label}}, [](int) { return StudyPress{Kind::go_on}; });
 }
 
-void gap(float ems) {
-    ImGui::Dummy({0.0F, ems * em()});
+PageBody body_of(const StudyShown& view, std::vector<PageText> texts, float top) {
+    return {.texts = std::move(texts),
+            .top = top,
+            .first_picture = view.first_picture,
+            .scroll = view.scroll};
 }
 
-/// Text in a column in the middle, as wide as can be read.
-void column_text(const std::string& text, bool quiet = false) {
-    const float width = ImGui::GetWindowWidth();
-    const float most = std::min(0.8F * width, 36.0F * em());
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, most);
-    ImGui::SetCursorPosX(0.5F * (width - size.x));
-    const float left = ImGui::GetCursorPosX();
-    ImGui::PushTextWrapPos(left + most + 1.0F);
-    if (quiet)
-        ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) {
-        ImGui::SetCursorPosX(left);
-        ImGui::TextUnformatted(line.c_str());
-        gap(0.15F);
+Press draw_text_page(const StudyPage& page, const StudyShown& view, const char* button) {
+    PageBody body = body_of(view, {{page.text}}, page.picture.empty() ? 0.26F : 0.08F);
+    if (!page.picture.empty()) {
+        body.picture = view.picture;
+        body.picture_columns = view.picture_columns;
+        body.picture_rows = view.picture_rows;
     }
-    if (quiet) ImGui::PopStyleColor();
-    ImGui::PopTextWrapPos();
-}
-
-/// Side by side in the middle, one of them marked; which was clicked.
-std::optional<int> buttons(const std::vector<std::string>& labels, float least_ems = 6.0F,
-                           int marked = -1) {
-    const float gap = 0.8F * em();
-    std::vector<float> widths;
-    float all = -gap;
-    for (const std::string& label : labels) {
-        const float width =
-            std::max(least_ems * em(), ImGui::CalcTextSize(label.c_str()).x + 2.0F * em());
-        widths.push_back(width);
-        all += width + gap;
-    }
-    // One under the other where they do not fit.
-    const bool row = all < 0.94F * ImGui::GetWindowWidth();
-    std::optional<int> clicked;
-    ImGui::SetCursorPosX(0.5F * (ImGui::GetWindowWidth() - all));
-    for (std::size_t k = 0; k < labels.size(); ++k) {
-        if (!row) ImGui::SetCursorPosX(0.5F * (ImGui::GetWindowWidth() - widths[k]));
-        if (row && k > 0) ImGui::SameLine(0.0F, gap);
-        ImGui::PushID(static_cast<int>(k));
-        const bool lit = static_cast<int>(k) == marked;
-        if (lit) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetColorU32(ImGuiCol_SliderGrab));
-        if (ImGui::Button(labels[k].c_str(), {widths[k], 2.4F * em()}))
-            clicked = static_cast<int>(k);
-        if (lit) ImGui::PopStyleColor();
-        ImGui::PopID();
-    }
-    return clicked;
-}
-
-void down_to(float share) {
-    ImGui::SetCursorPosY(std::max(ImGui::GetCursorPosY(), share * ImGui::GetWindowHeight()));
-}
-
-Press go_on_button(const char* label = "Go on  (Enter)") {
-    return buttons({label}) ? Press(StudyPress{Kind::go_on}) : std::nullopt;
-}
-
-void draw_picture(const StudyShown& view) {
-    if (view.picture == 0) return;
-    const float high = 0.42F * ImGui::GetWindowHeight();
-    const float wide = 0.8F * ImGui::GetWindowWidth();
-    const float factor = std::min(wide / static_cast<float>(view.picture_columns),
-                                  high / static_cast<float>(view.picture_rows));
-    const ImVec2 size{factor * static_cast<float>(view.picture_columns),
-                      factor * static_cast<float>(view.picture_rows)};
-    ImGui::SetCursorPosX(0.5F * (ImGui::GetWindowWidth() - size.x));
-    ImGui::Image(texture_id<ImTextureID>(view.picture), size);
-    gap(0.8F);
-}
-
-Press draw_page(const StudyPage& page, const StudyShown& view, const char* button) {
-    down_to(page.picture.empty() ? 0.26F : 0.08F);
-    draw_picture(view);
-    column_text(page.text);
-    gap(1.6F);
-    return go_on_button(button);
+    std::vector<FootPart> foot{go_on_part(button)};
+    if (!view.device_words.empty()) foot.push_back(note_part(view.device_words));
+    return draw_page(body, foot);
 }
 
 /// How far the study is, and what is left of a limit.
@@ -123,71 +61,109 @@ void draw_bars(const StudyRun& run, const StudyShown& view) {
         bar(ImGui::GetWindowHeight() - high, view.left_share, ImGuiCol_SliderGrabActive);
 }
 
-/// Over the relief: text on a ground of its own.
-void label_at(const std::string& text, float centre_y, bool large = false) {
-    ImGui::SetWindowFontScale(large ? 2.0F : 1.0F);
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-    const float x = 0.5F * (ImGui::GetWindowWidth() - size.x);
-    const float pad = 0.5F * em();
-    ImGui::GetWindowDrawList()->AddRectFilled(
-        {x - 2.0F * pad, centre_y - 0.5F * size.y - pad},
-        {x + size.x + 2.0F * pad, centre_y + 0.5F * size.y + pad},
-        ImGui::GetColorU32(ImGuiCol_PopupBg), 0.4F * em());
-    ImGui::SetCursorPos({x, centre_y - 0.5F * size.y});
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::SetWindowFontScale(1.0F);
+/// Over the relief, from the upper edge down.
+void draw_labels(const std::vector<std::string>& texts) {
+    float top = 1.0F * em();
+    for (const std::string& text : texts)
+        if (!text.empty()) top = draw_label(text, top) + 0.4F * em();
+}
+
+/// In the middle, large where it announces.
+void draw_in_the_middle(const std::string& text, float times = 1.0F) {
+    if (!text.empty()) draw_label(text, 0.42F * ImGui::GetWindowHeight(), times);
 }
 
 Press draw_interval(const StudyRun& run, const StudyShown& view) {
+    constexpr float kAnnounced = 2.0F;
     const int count = run.block().intervals();
     const std::string number = std::to_string(run.interval() + 1);
-    const float height = ImGui::GetWindowHeight();
     if (view.waits) {
-        label_at(count > 1 ? number : "Ready", 0.45F * height, true);
+        draw_in_the_middle(count > 1 ? number : "Ready", kAnnounced);
         return std::nullopt;
     }
-    if (count > 1) label_at(number + " of " + std::to_string(count), 2.0F * em());
-    if (!view.device_words.empty()) label_at(view.device_words, 0.5F * height);
-    ImGui::SetCursorPosY(height - 4.2F * em());
-    return go_on_button(run.block().interval_s > 0.0 ? "Enough  (Enter)" : "Go on  (Enter)");
+    if (count > 1) draw_labels({number + " of " + std::to_string(count)});
+    draw_in_the_middle(view.device_words);
+    return draw_at_bottom(std::array{
+        go_on_part(run.block().interval_s > 0.0 ? "Enough  (Enter)" : "Go on  (Enter)")});
 }
 
-Press draw_scale(const Question& question, const StudyShown& view) {
+/// What the ends of a scale are called, each under its own end; `left` and `wide` in the window.
+FootPart ends_part(const std::string& lowest, const std::string& highest, float left, float wide) {
+    const TextBlock low = text_block(lowest, 0.46F * wide);
+    const TextBlock high = text_block(highest, 0.46F * wide);
+    return {std::max(low.size.y, high.size.y), [=]() -> Press {
+                const ImVec2 at = ImGui::GetCursorScreenPos();
+                draw_text(low, {at.x + left, at.y}, LineAlign::left);
+                draw_text(high, {at.x + left + wide - high.size.x, at.y}, LineAlign::right);
+                return std::nullopt;
+            }};
+}
+
+/// A line from `at` on, with its number over the mark; without a mark nothing was chosen yet.
+Press draw_line(const Question& question, const StudyShown& view, ImVec2 at, float wide) {
+    const float knob = 0.5F * em();
+    const float middle = at.y + 2.0F * em();
+    const double lowest = question.lowest;
+    const double range = question.highest - lowest;
+    ImGui::SetCursorScreenPos({at.x - knob, middle - 1.4F * knob});
+    ImGui::InvisibleButton("line", {wide + 2.0F * knob, 2.8F * knob});
+    Press press;
+    if (ImGui::IsItemActive()) {
+        const auto share = static_cast<double>((ImGui::GetMousePos().x - at.x) / wide);
+        press = StudyPress{Kind::mark, 0, std::round(lowest + std::clamp(share, 0.0, 1.0) * range)};
+    }
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImU32 ink =
+        ImGui::GetColorU32(ImGui::IsItemHovered() ? ImGuiCol_ButtonActive : ImGuiCol_ButtonHovered);
+    const auto bar = [&](float x, float width, float high) {
+        list.AddRectFilled({x, middle - high}, {x + width, middle + high}, ink);
+    };
+    const float thin = 0.12F * em();
+    bar(at.x, wide, thin);
+    bar(at.x - thin, 2.0F * thin, knob);
+    bar(at.x + wide - thin, 2.0F * thin, knob);
+    if (!view.mark) return press;
+    const float x = at.x + static_cast<float>((*view.mark - lowest) / range) * wide;
+    list.AddCircleFilled({x, middle}, knob, ImGui::GetColorU32(ImGuiCol_SliderGrabActive));
+    const TextBlock number = text_block(short_text(*view.mark), wide);
+    draw_text(number, {x - 0.5F * number.size.x, at.y}, LineAlign::middle);
+    return press;
+}
+
+void add_line(const Question& question, const StudyShown& view, std::vector<FootPart>& foot) {
     const float wide = std::min(0.7F * ImGui::GetWindowWidth(), 40.0F * em());
     const float left = 0.5F * (ImGui::GetWindowWidth() - wide);
-    Press press;
-    float value = static_cast<float>(view.mark);
-    ImGui::SetCursorPosX(left);
-    ImGui::SetNextItemWidth(wide);
-    if (ImGui::SliderFloat("##scale", &value, static_cast<float>(question.lowest),
-                           static_cast<float>(question.highest), "%.0f"))
-        press = StudyPress{Kind::mark, 0, std::round(value)};
-    ImGui::SetCursorPosX(left);
-    ImGui::TextUnformatted(
-        (std::to_string(question.lowest) + "  " + question.lowest_label).c_str());
-    const std::string high = question.highest_label + "  " + std::to_string(question.highest);
-    ImGui::SameLine(left + wide - ImGui::CalcTextSize(high.c_str()).x);
-    ImGui::TextUnformatted(high.c_str());
-    gap(1.6F);
-    if (buttons({"Answer  (Enter)"})) press = StudyPress{Kind::rate, 0, view.mark};
-    return press;
+    foot.push_back({2.5F * em(), [&question, &view, left, wide] {
+                        const ImVec2 at = ImGui::GetCursorScreenPos();
+                        return draw_line(question, view, {at.x + left, at.y}, wide);
+                    }});
+    foot.push_back(ends_part(std::to_string(question.lowest) + "\n" + question.lowest_label,
+                             std::to_string(question.highest) + "\n" + question.highest_label, left,
+                             wide));
+    const double value = view.mark.value_or(0.0);
+    foot.push_back(button_part({.labels = {"Answer  (Enter)"}, .enabled = view.mark.has_value()},
+                               [value](int) {
+                                   return StudyPress{Kind::rate, 0, value};
+                               }));
 }
 
-Press draw_ratings(const Question& question, const StudyShown& view) {
-    std::vector<std::string> labels;
+/// A button for each number, all in one row.
+void add_numbers(const Question& question, const StudyShown& view, std::vector<FootPart>& foot) {
+    constexpr float kSpace = 0.8F;  // between two buttons [em]
+    const int count = question.highest - question.lowest + 1;
+    const float room =
+        0.93F * ImGui::GetWindowWidth() / em() - kSpace * static_cast<float>(count - 1);
+    ButtonGroup group{.least_width = std::min(3.0F, room / static_cast<float>(count)),
+                      .space = 0.5F};
     for (int value = question.lowest; value <= question.highest; ++value)
-        labels.push_back(std::to_string(value));
-    Press press;
-    const int marked = static_cast<int>(std::lround(view.mark)) - question.lowest;
-    if (const auto clicked = buttons(labels, 3.0F, marked))
-        press = StudyPress{Kind::rate, 0, static_cast<double>(question.lowest + *clicked)};
-    if (!question.lowest_label.empty() || !question.highest_label.empty()) {
-        gap(0.4F);
-        column_text(std::to_string(question.lowest) + ": " + question.lowest_label + "        " +
-                        std::to_string(question.highest) + ": " + question.highest_label,
-                    true);
-    }
-    return press;
+        group.labels.push_back(std::to_string(value));
+    if (view.mark) group.marked = static_cast<int>(std::lround(*view.mark)) - question.lowest;
+    foot.push_back(button_part(group, [lowest = question.lowest](int which) {
+        return StudyPress{Kind::rate, 0, static_cast<double>(lowest + which)};
+    }));
+    const float wide = em() * (static_cast<float>(count) * (group.least_width + kSpace) - kSpace);
+    foot.push_back(ends_part(question.lowest_label, question.highest_label,
+                             0.5F * (ImGui::GetWindowWidth() - wide), wide));
 }
 
 std::vector<std::string> choices_of(const StudyRun& run) {
@@ -203,163 +179,117 @@ std::vector<std::string> choices_of(const StudyRun& run) {
     return labels;
 }
 
+FootPart again_part(const Block& block) {
+    ButtonGroup group;
+    for (int k = 0; k < block.intervals(); ++k)
+        group.labels.push_back(block.intervals() > 1 ? "Feel " + std::to_string(k + 1) + " again"
+                                                     : "Feel it again");
+    return button_part(group, [](int which) { return StudyPress{Kind::feel, which}; });
+}
+
 Press draw_question(const StudyRun& run, const StudyShown& view) {
     const Block& block = run.block();
-    down_to(0.3F);
-    ImGui::SetWindowFontScale(1.25F);
-    column_text(block.question.text);
-    ImGui::SetWindowFontScale(1.0F);
-    gap(1.6F);
-    Press press;
+    std::vector<FootPart> foot;
     if (block.form == TrialForm::rating) {
-        press = has_wide_scale(block.question) ? draw_scale(block.question, view)
-                                               : draw_ratings(block.question, view);
-        if (!view.by_mouse) {
-            gap(0.6F);
-            column_text("On the grip: lower, higher, answer", true);
-        }
-    } else if (const auto clicked = buttons(choices_of(run))) {
-        press = StudyPress{Kind::choose, *clicked};
+        if (has_wide_scale(block.question))
+            add_line(block.question, view, foot);
+        else
+            add_numbers(block.question, view, foot);
+        if (!view.by_mouse) foot.push_back(note_part("On the grip: lower, higher, answer"));
+    } else {
+        foot.push_back(button_part({.labels = choices_of(run)}, [](int which) {
+            return StudyPress{Kind::choose, which};
+        }));
     }
-    if (!block.again) return press;
-    gap(1.6F);
-    std::vector<std::string> again;
-    again.reserve(static_cast<std::size_t>(block.intervals()));
-    for (int k = 0; k < block.intervals(); ++k)
-        again.push_back(block.intervals() > 1 ? "Feel " + std::to_string(k + 1) + " again"
-                                              : "Feel it again");
-    ImGui::PushID("again");
-    if (const auto clicked = buttons(again)) press = StudyPress{Kind::feel, *clicked};
-    ImGui::PopID();
-    return press;
+    if (block.again) foot.push_back(again_part(block));
+    return draw_page(body_of(view, {{block.question.text, 1.25F}}, 0.3F), foot);
 }
 
+/// The first of the two at an adjustment is the one to match, felt once before there is a choice.
 Press draw_adjustment(const StudyRun& run, const StudyShown& view) {
-    const float height = ImGui::GetWindowHeight();
-    label_at(run.block().question.text, 2.0F * em());
+    const bool own = run.interval() == 1;
+    const bool begun = run.step() == StudyStep::adjust;
     if (view.waits) {
-        label_at(run.interval() == 0 ? "The one to match" : "Yours", 0.45F * height, true);
+        draw_labels({run.block().question.text});
+        draw_in_the_middle(own ? "Yours" : "The one to match", 2.0F);
         return std::nullopt;
     }
-    label_at(run.interval() == 0 ? "This one is to be matched" : "This one is yours: turn it",
-             4.6F * em());
-    if (!view.device_words.empty()) label_at(view.device_words, 0.5F * height);
-    Press press;
-    ImGui::SetCursorPosY(height - 7.4F * em());
-    if (run.interval() == 1) {
-        if (const auto clicked = buttons({"Less  (Down)", "More  (Up)"}))
-            press = StudyPress{Kind::turn, 0, *clicked == 0 ? -0.02 : 0.02};
-    }
-    ImGui::SetCursorPosY(height - 4.2F * em());
-    ImGui::PushID("equal");
-    const std::vector<std::string> labels{
-        run.interval() == 0 ? "Feel yours  (2)" : "Feel the other  (1)", "They are equal  (Enter)"};
-    if (const auto clicked = buttons(labels)) {
-        press =
-            *clicked == 0 ? StudyPress{Kind::feel, 1 - run.interval()} : StudyPress{Kind::go_on};
-    }
-    ImGui::PopID();
-    if (!view.by_mouse) {
-        ImGui::SetCursorPosY(height - 1.6F * em());
-        column_text("On the grip: less, more, the other; hold the third when they are equal", true);
-    }
-    return press;
+    draw_labels({run.block().question.text,
+                 own ? "This one is yours: turn it" : "This one is to be matched"});
+    draw_in_the_middle(view.device_words);
+    if (!begun) return draw_at_bottom(std::array{go_on_part("Feel yours  (Enter)")});
+    std::vector<FootPart> foot;
+    if (own)
+        foot.push_back(button_part({.labels = {"Less  (Down)", "More  (Up)"}}, [](int which) {
+            return StudyPress{Kind::turn, 0, which == 0 ? -0.02 : 0.02};
+        }));
+    foot.push_back(button_part(
+        {.labels = {own ? "Feel the other  (1)" : "Feel yours  (2)", "They are equal  (Enter)"}},
+        [other = 1 - run.interval()](int which) {
+            return which == 0 ? StudyPress{Kind::feel, other} : StudyPress{Kind::go_on};
+        }));
+    if (!view.by_mouse)
+        foot.push_back(
+            note_part("On the grip: less, more, the other; hold the third when they are equal"));
+    return draw_at_bottom(foot);
 }
 
-Press draw_leaving() {
-    down_to(0.3F);
-    column_text("Leave the study?");
-    gap(0.6F);
-    column_text("All answers so far are kept. It goes on here the next time.", true);
-    gap(1.6F);
-    const auto clicked = buttons({"Stay  (Escape)", "Leave  (L)"});
-    if (!clicked) return std::nullopt;
-    return StudyPress{*clicked == 0 ? Kind::stay : Kind::leave};
+Press draw_leaving(const StudyShown& view) {
+    const PageBody body = body_of(
+        view,
+        {{"Leave the study?"},
+         {.text = "All answers so far are kept. It goes on here the next time.", .quiet = true}},
+        0.3F);
+    return draw_page(
+        body, std::array{button_part({.labels = {"Stay  (Escape)", "Leave  (L)"}}, [](int which) {
+            return StudyPress{which == 0 ? Kind::stay : Kind::leave};
+        })});
+}
+
+Press draw_feedback(const StudyRun& run, const StudyShown& view) {
+    const AnsweredTrial& last = run.last();
+    const bool answered = last.answer.choice >= 0 || last.answer.number;
+    const char* const words = !answered                    ? "The time was over."
+                              : last.right.value_or(false) ? "Right."
+                                                           : "Not this time.";
+    return draw_page(body_of(view, {{words, 1.6F}}, 0.36F), std::array{go_on_part()});
+}
+
+/// Before a trial that nobody has called for yet.
+Press draw_start(const StudyRun& run, const StudyShown& view) {
+    const std::string text = run.answered().empty()
+                                 ? "Begin whenever you like."
+                                 : "It goes on where it stopped.\n\nBegin whenever you like.";
+    return draw_text_page({.text = text}, view, "Begin  (Enter)");
+}
+
+bool is_felt(StudyStep step) {
+    return step == StudyStep::interval || step == StudyStep::adjust;
 }
 
 Press draw_step(const StudyRun& run, const StudyShown& view) {
     switch (run.step()) {
         case StudyStep::instructions:
-        case StudyStep::block_instructions: {
-            const Press press = draw_page(run.page(), view, "Begin  (Enter)");
-            if (!view.device_words.empty()) {
-                gap(1.2F);
-                column_text(view.device_words, true);
-            }
-            return press;
-        }
+        case StudyStep::block_instructions:
+            return draw_text_page(run.page(), view, "Begin  (Enter)");
         case StudyStep::interval:
-            return draw_interval(run, view);
         case StudyStep::adjust:
-            return draw_adjustment(run, view);
+            return run.trial().form == TrialForm::adjust ? draw_adjustment(run, view)
+                                                         : draw_interval(run, view);
         case StudyStep::question:
             return draw_question(run, view);
-        case StudyStep::feedback: {
-            const bool right = run.last().right.value_or(false);
-            down_to(0.36F);
-            ImGui::SetWindowFontScale(1.6F);
-            column_text(right ? "Right." : "Not this time.");
-            ImGui::SetWindowFontScale(1.0F);
-            gap(1.6F);
-            return go_on_button();
-        }
+        case StudyStep::feedback:
+            return draw_feedback(run, view);
         case StudyStep::pause:
-            return draw_page({.text = "Time for a break.\n\nGo on whenever you like."}, view,
-                             "Go on  (Enter)");
+            return draw_text_page({.text = "Time for a break.\n\nGo on whenever you like."}, view,
+                                  "Go on  (Enter)");
         case StudyStep::thanks:
-            return draw_page(
+            return draw_text_page(
                 run.page().empty() ? StudyPage{.text = "That was all. Thank you!"} : run.page(),
                 view, "Close  (Enter)");
         case StudyStep::finished:
             break;
     }
-    return std::nullopt;
-}
-
-/// "3" of a digit.
-std::optional<int> digit_of(std::string_view key) {
-    if (key.size() != 1 || key[0] < '0' || key[0] > '9') return std::nullopt;
-    return key[0] - '0';
-}
-
-Press answer_by_digit(const StudyRun& run, int digit) {
-    const Block& block = run.block();
-    if (block.form == TrialForm::rating) {
-        if (has_wide_scale(block.question)) return std::nullopt;
-        const StudyAnswer answer{.number = static_cast<double>(digit)};
-        return run.takes(answer) ? Press(StudyPress{Kind::rate, 0, *answer.number}) : std::nullopt;
-    }
-    const StudyAnswer answer{.choice = digit - 1};
-    return digit >= 1 && run.takes(answer) ? Press(StudyPress{Kind::choose, digit - 1})
-                                           : std::nullopt;
-}
-
-Press question_key(const StudyRun& run, const StudyShown& view, std::string_view key, bool shift) {
-    if (const auto digit = digit_of(key)) return answer_by_digit(run, *digit);
-    const Block& block = run.block();
-    if (block.form == TrialForm::rating) {
-        const double step = shift ? 10.0 : 1.0;
-        if (key == "Enter") return StudyPress{Kind::rate, 0, view.mark};
-        if (key == "Left" || key == "Down") return StudyPress{Kind::mark, 0, view.mark - step};
-        if (key == "Right" || key == "Up") return StudyPress{Kind::mark, 0, view.mark + step};
-        return std::nullopt;
-    }
-    const bool of_two = block.form == TrialForm::two_interval ||
-                        (block.form == TrialForm::explore && block.question.answers.size() == 2);
-    if (of_two && key == "Left") return StudyPress{Kind::choose, 0};
-    if (of_two && key == "Right") return StudyPress{Kind::choose, 1};
-    return std::nullopt;
-}
-
-Press adjustment_key(const StudyRun& run, std::string_view key, bool shift) {
-    const double step = shift ? 0.002 : 0.02;
-    if (key == "1") return StudyPress{Kind::feel, 0};
-    if (key == "2") return StudyPress{Kind::feel, 1};
-    if (key == "Tab") return StudyPress{Kind::feel, 1 - run.interval()};
-    if (key == "Enter") return StudyPress{Kind::go_on};
-    if (run.interval() == 0) return std::nullopt;
-    if (key == "Up" || key == "Right") return StudyPress{Kind::turn, 0, step};
-    if (key == "Down" || key == "Left") return StudyPress{Kind::turn, 0, -step};
     return std::nullopt;
 }
 
@@ -373,14 +303,15 @@ bool has_wide_scale(const Question& question) noexcept {
 std::optional<StudyPress> draw_study(const StudyRun& run, const StudyShown& view) {
     ImGui::SetNextWindowPos({0.0F, 0.0F});
     ImGui::SetNextWindowSize(ImGui::GetIO().DisplaySize);
-    const bool over_relief = !view.asks_to_leave &&
-                             (run.step() == StudyStep::interval || run.step() == StudyStep::adjust);
+    const bool over_relief = !view.asks_to_leave && !view.before_start && is_felt(run.step());
     ImGui::Begin("study", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
-                     ImGuiWindowFlags_NoBringToFrontOnFocus |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse |
                      (over_relief ? ImGuiWindowFlags_NoBackground : ImGuiWindowFlags_None));
-    const Press press = view.asks_to_leave ? draw_leaving() : draw_step(run, view);
+    const Press press = view.asks_to_leave  ? draw_leaving(view)
+                        : view.before_start ? draw_start(run, view)
+                                            : draw_step(run, view);
     draw_bars(run, view);
     ImGui::End();
     return press;
@@ -388,39 +319,6 @@ std::optional<StudyPress> draw_study(const StudyRun& run, const StudyShown& view
 
 bool mouse_is_over_button() {
     return ImGui::IsAnyItemHovered() || ImGui::IsAnyItemActive();
-}
-
-std::optional<StudyPress> press_of_key(const StudyRun& run, const StudyShown& view,
-                                       std::string_view key, bool shift) {
-    if (view.asks_to_leave) {
-        if (key == "Esc" || key == "Enter") return StudyPress{Kind::stay};
-        if (key == "l" || key == "L") return StudyPress{Kind::leave};
-        return std::nullopt;
-    }
-    if (key == "Esc") return StudyPress{Kind::ask_to_leave};
-    if (view.waits) return std::nullopt;  // for the surface, or the next step
-    if (run.step() == StudyStep::question) return question_key(run, view, key, shift);
-    if (run.step() == StudyStep::adjust) return adjustment_key(run, key, shift);
-    if (key == "Enter" || key == " ") return StudyPress{Kind::go_on};
-    return std::nullopt;
-}
-
-std::optional<StudyPress> press_of_button(const StudyRun& run, const StudyShown& view, int button,
-                                          bool held) {
-    if (view.waits || view.asks_to_leave) return std::nullopt;
-    if (run.step() == StudyStep::question && run.block().form == TrialForm::rating) {
-        if (button == 2) return StudyPress{Kind::rate, 0, view.mark};
-        if (button > 2) return std::nullopt;
-        return StudyPress{Kind::mark, 0, view.mark + (button == 0 ? -1.0 : 1.0)};
-    }
-    if (run.step() == StudyStep::question) return answer_by_digit(run, button + 1);
-    if (run.step() == StudyStep::adjust) {
-        if (button == kTwoFoldButton && held) return StudyPress{Kind::go_on};
-        if (button == kTwoFoldButton) return StudyPress{Kind::feel, 1 - run.interval()};
-        if (button > kTwoFoldButton || run.interval() == 0) return std::nullopt;
-        return StudyPress{Kind::turn, 0, button == 0 ? -0.02 : 0.02};
-    }
-    return button == 0 ? Press(StudyPress{Kind::go_on}) : std::nullopt;
 }
 
 }  // namespace dibhr

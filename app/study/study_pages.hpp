@@ -20,6 +20,7 @@ struct StudyPress {
         mark,    ///< moves the mark of a scale to `value`, without answering
         feel,    ///< interval `which`: once more at a question; at an adjustment the other one
         turn,    ///< the parameter, by `value` of its range
+        scroll,  ///< a page, down by `value` lines
         ask_to_leave,
         stay,
         leave
@@ -34,14 +35,16 @@ struct StudyPress {
 struct StudyShown {
     bool waits{false};          ///< an interval whose surface is not there yet
     bool asks_to_leave{false};  ///< the participant pressed Escape
+    bool before_start{false};   ///< the program has begun, and nobody has called for the step yet
+    bool first_picture{false};  ///< of the page that is shown
+    float scroll{0.0F};         ///< of it since the last picture, down by so many lines
     double left_share{1.0};     ///< of the time of an interval or an answer; 1 without a limit
     bool has_limit{false};
-    double mark{0.0};            ///< on a scale
-    bool by_mouse{false};        ///< no force device touches
-    std::string device_words{};  ///< what the device needs; empty: nothing
-    std::uintptr_t picture{0};   ///< texture of the page's picture; 0: none
+    std::optional<double> mark{};  ///< on a scale; nothing: not chosen yet
+    bool by_mouse{false};          ///< no force device touches
+    std::string device_words{};    ///< what the device needs; empty: nothing
+    std::uintptr_t picture{0};     ///< texture of the page's picture; 0: none
     int picture_columns{1}, picture_rows{1};
-    float scale{1.0F};  ///< of the display
 };
 
 /// Whether the question is answered on a line instead of by one button each.
@@ -61,8 +64,8 @@ struct StudyShown {
 inline constexpr int kTwoFoldButton = 2;
 
 /// What the grip's button does now: the answers by number; the first one also goes on. On a scale
-/// the first two move the mark and the third one answers; at an adjustment the first two turn, the
-/// third one feels the other or, `held` for a second, says equal.
+/// the first two put the mark there, then move it, and the third one answers; at an adjustment the
+/// first two turn, the third one feels the other or, `held` for a second, says equal.
 [[nodiscard]] std::optional<StudyPress> press_of_button(const StudyRun& run, const StudyShown& view,
                                                         int button, bool held = false);
 

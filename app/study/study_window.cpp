@@ -34,8 +34,7 @@ WindowSize size_of(const StudyWindowOptions& options) {
     return {options.settings.width, options.settings.height, std::nullopt};
 }
 
-/// What is drawn tells nothing of what is felt: no texture, no force, no friction. (The height of
-/// the relief is seen, where it is felt.)
+/// Nothing of texture and force is drawn. (The height of the relief is seen, where it is felt.)
 void hide_condition(SceneContent& content) {
     content.bump = nullptr;
     content.maps = nullptr;
@@ -47,6 +46,27 @@ void hide_condition(SceneContent& content) {
                .goal = markers.goal,
                .proxy = markers.proxy,
                .normal = markers.normal};
+}
+
+/// Whether it goes on while its key is held.
+bool may_repeat(StudyPress::Kind kind) {
+    using enum StudyPress::Kind;
+    return kind == mark || kind == turn || kind == scroll;
+}
+
+/// `hand`, on the surface where it is below it.
+Vec3 lifted(Vec3 hand, const DepthSurface& surface) {
+    const bool over_it = is_finite(hand) && surface.clamped_to_frame(hand) == hand;
+    if (over_it) hand.z = std::max(hand.z, surface.elevation_at(hand.x, hand.y));
+    return hand;
+}
+
+/// Where the mouse points: on the surface, over it while the button is up. The virtual hand itself
+/// is held back by what it feels.
+Vec3 place_of(const MouseTarget& mouse, const DepthSurface& surface) {
+    const Vec2 at = mouse.cursor_in_grid;
+    const double above_px = mouse.pressed ? 0.0 : MouseHandOptions{}.hover_px;
+    return {at.x, at.y, surface.elevation_at(at.x, at.y) + above_px};
 }
 
 }  // namespace
@@ -67,6 +87,7 @@ StudyWindow::StudyWindow(const StudyWindowOptions& options, StudyRun& run, Study
     window_.on_display_loss([this] { leave_without_display(); });
     ending_.watch_display(display_connection());
     if (!options.size) window_.toggle_full_screen();
+    view_.before_start = run_.step() == StudyStep::interval;
 }
 
 StudyWindow::~StudyWindow() {
@@ -105,14 +126,14 @@ double StudyWindow::since_s(Clock::time_point moment) const {
 
 bool StudyWindow::felt() const noexcept {
     return (run_.step() == StudyStep::interval || run_.step() == StudyStep::adjust) &&
-           !view_.asks_to_leave;
+           !view_.asks_to_leave && !view_.before_start;
 }
 
 void StudyWindow::show_one_picture() {
     const WindowInput input = window_.take_input();
     beat();
     surface_.take_news(input.focus.in_front());
-    if (!entered_) enter_step();
+    if (!entered_ && !view_.before_start) enter_step();
     begin_if_there();
     look_at_time();
     take(input);
@@ -141,6 +162,7 @@ void StudyWindow::enter_step() {
     view_.left_share = 1.0;
     view_.picture = 0;
     view_.waits = false;
+    view_.first_picture = true;
     switch (run_.step()) {
         case StudyStep::instructions:
         case StudyStep::block_instructions:
@@ -151,12 +173,10 @@ void StudyWindow::enter_step() {
         case StudyStep::adjust:
             enter_interval();
             break;
-        case StudyStep::question: {
+        case StudyStep::question:
             surface_.rest();
-            const Question& question = run_.block().question;
-            view_.mark = std::round(0.5 * (question.lowest + question.highest));
+            view_.mark.reset();
             break;
-        }
         default:
             surface_.rest();
     }
@@ -208,7 +228,7 @@ void StudyWindow::begin_if_there() {
 }
 
 void StudyWindow::look_at_time() {
-    if (view_.waits || view_.asks_to_leave) return;
+    if (view_.waits || view_.asks_to_leave || view_.before_start) return;
     const Block* const block =
         run_.step() == StudyStep::interval || run_.step() == StudyStep::question ? &run_.block()
                                                                                  : nullptr;
@@ -243,10 +263,10 @@ void StudyWindow::hold_button() {
 void StudyWindow::take(const WindowInput& input) {
     take_buttons();
     for (const KeyPress& key : input.keys) {
-        const bool enter = list_key(key.key) == ListKey::take;
-        if (key.repeated && (enter || run_.step() != StudyStep::adjust)) continue;
-        const std::string name = enter ? "Enter" : name_of(Key{key.key});
-        if (const auto press = press_of_key(run_, view_, name, key.shift); press) act(*press);
+        const std::string name =
+            list_key(key.key) == ListKey::take ? "Enter" : name_of(Key{key.key});
+        const auto press = press_of_key(run_, view_, name, key.shift);
+        if (press && (!key.repeated || may_repeat(press->kind))) act(*press);
     }
     for (const TypedCharacter& typed : input.characters) {
         if (typed.repeated || typed.code > 0x7f) continue;
@@ -273,8 +293,15 @@ void StudyWindow::act(const StudyPress& press) {
         case leave:
             left_ = true;
             return;
+        case scroll:
+            view_.scroll += static_cast<float>(press.value);
+            return;
         default:
             break;
+    }
+    if (view_.before_start) {
+        view_.before_start = false;
+        return leave_step();
     }
     if (run_.step() == StudyStep::question) return act_at_question(press);
     if (run_.step() == StudyStep::adjust) return act_at_adjustment(press);
@@ -333,11 +360,7 @@ void StudyWindow::draw(const WindowInput& input) {
     const PointerUse use =
         mouse_.use(pointer, input.wheel_steps, mouse_is_over_button(), size, camera_);
     hand_seen_ = use.over_relief || !surface_.by_mouse();
-    if (felt() && !view_.waits) {
-        PointerUse touching = use;
-        if (!surface_.by_mouse()) touching.pressed = false;
-        surface_.point(camera_.ray_under(pointer.position_px, size), touching);
-    }
+    if (felt() && !view_.waits) point(camera_.ray_under(pointer.position_px, size), use);
     draw_relief();
     beat();
     view_.device_words = device_banner(surface_.state());
@@ -345,16 +368,45 @@ void StudyWindow::draw(const WindowInput& input) {
     gui_.begin(input.keys);
     const auto press = draw_study(run_, view_);
     gui_.end();
+    view_.first_picture = false;
+    view_.scroll = 0.0F;
     beat();
     if (press) act(*press);
 }
 
+void StudyWindow::point(const Camera::Ray& ray, const PointerUse& use) {
+    PointerUse touching = use;
+    if (!surface_.by_mouse()) touching.pressed = false;
+    surface_.point(ray, touching);
+    if (surface_.shown().makes_surface())
+        mouse_at_ = pointer_.target(ray, seen_surface(), touching);
+}
+
+/// What is drawn, without what is only felt.
+DepthSurface StudyWindow::seen_surface() const {
+    SurfaceShape shape = surface_.state().shape();
+    shape.roughness_px = 0.0;
+    return surface_.shown().drawn_surface(shape);
+}
+
+/// One point, which neither friction nor stiffness moves.
+void StudyWindow::show_hand_only(TouchMarkers& markers) const {
+    const DepthSurface surface = seen_surface();
+    const bool by_mouse = surface_.by_mouse();
+    const Vec3 hand = by_mouse ? place_of(mouse_at_, surface) : lifted(markers.goal, surface);
+    markers = {.visible = markers.visible && (!by_mouse || mouse_at_.pointing),
+               .goal = hand,
+               .proxy = hand};
+}
+
 /// Nothing where there is nothing to be felt, or nothing to be seen.
 void StudyWindow::draw_relief() {
-    const bool seen = felt() && !view_.waits && run_.block().view != StudyView::blank;
+    const StudyView view = run_.block().view;
+    const bool seen = felt() && !view_.waits && view != StudyView::blank;
     SceneContent content = scene_content(surface_.state(), surface_.shown());
     if (!seen) content = {.look = content.look, .light_wall = content.light_wall};
     hide_condition(content);
+    if (content.markers.visible && view == StudyView::relief) show_hand_only(content.markers);
     content.markers.visible = content.markers.visible && hand_seen_;
     scene_.draw(content, camera_, window_.framebuffer_size());
 }

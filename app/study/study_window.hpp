@@ -64,9 +64,12 @@ class StudyWindow {
     void answer(const StudyAnswer& answer);
     void draw(const WindowInput& input);
     void draw_relief();
+    void point(const Camera::Ray& ray, const PointerUse& use);
+    void show_hand_only(TouchMarkers& markers) const;
     void load_picture(const StudyPage& page);
     void beat();
     void leave_without_display();
+    [[nodiscard]] DepthSurface seen_surface() const;
     [[nodiscard]] bool felt() const noexcept;
     [[nodiscard]] bool over() const;
     [[nodiscard]] double since_s(Clock::time_point moment) const;
@@ -82,6 +85,8 @@ class StudyWindow {
     PicturePace pace_;
     Camera camera_{};
     ReliefMouse mouse_{};
+    HandPointer pointer_{};   // over what is drawn,
+    MouseTarget mouse_at_{};  // and where it points
     ColourTexture page_picture_{};
     StudyShown view_{};
     StudySurface surface_;

@@ -125,6 +125,61 @@ struct Sitting {
     TemporaryFolder folder{};
 };
 
+/// "interval 1", "rest", "interval 2", "rest" and so on.
+void require_intervals_and_rests(const std::vector<SessionMark>& marks) {
+    REQUIRE_FALSE(marks.empty());
+    REQUIRE(marks.size() % 2 == 0);
+    for (std::size_t k = 0; k < marks.size(); k += 2) {
+        CHECK(marks[k].tag.starts_with("interval "));
+        CHECK(marks[k + 1].tag == "rest");
+    }
+    CHECK(marks.front().tag == "interval 1");
+}
+
+/// Whether no interval is felt then: a mark is as exact as the thread that puts it is quick.
+bool rests_at(const std::vector<SessionMark>& marks, double t_s) {
+    constexpr double kExact_s = 0.01;
+    bool rests = true;
+    for (const SessionMark& mark : marks) {
+        if (std::abs(mark.t_s - t_s) < kExact_s) return false;
+        if (mark.t_s < t_s) rests = mark.tag == "rest";
+    }
+    return rests;
+}
+
+/// How many values of two pictures differ, of those rows of the display.
+std::size_t different(const std::string& first, const std::string& second, std::size_t from_row,
+                      std::size_t to_row) {
+    REQUIRE(first.size() == 1280 * 800 * 3);
+    REQUIRE(second.size() == first.size());
+    std::size_t count = 0;
+    for (std::size_t k = from_row * 1280 * 3; k < to_row * 1280 * 3; ++k)
+        count += std::abs(static_cast<unsigned char>(first[k]) -
+                          static_cast<unsigned char>(second[k])) > 2
+                     ? 1
+                     : 0;
+    return count;
+}
+
+/// For kStillHead, beside the page.
+void make_still(const Sitting& at) {
+    run_shell("cd " + at.folder.path().string() +
+              " && ffmpeg -nostdin -v error -y -f lavfi -i testsrc=s=320x240:d=1:r=1 -frames:v 1 "
+              "c.png && ffmpeg -nostdin -v error -y -f lavfi -i "
+              "gradients=s=320x240:d=1:r=1:seed=3:c0=black:c1=white -frames:v 1 -pix_fmt gray "
+              "d.png");
+}
+
+void find_window(const Sitting& at) {
+    at.desk.act("search --sync --onlyvisible --name dibhr sleep 0.5");
+}
+
+void leave(const Sitting& at, Process& program) {
+    at.press("Escape");
+    at.press("l");
+    CHECK(program.wait() == 0);
+}
+
 /// Each key does something at its own step only, whatever is slow: pages and intervals go on by
 /// Enter, as do scales and adjustments; the others are answered by 1.
 void touch_and_answer(const Sitting& at) {
@@ -165,12 +220,11 @@ TEST_CASE("a newcomer is led from the first page to the thanks by keys alone", "
         require_same_bits(at.folder, at.folder / "s" / name);
         const Session session(at.folder / "s" / name);
         REQUIRE_FALSE(session.marks().empty());
-        CHECK(session.marks().front().tag == "interval 1");
+        require_intervals_and_rests(session.marks());
         for (const Row& row : read_session(at.folder / "s" / name)) {
             touched = touched || (row.contact && glm::length(row.sent_newton) > 0.05);
-            // Nothing is felt before it is to be felt.
-            if (row.t_s < session.marks().front().t_s - 0.01)
-                CHECK(glm::length(row.sent_newton) == 0.0);
+            // Nothing is felt before it is to be felt, and after that.
+            if (rests_at(session.marks(), row.t_s)) CHECK(glm::length(row.sent_newton) == 0.0);
         }
     }
     CHECK(touched);
@@ -178,11 +232,7 @@ TEST_CASE("a newcomer is led from the first page to the thanks by keys alone", "
 
 TEST_CASE("nothing on the display tells one condition from another", "[study window]") {
     const Sitting at(kStillHead + kPairs);
-    run_shell("cd " + at.folder.path().string() +
-              " && ffmpeg -nostdin -v error -y -f lavfi -i testsrc=s=320x240:d=1:r=1 -frames:v 1 "
-              "c.png && ffmpeg -nostdin -v error -y -f lavfi -i "
-              "gradients=s=320x240:d=1:r=1:seed=3:c0=black:c1=white -frames:v 1 -pix_fmt gray "
-              "d.png");
+    make_still(at);
     Process program = at.desk.start(at.folder, at.words());
     at.desk.act("search --sync --onlyvisible --name dibhr mousemove 640 731 sleep 0.3");
     at.press("Return");
@@ -192,23 +242,117 @@ TEST_CASE("nothing on the display tells one condition from another", "[study win
     std::this_thread::sleep_for(3s);
     const std::string second = at.desk.picture();
     REQUIRE(first.size() == 1280 * 800 * 3);
-    std::size_t different = 0;
     std::size_t bright = 0;
-    for (std::size_t y = 120; y < 640; ++y) {  // without "1 of 2" and the button
-        for (std::size_t k = y * 1280 * 3; k < (y + 1) * 1280 * 3; ++k) {
-            different += std::abs(static_cast<unsigned char>(first[k]) -
-                                  static_cast<unsigned char>(second[k])) > 2
-                             ? 1
-                             : 0;
-            bright += static_cast<unsigned char>(first[k]) > 120 ? 1 : 0;
-        }
-    }
-    CHECK(bright > 10'000);  // the relief is there
-    CHECK(different == 0);
-    at.press("Escape");
-    at.press("l");
-    CHECK(program.wait() == 0);
+    for (std::size_t k = 120 * 1280 * 3; k < 640 * 1280 * 3; ++k)
+        bright += static_cast<unsigned char>(first[k]) > 120 ? 1 : 0;
+    CHECK(bright > 10'000);                          // the relief is there
+    CHECK(different(first, second, 120, 640) == 0);  // without "1 of 2" and the button
+    leave(at, program);
     CHECK(at.record().answered.empty());
+}
+
+TEST_CASE("what is seen tells nothing of friction, unless the study wants it", "[study window]") {
+    const auto [view, same] =
+        GENERATE(table<std::string, bool>({{"relief", true}, {"touch", false}}));
+    CAPTURE(view);
+    const Sitting at(kTitle + R"([[media]]
+name = "still"
+colour = "c.png"
+depth = "d.png"
+[base]
+media = "still"
+[[condition]]
+name = "slippery"
+friction = 0
+[[condition]]
+name = "dull"
+friction = 3
+[[block]]
+form = "two-interval"
+pairs = "all"
+order = "listed"
+question = "Which was smoother?"
+)" + "view = \"" + view +
+                     "\"\n");
+    make_still(at);
+    Process program = at.desk.start(at.folder, at.words());
+    find_window(at);
+    const auto pressed_and_moved = [&] {
+        at.press("Return");
+        std::this_thread::sleep_for(2s);
+        at.desk.act("mousemove 400 420 sleep 0.5 mousedown 1 sleep 0.7");
+        for (int k = 0; k < 12; ++k) at.desk.act("mousemove_relative 5 2 sleep 0.05");
+        at.desk.act("sleep 1");
+        std::string picture = at.desk.picture();
+        at.desk.act("mouseup 1");
+        return picture;
+    };
+    const std::string first = pressed_and_moved();
+    const std::string second = pressed_and_moved();
+    CHECK((different(first, second, 120, 640) == 0) == same);
+    leave(at, program);
+}
+
+TEST_CASE("a rating that nobody chose is no answer", "[study window]") {
+    const auto [scale, chosen] = GENERATE(table<std::string, double>(
+        {{"lowest = 0\nhighest = 100", 51.0}, {"lowest = 1\nhighest = 7", 5.0}}));
+    CAPTURE(scale);
+    const Sitting at(kHead + R"([[block]]
+form = "rating"
+conditions = ["secret-ice"]
+question = "How smooth?"
+[block.scale]
+)" + scale + "\n");
+    Process program = at.desk.start(at.folder, at.words());
+    find_window(at);
+    at.press("Return");
+    std::this_thread::sleep_for(2s);
+    for (int k = 0; k < 5; ++k) at.press("Return");        // the interval, and then the question
+    CHECK(std::filesystem::exists(at.running_session()));  // nobody has answered
+    at.press("Right");                                     // the middle,
+    at.press("Right");                                     // and one more
+    at.press("Return");
+    at.until_it_ends(program, [&] { at.press("Return"); });
+    CHECK(program.wait() == 0);
+    REQUIRE(at.record().answered.size() == 1);
+    CHECK(at.record().answered[0].answer.number == chosen);
+}
+
+TEST_CASE("the button of a page is in sight however long the page is", "[study window]") {
+    std::string text;
+    for (int k = 0; k < 60; ++k) text += "A paragraph that is to be read before it begins.\\n\\n";
+    const Sitting at("title = \"T\"\ninstructions = \"" + text + "\"\n[base]\n" + kConditions +
+                     kPairs);
+    Process program = at.desk.start(at.folder, at.words());
+    find_window(at);
+    const std::string above = at.desk.picture();
+    at.press("Next");
+    CHECK(different(above, at.desk.picture(), 0, 800) > 1000);  // it is scrolled
+    CHECK_FALSE(std::filesystem::exists(at.running_session()));
+    at.desk.act("mousemove 640 743 sleep 0.3 mousedown 1 sleep 0.2 mouseup 1");
+    FalconOnUsb::wait_until([&] { return std::filesystem::exists(at.running_session()); });
+    leave(at, program);
+}
+
+TEST_CASE("what was broken off goes on when its participant says so", "[study window]") {
+    const Sitting at(kHead + kPairs);
+    {
+        Process program = at.desk.start(at.folder, at.words());
+        find_window(at);
+        at.press("Return");
+        FalconOnUsb::wait_until([&] { return std::filesystem::exists(at.running_session()); });
+        while (std::filesystem::exists(at.running_session())) touch_and_answer(at);
+        program.send(SIGTERM);
+        CHECK(program.wait() == 0);
+    }
+    REQUIRE(at.record().answered.size() == 1);
+    Process again = at.desk.start(at.folder, at.words());
+    find_window(at);
+    std::this_thread::sleep_for(3s);
+    CHECK_FALSE(std::filesystem::exists(at.running_session()));
+    at.press("Return");
+    FalconOnUsb::wait_until([&] { return std::filesystem::exists(at.running_session()); });
+    leave(at, again);
 }
 
 TEST_CASE("trials are felt and answered with the Falcon alone", "[study window]") {
