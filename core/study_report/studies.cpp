@@ -78,8 +78,9 @@ void require_one_protocol(const std::vector<StudyRecord>& records) {
             ++group.others;
     }
     if (groups.size() == 1) return;
-    std::string text = "the files are of " + std::to_string(groups.size()) +
-                       " protocols, or versions of one: report on each by itself";
+    std::string text =
+        "some of these files are of another protocol than others, or of a page that was changed: "
+        "report on each protocol by itself";
     for (const auto& [sha256, group] : groups)
         text += "; of " + in_quotes(group.protocol) + " (SHA-256 " + sha256.substr(0, 8) +
                 "..): " + listed(group.files) +

@@ -314,15 +314,15 @@ TEST_CASE("files of another protocol, of the same participant, or with made-up t
     const auto first = made("1", "P1", text);
     CHECK(refusal({first}).empty());
     CHECK(contains(refusal({first, made("2", "P1", text)}), "give one of the two"));
-    CHECK(
-        contains(refusal({first, made("3", "P3", text + "repetitions = 2\n")}), "of 2 protocols"));
+    CHECK(contains(refusal({first, made("3", "P3", text + "repetitions = 2\n")}),
+                   "another protocol"));
     const auto text_file = folder / "notes.txt";
     write_text(text_file, "P1 was tired");
     CHECK(contains(refusal({first, text_file}), "is no study file"));
     // Of a protocol with other blocks: told as such, though its trials would fit none here.
     const auto other =
         made("5", "P5", page_of_conditions(2, "[[block]]\nform = \"rating\"\nquestion = \"?\"\n"));
-    CHECK(contains(refusal({first, other}), "of 2 protocols"));
+    CHECK(contains(refusal({first, other}), "another protocol"));
     CHECK(contains(refusal({first, other}), other.string()));
     for (const char* const lie : {"block = 7", "item = 9", "item = -1", "choice = 5", "level = 0.5",
                                   "form = 'rating'", "practice = 1", "number = 3, choice = -1"}) {
