@@ -61,6 +61,8 @@ class TouchRun {
         auto media = options.colour.empty() ? open_depth(options.depth, request)
                                             : open_media(options.colour, options.depth, request);
         print_warning(media->description().notice);
+        if (options.video && (parameters.carry || options.touch.in_betweens.value_or(false)))
+            print_warning(motion_trouble(media->description()));
         options.touch.given.fit(media->description(), options.touch.raw_depth, parameters);
         const CleaningOptions cleaning = options.touch.cleaning(parameters, media->description());
         if (cleaning.preset == CleaningPreset::own && cleaning.own.colour_edges &&

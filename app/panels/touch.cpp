@@ -12,6 +12,13 @@ namespace dibhr {
 namespace {
 
 /// In a replay: whose parameters these are, and the way back to those of the recording.
+/// Where there is anything to be carried by.
+void draw_motion_trouble(const ViewerState& state) {
+    if (!state.settings.touch.carry || state.media.depth_path.empty()) return;
+    const std::string trouble = motion_trouble(state.media);
+    if (!trouble.empty()) quiet_text(capitalised(trouble) + '.');
+}
+
 void draw_origin(ViewerState& state) {
     if (!state.replay) return;
     if (!state.replay->computes) {
@@ -196,6 +203,7 @@ void draw_touch_panel(ViewerState& state) {
     flag_row("Carried along", state.settings.touch.carry, Settings{}.touch.carry,
              "What moves in the video takes along what touches it: friction and damping are of the "
              "difference of the two speeds (--carry)");
+    draw_motion_trouble(state);
     draw_bump(state);
     draw_numbers(TouchTopic::texture, state.settings.touch);
     if (!state.bump && !state.replay) quiet_text("Roughness needs a bump map to be felt.");

@@ -122,6 +122,25 @@ std::optional<RawFrame> Media::next_from(double earliest_s) {
     return first_from(earliest_s, *this, &RawFrame::media_s);
 }
 
+std::string motion_trouble(const MediaDescription& media) {
+    if (media.still) return {};
+    if (media.colour_path.empty())
+        return "without colour, motion is seen at the depth's outlines alone";
+    if (media.colour_still) return "the colour stands still: no motion is seen in it";
+    if (media.live) return {};
+    const double rate = media.colour_frames_per_s;
+    constexpr double kSameRate = 0.95;
+    if (rate > 0.0 && rate < kSameRate * media.frames_per_s)
+        return "the colour has " + short_text(rate, 3) + " pictures a second and the depth " +
+               short_text(media.frames_per_s, 3) + ": what moves is seen to go in jerks";
+    const double after_s = media.colour_duration_s;
+    const double frame_s = media.frames_per_s > 0.0 ? 1.0 / media.frames_per_s : 0.0;
+    if (after_s > 0.0 && after_s + 2.0 * frame_s < media.duration_s)
+        return "the colour ends after " + short_text(after_s, 3) + " s, the depth after " +
+               short_text(media.duration_s, 3) + " s: no motion is seen in between";
+    return {};
+}
+
 Fit fit_of(const MediaDescription& media) {
     if (media.true_fit) return *media.true_fit;
     const double columns = std::max(media.depth_columns, 2);

@@ -90,6 +90,9 @@ struct MediaDescription {
     std::int64_t frames{0};    ///< an estimate until the end was reached
     bool frames_exact{false};  ///< the end was reached: frames and duration are those of the file
     bool still{false};
+    double colour_frames_per_s{0.0};  ///< of a colour file of its own; 0: a still, or not known
+    double colour_duration_s{0.0};    ///< likewise
+    bool colour_still{false};
     bool live{false};  ///< it comes as it happens: no length, no end, and nothing is sought in it
     /// A sentence once a file turned out to hold less than at its opening: it was cut or
     /// overwritten meanwhile. What is left goes on.
@@ -104,6 +107,9 @@ struct MediaDescription {
 /// Falcon's hand reaches, 101.6 mm: as in the paper, whatever the picture's size. A true shape fits
 /// as it is.
 [[nodiscard]] Fit fit_of(const MediaDescription& media);
+
+/// Why what moves in it is seen badly or not at all, in one sentence; empty: nothing is against it.
+[[nodiscard]] std::string motion_trouble(const MediaDescription& media);
 
 /// What is asked for, or where that is automatic what is said of the media.
 [[nodiscard]] CleaningOptions cleaning_on(const MediaDescription& media, CleaningOptions asked);

@@ -60,6 +60,9 @@ void describe_colour(const SourceFacts& facts, MediaDescription& description) {
     description.colour_columns = facts.columns;
     description.colour_rows = facts.rows;
     description.colour_codec = facts.codec;
+    description.colour_frames_per_s = facts.still ? 0.0 : facts.frames_per_s;
+    description.colour_duration_s = facts.duration_s;
+    description.colour_still = facts.still;
 }
 
 void describe_time(const SourceFacts& facts, MediaDescription& description) {

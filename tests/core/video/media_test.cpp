@@ -295,3 +295,34 @@ TEST_CASE("a media file describes itself without its partner", "[media]") {
     CHECK(clip.frames_exact);
     CHECK(clip.depth_path.empty());
 }
+
+TEST_CASE("what lets motion be seen badly is told in a sentence, and nothing where all is well",
+          "[video]") {
+    MediaDescription media;
+    media.colour_path = "c.mp4";
+    media.depth_path = "d.mp4";
+    media.frames_per_s = media.colour_frames_per_s = 30.0;
+    media.duration_s = media.colour_duration_s = 2.0;
+    CHECK(motion_trouble(media).empty());
+    SECTION("colour of twice the rate, or longer, is fine") {
+        media.colour_frames_per_s = 60.0;
+        media.colour_duration_s = 9.0;
+        CHECK(motion_trouble(media).empty());
+    }
+    SECTION("of a lower rate") {
+        media.colour_frames_per_s = 25.0;
+        CHECK(motion_trouble(media).find("25 pictures a second") != std::string::npos);
+    }
+    SECTION("shorter") {
+        media.colour_duration_s = 1.5;
+        CHECK(motion_trouble(media).find("ends after 1.5 s") != std::string::npos);
+    }
+    SECTION("a still, or none") {
+        media.colour_still = true;
+        CHECK(motion_trouble(media).find("stands still") != std::string::npos);
+        media.colour_path.clear();
+        CHECK(motion_trouble(media).find("without colour") != std::string::npos);
+        media.still = true;
+        CHECK(motion_trouble(media).empty());
+    }
+}
