@@ -12,6 +12,7 @@
 #include "app/commands/terminal_guide.hpp"
 #include "app/settings/settings.hpp"
 #include "core/error.hpp"
+#include "core/files/content_hash.hpp"
 #include "core/realtime/tick_timer.hpp"
 #include "device/falcon/check/check.hpp"
 #include "device/falcon/survey.hpp"
@@ -105,6 +106,7 @@ int check(const FirmwareAtHand& firmware, const std::filesystem::path& record) {
     const std::filesystem::path settings_file = settings_path();
     const auto guide = make_terminal_guide();
     const Facts facts{{"program", "dibhr " DIBHR_VERSION},
+                      {"program_sha256", sha256_of_file("/proc/self/exe")},
                       {"thread_priority", become_realtime("dibhr check").priority.answer}};
     const bool of_inverse3 =
         falcon::attached_falcons().empty() &&

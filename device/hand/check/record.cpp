@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/files/output_file.hpp"
+#include "device/hand/check/machine.hpp"
 
 namespace dibhr {
 
@@ -15,14 +16,18 @@ namespace {
 constexpr std::array kNamesOfEnds{"done", "skipped", "let go", "quit", "failed", "not begun"};
 static_assert(kNamesOfEnds.size() == static_cast<std::size_t>(CheckEnd::not_begun) + 1);
 
-/// Now, in UTC, as strftime() has it.
-std::string utc(const char* format) {
+/// Now, as strftime() has it.
+std::string moment(const char* format, std::tm* (*in_zone)(const std::time_t*, std::tm*)) {
     const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
     std::tm parts{};
-    gmtime_r(&now, &parts);
+    in_zone(&now, &parts);
     std::array<char, 64> text{};
     const std::size_t size = std::strftime(text.data(), text.size(), format, &parts);
     return {text.data(), size};
+}
+
+std::string utc(const char* format) {
+    return moment(format, gmtime_r);
 }
 
 /// A serial is whatever the device says: letters, digits and dashes of it.
@@ -75,8 +80,10 @@ CheckRecord::CheckRecord(std::filesystem::path file, const CheckedDevice& device
     head_ = {{"format", "dibhr " + device.kind + " check"},
              {"format_version", 1},
              {"begun_utc", utc("%Y-%m-%dT%H:%M:%SZ")},
+             {"begun_local", moment("%Y-%m-%dT%H:%M:%S%z", localtime_r)},
              {device.name_key, device.name}};
     for (const auto& [name, value] : facts) head_[name] = value;
+    head_["machine"] = machine_facts();
 }
 
 void CheckRecord::add(const char* step, CheckEnd end, const std::string& remark, double seconds,
@@ -93,6 +100,7 @@ void CheckRecord::write(const CheckFindings& findings) const {
     Json record = head_;
     record["steps"] = steps_;
     findings.add_to(record);
+    if (!legend_.is_null()) record["legend"] = legend_;
     OutputFile out(file_);
     out.write(json_text(record));
     out.commit();

@@ -57,6 +57,10 @@ class CheckRecord {
     CheckRecord(std::filesystem::path file, const CheckedDevice& device,
                 const std::vector<std::pair<std::string, std::string>>& facts);
 
+    /// Adds these members to its head.
+    void tell(const Json& members) { head_.update(members); }
+    /// What its names mean, as its last member.
+    void explain(Json legend) { legend_ = std::move(legend); }
     /// `remark`: why it failed or was not begun.
     void add(const char* step, CheckEnd end, const std::string& remark, double seconds,
              const Json& measured);
@@ -69,6 +73,7 @@ class CheckRecord {
     std::filesystem::path file_;
     Json head_{};
     Json steps_ = Json::array();
+    Json legend_{};
 };
 
 }  // namespace dibhr

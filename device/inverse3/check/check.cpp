@@ -40,8 +40,14 @@ constexpr std::array kSteps{
           "Hold the grip loosely; any key lets go.",
           StepNeeds::person_for_force},
          check_silence},
+    Step{{"closing", "The force when its connection ends",
+          "FORCE, 0.5 N to the left, three times, while the program breaks its connection off "
+          "without a zero, as if it died, and connects anew, at last after 2 s. Hold the grip "
+          "loosely, and count the seconds that it pulls the last time; any key lets go.",
+          StepNeeds::person_for_force},
+         check_closing},
     Step{{"force", "Force on a kitchen scale",
-          "FORCE, 1, 2 and 3 N downwards for at most 3 s each: the grip presses on a kitchen "
+          "FORCE, 1, 2, 3 and 4 N downwards for at most 3 s each: the grip presses on a kitchen "
           "scale, and you type the grams. Put the scale under the grip, on something that does "
           "not give way, and set it to zero; hands and hair away. Any key lets go.",
           StepNeeds::person_for_force},
@@ -53,6 +59,17 @@ constexpr std::array kSteps{
          check_unplugged},
 };
 
+/// What belongs to the whole record.
+Json about(const CheckTalk& talk, const ConnectionOptions& connection) {
+    Json head{{"simulated", talk.is_simulated()},
+              {"service_port", connection.port},
+              {"older_port", connection.older_port},
+              {"dialect_setting", connection.dialect ? name_of(*connection.dialect) : "automatic"},
+              {"preset_asked", talk.newer() ? Json(connection.preset.view()) : Json()}};
+    head.update(told_frame(talk));
+    return head;
+}
+
 }  // namespace
 
 CheckResult run_check(const CheckOptions& options, CheckGuide& guide) {
@@ -61,6 +78,11 @@ CheckResult run_check(const CheckOptions& options, CheckGuide& guide) {
     CheckRecord record(options.record, {"inverse3", "device_id", talk.id()}, options.facts);
     guide.say("Checks the Inverse3 " + talk.id() + "; the record is " + record.file().string() +
               ", written again after every step.");
+    record.tell(about(talk, options.connection));
+    record.explain(check_legend());
+    if (talk.is_simulated()) {
+        guide.say("This is dibhr's own simulated service: nothing here is measured on a device.");
+    }
     if (const std::string fault = talk.unguarded(); !fault.empty()) guide.say(fault);
     CheckRun run(desk, record, desk.findings, kSteps.size(), [&] { talk.let_go(); });
     for (const Step& step : kSteps) {

@@ -25,11 +25,12 @@ enum class OpenQuestion : std::size_t {
     dialect,
     in_use,
     silence,
+    closed,
     force,
     unplugged
 };
 
-inline constexpr std::array<CheckQuestion, 10> kQuestions{{
+inline constexpr std::array<CheckQuestion, 11> kQuestions{{
     {"service", "Version and devices"},
     {"rate", "Exchanges a second, and how long one takes"},
     {"device-rate", "New positions a second"},
@@ -38,6 +39,7 @@ inline constexpr std::array<CheckQuestion, 10> kQuestions{{
     {"dialect", "How a force is spelled"},
     {"in-use", "Whom in_use means"},
     {"silence", "The force without a new message"},
+    {"closed", "The force when its connection ends without a zero"},
     {"force", "Force at the grip"},
     {"unplugged", "The entry of an unplugged device"},
 }};
@@ -55,22 +57,31 @@ struct CheckDesk final : CheckQuestions {
     void settle(OpenQuestion question, std::string found) {
         findings.settle(static_cast<std::size_t>(question), std::move(found));
     }
-    /// As it was found out, or else by the version.
+    /// As it was found out, or else as the settings have it, or by the version.
     [[nodiscard]] ForceDialect likely_dialect() const noexcept {
-        return dialect.value_or(talk.newer() ? ForceDialect::vector : ForceDialect::values);
+        const ForceDialect by_version = talk.newer() ? ForceDialect::vector : ForceDialect::values;
+        return dialect.value_or(options.connection.dialect.value_or(by_version));
     }
+    /// An Enter was waited for so long.
+    void tell_gone_on(CheckTimes::Span after) const;
 
   private:
     void keep_talking() override;
 };
 
-// The steps. They add what they measure; they throw StepSkipped, PersonQuits, and DeviceError when
-// the device fails.
+/// Preset and axes that the positions are told in, as read back; null: not told.
+[[nodiscard]] Json told_frame(const CheckTalk& talk);
+/// What every name in the record means: the head's under "record", the others under their step.
+[[nodiscard]] Json check_legend();
+
+// The steps. They add what they measure; they throw StepSkipped, ForceLetGo, PersonQuits, and
+// DeviceError when the device fails.
 void check_service(CheckDesk& desk, Json& measured);
 void check_rate(CheckDesk& desk, Json& measured);
 void check_moving(CheckDesk& desk, Json& measured);
 void check_dialect(CheckDesk& desk, Json& measured);
 void check_silence(CheckDesk& desk, Json& measured);
+void check_closing(CheckDesk& desk, Json& measured);
 void check_force(CheckDesk& desk, Json& measured);
 void check_unplugged(CheckDesk& desk, Json& measured);
 

@@ -1,72 +1,21 @@
 // The steps with force: how it is spelled, how long it lasts, and how strong it is.
 #include <glm/geometric.hpp>
 
-#include <algorithm>
+#include <array>
+#include <string>
 
 #include "core/files/plain_text.hpp"
 #include "device/inverse3/check/desk.hpp"
+#include "device/inverse3/check/numbers.hpp"
+#include "device/inverse3/check/push.hpp"
 
 namespace dibhr::inverse3 {
 
 namespace {
 
-using Clock = CheckTalk::Clock;
-
-constexpr Vec3 kWeak_newton{-0.5, 0.0, 0.0};  // to the left
-constexpr double kToldBack = 0.05;            // of a force: filters may take most of it away
 constexpr double kGravity = 9.80665;
 constexpr double kHeaviest_g = 2000.0;
-
-/// While it lives a force acts; at its end it does not, whatever happened.
-class Push {
-  public:
-    explicit Push(CheckDesk& desk) : desk_(desk) { desk_.guide.force_begins(); }
-    ~Push() {
-        desk_.talk.let_go();
-        desk_.guide.force_ended();
-    }
-    Push(const Push&) = delete;
-    Push& operator=(const Push&) = delete;
-
-    // These throw ForceLetGo, PersonQuits and DeviceError.
-
-    /// Rises to the force and holds it for `hold`; the last state.
-    Arm hold(Vec3 force_newton, ForceDialect dialect, CheckTimes::Span hold) {
-        const auto begin = Clock::now();
-        const auto ramp = std::chrono::duration<double>(desk_.options.times.ramp);
-        const auto end = begin + desk_.options.times.ramp + hold;
-        Arm last;
-        while (Clock::now() < end) {
-            if (!goes_on()) throw ForceLetGo{};
-            const std::chrono::duration<double> since = Clock::now() - begin;
-            const double share = std::min(1.0, since / ramp);
-            last = desk_.talk.exchange(share * force_newton, dialect).arm;
-            if (!last.calibrated || !last.powered) {
-                throw DeviceError("the Inverse3 lost its calibration or its power");
-            }
-        }
-        return last;
-    }
-
-    /// Sends nothing.
-    void be_silent(CheckTimes::Span span) {
-        if (!desk_.talk.keep_silent(span, [this] { return goes_on(); })) throw ForceLetGo{};
-    }
-
-  private:
-    [[nodiscard]] bool goes_on() {
-        const CheckGuide::Wish wish = desk_.guide.wish();
-        if (wish == CheckGuide::Wish::quit) throw PersonQuits{};
-        return wish == CheckGuide::Wish::none;
-    }
-
-    CheckDesk& desk_;
-};
-
-bool told_back(const Arm& state) {
-    return state.force_newton &&
-           glm::length(*state.force_newton) >= kToldBack * glm::length(kWeak_newton);
-}
+constexpr std::array kOnTheScale_newton{1.0, 2.0, 3.0, 4.0};  // the last is the viewer's own limit
 
 /// What in_use said before a force of ours, at its end, and after it.
 struct InUse {
@@ -79,44 +28,98 @@ struct InUse {
     }
 };
 
-/// Asked after the force has gone.
-bool was_felt(CheckDesk& desk, ForceDialect dialect) {
-    const std::string answer = desk.word(std::string("Did the grip pull to the left with \"") +
-                                         name_of(dialect) + "\"? y or n");
-    return answer == "y" || answer == "yes";
+/// What became of a force that was spelled so.
+struct Spelled {
+    ForceDialect dialect{};
+    bool told{false};
+    bool felt{false};
+
+    [[nodiscard]] std::string in_words() const {
+        const std::string name = name_of(dialect);
+        if (felt) return name + " is felt" + (told ? " and told back" : "");
+        return name + (told ? " is told back but not felt" : " is not felt");
+    }
+};
+
+Spelled pull_with(CheckDesk& desk, ForceDialect dialect, InUse& in_use, Json& part) {
+    Spelled found{dialect};
+    try {
+        Push push(desk);
+        push.hold(kWeak_newton, dialect, desk.options.times.dialect);
+        push.add_to(part);
+        found.told = tells_weak_force(*push.last());
+        in_use.during = in_use.during || push.last()->in_use;
+    } catch (const LinkError&) {
+        throw;
+    } catch (const DeviceError& complaint) {
+        part["complaint"] = complaint.what();
+    }
+    // Asked after the force has gone.
+    found.felt = desk.yes_or_no(std::string("Did the grip pull to the left with \"") +
+                                name_of(dialect) + "\"?");
+    part["told_back"] = found.told;
+    part["felt"] = found.felt;
+    return found;
+}
+
+/// What is told back proves only that the service understood: only what is felt is chosen for good.
+void choose_dialect(CheckDesk& desk, const std::array<Spelled, 2>& spelled) {
+    std::string words = spelled[0].in_words() + "; " + spelled[1].in_words();
+    bool any_felt = false;
+    for (const Spelled& one : spelled) {
+        if (one.felt && !any_felt) desk.dialect = one.dialect;
+        if (one.told && !desk.dialect) desk.dialect = one.dialect;
+        any_felt = any_felt || one.felt;
+    }
+    if (any_felt) desk.findings.set("dialect", '"' + std::string(name_of(*desk.dialect)) + '"');
+    if (!any_felt && desk.dialect) words += "; so no line for the settings file follows";
+    desk.settle(OpenQuestion::dialect, words);
+}
+
+/// Whether a force that was pushed with is still told after a silence.
+void be_silent_once(CheckDesk& desk, ForceDialect dialect, CheckTimes::Span silence, ForceEnd& end,
+                    Json& line) {
+    line["silence_ms"] = silence.count();
+    Push push(desk);
+    push.hold(kWeak_newton, dialect, desk.options.times.short_hold);
+    if (!push.last()->force_newton) return;
+    line["force_before_newton"] = glm::length(*push.last()->force_newton);
+    const auto pushed_at = desk.talk.sent_at();
+    push.be_silent(silence);
+    const Arm after = desk.talk.exchange(std::nullopt, dialect).arm;
+    const std::chrono::duration<double, std::milli> gap = desk.talk.sent_at() - pushed_at;
+    line["gap_ms"] = gap.count();
+    line["force_newton"] = after.force_newton ? Json(glm::length(*after.force_newton)) : Json();
+    if (tells_weak_force(*push.last())) end.add(gap.count(), tells_weak_force(after));
+}
+
+/// Presses once, until the person lets go.
+void press(CheckDesk& desk, double wanted_newton, Json& part) {
+    Push push(desk);
+    bool let_go = false;
+    try {
+        push.hold({0.0, 0.0, -wanted_newton}, desk.likely_dialect(), desk.options.times.hold);
+    } catch (const ForceLetGo&) {
+        let_go = true;
+    }
+    part["let_go"] = let_go;
+    push.add_to(part);
 }
 
 }  // namespace
 
 void check_dialect(CheckDesk& desk, Json& measured) {
-    std::string words;
     InUse in_use;
     in_use.before = desk.talk.exchange(std::nullopt, desk.likely_dialect()).arm.in_use;
-    for (const ForceDialect dialect : {ForceDialect::vector, ForceDialect::values}) {
-        Json& part = measured[name_of(dialect)] = Json::object();
-        if (dialect != ForceDialect::vector) {
+    std::array<Spelled, 2> spelled{Spelled{ForceDialect::vector}, Spelled{ForceDialect::values}};
+    for (Spelled& one : spelled) {
+        if (one.dialect == ForceDialect::values) {
             desk.agree_to_force("F and Enter = pull with the other spelling, s = skip, q = quit");
         }
-        bool told = false;
-        try {
-            Push push(desk);
-            const Arm last = push.hold(kWeak_newton, dialect, desk.options.times.dialect);
-            told = told_back(last);
-            in_use.during = in_use.during || last.in_use;
-        } catch (const LinkError&) {
-            throw;
-        } catch (const DeviceError& complaint) {
-            part["complaint"] = complaint.what();
-        }
-        const bool felt = was_felt(desk, dialect);
-        part["told_back"] = told;
-        part["felt"] = felt;
-        if ((felt || told) && !desk.dialect) desk.dialect = dialect;
-        words += (words.empty() ? "" : "; ") + std::string(name_of(dialect)) +
-                 (felt ? " is felt" : " is not felt") + (told ? " and told back" : "");
+        Json& part = measured[name_of(one.dialect)] = Json::object();
+        one = pull_with(desk, one.dialect, in_use, part);
     }
-    if (desk.dialect) desk.findings.set("dialect", '"' + std::string(name_of(*desk.dialect)) + '"');
-    desk.settle(OpenQuestion::dialect, words);
+    choose_dialect(desk, spelled);
     in_use.after = desk.talk.exchange(std::nullopt, desk.likely_dialect()).arm.in_use;
     measured["in_use"] = {
         {"before", in_use.before}, {"during", in_use.during}, {"after", in_use.after}};
@@ -125,48 +128,47 @@ void check_dialect(CheckDesk& desk, Json& measured) {
 
 void check_silence(CheckDesk& desk, Json& measured) {
     const ForceDialect dialect = desk.likely_dialect();
-    std::optional<CheckTimes::Span> gone_after;
+    measured["dialect"] = name_of(dialect);
+    measured["silences"] = Json::array();
+    ForceEnd end;
     for (const CheckTimes::Span silence : desk.options.times.silences) {
-        Push push(desk);
-        (void)push.hold(kWeak_newton, dialect, CheckTimes::Span(100));
-        push.be_silent(silence);
-        const Arm after = desk.talk.exchange(std::nullopt, dialect).arm;
-        Json line{{"silence_ms", silence.count()}};
-        if (!after.force_newton) {
-            measured["told"] = false;
-            throw DeviceError("this service does not tell its force: it cannot be measured so");
+        Json& line = measured["silences"].emplace_back(Json::object());
+        be_silent_once(desk, dialect, silence, end, line);
+        if (!line.contains("force_before_newton")) {
+            desk.guide.say("This service does not tell its force: it cannot be measured so.");
+            throw StepSkipped{};
         }
-        line["force_newton"] = glm::length(*after.force_newton);
-        measured["silences"].push_back(line);
-        const bool acts = told_back(after);
-        if (!acts && !gone_after) gone_after = silence;
-        if (acts) gone_after.reset();
     }
+    end.add_to(measured);
     desk.settle(OpenQuestion::silence,
-                gone_after ? "gone after " + std::to_string(gone_after->count()) + " ms at most"
-                           : "still told after the longest silence");
+                end.in_words() + ", as told to a message without force, which may itself end it");
 }
 
 void check_force(CheckDesk& desk, Json& measured) {
     std::string words;
-    for (const double wanted_newton : {1.0, 2.0, 3.0}) {
+    measured["pushes"] = Json::array();
+    for (const double wanted_newton : kOnTheScale_newton) {
         desk.agree_to_force("F and Enter = press with " + number_text(wanted_newton, 0) +
                             " N, s = skip, q = quit");
-        {
-            Push push(desk);
-            (void)push.hold({0.0, 0.0, -wanted_newton}, desk.likely_dialect(),
-                            desk.options.times.hold);
-        }
-        const auto grams =
-            desk.number("Grams at the end (Enter alone: not read)", 0.0, kHeaviest_g);
+        Json& part = measured["pushes"].emplace_back(Json{{"wanted_newton", wanted_newton}});
+        press(desk, wanted_newton, part);
+        const bool let_go = part["let_go"].get<bool>();
+        if (let_go) desk.guide.say("Let go: no force any more.");
+        if (let_go && !(part.value("held_s", 0.0) > 0.0)) continue;
+        const auto grams = desk.number(
+            "Grams that the scale showed while the force acted, at its end (Enter alone: not read)",
+            0.0, kHeaviest_g);
         if (!grams) continue;
         const double felt_newton = *grams * kGravity / 1000.0;
-        measured["pushes"].push_back(
-            {{"wanted_newton", wanted_newton}, {"grams", *grams}, {"newton", felt_newton}});
+        const double share = felt_newton / wanted_newton;
+        part["grams"] = *grams;
+        part["newton"] = felt_newton;
+        part["share"] = share;
+        if (let_go) continue;
         words += (words.empty() ? "" : ", ") + number_text(felt_newton, 2) + " N of " +
-                 number_text(wanted_newton, 0);
+                 number_text(wanted_newton, 0) + " (" + number_text(100.0 * share, 0) + " %)";
+        desk.settle(OpenQuestion::force, words);
     }
-    if (!words.empty()) desk.settle(OpenQuestion::force, words);
 }
 
 }  // namespace dibhr::inverse3

@@ -6,6 +6,7 @@
 
 #include "device/inverse3/farewell.hpp"
 #include "device/inverse3/service_version.hpp"
+#include "device/inverse3/simulated/name.hpp"
 #include "device/inverse3/survey.hpp"
 
 namespace dibhr::inverse3 {
@@ -14,12 +15,41 @@ namespace {
 
 constexpr std::chrono::milliseconds kAnswerTakes{1000};
 constexpr std::chrono::milliseconds kInventoryTakes{500};
+constexpr std::chrono::milliseconds kVersionTakes{300};
 constexpr std::chrono::milliseconds kBeatsEvery{10};  // the guardian is told; it waits for 50 ms
 constexpr std::chrono::milliseconds kLooksEvery{5};   // whether the person lets go
 
+/// Text that is no JSON stays text.
+Json as_told(std::string_view text) {
+    Json told = Json::parse(text, nullptr, false);
+    return told.is_discarded() ? Json(text) : told;
+}
+
+/// Null: /version answers on no port.
+Json version_told(const ConnectionOptions& options) {
+    for (const std::uint16_t port : {options.port, options.older_port}) {
+        try {
+            return as_told(http_get(port, "/version", CheckTalk::Clock::now() + kVersionTakes));
+        } catch (const LinkError&) {
+            continue;
+        }
+    }
+    return {};
+}
+
 }  // namespace
 
-CheckTalk::CheckTalk(const ConnectionOptions& options) {
+Json config_in(const Json& whole_state, const std::string& id) {
+    if (!whole_state.is_object()) return Json::object();
+    for (const Json& entry : whole_state.value("inverse3", Json::array())) {
+        if (entry.is_object() && entry.value("device_id", Json()) == Json(id)) {
+            return entry.value("config", Json::object());
+        }
+    }
+    return Json::object();
+}
+
+CheckTalk::CheckTalk(const ConnectionOptions& options) : options_(options) {
     const Survey survey = survey_service(options);
     const std::string refusal = why_none(survey, options.device);
     if (!refusal.empty()) throw DeviceError(refusal);
@@ -30,24 +60,70 @@ CheckTalk::CheckTalk(const ConnectionOptions& options) {
             id_ = arm.id;
         }
     }
-    version_ = survey.version;
-    const auto version = version_of(version_);
+    version_answer_ = version_told(options);
+    const auto version = version_of(survey.version);
     newer_ = version && version->at_least(3, 5);
-    link_.emplace(options.port, Clock::now() + kAnswerTakes);
-    if (link_->wait(nullptr, Clock::now() + kInventoryTakes)) {
-        inventory_ = link_->read(Clock::now() + kAnswerTakes);
-    }
+    inventory_unasked_ = connect();
+    inventory_ = as_told(text_);
+    introduce();
+    (void)ask({.arm = DeviceId(id_), .whole_state = true});  // what it is set to now
+    introduced_ = as_told(text_);
 }
 
 CheckTalk::~CheckTalk() {
     let_go();
-    link_->close(Clock::now() + std::chrono::milliseconds(100));
+    if (link_) link_->close(Clock::now() + std::chrono::milliseconds(100));
+}
+
+bool CheckTalk::connect() {
+    link_.emplace(options_.port, Clock::now() + kAnswerTakes);
+    if (!link_->wait(nullptr, Clock::now() + kInventoryTakes)) {
+        (void)ask({.arm = DeviceId(id_), .whole_state = true});
+        return false;
+    }
+    text_ = link_->read(Clock::now() + kAnswerTakes);
+    (void)reader_.read(text_, message_);
+    return true;
+}
+
+void CheckTalk::introduce() {
+    if (!newer_) return;
+    (void)ask({.arm = DeviceId(id_), .introduces = true, .preset = options_.preset});
+    complaint_ = message_.complaint.view();
+}
+
+void CheckTalk::break_off() noexcept {
+    if (guarded_in_) guardian_.dismiss();
+    guarded_in_.reset();
+    link_.reset();
+}
+
+void CheckTalk::begin_again() {
+    (void)connect();
+    introduce();
+}
+
+CheckTalk::Found CheckTalk::connect_again() {
+    const bool unasked = connect();
+    const Arm* const arm = message_.arm(DeviceId(id_));
+    if (arm == nullptr) throw DeviceError("the Inverse3 " + id_ + " was unplugged");
+    const Found found{*arm, unasked};
+    introduce();
+    return found;
+}
+
+bool CheckTalk::is_simulated() const {
+    return version_answer_.is_object() &&
+           version_answer_.value("project_name", Json()) == Json(simulated::kProjectName);
 }
 
 CheckTalk::Heard CheckTalk::exchange(const std::optional<Vec3>& force_newton,
                                      ForceDialect dialect) {
-    pushed_ = pushed_ || force_newton.has_value();
-    if (force_newton) guard(dialect);
+    if (!link_) begin_again();
+    if (force_newton) {
+        pushed_in_ = dialect;
+        guard(dialect);
+    }
     const auto took = ask({.arm = DeviceId(id_), .force_newton = force_newton, .dialect = dialect});
     if (!message_.complaint.empty()) {
         throw DeviceError("the service complains: " + std::string(message_.complaint.view()));
@@ -65,14 +141,16 @@ std::optional<Arm> CheckTalk::look(ForceDialect dialect) {
 
 /// How long the answer took, which is in the message.
 std::chrono::nanoseconds CheckTalk::ask(const Order& order) {
+    if (!link_) begin_again();
     const auto sent = Clock::now();
+    sent_at_ = sent;
     link_->send(writer_.write(order), sent + kAnswerTakes);
     if (!hears(sent + kAnswerTakes)) {
         throw DeviceError("the service has been silent for a second: see whether it still runs");
     }
-    const std::string_view text = link_->read(sent + kAnswerTakes);
+    text_ = link_->read(sent + kAnswerTakes);
     const auto came = Clock::now();
-    if (!reader_.read(text, message_)) {
+    if (!reader_.read(text_, message_)) {
         throw DeviceError("the service said what is not understood: see the record");
     }
     return came - sent;
@@ -110,10 +188,12 @@ void CheckTalk::guard(ForceDialect dialect) noexcept {
 }
 
 void CheckTalk::let_go() noexcept {
-    if (!pushed_) return;
+    if (!pushed_in_) return;
     constexpr int kZeros = 3;
-    const ForceDialect first = guarded_in_.value_or(ForceDialect::vector);
+    const ForceDialect first = *pushed_in_;
+    const bool anew = !link_.has_value();
     try {
+        if (anew) link_.emplace(options_.port, Clock::now() + kAnswerTakes);
         for (int k = 0; k < kZeros; ++k) {
             for (const ForceDialect dialect : {first, other(first)}) {
                 const auto until = Clock::now() + kAnswerTakes;
@@ -125,10 +205,12 @@ void CheckTalk::let_go() noexcept {
             }
         }
     } catch (const LinkError&) {
-        pushed_ = false;  // it has gone, and its session with it
+        pushed_in_.reset();  // it has gone, and its session with it
     }
     if (guarded_in_) guardian_.dismiss();
     guarded_in_.reset();
+    // What came unasked would make every later answer one message older.
+    if (anew) link_.reset();
 }
 
 }  // namespace dibhr::inverse3

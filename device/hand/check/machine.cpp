@@ -1,0 +1,45 @@
+// The machine that a check runs on.
+#include "device/hand/check/machine.hpp"
+
+#include <sys/utsname.h>
+
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <thread>
+
+namespace dibhr {
+
+namespace {
+
+/// What follows `key` and `separator` in the first line that begins with it.
+std::string line_of(const char* file, std::string_view key, char separator) {
+    std::ifstream lines(file);
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t at = line.find(separator);
+        if (!line.starts_with(key) || at == std::string::npos) continue;
+        const std::size_t begin = line.find_first_not_of(" \t\"", at + 1);
+        if (begin == std::string::npos) return {};
+        return line.substr(begin, line.find_last_not_of(" \t\"") - begin + 1);
+    }
+    return {};
+}
+
+}  // namespace
+
+Json machine_facts() {
+    Json facts = Json::object();
+    const auto add = [&facts](const char* key, const std::string& value) {
+        if (!value.empty()) facts[key] = value;
+    };
+    add("system", line_of("/etc/os-release", "PRETTY_NAME", '='));
+    utsname kernel{};
+    if (uname(&kernel) == 0) {
+        add("kernel", std::string(kernel.sysname) + " " + kernel.release + " " + kernel.machine);
+    }
+    add("cpu", line_of("/proc/cpuinfo", "model name", ':'));
+    facts["cpus"] = std::thread::hardware_concurrency();
+    return facts;
+}
+
+}  // namespace dibhr

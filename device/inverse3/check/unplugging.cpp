@@ -1,0 +1,145 @@
+// The step in which the cable is pulled out: what the service makes of it.
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "core/files/plain_text.hpp"
+#include "device/inverse3/check/desk.hpp"
+
+namespace dibhr::inverse3 {
+
+namespace {
+
+using Seconds = std::chrono::duration<double>;
+using Time = CheckTalk::Clock::time_point;
+
+/// What the service tells of a device while its cable is out.
+class Absence {
+  public:
+    bool is_back{true};
+    std::string ended_by{};  ///< what the service did in the end instead of answering
+
+    void add(const std::optional<Arm>& arm, Time now) {
+        is_back = arm.has_value();
+        if (!arm) {
+            if (!gone_at_) gone_at_ = now;
+            gone_ = std::max<Seconds>(gone_, now - seen_);
+            end_stay(now);
+            return;
+        }
+        seen_ = now;
+        not_powered_ = not_powered_ || !arm->powered;
+        not_calibrated_ = not_calibrated_ || !arm->calibrated;
+        not_ready_ = not_ready_ || arm->locked;
+        const Vec3 position_m = arm->position_m.value_or(last_m_);
+        if (count_++ > 0 && position_m != last_m_) end_stay(now);
+        if (!stays_since_) stays_since_ = now;
+        last_m_ = position_m;
+    }
+    /// The person says that the cable is out: what stays now is frozen, and so is what stayed until
+    /// its entry went.
+    void cable_is_out(Time now) {
+        out_at_ = now;
+        if (!is_back) frozen_ = last_stay_;
+    }
+
+    [[nodiscard]] std::string in_words(Seconds counts_as_frozen) const {
+        std::string words;
+        const auto say = [&words](const std::string& more) {
+            words += (words.empty() ? "" : ", ") + more;
+        };
+        if (gone_.count() > 0.0)
+            say("it goes (" + number_text(gone_.count(), 1) + " s)");
+        else if (frozen_ && *frozen_ > counts_as_frozen)
+            say("it stays, frozen (" + number_text(frozen_->count(), 1) + " s)");
+        else if (out_at_ && !frozen_)
+            say("its position never changed again");
+        if (not_powered_) say("told to have no power");
+        if (not_calibrated_) say("told not to be calibrated");
+        if (not_ready_) say("told not to be ready");
+        if (!ended_by.empty()) say("and then: " + ended_by);
+        if (words.empty()) say(out_at_ ? "nothing of it changed" : "nobody said that it was out");
+        return words;
+    }
+    void add_to(Json& measured) const {
+        const auto after_out = [&](const std::optional<Time>& at) {
+            return out_at_ && at ? Json(Seconds(*at - *out_at_).count()) : Json();
+        };
+        measured["said_out"] = out_at_.has_value();
+        measured["gone_s"] = gone_.count();
+        measured["gone_after_enter_s"] = after_out(gone_at_);
+        measured["frozen_s"] = frozen_ ? Json(frozen_->count()) : Json();
+        measured["told_no_power"] = not_powered_;
+        measured["told_not_calibrated"] = not_calibrated_;
+        measured["told_not_ready"] = not_ready_;
+        measured["is_back"] = is_back;
+        measured["ended_by"] = ended_by;
+    }
+
+  private:
+    /// Its position is another one, or its entry goes.
+    void end_stay(Time now) {
+        if (!stays_since_) return;
+        last_stay_ = now - *stays_since_;
+        if (out_at_ && !frozen_) frozen_ = last_stay_;
+        stays_since_.reset();
+    }
+
+    Time seen_{CheckTalk::Clock::now()};
+    std::optional<Time> out_at_{}, gone_at_{}, stays_since_{};
+    Seconds gone_{0.0};  // longest time without an entry
+    Seconds last_stay_{0.0};
+    std::optional<Seconds> frozen_{};
+    bool not_powered_{false}, not_calibrated_{false}, not_ready_{false};  // told meanwhile
+    Vec3 last_m_{0.0};
+    int count_{0};
+};
+
+std::string names_in(const ServiceMessage& message) {
+    std::string names;
+    for (std::size_t k = 0; k < message.arm_count; ++k)
+        names += (names.empty() ? "" : ", ") + std::string(message.arms[k].id.view());
+    return names.empty() ? "nothing" : names;
+}
+
+/// Until Enter; false: it went on by itself.
+bool watch(CheckDesk& desk, const std::string& question, Absence& absence) {
+    desk.guide.ask(question);
+    const auto limit = CheckTalk::Clock::now() + desk.options.times.unplugging;
+    while (CheckTalk::Clock::now() < limit) {
+        if (desk.answered()) return true;
+        absence.add(desk.talk.look(desk.likely_dialect()), CheckTalk::Clock::now());
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    desk.tell_gone_on(desk.options.times.unplugging);
+    return false;
+}
+
+}  // namespace
+
+void check_unplugged(CheckDesk& desk, Json& measured) {
+    Absence absence;
+    try {
+        if (watch(desk,
+                  "Keep the grip moving, pull the USB cable out meanwhile; Enter as soon as it is "
+                  "out",
+                  absence))
+            absence.cable_is_out(CheckTalk::Clock::now());
+        (void)watch(
+            desk,
+            "Count to five, plug the USB cable in again, wait until the light is as before, "
+            "and move the grip; then Enter",
+            absence);
+    } catch (const DeviceError& failure) {  // which is a finding, too
+        absence.ended_by = failure.what();
+    }
+    absence.add_to(measured);
+    measured["at_the_end"] = names_in(desk.talk.message());
+    desk.settle(
+        OpenQuestion::unplugged,
+        absence.in_words(desk.options.times.frozen) +
+            (absence.is_back ? "" : "; not back, there is " + names_in(desk.talk.message())));
+}
+
+}  // namespace dibhr::inverse3
