@@ -24,7 +24,6 @@ constexpr const char* kParticipant = "participant";
 constexpr const char* kNote = "note";
 /// For the loop to see that it is over: until then ticks may touch what comes.
 constexpr std::chrono::milliseconds kLastTicks{100};
-constexpr std::chrono::seconds kSumsOfVideo{30};
 
 /// The one that was asked for; an Inverse3 that touches, by its name.
 std::string device_name(const ViewerState& state) {
@@ -86,6 +85,19 @@ std::map<std::string, std::string> session_facts(const ViewerState& state) {
     }
     if (state.inverse3) add_inverse3_facts(state, facts);
     return facts;
+}
+
+/// The video first, whose content the session keeps.
+RecorderStatus finish_both(Recorder& recorder, LiveRecorder& live,
+                           std::chrono::milliseconds for_sums) {
+    live.finish();
+    std::vector<SessionMedia> contents;
+    for (const FileContent& content : live.contents())
+        contents.push_back({content.file, content.bytes, content.sha256, content.head_bytes});
+    recorder.media_is_whole(std::move(contents));
+    RecorderStatus recorded = recorder.finish(for_sums);
+    if (recorded.failure.empty()) recorded.failure = live.failure();
+    return recorded;
 }
 
 }  // namespace
@@ -151,7 +163,7 @@ void ViewerRecording::start(const std::filesystem::path& file, ViewerState& stat
     state.recording.emplace().file = file;
 }
 
-std::string ViewerRecording::stop(ViewerState& state) {
+std::string ViewerRecording::stop(ViewerState& state, const std::string& reason) {
     take_news(state);  // with what was typed last
     if (std::exchange(waiting_, {})) {
         leave();
@@ -163,17 +175,12 @@ std::string ViewerRecording::stop(ViewerState& state) {
         finishing_ = std::async(std::launch::async,
                                 [recorder = std::move(recorder_), live = std::move(live_)] {
                                     std::this_thread::sleep_for(kLastTicks);
-                                    live->finish();
-                                    recorder->media_is_whole();
-                                    RecorderStatus recorded = recorder->finish(kSumsOfVideo);
-                                    if (recorded.failure.empty())
-                                        recorded.failure = live->failure();
-                                    return recorded;
+                                    return finish_both(*recorder, *live, Recorder::kPatience);
                                 });
         opened_.back().grows = false;
         leave();
         state.recording.reset();
-        return "Finishing the recording";
+        return "Finishing the recording" + (reason.empty() ? "" : ", as " + reason);
     }
     return told(recorder_->finish(), state);
 }
@@ -299,10 +306,9 @@ void ViewerRecording::leave() {
 }
 
 void ViewerRecording::finish(std::chrono::milliseconds for_sums) {
-    if (live_) live_->finish();
-    if (live_ && recorder_) recorder_->media_is_whole();
-    std::string last = recorder_ ? recorder_->finish(for_sums).failure : std::string{};
-    if (last.empty() && live_) last = live_->failure();
+    std::string last;
+    if (live_ && recorder_) last = finish_both(*recorder_, *live_, for_sums).failure;
+    if (!live_ && recorder_) last = recorder_->finish(for_sums).failure;
     if (last.empty() && finishing_.valid()) last = finishing_.get().failure;
     if (failure_.empty()) failure_ = last;
     if (!failure_.empty()) throw InputError(failure_);

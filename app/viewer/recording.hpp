@@ -35,9 +35,9 @@ class ViewerRecording {
     /// Of what is live: its video is kept beside the file, and ticks are recorded from the first
     /// frame of that on. Throws InputError.
     void start_live(const std::filesystem::path& file, ViewerState& state);
-    /// Closes the file. A short notice; empty when writing had broken off. With a video it is
-    /// finished meanwhile: take_finished() tells.
-    std::string stop(ViewerState& state);
+    /// Closes the file. A short notice, with the reason where nobody asked for it; empty when
+    /// writing had broken off. With a video it is finished meanwhile: take_finished() tells.
+    std::string stop(ViewerState& state, const std::string& reason = {});
     [[nodiscard]] bool active() const { return recorder_ != nullptr; }
     /// It is, or waits for the first frame of a video.
     [[nodiscard]] bool asked_for() const { return active() || waiting_; }

@@ -21,7 +21,7 @@ namespace dibhr {
 
 LiveFile::LiveFile(const std::filesystem::path& file, const AVCodecContext& codec,
                    const std::map<std::string, std::string>& tags)
-    : format_(new_file(file, "matroska"), close_and_free) {
+    : file_(file), format_(new_file(file, "matroska"), avformat_free_context) {
     AVStream* const stream = avformat_new_stream(format_.get(), nullptr);
     if (stream == nullptr || avcodec_parameters_from_context(stream->codecpar, &codec) < 0)
         throw std::bad_alloc();
@@ -29,9 +29,9 @@ LiveFile::LiveFile(const std::filesystem::path& file, const AVCodecContext& code
     for (const auto& [key, value] : tags)
         av_dict_set(&stream->metadata, key.c_str(), value.c_str(), 0);
     format_->flags |= AVFMT_FLAG_FLUSH_PACKETS;
-    int result = avio_open(&format_->pb, format_->url, AVIO_FLAG_WRITE);
-    if (result >= 0) result = avformat_write_header(format_.get(), nullptr);
-    require_written(result);
+    format_->pb = file_.bytes();
+    require_written(avformat_write_header(format_.get(), nullptr));
+    file_.end_head();
 }
 
 void LiveFile::write(AVPacket& packet) {
@@ -41,9 +41,10 @@ void LiveFile::write(AVPacket& packet) {
     require_written(av_write_frame(format_.get(), &packet));
 }
 
-void LiveFile::finish() {
+std::optional<FileContent> LiveFile::finish() {
     require_written(av_write_trailer(format_.get()));
-    require_written(avio_closep(&format_->pb));
+    file_.finish();
+    return file_.content();
 }
 
 void ExactEncoder::Free::operator()(AVCodecContext* codec) const {

@@ -5,9 +5,11 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/clip/picture_encoder.hpp"
+#include "core/clip/summed_file.hpp"
 #include "core/video/frame_window.hpp"
 #include "core/video/live/live_record.hpp"
 
@@ -27,9 +29,11 @@ class LiveFile {
 
     /// Takes the packet's content. Throws InputError, e.g. when the disk is full.
     void write(AVPacket& packet);
-    void finish();
+    /// What it holds then, if that is known.
+    std::optional<FileContent> finish();
 
   private:
+    SummedFile file_;  // before what writes to it
     std::unique_ptr<AVFormatContext, void (*)(AVFormatContext*)> format_;
 };
 

@@ -80,6 +80,11 @@ std::string LiveRecorder::failure() const {
     return failure_;
 }
 
+std::vector<FileContent> LiveRecorder::contents() const {
+    const std::lock_guard lock(mutex_);
+    return contents_;
+}
+
 void LiveRecorder::write(Tracks& tracks, const LiveRecord& record) const {
     const LiveLevels levels = levels_of(record);
     if (!tracks.levels) {
@@ -126,11 +131,14 @@ void LiveRecorder::run() {
         waiting_.clear();
     }
     lock.unlock();
-    try_to([&] {
-        if (tracks.depth_file) tracks.depth_file->finish();
-        if (tracks.colour_file) tracks.colour_file->finish();
-    });
+    std::vector<FileContent> contents;
+    for (auto* const file : {&tracks.depth_file, &tracks.colour_file})
+        try_to([&] {
+            if (!*file) return;
+            if (auto content = (*file)->finish()) contents.push_back(std::move(*content));
+        });
     lock.lock();
+    contents_ = std::move(contents);
     if (failure_.empty()) failure_ = failure;
 }
 

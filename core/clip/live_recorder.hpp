@@ -10,7 +10,9 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
+#include "core/files/content_hash.hpp"
 #include "core/video/live/live_record.hpp"
 
 namespace dibhr {
@@ -37,6 +39,8 @@ class LiveRecorder {
     /// Writes what waits, and ends the files; no more is added.
     void finish();
 
+    /// Of finished files, as far as it is known.
+    [[nodiscard]] std::vector<FileContent> contents() const;
     /// A sentence when writing broke off; what was written until then plays.
     [[nodiscard]] std::string failure() const;
 
@@ -52,6 +56,7 @@ class LiveRecorder {
     std::deque<LiveRecord> waiting_{};
     bool stopped_{false};
     std::string failure_{};
+    std::vector<FileContent> contents_{};
     std::thread thread_;
 };
 

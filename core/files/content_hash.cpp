@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <memory>
 #include <new>
 #include <vector>
 
@@ -21,39 +20,11 @@ namespace {
 
 constexpr std::size_t kPieceBytes = 1 << 20;
 
-class Sha256 {
-  public:
-    Sha256() : state_(av_sha_alloc()) {
-        if (!state_ || av_sha_init(state_.get(), 256) != 0) throw std::bad_alloc();
-    }
-
-    void add(std::span<const std::uint8_t> bytes) {
-        av_sha_update(state_.get(), bytes.data(), bytes.size());
-    }
-
-    /// Ends the sum.
-    [[nodiscard]] std::string digits() {
-        std::array<std::uint8_t, 32> digest{};
-        av_sha_final(state_.get(), digest.data());
-        constexpr char kDigits[] = "0123456789abcdef";
-        std::string text;
-        for (const unsigned byte : digest) {
-            text += kDigits[byte >> 4U];
-            text += kDigits[byte & 15U];
-        }
-        return text;
-    }
-
-  private:
-    struct Free {
-        void operator()(AVSHA* state) const noexcept { av_free(state); }
-    };
-    std::unique_ptr<AVSHA, Free> state_;
-};
-
 /// False once `stop` is true.
-bool add_file(Sha256& sum, const std::filesystem::path& file, const std::atomic<bool>& stop) {
+bool add_file(Sha256& sum, const std::filesystem::path& file, std::uint64_t head_bytes,
+              const std::atomic<bool>& stop) {
     std::ifstream in(file, std::ios::binary);
+    in.seekg(static_cast<std::streamoff>(head_bytes));
     std::vector<char> piece(kPieceBytes);
     while (in.read(piece.data(), static_cast<std::streamsize>(piece.size())) || in.gcount() > 0) {
         if (stop) return false;
@@ -88,7 +59,43 @@ std::vector<std::uint8_t> name_in(const std::filesystem::path& folder,
     return bytes;
 }
 
+/// Nothing once `stop` is true.
+std::optional<std::string> sum_of(const std::filesystem::path& file, std::uint64_t head_bytes,
+                                  const std::atomic<bool>& stop) {
+    Sha256 sum;
+    const bool is_folder = std::filesystem::is_directory(file);
+    for (const std::filesystem::path& part : files_of(file)) {
+        if (is_folder) sum.add(name_in(file, part));
+        if (!add_file(sum, part, head_bytes, stop)) return std::nullopt;
+    }
+    return sum.digits();
+}
+
 }  // namespace
+
+Sha256::Sha256() : state_(av_sha_alloc()) {
+    if (!state_ || av_sha_init(state_.get(), 256) != 0) throw std::bad_alloc();
+}
+
+void Sha256::Free::operator()(AVSHA* state) const noexcept {
+    av_free(state);
+}
+
+void Sha256::add(std::span<const std::uint8_t> bytes) {
+    av_sha_update(state_.get(), bytes.data(), bytes.size());
+}
+
+std::string Sha256::digits() {
+    std::array<std::uint8_t, 32> digest{};
+    av_sha_final(state_.get(), digest.data());
+    constexpr char kDigits[] = "0123456789abcdef";
+    std::string text;
+    for (const unsigned byte : digest) {
+        text += kDigits[byte >> 4U];
+        text += kDigits[byte & 15U];
+    }
+    return text;
+}
 
 std::string sha256_of(std::span<const std::uint8_t> bytes) {
     Sha256 sum;
@@ -96,20 +103,14 @@ std::string sha256_of(std::span<const std::uint8_t> bytes) {
     return sum.digits();
 }
 
-std::string sha256_of_file(const std::filesystem::path& file) {
+std::string sha256_of_file(const std::filesystem::path& file, std::uint64_t head_bytes) {
     const std::atomic<bool> never{false};
-    return *sha256_of_file(file, never);
+    return *sum_of(file, head_bytes, never);
 }
 
 std::optional<std::string> sha256_of_file(const std::filesystem::path& file,
                                           const std::atomic<bool>& stop) {
-    Sha256 sum;
-    const bool is_folder = std::filesystem::is_directory(file);
-    for (const std::filesystem::path& part : files_of(file)) {
-        if (is_folder) sum.add(name_in(file, part));
-        if (!add_file(sum, part, stop)) return std::nullopt;
-    }
-    return sum.digits();
+    return sum_of(file, 0, stop);
 }
 
 std::uintmax_t content_bytes(const std::filesystem::path& file) {

@@ -4,18 +4,46 @@
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 
+struct AVSHA;
+
 namespace dibhr {
+
+/// Of bytes that come one after the other.
+class Sha256 {
+  public:
+    Sha256();
+    void add(std::span<const std::uint8_t> bytes);
+    /// 64 hexadecimal digits. Ends the sum.
+    [[nodiscard]] std::string digits();
+
+  private:
+    struct Free {
+        void operator()(AVSHA* state) const noexcept;
+    };
+    std::unique_ptr<AVSHA, Free> state_;
+};
+
+/// What a file holds.
+struct FileContent {
+    std::filesystem::path file{};
+    std::uint64_t bytes{0};
+    std::string sha256{};         ///< of all of them but
+    std::uint64_t head_bytes{0};  ///< so many at its begin
+};
 
 /// 64 hexadecimal digits.
 [[nodiscard]] std::string sha256_of(std::span<const std::uint8_t> bytes);
 
-/// Of the whole file, in pieces; of a folder, of the names in it and the bytes of all its files, in
-/// order. Throws InputError or std::filesystem::filesystem_error when it cannot be read.
-[[nodiscard]] std::string sha256_of_file(const std::filesystem::path& file);
+/// Of the whole file, in pieces, or of all but so many bytes at its begin; of a folder, of the
+/// names in it and the bytes of all its files, in order. Throws InputError or
+/// std::filesystem::filesystem_error when it cannot be read.
+[[nodiscard]] std::string sha256_of_file(const std::filesystem::path& file,
+                                         std::uint64_t head_bytes = 0);
 
 /// The same; nothing once `stop` is true.
 [[nodiscard]] std::optional<std::string> sha256_of_file(const std::filesystem::path& file,

@@ -43,7 +43,8 @@ bool is_of_other_surfaces(const Session& session) {
 
 bool has_content(const fs::path& file, const SessionMedia& media) {
     try {
-        return content_bytes(file) == media.bytes && sha256_of_file(file) == media.sha256;
+        return content_bytes(file) == media.bytes &&
+               sha256_of_file(file, media.head_bytes) == media.sha256;
     } catch (const fs::filesystem_error&) {
         return false;
     }

@@ -379,8 +379,11 @@ void Recorder::media(std::uint32_t number, const std::filesystem::path& colour,
     });
 }
 
-void Recorder::media_is_whole() {
-    implementation_->leave([](Implementation& writer) { writer.session->media_is_whole(); });
+void Recorder::media_is_whole(std::vector<SessionMedia> contents) {
+    for (SessionMedia& content : contents) content.file = whole_path(content.file);
+    implementation_->leave([contents = std::move(contents)](Implementation& writer) {
+        writer.session->media_is_whole(contents);
+    });
 }
 
 void Recorder::maps(std::uint32_t version, std::vector<SessionMap> maps) {

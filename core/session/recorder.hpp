@@ -51,7 +51,8 @@ class Recorder {
     void media(std::uint32_t number, const std::filesystem::path& colour,
                const std::filesystem::path& depth, const std::string& depth_meaning = {},
                bool grow = false);
-    void media_is_whole();
+    /// `contents`: what is known of them already, by whoever wrote them.
+    void media_is_whole(std::vector<SessionMedia> contents = {});
     /// The touch maps that ticks refer to by that version. May come after them.
     void maps(std::uint32_t version, std::vector<SessionMap> maps);
     /// Marks this moment.

@@ -86,12 +86,19 @@ class Row {
     }
     void take_one(SessionMedia& media) {
         media.file = text();
-        take(media.bytes, media.sha256);
+        take(media.bytes, media.sha256, media.head_bytes);
     }
 
     const SessionReader::Query& query_;
     int column_{0};
 };
+
+/// The columns of a SessionMedia; `media`: what the table `media` is called in the question.
+std::string media_columns(const SessionReader& reader, const std::string& media) {
+    const bool has_head = columns_of(reader, "media").contains("head_bytes");
+    return media + ".file, " + media + ".bytes, " + media + ".sha256, " +
+           (has_head ? media + ".head_bytes" : "0");
+}
 
 /// The columns of a FrameSource; `s` is the table `source`.
 std::string source_columns(const SessionReader& reader) {
@@ -175,8 +182,8 @@ void Session::read_facts() {
 
 void Session::read_parameters() {
     const std::set<std::string> columns = columns_of(reader_, "parameters");
-    std::string question =
-        "SELECT version, first_tick, algorithm, force_enabled, m.file, m.bytes, m.sha256, ";
+    std::string question = "SELECT version, first_tick, algorithm, force_enabled, " +
+                           media_columns(reader_, "m") + ", ";
     question += columns.contains("carry") ? "carry" : "0";
     SessionParameters standard;
     visit_numbers(standard, [&](std::string_view column, double) {
@@ -210,8 +217,8 @@ void Session::read_parameters() {
 void Session::read_sources() {
     const bool has_meaning = columns_of(reader_, "source").contains("depth_meaning");
     SessionReader::Query query(
-        reader_, "SELECT " + source_columns(reader_) +
-                     ", c.file, c.bytes, c.sha256, d.file, d.bytes, d.sha256, first_tick, " +
+        reader_, "SELECT " + source_columns(reader_) + ", " + media_columns(reader_, "c") + ", " +
+                     media_columns(reader_, "d") + ", first_tick, " +
                      std::string(has_meaning ? "depth_meaning" : "''") +
                      " FROM source s LEFT JOIN media c ON c.id = s.colour "
                      "LEFT JOIN media d ON d.id = s.depth ORDER BY first_tick");

@@ -271,10 +271,18 @@ void SessionFile::know_media(std::uint32_t number, const std::filesystem::path& 
     known_media_[number] = {colour, depth, depth_meaning, grows};
 }
 
-void SessionFile::media_is_whole() {
+void SessionFile::media_is_whole(const std::vector<SessionMedia>& contents) {
     for (auto& [number, files] : known_media_) files.grows = false;
-    new_files_.insert(new_files_.end(), growing_files_.begin(), growing_files_.end());
-    growing_files_.clear();
+    for (const SessionMedia& content : contents) known_contents_[content.file] = content;
+    for (const std::filesystem::path& file : std::exchange(growing_files_, {})) take_whole(file);
+}
+
+void SessionFile::take_whole(const std::filesystem::path& file) {
+    const auto known = known_contents_.find(file);
+    if (known == known_contents_.end())
+        new_files_.push_back(file);
+    else
+        set_content(known->second);
 }
 
 void SessionFile::add_maps(std::uint32_t version, const std::vector<SessionMap>& maps) {
@@ -381,7 +389,10 @@ std::optional<std::int64_t> SessionFile::media_row(const std::filesystem::path& 
     Statement insert(database_, "INSERT INTO media(id, file) VALUES (?, ?)");
     insert.run(id, file.string());
     media_rows_.emplace(file, id);
-    (grows ? growing_files_ : new_files_).push_back(file);
+    if (grows)
+        growing_files_.push_back(file);
+    else
+        take_whole(file);
     return id;
 }
 
@@ -390,8 +401,9 @@ std::vector<std::filesystem::path> SessionFile::take_new_files() {
 }
 
 void SessionFile::set_content(const SessionMedia& content) {
-    Statement update(database_, "UPDATE media SET bytes = ?, sha256 = ? WHERE file = ?");
-    update.run(content.bytes, content.sha256, content.file.string());
+    Statement update(database_,
+                     "UPDATE media SET bytes = ?, sha256 = ?, head_bytes = ? WHERE file = ?");
+    update.run(content.bytes, content.sha256, content.head_bytes, content.file.string());
 }
 
 void SessionFile::merge_log() {

@@ -38,8 +38,9 @@ class SessionFile {
     void know_media(std::uint32_t number, const std::filesystem::path& colour,
                     const std::filesystem::path& depth, const std::string& depth_meaning,
                     bool grows = false);
-    /// Those that grew are whole now: their content is to be summed up, too.
-    void media_is_whole();
+    /// Those that grew are whole now: their content, unless it is among these, is to be summed up,
+    /// too.
+    void media_is_whole(const std::vector<SessionMedia>& contents = {});
 
     /// Of touch maps that ticks refer to by that version; once.
     void add_maps(std::uint32_t version, const std::vector<SessionMap>& maps);
@@ -82,6 +83,7 @@ class SessionFile {
     [[nodiscard]] std::int64_t source_row(const FrameSource& source, std::int64_t tick);
     [[nodiscard]] std::optional<std::int64_t> media_row(const std::filesystem::path& file,
                                                         bool grows = false);
+    void take_whole(const std::filesystem::path& file);
     [[nodiscard]] static Place place_of(const std::filesystem::path& file);
 
     std::filesystem::path path_;
@@ -95,9 +97,10 @@ class SessionFile {
     std::map<std::uint32_t, MediaFiles> known_media_{};
     std::map<std::filesystem::path, std::int64_t> media_rows_{};
     std::vector<std::filesystem::path> new_files_{}, growing_files_{};
-    std::vector<FrameSource> sources_{};  ///< by their rows, from 1
-    std::optional<FramePair> pair_{};     ///< the last row of table pair
-    std::int64_t pairs_{0};               ///< and its number
+    std::map<std::filesystem::path, SessionMedia> known_contents_{};  ///< of those that grew
+    std::vector<FrameSource> sources_{};                              ///< by their rows, from 1
+    std::optional<FramePair> pair_{};  ///< the last row of table pair
+    std::int64_t pairs_{0};            ///< and its number
     /// What was written of each version: as it was held to a device, and again where another hand
     /// could stand less or more.
     std::map<std::uint64_t, std::vector<SessionParameters>> held_parameters_{};

@@ -16,7 +16,8 @@ namespace {
 // Untyped columns keep every bit of a real, the sign of a zero too.
 constexpr std::string_view kTables = R"(
 CREATE TABLE session(key TEXT PRIMARY KEY, value TEXT);
-CREATE TABLE media(id INTEGER PRIMARY KEY, file TEXT UNIQUE, bytes INTEGER, sha256 TEXT);
+CREATE TABLE media(id INTEGER PRIMARY KEY, file TEXT UNIQUE, bytes INTEGER, sha256 TEXT,
+  head_bytes INTEGER);
 CREATE TABLE pair(id INTEGER PRIMARY KEY, source INTEGER, from_frame INTEGER, to_frame INTEGER,
   from_s, to_s, span_s);
 CREATE TABLE clock(t_ns INTEGER PRIMARY KEY, utc_s REAL, dropped INTEGER, high_water INTEGER);

@@ -123,6 +123,9 @@ struct SessionMedia {
     std::filesystem::path file{};  ///< absolute
     std::uint64_t bytes{0};
     std::string sha256{};  ///< empty: the recording ended before it was known
+    /// So many bytes at its begin are not in that sum: a video that was recorded live got its
+    /// length there when it ended.
+    std::uint64_t head_bytes{0};
 };
 
 /// Everything a person can tune that a force depends on.

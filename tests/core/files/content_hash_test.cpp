@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,11 @@ TEST_CASE("a file's hash is that of its bytes, however long it is; a missing fil
         .write(reinterpret_cast<const char*>(bytes.data()),
                static_cast<std::streamsize>(bytes.size()));
     CHECK(sha256_of_file(file) == sha256_of(bytes));
+    CHECK(sha256_of_file(file, 4'000'003) == sha256_of(std::span(bytes).subspan(4'000'003)));
+    Sha256 in_parts;
+    in_parts.add(std::span(bytes).first(1001));
+    in_parts.add(std::span(bytes).subspan(1001));
+    CHECK(in_parts.digits() == sha256_of(bytes));
     std::ofstream(file, std::ios::binary | std::ios::trunc);
     CHECK(sha256_of_file(file) == sha256_of({}));
     std::filesystem::remove(file);

@@ -134,6 +134,37 @@ TEST_CASE("parameters, files and marks are kept with the tick that first used th
     CHECK(session.fact("started").size() == 20);
 }
 
+TEST_CASE("of a video that grows the content is known from whoever wrote it, else summed up",
+          "[session]") {
+    const SessionFolder folder;
+    const auto depth = folder.path() / "a.depth.mkv";
+    const auto colour = folder.path() / "a.color.mkv";
+    std::ofstream(depth) << "head and body";
+    std::ofstream(colour) << "of another writer";
+    const bool touched_before = GENERATE(true, false);
+    {
+        const auto ring = std::make_unique<TickRing>();
+        Recorder recorder(folder.file(), *ring, {});
+        recorder.media(1, colour, depth, {}, true);
+        TickRecord tick = tick_record(0);
+        tick.frames.source.media = 1;
+        if (touched_before) {
+            push(*ring, tick);
+            REQUIRE(eventually([&] { return recorder.status().rows == 1; }));
+        }
+        recorder.media_is_whole({{depth, 13, sha256_of_file(depth, 4), 4}});
+        if (!touched_before) push(*ring, tick);
+    }
+    const Session session(folder.file());
+    REQUIRE(session.sources().size() == 1);
+    const SessionSource& source = session.sources().front();
+    CHECK(source.depth.bytes == 13);
+    CHECK(source.depth.sha256 == sha256_of_file(depth, 4));
+    CHECK(source.depth.head_bytes == 4);
+    CHECK(source.colour.sha256 == sha256_of_file(colour));
+    CHECK(source.colour.head_bytes == 0);
+}
+
 TEST_CASE("touch maps that were felt are kept whole, however large, by their version",
           "[session][maps]") {
     const SessionFolder folder;
