@@ -107,6 +107,10 @@ void check_moving(CheckDesk& desk, Json& measured) {
     if (positions.count == 0) throw DeviceError("no position came that makes sense");
     positions.add_to(measured);
     measured.update(told_frame(desk.talk));
+    if (!(positions.new_per_s() > 0.0)) {
+        desk.guide.say("The grip was not moved: its steps and its workspace stay open.");
+        return;
+    }
     const Vec3 size_mm = positions.highest_mm - positions.lowest_mm;
     desk.settle(OpenQuestion::device_rate,
                 number_text(positions.new_per_s(), 0) + " while it moved");

@@ -473,6 +473,19 @@ TEST_CASE("rate and steps of the position are those of the motion, whatever the 
     CHECK(measured["moving_s"].get<double>() < 1.2);
 }
 
+TEST_CASE("a grip that nobody moved leaves its questions open", "[inverse3_check]") {
+    const test::TemporaryFolder folder;
+    simulated::Service service;
+    Person person(service);
+    person.instead = only("Steps and workspace", person);
+    person.motion = [](double) { return Vec3{0.0, -0.15, 0.18}; };
+    CHECK(undisturbed_check(quick(service, folder), person).fault == "");
+    const Json record = record_in(folder);
+    CHECK(record["findings"]["step"].is_null());
+    CHECK(record["findings"]["workspace"].is_null());
+    CHECK(step_in(record, "moving")["measured"]["positions"].get<int>() > 0);
+}
+
 TEST_CASE("a silence is recorded as long as it was", "[inverse3_check]") {
     const test::TemporaryFolder folder;
     simulated::Scene scene;
