@@ -388,19 +388,18 @@ class ProtocolReading {
     }
 
     /// No level is 0, where nothing can be told: a track that came there would stay, or be led by
-    /// answers that are neither right nor wrong.
+    /// answers that are neither right nor wrong. A lowest one of 0 is as none.
     void read_lowest(PageTable& table, const std::optional<double>& step,
                      StaircaseRule& rule) const {
         const double smallest = step ? *step : 0.01 * rule.start;
         const char* const otherwise = step ? "one step" : "a hundredth of start";
-        const auto lowest = table.number("lowest", 0.0, kAnyNumber);
+        const auto given = table.number("lowest", 0.0, kAnyNumber);
+        if (is_run_already()) {
+            rule.low = given.value_or(smallest);
+            return;
+        }
+        const std::optional<double> lowest = given == 0.0 ? std::nullopt : given;
         rule.low = lowest.value_or(smallest);
-        if (is_run_already()) return;
-        if (lowest == 0.0)
-            table.refuse("lowest",
-                         "lowest is not above 0, where there is nothing to tell: give the "
-                         "smallest difference worth asking for, or leave it out (it is then " +
-                             std::string(otherwise) + ", " + short_text(smallest) + ")");
         const std::string low_text = "lowest (" + short_text(rule.low) +
                                      (lowest ? ")" : std::string(", ") + otherwise + ")");
         if (!(rule.low < rule.high)) table.refuse("highest", "highest is not above " + low_text);
