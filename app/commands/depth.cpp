@@ -31,6 +31,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kLongestPatience_s = 1e6;
+constexpr int kInterrupted = 130;  ///< as of a program that Ctrl+C ended
 
 struct DepthOptions {
     fs::path colour{};
@@ -179,10 +180,12 @@ int make_depth(const DepthOptions& options) {
         keep_estimator(kept);
     }
     const auto made = watched(request);
-    if (!made)
-        throw InputError(EstimatorCommand(request.command).takes_frames()
+    if (!made) {
+        print_error_line(EstimatorCommand(request.command).takes_frames()
                              ? "cancelled: what is done is kept; run it again to go on from there"
                              : "cancelled: nothing is kept, as it takes {input} and no {frames}");
+        return kInterrupted;
+    }
     const fs::path depth =
         options.out.empty() ? made->depth : copy_depth(*made, options.colour, options.out);
     std::cout << one_line(depth.string()) << '\n';

@@ -320,7 +320,8 @@ std::string man_page(const std::vector<DocumentedCommand>& commands) {
     for (const DocumentedCommand& command : commands) add_command(page, command);
     add_keys(page);
     page << ".SH EXIT STATUS\n"
-            "0 on success, 1 on a failure it explains, 2 on bad usage.\n"
+            "0 on success, 1 on a failure it explains, 2 on bad usage; 130 where Ctrl+C ended a "
+            "command before it was done. The window ends by it with 0.\n"
             ".SH FILES\n"
             ".TP\n\\fI~/.config/dibhr/settings.toml\\fR\nWhat a person changed in the window.\n"
             ".TP\n\\fI~/.config/dibhr/materials\\fR\nMaterials of one's own.\n"

@@ -200,7 +200,7 @@ class Estimation {
         const FramesTold tell = teller(watch_, EstimateStep::giving_frames);
         std::error_code failed;
         if (command_.takes_frames()) {
-            done_ = whole_outputs(folder_->output());
+            done_ = whole_outputs(folder_->output()).numbers;
             if (done_.empty()) fs::remove_all(folder_->output(), failed);
             colour_ = write_colour_frames(request_.colour, folder_->frames(), done_,
                                           watch_.stopped(), tell);
@@ -230,8 +230,16 @@ class Estimation {
         } catch (const InputError& error) {
             failure = error.what();
         }
-        const bool complete =
-            command_.takes_frames() && whole_outputs(folder_->output()).size() >= colour_.count();
+        const WholeOutputs outputs =
+            command_.takes_frames() ? whole_outputs(folder_->output()) : WholeOutputs{};
+        const std::size_t removed = outputs.removed.size();
+        // Where most are no pictures another run gives no others: write_depth() tells what is
+        // wrong.
+        if (failure.empty() && removed > 0 && removed < outputs.numbers.size())
+            throw InputError("the estimator left a picture that cannot be read, " +
+                             shown(outputs.removed.front().filename()) +
+                             ", which is removed: run it again to have it made anew");
+        const bool complete = outputs.numbers.size() >= colour_.count();
         if (failure.empty() || complete) return true;
         failure += how_far(command_, *folder_, colour_.count());
         if (!run.last_line().empty())

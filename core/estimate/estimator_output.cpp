@@ -177,16 +177,16 @@ NumberedOutputs row_so_far(const fs::path& folder) {
     return found == rows.end() ? NumberedOutputs{} : std::move(*found);
 }
 
-std::set<std::size_t> whole_outputs(const fs::path& folder) {
+WholeOutputs whole_outputs(const fs::path& folder) {
     constexpr std::size_t kMayBeCut = 16;
     const NumberedOutputs row = row_so_far(folder);
     std::vector<std::pair<fs::file_time_type, std::size_t>> newest;
-    std::set<std::size_t> whole;
+    WholeOutputs whole;
     for (const auto& [number, file] : row) {
         if (file.filename().string().find(frame_name(number)) == std::string::npos) return {};
         std::error_code gone;
         newest.emplace_back(fs::last_write_time(file, gone), number);
-        whole.insert(number);
+        whole.numbers.insert(number);
     }
     std::sort(newest.rbegin(), newest.rend());
     if (newest.size() > kMayBeCut) newest.resize(kMayBeCut);
@@ -194,7 +194,8 @@ std::set<std::size_t> whole_outputs(const fs::path& folder) {
         if (can_be_read(row.at(number))) continue;
         std::error_code gone;
         fs::remove(row.at(number), gone);
-        whole.erase(number);
+        whole.numbers.erase(number);
+        whole.removed.push_back(row.at(number));
     }
     return whole;
 }

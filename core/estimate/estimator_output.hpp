@@ -20,10 +20,15 @@ using NumberedOutputs = std::map<std::size_t, std::filesystem::path>;
 /// the one of the finest form. Empty where there is none.
 [[nodiscard]] NumberedOutputs row_so_far(const std::filesystem::path& folder);
 
-/// The numbers in that row whose pictures are whole: the newest, which a crash may have cut, are
-/// read, and removed where they cannot be. None where they are not called by the frames' own names
+struct WholeOutputs {
+    std::set<std::size_t> numbers{};
+    std::vector<std::filesystem::path> removed{};  ///< which could not be read
+};
+
+/// Those in that row whose pictures are whole: the newest, which a crash may have cut, are read,
+/// and removed where they cannot be. None where they are not called by the frames' own names
 /// (frame_name): they count anew in each run.
-[[nodiscard]] std::set<std::size_t> whole_outputs(const std::filesystem::path& folder);
+[[nodiscard]] WholeOutputs whole_outputs(const std::filesystem::path& folder);
 
 /// All bytes in the folder: they grow while something is written.
 [[nodiscard]] std::uintmax_t bytes_in(const std::filesystem::path& folder);

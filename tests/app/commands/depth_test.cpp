@@ -153,6 +153,18 @@ TEST_CASE("wrong use ends with 2, a failure with 1, each in a line", "[depth]") 
     CHECK(contains(home.depth({"--list"}).output, "clip.mp4: 6 of 12 frames, "));
 }
 
+TEST_CASE("a picture that an estimator leaves broken is named, and made anew the next time",
+          "[depth]") {
+    const Home home;
+    home.write_estimator("careless", "[ $n = 000007.png ] && [ ! -e '" +
+                                         (home.folder / "go").string() +
+                                         "' ] && head -c 60 \"$f\" > \"$2/$n\" && continue");
+    const std::vector<std::string> words{"clip.mp4", "--with", "./careless {frames} {output}"};
+    check_refused(home.depth(words), 1, "cannot be read, '000007.png', which is removed");
+    write_text(home.folder / "go", "");
+    CHECK(home.depth(words).exit_code == 0);
+}
+
 TEST_CASE("Ctrl+C ends the estimator, and the next run goes on", "[depth]") {
     const Home home;
     home.write_estimator("slow", "[ $n = 000004.png ] && [ ! -e '" + (home.folder / "go").string() +
@@ -174,7 +186,7 @@ TEST_CASE("Ctrl+C ends the estimator, and the next run goes on", "[depth]") {
         Process slow(words, {cache, config}, home.folder / "errors.txt");
         CHECK(eventually(under_way));
         slow.interrupt();
-        CHECK(slow.wait() == 1);
+        CHECK(slow.wait() == 130);
     }
     CHECK(contains(read_text(home.folder / "errors.txt"), "cancelled"));
     CHECK(home.starts() == 1);
