@@ -182,24 +182,44 @@ void take_parameters(const TouchRequest& touch, ViewerParts& parts, Settings& se
     touch.given.apply(settings.touch);
 }
 
-void open_files(const ViewOptions& options, ViewerParts& parts, ToldLog& log) {
+/// What is live may keep whoever opens it waiting, but nobody who asks to end. Null: that was
+/// asked.
+std::unique_ptr<Media> opened(const OpenRequest& open, Errands& errands, const Ending& ending) {
+    if (!is_live(open.colour) && !is_live(open.depth)) return open_request(open);
+    constexpr std::chrono::milliseconds kPause{20};
+    Errand<std::unique_ptr<Media>> opening(errands);
+    opening.start([open] { return open_request(open); });
+    while (!ending.asked()) {
+        opening.wait_until(std::chrono::steady_clock::now() + kPause);
+        if (auto media = opening.take()) return std::move(*media);
+    }
+    return nullptr;
+}
+
+/// False: it was asked to end meanwhile.
+bool open_files(const ViewOptions& options, ViewerParts& parts, Errands& errands,
+                const Ending& ending, ToldLog& log) {
     if (names_session(options.open.colour)) {
         parts.session = std::make_unique<OpenedSession>(options.open.colour, options.any_media);
         warn(parts.session->session.warning(), log);
         warn(parts.session->frames.warning(), log);
     } else {
-        parts.media = open_request(options.open);
+        parts.media = opened(options.open, errands, ending);
+        if (!parts.media) return false;
         parts.memory = memory_of(*parts.media);
         parts.maps = find_maps(parts.media->description());
         if (gives_relief(options.touch)) parts.memory.relief_px.reset();
         if (options.start_given || options.end_s || !options.clip.empty()) parts.memory.at_s = 0.0;
         warn(parts.media->description().notice, log);
     }
+    return true;
 }
 
-void open_parts(const ViewOptions& options, ViewerParts& parts, ToldLog& log) {
+/// False: it was asked to end meanwhile.
+bool open_parts(const ViewOptions& options, ViewerParts& parts, Errands& errands,
+                const Ending& ending, ToldLog& log) {
     try {
-        open_files(options, parts, log);
+        if (!open_files(options, parts, errands, ending, log)) return false;
     } catch (const InputError& error) {
         // Whoever named no file did nothing wrong, and can open one.
         if (!options.stays && !options.open.colour.empty()) throw;
@@ -210,6 +230,7 @@ void open_parts(const ViewOptions& options, ViewerParts& parts, ToldLog& log) {
     parts.hand =
         make_hand_device(options.device, {{options.settings.falcon.connection, options.firmware},
                                           connection_of(options.settings.inverse3)});
+    return true;
 }
 
 /// Whether nobody is left in a disk that stands still, or in a large file that is being opened; by
@@ -384,10 +405,11 @@ int run_view(CLI::App& app, const Arguments& arguments) {
         require_writable_outputs(options);
         words.doing("opening the files");
         if (!names_session(options.open.colour)) take_sample_for_nothing(options.open);
-        open_parts(options, parts, log);
-        words.doing("opening the window");
-        Viewer viewer(options, std::move(parts), ending, errands, log);
-        viewer.run();
+        if (open_parts(options, parts, errands, ending, log)) {
+            words.doing("opening the window");
+            Viewer viewer(options, std::move(parts), ending, errands, log);
+            viewer.run();
+        }
     } catch (const Error& error) {
         log.keep("error", error.what());
         log.finish(kPatienceWithLog);

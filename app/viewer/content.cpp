@@ -18,6 +18,7 @@
 #include "core/video/depth/kept_choices.hpp"
 #include "core/video/depth/sidecar.hpp"
 #include "core/video/live/live_name.hpp"
+#include "core/video/live/live_status.hpp"
 #include "core/video/media_names.hpp"
 
 namespace dibhr {
@@ -129,7 +130,8 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
                         const FileMemory& memory, FoundMaps maps) {
     explaining_.end(state_, camera_);
     // Ticks would touch what no file holds.
-    if (media->description().live && recording_.asked_for()) tell(recording_.stop(state_));
+    if (media->description().live && recording_.asked_for())
+        tell(recording_.stop(state_, request.again ? "what is live changed its form" : ""));
     if (!request.chosen) keep_memory();
     replay_.end(state_);
     if (!request.chosen) forget_relief();
@@ -275,6 +277,7 @@ void Viewer::open_again(const DepthStatement& panel) {
 /// What sends now sends another form: all that was known of it is found out anew.
 void Viewer::follow_live() {
     const auto& live = state_.playback.live;
+    if (live && !state_.replay) log_.keep_change("live", signal_in_words(*live));
     if (state_.replay || !live || !live->other_form || live->opened != media_number_ ||
         opening_.under_way())
         return;

@@ -77,6 +77,10 @@ void ToldLog::keep(std::string_view kind, std::string_view words) {
     waiting_ += time_now() + " " + std::string(kind) + ": " + one_line(words) + "\n";
 }
 
+void ToldLog::keep_change(const std::string& kind, const std::string& words) {
+    if (std::exchange(last_[kind], words) != words) keep(kind, words);
+}
+
 void ToldLog::write() {
     if (const auto reason = writing_.take(); reason && !reason->empty()) {
         failed_ = true;

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,6 +23,9 @@ class ToldLog {
     /// One line: "2026-11-24 21:07:31.250 KIND: words".
     void keep(std::string_view kind, std::string_view words);
 
+    /// The same, unless those words were kept last of that kind.
+    void keep_change(const std::string& kind, const std::string& words);
+
     /// Once a picture: has written what was kept since. Throws InputError, once.
     void write();
 
@@ -31,6 +35,7 @@ class ToldLog {
   private:
     std::filesystem::path file_;
     std::string waiting_{};
+    std::map<std::string, std::string> last_{};  ///< of a kind whose changes are kept
     bool failed_{false};
     Errand<std::string> writing_;  // why it could not; empty: it could
 };

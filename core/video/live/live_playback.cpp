@@ -55,11 +55,16 @@ bool differ(const DepthImage& a, const DepthImage& b, float by) {
 
 }  // namespace
 
+std::string signal_in_words(const LiveStatus& live) {
+    const std::string from = in_quotes(live.from, 60);
+    if (live.other_form) return from + " changed: opening it again";
+    return (live.signal ? "Signal from " : "No signal from ") + from;
+}
+
 std::string in_words(const LiveStatus& live) {
     if (live.signal) return number_text(kMilliseconds * live.behind_s, 0) + " ms behind";
-    std::string words = "No signal from " + in_quotes(live.from, 60) + " for " +
-                        number_text(live.silent_s, 0) + " s: waiting";
-    if (live.other_form) words = in_quotes(live.from, 60) + " changed: opening it again";
+    std::string words = signal_in_words(live);
+    if (!live.other_form) words += " for " + number_text(live.silent_s, 0) + " s: waiting";
     return words + (live.force_off ? ", the force is off" : "");
 }
 

@@ -27,6 +27,9 @@ struct LiveStatus {
     DepthNoise noise{};       ///< as measured in its first pictures
 };
 
+/// "Signal from 'udp://...'", "No signal from ...", or that it changed its form.
+[[nodiscard]] std::string signal_in_words(const LiveStatus& live);
+
 /// In one line, for a person: "52 ms behind", "No signal from 'udp://...' for 3 s: waiting".
 [[nodiscard]] std::string in_words(const LiveStatus& live);
 

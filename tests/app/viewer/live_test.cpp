@@ -1,10 +1,13 @@
 // What is live in the real window: touched, lost and found again, recorded and replayed.
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <thread>
@@ -12,6 +15,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/files/content_hash.hpp"
 #include "core/haptics/safety.hpp"
 #include "core/session/session.hpp"
 #include "core/video/media.hpp"
@@ -55,6 +59,12 @@ void write_goals(const fs::path& file) {
     }
 }
 
+/// Whether a session knows what that video holds.
+bool knows(const SessionMedia& video) {
+    return video.bytes == fs::file_size(video.file) && video.head_bytes > 0 &&
+           video.head_bytes < 4096 && video.sha256 == sha256_of_file(video.file, video.head_bytes);
+}
+
 }  // namespace
 
 TEST_CASE("a live session keeps its video and replays to the same bits, a lost signal included",
@@ -64,10 +74,11 @@ TEST_CASE("a live session keeps its video and replays to the same bits, a lost s
     const int port = free_port();
     PictureSender sender(port, camera());
     const Desk desk;
-    Process viewer = desk.start_viewer(
-        folder,
-        {PictureSender::url(port), "--record", (folder / "a.dibhr").string(), "--seconds", "8",
-         "--cleaning", "sensor", "--device", "goals:" + (folder / "goals.csv").string()});
+    Process viewer =
+        desk.start_viewer(folder, {PictureSender::url(port), "--record",
+                                   (folder / "a.dibhr").string(), "--seconds", "8", "--cleaning",
+                                   "sensor", "--device", "goals:" + (folder / "goals.csv").string(),
+                                   "--log-file", (folder / "told.txt").string()});
     REQUIRE(eventually([&] { return fs::exists(folder / "a.dibhr"); }));
     std::this_thread::sleep_for(std::chrono::milliseconds(2500));
     sender.stop();
@@ -79,7 +90,12 @@ TEST_CASE("a live session keeps its video and replays to the same bits, a lost s
     const Session session(folder / "a.dibhr");
     REQUIRE(session.sources().size() >= 1);
     CHECK(session.sources().front().depth.file == folder / "a.depth.mkv");
-    CHECK_FALSE(session.sources().front().depth.sha256.empty());
+    CHECK(knows(session.sources().front().depth));
+    const std::string told = read_text(folder / "told.txt");
+    const auto there = told.find("live: Signal from 'tcp://");
+    const auto lost = told.find("live: No signal from 'tcp://", there);
+    CHECK(lost != std::string::npos);
+    CHECK(told.find("live: Signal from 'tcp://", lost) != std::string::npos);
     require_same_bits(folder, folder / "a.dibhr");
     // While nothing came there was no force, from 300 ms after the last picture on.
     const std::vector<Row> rows = read_session(folder / "a.dibhr");
@@ -98,6 +114,55 @@ TEST_CASE("a live session keeps its video and replays to the same bits, a lost s
     });
     for (auto row = first; row != rows.end() && row->t_s < first->t_s + 0.5; ++row)
         if (row->t_s > first->t_s + 0.05) CHECK(glm::length(row->sent_newton) == 0.0);
+}
+
+TEST_CASE("a live recording that Ctrl+C or another size of the pictures ends is whole at once",
+          "[live]") {
+    const TemporaryFolder folder;
+    const bool changes = GENERATE(false, true);
+    CAPTURE(changes);
+    const int port = free_port();
+    PictureSender::Asked asked = camera();
+    asked.columns = 320;
+    asked.rows = 240;
+    auto sender = std::make_unique<PictureSender>(port, asked);
+    const Desk desk;
+    Process viewer = desk.start_viewer(
+        folder, {PictureSender::url(port), "--record", (folder / "a.dibhr").string(), "--seconds",
+                 "30", "--log-file", (folder / "told.txt").string()});
+    REQUIRE(eventually([&] { return fs::exists(folder / "a.dibhr"); }));
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+    if (changes) {
+        sender.reset();
+        sender = std::make_unique<PictureSender>(port, camera());
+        REQUIRE(eventually(
+            [&] { return contains(read_text(folder / "told.txt"), "told: Recorded "); }));
+        CHECK(contains(read_text(folder / "told.txt"),
+                       "Finishing the recording, as what is live changed its form"));
+    }
+    viewer.interrupt();
+    CHECK(viewer.wait() == 0);
+    const Session session(folder / "a.dibhr");
+    CHECK(session.fact("complete") == "1");
+    REQUIRE_FALSE(session.sources().empty());
+    CHECK(knows(session.sources().front().depth));
+    require_same_bits(folder, folder / "a.dibhr");
+}
+
+TEST_CASE("Ctrl+C ends what waits for a live source at once, and without a word", "[live]") {
+    const TemporaryFolder folder;
+    REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+    const std::string from = GENERATE(as<std::string>{}, "udp", "pipe");
+    const std::string name = from == "udp" ? "udp://127.0.0.1:" + std::to_string(free_port())
+                                           : "pipe:" + (folder / "pipe").string();
+    CAPTURE(name);
+    Process viewer({DIBHR_PROGRAM, "view", name},
+                   {"XDG_CONFIG_HOME=" + folder.path().string(), "DISPLAY="},
+                   folder / "errors.txt");
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    viewer.interrupt();
+    CHECK(viewer.wait() == 0);
+    CHECK(read_text(folder / "errors.txt").empty());
 }
 
 TEST_CASE("a packed stream is recorded by key with its colour, and seen again without it",
