@@ -15,6 +15,8 @@ namespace dibhr::inverse3 {
 
 namespace {
 
+using Why = LinkError::Why;
+
 constexpr std::chrono::milliseconds kAnswerTakes{300};
 constexpr std::array kUnits{"/usr/lib/systemd/system/haply-inverse-service.service",
                             "/lib/systemd/system/haply-inverse-service.service",
@@ -54,7 +56,6 @@ std::optional<ServiceVersion> version_of(std::string_view text) {
 }
 
 Unheard why_unheard(const LinkError& error, const Status& status) {
-    using Why = LinkError::Why;
     const auto version = version_of(status.version);
     const std::string service = "the Haply Inverse Service";
     if (error.why() == Why::refused && version && version->at_least(3, 1))

@@ -10,6 +10,12 @@
 
 namespace dibhr::inverse3 {
 
+namespace {
+
+using Clock = CheckTalk::Clock;
+
+}  // namespace
+
 bool tells_weak_force(const Arm& state) {
     constexpr double kToldBack = 0.05;
     return state.force_newton &&
@@ -26,7 +32,6 @@ Push::~Push() {
 }
 
 void Push::hold(Vec3 force_newton, ForceDialect dialect, CheckTimes::Span hold) {
-    using Clock = CheckTalk::Clock;
     using Seconds = std::chrono::duration<double>;
     const Seconds ramp = desk_.options.times.ramp;
     const auto begin = Clock::now();
