@@ -96,7 +96,7 @@ void tell_same_conditions(const Protocol& protocol) {
 void tell_unknown_guesses(const Block& block) {
     const Variation& vary = block.variation;
     const bool has_nothing = std::any_of(vary.levels.begin(), vary.levels.end(),
-                                         [](double level) { return level <= 0.0; });
+                                         [](double level) { return level == 0.0; });
     if (block.form != TrialForm::explore || !vary.any() || has_nothing) return;
     std::cout << block.name
               << ": without a level 0 it is not known how often yes is said of nothing; the guess "

@@ -55,11 +55,10 @@ void draw_sentence(const Status& status) {
 
 void draw_exchange(const Inverse3News& news) {
     const Status& status = news.status;
-    fact_row(
-        "Exchanges",
-        formatted("%.0f per second, %.1f ms each", status.exchanges_per_s, status.exchange_ms),
-        "From a message to the service's answer: beyond 2 ms springs are held softer, beyond "
-        "5 ms there is no force");
+    fact_row("Exchanges",
+             formatted("%.0f per second, %.1f ms each", status.exchanges_per_s, status.exchange_ms),
+             "From a message to the service's answer: beyond 2 ms springs are held softer, beyond "
+             "5 ms there is no force");
     if (status.softened)
         quiet_text("The service answers slowly: springs are softer, so that they do not swing.");
     if (news.recent_ages.count() > 0) {
@@ -71,7 +70,9 @@ void draw_exchange(const Inverse3News& news) {
     }
     fact_row("Forces", dialect_text(status),
              "How forces are spelled to the service, and whether it told one back");
-    if (!status.preset.empty()) fact_row("Preset", status.preset);
+    if (!status.preset.empty())
+        fact_row("Preset",
+                 status.preset + (status.other_preset ? ", though another is asked for" : ""));
     if (status.grip) fact_row("Grip", grip_text(*status.grip));
     if (status.unasked + status.not_understood > 0) {
         fact_row("Link", std::to_string(status.unasked) + " not asked for, " +

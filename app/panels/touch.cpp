@@ -11,7 +11,6 @@ namespace dibhr {
 
 namespace {
 
-/// In a replay: whose parameters these are, and the way back to those of the recording.
 /// Where there is anything to be carried by.
 void draw_motion_trouble(const ViewerState& state) {
     if (!state.settings.touch.carry || state.media.depth_path.empty()) return;
@@ -19,6 +18,7 @@ void draw_motion_trouble(const ViewerState& state) {
     if (!trouble.empty()) quiet_text(capitalised(trouble) + '.');
 }
 
+/// In a replay: whose parameters these are, and the way back to those of the recording.
 void draw_origin(ViewerState& state) {
     if (!state.replay) return;
     if (!state.replay->computes) {

@@ -287,6 +287,7 @@ void StudyWindow::act(const StudyPress& press) {
         case stay:
             view_.asks_to_leave = false;
             since_ += Clock::now() - asked_;
+            if (turned_since_) *turned_since_ += Clock::now() - asked_;
             // An interval that was broken off begins anew.
             if (felt()) leave_step();
             return;

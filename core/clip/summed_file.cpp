@@ -37,7 +37,11 @@ SummedFile::SummedFile(std::filesystem::path file)
       descriptor_(::open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
     require_written(descriptor_ < 0 ? AVERROR(errno) : 0);
     auto* const buffer = static_cast<unsigned char*>(av_malloc(kPieceBytes));
-    bytes_.reset(avio_alloc_context(buffer, kPieceBytes, 1, this, nullptr, write, seek));
+    // Whose bytes are constant from libavformat 61 on.
+    const auto write_some = [](void* to, auto* bytes, int count) {
+        return write(to, bytes, count);
+    };
+    bytes_.reset(avio_alloc_context(buffer, kPieceBytes, 1, this, nullptr, write_some, seek));
     if (!bytes_) throw std::bad_alloc();
 }
 
@@ -45,7 +49,7 @@ SummedFile::~SummedFile() {
     if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-int SummedFile::write(void* file, std::uint8_t* bytes, int count) noexcept {
+int SummedFile::write(void* file, const std::uint8_t* bytes, int count) noexcept {
     auto& self = *static_cast<SummedFile*>(file);
     for (int done = 0; done < count;) {
         const auto wrote = ::pwrite(self.descriptor_, bytes + done,

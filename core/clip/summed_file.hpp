@@ -36,7 +36,7 @@ class SummedFile {
         void operator()(AVIOContext* bytes) const noexcept;
     };
 
-    static int write(void* file, std::uint8_t* bytes, int count) noexcept;
+    static int write(void* file, const std::uint8_t* bytes, int count) noexcept;
     static std::int64_t seek(void* file, std::int64_t to, int from) noexcept;
     void sum_up(const std::uint8_t* bytes, std::int64_t count);
 

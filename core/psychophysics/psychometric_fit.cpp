@@ -20,6 +20,8 @@ constexpr double kUsualCritical = 3.841459;
 /// No bootstrap lowers it farther: measured, README.md, Intervals of thresholds.
 constexpr double kLeastCritical = 3.5;
 
+constexpr double kNoEnd = std::numeric_limits<double>::infinity();
+
 enum Parameter : std::size_t { kThreshold, kLogScale, kLapse };
 
 /// Threshold and scale on the curve's axis.
@@ -281,7 +283,7 @@ double end_of(const Problem& problem, Parameter held, const Point& best, double 
         inside = outside;
     }
     if (inside == outside) {
-        return std::copysign(std::numeric_limits<double>::infinity(), bound - best.values[held]);
+        return bound == problem.bounds.low[held] ? -kNoEnd : kNoEnd;
     }
     for (int i = 0; i < 12; ++i) {
         const double middle = (inside + outside) / 2.0;
@@ -316,9 +318,8 @@ PsychometricFit fitted_roughly(const LevelCounts& counts, const FitSettings& set
     const auto end = [&](double bound) {
         const Point there = best_with(problem, kThreshold, bound, best);
         const bool refused = 2.0 * (best.log_likelihood - there.log_likelihood) > kUsualCritical;
-        constexpr double kNoBound = std::numeric_limits<double>::infinity();
-        return off_axis(settings.curve,
-                        refused ? bound : std::copysign(kNoBound, bound - best.values[kThreshold]));
+        const bool low = bound == problem.bounds.low[kThreshold];
+        return off_axis(settings.curve, refused ? bound : low ? -kNoEnd : kNoEnd);
     };
     fit.threshold = {end(problem.bounds.low[kThreshold]), end(problem.bounds.high[kThreshold])};
     return fit;

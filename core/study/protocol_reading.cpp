@@ -395,7 +395,7 @@ class ProtocolReading {
         const char* const otherwise = step ? "one step" : "a hundredth of start";
         const auto given = table.number("lowest", 0.0, kAnyNumber);
         if (is_run_already()) {
-            rule.low = given.value_or(smallest);
+            rule.low = std::min(given.value_or(0.0) > 0.0 ? *given : smallest, rule.high);
             return;
         }
         const std::optional<double> lowest = given == 0.0 ? std::nullopt : given;

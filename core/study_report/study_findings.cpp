@@ -552,8 +552,8 @@ BlockFindings block_findings(const Study& study, std::size_t block,
 
 bool ParticipantThreshold::bounded() const noexcept {
     // Weibull's has no level below 0: there 0 is no bound.
-    const bool low = fit.function.curve == Curve::weibull ? fit.threshold.low > 0.0
-                                                          : std::isfinite(fit.threshold.low);
+    const bool low = std::isfinite(fit.threshold.low) &&
+                     (fit.function.curve != Curve::weibull || fit.threshold.low > 0.0);
     return low && std::isfinite(fit.threshold.high);
 }
 

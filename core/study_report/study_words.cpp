@@ -128,8 +128,9 @@ std::string few_trials_text(const ThresholdFinding& finding) {
                          });
     if (fewest->fit.trials >= kFewestTrialsOfThreshold) return {};
     return " An interval of " + std::to_string(fewest->fit.trials) +
-           " trials covers the threshold less often than in 95 % of studies (of 12 trials in 86 to "
-           "95 %, of 36 in 91 to 96 %): it takes " +
+           " trials covers the threshold less often than in 95 % of studies (of 12 trials in some "
+           "85 "
+           "to 95 %): it takes " +
            std::to_string(kFewestTrialsOfThreshold) + " at the least.";
 }
 
@@ -356,7 +357,7 @@ std::vector<StudyMethod> methods_of(const StudyReport& report) {
                  "fitted, from 0 to 0.06 (Wichmann and Hill 2001). Intervals: profile likelihood, "
                  "its critical value by a parametric bootstrap of " +
                  std::to_string(report.analysis.bootstraps) +
-                 " studies, or chi squared's where that is larger. Of several participants the "
+                 " studies, but no lower than 3.5. Of several participants the "
                  "median (order statistics), in which those whose answers set no bound and whose "
                  "most likely threshold lies outside the levels count as below or above them; "
                  "the mean (Student's t) only where all are bounded."});

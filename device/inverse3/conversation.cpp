@@ -28,6 +28,7 @@ constexpr milliseconds kRatePeriod{500};
 constexpr milliseconds kLoopPauses{200};  // without a force from the haptic loop
 constexpr milliseconds kReadBackEvery{1000};
 constexpr int kPresetsAsked = 3;
+constexpr const char* kUsualPreset = "defaults";  // which a service may call something else
 
 // Between two messages: poses stay young, and a processor has time for other things.
 constexpr microseconds kPause{500};
@@ -92,7 +93,7 @@ void Conversation::exchange_once(const std::stop_token& stop) {
         if (stop.stop_requested()) return;
         give_up();
     }
-    memory_.pace.add(sent_at_, Clock::now());
+    if (!sent_whole_) memory_.pace.add(sent_at_, Clock::now());  // a whole state takes longer
     take();
     in_flight_ = false;
     if (sent_drives_) force_answered_ = true;
@@ -172,6 +173,7 @@ void Conversation::say_goodbye() noexcept {
 
 void Conversation::say(const Order& order) {
     sent_drives_ = order.force_newton.has_value();
+    sent_whole_ = order.whole_state;
     sent_newton_ = order.force_newton.value_or(Vec3{0.0});
     const Time now = Clock::now();
     if (sent_drives_) {
@@ -290,7 +292,7 @@ void Conversation::choose(const ServiceMessage& message) {
     left_alone_ = {};
     introduced_ = false;
     presets_asked_ = 0;
-    other_preset_ = false;
+    board_.draft().other_preset = false;
     hearing_.begin();
     memory_.watch.begin();
     board_.draft().id = arm_.view();
@@ -364,12 +366,12 @@ void Conversation::read_back(const ArmConfig& config) {
         !newer_ || !introduced_ || config.preset.empty() || config.preset == options_.preset;
     if (is_ours) {
         presets_asked_ = 0;
-        other_preset_ = false;
+        status.other_preset = false;
     } else if (presets_asked_ < kPresetsAsked) {
         ++presets_asked_;
         introduced_ = false;
     } else {
-        other_preset_ = true;
+        status.other_preset = true;
     }
 }
 
@@ -378,7 +380,8 @@ Stage Conversation::stage() const noexcept {
     if (deaf()) return Stage::deaf;
     const Stage of_arm = memory_.watch.stage();
     if (of_arm != Stage::ready) return of_arm;
-    if (other_preset_) return Stage::other_preset;
+    if (board_.draft().other_preset && options_.preset != ShortWord(kUsualPreset))
+        return Stage::other_preset;
     return memory_.pace.pace() == Pace::too_slow ? Stage::slow : Stage::ready;
 }
 

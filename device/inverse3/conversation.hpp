@@ -107,7 +107,6 @@ class Conversation {
     /// That were there when ours went: nobody has one of them in the hand for us.
     std::array<DeviceId, ServiceMessage::kMost> left_alone_{};
     int presets_asked_{0};
-    bool other_preset_{false};
     HearingWatch hearing_{};
     bool introduced_{false};
     bool drove_{false};  // it was sent a force
@@ -120,6 +119,7 @@ class Conversation {
     int zeros_owed_{0};
     Vec3 sent_newton_{0.0};  // with the message in flight
     bool sent_drives_{false};
+    bool sent_whole_{false};
     Time sent_at_{};
     Time whole_state_due_{};
     Time loop_heard_{};

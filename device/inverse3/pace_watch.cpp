@@ -14,9 +14,8 @@ constexpr double kMostPassed_s = 0.01;  // and no more than one after so long: a
 constexpr double kFirst_s = 1e9;        // the first one counts for all before it
 constexpr double kPrompt_s = 0.002;
 constexpr double kSlow_s = 0.005;
-constexpr double kBackAt = 0.8;  // of these,
-constexpr std::chrono::milliseconds kBackAfter{
-    2000};  // for so long, so that it does not change to and fro
+constexpr double kBackAt = 0.8;  // of these, for so long: it does not change to and fro
+constexpr std::chrono::milliseconds kBackAfter{1000};
 
 }  // namespace
 
@@ -35,7 +34,11 @@ void PaceWatch::add(Time sent, Time answered) noexcept {
                                                      : Pace::too_slow;
     if (now >= pace_) better_since_.reset();
     if (now < pace_ && !better_since_) better_since_ = answered;
-    if (now > pace_ || (better_since_ && answered - *better_since_ >= kBackAfter)) pace_ = now;
+    if (now > pace_) pace_ = now;
+    if (better_since_ && answered - *better_since_ >= kBackAfter) {
+        pace_ = pace_ == Pace::too_slow ? Pace::slow : Pace::prompt;
+        better_since_.reset();
+    }
 }
 
 }  // namespace dibhr::inverse3

@@ -74,7 +74,8 @@ struct Status {
     std::string id{};        ///< of the chosen device; empty: none
     bool minverse{false};
     Handedness handedness{Handedness::unknown};
-    std::string preset{};  ///< as read back; empty: not told
+    std::string preset{};      ///< as read back; empty: not told
+    bool other_preset{false};  ///< it stays another one than was asked for
     std::optional<ForceDialect> dialect{};
     bool dialect_confirmed{false};  ///< the service told back a force that was sent so
     std::optional<GripStatus> grip{};

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -78,9 +79,10 @@ class PressingProcess {
         for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
             const std::string name = entry.path().filename().string();
             if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-            if (read_text(entry.path() / "comm") != "dibhr guardian\n") continue;
-            const std::string environment = read_text(entry.path() / "environ");
-            if (environment.find(folder_.path().string()) == std::string::npos) continue;
+            if (told_of(entry.path() / "comm") != "dibhr guardian\n") continue;
+            if (told_of(entry.path() / "environ").find(folder_.path().string()) ==
+                std::string::npos)
+                continue;
             found.push_back(std::stoi(name));
         }
         return found;
@@ -93,6 +95,12 @@ class PressingProcess {
     }
 
   private:
+    /// Nothing of a process that ends meanwhile, whose file can be opened and not be read.
+    static std::string told_of(const std::filesystem::path& file) {
+        std::ostringstream text;
+        text << std::ifstream(file).rdbuf();
+        return text.str();
+    }
     [[noreturn]] void become(std::vector<std::string>& words) const {
         const int errors = ::open(file("errors").c_str(), O_WRONLY | O_CREAT, 0600);
         ::dup2(errors, STDOUT_FILENO);

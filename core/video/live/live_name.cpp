@@ -153,7 +153,8 @@ bool has_known_host(const LiveName& name) {
     const std::string host = host_and_port(name.url).host;
     addrinfo* found = nullptr;
     if (name.kind != LiveKind::network || host.empty()) return true;
-    const bool known = ::getaddrinfo(host.c_str(), nullptr, nullptr, &found) == 0;
+    // Any other failure may pass, as that of a network that is down for a moment.
+    const bool known = ::getaddrinfo(host.c_str(), nullptr, nullptr, &found) != EAI_NONAME;
     if (found != nullptr) ::freeaddrinfo(found);
     return known;
 }

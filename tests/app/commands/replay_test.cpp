@@ -501,7 +501,7 @@ TEST_CASE("twenty seconds of the sample go through all four algorithms in under 
     double cpu_s = 1e9;
     double decoding_s = 1e9;
     double each_of_two_s = 1e9;
-    const auto slowness = [](double taken_s) {
+    [[maybe_unused]] const auto slowness = [](double taken_s) {
         return std::clamp(taken_s / kDecoding_s, 1.0, 2.5);
     };
     const std::string decode =

@@ -206,8 +206,9 @@ TEST_CASE("answers that come late lately are slow, later ones too slow, and prom
     CHECK(exchanges.come(microseconds(8000), milliseconds(400)) == Pace::too_slow);
     CHECK(exchanges.watch.exchange_ms() > 5.0);
     CHECK(exchanges.come(microseconds(4500), milliseconds(5000)) == Pace::too_slow);  // nearly back
-    CHECK(exchanges.come(microseconds(1000), milliseconds(1500)) == Pace::too_slow);  // not long
-    CHECK(exchanges.come(microseconds(1000), milliseconds(1500)) == Pace::prompt);
+    CHECK(exchanges.come(microseconds(1000), milliseconds(800)) == Pace::too_slow);   // not long
+    CHECK(exchanges.come(microseconds(1000), milliseconds(800)) == Pace::slow);
+    CHECK(exchanges.come(microseconds(1000), milliseconds(1200)) == Pace::prompt);
 }
 
 TEST_CASE("one answer that comes late among prompt ones changes nothing", "[inverse3]") {

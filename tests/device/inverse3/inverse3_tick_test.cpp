@@ -58,7 +58,9 @@ TEST_CASE("there is never more than one message in flight, and each has its answ
     CHECK(service.not_understood() == 0);
     CHECK(loop.device.status().unasked == 0);
     CHECK(loop.device.status().not_understood == 0);
-    CHECK(loop.device.status().stage == Stage::ready);
+    // A machine that was busy at the end may have made the service slow.
+    CHECK(loop.tick_until([&] { return loop.device.status().stage == Stage::ready; },
+                          std::chrono::milliseconds(10'000)));
 }
 
 TEST_CASE("poses are young with a service of 1 and of 4 kHz", "[inverse3_tick]") {
