@@ -320,30 +320,31 @@ void Conversation::forget_arm() {
 /// None is there, or the chosen one has gone, or those that are there are not meant.
 void Conversation::miss_arm(const ServiceMessage& message) {
     if (gone_ && zeros_owed_ > 0) return;  // to the end, should anybody still hear them
-    if (gone_) {
-        forget_arm();
-        return;
-    }
-    const bool had = !arm_.empty();
-    std::string sentence = sentence_for(Stage::no_device, board_.draft());
-    if (had) {
-        sentence = "the " + name_of(board_.draft()) + " was unplugged: plug it in again";
-        if (options_.device.empty() && message.arm_count > 0)
+    if (gone_) return forget_arm();
+    if (!arm_.empty()) return lose_arm(message);
+    const bool any = message.arm_count > 0;
+    const bool as_told =
+        any ? is_in(left_alone_, message.arms[0].id) : board_.draft().stage == Stage::no_device;
+    if (as_told) return;
+    tell(Stage::no_device,
+         any ? "the Haply Inverse Service has no Inverse3 that is " + options_.device +
+                   ", but has " + std::string(message.arms[0].id.view())
+             : sentence_for(Stage::no_device, board_.draft()),
+         any);
+}
+
+void Conversation::lose_arm(const ServiceMessage& message) {
+    std::string sentence = "the " + name_of(board_.draft()) + " was unplugged: plug it in again";
+    if (options_.device.empty()) {
+        leave_others(message);
+        if (message.arm_count > 0)
             sentence += "; to touch with " + std::string(message.arms[0].id.view()) +
                         " instead, plug that one in anew";
-        if (options_.device.empty()) leave_others(message);
-        memory_.watch.miss();
-        exchange_.poses.publish(TimedPose{});
-        gone_ = true;
-    } else if (message.arm_count > 0 && is_in(left_alone_, message.arms[0].id)) {
-        return;  // as was told
-    } else if (message.arm_count > 0) {
-        sentence = "the Haply Inverse Service has no Inverse3 that is " + options_.device +
-                   ", but has " + std::string(message.arms[0].id.view());
-    } else if (board_.draft().stage == Stage::no_device) {
-        return;  // as was told
     }
-    tell(Stage::no_device, sentence, had || message.arm_count > 0);
+    memory_.watch.miss();
+    exchange_.poses.publish(TimedPose{});
+    gone_ = true;
+    tell(Stage::no_device, sentence, true);
 }
 
 void Conversation::take_arm(const Arm& arm, Time at) {

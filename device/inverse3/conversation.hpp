@@ -82,6 +82,7 @@ class Conversation {
     void leave_others(const ServiceMessage& message);
     void forget_arm();
     void miss_arm(const ServiceMessage& message);
+    void lose_arm(const ServiceMessage& message);
     void read_back(const ArmConfig& config);
     [[nodiscard]] Stage stage() const noexcept;
     [[nodiscard]] Epoch epoch() const noexcept;
