@@ -60,8 +60,8 @@ struct StudyShown {
 [[nodiscard]] std::optional<StudyPress> press_of_key(const StudyRun& run, const StudyShown& view,
                                                      std::string_view key, bool shift);
 
-/// The button that does one thing at an adjustment when it is let go of, another when it is held.
-inline constexpr int kTwoFoldButton = 2;
+/// The button whose long press does something else than its press, at an adjustment.
+inline constexpr int kLongPressButton = 2;
 
 /// What the grip's button does now: the answers by number; the first one also goes on. On a scale
 /// the first two put the mark there, then move it, and the third one answers; at an adjustment the

@@ -112,9 +112,9 @@ std::optional<StudyPress> press_of_button(const StudyRun& run, const StudyShown&
     }
     if (run.step() == StudyStep::question) return answer_by_digit(run, button + 1);
     if (run.step() == StudyStep::adjust) {
-        if (button == kTwoFoldButton && held) return StudyPress{Kind::go_on};
-        if (button == kTwoFoldButton) return StudyPress{Kind::feel, 1 - run.interval()};
-        if (button > kTwoFoldButton || run.interval() == 0) return std::nullopt;
+        if (button == kLongPressButton && held) return StudyPress{Kind::go_on};
+        if (button == kLongPressButton) return StudyPress{Kind::feel, 1 - run.interval()};
+        if (button > kLongPressButton || run.interval() == 0) return std::nullopt;
         return StudyPress{Kind::turn, 0, button == 0 ? -0.02 : 0.02};
     }
     return button == 0 ? Press(StudyPress{Kind::go_on}) : std::nullopt;

@@ -22,7 +22,7 @@ constexpr float kTextTimes = 1.7F;  // as large as in the viewer
 /// wait would tell a condition.
 constexpr double kPreparing_s = 0.9;
 constexpr double kLongestPreparing_s = 30.0;
-constexpr double kHeld_s = 1.0;  // a button of the grip
+constexpr double kLongPress_s = 1.0;
 
 double utc_now_s() {
     return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
@@ -149,7 +149,7 @@ void StudyWindow::show_one_picture() {
 /// The next one is entered with the next picture: the loop has then seen the end of this one.
 void StudyWindow::leave_step() {
     surface_.rest();
-    two_fold_down_since_.reset();
+    pressed_since_.reset();
     entered_ = false;
     view_.waits = true;
 }
@@ -244,20 +244,20 @@ void StudyWindow::look_at_time() {
 
 void StudyWindow::take_buttons() {
     for (const int button : surface_.take_presses()) {
-        if (button == kTwoFoldButton && run_.step() == StudyStep::adjust && !view_.waits)
-            two_fold_down_since_ = Clock::now();
+        if (button == kLongPressButton && run_.step() == StudyStep::adjust && !view_.waits)
+            pressed_since_ = Clock::now();
         else if (const auto press = press_of_button(run_, view_, button))
             act(*press);
     }
-    if (two_fold_down_since_) hold_button();
+    if (pressed_since_) look_at_long_press();
 }
 
 /// What it does is known when it is let go of, or has been held.
-void StudyWindow::hold_button() {
-    const bool held = since_s(*two_fold_down_since_) >= kHeld_s;
-    if (surface_.is_down(kTwoFoldButton) && !held) return;
-    two_fold_down_since_.reset();
-    if (const auto press = press_of_button(run_, view_, kTwoFoldButton, held)) act(*press);
+void StudyWindow::look_at_long_press() {
+    const bool held = since_s(*pressed_since_) >= kLongPress_s;
+    if (surface_.is_down(kLongPressButton) && !held) return;
+    pressed_since_.reset();
+    if (const auto press = press_of_button(run_, view_, kLongPressButton, held)) act(*press);
 }
 
 void StudyWindow::take(const WindowInput& input) {

@@ -57,7 +57,7 @@ class StudyWindow {
     void begin_if_there();
     void take(const WindowInput& input);
     void take_buttons();
-    void hold_button();
+    void look_at_long_press();
     void act(const StudyPress& press);
     void act_at_question(const StudyPress& press);
     void act_at_adjustment(const StudyPress& press);
@@ -98,8 +98,8 @@ class StudyWindow {
     double turned_{0.0};         // the value an adjustment is at
     Clock::time_point since_{};  // what is limited in time began,
     Clock::time_point asked_{};  // and stood still from here on, while leaving was asked about
-    std::optional<Clock::time_point> turned_since_{};         // an adjustment was first felt
-    std::optional<Clock::time_point> two_fold_down_since_{};  // the button of that kind
+    std::optional<Clock::time_point> turned_since_{};   // an adjustment was first felt
+    std::optional<Clock::time_point> pressed_since_{};  // the button that knows a long press
 };
 
 }  // namespace dibhr

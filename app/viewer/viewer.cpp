@@ -681,12 +681,8 @@ void Viewer::take_last_screenshot() {
 
 /// Messages are set wherever something goes wrong; a banner is what a device lacks.
 void Viewer::keep_told() {
-    const auto keep = [this](std::string_view kind, const std::string& now, std::string& kept) {
-        if (now != kept) log_.keep(kind, now);
-        kept = now;
-    };
-    keep("message", state_.message, message_kept_);
-    keep("device", device_banner(state_), banner_kept_);
+    log_.keep_change("message", state_.message);
+    log_.keep_change("device", device_banner(state_));
     attempt([this] { log_.write(); });
 }
 

@@ -193,9 +193,7 @@ class Viewer {
     ViewOptions options_;
     Ending& ending_;
     ToldLog& log_;
-    std::string message_kept_{};  // in the log
-    std::string banner_kept_{};
-    Heartbeat heart_{};           // of the window's thread and the display
+    Heartbeat heart_{};  // of the window's thread and the display
     HandDevice hand_;
     Window window_;
     Gui gui_;

@@ -94,8 +94,8 @@ inline constexpr int kFewestTrialsOfThreshold = 60;
 
 /// The fit with its intervals: profile likelihood, its critical value found by a parametric
 /// bootstrap (the deviance of a known threshold among studies simulated with the fitted function),
-/// but no lower than 3.5. An end is infinite where no value within the search is
-/// refused. The same `seed` gives the same intervals; there must be a bootstrap.
+/// but no lower than 3.5. An end is infinite where no value within the search is refused. The same
+/// `seed` gives the same intervals; there must be a bootstrap.
 [[nodiscard]] PsychometricFit fitted(const LevelCounts& counts, const FitSettings& settings,
                                      const Simulate& simulate, std::uint64_t seed);
 

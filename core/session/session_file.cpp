@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <sys/utsname.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,13 +11,13 @@
 #include <cmath>
 #include <cstring>
 #include <ctime>
-#include <fstream>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/files/machine.hpp"
 #include "core/haptics/surface.hpp"
 
 namespace dibhr {
@@ -79,32 +78,16 @@ std::string insert_parameters() {
     return insertion("OR IGNORE INTO parameters", columns);
 }
 
-/// What follows `separator` in the first line that begins with `name`, without quotation marks.
-std::string value_in(const char* file, std::string_view name, char separator) {
-    std::ifstream stream(file);
-    for (std::string line; std::getline(stream, line);) {
-        const std::size_t at = line.find(separator);
-        if (!line.starts_with(name) || at == std::string::npos) continue;
-        const std::size_t begin = line.find_first_not_of(" \t\"", at + 1);
-        const std::size_t end = line.find_last_not_of(" \t\"");
-        return begin == std::string::npos ? "" : line.substr(begin, end - begin + 1);
-    }
-    return {};
-}
-
 /// Of the machine it is recorded on: what cannot be found out is left out.
 SessionFacts machine_facts() {
+    const Machine machine = this_machine();
     SessionFacts facts;
     const auto add = [&facts](const char* key, const std::string& value) {
         if (!value.empty()) facts[key] = value;
     };
-    add("machine-cpu", value_in("/proc/cpuinfo", "model name", ':'));
-    add("machine-system", value_in("/etc/os-release", "PRETTY_NAME", '='));
-    utsname kernel{};
-    if (uname(&kernel) == 0) {
-        add("machine-kernel",
-            std::string(kernel.sysname) + " " + kernel.release + " " + kernel.machine);
-    }
+    add("machine-cpu", machine.cpu);
+    add("machine-system", machine.system);
+    add("machine-kernel", machine.kernel);
     return facts;
 }
 

@@ -4,10 +4,11 @@
 #include <array>
 #include <chrono>
 #include <ctime>
+#include <thread>
 #include <utility>
 
+#include "core/files/machine.hpp"
 #include "core/files/output_file.hpp"
-#include "device/hand/check/machine.hpp"
 
 namespace dibhr {
 
@@ -15,6 +16,19 @@ namespace {
 
 constexpr std::array kNamesOfEnds{"done", "skipped", "let go", "quit", "failed", "not begun"};
 static_assert(kNamesOfEnds.size() == static_cast<std::size_t>(CheckEnd::not_begun) + 1);
+
+/// What cannot be found out is left out.
+Json machine_facts() {
+    const Machine machine = this_machine();
+    Json facts{{"cpus", std::thread::hardware_concurrency()}};
+    const auto add = [&facts](const char* key, const std::string& value) {
+        if (!value.empty()) facts[key] = value;
+    };
+    add("system", machine.system);
+    add("kernel", machine.kernel);
+    add("cpu", machine.cpu);
+    return facts;
+}
 
 /// Now, as strftime() has it.
 std::string moment(const char* format, std::tm* (*in_zone)(const std::time_t*, std::tm*)) {

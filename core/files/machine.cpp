@@ -1,12 +1,11 @@
-// The machine that a check runs on.
-#include "device/hand/check/machine.hpp"
+// Asks the system.
+#include "core/files/machine.hpp"
 
 #include <sys/utsname.h>
 
 #include <fstream>
 #include <string>
 #include <string_view>
-#include <thread>
 
 namespace dibhr {
 
@@ -27,19 +26,13 @@ std::string line_of(const char* file, std::string_view key, char separator) {
 
 }  // namespace
 
-Json machine_facts() {
-    Json facts = Json::object();
-    const auto add = [&facts](const char* key, const std::string& value) {
-        if (!value.empty()) facts[key] = value;
-    };
-    add("system", line_of("/etc/os-release", "PRETTY_NAME", '='));
+Machine this_machine() {
+    Machine machine{.system = line_of("/etc/os-release", "PRETTY_NAME", '='),
+                    .cpu = line_of("/proc/cpuinfo", "model name", ':')};
     utsname kernel{};
-    if (uname(&kernel) == 0) {
-        add("kernel", std::string(kernel.sysname) + " " + kernel.release + " " + kernel.machine);
-    }
-    add("cpu", line_of("/proc/cpuinfo", "model name", ':'));
-    facts["cpus"] = std::thread::hardware_concurrency();
-    return facts;
+    if (uname(&kernel) == 0)
+        machine.kernel = std::string(kernel.sysname) + " " + kernel.release + " " + kernel.machine;
+    return machine;
 }
 
 }  // namespace dibhr
