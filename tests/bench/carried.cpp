@@ -11,6 +11,7 @@
 
 #include "core/haptics/touch.hpp"
 #include "core/video/motion/frame_motion.hpp"
+#include "core/video/motion/in_betweens.hpp"
 #include "core/video/motion/motion_track.hpp"
 
 namespace dibhr::bench {
@@ -31,21 +32,26 @@ std::vector<Frame> seen(const MovingScene& scene, const Filming& filming, int co
                    {.brightness = filming.brightness_levels, .elevation_px = filming.elevation_px},
                    filming.coded);
     FrameMotion motion;
+    InBetweenMaker maker;
     for (std::size_t k = 0; k + 1 < frames.size(); ++k) {
         const double from_s = static_cast<double>(k) / filming.frames_per_s;
         if (filming.found)
-            motion.connect(frames[k], frames[k + 1], {.motion = true});
-        else
-            frames[k].motion = scene.motion(from_s, from_s + 1.0 / filming.frames_per_s);
+            motion.connect(frames[k], frames[k + 1], {.motion = true, .in_betweens = true});
+        if (filming.found) continue;
+        frames[k].motion = scene.motion(from_s, from_s + 1.0 / filming.frames_per_s);
+        frames[k].between = maker.between(frames[k], frames[k + 1]);
     }
     return frames;
 }
 
-std::vector<Frame> truth(const MovingScene& scene, double frames_per_s, int count) {
+/// Frames so close in time that it does not matter what lies between two of them.
+std::vector<Frame> truth(const MovingScene& scene, double seconds) {
+    constexpr double kFrames_per_s = 60.0;
+    const int count = static_cast<int>(std::ceil(seconds * kFrames_per_s)) + 2;
     std::vector<Frame> frames;
     for (int k = 0; k < count; ++k) {
-        frames.push_back(scene.frame(k / frames_per_s));
-        frames.back().motion = scene.motion(k / frames_per_s, (k + 1) / frames_per_s);
+        frames.push_back(scene.frame(k / kFrames_per_s));
+        frames.back().motion = scene.motion(k / kFrames_per_s, (k + 1) / kFrames_per_s);
     }
     return frames;
 }
@@ -101,12 +107,20 @@ bool is_on_thing(const MovingScene& scene, double t_s, Point at) {
     return true;
 }
 
-/// Of a grid all over the picture those that stay in it on the thing, evenly chosen.
+bool is_too_fast(const MovingScene& scene, Point at) {
+    constexpr double kMoment_s = 1e-3;
+    const Point gone = scene.gone(0.0, at, kMoment_s);
+    return std::hypot(gone.x - at.x, gone.y - at.y) >
+           1.05 * scene.what().speed_px_per_s * kMoment_s;
+}
+
+/// Of a grid all over the picture those that stay in it on the thing, and go no faster than it is
+/// to, evenly chosen.
 std::vector<Point> places_that_stay(const MovingScene& scene, double seconds) {
     std::vector<Point> found;
     for (double y = 10.3; y < scene.what().rows; y += 17.0)
         for (double x = 10.7; x < scene.what().columns; x += 17.0) {
-            bool stays = true;
+            bool stays = !is_too_fast(scene, {x, y});
             for (int k = 0; stays && k <= 10; ++k)
                 stays = is_on_thing(scene, 0.1 * k * seconds,
                                     scene.gone(0.0, {x, y}, 0.1 * k * seconds));
@@ -178,7 +192,7 @@ Resting resting(const MovingScene& scene, const std::vector<Frame>& frames,
 CarriedFinger carried_finger(const MovingScene& scene, const Filming& filming) {
     const int count = static_cast<int>(std::ceil(filming.seconds * filming.frames_per_s)) + 2;
     const std::vector<Frame> frames = seen(scene, filming, count);
-    const std::vector<Frame> true_frames = truth(scene, filming.frames_per_s, count);
+    const std::vector<Frame> true_frames = truth(scene, filming.seconds);
     std::vector<double> astray, turned, drag;
     for (const Point begun : places_that_stay(scene, filming.seconds))
         astray.push_back(astray_px(scene, frames, begun, filming));

@@ -24,7 +24,8 @@ struct CarriedFinger {
     static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
     /// How far a finger that holds on, and goes along, is from its material point at the end [px];
-    /// the median over fingers on the thing that stay in the picture, and the worst of them.
+    /// the median over fingers on the thing that stay in the picture and go no faster than asked,
+    /// and the worst of them.
     double astray_px{kNone};
     double worst_astray_px{kNone};
     /// A finger that rests with friction 0.4, 20 px deep, while the thing goes on below it: the

@@ -18,6 +18,8 @@ constexpr float kUnchanged = 0.1F;  // mean square of what differs less [levels]
 constexpr std::size_t kSmall = 1;   // the size of picture in which that is seen
 constexpr float kNoise = 0.08F;     // a share of what is left: noise falls by as much by chance
 constexpr float kFewPixels = 2.0F;  // of so many nothing is known
+constexpr float kFits = 50.0F;      // a mean square at which a part is trusted a quarter
+constexpr float kLeastTrust = 0.01F;
 constexpr float kStiff = 0.5F;      // as if every pixel had such a slope, squared, to stay
 constexpr float kMostStep = 1.5F;   // downhill, at once [px of the picture]
 constexpr float kOwnShare = 0.9F;   // of what a part's own way is off, against that of others
@@ -177,6 +179,25 @@ void MotionEstimator::leave_noise() {
     find_rows();
 }
 
+/// What fits badly where it goes says little of those around it: Geman and McClure's weights.
+void MotionEstimator::weigh_by_fit() {
+    trust_ = wanted_;
+    each_part([this](const Part& part, std::size_t k) {
+        float& trust = trust_.of[part.part].values[k];
+        if (!(trust > 0.0F)) return;
+        const float share = is_known(sums_, part.part, k)
+                                ? kFits / (kFits + mean_square(sums_, part.part, k))
+                                : 0.0F;
+        trust = std::max(share * share, kLeastTrust);
+    });
+    for (MotionLayers& layers : sums_.of)
+        for (std::size_t part = 0; part < layers.of.size(); ++part) {
+            std::vector<float>& values = layers.of[part].values;
+            const std::vector<float>& trust = trust_.of[part].values;
+            for (std::size_t k = 0; k < values.size(); ++k) values[k] *= trust[k];
+        }
+}
+
 /// Alike parts turn and grow together: what is the same of them is how far each goes beyond even
 /// motion.
 void MotionEstimator::go_downhill(std::size_t size) {
@@ -184,10 +205,8 @@ void MotionEstimator::go_downhill(std::size_t size) {
     const float farthest = static_cast<float>(kFarthestMotion) *
                            static_cast<float>(kMotionCell_px * from_.cells.columns);
     sum(size, wanted_, ways_, MotionMeasure::slopes);
-    if (size <= kSmall)
-        kin_.smooth(wanted_, ways_, even_);
-    else
-        even_.fill(0.0F);  // the search is not even enough to tell
+    weigh_by_fit();
+    kin_.smooth(trust_, ways_, even_);
     const auto even_way = [&](const Part& part, std::size_t k) {
         return Way{even_.right.of[part.part].values[k], even_.down.of[part.part].values[k]};
     };
@@ -203,7 +222,8 @@ void MotionEstimator::go_downhill(std::size_t size) {
     });
     gather(1, MotionMeasure::slopes);
     each_part([&](const Part& part, std::size_t k) {
-        if (!goes(part, k) || !is_known(gathered_, part.part, k)) return;
+        const float pixels = gathered_[MotionSum::n].of[part.part].values[k];
+        if (!goes(part, k) || !(pixels > kLeastTrust * kFewPixels)) return;
         const Way even = even_way(part, k);
         const Way now = beyond(way_of(part), even);
         const Way there = lowest(gathered_, part.part, k, now);
@@ -395,7 +415,6 @@ std::shared_ptr<const MotionField> MotionEstimator::between(const Frame& from, c
     choose(kSmall);
     leave_noise();
     go_downhill(kSmall);
-    go_downhill(0);
     go_downhill(0);
     judge();
     convince();
