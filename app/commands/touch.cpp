@@ -61,8 +61,9 @@ class TouchRun {
         auto media = options.colour.empty() ? open_depth(options.depth, request)
                                             : open_media(options.colour, options.depth, request);
         print_warning(media->description().notice);
-        if (options.video && (parameters.carry || options.touch.in_betweens.value_or(false)))
-            print_warning(motion_trouble(media->description()));
+        const MotionWanted motion = motion_wanted(
+            parameters.carry, options.touch.in_betweens.value_or(InBetweens::automatic));
+        if (options.video && motion.any()) print_warning(motion_trouble(media->description()));
         options.touch.given.fit(media->description(), options.touch.raw_depth, parameters);
         const CleaningOptions cleaning = options.touch.cleaning(parameters, media->description());
         if (cleaning.preset == CleaningPreset::own && cleaning.own.colour_edges &&
@@ -72,8 +73,6 @@ class TouchRun {
                           "its silhouettes are those of the depth alone");
         std::shared_ptr<const TouchMaps> maps = options.touch.read_maps(media->description());
         using Wanted = DepthInTime::Wanted;
-        const MotionWanted motion{.motion = parameters.carry,
-                                  .in_betweens = options.touch.in_betweens.value_or(false)};
         return {std::move(media), options.video ? Wanted::all : Wanted::first, cleaning, motion,
                 std::move(maps)};
     }
@@ -158,7 +157,7 @@ int run_touch(CLI::App& app, const Arguments& arguments) {
     options.touch.given.apply(options.parameters);
     if (options.parameters.carry && !options.video)
         print_warning("--carry on changes nothing over a picture that stands still; give --video");
-    if (options.touch.in_betweens.value_or(false) && !options.video)
+    if (options.touch.in_betweens == InBetweens::on && !options.video)
         print_warning(
             "--in-betweens on changes nothing over a picture that stands still; give --video");
     print_warning(roughness_warning(options.touch.given, !options.touch.given.bump_file().empty()));

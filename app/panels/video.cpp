@@ -193,9 +193,9 @@ void draw_cleaning(ViewerState& state) {
         "Within the noise of the recording; what is beyond it stays");
     if (changed)
         cleaning = {.preset = CleaningPreset::own, .own = steps, .finger = cleaning.finger};
-    flag_row("In-betweens", state.settings.in_betweens, Settings{}.in_betweens,
-             "Between two frames what moves is on its way, instead of one picture fading into the "
-             "other; a replay then needs the colour, too (--in-betweens)");
+    choice_row("In-betweens", kInBetweensWords, state.settings.in_betweens,
+               "Between two frames what moves is on its way, instead of one picture fading into "
+               "the other; a replay then needs the colour, too (--in-betweens)");
 }
 
 }  // namespace

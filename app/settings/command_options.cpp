@@ -379,10 +379,18 @@ void add_carry_option(CLI::App& app, GivenParameters& given, const std::string& 
 }
 
 void add_in_betweens_option(CLI::App& app, TouchRequest& touch) {
-    add_on_off_option(app, "--in-betweens",
-                      "on: between two frames what moves is on its way, instead of fading",
-                      touch.in_betweens)
-        ->default_str("off");
+    app.add_option_function<std::string>(
+           "--in-betweens",
+           [&touch](const std::string& name) {
+               touch.in_betweens = in_betweens_named(name);
+               if (!touch.in_betweens)
+                   throw CLI::ValidationError("--in-betweens",
+                                              "'" + name + "' is none of auto, on, off");
+           },
+           "on: between two frames what moves is on its way, instead of fading; auto: with --carry "
+           "on")
+        ->type_name("auto|on|off")
+        ->default_str("auto");
 }
 
 void add_level_options(CLI::App& app, DepthStatement& depth) {

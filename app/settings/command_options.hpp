@@ -14,6 +14,7 @@
 #include "core/haptics/parameters.hpp"
 #include "core/plot/canvas.hpp"
 #include "core/video/media.hpp"
+#include "core/video/motion/motion_wanted.hpp"
 
 namespace CLI {
 class App;
@@ -62,12 +63,12 @@ struct GivenParameters {
 /// What all commands that compute forces take.
 struct TouchRequest {
     GivenParameters given{};
-    bool raw_depth{false};                   ///< --raw-depth, or --cleaning raw
-    std::optional<CleaningPreset> preset{};  ///< --cleaning
-    std::optional<double> finger_mm{};       ///< --finger
-    std::optional<bool> in_betweens{};       ///< --in-betweens
-    DepthStatement depth{};                  ///< --near, --depth-unit and so on
-    std::optional<bool> maps{};              ///< --maps
+    bool raw_depth{false};                    ///< --raw-depth, or --cleaning raw
+    std::optional<CleaningPreset> preset{};   ///< --cleaning
+    std::optional<double> finger_mm{};        ///< --finger
+    std::optional<InBetweens> in_betweens{};  ///< --in-betweens
+    DepthStatement depth{};                   ///< --near, --depth-unit and so on
+    std::optional<bool> maps{};               ///< --maps
 
     [[nodiscard]] DepthRequest depth_request() const;
     /// By what is no number of the touch: another bump map, cleaning, fingertip or in-betweens.
@@ -112,7 +113,7 @@ void add_algorithm_option(CLI::App& app, GivenParameters& given);
 /// of `app`.
 void add_carry_option(CLI::App& app, GivenParameters& given, const std::string& otherwise);
 
-/// --in-betweens on|off, off unless it is given. `touch` must outlive the parsing of `app`.
+/// --in-betweens auto|on|off. `touch` must outlive the parsing of `app`.
 void add_in_betweens_option(CLI::App& app, TouchRequest& touch);
 
 /// --algorithm NAME, several times. `algorithms` must outlive the parsing of `app`.

@@ -112,6 +112,11 @@ std::string take(const toml::node& node, const Setting&, OpenWith& value) {
     return take_word(open_with_named(word), value, "is none of auto, desktop and window");
 }
 
+std::string take(const toml::node& node, const Setting&, InBetweens& value) {
+    const auto word = node.value<std::string_view>().value_or("");
+    return take_word(in_betweens_named(word), value, "is none of auto, on and off");
+}
+
 std::string take(const toml::node& node, const Setting&, Dialect& value) {
     const auto word = node.value<std::string_view>().value_or("");
     return take_word(dialect_named(word), value, "is none of auto, vector and values");

@@ -20,6 +20,7 @@
 #include "core/sound/touch_sound.hpp"
 #include "core/video/cleaning/cleaning_options.hpp"
 #include "core/video/media.hpp"
+#include "core/video/motion/motion_wanted.hpp"
 #include "render/scene_view.hpp"
 
 namespace dibhr {
@@ -72,7 +73,7 @@ struct Settings {
     bool damping_as_needed{true};  ///< with stability: not that of `touch`, but what the hand needs
     CleaningOptions cleaning{};    ///< but for the finger
     double finger_mm{0.0};         ///< radius of the fingertip
-    bool in_betweens{false};       ///< between frames what moves moves, instead of blending
+    InBetweens in_betweens{};
     ReliefLook look{};
     bool straight_view{false};
     bool others{false};             ///< the proxies of the algorithms that do not run are shown
@@ -118,7 +119,7 @@ struct Setting {
     std::string_view table;
     std::string_view name;
     std::variant<bool*, int*, double*, std::string*, NamePattern*, Algorithm*, CleaningPreset*,
-                 ButtonAction*, ReliefPaint*, Theme*, OpenWith*, Dialect*>
+                 ButtonAction*, ReliefPaint*, Theme*, OpenWith*, Dialect*, InBetweens*>
         value;
     double lowest{0.0};  ///< of a number
     double highest{0.0};

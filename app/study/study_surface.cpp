@@ -61,7 +61,7 @@ void StudySurface::wear(const TouchValues& values) {
     settings.damping_as_needed = !request.given.gives_damping();
     settings.cleaning = {.preset = request.preset.value_or(CleaningPreset::automatic)};
     settings.finger_mm = request.finger_mm.value_or(0.0);
-    settings.in_betweens = request.in_betweens.value_or(false);
+    settings.in_betweens = request.in_betweens.value_or(InBetweens::automatic);
     request.given.apply(settings.touch);
     state_.material = request.given.material.value_or(Material{});
     settings.material = state_.material.name;
@@ -168,8 +168,7 @@ void StudySurface::hand_over() {
     if (std::exchange(rests_, false)) recording_.mark("rest");
     if (falcon_.tuning_changed(state_)) falcon_.hand_over(state_);
     if (inverse3_.tuning_changed(state_)) inverse3_.hand_over(state_);
-    player_.set_motion(
-        {.motion = state_.settings.touch.carry, .in_betweens = state_.settings.in_betweens});
+    player_.set_motion(motion_wanted(state_.settings.touch.carry, state_.settings.in_betweens));
     CleaningOptions cleaning = cleaning_on(state_.media, state_.settings.cleaning);
     const double radius_mm = finger_mm_on(state_.media, state_.settings.finger_mm);
     if (radius_mm > 0.0) cleaning.finger = fingertip_of(radius_mm, state_.settings.touch);

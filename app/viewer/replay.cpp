@@ -58,9 +58,9 @@ void ViewerReplay::begin(std::unique_ptr<OpenedSession> opened, const GivenParam
     }
     const Session& session = opened->session;
     // Of what moves: pairs that stand still have none.
-    state.settings.in_betweens =
-        std::any_of(session.sources().begin(), session.sources().end(),
-                    [](const SessionSource& one) { return one.source.in_betweens; });
+    const bool moves = std::any_of(session.sources().begin(), session.sources().end(),
+                                   [](const SessionSource& one) { return one.source.in_betweens; });
+    state.settings.in_betweens = moves ? InBetweens::on : InBetweens::off;
     state.replay = ReplayNews{.file = session.file(),
                               .participant = session.fact("participant"),
                               .note = session.fact("note"),

@@ -47,7 +47,7 @@ class ViewerReplay {
     // Of before.
     TouchParameters touch_{};
     CleaningOptions cleaning_{};
-    bool in_betweens_{false};
+    InBetweens in_betweens_{};
     std::shared_ptr<const BumpMap> bump_{};
     std::filesystem::path bump_file_{};
 };

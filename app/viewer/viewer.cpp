@@ -593,8 +593,9 @@ void Viewer::hand_over_settings() {
     // After the above, so that the force is already rising from zero when the goal moves elsewhere.
     if (falcon_.tuning_changed(state_)) falcon_.hand_over(state_);
     if (inverse3_.tuning_changed(state_)) inverse3_.hand_over(state_);
-    player_.set_motion({.motion = state_.settings.touch.carry,
-                        .in_betweens = state_.settings.in_betweens && !state_.as_recorded});
+    player_.set_motion(
+        motion_wanted(state_.settings.touch.carry,
+                      state_.as_recorded ? InBetweens::off : state_.settings.in_betweens));
     player_.set_cleaning(wanted_cleaning());
 }
 

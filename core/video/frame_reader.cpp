@@ -25,7 +25,6 @@ constexpr double kUnknownInterval_s = 1.0 / 25.0;
 constexpr int kPlaying = static_cast<int>(FrameWindow::kFrames);
 constexpr int kInTime = 30;               ///< so many frames in a row: the machine keeps up
 constexpr std::int64_t kMostApart = 3;    // frames: what is farther apart is not followed
-constexpr int kLongestRest = 20'000;      ///< frames without motion, on a machine that is too slow
 constexpr double kNewest = 0.1;           ///< the weight of the newest of a moving mean
 constexpr double kSoon_s = 0.1;           ///< what comes sooner needs no preview
 constexpr double kJump_s_a_pixel = 1e-7;  ///< a guess, until one was measured
@@ -441,26 +440,18 @@ std::optional<Frame> FrameReader::after(double media_s, const Pace& pace) {
 }
 
 void FrameReader::keep_pace(std::int64_t passed_over) {
-    if (passed_over > 0 && moved_) rest_from_motion();
+    if (passed_over > 0) motion_rests_.begin(done_);  // it is left out before frames are
     const bool was_in_time = in_time_ >= kInTime;
     in_time_ = passed_over > 0 ? 0 : std::min(in_time_ + 1, kInTime);
     if (was_in_time != (in_time_ >= kInTime)) clean_ahead();
 }
 
-/// Motion is left out before frames are, for longer each time.
-void FrameReader::rest_from_motion() {
-    motion_rests_ = next_rest_;
-    next_rest_ = std::min(4 * next_rest_, kLongestRest);
-}
-
 void FrameReader::connect(Frame& from, const Frame& next) {
     const bool follows = next.media_s > from.media_s && next.index - from.index <= kMostApart;
-    if (motion_rests_ > 0) --motion_rests_;
-    const bool rests = !follows || motion_rests_ > 0;
-    const MotionWanted wanted = rests ? MotionWanted{} : motion_wanted_;
-    moved_ = wanted.any();
+    const MotionWanted affordable = motion_rests_.affordable(motion_wanted_);
+    done_ = follows ? affordable : MotionWanted{};
     const auto begin = Clock::now();
-    motion_.connect(from, next, wanted);
+    motion_.connect(from, next, done_);
     waited_s_ += seconds_since(begin);
 }
 

@@ -16,6 +16,7 @@
 #include "core/video/frame_window.hpp"
 #include "core/video/media.hpp"
 #include "core/video/motion/frame_motion.hpp"
+#include "core/video/motion/motion_rests.hpp"
 
 namespace dibhr {
 
@@ -90,7 +91,7 @@ class FrameReader {
     [[nodiscard]] const CleaningPlan& plan() const { return plan_; }
 
   private:
-    static constexpr int kFirstRest = 30;  ///< frames
+    static constexpr int kLongestRest = 20'000;  ///< frames without motion
     /// Of a kept frame: to give it out, or to clean others with it.
     enum class Needs { surface, depth };
     /// A decoded frame and its neighbours, as far as they were read one after the other. Cleaned by
@@ -148,7 +149,6 @@ class FrameReader {
     void make_plan();
     void clean_ahead();
     void keep_pace(std::int64_t passed_over);
-    void rest_from_motion();
     [[nodiscard]] static DepthNoise noise_of(Media& media);
     Around around(double media_s);
     Frame cleaned(double media_s);  ///< of a kept frame at exactly that time
@@ -184,9 +184,8 @@ class FrameReader {
     int in_time_{0};  ///< frames since one was passed over
     FrameMotion motion_{};
     MotionWanted motion_wanted_{};
-    bool moved_{false};    ///< the last frame was connected
-    int motion_rests_{0};  ///< for so many frames: this machine is too slow for it
-    int next_rest_{kFirstRest};
+    MotionWanted done_{};  ///< of it, at the last frame
+    MotionRests motion_rests_{kLongestRest};
     FrameCost cost_{};
 };
 

@@ -311,9 +311,9 @@ LiveStatus LivePlayback::status(Time now) const {
     status.trouble = signal.trouble;
     status.opened = opened_;
     status.media = frames_.empty() ? 0 : frames_.front().media;
-    status.motion_rests = motion_wanted_.motion && budget_.motion_rests();
+    status.motion_rests = motion_wanted_.motion && budget_.rests().motion();
     status.in_betweens_rest =
-        motion_wanted_.in_betweens && (budget_.in_betweens_rest() || budget_.motion_rests());
+        motion_wanted_.in_betweens && (budget_.rests().in_betweens() || budget_.rests().motion());
     status.noise = noise_.value_or(DepthNoise{});
     return status;
 }

@@ -37,6 +37,21 @@ DIBHR_VECTOR_CLONES void find_places_of(const Starts& from, float share, int col
     }
 }
 
+/// The pixels of a row around a place, and the weight of each, which falls to both sides.
+struct Tent {
+    Tent(float place, int count)
+        : middle(std::clamp(place, 0.0F, static_cast<float>(count - 1))),
+          begin(std::max(static_cast<int>(middle) - kReach + 1, 0)),
+          end(std::min(static_cast<int>(middle) + kReach + 1, count)) {}
+    [[nodiscard]] float at(int k) const {
+        return static_cast<float>(kReach) - std::fabs(static_cast<float>(k) - middle);
+    }
+
+    static constexpr int kReach = 3;  // [px]
+    float middle;
+    int begin, end;
+};
+
 bool is_way(const MotionField::Way& way) {
     return way.right * way.right + way.down * way.down >= kShortestWay_px * kShortestWay_px;
 }
@@ -209,26 +224,21 @@ void Course::mend() {
     }
 }
 
-/// How much of what is around the place where it was, and where it will be, is of its surface.
-float Course::share_of(const Seen& seen, float share, int x, int y) const {
-    const MotionField::Way way = goers_.way(seen.goer);
+/// How much of what is around the place where it was, and where it will be, is nearer than
+/// `level`.
+float Course::share_nearer(float level, MotionField::Way way, float share, int x, int y) const {
     const auto at = [&](const DepthImage& image, float times) {
-        const float alike = kOfOneSurface * static_cast<float>(image.highest_level);
-        const float right = static_cast<float>(x + box_.left) + times * way.right;
-        const float down = static_cast<float>(y + box_.top) + times * way.down;
-        const float last_column = static_cast<float>(image.columns - 1);
-        const float last_row = static_cast<float>(image.rows - 1);
-        const float on_x = std::clamp(right, 0.0F, last_column);
-        const float on_y = std::clamp(down, 0.0F, last_row);
-        const int i = std::min(static_cast<int>(on_x), image.columns - 2);
-        const int j = std::min(static_cast<int>(on_y), image.rows - 2);
-        const float u = on_x - static_cast<float>(i);
-        const float v = on_y - static_cast<float>(j);
-        const auto is = [&](int column, int row) {
-            return std::fabs(image.at(column, row) - seen.level) < alike ? 1.0F : 0.0F;
-        };
-        return (1.0F - v) * ((1.0F - u) * is(i, j) + u * is(i + 1, j)) +
-               v * ((1.0F - u) * is(i, j + 1) + u * is(i + 1, j + 1));
+        const Tent columns(static_cast<float>(x + box_.left) + times * way.right, image.columns);
+        const Tent rows(static_cast<float>(y + box_.top) + times * way.down, image.rows);
+        float nearer = 0.0F;
+        float all = 0.0F;
+        for (int j = rows.begin; j < rows.end; ++j)
+            for (int i = columns.begin; i < columns.end; ++i) {
+                const float weight = rows.at(j) * columns.at(i);
+                nearer += image.at(i, j) > level ? weight : 0.0F;
+                all += weight;
+            }
+        return nearer / all;
     };
     return 0.5F * (at(*first_, -share) + at(*second_, 1.0F - share));
 }
@@ -245,16 +255,17 @@ Course::Seen Course::behind(const Seen& far, int x, int y) const {
     return first ? Seen{in_first, kStaysInFirst} : Seen{in_second, kStaysInSecond};
 }
 
-/// Of two beside each other, at the place of one: the near one is there if more of its surface is
-/// than of others.
+/// Of two beside each other, at the place of one: the near one is there if more around it is near.
 void Course::settle(float share, int x, int y, const Seen& near, const Seen& far) {
     const auto at = place(x, y);
     const bool is_near = seen_[at].goer == near.goer;
-    const bool reaches = share_of(near, share, x, y) > 0.5F;
+    const float between = 0.5F * (near.level + far.level);
+    const bool reaches = share_nearer(between, goers_.way(near.goer), share, x, y) > 0.5F;
     if (is_near != reaches) settled_.push_back({at, reaches ? near : behind(far, x, y)});
 }
 
-/// Each image knows where an outline is to a pixel; the two, between which it goes, better.
+/// Each image knows where an outline is to a pixel; the two, between which it goes, and the pixels
+/// along it, better.
 void Course::settle_outlines(float share) {
     const float alike = kOfOneSurface * static_cast<float>(first_->highest_level);
     settled_.clear();

@@ -89,7 +89,8 @@ class Course {
     void mend();
     void settle_outlines(float share);
     void settle(float share, int x, int y, const Seen& near, const Seen& far);
-    [[nodiscard]] float share_of(const Seen& seen, float share, int x, int y) const;
+    [[nodiscard]] float share_nearer(float level, MotionField::Way way, float share, int x,
+                                     int y) const;
     [[nodiscard]] Seen behind(const Seen& far, int x, int y) const;
     void find_covered();
     void find_uncovered();

@@ -405,6 +405,41 @@ TEST_CASE("with in-betweens an outline passes under a finger as one step, else i
     CHECK(updates_between("on") < 12);   // of a step on its way by 2 px at a time
 }
 
+TEST_CASE("a bar almost as narrow as its way in a frame carries a finger, unless it fades",
+          "[touch]") {
+    const TemporaryFolder folder;
+    // 24 px wide, to the right by 20 px a frame (of which the first has number 1), over a plane far
+    // below.
+    run_shell(folder,
+              "ffmpeg -nostdin -v error -f lavfi -i 'color=gray:s=24x80:d=0.04,noise=alls=90,"
+              "gblur=sigma=1.5' -frames:v 1 bar.png && "
+              "ffmpeg -nostdin -v error -f lavfi -i color=0x303030:s=640x240:r=30:d=0.6 -loop 1 "
+              "-framerate 30 -t 0.6 -i bar.png -filter_complex "
+              "'overlay=x=128+20*n:y=80' -pix_fmt yuv444p -c:v ffv1 color.mkv && "
+              "ffmpeg -nostdin -v error -f lavfi -i color=0x101010:s=640x240:r=30:d=0.6 -f lavfi "
+              "-i color=0xd0d0d0:s=24x80:r=30:d=0.6 -filter_complex "
+              "'overlay=x=128+20*n:y=80,format=gray' -c:v ffv1 depth.mkv");
+    std::vector<Vec3> goals;  // of a hand that goes along
+    for (int k = 0; k < 500; ++k) goals.push_back({160.0 + 0.6 * k, 120.0, 200.0});
+    goals.front().z = 215.0;
+    write_text(folder / "goals.csv", goals_csv(goals));
+    const auto astray_px = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments{"touch",     "--raw-depth", "--depth", "depth.mkv",
+                                           "--color",   "color.mkv",   "--video", "--goals",
+                                           "goals.csv", "--friction",  "3",       "--relief",
+                                           "255",       "--carry",     "on"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramResult result = run_dibhr(folder, arguments);
+        INFO(result.errors);
+        REQUIRE(result.exit_code == 0);
+        const Row last = rows_of(result.output).back();
+        return std::hypot(last.number("px") - goals.back().x, last.number("pz") - 208.0);
+    };
+    CHECK(astray_px({}) < 2.0);
+    CHECK(astray_px({"--in-betweens", "auto"}) < 2.0);
+    CHECK(astray_px({"--in-betweens", "off"}) > 8.0);
+}
+
 TEST_CASE("a finished output file replaces the old one and leaves nothing beside it", "[touch]") {
     const TemporaryFolder folder;
     write_depth_png(folder / "depth.png", 16, 12, 100);

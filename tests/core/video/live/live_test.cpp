@@ -572,10 +572,10 @@ TEST_CASE("where there is no time for motion in-betweens rest first, then all of
     const int begin = frames_until(kAll, 2.0 * kInterval_s, less);
     CHECK(begin > 0);
     CHECK(begin < 10);
-    CHECK(budget.in_betweens_rest());
-    CHECK_FALSE(budget.motion_rests());  // it may fit alone
+    CHECK(budget.rests().in_betweens());
+    CHECK_FALSE(budget.rests().motion());  // it may fit alone
     CHECK(frames_until(kAll, 2.0 * kInterval_s, none) < 10);
-    CHECK(budget.motion_rests());
+    CHECK(budget.rests().motion());
     const int first = frames_until(kAll, 0.5 * kInterval_s, all);
     REQUIRE(first > 30);
     CHECK(frames_until(kAll, 2.0 * kInterval_s, none) < 20);
