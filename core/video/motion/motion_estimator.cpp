@@ -14,16 +14,16 @@ namespace dibhr {
 
 namespace {
 
-constexpr float kUnchanged = 0.1F;  // mean square of what differs less [levels]
-constexpr std::size_t kSmall = 1;   // the size of picture in which that is seen
-constexpr float kNoise = 0.08F;     // a share of what is left: noise falls by as much by chance
-constexpr float kFewPixels = 2.0F;  // of so many nothing is known
-constexpr float kFits = 50.0F;      // a mean square at which a part is trusted a quarter
-constexpr float kLeastTrust = 0.01F;
-constexpr float kStiff = 0.5F;     // as if every pixel had such a slope, squared, to stay
-constexpr float kMostStep = 1.5F;  // downhill, at once [px of the picture]
-constexpr float kOwnShare = 0.9F;  // of what a part's own way is off, against that of others
-constexpr float kApart_px = 0.5F;  // ways that differ by less are not worth trying
+constexpr float kUnchanged = 0.1F;    // mean square of what differs less [levels]
+constexpr std::size_t kSmall = 1;     // the size of picture in which that is seen
+constexpr float kNoise = 0.08F;       // a share of what is left: noise falls by as much by chance
+constexpr float kFewPixels = 2.0F;    // of so many nothing is known
+constexpr float kFits = 50.0F;        // a mean square at which a part is trusted a quarter
+constexpr float kLeastTrust = 0.01F;  // in what fits not at all
+constexpr float kStiff = 0.5F;        // as if every pixel had such a slope, squared, to stay
+constexpr float kMostStep = 1.5F;     // downhill, at once [px of the picture]
+constexpr float kOwnShare = 0.9F;     // of what a part's own way is off, against that of others
+constexpr float kApart_px = 0.5F;     // ways that differ by less are not worth trying
 // A part goes for sure, or if others do, when its mean square falls by this share of what is left
 // and of what codecs make of a still picture.
 constexpr float kSure = 0.8F;

@@ -74,7 +74,7 @@ class MotionEstimator {
     bool by_depth_{false};
     MotionKin kin_{};        ///< of the first one's parts
     MotionLayers wanted_{};  ///< 1: the part is looked at
-    MotionLayers trust_{};   ///< in [0, 1], in what a part says of those around it
+    MotionLayers trust_{};   ///< in what a part says of those around it, in [0, 1]
     MotionRows rows_{};
     MotionLayers differs_{};  ///< 1: what is tried is another way
     MotionWays ways_{}, tried_{}, chosen_{}, even_{};
