@@ -283,7 +283,9 @@ bool DocumentedOption::takes_file() const {
 }
 
 std::vector<std::string> DocumentedOption::values() const {
-    if (type == "on|off") return {"on", "off"};
+    if (std::vector<std::string> choices = split(type, "|");
+        choices.size() > 1 && std::all_of(choices.begin(), choices.end(), is_word))
+        return choices;
     if (type != "NAME" && type != "WORD") return {};
     const std::size_t colon = help.find(": ");
     if (colon == std::string::npos) return {};

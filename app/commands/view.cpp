@@ -284,17 +284,7 @@ int run_view(CLI::App& app, const Arguments& arguments) {
                       [&ui_scale](double scale) { ui_scale = scale; })
         ->type_name("X");
     std::optional<Theme> theme;
-    app.add_option_function<std::string>(
-           "--theme",
-           [&theme](const std::string& name) {
-               theme = theme_named(name);
-               if (!theme)
-                   throw CLI::ValidationError("--theme",
-                                              "'" + name + "' is neither dark nor light");
-           },
-           "Colours of the window: dark, light")
-        ->type_name("NAME")
-        ->default_str("dark");
+    add_words_option(app, "--theme", theme, "Colours of the window");
     std::optional<NamePattern> screenshot_name;
     app.add_option_function<std::string>(
            "--screenshot-name",
@@ -316,18 +306,9 @@ int run_view(CLI::App& app, const Arguments& arguments) {
              "Keeps there what is told, with its time, behind what the file has: notices, "
              "messages, errors, late ticks");
     std::optional<OpenWith> open_with;
-    app.add_option_function<std::string>(
-           "--open-dialog",
-           [&open_with](const std::string& name) {
-               open_with = open_with_named(name);
-               if (!open_with)
-                   throw CLI::ValidationError("--open-dialog",
-                                              "'" + name + "' is none of auto, desktop, window");
-           },
-           "What files are chosen in: auto (the desktop's dialog where there is a desktop), "
-           "desktop, window (its own, with pairs and previews)")
-        ->type_name("NAME")
-        ->default_str("auto");
+    add_words_option(app, "--open-dialog", open_with,
+                     "What files are chosen in: auto (the desktop's dialog where there is a "
+                     "desktop), desktop, window (its own, with pairs and previews)");
     bool mute = false;
     app.add_flag("--mute", mute, "Touch makes no sound");
     std::optional<bool> game_pad;

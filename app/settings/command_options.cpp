@@ -362,6 +362,19 @@ CLI::Option* add_on_off_option(CLI::App& app, const std::string& name, const std
     return app.add_option_function<std::string>(name, take, help)->type_name("on|off");
 }
 
+CLI::Option* add_choice_option(CLI::App& app, const std::string& name,
+                               const std::vector<std::string>& names, const std::string& help,
+                               const std::function<void(const std::string&)>& take) {
+    const auto check = [name, names, take](const std::string& word) {
+        if (std::find(names.begin(), names.end(), word) == names.end())
+            throw CLI::ValidationError(name, "'" + word + "' is none of " + listed(names));
+        take(word);
+    };
+    return app.add_option_function<std::string>(name, check, help)
+        ->type_name(CLI::detail::join(names, "|"))
+        ->default_str(names.front());
+}
+
 void add_algorithm_option(CLI::App& app, GivenParameters& given) {
     app.add_option_function<std::string>(
            "--algorithm",
@@ -379,18 +392,9 @@ void add_carry_option(CLI::App& app, GivenParameters& given, const std::string& 
 }
 
 void add_in_betweens_option(CLI::App& app, TouchRequest& touch) {
-    app.add_option_function<std::string>(
-           "--in-betweens",
-           [&touch](const std::string& name) {
-               touch.in_betweens = in_betweens_named(name);
-               if (!touch.in_betweens)
-                   throw CLI::ValidationError("--in-betweens",
-                                              "'" + name + "' is none of auto, on, off");
-           },
-           "on: between two frames what moves is on its way, instead of fading; auto: with --carry "
-           "on")
-        ->type_name("auto|on|off")
-        ->default_str("auto");
+    add_words_option(app, "--in-betweens", touch.in_betweens,
+                     "on: between two frames what moves is on its way, instead of fading; auto: "
+                     "with --carry on");
 }
 
 void add_level_options(CLI::App& app, DepthStatement& depth) {

@@ -12,6 +12,7 @@
 #include "app/settings/material.hpp"
 #include "core/error.hpp"
 #include "core/haptics/parameters.hpp"
+#include "core/haptics/words.hpp"
 #include "core/plot/canvas.hpp"
 #include "core/video/media.hpp"
 #include "core/video/motion/motion_wanted.hpp"
@@ -101,6 +102,19 @@ CLI::Option* add_number_option(CLI::App& app, const std::string& name, double lo
 /// --NAME on|off. `on` must outlive the parsing of `app`.
 CLI::Option* add_on_off_option(CLI::App& app, const std::string& name, const std::string& help,
                                std::optional<bool>& on);
+
+/// --NAME with one of the names, the first unless it is given; another is refused.
+CLI::Option* add_choice_option(CLI::App& app, const std::string& name,
+                               const std::vector<std::string>& names, const std::string& help,
+                               const std::function<void(const std::string&)>& take);
+
+/// The same of an enumeration's own. `value` must outlive the parsing of `app`.
+template <HasWords Enum>
+CLI::Option* add_words_option(CLI::App& app, const std::string& name, std::optional<Enum>& value,
+                              const std::string& help) {
+    return add_choice_option(app, name, all_names<Enum>(), help,
+                             [&value](const std::string& word) { value = named<Enum>(word); });
+}
 
 /// The option of an entry of touch_numbers(): its name, range and default.
 CLI::Option* add_touch_option(CLI::App& app, const TouchNumber& number, const std::string& help,

@@ -24,11 +24,8 @@ inline constexpr std::array<Word<Dialect>, 3> kDialectWords{
      {Dialect::values, "values", "values"}}};
 static_assert(has_all_in_order(kDialectWords, Dialect::values));
 
-[[nodiscard]] constexpr std::string_view name_of(Dialect dialect) noexcept {
-    return entry_of(kDialectWords, dialect).name;
-}
-[[nodiscard]] constexpr std::optional<Dialect> dialect_named(std::string_view name) noexcept {
-    return value_named(kDialectWords, name);
+[[nodiscard]] constexpr const auto& words_of(Dialect) noexcept {
+    return kDialectWords;
 }
 
 /// In the order of inverse3::Status::presses.

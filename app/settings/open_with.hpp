@@ -22,11 +22,8 @@ inline constexpr std::array<Word<OpenWith>, 3> kOpenWithWords{
      {OpenWith::window, "window", "In this window"}}};
 static_assert(has_all_in_order(kOpenWithWords, OpenWith::window));
 
-[[nodiscard]] constexpr std::string_view name_of(OpenWith with) noexcept {
-    return entry_of(kOpenWithWords, with).name;
-}
-[[nodiscard]] constexpr std::optional<OpenWith> open_with_named(std::string_view name) noexcept {
-    return value_named(kOpenWithWords, name);
+[[nodiscard]] constexpr const auto& words_of(OpenWith) noexcept {
+    return kOpenWithWords;
 }
 
 }  // namespace dibhr

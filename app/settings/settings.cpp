@@ -102,24 +102,12 @@ std::string take(const toml::node& node, const Setting&, ReliefPaint& value) {
     return take_word(paint_named(word), value, "is not what the relief can be painted with");
 }
 
-std::string take(const toml::node& node, const Setting&, Theme& value) {
-    const auto word = node.value<std::string_view>().value_or("");
-    return take_word(theme_named(word), value, "is not the name of a theme");
-}
-
-std::string take(const toml::node& node, const Setting&, OpenWith& value) {
-    const auto word = node.value<std::string_view>().value_or("");
-    return take_word(open_with_named(word), value, "is none of auto, desktop and window");
-}
-
-std::string take(const toml::node& node, const Setting&, InBetweens& value) {
-    const auto word = node.value<std::string_view>().value_or("");
-    return take_word(in_betweens_named(word), value, "is none of auto, on and off");
-}
-
-std::string take(const toml::node& node, const Setting&, Dialect& value) {
-    const auto word = node.value<std::string_view>().value_or("");
-    return take_word(dialect_named(word), value, "is none of auto, vector and values");
+template <HasWords Enum>
+std::string take(const toml::node& node, const Setting&, Enum& value) {
+    const auto read = named<Enum>(node.value<std::string_view>().value_or(""));
+    if (!read) return "is none of " + listed(all_names<Enum>());
+    value = *read;
+    return {};
 }
 
 std::string take(const toml::node& node, const Setting&, ButtonAction& value) {

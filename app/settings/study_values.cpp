@@ -68,7 +68,7 @@ TouchRequest request_of(const TouchValues& values) {
     given.algorithm = algorithm_named(word("algorithm"));
     if (const auto carry = word("carry"); !carry.empty()) given.carry = carry == "on";
     if (const auto moves = word("in-betweens"); !moves.empty())
-        request.in_betweens = in_betweens_named(moves);
+        request.in_betweens = named<InBetweens>(moves);
     if (const auto material = word("material"); !material.empty())
         given.material = material_called(material);
     given.bump = word("bump");

@@ -16,11 +16,8 @@ inline constexpr std::array<Word<Theme>, 2> kThemeWords{
     {{Theme::dark, "dark", "Dark"}, {Theme::light, "light", "Light"}}};
 static_assert(has_all_in_order(kThemeWords, Theme::light));
 
-[[nodiscard]] constexpr std::string_view name_of(Theme theme) noexcept {
-    return entry_of(kThemeWords, theme).name;
-}
-[[nodiscard]] constexpr std::optional<Theme> theme_named(std::string_view name) noexcept {
-    return value_named(kThemeWords, name);
+[[nodiscard]] constexpr const auto& words_of(Theme) noexcept {
+    return kThemeWords;
 }
 
 }  // namespace dibhr

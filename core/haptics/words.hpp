@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace dibhr {
 
@@ -38,6 +40,30 @@ template <typename Table>
         if (name == entry.name) return std::optional(entry.value);
     }
     return decltype(std::optional(table[0].value)){};
+}
+
+/// An enumeration that says which table, which has_all_in_order(), is its own.
+template <typename Enum>
+concept HasWords = requires(Enum value) {
+    words_of(value);
+};
+
+template <HasWords Enum>
+[[nodiscard]] constexpr std::string_view name_of(Enum value) noexcept {
+    return entry_of(words_of(value), value).name;
+}
+
+/// The value of this name, or nothing.
+template <HasWords Enum>
+[[nodiscard]] constexpr std::optional<Enum> named(std::string_view name) noexcept {
+    return value_named(words_of(Enum{}), name);
+}
+
+template <HasWords Enum>
+[[nodiscard]] std::vector<std::string> all_names() {
+    std::vector<std::string> names;
+    for (const auto& entry : words_of(Enum{})) names.emplace_back(entry.name);
+    return names;
 }
 
 }  // namespace dibhr

@@ -35,11 +35,12 @@ std::vector<Frame> seen(const MovingScene& scene, const Filming& filming, int co
     InBetweenMaker maker;
     for (std::size_t k = 0; k + 1 < frames.size(); ++k) {
         const double from_s = static_cast<double>(k) / filming.frames_per_s;
-        if (filming.found)
-            motion.connect(frames[k], frames[k + 1], {.motion = true, .in_betweens = true});
-        if (filming.found) continue;
-        frames[k].motion = scene.motion(from_s, from_s + 1.0 / filming.frames_per_s);
-        frames[k].between = maker.between(frames[k], frames[k + 1]);
+        if (filming.found) {
+            motion.connect(frames[k], frames[k + 1], motion_wanted(true, InBetweens::automatic));
+        } else {
+            frames[k].motion = scene.motion(from_s, from_s + 1.0 / filming.frames_per_s);
+            frames[k].between = maker.between(frames[k], frames[k + 1]);
+        }
     }
     return frames;
 }

@@ -23,12 +23,8 @@ inline constexpr std::array<Word<InBetweens>, 3> kInBetweensWords{
      {InBetweens::off, "off", "Off"}}};
 static_assert(has_all_in_order(kInBetweensWords, InBetweens::off));
 
-[[nodiscard]] constexpr std::string_view name_of(InBetweens in_betweens) noexcept {
-    return entry_of(kInBetweensWords, in_betweens).name;
-}
-[[nodiscard]] constexpr std::optional<InBetweens> in_betweens_named(
-    std::string_view name) noexcept {
-    return value_named(kInBetweensWords, name);
+[[nodiscard]] constexpr const auto& words_of(InBetweens) noexcept {
+    return kInBetweensWords;
 }
 
 struct MotionWanted {

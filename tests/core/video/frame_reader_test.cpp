@@ -93,6 +93,26 @@ std::vector<DepthImage> shaken_frames(int count) {
     return shaken.frames(count);
 }
 
+/// A texture on a plane, so many pixels to the right.
+Frame gone_by(int px, int index) {
+    auto colour = std::make_shared<ColourImage>(ColourImage{128, 96, {}});
+    for (int j = 0; j < colour->rows; ++j)
+        for (int i = 0; i < colour->columns; ++i) {
+            const double x = i - px;
+            const double bright =
+                128.0 + 50.0 * std::sin(0.31 * x + 0.07 * j) + 50.0 * std::sin(0.47 * j - 0.11 * x);
+            colour->rgb.insert(colour->rgb.end(), 3, static_cast<std::uint8_t>(bright));
+        }
+    Frame frame;
+    frame.depth = std::make_shared<const DepthImage>(
+        dibhr::image_of(128, 96, 255.0, [](int, int) { return 100.0; }));
+    frame.colour = std::move(colour);
+    frame.colour_of_view = true;
+    frame.media_s = frame_s(index);
+    frame.index = index;
+    return frame;
+}
+
 std::unique_ptr<FrameReader> sensor_reader(const std::vector<DepthImage>& frames,
                                            std::chrono::milliseconds jump = {}) {
     auto reader = std::make_unique<FrameReader>(std::make_unique<KeyedMedia>(frames, jump));
@@ -119,6 +139,29 @@ TEST_CASE("frames that would come too late are passed over and counted, the last
     CHECK(last->index == 29);
     CHECK_FALSE(reader->after(frame_s(29), {.earliest_s = 100.0}));
     CHECK(reader->passed_over() == 6 + 20);
+}
+
+TEST_CASE("where frames are passed over in-betweens rest first, then motion, and both come back",
+          "[reader]") {
+    const auto reader = sensor_reader(shaken_frames(30));
+    reader->set_motion({.motion = true, .in_betweens = true});
+    Frame first = gone_by(0, 0);
+    const Frame second = gone_by(6, 1);
+    const auto connected = [&] {
+        reader->connect(first, second);
+        return MotionWanted{.motion = first.motion != nullptr,
+                            .in_betweens = first.between != nullptr};
+    };
+    REQUIRE(reader->at(0.0));
+    CHECK(connected() == MotionWanted{true, true});
+    REQUIRE(reader->after(0.0, {.earliest_s = frame_s(7)}));
+    CHECK(connected() == MotionWanted{true, false});  // it may fit alone
+    REQUIRE(reader->after(frame_s(7), {.earliest_s = frame_s(14)}));
+    CHECK(connected() == MotionWanted{});
+    int frames = 0;
+    while (!(connected() == MotionWanted{true, true}) && frames < 1000) ++frames;
+    CHECK(frames > 20);
+    CHECK(frames < 200);
 }
 
 TEST_CASE("a frame is the same bits whether those before it were passed over or not", "[reader]") {
