@@ -29,32 +29,40 @@ struct Command {
     std::string_view name;
     std::string_view arguments;
     std::string_view summary;
-    int (*run)(CLI::App&, const Arguments&);
+    int (*run)(CLI::App&, const Arguments&, const PictureHook&);
 };
+
+/// A command that opens no window.
+template <int (*run)(CLI::App&, const Arguments&)>
+int headless(CLI::App& app, const Arguments& arguments, const PictureHook& /*after_picture*/) {
+    return run(app, arguments);
+}
 
 constexpr std::array kCommands{
     Command{"view", "[COLOR [DEPTH] | SESSION]", "The viewer; without files, the built-in sample",
             run_view},
     Command{"touch", "--depth FILE --goals GOALS.csv [--out OUT.csv]",
-            "The core alone, head-less, over a stream of goals", run_touch},
+            "The core alone, head-less, over a stream of goals", headless<run_touch>},
     Command{"surface", "COLOR [DEPTH] [--time S] --out FILE",
-            "The surface as it is felt: .pfm (px), .png (16 bit), .ply or .stl (mm)", run_surface},
+            "The surface as it is felt: .pfm (px), .png (16 bit), .ply or .stl (mm)",
+            headless<run_surface>},
     Command{"depth", "COLOR [--with \"COMMAND {input} {output}\"]",
-            "Depth for a colour video, by an estimator you have installed", run_depth},
+            "Depth for a colour video, by an estimator you have installed", headless<run_depth>},
     Command{"experiment", "[linear|circle|human|all|sweep]",
-            "The paper's table, all algorithms side by side", run_experiment},
+            "The paper's table, all algorithms side by side", headless<run_experiment>},
     Command{"replay", "SESSION [--algorithm NAME]... [--csv FILE]",
-            "A recorded exploration through other algorithms", run_replay},
-    Command{"export", "SESSION --csv FILE", "Every tick of a session, one row", run_export},
+            "A recorded exploration through other algorithms", headless<run_replay>},
+    Command{"export", "SESSION --csv FILE", "Every tick of a session, one row",
+            headless<run_export>},
     Command{"report", "SESSION --out DIR", "Pictures: where people touched, force over time",
-            run_report},
+            headless<run_report>},
     Command{"study", "check|plan|run|report|sessions PROTOCOL|FILE...",
             "Do people feel a difference? Conditions, trials, answers, statistics", run_study},
-    Command{"info", "FILE...", "What a media or session file holds", run_info},
+    Command{"info", "FILE...", "What a media or session file holds", headless<run_info>},
     Command{"devices", "[--check] [--simulate inverse3]",
-            "What is attached, its state and the next step", run_devices},
+            "What is attached, its state and the next step", headless<run_devices>},
     Command{"bench", "[--json FILE]", "Updates, frame hand-over and loop timing on this machine",
-            run_bench},
+            headless<run_bench>},
 };
 
 /// "1280x800" and nothing else.
@@ -123,9 +131,10 @@ const Command* command_called(const std::string& name) {
     return found == kCommands.end() ? nullptr : found;
 }
 
-int run_one(const Command& command, const Arguments& arguments) {
+int run_one(const Command& command, const Arguments& arguments,
+            const PictureHook& after_picture = {}) {
     CLI::App app(std::string(command.summary), "dibhr " + std::string(command.name));
-    return command.run(app, arguments);
+    return command.run(app, arguments, after_picture);
 }
 
 /// In place of a help text: takes down what a command declares.
@@ -163,7 +172,7 @@ std::vector<DocumentedCommand> documented_commands() {
                        .summary = std::string(command.summary)});
         CLI::App app(std::string(command.summary), "dibhr " + std::string(command.name));
         app.formatter(std::make_shared<Documenting>(all.back()));
-        command.run(app, {"--help"});
+        command.run(app, {"--help"}, {});
     }
     return all;
 }
@@ -274,7 +283,7 @@ CLI::Option* add_device_option(CLI::App& app, std::string& device) {
         ->default_str("auto");
 }
 
-int run_command_line(const Arguments& arguments) {
+int run_command_line(const Arguments& arguments, const PictureHook& after_picture) {
     const std::string first = arguments.empty() ? "" : arguments.front();
     if (first == "--help" || first == "-h") {
         print_help();
@@ -288,8 +297,8 @@ int run_command_line(const Arguments& arguments) {
     }
     // What is no command is what the viewer, the first of the table, is to show.
     if (const Command* const command = command_called(first))
-        return run_one(*command, Arguments(arguments.begin() + 1, arguments.end()));
-    return run_one(kCommands.front(), arguments);
+        return run_one(*command, Arguments(arguments.begin() + 1, arguments.end()), after_picture);
+    return run_one(kCommands.front(), arguments, after_picture);
 }
 
 }  // namespace dibhr

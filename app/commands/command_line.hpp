@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "app/panels/picture_hook.hpp"
+
 namespace CLI {
 class App;
 class Option;
@@ -17,8 +19,8 @@ namespace dibhr {
 using Arguments = std::vector<std::string>;
 
 /// `arguments` without the program's own name. The exit code of the command; throws UsageError for
-/// a wrong command line, and what the command throws.
-int run_command_line(const Arguments& arguments);
+/// a wrong command line, and what the command throws. `after_picture`: of a window.
+int run_command_line(const Arguments& arguments, const PictureHook& after_picture = {});
 
 // For the commands.
 
@@ -43,7 +45,7 @@ CLI::Option* add_device_option(CLI::App& app, std::string& device);
 // throws Error.
 
 /// The settings file first, then the command line, then the window.
-int run_view(CLI::App& app, const Arguments& arguments);
+int run_view(CLI::App& app, const Arguments& arguments, const PictureHook& after_picture);
 /// One row an update, computed by the core alone.
 int run_touch(CLI::App& app, const Arguments& arguments);
 /// A surface at one moment as a file of another form. Prints its size and how high it is.
@@ -59,7 +61,7 @@ int run_export(CLI::App& app, const Arguments& arguments);
 /// Prints where the page of the report is.
 int run_report(CLI::App& app, const Arguments& arguments);
 /// Checks a protocol, runs it with one participant, or takes sessions out of a study file.
-int run_study(CLI::App& app, const Arguments& arguments);
+int run_study(CLI::App& app, const Arguments& arguments, const PictureHook& after_picture);
 /// Describes each file; says on stderr which could not be read. 1 when there are any.
 int run_info(CLI::App& app, const Arguments& arguments);
 /// 0: a device can be used, or none is attached and the mouse can be. Throws DeviceError when

@@ -161,7 +161,7 @@ void require_options(const DepthOptions& options) {
 
 int open_viewer(const fs::path& colour, const fs::path& depth) {
     CLI::App app("", "dibhr view");
-    return run_view(app, {colour.string(), depth.string()});
+    return run_view(app, {colour.string(), depth.string()}, {});
 }
 
 int make_depth(const DepthOptions& options) {

@@ -61,6 +61,7 @@ struct StudyOptions {
     AnalysisSettings analysis{};
     PlanSettings plan{};
     std::vector<PlotFormat> plot_formats{PlotFormat::png};
+    PictureHook after_picture{};
 
     [[nodiscard]] const fs::path& file() const { return files.front(); }
     [[nodiscard]] fs::path folder() const { return out.empty() ? fs::path(".") : out; }
@@ -150,7 +151,9 @@ void lead_person(const StudyOptions& options, StudyRun& run, StudyFile& file) {
     LastWords words;
     const CrashHandler crash(words, &Guardian::alarm);
     Ending ending(words);
-    StudyWindowOptions wished{.size = options.size, .settings = load_settings(settings_path())};
+    StudyWindowOptions wished{.size = options.size,
+                              .settings = load_settings(settings_path()),
+                              .after_picture = options.after_picture};
     if (options.mute) wished.settings.mute = true;
     HandDevice hand =
         make_hand_device(options.device, {{wished.settings.falcon.connection, options.firmware},
@@ -362,8 +365,9 @@ void add_options(CLI::App& app, StudyOptions& options) {
 
 }  // namespace
 
-int run_study(CLI::App& app, const Arguments& arguments) {
+int run_study(CLI::App& app, const Arguments& arguments, const PictureHook& after_picture) {
     StudyOptions options;
+    options.after_picture = after_picture;
     add_options(app, options);
     if (!parse(app, arguments)) return 0;
     if (options.action == "report") return report(options);

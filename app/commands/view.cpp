@@ -244,8 +244,9 @@ bool come_home(const Errands& errands, Ending& ending) {
 
 }  // namespace
 
-int run_view(CLI::App& app, const Arguments& arguments) {
+int run_view(CLI::App& app, const Arguments& arguments, const PictureHook& after_picture) {
     ViewOptions options;
+    options.after_picture = after_picture;
     TouchRequest touch;
     std::optional<std::pair<int, int>> size;
     add_file(app, "COLOR", options.open.colour,

@@ -34,8 +34,13 @@ struct FileAnswer {
     std::vector<std::filesystem::path> files{};  ///< chosen, at least one; whole
 };
 
-/// So quickly no person answers: it was the desktop that refused.
-inline constexpr std::chrono::milliseconds kQuickestPerson{300};
+/// How long the desktop may take.
+struct DialogTimes {
+    std::chrono::milliseconds bus{2000};     ///< the session bus, to take the connection
+    std::chrono::milliseconds portal{2000};  ///< the portal, for its word that it will ask
+    /// So quickly no person answers: it was the desktop that refused.
+    std::chrono::milliseconds quickest_person{300};
+};
 
 /// Whether a desktop can be expected at all: a session bus, whose screen is the one that the window
 /// is on. Asks nobody.
@@ -50,9 +55,11 @@ inline constexpr std::chrono::milliseconds kQuickestPerson{300};
 /// org.freedesktop.portal.FileChooser on the session bus. Nobody, within a few seconds, where there
 /// is none, it does not answer or it refuses; later, when it goes away. Called off, it closes its
 /// dialog.
-[[nodiscard]] FileAnswer ask_portal(const FileQuestion& question, const CallOff& off);
+[[nodiscard]] FileAnswer ask_portal(const FileQuestion& question, const CallOff& off,
+                                    const DialogTimes& times = {});
 
 /// kdialog on KDE, zenity or qarma elsewhere, found on PATH. Called off, it is ended.
-[[nodiscard]] FileAnswer ask_helper(const FileQuestion& question, const CallOff& off);
+[[nodiscard]] FileAnswer ask_helper(const FileQuestion& question, const CallOff& off,
+                                    const DialogTimes& times = {});
 
 }  // namespace dibhr

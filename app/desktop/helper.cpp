@@ -155,7 +155,8 @@ class Asking {
     int printed_end_{-1};
 };
 
-FileAnswer ask_one(const std::vector<std::string>& words, const CallOff& off) {
+FileAnswer ask_one(const std::vector<std::string>& words, const CallOff& off,
+                   const DialogTimes& times) {
     const auto begin = Clock::now();
     Asking helper(words);
     if (!helper.started()) return {};
@@ -165,7 +166,7 @@ FileAnswer ask_one(const std::vector<std::string>& words, const CallOff& off) {
     if (!status) return {FileAnswer::Of::cancelled};
     if (!WIFEXITED(*status)) return {};
     if (WEXITSTATUS(*status) != 0) {  // 1 for Cancel, and for a display that it cannot open
-        const bool person = Clock::now() - begin >= kQuickestPerson;
+        const bool person = Clock::now() - begin >= times.quickest_person;
         return {person ? FileAnswer::Of::cancelled : FileAnswer::Of::nobody};
     }
     FileAnswer answer{FileAnswer::Of::chosen, paths_in(printed)};
@@ -175,9 +176,9 @@ FileAnswer ask_one(const std::vector<std::string>& words, const CallOff& off) {
 
 }  // namespace
 
-FileAnswer ask_helper(const FileQuestion& question, const CallOff& off) {
+FileAnswer ask_helper(const FileQuestion& question, const CallOff& off, const DialogTimes& times) {
     for (const std::vector<std::string>& words : helpers_for(question)) {
-        FileAnswer answer = ask_one(words, off);
+        FileAnswer answer = ask_one(words, off, times);
         if (answer.of != FileAnswer::Of::nobody) return answer;
     }
     return {};

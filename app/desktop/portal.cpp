@@ -31,7 +31,6 @@ constexpr const char* kToken = "dibhr";  // each question has a connection of it
 constexpr const char* kPortalGone =
     "type='signal',sender='org.freedesktop.DBus',member='NameOwnerChanged',"
     "arg0='org.freedesktop.portal.Desktop',arg2=''";
-constexpr std::chrono::seconds kPortalPatience{2};  // for its word that it will ask
 
 struct LeaveBus {
     void operator()(sd_bus* bus) const { sd_bus_close_unref(bus); }
@@ -214,8 +213,9 @@ std::string parent_of(const FileQuestion& question) {
     return text.data();
 }
 
-/// Sends it, to be answered by on_reply().
-bool send_question(sd_bus* bus, const FileQuestion& question, PortalQuestion& asked) {
+/// Sends it, to be answered by on_reply() in time.
+bool send_question(sd_bus* bus, const FileQuestion& question, std::chrono::microseconds patience,
+                   PortalQuestion& asked) {
     sd_bus_message* made = nullptr;
     if (sd_bus_message_new_method_call(bus, &made, kPortal, kPortalPath, kChooser, "OpenFile") < 0)
         return false;
@@ -223,7 +223,6 @@ bool send_question(sd_bus* bus, const FileQuestion& question, PortalQuestion& as
     int failed =
         sd_bus_message_append(made, "ss", parent_of(question).c_str(), question.title.c_str());
     failed = std::min(failed, append_options(made, question));
-    const std::chrono::microseconds patience = kPortalPatience;
     return failed >= 0 && sd_bus_call_async(bus, nullptr, made, &PortalQuestion::on_reply, &asked,
                                             static_cast<std::uint64_t>(patience.count())) >= 0;
 }
@@ -240,38 +239,38 @@ void close_request(sd_bus* bus, const PortalQuestion& asked) {
     if (sd_bus_send(bus, made, nullptr) >= 0) sd_bus_flush(bus);
 }
 
-FileAnswer answer_of(PortalQuestion& asked, SteadyClock::duration taken) {
+FileAnswer answer_of(PortalQuestion& asked, bool at_once) {
     if (asked.response == 0 && !asked.files.empty())
         return {FileAnswer::Of::chosen, std::move(asked.files)};
     // A dialog that its person closes may end "in another way", too.
-    const bool refused = asked.response != 1 && taken < kQuickestPerson;
+    const bool refused = asked.response != 1 && at_once;
     return {refused ? FileAnswer::Of::nobody : FileAnswer::Of::cancelled};
 }
 
 /// Asks, and waits for the person. False: there is no answer.
 bool hear_answer(sd_bus* bus, const FileQuestion& question, const CallOff& off,
-                 PortalQuestion& asked) {
+                 const DialogTimes& times, PortalQuestion& asked) {
     const auto ready = [bus] { return sd_bus_is_ready(bus) > 0; };
-    if (!run_until(bus, off, SteadyClock::now() + kPortalPatience, ready)) return false;
+    if (!run_until(bus, off, SteadyClock::now() + times.bus, ready)) return false;
     asked.request = expected_request(bus);
     const bool sent = sd_bus_add_match_async(bus, nullptr, kPortalGone, &PortalQuestion::on_gone,
                                              nullptr, &asked) >= 0 &&
-                      asked.listen(bus) && send_question(bus, question, asked);
+                      asked.listen(bus) && send_question(bus, question, times.portal, asked);
     const auto replied = [&asked] { return asked.accepted || asked.refused || asked.answered; };
     const auto ended = [&asked] { return asked.answered || asked.refused || asked.gone; };
-    return sent && run_until(bus, off, SteadyClock::now() + kPortalPatience, replied) &&
+    return sent && run_until(bus, off, SteadyClock::now() + times.portal, replied) &&
            run_until(bus, off, {}, ended) && asked.answered;
 }
 
 }  // namespace
 
-FileAnswer ask_portal(const FileQuestion& question, const CallOff& off) {
+FileAnswer ask_portal(const FileQuestion& question, const CallOff& off, const DialogTimes& times) {
     const Bus bus = open_bus();
     if (!bus) return {};
     const auto begin = SteadyClock::now();
     PortalQuestion asked;
-    if (hear_answer(bus.get(), question, off, asked))
-        return answer_of(asked, SteadyClock::now() - begin);
+    if (hear_answer(bus.get(), question, off, times, asked))
+        return answer_of(asked, SteadyClock::now() - begin < times.quickest_person);
     if (!asked.request.empty() && !asked.gone) close_request(bus.get(), asked);
     return {off.called_off() ? FileAnswer::Of::cancelled : FileAnswer::Of::nobody};
 }

@@ -2,6 +2,7 @@
 // there.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -68,5 +69,20 @@ inline constexpr int kLongPressButton = 2;
 /// first two turn, the third one feels the other or, `held` for a second, says equal.
 [[nodiscard]] std::optional<StudyPress> press_of_button(const StudyRun& run, const StudyShown& view,
                                                         int button, bool held = false);
+
+/// Tells a long press of that button from a short one, when it is let go of or has been held for a
+/// second.
+class LongPress {
+  public:
+    using Clock = std::chrono::steady_clock;
+
+    void begin(Clock::time_point now) noexcept { since_ = now; }
+    void forget() noexcept { since_.reset(); }
+    /// Whether it was long, once that is known; then it is forgotten.
+    [[nodiscard]] std::optional<bool> ended(Clock::time_point now, bool down) noexcept;
+
+  private:
+    std::optional<Clock::time_point> since_{};
+};
 
 }  // namespace dibhr

@@ -120,4 +120,13 @@ std::optional<StudyPress> press_of_button(const StudyRun& run, const StudyShown&
     return button == 0 ? Press(StudyPress{Kind::go_on}) : std::nullopt;
 }
 
+std::optional<bool> LongPress::ended(Clock::time_point now, bool down) noexcept {
+    constexpr std::chrono::seconds kLong{1};
+    if (!since_) return std::nullopt;
+    const bool held = now - *since_ >= kLong;
+    if (down && !held) return std::nullopt;
+    forget();
+    return held;
+}
+
 }  // namespace dibhr

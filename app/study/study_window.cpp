@@ -22,7 +22,6 @@ constexpr float kTextTimes = 1.7F;  // as large as in the viewer
 /// wait would tell a condition.
 constexpr double kPreparing_s = 0.9;
 constexpr double kLongestPreparing_s = 30.0;
-constexpr double kLongPress_s = 1.0;
 
 double utc_now_s() {
     return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
@@ -73,7 +72,8 @@ Vec3 place_of(const MouseTarget& mouse, const DepthSurface& surface) {
 
 StudyWindow::StudyWindow(const StudyWindowOptions& options, StudyRun& run, StudyFile& file,
                          HandDevice hand, Ending& ending)
-    : run_(run),
+    : after_picture_(options.after_picture),
+      run_(run),
       file_(file),
       ending_(ending),
       window_(size_of(options), kInSync, "dibhr"),
@@ -144,12 +144,22 @@ void StudyWindow::show_one_picture() {
     window_.show_picture();
     require_graphics();
     beat();
+    if (after_picture_) report_picture();
+}
+
+void StudyWindow::report_picture() const {
+    const StudyPlace place{.step = static_cast<int>(run_.step()),
+                           .trial = run_.trial().number,
+                           .interval = run_.interval(),
+                           .waits = view_.waits,
+                           .leaving = view_.asks_to_leave};
+    after_picture_({surface_.state(), surface_.shown(), &place});
 }
 
 /// The next one is entered with the next picture: the loop has then seen the end of this one.
 void StudyWindow::leave_step() {
     surface_.rest();
-    pressed_since_.reset();
+    long_press_.forget();
     entered_ = false;
     view_.waits = true;
 }
@@ -245,19 +255,13 @@ void StudyWindow::look_at_time() {
 void StudyWindow::take_buttons() {
     for (const int button : surface_.take_presses()) {
         if (button == kLongPressButton && run_.step() == StudyStep::adjust && !view_.waits)
-            pressed_since_ = Clock::now();
+            long_press_.begin(Clock::now());
         else if (const auto press = press_of_button(run_, view_, button))
             act(*press);
     }
-    if (pressed_since_) look_at_long_press();
-}
-
-/// What it does is known when it is let go of, or has been held.
-void StudyWindow::look_at_long_press() {
-    const bool held = since_s(*pressed_since_) >= kLongPress_s;
-    if (surface_.is_down(kLongPressButton) && !held) return;
-    pressed_since_.reset();
-    if (const auto press = press_of_button(run_, view_, kLongPressButton, held)) act(*press);
+    const auto held = long_press_.ended(Clock::now(), surface_.is_down(kLongPressButton));
+    if (!held) return;
+    if (const auto press = press_of_button(run_, view_, kLongPressButton, *held)) act(*press);
 }
 
 void StudyWindow::take(const WindowInput& input) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/panels/picture_hook.hpp"
 #include "app/settings/settings.hpp"
 #include "app/study/study_pages.hpp"
 #include "app/study/study_surface.hpp"
@@ -28,6 +29,7 @@ namespace dibhr {
 struct StudyWindowOptions {
     std::optional<std::pair<int, int>> size{};  ///< nothing: the whole screen
     Settings settings{};  ///< of which the device's, the limit of force and the loudness count
+    PictureHook after_picture{};
 };
 
 /// Shows no number, no name of a condition, file or parameter; no force while nothing is to be
@@ -57,7 +59,6 @@ class StudyWindow {
     void begin_if_there();
     void take(const WindowInput& input);
     void take_buttons();
-    void look_at_long_press();
     void act(const StudyPress& press);
     void act_at_question(const StudyPress& press);
     void act_at_adjustment(const StudyPress& press);
@@ -68,12 +69,14 @@ class StudyWindow {
     void show_hand_only(TouchMarkers& markers) const;
     void load_picture(const StudyPage& page);
     void beat();
+    void report_picture() const;
     void leave_without_display();
     [[nodiscard]] DepthSurface seen_surface() const;
     [[nodiscard]] bool felt() const noexcept;
     [[nodiscard]] bool over() const;
     [[nodiscard]] double since_s(Clock::time_point moment) const;
 
+    const PictureHook after_picture_;
     StudyRun& run_;
     StudyFile& file_;
     Ending& ending_;
@@ -98,8 +101,8 @@ class StudyWindow {
     double turned_{0.0};         // the value an adjustment is at
     Clock::time_point since_{};  // what is limited in time began,
     Clock::time_point asked_{};  // and stood still from here on, while leaving was asked about
-    std::optional<Clock::time_point> turned_since_{};   // an adjustment was first felt
-    std::optional<Clock::time_point> pressed_since_{};  // the button that knows a long press
+    std::optional<Clock::time_point> turned_since_{};  // an adjustment was first felt
+    LongPress long_press_{};
 };
 
 }  // namespace dibhr

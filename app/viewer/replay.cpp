@@ -97,8 +97,8 @@ void ViewerReplay::end(ViewerState& state) {
     state.strips = {};
 }
 
-void ViewerReplay::advance(ViewerState& state) {
-    player_->advance([&state, this](const SessionMoment& moment) {
+void ViewerReplay::advance(ViewerState& state, SessionPlayer::Time now) {
+    player_->advance(now, [&state, this](const SessionMoment& moment) {
         const Touch touch = touch_of(moment);
         const TickRecord& tick = moment.tick;
         const bool goes_on = tick.tick == passed_tick_ + 1 && !tick.from_zero && !tick.lets_go;

@@ -23,8 +23,8 @@ class ViewerReplay {
     /// Null: nothing is replayed.
     [[nodiscard]] SessionPlayer* player() const { return player_.get(); }
 
-    /// Once a picture, before the panels: the moment that is due, into `state`.
-    void advance(ViewerState& state);
+    /// Once a picture, before the panels: the moment that is due then, into `state`.
+    void advance(ViewerState& state, SessionPlayer::Time now);
     /// After the panels: whether a person chose other parameters, or those of the recording.
     void follow_panels(ViewerState& state);
 

@@ -37,14 +37,6 @@ std::string text_of(const Standstill& last) {
            " s: the force was off";
 }
 
-/// DIBHR_TEST_HANG_AFTER_S: so long after its first picture the window's thread loops for ever, as
-/// the tests of what then takes the force off want it.
-std::optional<double> hang_asked_for() {
-    const char* const text = std::getenv("DIBHR_TEST_HANG_AFTER_S");
-    if (text == nullptr) return std::nullopt;
-    return std::strtod(text, nullptr);
-}
-
 /// `begin_s`: of what is played, on its own clock.
 template <typename AnyPlayer>
 void play_as_asked(const ViewOptions& options, double begin_s, AnyPlayer& player) {
@@ -62,11 +54,6 @@ WindowSize asked_size(const ViewOptions& options) {
                         settings.height != standard.height;
     return {settings.width, settings.height,
             chosen ? std::nullopt : std::optional(settings.ui_scale)};
-}
-
-[[noreturn]] void hang() {
-    for (volatile bool ever = true; ever;) continue;
-    std::abort();
 }
 
 }  // namespace
@@ -93,7 +80,6 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
       painting_(errands),
       keeper_(options.in_file, options.settings, options.settings_file),
       start_(steady_clock::now()),
-      hang_after_s_(hang_asked_for()),
       strips_(std::make_unique<StripRing>()),
       ticks_(std::make_unique<TickRing>()),
       walked_(std::make_unique<WalkedTickRing>()),
@@ -145,7 +131,6 @@ void Viewer::run() {
     while (!over()) {
         show_one_picture();
         pace_.wait();
-        if (hang_after_s_ && now_s() >= *hang_after_s_) hang();
     }
     finish();
 }
@@ -239,6 +224,7 @@ void Viewer::show_one_picture() {
     window_.show_picture();
     require_graphics();
     beat();
+    if (options_.after_picture) options_.after_picture({state_, shown_});
 }
 
 /// The relief and all that is over it, for whoever wants to save it, too.
@@ -254,7 +240,7 @@ void Viewer::draw_picture(const WindowInput& input) {
 void Viewer::take_news() {
     state_.playback = player_.status();
     if (loop_) state_.haptic = haptic_state_.front();
-    if (replay_.player() != nullptr) replay_.advance(state_);
+    if (replay_.player() != nullptr) replay_.advance(state_, steady_clock::now());
     follow_others();
     notice_catching_up();
     notice_standstill();

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/panels/picture_hook.hpp"
 #include "app/panels/viewer_state.hpp"
 #include "app/settings/command_options.hpp"
 #include "app/settings/file_memory.hpp"
@@ -70,6 +71,7 @@ struct ViewOptions {
     std::filesystem::path settings_file{settings_path()};  ///< where they are kept
     Settings in_file{};   ///< as read; the window saves only what a person changed in it
     Settings settings{};  ///< the same, the command line's values on top
+    PictureHook after_picture{};
 };
 
 /// What was opened before there was a window.
@@ -234,7 +236,6 @@ class Viewer {
     std::uint64_t standstills_{0};              // as told
     double catching_up_until_s_{0.0};
     std::chrono::steady_clock::time_point start_{};
-    std::optional<double> hang_after_s_{};  // for a test
     Player player_{};
     TripleBuffer<HapticSettings> haptic_settings_{};
     TripleBuffer<HapticState> haptic_state_{};

@@ -6,6 +6,7 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdlib>
@@ -15,6 +16,18 @@
 #include "core/error.hpp"
 
 namespace dibhr {
+
+bool EndWishes::is_another(Time now) noexcept {
+    if (first_) return now - *first_ >= kOneWish;
+    first_ = now;
+    return false;
+}
+
+std::optional<std::chrono::milliseconds> EndWishes::patience_left(Time now) const noexcept {
+    using std::chrono::milliseconds;
+    if (!first_) return std::nullopt;
+    return std::max(std::chrono::ceil<milliseconds>(*first_ + kPatience - now), milliseconds(0));
+}
 
 Ending::Ending(LastWords& words) : words_(words), told_(eventfd(0, EFD_CLOEXEC)) {
     if (told_ < 0) {
@@ -39,16 +52,13 @@ void Ending::watch_display(int connection) {
 void Ending::run() {
     using Clock = std::chrono::steady_clock;
     pthread_setname_np(pthread_self(), "dibhr-signals");
-    Clock::time_point patient_until{};
-    Clock::time_point another_from{};
+    EndWishes wishes;
     bool again = false;
     while (!again) {
         int timeout_ms = -1;
-        if (asked_) {
-            const auto left =
-                std::chrono::ceil<std::chrono::milliseconds>(patient_until - Clock::now());
-            if (left.count() <= 0) break;
-            timeout_ms = static_cast<int>(left.count());
+        if (const auto left = wishes.patience_left(Clock::now())) {
+            if (left->count() == 0) break;
+            timeout_ms = static_cast<int>(left->count());
         }
         int display = display_;
         std::array<pollfd, 3> ready{
@@ -60,12 +70,7 @@ void Ending::run() {
         if (ready[2].revents != 0 && display_.compare_exchange_strong(display, -1))
             without_force_ = true;
         if (!signals_.arrived()) continue;
-        const auto now = Clock::now();
-        again = asked_ && now >= another_from;
-        if (!asked_) {
-            patient_until = now + kPatience;
-            another_from = now + kOneWish;
-        }
+        again = wishes.is_another(Clock::now());
         without_force_ = true;
         asked_ = true;
     }

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <optional>
 #include <thread>
 
 #include "app/window/last_words.hpp"
@@ -11,17 +12,31 @@
 
 namespace dibhr {
 
-/// While it lives, SIGINT, SIGTERM, SIGHUP and SIGQUIT are taken by a thread of their own: they ask
-/// for the end, and if the program still lives after kPatience, or another one comes, that thread
-/// says what hangs and ends it with status 1. Ctrl+Z is held back. Made before any thread is
-/// started.
-class Ending {
+/// What somebody wishes who sends signals, by when they come.
+class EndWishes {
   public:
+    using Time = std::chrono::steady_clock::time_point;
+
     /// With the last tick, the recorder's last transaction and the line, less than a second.
     static constexpr std::chrono::milliseconds kPatience{600};
     /// A terminal that closes, or `timeout`, sends two signals for one wish.
     static constexpr std::chrono::milliseconds kOneWish{200};
 
+    /// A signal has come: whether it is another wish than the first one.
+    [[nodiscard]] bool is_another(Time now) noexcept;
+    /// What is left of kPatience since the first wish, or nothing of it; no value: there was none.
+    [[nodiscard]] std::optional<std::chrono::milliseconds> patience_left(Time now) const noexcept;
+
+  private:
+    std::optional<Time> first_{};
+};
+
+/// While it lives, SIGINT, SIGTERM, SIGHUP and SIGQUIT are taken by a thread of their own: they ask
+/// for the end, and if the program still lives after EndWishes::kPatience, or another one comes,
+/// that thread says what hangs and ends it with status 1. Ctrl+Z is held back. Made before any
+/// thread is started.
+class Ending {
+  public:
     /// `words` outlives it. Throws DeviceError when the system has no descriptor left.
     explicit Ending(LastWords& words);
     ~Ending();

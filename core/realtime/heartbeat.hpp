@@ -17,7 +17,9 @@ class Heartbeat {
     Heartbeat(const Heartbeat&) = delete;
     Heartbeat& operator=(const Heartbeat&) = delete;
 
-    void beat() noexcept { last_.store(Clock::now(), std::memory_order_relaxed); }
+    void beat(Clock::time_point now = Clock::now()) noexcept {
+        last_.store(now, std::memory_order_relaxed);
+    }
     /// Nothing is to be heard until the next beat.
     void rest() noexcept { last_.store(kResting, std::memory_order_relaxed); }
     /// The calling thread goes on, too, while it computes without a beat, or waits for threads that

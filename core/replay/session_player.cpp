@@ -25,8 +25,6 @@ namespace dibhr {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr double kTicksAhead = 400.0;  // at speed 1; what is decoded meanwhile does not show
 constexpr std::size_t kBatch = 25;
 constexpr double kRunIn_s = 1.0;
@@ -194,13 +192,13 @@ struct SessionPlayer::Implementation {
     void anchor(double at_s) {
         playback.now_s = at_s;
         anchored_s = at_s;
-        anchored = Clock::now();
+        anchored = now;
     }
 
     void take_due(const std::function<void(const SessionMoment&)>& passed) {
         double due_s = playback.now_s;
         if (playback.playing && !jumping) {
-            const std::chrono::duration<double> since = Clock::now() - anchored;
+            const std::chrono::duration<double> since = now - anchored;
             due_s = anchored_s + playback.speed * since.count();
         }
         const bool leaves_part =
@@ -331,7 +329,8 @@ struct SessionPlayer::Implementation {
     std::optional<SessionMoment> moment{};
     ComputedRuns runs{};
     std::optional<Order> next_jump{};
-    Clock::time_point anchored{Clock::now()};
+    Time now{};  // of the last picture
+    Time anchored{};
     double anchored_s{0.0};
     bool jumping{false};
     bool due_now{false};  // the next moment, whatever the clock says
@@ -419,7 +418,8 @@ void SessionPlayer::compare(bool algorithms) {
     here.go_to({here.playback.now_s, {}, here.runs, false});
 }
 
-void SessionPlayer::advance(const std::function<void(const SessionMoment&)>& passed) {
+void SessionPlayer::advance(Time now, const std::function<void(const SessionMoment&)>& passed) {
+    implementation_->now = now;
     implementation_->take_due(passed);
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -55,9 +56,12 @@ struct SessionPlayback {
     std::string failure{};            ///< a plain sentence when reading broke off; empty otherwise
 };
 
-/// All of it belongs to the window's thread; nothing waits for a disk or for decoding.
+/// All of it belongs to the window's thread; nothing waits for a disk or for decoding. Its clock is
+/// that of the pictures: what is asked for counts from the last one on.
 class SessionPlayer {
   public:
+    using Time = std::chrono::steady_clock::time_point;
+
     /// Begins to play from the first tick on.
     explicit SessionPlayer(std::unique_ptr<OpenedSession> opened);
     ~SessionPlayer();  ///< ends its thread
@@ -79,9 +83,9 @@ class SessionPlayer {
     /// where that is asked for or a jump ends.
     void compare(bool algorithms);
 
-    /// Once a picture: goes on to the last moment that is due and gives each one on the way to
-    /// `passed`.
-    void advance(const std::function<void(const SessionMoment&)>& passed);
+    /// Once a picture, at that time: goes on to the last moment that is due and gives each one on
+    /// the way to `passed`.
+    void advance(Time now, const std::function<void(const SessionMoment&)>& passed);
 
     /// Null until the first one has been read.
     [[nodiscard]] const SessionMoment* moment() const;

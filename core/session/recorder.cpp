@@ -111,8 +111,9 @@ class FileSums {
 
 struct Recorder::Implementation {
     Implementation(const std::filesystem::path& file, TickRing& ticks, const SessionFacts& facts,
-                   Heartbeat* beaten)
+                   Heartbeat* beaten, Now time)
         : ring(ticks),
+          now(std::move(time)),
           heart(beaten != nullptr ? *beaten : own_heart),
           dropped_before(ticks.dropped()),
           session(std::in_place, file, facts) {
@@ -208,8 +209,8 @@ struct Recorder::Implementation {
         for (const auto& note : left) note(*this);
         for (const TickRecord& record : batch) session->add(record);
         uncommitted += batch.size();
-        if (zero_ns && Clock::now() - clock_set >= kBetweenClocks) {
-            set_clock(nanoseconds(Clock::now()) - *zero_ns);
+        if (zero_ns && now() - clock_set >= kBetweenClocks) {
+            set_clock(nanoseconds(now()) - *zero_ns);
         }
         add_contents();
     }
@@ -217,16 +218,16 @@ struct Recorder::Implementation {
     void open_transaction() {
         if (transaction_begin) return;
         session->begin();
-        transaction_begin = Clock::now();
+        transaction_begin = now();
     }
 
     /// The wall clock at time `t_ns` of the ticks.
     void set_clock(std::int64_t t_ns) {
-        const Clock::time_point now = Clock::now();
-        const std::int64_t passed_ns = nanoseconds(now) - *zero_ns - t_ns;
+        const Clock::time_point moment = now();
+        const std::int64_t passed_ns = nanoseconds(moment) - *zero_ns - t_ns;
         session->add_clock(t_ns, utc_s() - static_cast<double>(passed_ns) / kNanosecondsPerSecond,
                            ring.dropped() - dropped_before, high_water);
-        clock_set = now;
+        clock_set = moment;
     }
 
     void add_contents() {
@@ -255,7 +256,7 @@ struct Recorder::Implementation {
     }
 
     void commit_in_time() {
-        if (transaction_begin && Clock::now() - *transaction_begin >= kLongestTransaction) commit();
+        if (transaction_begin && now() - *transaction_begin >= kLongestTransaction) commit();
     }
 
     void commit() {
@@ -263,7 +264,7 @@ struct Recorder::Implementation {
         session->commit();
         const std::uint64_t bytes = session->bytes();
         const std::uint64_t grown = session->bytes_recorded() - bytes_before;
-        const std::chrono::duration<double> passed = Clock::now() - begin;
+        const std::chrono::duration<double> passed = now() - begin;
         const std::lock_guard lock(mutex);
         status.rows += std::exchange(uncommitted, 0);
         status.bytes = bytes;
@@ -273,8 +274,8 @@ struct Recorder::Implementation {
     }
 
     void close() {
-        const Clock::time_point patience = Clock::now() + patience_for_sums;
-        while (session && !sums.all_ready() && Clock::now() < patience) {
+        const Clock::time_point patience = now() + patience_for_sums;
+        while (session && !sums.all_ready() && now() < patience) {
             heart.beat();
             std::this_thread::sleep_for(kBetweenDrains / 4);
         }
@@ -282,7 +283,7 @@ struct Recorder::Implementation {
             open_transaction();
             add_contents();
             add_early_marks();
-            if (zero_ns) set_clock(nanoseconds(Clock::now()) - *zero_ns);
+            if (zero_ns) set_clock(nanoseconds(now()) - *zero_ns);
             session->set_fact("row_count", std::to_string(status.rows + uncommitted));
             session->set_fact("dropped_count", std::to_string(status.dropped));
             session->set_fact("ring_high_water", std::to_string(high_water));
@@ -327,10 +328,11 @@ struct Recorder::Implementation {
     }
 
     TickRing& ring;
+    const Now now;
     Heartbeat own_heart{};  // nobody listens
     Heartbeat& heart;
     const std::uint64_t dropped_before;
-    const Clock::time_point begin{Clock::now()};
+    const Clock::time_point begin{now()};
     std::optional<SessionFile> session;  // none once writing broke off
     FileSums sums{};
     std::vector<TickRecord> batch{};
@@ -354,8 +356,8 @@ struct Recorder::Implementation {
 };
 
 Recorder::Recorder(const std::filesystem::path& file, TickRing& ring, const SessionFacts& facts,
-                   Heartbeat* heart)
-    : implementation_(std::make_unique<Implementation>(file, ring, facts, heart)) {}
+                   Heartbeat* heart, Now now)
+    : implementation_(std::make_unique<Implementation>(file, ring, facts, heart, std::move(now))) {}
 
 Recorder::~Recorder() {
     implementation_.reset();
@@ -393,7 +395,7 @@ void Recorder::maps(std::uint32_t version, std::vector<SessionMap> maps) {
 }
 
 void Recorder::mark(const std::string& tag, const std::string& text) {
-    implementation_->leave([moment = Clock::now(), tag, text](Implementation& writer) {
+    implementation_->leave([moment = implementation_->now(), tag, text](Implementation& writer) {
         writer.add_mark(moment, tag, text);
     });
 }

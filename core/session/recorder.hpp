@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/realtime/heartbeat.hpp"
+#include "core/realtime/now.hpp"
 #include "core/session/tick_record.hpp"
 
 namespace dibhr {
@@ -33,9 +34,10 @@ class Recorder {
     /// Creates the session file; throws InputError when it exists already or cannot be made.
     /// `facts` are name/value pairs kept with the session (program version, device, note,
     /// participant). `heart`, if any, beats while something is written, and is silent while that
-    /// waits for the disk; it outlives the recorder.
+    /// waits for the disk; it outlives the recorder. `now` is what its transactions and marks are
+    /// timed by.
     Recorder(const std::filesystem::path& file, TickRing& ring, const SessionFacts& facts,
-             Heartbeat* heart = nullptr);
+             Heartbeat* heart = nullptr, Now now = std::chrono::steady_clock::now);
     ~Recorder();  ///< as finish()
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;

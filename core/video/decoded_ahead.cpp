@@ -25,8 +25,11 @@ std::size_t bytes_of(const RawFrame& frame) {
 
 }  // namespace
 
-DecodedAhead::DecodedAhead(std::unique_ptr<Media> media, ReadingHearts hearts)
-    : media_(std::move(media)), hearts_(hearts), description_(media_->description()) {
+DecodedAhead::DecodedAhead(std::unique_ptr<Media> media, ReadingHearts hearts, Now now)
+    : media_(std::move(media)),
+      hearts_(hearts),
+      now_(std::move(now)),
+      description_(media_->description()) {
     thread_ = std::thread([this] { run(); });
 }
 
@@ -144,7 +147,7 @@ bool DecodedAhead::has_room() const {
 
 DecodedAhead::Decoded DecodedAhead::decode(const std::optional<Target>& target, double from_s) {
     Decoded decoded;
-    const auto begin = std::chrono::steady_clock::now();
+    const auto begin = now_();
     try {
         if (target && target->jump == Jump::exact) media_->seek(target->media_s);
         if (target && target->jump == Jump::near) media_->seek_near(target->media_s);
@@ -154,7 +157,7 @@ DecodedAhead::Decoded DecodedAhead::decode(const std::optional<Target>& target, 
     } catch (...) {
         decoded.broken = std::current_exception();
     }
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    const std::chrono::duration<double> taken = now_() - begin;
     decoded.description = media_->description();
     if (!decoded.frame) return decoded;
     const RawFrame& frame = *decoded.frame;

@@ -1,6 +1,7 @@
 // Decodes on a thread of its own, a few frames ahead of who reads them, and prepares what waits.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
@@ -13,6 +14,7 @@
 #include <thread>
 
 #include "core/realtime/heartbeat.hpp"
+#include "core/realtime/now.hpp"
 #include "core/video/media.hpp"
 
 namespace dibhr {
@@ -28,7 +30,9 @@ struct ReadingHearts {
 /// for it, so that a single one costs no more than it did.
 class DecodedAhead : public Media {
   public:
-    explicit DecodedAhead(std::unique_ptr<Media> media, ReadingHearts hearts = {});
+    /// `now` is what decoding is measured by.
+    explicit DecodedAhead(std::unique_ptr<Media> media, ReadingHearts hearts = {},
+                          Now now = std::chrono::steady_clock::now);
     ~DecodedAhead() override;  ///< waits for the frame that is being decoded
     DecodedAhead(const DecodedAhead&) = delete;
     DecodedAhead& operator=(const DecodedAhead&) = delete;
@@ -89,6 +93,7 @@ class DecodedAhead : public Media {
     // The decoding thread's.
     std::unique_ptr<Media> media_;
     ReadingHearts hearts_;
+    Now now_;
     double last_s_{0.0};  ///< of the frame decoded last, or where it jumps
     std::int64_t last_index_{0};
 

@@ -29,12 +29,6 @@ constexpr double kNewest = 0.1;           ///< the weight of the newest of a mov
 constexpr double kSoon_s = 0.1;           ///< what comes sooner needs no preview
 constexpr double kJump_s_a_pixel = 1e-7;  ///< a guess, until one was measured
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begin) {
-    return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
 double interval_s(const MediaDescription& description) {
     return description.frames_per_s > 0.0 ? 1.0 / description.frames_per_s : kUnknownInterval_s;
 }
@@ -53,11 +47,17 @@ std::size_t bytes_of(const DepthImage& depth) {
 
 }  // namespace
 
-FrameReader::FrameReader(std::unique_ptr<Media> media, std::uint32_t number, ReadingHearts hearts)
-    : media_(std::make_unique<RememberingMedia>(std::move(media)), hearts),
+FrameReader::FrameReader(std::unique_ptr<Media> media, std::uint32_t number, ReadingHearts hearts,
+                         Now now)
+    : now_(std::move(now)),
+      media_(std::make_unique<RememberingMedia>(std::move(media)), hearts, now_),
       number_(number),
       jump_s_(kJump_s_a_pixel * description().depth_columns * description().depth_rows),
       in_time_(kInTime) {}
+
+double FrameReader::seconds_since(std::chrono::steady_clock::time_point begin) const {
+    return std::chrono::duration<double>(now_() - begin).count();
+}
 
 std::size_t FrameReader::Kept::bytes() const {
     std::size_t bytes = frame.colour ? frame.colour->rgb.size() : 0;
@@ -87,7 +87,7 @@ FrameReader::Kept* FrameReader::find_shown(double media_s) {
 FrameReader::Kept* FrameReader::read(const Pace& pace) {
     const std::optional<Position> last = std::exchange(position_, std::nullopt);
     heading_.reset();
-    const auto begin = Clock::now();
+    const auto begin = now_();
     auto raw = media_.next_from(pace.earliest_s, pace.apart_s);
     const double waited_s = seconds_since(begin);
     Kept* before = last ? find(last->media_s) : nullptr;
@@ -235,7 +235,7 @@ void FrameReader::make_plan() {
     if (!noise_) noise_ = description().noise;
     if (needs_noise(options_) && !noise_) {
         media_.prepare_with(nullptr);
-        const auto begin = Clock::now();
+        const auto begin = now_();
         jump_to(0.0);
         noise_ = noise_of(media_);
         jump_to(0.0);
@@ -257,7 +257,7 @@ void FrameReader::make_plan() {
 
 void FrameReader::clean_alone(RawFrame& raw, const CleaningPlan& plan) {
     const std::lock_guard lock(alone_);
-    const auto begin = Clock::now();
+    const auto begin = now_();
     const std::vector<HeldLevel> held = std::move(raw.held);
     const ColourImage* const colour = raw.colour_of_view ? &raw.colour : nullptr;
     raw.lone =
@@ -309,13 +309,13 @@ Frame FrameReader::cleaned(double media_s) {
     if (!find(media_s)->cleaned) {
         cost_.clean_ms = 0.0;
         const Around around = this->around(media_s);
-        const auto begin = Clock::now();
+        const auto begin = now_();
         std::vector<const LoneDepth*> frames;
         frames.reserve(around.frames.size());
         for (const auto& lone : around.frames) frames.push_back(lone.get());
         find(media_s)->cleaned = chain_.finished(frames, around.now, plan_);
         cost_.clean_ms += 1000.0 * seconds_since(begin);
-        cost_.cleaned = Clock::now();
+        cost_.cleaned = now_();
     }
     const Kept& kept = *find(media_s);
     return with_depth(kept.frame, *kept.cleaned, plan_.steps);
@@ -396,7 +396,7 @@ std::optional<Frame> FrameReader::at(double media_s) {
     make_plan();
     in_a_row_ = 0;
     if (const Kept* kept = find_shown(media_s)) return cleaned(kept->frame.media_s);
-    const auto begin = Clock::now();
+    const auto begin = now_();
     wanted_s_ = media_s;
     jump_to(media_s);
     const Kept* kept = read();
@@ -450,7 +450,7 @@ void FrameReader::connect(Frame& from, const Frame& next) {
     const bool follows = next.media_s > from.media_s && next.index - from.index <= kMostApart;
     const MotionWanted affordable = motion_rests_.affordable(motion_wanted_);
     done_ = follows ? affordable : MotionWanted{};
-    const auto begin = Clock::now();
+    const auto begin = now_();
     motion_.connect(from, next, done_);
     waited_s_ += seconds_since(begin);
 }

@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/realtime/now.hpp"
 #include "core/video/cleaning/cleaning_chain.hpp"
 #include "core/video/decoded_ahead.hpp"
 #include "core/video/frame_window.hpp"
@@ -38,9 +39,10 @@ struct Pace {
 /// Everything that decodes may throw InputError.
 class FrameReader {
   public:
-    /// Every frame carries `number`, for who needs to know where it came from.
+    /// Every frame carries `number`, for who needs to know where it came from. `now` is what
+    /// decoding and cleaning are measured by.
     explicit FrameReader(std::unique_ptr<Media> media, std::uint32_t number = 0,
-                         ReadingHearts hearts = {});
+                         ReadingHearts hearts = {}, Now now = std::chrono::steady_clock::now);
 
     /// The frame shown at `media_s`; the first before the beginning, the last after the end.
     std::optional<Frame> at(double media_s);
@@ -155,6 +157,9 @@ class FrameReader {
     [[nodiscard]] Frame with_depth(Frame frame, const CleanedDepth& cleaned,
                                    const CleaningSteps& steps) const;
 
+    [[nodiscard]] double seconds_since(std::chrono::steady_clock::time_point begin) const;
+
+    Now now_;
     std::mutex alone_{};  ///< the chain's alone() is in use
     CleaningChain chain_{};
     DecodedAhead media_;  // after what its thread uses

@@ -105,6 +105,7 @@ bool VideoDecoder::decode() {
     for (int failures = 0; failures < kMostFailures;) {
         const int given = avcodec_receive_frame(decoder_.get(), frame_.get());
         if (given == 0) {
+            ++decoded_;
             tell_skipped(time_s());
             return true;
         }

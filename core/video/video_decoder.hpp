@@ -2,6 +2,7 @@
 // that they hold; inside the room.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -42,6 +43,8 @@ class VideoDecoder {
     /// The times [s] of those skipped between the last two decoded pictures, or after the last,
     /// in their order.
     [[nodiscard]] const std::vector<double>& skipped_s() const noexcept { return skipped_s_; }
+    /// How many pictures were decoded so far: not those skipped.
+    [[nodiscard]] std::int64_t decoded() const noexcept { return decoded_; }
 
     /// Keeps the decoded picture, which need not be converted before it is known that it is wanted.
     void keep();
@@ -90,6 +93,7 @@ class VideoDecoder {
     bool drained_{false};
     bool marks_non_reference_{false};  // the codec, packet by packet
     double skip_before_s_{kNever_s};
+    std::int64_t decoded_{0};
     std::set<double> may_be_skipped_s_{};  // given, and not decoded yet
     std::vector<double> skipped_s_{};
 };

@@ -26,6 +26,8 @@ class VideoFile : public PictureSource {
     std::optional<TimedPicture> next_from(double earliest_s) override;
     void seek(double time_s) override;
     void seek_near(double time_s) override;
+    /// How many pictures were decoded since it was opened, or began again.
+    [[nodiscard]] std::int64_t decoded() const noexcept { return decoder_.decoded(); }
 
     /// Decodes on without pictures, at most `most` frames, so that the facts become exact.
     void count_frames(std::int64_t most) override;

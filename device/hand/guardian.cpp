@@ -110,7 +110,7 @@ class Watch {
     void run() noexcept {
         while (listen()) {
             if (file_ < 0) continue;
-            look(Clock::now());
+            look();
             if (sending_) send();
         }
         for (int k = 0; k < kLastPackets && file_ >= 0; ++k) {
@@ -147,8 +147,9 @@ class Watch {
         return true;
     }
 
-    void look(Clock::time_point now) noexcept {
+    void look() noexcept {
         const std::uint32_t beats = page_.beats;
+        const Clock::time_point now = Clock::now();  // not before: a pause of its own is no silence
         if (beats != last_beats_) heard_ = now;
         last_beats_ = beats;
         const bool arrives = farewell_.over == Farewell::Over::stream;

@@ -18,12 +18,6 @@ namespace {
 
 using Clock = LiveFeed::Clock;
 
-constexpr std::size_t kStamps = 100;  ///< about three seconds
-constexpr double kOtherTime_s = 1.0;  ///< a clock that is so far off was set
-/// Clocks that agree so well are one clock: what is between them is the way, not the time.
-constexpr double kOneClock_s = 0.25;
-constexpr std::size_t kMostColours = 8;
-constexpr std::size_t kMostWaiting = 2;
 constexpr double kNewest = 0.1;  ///< the weight of the newest of a moving mean
 constexpr double kLongestInterval_s = 0.5;
 constexpr std::size_t kLongestName = 100;
@@ -31,10 +25,6 @@ constexpr std::chrono::milliseconds kUnheard{1500};  ///< what sent no packet si
 
 double seconds_of(Clock::time_point time) {
     return std::chrono::duration<double>(time.time_since_epoch()).count();
-}
-
-Clock::duration duration_of(double seconds) {
-    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
 /// A source without stamps has those of its pictures' coming.
@@ -52,21 +42,11 @@ void require_camera(const LiveName& name, const std::filesystem::path& place) {
 
 }  // namespace
 
-void StampLine::add(double stamp_s, double arrived_s) {
-    const double later_s = arrived_s - stamp_s;
-    if (!later_.empty() && std::fabs(later_s - this->later_s()) > kOtherTime_s) later_.clear();
-    later_.push_back(later_s);
-    if (later_.size() > kStamps) later_.pop_front();
-}
-
-double StampLine::later_s() const {
-    return later_.empty() ? 0.0 : *std::min_element(later_.begin(), later_.end());
-}
-
-LiveFeed::LiveFeed(std::filesystem::path colour, std::filesystem::path depth)
+LiveFeed::LiveFeed(std::filesystem::path colour, std::filesystem::path depth, Now now)
     : colour_(std::move(colour)),
       depth_(std::move(depth)),
-      two_(!colour_.empty() && colour_ != depth_) {
+      two_(!colour_.empty() && colour_ != depth_),
+      now_(std::move(now)) {
     LiveName depth_name = live_name(depth_);
     require_camera(depth_name, depth_);
     if (two_) {
@@ -107,7 +87,7 @@ bool LiveFeed::is_of_form(const LivePicture& picture, std::optional<Form>& first
 }
 
 bool LiveFeed::take_depth(LivePicture picture) {
-    const Clock::time_point now = Clock::now();
+    const Clock::time_point now = now_();
     stamp(picture);
     {
         const std::lock_guard lock(mutex_);
@@ -120,10 +100,9 @@ bool LiveFeed::take_depth(LivePicture picture) {
             interval_s_ += kNewest * (since_s - interval_s_);
         signal_.last = now;
         signal_.refused = false;
-        depth_line_.add(picture.stamp_s, seconds_of(picture.arrived));
         if (two_) {
-            waiting_.push_back(std::move(picture));
-            if (waiting_.size() > kMostWaiting) waiting_.pop_front();
+            join_.set_interval(interval_s_);
+            join_.add_depth(std::move(picture));
             join(now);
         } else {
             LivePair pair{.depth = std::move(picture)};
@@ -144,10 +123,9 @@ bool LiveFeed::take_colour(LivePicture picture) {
             came_.notify_all();
             return false;
         }
-        colour_line_.add(picture.stamp_s, seconds_of(picture.arrived));
-        colours_.push_back(std::move(picture));
-        if (colours_.size() > kMostColours) colours_.pop_front();
-        join(Clock::now());
+        join_.add_colour(std::move(picture));
+        join(now_());
+        came_.notify_all();  // one may be due now
     }
     const std::lock_guard lock(telling_);
     if (news_) news_();
@@ -160,38 +138,8 @@ void LiveFeed::take_refusal() {
     came_.notify_all();
 }
 
-/// When a colour picture was taken, by the depth's clock.
-double LiveFeed::colour_s(const LivePicture& picture) const {
-    const double apart_s = colour_line_.later_s() - depth_line_.later_s();
-    return picture.stamp_s + (std::fabs(apart_s) < kOneClock_s ? 0.0 : apart_s);
-}
-
-const LivePicture* LiveFeed::nearest_colour(double depth_s) const {
-    const auto nearest = std::min_element(
-        colours_.begin(), colours_.end(), [&](const LivePicture& a, const LivePicture& b) {
-            return std::fabs(colour_s(a) - depth_s) < std::fabs(colour_s(b) - depth_s);
-        });
-    return nearest == colours_.end() ? nullptr : &*nearest;
-}
-
-/// Whether no nearer colour is to be waited for: half an interval at most.
-bool LiveFeed::may_go(const LivePicture& depth, Clock::time_point now) const {
-    const double half_s = 0.5 * interval_s_;
-    const bool waited = now >= depth.arrived + duration_of(half_s);
-    return waited || (!colours_.empty() && colour_s(colours_.back()) >= depth.stamp_s - half_s);
-}
-
-/// Of those that may go only the newest is looked at.
 void LiveFeed::join(Clock::time_point now) {
-    std::optional<LivePicture> depth;
-    while (!waiting_.empty() && may_go(waiting_.front(), now)) {
-        depth = std::move(waiting_.front());
-        waiting_.pop_front();
-    }
-    const LivePicture* const colour = depth ? nearest_colour(depth->stamp_s) : nullptr;
-    if (colour == nullptr) return;  // before the first colour nothing is shown
-    LivePair pair{.depth = std::move(*depth), .colour = *colour};
-    hand_out(std::move(pair));
+    if (auto pair = join_.take(now)) hand_out(std::move(*pair));
 }
 
 void LiveFeed::hand_out(LivePair pair) {
@@ -203,20 +151,16 @@ void LiveFeed::hand_out(LivePair pair) {
 std::shared_ptr<const LivePair> LiveFeed::after(std::uint64_t number, Clock::time_point latest) {
     std::unique_lock lock(mutex_);
     for (;;) {
-        join(Clock::now());
+        join(now_());
         if (newest_ && newest_->number > number) return newest_;
-        if (Clock::now() >= latest || signal_.other_form || signal_.refused) return nullptr;
-        Clock::time_point until = latest;
-        if (!waiting_.empty())
-            until = std::min(until, waiting_.front().arrived + duration_of(0.5 * interval_s_));
-        came_.wait_until(lock, until);
+        if (now_() >= latest || signal_.other_form || signal_.refused) return nullptr;
+        came_.wait_until(lock, std::min(latest, join_.due().value_or(latest)));
     }
 }
 
 std::optional<Clock::time_point> LiveFeed::due() const {
     const std::lock_guard lock(mutex_);
-    if (waiting_.empty() || colours_.empty()) return std::nullopt;
-    return waiting_.front().arrived + duration_of(0.5 * interval_s_);
+    return join_.due();
 }
 
 LiveSignal LiveFeed::signal() const {
@@ -227,7 +171,7 @@ LiveSignal LiveFeed::signal() const {
     }
     signal.trouble = depth_stream_->trouble();
     if (signal.trouble.empty() && colour_stream_) signal.trouble = colour_stream_->trouble();
-    signal.heard = Clock::now() - depth_stream_->heard() < kUnheard;
+    signal.heard = now_() - depth_stream_->heard() < kUnheard;
     return signal;
 }
 

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
-#include <deque>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -13,16 +12,11 @@
 #include <string>
 #include <vector>
 
+#include "core/realtime/now.hpp"
+#include "core/video/live/live_join.hpp"
 #include "core/video/live/live_stream.hpp"
 
 namespace dibhr {
-
-/// Of one moment. Where both are of one picture the colour is in the depth's.
-struct LivePair {
-    LivePicture depth{};
-    LivePicture colour{};
-    std::uint64_t number{0};  ///< one more than that of the pair before it
-};
 
 /// How it stands with what is sent.
 struct LiveSignal {
@@ -34,29 +28,15 @@ struct LiveSignal {
     bool heard{false};       ///< packets come, whether or not they make pictures
 };
 
-/// How much later than its stamp a source's picture comes when it comes quickly: by that, stamps of
-/// clocks with another zero are compared. Plain data.
-class StampLine {
-  public:
-    /// A picture's, in order. Nothing is known any more where the clock was set to another time.
-    void add(double stamp_s, double arrived_s);
-    /// On our clock, of a stamp; 0 before anything was added.
-    [[nodiscard]] double later_s() const;
-    [[nodiscard]] std::size_t count() const noexcept { return later_.size(); }
-
-  private:
-    std::deque<double> later_{};
-};
-
 /// One or two connections. Keeps the newest pairs, so that any number of readers take what they
 /// have not had yet; every call may come from any thread.
 class LiveFeed {
   public:
     using Clock = std::chrono::steady_clock;
 
-    /// `colour` empty, or the depth's: one connection. Throws InputError for what names nothing
-    /// live.
-    LiveFeed(std::filesystem::path colour, std::filesystem::path depth);
+    /// `colour` empty, or the depth's: one connection. `now` is what its waiting is measured by.
+    /// Throws InputError for what names nothing live.
+    LiveFeed(std::filesystem::path colour, std::filesystem::path depth, Now now = Clock::now);
     ~LiveFeed();
     LiveFeed(const LiveFeed&) = delete;
     LiveFeed& operator=(const LiveFeed&) = delete;
@@ -93,19 +73,15 @@ class LiveFeed {
     };
     [[nodiscard]] bool is_of_form(const LivePicture& picture, std::optional<Form>& first);
     void join(Clock::time_point now);
-    [[nodiscard]] double colour_s(const LivePicture& picture) const;
-    [[nodiscard]] bool may_go(const LivePicture& depth, Clock::time_point now) const;
-    [[nodiscard]] const LivePicture* nearest_colour(double depth_s) const;
     void hand_out(LivePair pair);
 
     const std::filesystem::path colour_, depth_;
     const bool two_;
+    const Now now_;
 
     mutable std::mutex mutex_{};
     std::condition_variable came_{};
-    std::deque<LivePicture> waiting_{};  ///< depth, for its colour
-    std::deque<LivePicture> colours_{};  ///< the newest
-    StampLine depth_line_{}, colour_line_{};
+    LiveJoin join_{};
     double interval_s_{1.0 / 30.0};  ///< between depth pictures, as of late
     std::shared_ptr<const LivePair> newest_{};
     std::optional<Form> depth_form_{}, colour_form_{};  ///< of the first pictures

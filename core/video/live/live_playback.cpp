@@ -153,7 +153,7 @@ bool LivePlayback::take(Time now) {
     }
     const bool wants = playing_ || frames_.empty();
     if (wants && feed_->after(taken_, now)) changed = take_frame(now) || changed;
-    return watch_signal(std::chrono::steady_clock::now()) || changed;
+    return watch_signal(now_()) || changed;
 }
 
 /// One that cannot be had after all, because what sends has changed, is a lost signal.
@@ -176,7 +176,7 @@ bool LivePlayback::take_frame(Time now) {
     keep(last_);
     if (std::exchange(lost_, false)) clock_.begin_again();
     force_off_ = false;
-    const Time begin = std::chrono::steady_clock::now();
+    const Time begin = now_();
     Frame frame = cleaned_frame(last_);
     connect(frame, begin);
     show(std::move(frame), now);
@@ -202,7 +202,7 @@ void LivePlayback::make_plan() {
 }
 
 Frame LivePlayback::cleaned_frame(const RawFrame& raw) {
-    const auto begin = std::chrono::steady_clock::now();
+    const auto begin = now_();
     const ColourImage* const colour = raw.colour_of_view ? &raw.colour : nullptr;
     const LoneDepth lone = chain_.alone(raw.depth, plan_, raw.held, colour);
     const LoneDepth* const one = &lone;
@@ -218,7 +218,7 @@ Frame LivePlayback::cleaned_frame(const RawFrame& raw) {
     frame.index = raw.index;
     frame.media = number_;
     frame.cleaning = {plan_.steps, plan_.finger};
-    cleaned_ = std::chrono::steady_clock::now();
+    cleaned_ = now_();
     clean_ms_ = kMilliseconds * seconds_between(begin, cleaned_);
     return frame;
 }
@@ -228,13 +228,13 @@ void LivePlayback::connect(const Frame& next, Time begin) {
     if (!motion_wanted_.any() || !clock_.goes_on_to(last_stamp_s_, frames_)) return;
     const MotionWanted affordable = budget_.affordable(motion_wanted_);
     motion_.connect(frames_.back(), next, affordable);
-    cleaned_ = std::chrono::steady_clock::now();
+    cleaned_ = now_();
     budget_.took(affordable, seconds_between(begin, cleaned_), clock_.interval_s());
 }
 
 void LivePlayback::show(Frame frame, Time now) {
     notice_motion(frame, now);
-    const Time ready = std::chrono::steady_clock::now();
+    const Time ready = now_();
     if (clock_.add(std::move(frame), last_stamp_s_, ready, frames_)) ++discontinuity_;
     const double ahead_s = frames_.back().time_s - clock_.clock().playback_s(ready);
     const double behind_s =

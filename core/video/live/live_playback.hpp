@@ -8,7 +8,9 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
+#include "core/realtime/now.hpp"
 #include "core/video/cleaning/cleaning_chain.hpp"
 #include "core/video/live/live_clock.hpp"
 #include "core/video/live/live_feed.hpp"
@@ -20,14 +22,15 @@
 
 namespace dibhr {
 
-/// Belongs to the player's thread; every time comes in as an argument. A frame is cleaned by
-/// itself: what needs those after it would be felt too late; how it moves is known when the next
-/// one comes. The surface follows the pictures by their stamps, a frame behind; pictures that
-/// cannot be made in time are left out.
+/// Belongs to the player's thread. A frame is cleaned by itself: what needs those after it would be
+/// felt too late; how it moves is known when the next one comes. The surface follows the pictures
+/// by their stamps, a frame behind; pictures that cannot be made in time are left out.
 class LivePlayback {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
+    /// `now` is what cleaning is measured by: it ends later than the time that take() is given.
+    explicit LivePlayback(Now now = std::chrono::steady_clock::now) : now_(std::move(now)) {}
     ~LivePlayback() { close(); }
 
     /// `news` is called on other threads whenever take() has something to do.
@@ -73,6 +76,7 @@ class LivePlayback {
     [[nodiscard]] bool watch_signal(Time now);
     [[nodiscard]] Time lost_at() const;
 
+    Now now_;
     std::unique_ptr<Media> media_{};
     std::shared_ptr<LiveFeed> feed_{};
     std::uint32_t opened_{0};  ///< number it was opened by

@@ -1,0 +1,79 @@
+// Turns how a command ended into an exit code.
+#include "app/commands/program.hpp"
+
+#include <malloc.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+#include <system_error>
+
+#include "app/settings/command_options.hpp"
+#include "core/files/output_file.hpp"
+#include "core/files/plain_text.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr int kSuccess = 0;
+constexpr int kFailure = 1;
+constexpr int kBadUsage = 2;
+
+/// errno holds why writing to standard output failed. A reader that went away had enough.
+int exit_code_of_failed_printing() {
+    if (errno == EPIPE) return kSuccess;
+    const std::string reason = std::strerror(errno);
+    print_error_line("standard output: cannot be written (" + reason +
+                     "); make room for it or send it elsewhere");
+    return kFailure;
+}
+
+int exit_code_of(const Arguments& arguments, const PictureHook& after_picture) {
+    try {
+        const int exit_code = run_command_line(arguments, after_picture);
+        std::cout.flush();
+        return exit_code;
+    } catch (const OutputClosed&) {
+        return kSuccess;
+    } catch (const std::ios::failure&) {
+        return exit_code_of_failed_printing();
+    } catch (const UsageError& error) {
+        print_error_line(error.what());
+        return kBadUsage;
+    } catch (const std::bad_alloc&) {
+        print_error_line(
+            "not enough memory: close other programs, raise the limit (ulimit -v), or take a "
+            "smaller video");
+        return kFailure;
+    } catch (const std::system_error& error) {
+        print_error_line(std::string("the system refused a thread or a file (") + error.what() +
+                         "): close other programs or raise its limits");
+        return kFailure;
+    } catch (const std::exception& error) {
+        print_error_line(error.what());
+        return kFailure;
+    }
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv, const PictureHook& after_picture) {
+    // One heap for all threads: what one gives back, the others take, and the system can have it.
+    mallopt(M_ARENA_MAX, 1);
+    // A closed pipe is an ordinary end, not a signal.
+    std::signal(SIGPIPE, SIG_IGN);
+    std::cout.exceptions(std::ios::badbit);
+    // An error line must not flush, and so throw for, what could not be printed.
+    std::cerr.tie(nullptr);
+    const int exit_code = exit_code_of({argv + 1, argv + argc}, after_picture);
+    // What could not be printed has been told; the last flush at exit has nobody to tell.
+    std::cout.exceptions(std::ios::goodbit);
+    return exit_code;
+}
+
+}  // namespace dibhr

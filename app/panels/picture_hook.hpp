@@ -1,0 +1,31 @@
+// Follows the window from outside, picture by picture.
+#pragma once
+
+#include <functional>
+
+#include "app/panels/viewer_state.hpp"
+#include "core/video/frame_window.hpp"
+
+namespace dibhr {
+
+/// Where a participant of a study is.
+struct StudyPlace {
+    int step{0};          ///< a StudyStep
+    int trial{0};         ///< number of the running trial, from 0
+    int interval{0};      ///< of it, from 0
+    bool waits{false};    ///< the interval's surface is not there yet
+    bool leaving{false};  ///< the participant is asked whether to leave
+};
+
+/// A picture that the window has just shown; valid during the call.
+struct PictureShown {
+    const ViewerState& state;
+    const DepthBlend& surface;
+    const StudyPlace* study{nullptr};  ///< null: it is the viewer
+};
+
+/// Called on the window's thread after each picture. The tests' build of the program follows the
+/// window by it; the shipped program passes none.
+using PictureHook = std::function<void(const PictureShown&)>;
+
+}  // namespace dibhr

@@ -1,0 +1,12 @@
+// Where what measures time takes it from: the machine's clock, or one that is moved by hand.
+#pragma once
+
+#include <chrono>
+#include <functional>
+
+namespace dibhr {
+
+/// May be called on any thread. `std::chrono::steady_clock::now` wherever nothing else is said.
+using Now = std::function<std::chrono::steady_clock::time_point()>;
+
+}  // namespace dibhr

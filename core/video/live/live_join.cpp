@@ -1,0 +1,86 @@
+// Joins by stamps; of clocks with another zero by how much later than their stamps pictures come.
+#include "core/video/live/live_join.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dibhr {
+
+namespace {
+
+constexpr std::size_t kStamps = 100;  ///< about three seconds
+constexpr double kOtherTime_s = 1.0;  ///< a clock that is so far off was set
+/// Clocks that agree so well are one clock: what is between them is the way, not the time.
+constexpr double kOneClock_s = 0.25;
+constexpr std::size_t kMostColours = 8;
+constexpr std::size_t kMostWaiting = 2;
+
+double seconds_of(LiveJoin::Time time) {
+    return std::chrono::duration<double>(time.time_since_epoch()).count();
+}
+
+}  // namespace
+
+void StampLine::add(double stamp_s, double arrived_s) {
+    const double later_s = arrived_s - stamp_s;
+    if (!later_.empty() && std::fabs(later_s - this->later_s()) > kOtherTime_s) later_.clear();
+    later_.push_back(later_s);
+    if (later_.size() > kStamps) later_.pop_front();
+}
+
+double StampLine::later_s() const {
+    return later_.empty() ? 0.0 : *std::min_element(later_.begin(), later_.end());
+}
+
+void LiveJoin::add_depth(LivePicture picture) {
+    depth_line_.add(picture.stamp_s, seconds_of(picture.arrived));
+    waiting_.push_back(std::move(picture));
+    if (waiting_.size() > kMostWaiting) waiting_.pop_front();
+}
+
+void LiveJoin::add_colour(LivePicture picture) {
+    colour_line_.add(picture.stamp_s, seconds_of(picture.arrived));
+    colours_.push_back(std::move(picture));
+    if (colours_.size() > kMostColours) colours_.pop_front();
+}
+
+/// When a colour picture was taken, by the depth's clock.
+double LiveJoin::colour_s(const LivePicture& picture) const {
+    const double apart_s = colour_line_.later_s() - depth_line_.later_s();
+    return picture.stamp_s + (std::fabs(apart_s) < kOneClock_s ? 0.0 : apart_s);
+}
+
+const LivePicture* LiveJoin::nearest_colour(double depth_s) const {
+    const auto nearest = std::min_element(
+        colours_.begin(), colours_.end(), [&](const LivePicture& a, const LivePicture& b) {
+            return std::fabs(colour_s(a) - depth_s) < std::fabs(colour_s(b) - depth_s);
+        });
+    return nearest == colours_.end() ? nullptr : &*nearest;
+}
+
+/// Whether no nearer colour is to be waited for.
+bool LiveJoin::may_go(const LivePicture& depth, Time now) const {
+    const double half_s = 0.5 * interval_s_;
+    const bool waited = now - depth.arrived >= std::chrono::duration<double>(half_s);
+    return waited || (!colours_.empty() && colour_s(colours_.back()) >= depth.stamp_s - half_s);
+}
+
+std::optional<LivePair> LiveJoin::take(Time now) {
+    std::optional<LivePicture> depth;
+    while (!waiting_.empty() && may_go(waiting_.front(), now)) {
+        depth = std::move(waiting_.front());
+        waiting_.pop_front();
+    }
+    const LivePicture* const colour = depth ? nearest_colour(depth->stamp_s) : nullptr;
+    if (colour == nullptr) return std::nullopt;
+    return LivePair{.depth = std::move(*depth), .colour = *colour};
+}
+
+std::optional<LiveJoin::Time> LiveJoin::due() const {
+    if (waiting_.empty() || colours_.empty()) return std::nullopt;
+    return waiting_.front().arrived +
+           std::chrono::ceil<Time::duration>(std::chrono::duration<double>(0.5 * interval_s_));
+}
+
+}  // namespace dibhr

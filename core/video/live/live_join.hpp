@@ -1,0 +1,64 @@
+// Which depth and which colour picture of two connections belong together: by their stamps, or by
+// when they come.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "core/video/live/live_input.hpp"
+
+namespace dibhr {
+
+/// Of one moment. Where both are of one picture the colour is in the depth's.
+struct LivePair {
+    LivePicture depth{};
+    LivePicture colour{};
+    std::uint64_t number{0};  ///< one more than that of the pair before it
+};
+
+/// How much later than its stamp a source's picture comes when it comes quickly: by that, stamps of
+/// clocks with another zero are compared. Plain data.
+class StampLine {
+  public:
+    /// A picture's, in order. Nothing is known any more where the clock was set to another time.
+    void add(double stamp_s, double arrived_s);
+    /// On our clock, of a stamp; 0 before anything was added.
+    [[nodiscard]] double later_s() const;
+    [[nodiscard]] std::size_t count() const noexcept { return later_.size(); }
+
+  private:
+    std::deque<double> later_{};
+};
+
+/// Every depth picture goes with the colour that is nearest in time, and waits for it half the time
+/// from picture to picture at most. Plain data.
+class LiveJoin {
+  public:
+    using Time = LivePicture::Clock::time_point;
+
+    void add_depth(LivePicture picture);
+    void add_colour(LivePicture picture);
+    /// The time from depth picture to depth picture, as of late [s].
+    void set_interval(double interval_s) noexcept { interval_s_ = interval_s; }
+
+    /// Of the depth pictures that need not wait any more the newest, with its colour; nothing
+    /// before the first colour.
+    [[nodiscard]] std::optional<LivePair> take(Time now);
+    /// When one that waits goes without; nothing: none waits.
+    [[nodiscard]] std::optional<Time> due() const;
+
+  private:
+    [[nodiscard]] double colour_s(const LivePicture& picture) const;
+    [[nodiscard]] bool may_go(const LivePicture& depth, Time now) const;
+    [[nodiscard]] const LivePicture* nearest_colour(double depth_s) const;
+
+    std::deque<LivePicture> waiting_{};  ///< depth, for its colour
+    std::deque<LivePicture> colours_{};  ///< the newest
+    StampLine depth_line_{}, colour_line_{};
+    double interval_s_{1.0 / 30.0};
+};
+
+}  // namespace dibhr
