@@ -30,7 +30,7 @@ CarriedFinger finger_on(const Seen& seen, Filming filming) {
 }  // namespace
 
 TEST_CASE("a finger on what moves in a video ends at its material point, dragged as by the truth",
-          "[carried]") {
+          "[carried][long]") {
     const Seen seen = GENERATE(some_of<Seen>({{Shape::hand, Goes::along, 50.0, 30.0},
                                               {Shape::plane, Goes::along, 200.0, 15.0},
                                               {Shape::sphere, Goes::along, 100.0, 60.0},
@@ -47,15 +47,16 @@ TEST_CASE("a finger on what moves in a video ends at its material point, dragged
 }
 
 TEST_CASE("true motion carries a finger without drift, though updates fall on frames",
-          "[carried]") {
+          "[carried][long]") {
     const CarriedFinger felt =  // every fortieth update
-        finger_on({Shape::plane, Goes::along, 200.0, 25.0}, {.coded = false, .found = false});
+        finger_on({Shape::plane, Goes::along, 200.0, 25.0},
+                  {.seconds = 0.5, .coded = false, .found = false});
     CHECK(felt.worst_astray_px < 0.01);
 }
 
-TEST_CASE("a finger that nothing carries stays behind, and feels no drag", "[carried]") {
-    const CarriedFinger felt =
-        finger_on({Shape::plane, Goes::along, 100.0, 30.0}, {.coded = false, .carry = false});
+TEST_CASE("a finger that nothing carries stays behind, and feels no drag", "[carried][long]") {
+    const CarriedFinger felt = finger_on({Shape::plane, Goes::along, 100.0, 30.0},
+                                         {.seconds = 0.5, .coded = false, .carry = false});
     CHECK(felt.astray_px > 20.0);
     CHECK(felt.drag_share < 0.1);
 }

@@ -1,10 +1,12 @@
-// Whether a hand on a simulated device stays calm on the program's own tick: the bench's short
-// form.
+// Whether a hand on a simulated device stays calm on the program's own tick: the short form of the
+// bench's table.
 #include "tests/bench/closed_loop.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "device/inverse3/dynamics.hpp"
 #include "tests/support/catch.hpp"
@@ -27,16 +29,37 @@ ClosedLoop watched_only() {
     return loop;
 }
 
-/// Of a hand that is held like this, on the lightest and on the heaviest of the loosest devices.
-double lowest_oscillating_of(const Grip& grip, ClosedLoop loop) {
+constexpr std::array kLightAndHeavy_kg{kMasses_kg.front(), kMasses_kg.back()};
+
+/// Of the loosest devices, the hand held like this.
+ClosedLoop on_a_loose_device(const Grip& grip, double mass_kg, ClosedLoop loop) {
     loop.grip = grip;
     loop.friction_newton_s_per_m = kFrictions_newton_s_per_m.front();
+    loop.mass_kg = mass_kg;
+    return loop;
+}
+
+/// On the lightest or the heaviest of them.
+bool oscillates_on_any(const Grip& grip, ClosedLoop loop, double stiffness_newton_per_mm) {
+    loop.parameters.coupling.stiffness_newton_per_mm = stiffness_newton_per_mm;
+    return std::any_of(kLightAndHeavy_kg.begin(), kLightAndHeavy_kg.end(), [&](double mass) {
+        return oscillates(run(on_a_loose_device(grip, mass, loop)));
+    });
+}
+
+double lowest_oscillating_of(const Grip& grip, const ClosedLoop& loop) {
     double lowest = 1e9;
-    for (const double mass : {kMasses_kg.front(), kMasses_kg.back()}) {
-        loop.mass_kg = mass;
-        lowest = std::min(lowest, lowest_oscillating(loop));
-    }
+    for (const double mass : kLightAndHeavy_kg)
+        lowest = std::min(lowest, lowest_oscillating(on_a_loose_device(grip, mass, loop)));
     return lowest;
+}
+
+/// It slides away under the hand, and carries it. A heavy hand that is pulled aside rings two
+/// seconds longer when it is tapped.
+ClosedLoop pulled_aside(ClosedLoop loop) {
+    loop.seconds = 6.0;
+    loop.slide_mm_per_s = 56.0;
+    return loop;
 }
 
 ClosedLoop over_a_moving_surface(ClosedLoop loop, SurfaceElevation motion_mm) {
@@ -103,8 +126,27 @@ TEST_CASE("no tapped hand swings on an Inverse3 as it is assumed to be", "[close
     }
 }
 
-TEST_CASE("watched, a spring may be three times as stiff before a hand swings, without any damping",
+TEST_CASE("watched, a hand is calm at three times the stiffness at which it swings unwatched",
           "[closed-loop]") {
+    for (const auto& [grip, swings_at] :
+         {std::pair{kGrips[0], 0.8}, std::pair{kGrips[1], 0.4}, std::pair{kGrips[2], 0.3}}) {
+        CAPTURE(grip.name, swings_at);
+        CHECK(oscillates_on_any(grip, ClosedLoop{}, swings_at));
+        CHECK_FALSE(oscillates_on_any(grip, watched_only(), 3.0 * swings_at));
+    }
+}
+
+TEST_CASE("a hand that is carried aside swings no sooner than one that rests, watched",
+          "[closed-loop]") {
+    // Resting, they swing from 3.4 and 1.9 N/mm on.
+    for (const auto& [grip, calm_at] : {std::pair{kGrips[0], 3.0}, std::pair{kGrips[1], 1.7}}) {
+        CAPTURE(grip.name, calm_at);
+        CHECK_FALSE(oscillates_on_any(grip, pulled_aside(watched_only()), calm_at));
+    }
+}
+
+TEST_CASE("watched, a spring may be three times as stiff before a hand swings, without any damping",
+          "[closed-loop][long]") {
     for (const Grip& grip : kGrips) {
         const double plain = lowest_oscillating_of(grip, ClosedLoop{});
         const double watched = lowest_oscillating_of(grip, watched_only());
@@ -176,14 +218,12 @@ TEST_CASE("a surface that slides away under a hand drags it aside as friction sa
 }
 
 TEST_CASE("what friction takes from a carried proxy hides no energy that rendering creates",
-          "[closed-loop]") {
+          "[closed-loop][long]") {
     for (const Grip& grip : {kGrips[0], kGrips[1]}) {
         ClosedLoop still = watched_only();
-        still.seconds = 6.0;  // a heavy hand pulled aside rings two seconds longer when tapped
-        ClosedLoop sliding = still;
-        sliding.slide_mm_per_s = 56.0;
+        still.seconds = pulled_aside(still).seconds;
         const double resting = lowest_oscillating_of(grip, still);
-        const double carried = lowest_oscillating_of(grip, sliding);
+        const double carried = lowest_oscillating_of(grip, pulled_aside(still));
         CAPTURE(grip.name, resting, carried);
         CHECK(carried >= 0.9 * resting);
     }

@@ -58,7 +58,7 @@ bool chosen(int i, int j, int frame, int period) {
 
 }  // namespace
 
-TEST_CASE("a flat plane is always in contact, without buzz, steps or sticking", "[feel]") {
+TEST_CASE("a flat plane is always in contact, without buzz, steps or sticking", "[feel][long]") {
     const Feel flat = feel([](int, int, int) { return 100.0; });
     for (const Way way : {Way::rest_quiet, Way::rest_anywhere}) {
         CHECK(flat[way].contact == 1.0);
@@ -74,7 +74,7 @@ TEST_CASE("a flat plane is always in contact, without buzz, steps or sticking", 
 }
 
 TEST_CASE("a plane that drops by 100 px moved: contact is lost until the hand has followed",
-          "[feel]") {
+          "[feel][long]") {
     const Feel dropping = feel([](int frame, int, int) { return frame < 50 ? 150.0 : 50.0; });
     const FeelNumbers& rest = dropping[Way::rest_anywhere];
     CHECK(all_lost_to(Cause::moved, rest));
@@ -84,7 +84,7 @@ TEST_CASE("a plane that drops by 100 px moved: contact is lost until the hand ha
     CHECK_THAT((1.0 - rest.contact) * 3.0, WithinAbs(lost_s, 0.05));
 }
 
-TEST_CASE("what falls and comes back is flicker, of a pixel or of all around it", "[feel]") {
+TEST_CASE("what falls and comes back is flicker, of a pixel or of all around it", "[feel][long]") {
     const Feel sparkling =
         feel([](int frame, int i, int j) { return chosen(i, j, frame, 20) ? 20.0 : 150.0; }, kRaw);
     CHECK(all_lost_to(Cause::flicker, sparkling[Way::rest_anywhere]));
@@ -92,7 +92,7 @@ TEST_CASE("what falls and comes back is flicker, of a pixel or of all around it"
     CHECK(all_lost_to(Cause::flicker_wide, blinking[Way::rest_anywhere]));
 }
 
-TEST_CASE("what falls where there is no data is a hole", "[feel]") {
+TEST_CASE("what falls where there is no data is a hole", "[feel][long]") {
     const Level holed = [](int frame, int i, int j) {
         return chosen(i, j, frame, 20) ? kNone : 150.0;
     };
@@ -100,12 +100,12 @@ TEST_CASE("what falls where there is no data is a hole", "[feel]") {
     CHECK(feel(holed)[Way::rest_anywhere].contact == 1.0);
 }
 
-TEST_CASE("what had data and has none any more is gone", "[feel]") {
+TEST_CASE("what had data and has none any more is gone", "[feel][long]") {
     const Feel leaving = feel([](int frame, int, int) { return frame < 50 ? 150.0 : kNone; }, kRaw);
     CHECK(all_lost_to(Cause::gone, leaving[Way::rest_anywhere]));
 }
 
-TEST_CASE("what is made up beside data that moves was never seen", "[feel]") {
+TEST_CASE("what is made up beside data that moves was never seen", "[feel][long]") {
     const Feel beside = feel(
         [](int frame, int i, int) {
             if (i % 10 < 5) return kNone;
@@ -119,7 +119,7 @@ TEST_CASE("what is made up beside data that moves was never seen", "[feel]") {
     CHECK_THAT(lost, WithinAbs(1.0 - rest.contact, 1e-9));
 }
 
-TEST_CASE("what cleaning takes away is told from holes", "[feel]") {
+TEST_CASE("what cleaning takes away is told from holes", "[feel][long]") {
     // Pixels that stand still while all around them fall now and then, and so are spikes there.
     const Level blinking = [](int frame, int i, int j) {
         return frame % 20 < 2 && (i % 3 != 0 || j % 3 != 0) ? 20.0 : 150.0;
@@ -130,7 +130,7 @@ TEST_CASE("what cleaning takes away is told from holes", "[feel]") {
     CHECK(feel(blinking, options)[Way::rest_anywhere].lost[Cause::cleaning] == 0);
 }
 
-TEST_CASE("buzz is what is above 30 Hz, and steps are those of the force", "[feel]") {
+TEST_CASE("buzz is what is above 30 Hz, and steps are those of the force", "[feel][long]") {
     // A surface that rises and falls by 1 px, by turns a frame: a triangle of 15 Hz.
     const Feel quick = feel([](int frame, int, int) { return 100.0 + frame % 2; }, kRaw);
     const FeelNumbers& rest = quick[Way::rest_anywhere];
@@ -147,7 +147,7 @@ TEST_CASE("buzz is what is above 30 Hz, and steps are those of the force", "[fee
     CHECK_THAT(rest.buzz_newton, WithinRel(std::sqrt(square_newton), 0.05));
 }
 
-TEST_CASE("a finger that slides sticks where the surface is rough", "[feel]") {
+TEST_CASE("a finger that slides sticks where the surface is rough", "[feel][long]") {
     const Feel rough =
         feel([](int, int i, int j) { return 100.0 + ((i * 7919 + j * 104729) % 97) % 15; }, kRaw);
     REQUIRE(rough[Way::slide].seconds > 0.0);
@@ -155,7 +155,7 @@ TEST_CASE("a finger that slides sticks where the surface is rough", "[feel]") {
     CHECK(rough[Way::slide].step_p99 > 0.05);
 }
 
-TEST_CASE("the quieter half changes less than anywhere", "[feel]") {
+TEST_CASE("the quieter half changes less than anywhere", "[feel][long]") {
     const Feel half = feel(
         [](int frame, int i, int) { return i < kColumns / 2 ? 100.0 : 100.0 + 30.0 * (frame % 2); },
         kRaw);
@@ -163,7 +163,7 @@ TEST_CASE("the quieter half changes less than anywhere", "[feel]") {
     CHECK(half[Way::rest_anywhere].buzz_newton > 0.05);
 }
 
-TEST_CASE("the same seed gives the same numbers", "[feel]") {
+TEST_CASE("the same seed gives the same numbers", "[feel][long]") {
     const Level sparkling = [](int frame, int i, int j) {
         return chosen(i, j, frame, 20) ? 20.0 : 150.0;
     };

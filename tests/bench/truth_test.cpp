@@ -42,7 +42,7 @@ Nearness of_changed(const std::string& scene, int frames, const Change& change) 
 
 }  // namespace
 
-TEST_CASE("the truth has no error, no lag and no flicker", "[truth]") {
+TEST_CASE("the truth has no error, no lag and no flicker", "[truth][long]") {
     const Nearness hand = of_changed("hand", 24, [](std::vector<DepthImage>&) {});
     CHECK(hand.elevation_px == 0.0);
     CHECK(hand.edge_px == 0.0);
@@ -54,7 +54,7 @@ TEST_CASE("the truth has no error, no lag and no flicker", "[truth]") {
     CHECK_THAT(bumps.bump_kept, WithinAbs(1.0, 1e-3));
 }
 
-TEST_CASE("an offset is an error, but turns no normal and moves no edge", "[truth]") {
+TEST_CASE("an offset is an error, but turns no normal and moves no edge", "[truth][long]") {
     const Nearness lifted = of_changed("sphere", 2, [](std::vector<DepthImage>& images) {
         for (DepthImage& image : images)
             for (float& level : image.levels) level += 3.0F;
@@ -64,7 +64,7 @@ TEST_CASE("an offset is an error, but turns no normal and moves no edge", "[trut
     CHECK(lifted.edge_px == 0.0);
 }
 
-TEST_CASE("frames that come late are so late", "[truth]") {
+TEST_CASE("frames that come late are so late", "[truth][long]") {
     const std::string scene = GENERATE("hand", "chest");
     const int late = scene == "hand" ? 1 : 2;
     const Nearness found = of_changed(scene, 40, [late](std::vector<DepthImage>& images) {
@@ -74,7 +74,7 @@ TEST_CASE("frames that come late are so late", "[truth]") {
     CHECK_THAT(found.lag_frames, WithinAbs(late, 0.25));
 }
 
-TEST_CASE("a picture that is moved has its edges elsewhere, and a ramp has none", "[truth]") {
+TEST_CASE("a picture that is moved has its edges elsewhere, and a ramp has none", "[truth][long]") {
     const Nearness moved = of_changed("chest", 2, [](std::vector<DepthImage>& images) {
         for (DepthImage& image : images) {
             const DepthImage there = image;
@@ -86,7 +86,8 @@ TEST_CASE("a picture that is moved has its edges elsewhere, and a ramp has none"
     CHECK(seen("chest", "lidar", kRaw, kColumns, 1).edge_px == kFarthestEdge_px);
 }
 
-TEST_CASE("a bump of half the height is half there, and noise that changes flickers", "[truth]") {
+TEST_CASE("a bump of half the height is half there, and noise that changes flickers",
+          "[truth][long]") {
     const Nearness half = of_changed("bumps", 2, [](std::vector<DepthImage>& images) {
         const KnownScene scene = known_scene("bumps", kColumns, kRows);
         for (int j = 0; j < kRows; ++j)
@@ -100,7 +101,7 @@ TEST_CASE("a bump of half the height is half there, and noise that changes flick
     CHECK_THAT(shaken.flicker_px, WithinAbs(0.5 * std::sqrt(19.0 / 20.0), 0.01));
 }
 
-TEST_CASE("the same seed gives the same recording", "[truth]") {
+TEST_CASE("the same seed gives the same recording", "[truth][long]") {
     const TrueFrames truth(known_scene("face", 160, 120), 3);
     for (const Sensor& each : sensors()) {
         const std::vector<DepthImage> one = each.see(truth, 5);
@@ -117,7 +118,8 @@ TEST_CASE("the same seed gives the same recording", "[truth]") {
     }
 }
 
-TEST_CASE("what holds still or breathes is nearer to the truth than any sensor saw it", "[truth]") {
+TEST_CASE("what holds still or breathes is nearer to the truth than any sensor saw it",
+          "[truth][long]") {
     const std::string scene = GENERATE("plane", "sphere", "face", "chest", "bumps");
     const TrueFrames truth(known_scene(scene, kColumns, kRows), 5);
     for (const Sensor& each : sensors()) {
@@ -132,7 +134,7 @@ TEST_CASE("what holds still or breathes is nearer to the truth than any sensor s
     }
 }
 
-TEST_CASE("a hand at half a metre a second is nearer than a depth camera saw it", "[truth]") {
+TEST_CASE("a hand at half a metre a second is nearer than a depth camera saw it", "[truth][long]") {
     const std::string by = GENERATE("white", "kinect", "stereo", "tof");
     CAPTURE(by);
     const TrueFrames truth(known_scene("hand", kColumns, kRows), 14);
@@ -144,7 +146,8 @@ TEST_CASE("a hand at half a metre a second is nearer than a depth camera saw it"
     CHECK(std::fabs(after.lag_frames) <= 0.25);
 }
 
-TEST_CASE("a hand in motion keeps its silhouettes within a pixel, and is no noise", "[truth]") {
+TEST_CASE("a hand in motion keeps its silhouettes within a pixel, and is no noise",
+          "[truth][long]") {
     const std::string by = GENERATE("exact", "white", "tof");
     CAPTURE(by);
     const Nearness after = seen("hand", by, kAuto, 640, 12);
@@ -152,28 +155,28 @@ TEST_CASE("a hand in motion keeps its silhouettes within a pixel, and is no nois
     CHECK(after.elevation_px <= (by == "exact" ? 0.01 : 0.4));
 }
 
-TEST_CASE("a chest that breathes is not a quarter of a frame late", "[truth]") {
+TEST_CASE("a chest that breathes is not a quarter of a frame late", "[truth][long]") {
     const std::string by = GENERATE("white", "kinect");
     CAPTURE(by);
     CHECK(std::fabs(seen("chest", by, kAuto, kColumns, 40).lag_frames) <= 0.25);
 }
 
-TEST_CASE("the silhouettes of what holds still move by a pixel at most", "[truth]") {
+TEST_CASE("the silhouettes of what holds still move by a pixel at most", "[truth][long]") {
     const std::string scene = GENERATE("sphere", "face", "chest");
     const std::string by = GENERATE("white", "kinect", "tof", "8-bit");
     CAPTURE(scene, by);
     CHECK(seen(scene, by, kAuto).edge_px <= 1.0);
 }
 
-TEST_CASE("a bump as high as twice the noise keeps two thirds of its height", "[truth]") {
+TEST_CASE("a bump as high as twice the noise keeps two thirds of its height", "[truth][long]") {
     CHECK(seen("bumps", "white", kAuto, 640).bump_kept >= 2.0 / 3.0);
 }
 
-TEST_CASE("a sphere of 8 bits is felt as one, within 5 degrees", "[truth]") {
+TEST_CASE("a sphere of 8 bits is felt as one, within 5 degrees", "[truth][long]") {
     CHECK(seen("sphere", "8-bit", kAuto, 640, 2).normal_deg <= 5.0);
 }
 
-TEST_CASE("what is exact stays so", "[truth]") {
+TEST_CASE("what is exact stays so", "[truth][long]") {
     const std::string scene = GENERATE("plane", "sphere", "face", "chest", "bumps");
     const Nearness before = seen(scene, "exact", kRaw);
     const Nearness after = seen(scene, "exact", kAuto);

@@ -2,8 +2,6 @@
 // guardian's tests look at from outside.
 #pragma once
 
-#include <fcntl.h>
-#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -14,7 +12,6 @@
 #include <exception>
 #include <functional>
 #include <map>
-#include <new>
 #include <string>
 
 #include "device/hand/guardian.hpp"
@@ -24,30 +21,18 @@ namespace dibhr::test {
 
 inline constexpr int kExitCode = 3;
 
-inline void* map_page(int file) {
-    void* const page =
-        mmap(nullptr, sizeof(LastMoment), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
-    if (page == MAP_FAILED) std::exit(EXIT_FAILURE);
-    return page;
-}
-
 /// Of a program that presses in `Loop`, a TickingDevice.
 template <typename Loop>
 class Life {
   public:
-    using Milliseconds = std::chrono::milliseconds;
-
-    /// `file` becomes the LastMoment.
-    Life(const char* file, Loop& loop) : loop_(loop) {
+    /// Presses until the test lets it go on; `file` holds the LastMoment.
+    Life(const char* file, Loop& loop) : loop_(loop), last_(last_moment_in(file)) {
         setpgid(0, 0);
         const rlimit no_core{0, 0};
         setrlimit(RLIMIT_CORE, &no_core);
-        const int opened = open(file, O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-        if (ftruncate(opened, sizeof(LastMoment)) != 0) std::exit(EXIT_FAILURE);
-        last_ = new (map_page(opened)) LastMoment;
+        if (last_ == nullptr) std::exit(EXIT_FAILURE);
         loop_.force_newton = {0.0, 0.0, 1.0};
-        if (!loop_.tick_until_ready()) std::exit(EXIT_FAILURE);
-        loop_.tick_for(Milliseconds(500));
+        press_until_let_on(1);
     }
 
     /// False: there is no such way to end it.
@@ -61,15 +46,15 @@ class Life {
             {"exception", told_before([] { std::terminate(); })},
             {"file-size", [this] { write_too_much(); }},
             {"exit", told_before([] { _exit(kExitCode); })},
-            // These go on.
-            {"leave", told_before([this] { loop_.tick_for(Milliseconds(3000)); })},
+            // These press on until the test lets them go on once more.
+            {"leave", told_before([this] { press_until_let_on(2); })},
             {"stop", told_before([this] {
                  (void)raise(SIGSTOP);
-                 loop_.tick_for(Milliseconds(2000));
+                 press_until_let_on(2);
              })},
             {"alarm", told_before([this] {
                  Guardian::alarm();
-                 loop_.tick_for(Milliseconds(500));
+                 press_until_let_on(2);
              })},
         };
         const auto found = ways.find(way);
@@ -79,6 +64,10 @@ class Life {
     }
 
   private:
+    void press_until_let_on(int times) {
+        const auto let_on = [this, times] { return last_->goes_on >= times; };
+        if (!loop_.tick_until(let_on, std::chrono::minutes(5))) std::exit(EXIT_FAILURE);
+    }
     template <typename End>
     std::function<void()> told_before(End end) {
         return [this, end] {
@@ -109,7 +98,7 @@ class Life {
     }
 
     Loop& loop_;
-    LastMoment* last_{nullptr};
+    LastMoment* last_;
 };
 
 }  // namespace dibhr::test

@@ -4,12 +4,14 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -25,10 +27,11 @@ namespace dibhr::test {
 
 class PressingProcess {
   public:
-    static constexpr std::chrono::seconds kPatience{20};  // of a busy machine
+    static constexpr std::chrono::seconds kPatience{60};
 
-    PressingProcess() = default;
+    PressingProcess() { REQUIRE(last_ != nullptr); }
     ~PressingProcess() {
+        ::munmap(last_, sizeof *last_);
         if (child_ <= 0) return;
         for (const pid_t guardian : guardians()) ::kill(guardian, SIGKILL);
         if (program_ > 0) ::kill(program_, SIGKILL);
@@ -49,19 +52,17 @@ class PressingProcess {
         return folder_ / name;
     }
 
-    /// Until it has pressed, just before it goes its way; then when that was [s].
-    double end_begins() {
-        LastMoment last;
-        const auto told = [&] {
-            std::ifstream(file("moment"), std::ios::binary)
-                .read(reinterpret_cast<char*>(&last), sizeof last);
-            return last.program != 0;
-        };
-        REQUIRE(eventually(told, kPatience));
-        program_ = last.program;
-        return last.t_s;
+    /// Once `it_presses`, and just before it goes its way; then when that was [s].
+    double end_begins(const std::function<bool()>& it_presses) {
+        REQUIRE(eventually(it_presses, kPatience));
+        go_on();
+        REQUIRE(eventually([this] { return last_->program != 0; }, kPatience));
+        program_ = last_->program;
+        return last_->t_s;
     }
     [[nodiscard]] pid_t program() const noexcept { return program_; }
+    /// One that presses until then.
+    void go_on() noexcept { ++last_->goes_on; }
 
     /// Its exit code, or 128 and its signal.
     int ended() {
@@ -87,11 +88,15 @@ class PressingProcess {
         }
         return found;
     }
-    /// Once there is one, which a busy machine may hide for a moment.
-    [[nodiscard]] std::vector<pid_t> guardians_at_work() const {
+    /// The one that has it from the beginning, and shows its name a moment later.
+    [[nodiscard]] pid_t guardian() const {
         std::vector<pid_t> found;
-        (void)eventually([&] { return !(found = guardians()).empty(); }, std::chrono::seconds(2));
-        return found;
+        REQUIRE(eventually([&] { return !(found = guardians()).empty(); }, kPatience));
+        REQUIRE(found.size() == 1);
+        return found.front();
+    }
+    [[nodiscard]] bool its_guardian_ends() const {
+        return eventually([this] { return guardians().empty(); }, kPatience);
     }
 
   private:
@@ -120,6 +125,7 @@ class PressingProcess {
     }
 
     TemporaryFolder folder_{};
+    LastMoment* last_{last_moment_in(file("moment").c_str())};
     pid_t child_{-1};
     pid_t program_{-1};
 };

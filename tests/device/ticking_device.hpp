@@ -29,7 +29,7 @@ class TickingDevice {
     }
     /// Ticks until it is so; false when it never was.
     bool tick_until(const std::function<bool()>& is_so,
-                    std::chrono::milliseconds patience = std::chrono::seconds(20)) {
+                    std::chrono::milliseconds patience = std::chrono::seconds(60)) {
         const auto end = std::chrono::steady_clock::now() + patience;
         while (std::chrono::steady_clock::now() < end) {
             (void)timer_.wait();
@@ -40,6 +40,9 @@ class TickingDevice {
     }
     void tick_for(std::chrono::milliseconds span) {
         (void)tick_until([] { return false; }, span);
+    }
+    void tick_times(int count) {
+        (void)tick_until([&count] { return --count <= 0; }, std::chrono::hours(1));
     }
     bool tick_until_ready() {
         return tick_until([this] { return reading.ready && !reading.stand_in; });

@@ -10,7 +10,6 @@
 #include <iostream>
 #include <random>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -19,6 +18,7 @@
 #include "core/session/session.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/desk.hpp"
+#include "tests/app/program/open_dialog.hpp"
 #include "tests/support/catch.hpp"
 
 using namespace dibhr;
@@ -43,20 +43,20 @@ constexpr Area kRelief{150, 120, 700, 560};
 constexpr Area kPanels{1000, 60, 260, 680};
 constexpr Area kTimeLine{20, 780, 500, 1};  // and the buttons beside it
 
-/// What a person might do next, as a chain of xdotool's commands.
+/// What a person might do next, as events of a keyboard and a mouse.
 class RandomPerson {
   public:
     explicit RandomPerson(std::uint64_t seed) : random_(seed) {}
 
     /// So many things, and among them a recording begun or ended.
     std::string some(int count) {
-        std::string commands;
+        std::string events;
         const int toggled = below(count);
         for (int k = 0; k < count; ++k) {
-            commands += next() + " sleep 0.1 ";
-            if (k == toggled) commands += "key ctrl+r sleep 0.3 ";
+            events += next() + ' ';
+            if (k == toggled) events += "key ctrl+r ";
         }
-        return commands;
+        return events;
     }
 
     std::string any_of(const std::vector<std::string>& words) {
@@ -67,17 +67,17 @@ class RandomPerson {
     std::string next() {
         switch (below(11)) {
             case 0:
-                return "key " + any_of({"Left", "Right", "Home", "period", "comma"}) + " sleep 0.3";
+                return "key " + any_of({"Left", "Right", "Home", "period", "comma"});
             case 1:
                 return click(kTimeLine);
             case 2:
-                return "key " + any_of({"bracketleft", "bracketright"}) + " sleep 0.2";
+                return "key " + any_of({"bracketleft", "bracketright"});
             case 3:
-                return "key space sleep 0.4 key space sleep 0.2";
+                return "key space key space";
             case 4:
-                return "key m sleep 0.1";
+                return "key m";
             case 5:
-                return "key " + any_of({"r", "v", "f", "c"}) + " sleep 0.2";
+                return "key " + any_of({"r", "v", "f", "c"});
             case 6:
                 return drag(kPanels, 80, 0);  // a slider, if there is one
             case 7:
@@ -93,34 +93,33 @@ class RandomPerson {
     int below(int count) { return static_cast<int>(random_() % static_cast<std::uint64_t>(count)); }
     std::string go_into(const Area& area) {
         const std::string x = std::to_string(area.left + below(area.width));
-        return "mousemove " + x + " " + std::to_string(area.top + below(area.height)) +
-               " sleep 0.1 ";
+        return "mousemove " + x + ' ' + std::to_string(area.top + below(area.height));
     }
-    std::string click(const Area& area) {
-        return go_into(area) + "mousedown 1 sleep 0.1 mouseup 1 sleep 0.2";
-    }
+    std::string click(const Area& area) { return go_into(area) + " click 1"; }
     /// From there up to so many pixels on, in ten steps, pressed.
     std::string drag(const Area& from, int across, int down) {
-        std::string commands = go_into(from) + "mousedown 1 sleep 0.2 ";
+        std::string events = go_into(from) + " mousedown 1";
         const std::string dx = std::to_string((below(2 * across + 1) - across) / 10);
         const std::string dy = std::to_string((below(2 * down + 1) - down) / 10);
-        for (int k = 0; k < 10; ++k) {
-            commands += "mousemove_relative -- " + dx + " " + dy + " sleep 0.03 ";
-        }
-        return commands + "mouseup 1 sleep 0.1";
+        for (int k = 0; k < 10; ++k) events += " mousemove_relative " + dx + ' ' + dy;
+        return events + " mouseup 1";
     }
     std::string turn() {
-        return go_into(kRelief) + "mousedown 3 sleep 0.1 mousemove_relative -- 40 15 sleep 0.1 " +
-               "mouseup 3 sleep 0.1 key r sleep 0.1";
+        return go_into(kRelief) + " mousedown 3 mousemove_relative 40 15 mouseup 3 key r";
     }
 
     std::mt19937_64 random_;
 };
 
-/// xdotool types to its last word, so that the key is another chain.
-void open_file(const Desk& desk, const std::string& name) {
-    desk.act("key Escape sleep 0.2 key ctrl+o sleep 1 key ctrl+a sleep 0.1 type " + name);
-    desk.act("key Return sleep 1.5");
+/// Closes whatever is over the relief, and opens another file.
+void open_file(const WindowProgram& viewer, const std::string& name) {
+    do viewer.act("key Escape");
+    while (viewer.seen().dialog || viewer.seen().help || !viewer.seen().message.str().empty());
+    viewer.act("key ctrl+o");
+    open_by_name(viewer, name);
+    viewer.wait_until([&name](const Seen& now) {
+        return now.surface && !now.dialog && now.file.str().ends_with(name);
+    });
 }
 
 /// The sample and two films, all opened by names without a letter that would end the program.
@@ -207,31 +206,31 @@ TEST_CASE("a long session of everything at random leaves sound recordings, and n
     const bool is_long = duration >= seconds(300);
     const seconds warm_up = is_long ? seconds(60) : duration / 4;
     constexpr int kActionsInRound = 8;
+    constexpr std::size_t kFewestRounds = 3;  // as many thirds are compared
     std::cerr << "soak: " << duration.count() << " s, seed " << seed << '\n';
 
     const Desk desk;
     const TemporaryFolder folder;
     lay_out_files(folder);
     RandomPerson person(seed);
-    Process viewer = desk.start_viewer(
-        folder, {"0_rgb.mp4", "--device", "mouse", "--size", "1280x800", "--seconds", "100000"});
-    desk.act("search --sync --onlyvisible --name dibhr sleep 2");
+    WindowProgram viewer =
+        desk.start_viewer(folder, {"0_rgb.mp4", "--device", "mouse", "--size", "1280x800"});
+    viewer.wait_for_surface();
     std::vector<double> resident_mb;
     const Clock::time_point begin = Clock::now();
-    while (Clock::now() < begin + duration) {
-        open_file(desk, person.any_of({"1_rgb.mkv", "2_rgb.mkv"}));
-        desk.act(person.some(kActionsInRound / 2));
-        open_file(desk, "0_rgb.mp4");
-        desk.act(person.some(kActionsInRound / 2));
+    while (Clock::now() < begin + duration || resident_mb.size() < kFewestRounds) {
+        open_file(viewer, person.any_of({"1_rgb.mkv", "2_rgb.mkv"}));
+        viewer.act(person.some(kActionsInRound / 2));
+        open_file(viewer, "0_rgb.mp4");
+        viewer.act(person.some(kActionsInRound / 2));
         if (Clock::now() < begin + warm_up) continue;
         resident_mb.push_back(static_cast<double>(viewer.resident_bytes()) / 1e6);
         std::cerr << "soak: " << resident_mb.back() << " MB\n";
     }
-    desk.act("key ctrl+q");
+    desk.press("key ctrl+q");
     CHECK(viewer.wait() == 0);
     CHECK(read_text(folder / "errors.txt") == "");
 
-    REQUIRE(resident_mb.size() >= 3);
     const double growth = growth_of(resident_mb);
     std::cerr << "soak: " << resident_mb.size() << " rounds, memory " << resident_mb.front()
               << " MB, grown by " << 100.0 * growth << " %\n";

@@ -1,4 +1,5 @@
 // `dibhr depth` as people and scripts use it, with small programs in place of an estimator.
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <string>
@@ -17,14 +18,23 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Made once.
+fs::path clip() {
+    static const TemporaryFolder folder;
+    const fs::path file = folder / "clip.mp4";
+    if (!fs::exists(file))
+        run_shell(folder,
+                  "ffmpeg -v error -f lavfi -i \"color=black:s=64x48:r=30,format=gray,"
+                  "geq=lum='X+5*N'\" -frames:v 12 -c:v libx264 -crf 8 -pix_fmt yuv420p clip.mp4");
+    return file;
+}
+
 /// A folder with clip.mp4, colour alone, and an estimator that copies frames.
 struct Home {
     TemporaryFolder folder{};
 
     Home() {
-        run_shell(folder,
-                  "ffmpeg -v error -f lavfi -i \"color=black:s=64x48:r=30,format=gray,"
-                  "geq=lum='X+5*N'\" -frames:v 12 -c:v libx264 -crf 8 -pix_fmt yuv420p clip.mp4");
+        fs::copy_file(clip(), folder / "clip.mp4");
         write_estimator("estimator", "");
     }
     void write_estimator(const std::string& name, const std::string& each) const {
@@ -40,6 +50,7 @@ struct Home {
     [[nodiscard]] std::size_t starts() const { return read_text(folder / "starts").size() / 5; }
 };
 
+constexpr std::chrono::seconds kPatience{60};  // of a test; an estimator stands still for longer
 const std::string kWith = "./estimator {frames} {output}";
 
 void check_refused(const ProgramResult& result, int exit_code, const std::string& words) {
@@ -168,7 +179,7 @@ TEST_CASE("a picture that an estimator leaves broken is named, and made anew the
 TEST_CASE("Ctrl+C ends the estimator, and the next run goes on", "[depth]") {
     const Home home;
     home.write_estimator("slow", "[ $n = 000004.png ] && [ ! -e '" + (home.folder / "go").string() +
-                                     "' ] && sleep 60");
+                                     "' ] && sleep 600");
     const std::string cache = "XDG_CACHE_HOME=" + (home.folder / "cache").string();
     const std::string config = "XDG_CONFIG_HOME=" + home.folder.path().string();
     const std::string with = (home.folder / "slow").string() + " {frames} {output}";
@@ -184,7 +195,7 @@ TEST_CASE("Ctrl+C ends the estimator, and the next run goes on", "[depth]") {
     };
     {
         Process slow(words, {cache, config}, home.folder / "errors.txt");
-        CHECK(eventually(under_way));
+        CHECK(eventually(under_way, kPatience));
         slow.interrupt();
         CHECK(slow.wait() == 130);
     }
@@ -202,7 +213,7 @@ TEST_CASE("a program that is killed leaves no estimator behind, and the next run
     const fs::path pid = home.folder / "pid";
     const fs::path go = home.folder / "go";
     home.write_estimator("slow", "[ $n = 000004.png ] && [ ! -e '" + go.string() +
-                                     "' ] && echo $$ > '" + pid.string() + "' && exec sleep 60");
+                                     "' ] && echo $$ > '" + pid.string() + "' && exec sleep 600");
     const std::string with = (home.folder / "slow").string() + " {frames} {output}";
     const std::string clip = (home.folder / "clip.mp4").string();
     {
@@ -210,16 +221,18 @@ TEST_CASE("a program that is killed leaves no estimator behind, and the next run
                      {"XDG_CACHE_HOME=" + (home.folder / "cache").string(),
                       "XDG_CONFIG_HOME=" + home.folder.path().string()},
                      home.folder / "errors.txt");
-        REQUIRE(eventually([&] { return read_text(pid).ends_with('\n'); }));
+        REQUIRE(eventually([&] { return read_text(pid).ends_with('\n'); }, kPatience));
         slow.send(SIGKILL);
         slow.wait();
     }
     const std::string estimator = read_text(pid);
     const fs::path there = "/proc/" + estimator.substr(0, estimator.find('\n')) + "/stat";
-    CHECK(eventually([&] {
-        const std::string state = read_text(there);
-        return state.empty() || state.find(") Z ") != std::string::npos;
-    }));
+    CHECK(eventually(
+        [&] {
+            const std::string state = read_text(there);
+            return state.empty() || state.find(") Z ") != std::string::npos;
+        },
+        kPatience));
     write_text(go, "");
     CHECK(home.depth({clip, "--with", with}).exit_code == 0);
     CHECK(home.starts() == 2);

@@ -48,23 +48,15 @@ void check_one_line(const ProgramResult& result, const Case& one) {
     CHECK(says(result.errors, one.next_step));
 }
 
+/// The other states and their sentences: tests/device/falcon/survey_test.cpp.
 std::vector<Case> unusable_falcons() {
-    const Words devices{"devices"};
     return {
-        {"no firmware", {}, devices, "no firmware", "--firmware FILE"},
-        {"not homed", {"--command", "firmware"}, devices, "homing", "pull the grip"},
-        {"no permission", {"--command", "refuse 13"}, devices, "no permission", "70-dibhr-falcon"},
-        {"another program", {"--command", "claimed yes"}, devices, "held by another", "close"},
-        {"no power",
-         {"--command", "power off"},
-         {"devices", "--firmware", "firmware.bin"},
-         "no hello",
-         "adapter"},
-        {"another serial",
+        {"no firmware", {}, {"devices"}, "no firmware", "--firmware FILE"},
+        {"another serial, and no permission",
          {"--serial", "FALC-7", "--command", "refuse 13"},
-         devices,
+         {"devices"},
          "FALC-7",
-         "plug the Falcon in again"},
+         "70-dibhr-falcon"},
     };
 }
 
@@ -74,8 +66,6 @@ TEST_CASE("a Falcon that cannot be used is told with its next step, and the comm
           "[falcon][devices]") {
     const TemporaryFolder folder;
     for (const Case& one : unusable_falcons()) {
-        write_firmware(folder / "firmware.bin");
-        std::filesystem::remove_all(folder / "dibhr");
         const ProgramResult result = run_with(folder, one.host, one.arguments);
         check_one_line(result, one);
         INFO(result.output);
@@ -89,16 +79,15 @@ TEST_CASE("a Falcon that cannot be used is told with its next step, and the comm
 TEST_CASE("a homed Falcon is usable, and another one beside it may lack what it likes",
           "[falcon][devices]") {
     const TemporaryFolder folder;
-    const Words second = GENERATE(Words{}, Words{"--serial", "SIM00002"});
-    Words host{"--serial", "SIM00001"};
-    host.insert(host.end(), second.begin(), second.end());
-    host.insert(host.end(), {"--command", "firmware", "--command", "home"});
-    const ProgramResult result = run_with(folder, host, {"devices"});
+    const ProgramResult result = run_with(folder,
+                                          {"--serial", "SIM00001", "--serial", "SIM00002",
+                                           "--command", "firmware", "--command", "home"},
+                                          {"devices"});
     CHECK(result.exit_code == 0);
     CHECK(result.errors.empty());
     CHECK(says(result.output, "Novint Falcon SIM00001"));
     CHECK(says(result.output, "usable, ready to touch"));
-    CHECK(says(result.output, "SIM00002") == !second.empty());
+    CHECK(says(result.output, "SIM00002"));
 }
 
 TEST_CASE("firmware that is given once is loaded, kept, and loaded again after the power was off",
@@ -116,17 +105,9 @@ TEST_CASE("firmware that is given once is loaded, kept, and loaded again after t
 TEST_CASE("a file that is no firmware is refused with its reason, and nothing is kept",
           "[falcon][devices]") {
     const TemporaryFolder folder;
-    write_firmware(folder / "whole.bin");
-    const std::string whole = read_text(folder / "whole.bin");
-    write_text(folder / "cut.bin", whole.substr(0, whole.size() / 2));
     write_text(folder / "text.bin", "this is no firmware");
-    write_text(folder / "empty.bin", "");
     const auto [command, file] =
-        GENERATE(table<std::string, std::string>({{"devices", "cut.bin"},
-                                                  {"devices", "text.bin"},
-                                                  {"devices", "missing.bin"},
-                                                  {"view", "empty.bin"},
-                                                  {"view", "."}}));
+        GENERATE(table<std::string, std::string>({{"devices", "text.bin"}, {"view", "."}}));
     const ProgramResult result = run_with(folder, {}, {command, "--firmware", file});
     check_one_line(result, {file, {}, {}, file, "nvent_firmware.bin"});
     CHECK_FALSE(std::filesystem::exists(folder / "dibhr/falcon-firmware.bin"));
@@ -138,8 +119,6 @@ TEST_CASE("the viewer refuses a Falcon that it cannot open in one line, before t
     const Words two{"--serial", "SIM00001", "--serial", "SIM00002"};
     const Words falcon{"view", "--device", "falcon"};
     const std::vector<Case> cases{
-        {"no permission", {"--command", "refuse 13"}, falcon, "no permission", "udev"},
-        {"another program", {"--command", "claimed yes"}, falcon, "held by another", "close"},
         {"two, and none chosen", two, falcon, "SIM00001, SIM00002", "falcon:SERIAL"},
         {"another one chosen",
          two,

@@ -80,24 +80,6 @@ TEST_CASE("experiment runs the algorithms, friction and depth it is given", "[ex
     CHECK_FALSE(contains(result.output, "Time of an update"));
 }
 
-TEST_CASE("experiment human says whose hand it is", "[experiment]") {
-    const TemporaryFolder folder;
-    write_text(folder / "pen.csv", "t_s,x_mm,y_mm\n0,10,10\n0.5,20,30\n1,40,10\n");
-    write_session(folder / "hand.dibhr", "480", 300);
-    const auto source_of = [&](std::vector<std::string> hand) {
-        hand.insert(hand.begin(), {"experiment", "human", "--algorithm", "dibhr"});
-        const ProgramResult result = run_dibhr(folder, hand);
-        INFO(result.errors);
-        REQUIRE(result.exit_code == 0);
-        return result.output.substr(0, result.output.find('\n'));
-    };
-    CHECK(contains(source_of({}), "modelled"));
-    CHECK(contains(source_of({"--trace", "pen.csv"}), "a person's trace, pen.csv"));
-    const std::string session = source_of({"--session", "hand.dibhr"});
-    CHECK(contains(session, "a recorded session, hand.dibhr"));
-    CHECK(contains(session, "300 updates"));
-}
-
 TEST_CASE("experiment writes its pictures in the formats that are asked for", "[experiment]") {
     const TemporaryFolder folder;
     const ProgramResult result =

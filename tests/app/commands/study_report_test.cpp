@@ -1,6 +1,5 @@
 // `dibhr study report` and `dibhr study plan` as a person runs them.
 #include <cstddef>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -12,8 +11,6 @@
 
 using namespace dibhr;
 using namespace dibhr::test;
-using Catch::Matchers::WithinAbs;
-using Catch::Matchers::WithinRel;
 using Json = nlohmann::json;
 
 namespace {
@@ -73,39 +70,6 @@ TEST_CASE("a report is a page, numbers, tables and pictures of all participants"
     CHECK(contains(page, "people like these 8 participants notice a difference"));
     CHECK(contains(page, "data:image/png;base64,"));
     CHECK_FALSE(contains(page, "<script"));
-}
-
-TEST_CASE("the report's forces are those of dibhr experiment, where the modelled hand explored",
-          "[study report]") {
-    const TemporaryFolder folder;
-    write_text(folder / "study.toml", kTwoAlgorithms);
-    REQUIRE(run_participant(folder, "P1", "hand").exit_code == 0);
-    REQUIRE(
-        run_dibhr(folder, {"study", "report", "answers/P1.dibhr-study", "--out", "r"}).exit_code ==
-        0);
-    REQUIRE(run_dibhr(folder, {"experiment", "human", "--json", "e.json", "--algorithm", "dibhr",
-                               "--algorithm", "pga"})
-                .exit_code == 0);
-    std::map<std::string, Json> runs;
-    const Json experiment = Json::parse(read_text(folder / "e.json"));
-    for (const Json& run : experiment["paths"][0]["runs"])
-        runs[run["algorithm"] == "dibhr" ? "smooth-one" : "other-one"] = run;
-    const Json motion = report_in(folder, "r")["motion"];
-    REQUIRE(motion.size() == 2);
-    for (const Json& felt : motion) {
-        const Json& run = runs.at(felt["condition"]);
-        CHECK(felt["updates"] == experiment["paths"][0]["updates"]);
-        CHECK(felt["contact_updates"] == run["contact_updates"]);
-        CHECK_THAT(felt["moves_per_update"].get<double>(),
-                   WithinRel(run["moves_per_update"].get<double>(), 1e-9));
-        CHECK(felt["variation_deg"]["pairs"] == run["variation_deg"]["pairs"]);
-        CHECK_THAT(felt["variation_deg"]["mean"].get<double>(),
-                   WithinRel(run["variation_deg"]["mean"].get<double>(), 1e-12));
-        CHECK_THAT(felt["variation_deg"]["sd"].get<double>(),
-                   WithinRel(run["variation_deg"]["sd"].get<double>(), 1e-9));
-        CHECK(felt["force_sent_newton"]["mean"] > 0.1);
-    }
-    CHECK(split(read_text(folder / "r/intervals.csv"), '\n').size() >= 3);
 }
 
 TEST_CASE("each study that comes with the program gives a report", "[study report]") {

@@ -1,16 +1,13 @@
 // `dibhr study` as a person runs it: checked, run with a simulated participant, killed and resumed.
+#include <csignal>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
-#include <map>
-#include <regex>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "app/commands/experiment_human.hpp"
-#include "core/metrics/force_variation.hpp"
-#include "core/session/session.hpp"
 #include "core/study/study_file.hpp"
 #include "tests/app/commands/study_page.hpp"
 #include "tests/app/program/command_program.hpp"
@@ -55,34 +52,39 @@ std::vector<AnsweredTrial> answers_in(const std::filesystem::path& file) {
     return answered;
 }
 
-/// Kills the program that is named after it, $1 seconds after the file $0 is there.
-const std::string kKilling =
-    "delay=$1; shift; \"$@\" & while [ ! -e \"$0\" ]; do sleep 0.002; done; sleep $delay; "
-    "kill -9 $!; wait";
-
-/// How many runs are killed: 50 where one has the time.
-int kills() {
-    const char* const asked = std::getenv("DIBHR_STUDY_KILLS");
-    return asked == nullptr ? (DIBHR_SANITIZED ? 3 : 8) : std::atoi(asked);
+/// What kills the program when it would write a file beyond so many bytes.
+std::vector<std::string> killer_beyond(std::uintmax_t bytes) {
+    return {"/usr/bin/env", "prlimit", "--core=0", "--fsize=" + std::to_string(bytes)};
 }
 
-/// The forces of one interval of a trial's session.
-struct Felt {
-    std::vector<Vec3> goals{}, proxies{};
-    std::vector<char> contact{};
-};
-
-std::map<std::uint64_t, Felt> felt_in(const std::filesystem::path& file) {
-    const Session session(file);
-    std::map<std::uint64_t, Felt> felt;
-    Session::Ticks ticks(session);
-    for (TickRecord tick; ticks.next(tick);) {
-        Felt& one = felt[tick.settings & 0xffffffffU];
-        one.goals.push_back(tick.goal);
-        one.proxies.push_back(tick.proxy);
-        one.contact.push_back(tick.contact ? 1 : 0);
+/// Kills as many runs of a study, each a little farther on, and lets each go on.
+void check_kills(std::uintmax_t kills) {
+    const std::string pilot = "threshold=0.1,slope=20,lapse=0.02,prefer=other-one";
+    const TemporaryFolder folder;
+    write_text(folder / "study.toml", kLongPage);
+    REQUIRE(run_dibhr(folder, run_arguments("P7", pilot)).exit_code == 0);
+    const auto whole = answers_in(folder / "P7.dibhr-study");
+    REQUIRE(whole.size() == 500);
+    const std::uintmax_t bytes = std::filesystem::file_size(folder / "P7.dibhr-study");
+    std::set<unsigned long> stopped_at;
+    for (std::uintmax_t k = 0; k < kills; ++k) {
+        CAPTURE(k);
+        const std::string out = "run" + std::to_string(k);
+        auto arguments = run_arguments("P7", pilot);
+        arguments.insert(arguments.end(), {"--out", out});
+        const ProgramResult killed =
+            run_dibhr(folder, arguments, killer_beyond((2 * k + 1) * bytes / (2 * kills)));
+        const ProgramResult resumed = run_dibhr(folder, arguments);
+        INFO(killed.output << killed.errors << resumed.output << resumed.errors);
+        CHECK(killed.exit_code == 128 + SIGXFSZ);
+        REQUIRE(resumed.exit_code == 0);
+        CHECK(answers_in(folder / (out + "/P7.dibhr-study")) == whole);
+        const auto at = resumed.output.find("trial ");
+        if (at != std::string::npos)
+            stopped_at.insert(std::strtoul(resumed.output.c_str() + at + 6, nullptr, 10));
     }
-    return felt;
+    CAPTURE(stopped_at);
+    CHECK(stopped_at.size() >= kills / 3);  // or it was always killed in the same trial
 }
 
 }  // namespace
@@ -110,66 +112,12 @@ TEST_CASE("the studies that come with the program are checked and run to their e
 
 TEST_CASE("a study that is killed at any moment goes on at its trial, nothing lost or doubled",
           "[study]") {
-    const std::string pilot = "threshold=0.1,slope=20,lapse=0.02,prefer=other-one";
-    const TemporaryFolder folder;
-    write_text(folder / "study.toml", kLongPage);
-    REQUIRE(run_dibhr(folder, run_arguments("P7", pilot)).exit_code == 0);
-    const auto whole = answers_in(folder / "P7.dibhr-study");
-    REQUIRE(whole.size() == 500);
-    std::set<std::size_t> stopped_at;
-    for (int k = 0; k < kills(); ++k) {
-        const std::string out = "run" + std::to_string(k);
-        auto arguments = run_arguments("P7", pilot);
-        arguments.insert(arguments.end(), {"--out", out});
-        const auto file = folder / (out + "/P7.dibhr-study");
-        const double delay_s = 0.001 * ((k * 37) % 50);  // after the file is there
-        const ProgramResult killed = run_dibhr(
-            folder, arguments, {"/bin/sh", "-c", kKilling, file.string(), std::to_string(delay_s)});
-        const ProgramResult resumed = run_dibhr(folder, arguments);
-        INFO(killed.output << killed.errors << resumed.output << resumed.errors);
-        REQUIRE(resumed.exit_code == 0);
-        CHECK(answers_in(file) == whole);
-        const auto at = resumed.output.find("trial ");
-        if (at != std::string::npos)
-            stopped_at.insert(std::strtoul(resumed.output.c_str() + at + 6, nullptr, 10));
-    }
-    CAPTURE(stopped_at);
-    CHECK(stopped_at.size() >= 2);  // or it was always killed before it began, or after its end
+    check_kills(DIBHR_SANITIZED ? 3 : 6);
 }
 
-TEST_CASE("each trial is a session, and the modelled hand feels what the experiment feels",
-          "[study]") {
-    const TemporaryFolder folder;
-    write_text(folder / "study.toml", kPage);
-    const ProgramResult result = run_dibhr(folder, run_arguments("P1", "hand"));
-    INFO(result.errors);
-    REQUIRE(result.exit_code == 0);
-    REQUIRE(run_dibhr(folder, {"study", "sessions", "P1.dibhr-study", "--out", "s"}).exit_code ==
-            0);
-    CHECK(names_in(folder / "s") == std::vector<std::string>{"P1-001.dibhr"});
-    const ProgramResult told = run_dibhr(folder, {"info", "s/P1-001.dibhr"});
-    CHECK(std::regex_search(told.output, std::regex("participant +P1\n")));
-    CHECK(std::regex_search(told.output, std::regex("note +T, trial 1\n")));
-    const ProgramResult replayed = run_dibhr(folder, {"replay", "s/P1-001.dibhr"});
-    CHECK(contains(replayed.output, "are identical, bit for bit"));
-
-    const SampleClip sample = read_sample({}, {});
-    PathRun path = human_goals({}, sample, 0.4);
-    const std::vector<Algorithm> both{Algorithm::dibhr, Algorithm::pga};
-    run_algorithms(path, sample.depth, both, Timing::quick);
-    const StudyRecord record = read_study(folder / "P1.dibhr-study");
-    const auto felt = felt_in(folder / "s/P1-001.dibhr");
-    REQUIRE(felt.size() == 2);
-    for (std::size_t k = 0; k < 2; ++k) {
-        const std::string& condition = record.answered.at(0).trial.intervals.at(k).condition;
-        const AlgorithmRun& expected = path.runs.at(condition == "smooth-one" ? 0 : 1);
-        const Felt& one = felt.at(k + 1);
-        const auto variation =
-            force_variation(one.goals, one.proxies, one.contact, path.reversal, 0);
-        CHECK(variation.pairs == expected.variation.pairs);
-        CHECK(variation.mean_deg == expected.variation.mean_deg);
-        CHECK(variation.sd_deg == expected.variation.sd_deg);
-    }
+TEST_CASE("a study that is killed at fifty moments goes on at its trial, nothing lost or doubled",
+          "[study][long]") {
+    check_kills(50);
 }
 
 TEST_CASE("a study says in one line what it cannot do", "[study]") {

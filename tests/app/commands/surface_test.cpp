@@ -178,17 +178,19 @@ TEST_CASE("a PNG relief is touched as the surface it was made of", "[surface]") 
     CHECK_THAT(std::stod(row.at(6)), WithinAbs(felt.at(30, 20), 129.0 / 65535.0));
 }
 
-TEST_CASE("a 4K surface is written in little more memory than it takes to read it", "[surface]") {
+TEST_CASE("a large surface is written in little more memory than it takes to read it",
+          "[surface]") {
     const TemporaryFolder folder;
-    write_depth_png(folder / "depth.png", 3840, 2160, 90);
-    run_shell(folder, "printf 't,x,y,z\\n0,9,9,99\\n' >goals.csv");
+    write_depth_png(folder / "depth.png", 1920, 1080, 90);
+    write_text(folder / "goals.csv", "t,x,y,z\n0,9,9,99\n");
     const std::size_t reading =
         run_dibhr(folder, {"touch", "--depth", "depth.png", "--goals", "goals.csv"})
             .peak_memory_bytes;
+    constexpr std::size_t kOneMore = std::size_t{1920} * 1080 * sizeof(float);
     for (const std::string name : {"a.png", "a.stl"}) {
         const ProgramResult result = run_dibhr(folder, {"surface", "depth.png", "--out", name});
         REQUIRE(result.exit_code == 0);
-        CHECK(result.peak_memory_bytes < reading + (std::size_t{16} << 20));
+        CHECK(result.peak_memory_bytes < reading + kOneMore / 2);
         std::filesystem::remove(folder / name);
     }
 }

@@ -16,12 +16,19 @@ struct ProgramResult {
     std::string output{};
     std::string errors{};
     std::size_t peak_memory_bytes{0};  ///< resident
+    double cpu_s{0.0};                 ///< of all its threads
 };
 
 /// Runs `dibhr ARGUMENTS` inside `folder`, which has its settings and its data, too, without a
-/// display and without a keyboard; `host`: a program and its own arguments that starts it.
+/// display and without a keyboard. It is forked from a process that has loaded it, or, with a
+/// `host`, a program and its own arguments, started by that.
 ProgramResult run_dibhr(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
                         const std::vector<std::string>& host = {});
+
+/// What it says at a terminal, both streams; `environment`: "NAME=value" on top of this process's.
+std::string run_dibhr_at_terminal(const TemporaryFolder& folder,
+                                  const std::vector<std::string>& arguments,
+                                  const std::vector<std::string>& environment);
 
 /// Runs a shell command inside `folder`; fails the test when it does not end with 0.
 void run_shell(const TemporaryFolder& folder, const std::string& command);

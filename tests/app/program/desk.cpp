@@ -3,9 +3,11 @@
 
 #include <fcntl.h>
 #include <sqlite3.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
@@ -14,6 +16,7 @@
 #include <stdexcept>
 
 #include "tests/support/catch.hpp"
+#include "tests/support/eventually.hpp"
 #include "tests/support/text.hpp"
 
 namespace dibhr::test {
@@ -22,10 +25,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr std::chrono::seconds kPatience{60};  // only reached by a failure
+
 /// In the child, between fork and exec.
 [[noreturn]] void become(const std::vector<std::string>& arguments,
                          const std::vector<std::string>& environment, const fs::path& error_file,
                          int inherited) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     for (const std::string& entry : environment) ::putenv(::strdup(entry.c_str()));
     const int errors = ::open(error_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     ::dup2(errors, STDERR_FILENO);
@@ -44,8 +50,9 @@ std::array<int, 2> open_pipe() {
 }
 
 std::vector<std::string> server_arguments(int descriptor) {
-    return {"Xvfb",      "-displayfd", std::to_string(descriptor), "-screen", "0", "1280x800x24",
-            "-nolisten", "tcp"};
+    return {"Xvfb",      "-displayfd", std::to_string(descriptor),
+            "-screen",   "0",          "1280x800x24",
+            "-nolisten", "tcp",        "-noreset"};
 }
 
 /// The display's number, which the server writes when it is ready.
@@ -54,6 +61,25 @@ std::string display_from(int descriptor) {
     for (char c = 0; ::read(descriptor, &c, 1) == 1 && c != '\n';) number += c;
     if (number.empty()) throw std::runtime_error("Xvfb did not start");
     return ":" + number;
+}
+
+/// A file for the board of a program that is started; of an earlier one's it is another.
+fs::path fresh_board(const TemporaryFolder& folder) {
+    int number = 0;
+    fs::path file;
+    do file = folder / (".seen-" + std::to_string(++number));
+    while (fs::exists(file));
+    return file;
+}
+
+std::vector<std::string> with_board(std::vector<std::string> environment, const fs::path& board) {
+    environment.push_back(std::string(SeenBoard::kVariable) + '=' + board.string());
+    return environment;
+}
+
+std::shared_ptr<DisplayServer> shared_server() {
+    static const auto server = std::make_shared<DisplayServer>();
+    return server;
 }
 
 Vec3 vector_at(sqlite3_stmt* row, int column) {
@@ -76,9 +102,12 @@ Process::~Process() {
 }
 
 int Process::wait() {
+    const bool ended = eventually([this] { return has_ended(); }, std::chrono::minutes(2));
+    if (!ended) send(SIGKILL);
     int status = 0;
     ::waitpid(child_, &status, 0);
     child_ = -1;
+    if (!ended) FAIL("the program did not end within two minutes");
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
@@ -112,45 +141,78 @@ std::size_t Process::resident_bytes() const {
     return resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
 }
 
-Desk::Desk()
-    : numbers_(open_pipe()),
-      server_(server_arguments(numbers_[1]), {}, folder_ / "server.txt", numbers_[1]) {
-    ::close(numbers_[1]);
-    display_ = display_from(numbers_[0]);
-    ::close(numbers_[0]);
+WindowProgram::WindowProgram(std::vector<std::string> arguments,
+                             std::vector<std::string> environment, const TemporaryFolder& folder,
+                             std::shared_ptr<Seat> seat)
+    : WindowProgram(std::move(arguments), std::move(environment), folder / "errors.txt",
+                    fresh_board(folder), std::move(seat)) {}
+
+WindowProgram::WindowProgram(std::vector<std::string> arguments,
+                             std::vector<std::string> environment, const fs::path& error_file,
+                             const fs::path& board, std::shared_ptr<Seat> seat)
+    : Process(std::move(arguments), with_board(std::move(environment), board), error_file),
+      seat_(std::move(seat)),
+      board_(std::make_unique<MappedBoard>(board)) {}
+
+void WindowProgram::wait_until(const std::function<bool(const Seen&)>& is_so) const {
+    const bool came = eventually([&] { return is_so(seen()) || has_ended(); }, kPatience);
+    const Seen last = seen();
+    if (is_so(last)) return;
+    FAIL((came ? "the program has ended" : "no picture shows it") << "; the last one: " << last);
 }
 
-Process Desk::start_viewer(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
-                           const std::vector<std::string>& host) const {
+void WindowProgram::wait_for_picture() const {
+    // The one that is being drawn may have looked for events already.
+    const std::uint64_t wanted = seen().picture + 2;
+    wait_until([wanted](const Seen& now) { return now.picture >= wanted; });
+}
+
+void WindowProgram::wait_for_surface() const {
+    wait_until([](const Seen& now) { return now.surface && now.touchable; });
+}
+
+void WindowProgram::act(const std::string& events) const {
+    seat_->act(events, [this] { wait_for_picture(); });
+}
+
+DisplayServer::DisplayServer()
+    : numbers_(open_pipe()),
+      process_(server_arguments(numbers_[1]), {}, folder_ / "server.txt", numbers_[1]) {
+    ::close(numbers_[1]);
+    name_ = display_from(numbers_[0]);
+    ::close(numbers_[0]);
+    seat_ = std::make_shared<Seat>(name_);
+}
+
+Desk::Desk() : Desk(shared_server()) {}
+
+Desk::Desk(std::shared_ptr<DisplayServer> server) : server_(std::move(server)) {
+    server_->seat()->let_go();
+}
+
+WindowProgram Desk::start_viewer(const TemporaryFolder& folder,
+                                 const std::vector<std::string>& arguments,
+                                 const std::vector<std::string>& host) const {
     std::vector<std::string> words{"view"};
     words.insert(words.end(), arguments.begin(), arguments.end());
     return start(folder, words, host);
 }
 
-std::string Desk::picture() const {
-    const fs::path file = folder_ / "picture.rgb";
-    run_shell("ffmpeg -nostdin -v error -y -f x11grab -draw_mouse 0 -video_size 1280x800 -i " +
-              display_ + " -frames:v 1 -pix_fmt rgb24 -f rawvideo " + file.string());
-    return read_text(file);
-}
-
-Process Desk::start(const TemporaryFolder& folder, const std::vector<std::string>& program_words,
-                    const std::vector<std::string>& host) const {
+WindowProgram Desk::start(const TemporaryFolder& folder,
+                          const std::vector<std::string>& program_words,
+                          const std::vector<std::string>& host) const {
     std::vector<std::string> words{"env", "-C", folder.path().string()};
     words.insert(words.end(), host.begin(), host.end());
-    words.emplace_back(DIBHR_PROGRAM);
+    words.emplace_back(WATCHED_PROGRAM);
     words.insert(words.end(), program_words.begin(), program_words.end());
-    return Process(words,
-                   {"DISPLAY=" + display_, "WAYLAND_DISPLAY=", "LIBGL_ALWAYS_SOFTWARE=1",
-                    "SDL_AUDIODRIVER=dummy", "DBUS_SESSION_BUS_ADDRESS=disabled:",
-                    "XDG_CONFIG_HOME=" + (folder / "config").string(),
-                    "XDG_DATA_HOME=" + (folder / "data").string(),
-                    "XDG_STATE_HOME=" + (folder / "state").string()},
-                   folder / "errors.txt");
-}
-
-void Desk::act(const std::string& commands) const {
-    run_shell("DISPLAY=" + display_ + " timeout 20 xdotool " + commands + " > /dev/null");
+    return WindowProgram(
+        words,
+        {"DISPLAY=" + server_->name(), "WAYLAND_DISPLAY=", "LIBGL_ALWAYS_SOFTWARE=1",
+         "SDL_AUDIODRIVER=dummy",
+         "DBUS_SESSION_BUS_ADDRESS=disabled:", "XDG_CONFIG_HOME=" + (folder / "config").string(),
+         "XDG_DATA_HOME=" + (folder / "data").string(),
+         "XDG_STATE_HOME=" + (folder / "state").string()},
+        folder, server_->seat());
 }
 
 std::vector<Row> read_session(const fs::path& file) {

@@ -7,15 +7,19 @@
 #include <csignal>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/haptics/vec.hpp"
+#include "tests/app/program/seat.hpp"
+#include "tests/app/program/seen.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace dibhr::test {
 
-/// A child process; ended at the latest by the destructor.
+/// A child process; ended at the latest by the destructor, or with this process.
 class Process {
   public:
     /// `environment` entries "NAME=value" come on top of this process's own. `error_file`: its
@@ -26,7 +30,8 @@ class Process {
     Process(const Process&) = delete;
     Process& operator=(const Process&) = delete;
 
-    /// Waits for its end. The exit code; 128 + signal when it was killed.
+    /// Waits for its end. The exit code; 128 + signal when it was killed. The test fails when it
+    /// does not end within two minutes.
     int wait();
     [[nodiscard]] bool has_ended() const;
     void interrupt();  ///< SIGINT, as Ctrl+C does
@@ -39,37 +44,85 @@ class Process {
     pid_t child_{-1};
 };
 
-/// An X server of its own, 1280 x 800, without a window manager.
-class Desk {
+/// The program in a window, used by keyboard and mouse and followed picture by picture.
+class WindowProgram : public Process {
   public:
-    Desk();
+    WindowProgram(std::vector<std::string> arguments, std::vector<std::string> environment,
+                  const TemporaryFolder& folder, std::shared_ptr<Seat> seat);
 
-    /// Starts `dibhr view` with these arguments, settings and current folder inside `folder`;
-    /// `host`: a program and its own arguments that starts it. Its sound is heard nowhere.
-    [[nodiscard]] Process start_viewer(const TemporaryFolder& folder,
-                                       const std::vector<std::string>& arguments,
-                                       const std::vector<std::string>& host = {}) const;
+    /// What the newest picture shows.
+    [[nodiscard]] Seen seen() const { return (*board_)->read(); }
+    /// Until a picture shows what `is_so` asks for. The test fails when none does within a minute,
+    /// and when the program ends before.
+    void wait_until(const std::function<bool(const Seen&)>& is_so) const;
+    /// Until a picture was shown that was begun after the call: every event of before is in it.
+    void wait_for_picture() const;
+    /// Until its window is there, with a surface, and can be touched.
+    void wait_for_surface() const;
+    /// Events as Seat::act() has them, each of them seen in a picture before the next one.
+    void act(const std::string& events) const;
+    /// The window's thread loops for ever from its next picture on.
+    void hang() const { (*board_)->hangs = true; }
 
-    /// The same of another command of the program: its words, "study", "run" and so on.
-    [[nodiscard]] Process start(const TemporaryFolder& folder,
-                                const std::vector<std::string>& words,
-                                const std::vector<std::string>& host = {}) const;
-    /// What is on the whole display, as raw RGB of 1280 x 800.
-    [[nodiscard]] std::string picture() const;
+  private:
+    WindowProgram(std::vector<std::string> arguments, std::vector<std::string> environment,
+                  const std::filesystem::path& error_file, const std::filesystem::path& board,
+                  std::shared_ptr<Seat> seat);
 
-    // The server stands still, goes on, or dies.
-    void stop() const { server_.send(SIGSTOP); }
-    void resume() const { server_.send(SIGCONT); }
-    void kill() const { server_.send(SIGKILL); }
+    std::shared_ptr<Seat> seat_;
+    std::unique_ptr<MappedBoard> board_;
+};
 
-    /// Runs xdotool with one chain of commands; fails the test when it fails.
-    void act(const std::string& commands) const;
+/// An X server, 1280 x 800, without a window manager.
+class DisplayServer {
+  public:
+    DisplayServer();
+
+    [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] const Process& process() const { return process_; }
+    [[nodiscard]] const std::shared_ptr<Seat>& seat() const { return seat_; }
 
   private:
     std::array<int, 2> numbers_;  // a pipe: the server writes its display's number
     TemporaryFolder folder_{};
-    Process server_;
-    std::string display_{};
+    Process process_;
+    std::string name_{};
+    std::shared_ptr<Seat> seat_{};
+};
+
+/// A display with its keyboard and mouse, which begin at rest.
+class Desk {
+  public:
+    /// Of the server that all desks of this test program share, one after the other.
+    Desk();
+    /// Of a server of its own, for what stops or kills it.
+    [[nodiscard]] static Desk of_its_own() { return Desk(std::make_shared<DisplayServer>()); }
+
+    /// Starts `dibhr view` with these arguments, settings and current folder inside `folder`;
+    /// `host`: a program and its own arguments that starts it. Its sound is heard nowhere.
+    [[nodiscard]] WindowProgram start_viewer(const TemporaryFolder& folder,
+                                             const std::vector<std::string>& arguments,
+                                             const std::vector<std::string>& host = {}) const;
+
+    /// The same of another command of the program: its words, "study", "run" and so on.
+    [[nodiscard]] WindowProgram start(const TemporaryFolder& folder,
+                                      const std::vector<std::string>& words,
+                                      const std::vector<std::string>& host = {}) const;
+    /// What is on the whole display, as raw RGB of 1280 x 800.
+    [[nodiscard]] std::string picture() const { return server_->seat()->picture(); }
+
+    // The server stands still, goes on, or dies.
+    void stop() const { server_->process().send(SIGSTOP); }
+    void resume() const { server_->process().send(SIGCONT); }
+    void kill() const { server_->process().send(SIGKILL); }
+
+    /// Events as Seat::act() has them; nobody waits until they are seen.
+    void press(const std::string& events) const { server_->seat()->act(events); }
+
+  private:
+    explicit Desk(std::shared_ptr<DisplayServer> server);
+
+    std::shared_ptr<DisplayServer> server_;
 };
 
 /// A tick as the session file has it.

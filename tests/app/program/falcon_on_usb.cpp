@@ -5,24 +5,23 @@
 #include <cstdint>
 #include <fstream>
 #include <sstream>
-#include <thread>
 #include <utility>
 
 #include "tests/device/falcon/line_socket.hpp"
 #include "tests/device/falcon/synthetic_firmware.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/eventually.hpp"
 
 namespace dibhr::test {
 
 namespace {
 
-using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kPatience = 15s;  // of a busy machine
+constexpr std::chrono::seconds kLongestAnswer{60};  // only reached by a failure
 
 std::string ask(const std::string& socket, const std::string& command) {
-    const auto end = Clock::now() + kPatience;
+    const auto end = Clock::now() + kLongestAnswer;
     return falcon::ask_line(socket, command, [end] { return Clock::now() < end; });
 }
 
@@ -35,13 +34,16 @@ void write_firmware(const std::filesystem::path& file) {
                static_cast<std::streamsize>(image.size()));
 }
 
-FalconOnUsb::FalconOnUsb(const std::filesystem::path& folder, std::vector<std::string> commands)
+FalconOnUsb::FalconOnUsb(const std::filesystem::path& folder, std::vector<std::string> commands,
+                         bool keeps_packets)
     : socket_((folder / "falcon").string()),
       packets_(folder / "packets.csv"),
-      commands_(std::move(commands)) {}
+      commands_(std::move(commands)),
+      keeps_packets_(keeps_packets) {}
 
 std::vector<std::string> FalconOnUsb::host() const {
-    std::vector<std::string> words{FALCON_HOST, "--socket", socket_, "--packets", packets_};
+    std::vector<std::string> words{FALCON_HOST, "--socket", socket_};
+    if (keeps_packets_) words.insert(words.end(), {"--packets", packets_.string()});
     for (const std::string& command : commands_) words.insert(words.end(), {"--command", command});
     words.emplace_back("--");
     return words;
@@ -93,12 +95,26 @@ void FalconOnUsb::home() const {
     wait_until([this] { return number("homed") > 6.5; });
 }
 
+void FalconOnUsb::wait_for_more(const std::string& counter, double count) const {
+    const double wanted = number(counter) + count;
+    INFO(counter << " up to " << wanted);
+    wait_until([&] { return number(counter) >= wanted; });
+}
+
+void FalconOnUsb::wait_for_forces(double count) const {
+    wait_for_more("with_force", count);
+}
+
+void FalconOnUsb::wait_for_commands(double count) const {
+    wait_for_more("commands", count);
+}
+
+void FalconOnUsb::wait_for_zeros(double count) const {
+    wait_until([this, count] { return number("zeros_in_a_row") >= count; });
+}
+
 void FalconOnUsb::wait_until(const std::function<bool()>& is_so) {
-    const auto end = Clock::now() + kPatience;
-    while (!is_so()) {
-        REQUIRE(Clock::now() < end);
-        std::this_thread::sleep_for(5ms);
-    }
+    REQUIRE(eventually(is_so, kLongestAnswer));
 }
 
 }  // namespace dibhr::test

@@ -17,8 +17,9 @@ void write_firmware(const std::filesystem::path& file);
 class FalconOnUsb {
   public:
     /// `folder`: where its socket is; `commands`: performed before the program begins.
-    FalconOnUsb(const std::filesystem::path& folder, std::vector<std::string> commands);
-    /// Every command it has been sent (tests/device/falcon/packet_file.hpp).
+    FalconOnUsb(const std::filesystem::path& folder, std::vector<std::string> commands,
+                bool keeps_packets = false);
+    /// Every command it has been sent (tests/device/falcon/packet_file.hpp), where it keeps them.
     [[nodiscard]] const std::filesystem::path& packets() const noexcept { return packets_; }
 
     /// What starts the program.
@@ -36,15 +37,22 @@ class FalconOnUsb {
     void move_hand(Vec3 to_mm, double seconds) const;
     /// Pulls the grip out and pushes it in, until all three axes are homed.
     void home() const;
-    /// Until `is_so`; fails the test after ten seconds.
+    /// Until it has been sent so many more commands with a force; without one in between, so many
+    /// in a row; of any kind.
+    void wait_for_forces(double count) const;
+    void wait_for_zeros(double count) const;
+    void wait_for_commands(double count) const;
+    /// Until `is_so`; fails the test when it never is.
     static void wait_until(const std::function<bool()>& is_so);
 
   private:
     [[nodiscard]] std::string state() const;
+    void wait_for_more(const std::string& counter, double count) const;
 
     std::string socket_;
     std::filesystem::path packets_;
     std::vector<std::string> commands_;
+    bool keeps_packets_;
 };
 
 }  // namespace dibhr::test

@@ -2,13 +2,11 @@
 #include "tests/app/program/falcon_scene.hpp"
 
 #include <algorithm>
-#include <cstddef>
+#include <cstdint>
 #include <filesystem>
-#include <glm/geometric.hpp>
 #include <utility>
 
 #include "tests/app/program/command_program.hpp"
-#include "tests/device/falcon/packet_file.hpp"
 #include "tests/support/catch.hpp"
 
 namespace dibhr::test {
@@ -17,74 +15,74 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-constexpr const char* kMeet = "search --sync --onlyvisible --name dibhr sleep 0.1 ";
-
-/// What the program is started with; its firmware and its settings file are written first.
-Words prepared(const TemporaryFolder& folder, Words arguments, const std::string& settings) {
+/// What the program is started with; the files that it needs are written first.
+Words prepared(const TemporaryFolder& folder, const FalconSceneOptions& options) {
     write_firmware(folder / "firmware.bin");
+    for (const char* const name : {kSlope, "slope_depth.png"})
+        write_depth_png(folder / name, 64, 48, 64, 2);
     std::filesystem::create_directories(folder / "config/dibhr");
-    write_text(folder / "config/dibhr/settings.toml", settings);
-    arguments.insert(arguments.end(),
-                     {"--firmware", "firmware.bin", "--record", "hand.dibhr", "--seconds", "60"});
+    write_text(folder / "config/dibhr/settings.toml", options.settings);
+    Words arguments{"--device", options.device, "--size", "320x240", "--firmware", "firmware.bin"};
+    if (options.records) arguments.insert(arguments.end(), {"--record", "hand.dibhr"});
+    arguments.insert(arguments.end(), options.arguments.begin(), options.arguments.end());
     return arguments;
 }
 
-Words host_in(Words environment, const Words& host) {
-    environment.insert(environment.begin(), "env");
-    environment.insert(environment.end(), host.begin(), host.end());
-    return environment;
+Words host_in(Words host, const Words& bus) {
+    host.insert(host.end(), bus.begin(), bus.end());
+    return host;
 }
 
 }  // namespace
 
-FalconScene::FalconScene(Words commands, Words arguments, const std::string& settings,
-                         Words environment)
-    : falcon(folder.path(), std::move(commands)),
-      viewer(desk.start_viewer(folder, prepared(folder, std::move(arguments), settings),
-                               host_in(std::move(environment), falcon.host()))) {
-    desk.act(kMeet);
+FalconScene::FalconScene(FalconSceneOptions options)
+    : desk(options.desk),
+      falcon(folder.path(), options.commands, options.keeps_packets),
+      viewer(desk.start_viewer(folder, prepared(folder, options),
+                               host_in(options.host, falcon.host()))) {
+    viewer.wait_for_surface();
 }
 
 std::vector<Row> FalconScene::finish() {
-    desk.act(std::string(kMeet) + "key q");
+    desk.press("key q");
     REQUIRE(viewer.wait() == 0);
     CHECK(errors().empty());
+    return rows();
+}
+
+std::vector<Row> FalconScene::rows() const {
     return read_session(folder / "hand.dibhr");
 }
 
+void FalconScene::wait_until_recorded(
+    const std::function<bool(const std::vector<Row>&)>& is_so) const {
+    std::uint64_t known = 0;
+    bool so = false;
+    viewer.wait_until([&](const Seen& now) {
+        if (!so && now.recorded_rows > known) {
+            known = now.recorded_rows;
+            so = is_so(rows());
+        }
+        return so;
+    });
+}
+
 void FalconScene::press_in() const {
-    desk.act("key space");
-    falcon.move_hand({0.0, 0.0, 105.0}, 0.3);
+    falcon.move_hand({0.0, 0.0, 105.0}, 0.2);
     wait_for_force();
 }
 
 void FalconScene::wait_for_force() const {
-    FalconOnUsb::wait_until([this] { return falcon.vector("motor_newton").z > 0.5; });
+    FalconOnUsb::wait_until([this] { return falcon.vector("motor_newton").z > 0.6; });
 }
 
-void FalconScene::wait_for_lasting_zero() const {
-    using std::chrono::steady_clock;
-    steady_clock::time_point last_force = steady_clock::now();
-    FalconOnUsb::wait_until([&] {
-        if (glm::length(falcon.vector("motor_newton")) > 1e-6) last_force = steady_clock::now();
-        return steady_clock::now() - last_force > std::chrono::seconds(1);
-    });
-}
-
-double FalconScene::seconds_to_zero(std::chrono::steady_clock::time_point moment) const {
-    constexpr std::ptrdiff_t kCalm = 5;  // packets: they have stayed without
-    const double from_s = std::chrono::duration<double>(moment.time_since_epoch()).count();
-    double zero_s = 0.0;
-    FalconOnUsb::wait_until([&] {
-        const auto packets = test::falcon::packets_after(falcon.packets(), from_s);
-        const auto last_force = std::find_if(packets.rbegin(), packets.rend(),
-                                             [](const auto& packet) { return packet.has_force(); });
-        const auto zero = last_force.base();
-        if (packets.end() - zero < kCalm) return false;
-        zero_s = zero->t_s;
-        return true;
-    });
-    return zero_s - from_s;
+void FalconScene::check_left_without_force() const {
+    constexpr int kLastPackets = 5;
+    const auto packets = falcon::read_packets(falcon.packets());
+    const auto last_force = std::find_if(packets.rbegin(), packets.rend(),
+                                         [](const auto& packet) { return packet.has_force(); });
+    REQUIRE(last_force != packets.rend());
+    CHECK(last_force - packets.rbegin() >= kLastPackets);
 }
 
 std::string FalconScene::errors() const {

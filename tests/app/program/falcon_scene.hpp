@@ -1,45 +1,61 @@
-// The real program in a window of its own, its sample touched with a simulated Falcon, recorded.
+// The real program in a window of its own, its surface touched with a simulated Falcon, recorded.
 #pragma once
 
-#include <chrono>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "tests/app/program/desk.hpp"
 #include "tests/app/program/falcon_on_usb.hpp"
+#include "tests/device/falcon/packet_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace dibhr::test {
 
+/// Of a Falcon that stands before the relief, ready.
+inline const std::vector<std::string> kHomedFalcon{"firmware", "home", "place 0 0 140"};
+
+/// A small slope that costs nothing to decode: a file of every scene's folder.
+inline constexpr const char* kSlope = "slope_color.png";
+inline constexpr double kSlopePitch_mm = 101.6 / 64.0;  ///< as a picture of its width is fitted
+
+struct FalconSceneOptions {
+    std::vector<std::string> commands = kHomedFalcon;  ///< prepare the Falcon
+    std::vector<std::string> arguments{kSlope};        ///< of the program; no file: the sample
+    std::string device{"falcon"};
+    bool records{true};               ///< from the beginning on, into hand.dibhr
+    std::string settings{};           ///< of the settings file
+    std::vector<std::string> host{};  ///< a program and its own arguments that starts all of it
+    bool keeps_packets{false};        ///< FalconOnUsb::packets() is to be read
+    Desk desk{};
+};
+
 class FalconScene {
   public:
-    /// `commands` prepare the Falcon. `settings`: of the settings file; `environment`: entries
-    /// "NAME=value" of the program's alone.
-    FalconScene(std::vector<std::string> commands, std::vector<std::string> arguments,
-                const std::string& settings = {}, std::vector<std::string> environment = {});
+    explicit FalconScene(FalconSceneOptions options = {});
 
-    /// What was recorded, after the program has ended well.
+    /// By the key that ends it: what was recorded, after the program has ended well.
     std::vector<Row> finish();
+    /// What has been recorded up to now, or in all.
+    [[nodiscard]] std::vector<Row> rows() const;
+    /// Until what has been recorded is so; the test fails when it never is.
+    void wait_until_recorded(const std::function<bool(const std::vector<Row>&)>& is_so) const;
 
     /// From afar into the relief, until the hand is pushed back.
     void press_in() const;
     void wait_for_force() const;
-    /// Until there has been none for a second: a busy machine may take it off for a moment.
-    void wait_for_lasting_zero() const;
 
-    /// How long after `moment` the first packet without force came, after which none had any [s].
-    [[nodiscard]] double seconds_to_zero(std::chrono::steady_clock::time_point moment) const;
+    /// Of a scene that keeps packets: the test fails unless the last five that the Falcon was sent,
+    /// or more, had no force, and one before them had.
+    void check_left_without_force() const;
 
     /// What the program has said on stderr.
     [[nodiscard]] std::string errors() const;
 
-    const Desk desk{};
+    const Desk desk;
     const TemporaryFolder folder{};
     const FalconOnUsb falcon;
-    Process viewer;
+    WindowProgram viewer;
 };
-
-/// Of a Falcon that stands before the relief, ready.
-inline const std::vector<std::string> kHomedFalcon{"firmware", "home", "place 0 0 140"};
 
 }  // namespace dibhr::test

@@ -122,7 +122,7 @@ int Portal::take_question(sd_bus_message* call) {
     if (!manner_.replies) return 1;
     if (manner_.refuses)
         return sd_bus_reply_method_errorf(call, SD_BUS_ERROR_UNKNOWN_METHOD, "no file chooser");
-    if (manner_.answers || manner_.vanishes) due_ = Clock::now() + manner_.after;
+    if (manner_.answers || manner_.vanishes) due_ = Clock::now();
     require_done(sd_bus_reply_method_return(call, "o", request_.c_str()), "reply");
     return 1;
 }
@@ -175,7 +175,9 @@ void Portal::read_filters(sd_bus_message* call) {
 }
 
 void Portal::answer() {
-    due_ = Clock::time_point::max();
+    // Who asks an old one begins to listen when it has its reply: the first answers may be missed.
+    constexpr std::chrono::milliseconds kAgain{10};
+    due_ = manner_.old ? Clock::now() + kAgain : Clock::time_point::max();
     if (manner_.vanishes) {
         sd_bus_release_name(bus_.get(), "org.freedesktop.portal.Desktop");
         return;

@@ -42,8 +42,7 @@ struct PortalManner {
     bool answers{true};         ///< as a person would
     std::uint32_t response{0};  ///< 0: chosen, 1: cancelled, 2: ended in another way
     std::vector<std::string> addresses{};  ///< "file:///..."
-    std::chrono::milliseconds after{0};    ///< the call
-    bool vanishes{false};                  ///< then, in place of an answer
+    bool vanishes{false};                  ///< after its reply, in place of an answer
 };
 
 /// What it was asked.

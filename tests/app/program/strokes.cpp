@@ -16,6 +16,7 @@ namespace dibhr::test {
 namespace {
 
 using Rows = std::vector<Row>;
+using Words = std::vector<std::string>;
 
 /// Runs of rows of a force device in which the proxy followed from the first row on, as it does
 /// when the goals and the file are all there is: each begins in free space, or where the proxy
@@ -42,7 +43,7 @@ std::string exact(double value) {
 }
 
 /// The spring forces that `dibhr touch` gives for the goals of these rows.
-std::vector<Vec3> forces_of_touch(const Rows& rows) {
+std::vector<Vec3> forces_of_touch(const Rows& rows, const Words& arguments) {
     const TemporaryFolder folder;
     {
         std::ofstream goals(folder / "goals.csv");
@@ -52,9 +53,10 @@ std::vector<Vec3> forces_of_touch(const Rows& rows) {
                   << ',' << exact(row.goal.z) << '\n';
         }
     }
-    const ProgramResult result = run_dibhr(
-        folder,
-        {"touch", "--video", "--depth", sample_files().depth.string(), "--goals", "goals.csv"});
+    Words words{"touch",   "--video",  "--depth", sample_files().depth.string(),
+                "--goals", "goals.csv"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    const ProgramResult result = run_dibhr(folder, words);
     REQUIRE(result.exit_code == 0);
     std::vector<Vec3> forces;
     const std::vector<std::string> lines = split(result.output, '\n');
@@ -74,19 +76,26 @@ double strongest(const Rows& rows) {
     return newton;
 }
 
-TouchedAgain touched_again(const Rows& rows) {
-    TouchedAgain told;
+Stroked stroked(const Rows& rows) {
+    Stroked told;
     for (const Rows& stroke : strokes(rows)) {
-        const std::vector<Vec3> again = forces_of_touch(stroke);
-        REQUIRE(again.size() == stroke.size());
-        for (std::size_t k = 0; k < again.size(); ++k) {
-            const Vec3 spring = stroke[k].spring_newton;
-            told.worst_newton = std::max(told.worst_newton, glm::distance(again[k], spring));
-            if (glm::length(spring) > 0.2) ++told.contacts;
-            if (spring.x < -0.05) ++told.held_back;
+        for (const Row& row : stroke) {
+            if (glm::length(row.spring_newton) > 0.2) ++told.contacts;
+            if (row.spring_newton.x < -0.05) ++told.held_back;
         }
     }
     return told;
+}
+
+double worst_touched_again(const Rows& rows, const Words& arguments) {
+    double worst_newton = 0.0;
+    for (const Rows& stroke : strokes(rows)) {
+        const std::vector<Vec3> again = forces_of_touch(stroke, arguments);
+        REQUIRE(again.size() == stroke.size());
+        for (std::size_t k = 0; k < again.size(); ++k)
+            worst_newton = std::max(worst_newton, glm::distance(again[k], stroke[k].spring_newton));
+    }
+    return worst_newton;
 }
 
 }  // namespace dibhr::test

@@ -2,20 +2,25 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "tests/app/program/desk.hpp"
 
 namespace dibhr::test {
 
-struct TouchedAgain {
+/// What there is to compare: ticks of the strokes over the sample of which the goals and the file
+/// are all there is.
+struct Stroked {
     std::size_t contacts{0};   ///< ticks with more than 0.2 N
     std::size_t held_back{0};  ///< by friction, while it slides to the right
-    double worst_newton{0.0};  ///< by which a spring force differs
 };
+[[nodiscard]] Stroked stroked(const std::vector<Row>& rows);
 
-/// The strokes over the sample of which the goals and the file are all there is.
-[[nodiscard]] TouchedAgain touched_again(const std::vector<Row>& rows);
+/// By how much the spring forces of those strokes differ at most from those of `dibhr touch` [N];
+/// `arguments`: of it, too.
+[[nodiscard]] double worst_touched_again(const std::vector<Row>& rows,
+                                         const std::vector<std::string>& arguments = {});
 
 /// The longest force that was sent [N].
 [[nodiscard]] double strongest(const std::vector<Row>& rows);

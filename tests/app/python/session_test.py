@@ -1,8 +1,11 @@
 """Recorded sessions as arrays."""
 
 import os
+import pathlib
+import shutil
 import sqlite3
 import subprocess
+import tempfile
 import unittest
 
 import numpy as np
@@ -14,15 +17,23 @@ TICKS = 1000
 
 
 class Sessions(FolderTest):
-    def setUp(self):
-        super().setUp()
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.recorded = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.recorded.cleanup)
+        file = pathlib.Path(cls.recorded.name) / "mine.dibhr"
         recorder = os.environ["DIBHR_RECORDER"]
-        subprocess.run([recorder], cwd=self.folder, check=True, stdout=subprocess.DEVNULL)
-        self.file = self.folder / "mine.dibhr"
-        with sqlite3.connect(self.file) as database:
+        subprocess.run([recorder], cwd=file.parent, check=True, stdout=subprocess.DEVNULL)
+        with sqlite3.connect(file) as database:
             first = database.execute("SELECT min(t) FROM tick").fetchone()[0]
             database.execute("INSERT INTO mark VALUES(1, ?, 'nose', 'très doux')", (first + 0.5,))
         database.close()
+
+    def setUp(self):
+        super().setUp()
+        self.file = self.folder / "mine.dibhr"
+        shutil.copy(pathlib.Path(self.recorded.name) / "mine.dibhr", self.file)
         self.session = dibhr.Session(self.file)
 
     def test_have_the_ticks_that_export_writes(self):

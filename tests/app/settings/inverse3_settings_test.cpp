@@ -4,9 +4,7 @@
 #include <set>
 #include <string>
 
-#include "app/panels/device_state.hpp"
 #include "app/settings/settings.hpp"
-#include "device/device_or_mouse.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -47,34 +45,4 @@ TEST_CASE("what is set for the Inverse3 is kept, and reaches the device", "[inve
     CHECK_THAT(tuning.max_force_newton, WithinAbs(2.5, 1e-12));
     CHECK(tuning.clutch_buttons == 3);  // A from the start, and B
     CHECK(tuning.centred == 7);
-}
-
-TEST_CASE("the window says over the relief what an Inverse3 that is there lacks",
-          "[inverse3][banner]") {
-    ViewerState state;
-    inverse3::Status& status = state.inverse3.emplace().status;
-    status.sentence = "do this";
-    CHECK(device_banner(state).empty());  // no service, and nobody asked for one
-    CHECK_FALSE(inverse3_in_sight(state));
-    status.stage = inverse3::Stage::no_device;
-    CHECK(device_banner(state).empty());
-    status.stage = GENERATE(inverse3::Stage::no_power, inverse3::Stage::not_calibrated,
-                            inverse3::Stage::locked, inverse3::Stage::in_use, inverse3::Stage::deaf,
-                            inverse3::Stage::too_old, inverse3::Stage::not_understood);
-    CHECK(device_banner(state) == "do this");
-    CHECK(inverse3_in_sight(state));
-    status.stage = inverse3::Stage::ready;
-    CHECK(device_banner(state).empty());
-}
-
-TEST_CASE("what the Falcon lacks is not said while an Inverse3 touches", "[inverse3][banner]") {
-    ViewerState state;
-    state.falcon.emplace().status.stage = falcon::Stage::homing;
-    state.falcon->status.sentence = "pull it out";
-    state.inverse3.emplace().status.stage = inverse3::Stage::ready;
-    CHECK(device_banner(state) == "pull it out");
-    state.haptic.hand.which = static_cast<std::uint8_t>(Touching::inverse3);
-    CHECK(device_banner(state).empty());
-    state.haptic.hand.buttons = 1;
-    CHECK(clutched(state));  // its own button A, not the Falcon's
 }

@@ -46,10 +46,10 @@ TEST_CASE("a pattern with another placeholder, or that names no file, is none", 
     for (const char* pattern : {"", "folder/", "%", "%Q", "x%", "{name}", "{file", "a\nb"}) {
         CAPTURE(pattern);
         CHECK_FALSE(lacking_of({pattern}).empty());
-        const TemporaryFolder folder;
-        const ProgramResult result =
-            run_dibhr(folder, {"view", "--screenshot-name", pattern, "--seconds", "0"});
-        CHECK(result.exit_code == 2);
-        CHECK(contains(result.errors, "--screenshot-name"));
     }
+    const TemporaryFolder folder;
+    const ProgramResult result =
+        run_dibhr(folder, {"view", "--screenshot-name", "{name}", "--seconds", "0"});
+    CHECK(result.exit_code == 2);
+    CHECK(contains(result.errors, "--screenshot-name"));
 }

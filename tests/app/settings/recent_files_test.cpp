@@ -1,6 +1,7 @@
 // Which files were opened before, and how paths are typed.
 #include "app/settings/recent_files.hpp"
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -9,6 +10,7 @@
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/eventually.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/text.hpp"
 
@@ -63,18 +65,16 @@ TEST_CASE("a file opened before is opened again from the list of recent ones", "
     write_depth_png(folder / "first_depth.png", 64, 48, 100, 2);
     write_depth_png(folder / "next_depth.png", 32, 24, 100, 2);
     const fs::path history = folder / "state/dibhr/recent";
-    const auto view = [&](const std::string& file, const std::string& commands) {
-        Process viewer = desk.start_viewer(
-            folder, {file, "--device", "mouse", "--size", "1280x800", "--seconds", "60"});
-        desk.act("search --sync --onlyvisible --name dibhr sleep 0.6 " + commands + "key ctrl+q");
-        REQUIRE(viewer.wait() == 0);
-    };
-    const auto click = [](int x, int y) {
-        return "mousemove " + std::to_string(x) + " " + std::to_string(y) +
-               " sleep 0.2 mousedown 1 sleep 0.2 mouseup 1 sleep 0.5 ";
-    };
-    view("first_depth.png", "");
-    view("next_depth.png", click(1230, 93) + click(1180, 132) + "sleep 1 ");
+    remember({folder / "first_depth.png", {}}, history);
+    WindowProgram viewer =
+        desk.start_viewer(folder, {"next_depth.png", "--device", "mouse", "--size", "1280x800"});
+    viewer.wait_for_surface();
+    viewer.act("mousemove 1230 93 click 1 mousemove 1180 132 click 1");
+    CHECK(eventually(
+        [&] { return read_recent_files(history).at(0).colour.filename() == "first_depth.png"; },
+        std::chrono::minutes(1)));
+    desk.press("key ctrl+q");
+    REQUIRE(viewer.wait() == 0);
     const std::vector<RecentFile> files = read_recent_files(history);
     REQUIRE(files.size() == 2);
     CHECK(files[0].colour.filename() == "first_depth.png");

@@ -1,6 +1,4 @@
 // A participant in front of the study's window: led by keys, by the grip's buttons, interrupted.
-#include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstddef>
@@ -9,13 +7,13 @@
 #include <functional>
 #include <glm/geometric.hpp>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "core/psychophysics/random.hpp"
 #include "core/session/session.hpp"
 #include "core/study/study_file.hpp"
+#include "core/study/study_run.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/app/program/falcon_on_usb.hpp"
@@ -24,16 +22,46 @@
 
 using namespace dibhr;
 using namespace dibhr::test;
-using namespace std::chrono_literals;
 
 namespace {
+
+constexpr int kDisplayColumns = 1280;
+constexpr int kDisplayRows = 800;
+
+/// A film, and a picture that stands still, so that two of the window can be compared. Made once.
+const std::filesystem::path& media_folder() {
+    static const TemporaryFolder folder;
+    static const bool made = [] {
+        run_shell(folder,
+                  "ffmpeg -v error -f lavfi -i testsrc=s=64x48:d=1:r=10 -c:v ffv1 c.mkv && "
+                  "ffmpeg -v error -f lavfi -i gradients=s=64x48:d=1:r=10:seed=3:c0=black:c1=white "
+                  "-pix_fmt gray -c:v ffv1 d.mkv && "
+                  "ffmpeg -v error -i c.mkv -frames:v 1 c.png && "
+                  "ffmpeg -v error -i d.mkv -frames:v 1 d.png");
+        return true;
+    }();
+    static_cast<void>(made);
+    return folder.path();
+}
+
+/// `kind`: of the files, "mkv" or "png".
+std::string media(const std::string& kind) {
+    const std::string folder = media_folder().string();
+    return "[[media]]\nname = \"own\"\ncolour = \"" + folder + "/c." + kind + "\"\ndepth = \"" +
+           folder + "/d." + kind + "\"\n";
+}
 
 const std::string kTitle = R"(title = "T"
 instructions = "You will feel surfaces."
 thanks = "Thank you."
 )";
 
-const std::string kConditions = R"(friction = 0.4
+const std::string kOwnMedia = R"([base]
+media = "own"
+relief = 40
+)";
+
+const std::string kBase = kOwnMedia + R"(friction = 0.4
 [[condition]]
 name = "secret-ice"
 material = "ice"
@@ -43,12 +71,9 @@ material = "bark"
 algorithm = "pga"
 )";
 
-const std::string kHead = kTitle + "[base]\n" + kConditions;
-
-/// Of a picture that stands still, so that two of the window can be compared.
-const std::string kStillHead =
-    kTitle + "[[media]]\nname = \"still\"\ncolour = \"c.png\"\ndepth = \"d.png\"\n[base]\n" +
-    "media = \"still\"\n" + kConditions;
+std::string head() {
+    return kTitle + media("mkv") + kBase;
+}
 
 const std::string kPractice = R"([[block]]
 name = "practice"
@@ -66,9 +91,14 @@ const std::string kPairs = R"([[block]]
 name = "pairs"
 form = "two-interval"
 pairs = "all"
-repetitions = 2
-break-after = 1
 question = "Which was smoother?"
+)";
+
+const std::string kRatings = R"([[block]]
+name = "rating"
+form = "rating"
+question = "How smooth?"
+break-after = 1
 )";
 
 const std::string kAdjustment = R"([[block]]
@@ -83,12 +113,7 @@ lowest = 0
 highest = 0.6
 )";
 
-const std::string kOthers = R"([[block]]
-name = "rating"
-form = "rating"
-conditions = ["secret-bark"]
-question = "How smooth?"
-)" + kAdjustment + R"([[block]]
+const std::string kBlank = R"([[block]]
 name = "yes"
 form = "explore"
 conditions = ["secret-ice"]
@@ -96,25 +121,12 @@ view = "blank"
 question = "Was it smooth?"
 )";
 
-/// A participant on a display of their own.
+/// A study, and a display for its participant.
 struct Sitting {
     explicit Sitting(const std::string& page) { write_text(folder / "study.toml", page); }
 
-    [[nodiscard]] std::vector<std::string> words(const std::string& device = "mouse") const {
-        return {"study",   "run",      "study.toml", "--participant", "P7",     "--out",
-                "answers", "--device", device,       "--mute",        "--size", "1280x800"};
-    }
-    void press(const std::string& keys) const { desk.act("key " + keys + " sleep 0.35"); }
-    /// Does it again and again until the study is finished, or the patience.
-    template <typename Act>
-    void until_it_ends(Process& program, const Act& act,
-                       std::chrono::seconds patience = 150s) const {
-        const auto latest = std::chrono::steady_clock::now() + patience;
-        while (!program.has_ended() && std::chrono::steady_clock::now() < latest) act();
-    }
-    [[nodiscard]] StudyRecord record() const { return read_study(study_file()); }
-    [[nodiscard]] std::filesystem::path study_file() const {
-        return folder / "answers/P7.dibhr-study";
+    [[nodiscard]] StudyRecord record() const {
+        return read_study(folder / "answers/P7.dibhr-study");
     }
     [[nodiscard]] std::filesystem::path running_session() const {
         return folder / "answers/P7.dibhr-study.trial.dibhr";
@@ -123,6 +135,96 @@ struct Sitting {
 
     Desk desk{};
     TemporaryFolder folder{};
+};
+
+/// The participant, in front of the program from its start on.
+class Participant {
+  public:
+    explicit Participant(const Sitting& at) : Participant(at, {"--device", "mouse"}, {}) {}
+    Participant(const Sitting& at, const std::vector<std::string>& device,
+                const std::vector<std::string>& host)
+        : at_(at), program_(at.desk.start(at.folder, words(device), host)) {}
+
+    void wait_until(const std::function<bool(const Seen&)>& is_so) const {
+        program_.wait_until(is_so);
+    }
+    void wait_for(StudyStep step) const {
+        program_.wait_until([step](const Seen& now) { return is_at(now, step) && !now.waits; });
+    }
+    /// Until it is felt; trials and intervals are counted from 0.
+    void wait_for_interval(int trial, int interval) const {
+        program_.wait_until([=](const Seen& now) {
+            return now.trial == trial && now.interval == interval && now.force_enabled;
+        });
+    }
+    void press(const std::string& keys) const { program_.act("key " + keys); }
+    void act(const std::string& events) const { program_.act(events); }
+    /// The step is left by Enter.
+    void leave(StudyStep step) const {
+        wait_for(step);
+        press("Return");
+    }
+    void touch_interval(int trial, int interval) const {
+        wait_for_interval(trial, interval);
+        act("mousemove 320 240 mousedown 1");
+        program_.wait_until([](const Seen& now) { return now.contact && now.sent_newton > 0.05; });
+        act("mousemove_relative 30 10 mouseup 1");
+    }
+    /// By keys, from its first interval on.
+    void answer_pair(int trial, const std::string& key) const {
+        for (const int interval : {0, 1}) {
+            wait_for_interval(trial, interval);
+            press("Return");
+        }
+        wait_for(StudyStep::question);
+        press(key);
+    }
+    /// Leaves the last page.
+    [[nodiscard]] int close() {
+        wait_for(StudyStep::thanks);
+        at_.desk.press("key Return");
+        return program_.wait();
+    }
+    [[nodiscard]] int leave_early() {
+        press("Escape");
+        at_.desk.press("key l");
+        return program_.wait();
+    }
+    [[nodiscard]] int ended_by(int signal) {
+        program_.send(signal);
+        return end();
+    }
+    /// The exit code, once it has ended.
+    [[nodiscard]] int end() { return program_.wait(); }
+    /// One thing that leads on, whatever is shown.
+    void go_on() const { press(is_at(program_.seen(), StudyStep::question) ? "1" : "Return"); }
+    /// Of the display, while it does not change.
+    [[nodiscard]] std::string picture() const {
+        std::string last;
+        std::string now = at_.desk.picture();
+        while (now != last) {
+            program_.wait_for_picture();
+            last = std::move(now);
+            now = at_.desk.picture();
+        }
+        return now;
+    }
+    [[nodiscard]] Seen seen() const { return program_.seen(); }
+
+    static bool is_at(const Seen& now, StudyStep step) {
+        return now.study && now.study_step == static_cast<int>(step);
+    }
+
+  private:
+    [[nodiscard]] static std::vector<std::string> words(const std::vector<std::string>& device) {
+        std::vector<std::string> all{"study", "run",     "study.toml", "--participant", "P7",
+                                     "--out", "answers", "--mute",     "--size",        "640x480"};
+        all.insert(all.end(), device.begin(), device.end());
+        return all;
+    }
+
+    const Sitting& at_;
+    WindowProgram program_;
 };
 
 /// "interval 1", "rest", "interval 2", "rest" and so on.
@@ -136,24 +238,43 @@ void require_intervals_and_rests(const std::vector<SessionMark>& marks) {
     CHECK(marks.front().tag == "interval 1");
 }
 
-/// Whether no interval is felt then: a mark is as exact as the thread that puts it is quick.
+/// Whether no interval is felt then.
 bool rests_at(const std::vector<SessionMark>& marks, double t_s) {
-    constexpr double kExact_s = 0.01;
     bool rests = true;
-    for (const SessionMark& mark : marks) {
-        if (std::abs(mark.t_s - t_s) < kExact_s) return false;
+    for (const SessionMark& mark : marks)
         if (mark.t_s < t_s) rests = mark.tag == "rest";
-    }
     return rests;
 }
 
-/// How many values of two pictures differ, of those rows of the display.
+/// Whether any force was felt; fails the test where one was before its interval or after it.
+bool check_felt_in_intervals_only(const Session& session, const std::vector<Row>& rows) {
+    bool touched = false;
+    std::size_t beside = 0;
+    for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
+        const bool felt = glm::length(rows[k].sent_newton) > 0.0;
+        touched = touched || (rows[k].contact && glm::length(rows[k].sent_newton) > 0.05);
+        // A tick that has begun when an interval is marked may have its force already.
+        const bool rests =
+            rests_at(session.marks(), rows[k].t_s) && rests_at(session.marks(), rows[k + 1].t_s);
+        beside += felt && rests ? 1 : 0;
+    }
+    CHECK(beside == 0);
+    return touched;
+}
+
+void check_same_bits(const Sitting& at, const std::string& session) {
+    const ProgramResult result = run_dibhr(at.folder, {"replay", "s/" + session});
+    INFO(result.errors);
+    CHECK(contains(result.output, "identical, bit for bit"));
+}
+
+/// How many values of two pictures of the display differ, from one row to another.
 std::size_t different(const std::string& first, const std::string& second, std::size_t from_row,
                       std::size_t to_row) {
-    REQUIRE(first.size() == 1280 * 800 * 3);
+    REQUIRE(first.size() == kDisplayColumns * kDisplayRows * 3);
     REQUIRE(second.size() == first.size());
     std::size_t count = 0;
-    for (std::size_t k = from_row * 1280 * 3; k < to_row * 1280 * 3; ++k)
+    for (std::size_t k = from_row * kDisplayColumns * 3; k < to_row * kDisplayColumns * 3; ++k)
         count += std::abs(static_cast<unsigned char>(first[k]) -
                           static_cast<unsigned char>(second[k])) > 2
                      ? 1
@@ -161,241 +282,182 @@ std::size_t different(const std::string& first, const std::string& second, std::
     return count;
 }
 
-/// For kStillHead, beside the page.
-void make_still(const Sitting& at) {
-    run_shell("cd " + at.folder.path().string() +
-              " && ffmpeg -nostdin -v error -y -f lavfi -i testsrc=s=320x240:d=1:r=1 -frames:v 1 "
-              "c.png && ffmpeg -nostdin -v error -y -f lavfi -i "
-              "gradients=s=320x240:d=1:r=1:seed=3:c0=black:c1=white -frames:v 1 -pix_fmt gray "
-              "d.png");
+// Of the window, without "1 of 2" above and the button below.
+constexpr std::size_t kReliefFrom = 80;
+constexpr std::size_t kReliefTo = 390;
+
+bool same_relief(const std::string& first, const std::string& second) {
+    return different(first, second, kReliefFrom, kReliefTo) == 0;
 }
 
-void find_window(const Sitting& at) {
-    at.desk.act("search --sync --onlyvisible --name dibhr sleep 0.5");
-}
-
-void leave(const Sitting& at, Process& program) {
-    at.press("Escape");
-    at.press("l");
-    CHECK(program.wait() == 0);
-}
-
-/// Each key does something at its own step only, whatever is slow: pages and intervals go on by
-/// Enter, as do scales and adjustments; the others are answered by 1.
-void touch_and_answer(const Sitting& at) {
-    at.desk.act(
-        "mousemove 640 420 mousedown 1 sleep 0.2 mousemove_relative 30 10 sleep 0.2 mouseup 1");
-    at.press("Return");
-    at.press("1");
+std::size_t bright_values(const std::string& picture) {
+    std::size_t bright = 0;
+    for (std::size_t k = kReliefFrom * kDisplayColumns * 3; k < kReliefTo * kDisplayColumns * 3;
+         ++k)
+        bright += static_cast<unsigned char>(picture[k]) > 120 ? 1 : 0;
+    return bright;
 }
 
 }  // namespace
 
 TEST_CASE("a newcomer is led from the first page to the thanks by keys alone", "[study window]") {
-    const Sitting at(kHead + kPractice + kPairs + kOthers);
-    Process program = at.desk.start(at.folder, at.words());
-    at.desk.act("search --sync --onlyvisible --name dibhr sleep 0.3");
-    at.until_it_ends(program, [&] { touch_and_answer(at); });
-    INFO(at.errors());
-    CHECK(program.wait() == 0);
+    using enum StudyStep;
+    const Sitting at(head() + kPractice + kRatings + kAdjustment + kBlank);
+    Participant person(at);
+    person.leave(instructions);
+    person.leave(block_instructions);
+    for (const int number : {0, 1}) {
+        person.touch_interval(0, number);
+        person.press("Return");
+    }
+    person.leave(question);  // or tries to
+    CHECK(Participant::is_at(person.seen(), question));
+    person.press("1");
+    person.leave(feedback);
+    for (const int trial : {1, 2}) {
+        person.touch_interval(trial, 0);
+        person.press("Return");
+        person.wait_for(question);
+        person.press("Right");
+        person.press("Return");
+        if (trial == 1) person.leave(pause);
+    }
+    person.touch_interval(3, 0);
+    person.press("Return");
+    person.touch_interval(3, 1);
+    person.press("Tab");
+    person.wait_for_interval(3, 0);
+    person.press("Return");  // equal
+    person.touch_interval(4, 0);
+    person.press("Return");
+    person.wait_for(question);
+    person.press("1");
+    CHECK(person.close() == 0);
+
     CHECK(at.errors().empty());
     const StudyRecord record = at.record();
     CHECK(record.finished);
     CHECK(record.identity.pilot.empty());
-    REQUIRE(record.answered.size() == 6);
+    REQUIRE(record.answered.size() == 5);
     CHECK(record.answered[0].trial.practice);
-    CHECK(record.answered[1].answer.choice == 0);
-    CHECK(record.answered[3].answer.number.value_or(0.0) >= 1.0);
-    CHECK(record.answered[4].answer.number.has_value());
+    CHECK(record.answered[0].answer.choice == 0);
+    CHECK(record.answered[1].answer.number.value_or(0.0) >= 1.0);
+    CHECK(record.answered[3].answer.number.has_value());
     for (const AnsweredTrial& one : record.answered) CHECK(one.answer.reaction_s > 0.0);
     CHECK_FALSE(std::filesystem::exists(at.running_session()));
 
     REQUIRE(run_dibhr(at.folder, {"study", "sessions", "answers/P7.dibhr-study", "--out", "s"})
                 .exit_code == 0);
-    CHECK(names_in(at.folder / "s").size() == 6);
-    bool touched = false;
-    for (const std::string& name : names_in(at.folder / "s")) {
+    const std::vector<std::string> sessions = names_in(at.folder / "s");
+    CHECK(sessions.size() == 5);
+    for (const std::string& name : sessions) {
         CAPTURE(name);
         CHECK_FALSE(contains(name, "secret"));
-        require_same_bits(at.folder, at.folder / "s" / name);
+        check_same_bits(at, name);
         const Session session(at.folder / "s" / name);
-        REQUIRE_FALSE(session.marks().empty());
         require_intervals_and_rests(session.marks());
-        for (const Row& row : read_session(at.folder / "s" / name)) {
-            touched = touched || (row.contact && glm::length(row.sent_newton) > 0.05);
-            // Nothing is felt before it is to be felt, and after that.
-            if (rests_at(session.marks(), row.t_s)) CHECK(glm::length(row.sent_newton) == 0.0);
-        }
+        CHECK(check_felt_in_intervals_only(session, read_session(at.folder / "s" / name)));
     }
-    CHECK(touched);
 }
 
-TEST_CASE("nothing on the display tells one condition from another", "[study window]") {
-    const Sitting at(kStillHead + kPairs);
-    make_still(at);
-    Process program = at.desk.start(at.folder, at.words());
-    at.desk.act("search --sync --onlyvisible --name dibhr mousemove 640 731 sleep 0.3");
-    at.press("Return");
-    std::this_thread::sleep_for(3s);
-    const std::string first = at.desk.picture();
-    at.press("Return");
-    std::this_thread::sleep_for(3s);
-    const std::string second = at.desk.picture();
-    REQUIRE(first.size() == 1280 * 800 * 3);
-    std::size_t bright = 0;
-    for (std::size_t k = 120 * 1280 * 3; k < 640 * 1280 * 3; ++k)
-        bright += static_cast<unsigned char>(first[k]) > 120 ? 1 : 0;
-    CHECK(bright > 10'000);                          // the relief is there
-    CHECK(different(first, second, 120, 640) == 0);  // without "1 of 2" and the button
-    leave(at, program);
-    CHECK(at.record().answered.empty());
-}
-
-TEST_CASE("what is seen tells nothing of friction, unless the study wants it", "[study window]") {
-    const auto [view, same] =
-        GENERATE(table<std::string, bool>({{"relief", true}, {"touch", false}}));
-    CAPTURE(view);
-    const Sitting at(kTitle + R"([[media]]
-name = "still"
-colour = "c.png"
-depth = "d.png"
-[base]
-media = "still"
-[[condition]]
-name = "slippery"
-friction = 0
-[[condition]]
-name = "dull"
-friction = 3
-[[block]]
+TEST_CASE("what is seen tells nothing of a condition, unless the study wants it",
+          "[study window]") {
+    const std::string pairs = R"([[block]]
 form = "two-interval"
 pairs = "all"
 order = "listed"
 question = "Which was smoother?"
-)" + "view = \"" + view +
-                     "\"\n");
-    make_still(at);
-    Process program = at.desk.start(at.folder, at.words());
-    find_window(at);
-    const auto pressed_and_moved = [&] {
-        at.press("Return");
-        std::this_thread::sleep_for(2s);
-        at.desk.act("mousemove 400 420 sleep 0.5 mousedown 1 sleep 0.7");
-        for (int k = 0; k < 12; ++k) at.desk.act("mousemove_relative 5 2 sleep 0.05");
-        at.desk.act("sleep 1");
-        std::string picture = at.desk.picture();
-        at.desk.act("mouseup 1");
-        return picture;
+)";
+    const Sitting at(kTitle + media("png") + kOwnMedia + R"([[condition]]
+name = "slippery"
+friction = 0
+[[condition]]
+name = "dull"
+material = "bark"
+algorithm = "pga"
+friction = 3
+)" + pairs + "view = \"relief\"\n" +
+                     pairs + "view = \"touch\"\n");
+    Participant person(at);
+    struct Pictures {
+        std::string before{}, touched{};
     };
-    const std::string first = pressed_and_moved();
-    const std::string second = pressed_and_moved();
-    CHECK((different(first, second, 120, 640) == 0) == same);
-    leave(at, program);
+    const auto felt = [&](int trial, int interval) {
+        person.wait_for_interval(trial, interval);
+        person.act("mousemove 900 600");  // beside the window
+        Pictures pictures{.before = person.picture()};
+        person.act("mousemove 200 240 mousedown 1");
+        person.wait_until([](const Seen& now) { return now.contact; });
+        for (int k = 0; k < 6; ++k) person.act("mousemove_relative 10 4");
+        pictures.touched = person.picture();
+        person.act("mouseup 1 key Return");
+        return pictures;
+    };
+    person.leave(StudyStep::instructions);
+    const Pictures slippery = felt(0, 0);
+    const Pictures dull = felt(0, 1);
+    CHECK(bright_values(slippery.before) > 10'000);  // the relief is there
+    CHECK(same_relief(slippery.before, dull.before));
+    CHECK_FALSE(same_relief(slippery.before, slippery.touched));  // the hand is seen
+    CHECK(same_relief(slippery.touched, dull.touched));
+    person.wait_for(StudyStep::question);
+    person.press("1");
+    const Pictures sliding = felt(1, 0);
+    const Pictures sticking = felt(1, 1);
+    CHECK_FALSE(same_relief(sliding.touched, sticking.touched));
+    CHECK(person.leave_early() == 0);
+    CHECK(at.record().answered.size() == 1);
 }
 
 TEST_CASE("a rating that nobody chose is no answer", "[study window]") {
-    const auto [scale, chosen] = GENERATE(table<std::string, double>(
-        {{"lowest = 0\nhighest = 100", 51.0}, {"lowest = 1\nhighest = 7", 5.0}}));
-    CAPTURE(scale);
-    const Sitting at(kHead + R"([[block]]
-form = "rating"
-conditions = ["secret-ice"]
-question = "How smooth?"
-[block.scale]
-)" + scale + "\n");
-    Process program = at.desk.start(at.folder, at.words());
-    find_window(at);
-    at.press("Return");
-    std::this_thread::sleep_for(2s);
-    for (int k = 0; k < 5; ++k) at.press("Return");        // the interval, and then the question
-    CHECK(std::filesystem::exists(at.running_session()));  // nobody has answered
-    at.press("Right");                                     // the middle,
-    at.press("Right");                                     // and one more
-    at.press("Return");
-    at.until_it_ends(program, [&] { at.press("Return"); });
-    CHECK(program.wait() == 0);
-    REQUIRE(at.record().answered.size() == 1);
-    CHECK(at.record().answered[0].answer.number == chosen);
+    const auto block = [](const std::string& scale) {
+        return "[[block]]\nform = \"rating\"\nconditions = [\"secret-ice\"]\nquestion = \"Q\"\n"
+               "[block.scale]\n" +
+               scale + '\n';
+    };
+    const Sitting at(head() + block("lowest = 0\nhighest = 100") +
+                     block("lowest = 1\nhighest = 7"));
+    Participant person(at);
+    person.leave(StudyStep::instructions);
+    for (const int trial : {0, 1}) {
+        person.wait_for_interval(trial, 0);
+        person.press("Return");
+        person.wait_for(StudyStep::question);
+        for (int k = 0; k < 3; ++k) person.press("Return");
+        CHECK(Participant::is_at(person.seen(), StudyStep::question));
+        CHECK(std::filesystem::exists(at.running_session()));  // nobody has answered
+        person.press("Right");                                 // the middle,
+        person.press("Right");                                 // and one more
+        person.press("Return");
+    }
+    CHECK(person.close() == 0);
+    const StudyRecord record = at.record();
+    REQUIRE(record.answered.size() == 2);
+    CHECK(record.answered[0].answer.number == 51.0);
+    CHECK(record.answered[1].answer.number == 5.0);
 }
 
 TEST_CASE("the button of a page is in sight however long the page is", "[study window]") {
     std::string text;
-    for (int k = 0; k < 60; ++k) text += "A paragraph that is to be read before it begins.\\n\\n";
-    const Sitting at("title = \"T\"\ninstructions = \"" + text + "\"\n[base]\n" + kConditions +
+    for (int k = 0; k < 60; ++k)
+        text += "Paragraph " + std::to_string(k) + ", to be read before it begins.\\n\\n";
+    const Sitting at("title = \"T\"\ninstructions = \"" + text + "\"\n" + media("mkv") + kBase +
                      kPairs);
-    Process program = at.desk.start(at.folder, at.words());
-    find_window(at);
-    const std::string above = at.desk.picture();
-    at.press("Next");
-    CHECK(different(above, at.desk.picture(), 0, 800) > 1000);  // it is scrolled
-    CHECK_FALSE(std::filesystem::exists(at.running_session()));
-    at.desk.act("mousemove 640 743 sleep 0.3 mousedown 1 sleep 0.2 mouseup 1");
-    FalconOnUsb::wait_until([&] { return std::filesystem::exists(at.running_session()); });
-    leave(at, program);
-}
-
-TEST_CASE("what was broken off goes on when its participant says so", "[study window]") {
-    const Sitting at(kHead + kPairs);
-    {
-        Process program = at.desk.start(at.folder, at.words());
-        find_window(at);
-        at.press("Return");
-        FalconOnUsb::wait_until([&] { return std::filesystem::exists(at.running_session()); });
-        while (std::filesystem::exists(at.running_session())) touch_and_answer(at);
-        program.send(SIGTERM);
-        CHECK(program.wait() == 0);
-    }
-    REQUIRE(at.record().answered.size() == 1);
-    Process again = at.desk.start(at.folder, at.words());
-    find_window(at);
-    std::this_thread::sleep_for(3s);
-    CHECK_FALSE(std::filesystem::exists(at.running_session()));
-    at.press("Return");
-    FalconOnUsb::wait_until([&] { return std::filesystem::exists(at.running_session()); });
-    leave(at, again);
-}
-
-TEST_CASE("trials are felt and answered with the Falcon alone", "[study window]") {
-    const Sitting at(kHead + kPairs + kAdjustment);
-    write_firmware(at.folder / "firmware.bin");
-    const FalconOnUsb falcon(at.folder.path(), {"firmware", "home", "place 0 0 140"});
-    std::vector<std::string> words = at.words("falcon");
-    words.insert(words.end(), {"--firmware", "firmware.bin"});
-    Process program = at.desk.start(at.folder, words, falcon.host());
-    at.desk.act("search --sync --onlyvisible --name dibhr sleep 0.5");
-    falcon.move_hand({0.0, 0.0, 105.0}, 0.3);
-    bool pushed = false;
-    at.until_it_ends(program, [&] {
-        // Goes on; at a question the first, or the second.
-        for (const char* const bit : {"1", "0", "2", "0"}) {
-            if (!falcon.try_to_tell(std::string("press ") + bit)) return;
-            std::this_thread::sleep_for(200ms);
-        }
-        // At an adjustment: the other one, and, held, equal.
-        for (const auto& [bit, held] :
-             {std::pair{"4", 200ms}, {"0", 1500ms}, {"4", 1300ms}, {"0", 0ms}}) {
-            if (!falcon.try_to_tell(std::string("press ") + bit)) return;
-            std::this_thread::sleep_for(held);
-            pushed = pushed || falcon.vector("motor_newton").z > 0.5;
-        }
-    });
-    INFO(at.errors());
-    CHECK(program.wait() == 0);
-    CHECK(pushed);
-    const StudyRecord record = at.record();
-    CHECK(record.finished);
-    REQUIRE(record.answered.size() == 3);
-    CHECK(record.answered[0].answer.choice >= 0);
-    CHECK(record.answered[1].answer.choice >= 0);
-    CHECK(record.answered[2].answer.number.has_value());
-    REQUIRE(run_dibhr(at.folder, {"study", "sessions", "answers/P7.dibhr-study", "--out", "s"})
-                .exit_code == 0);
-    require_same_bits(at.folder, at.folder / "s/P7-001.dibhr");
+    Participant person(at);
+    person.wait_for(StudyStep::instructions);
+    const std::string above = person.picture();
+    person.press("Next");
+    CHECK(different(above, person.picture(), 0, kDisplayRows) > 1000);  // it is scrolled
+    CHECK(Participant::is_at(person.seen(), StudyStep::instructions));
+    person.act("mousemove 320 423 click 1");
+    person.wait_for_interval(0, 0);
+    CHECK(person.leave_early() == 0);
+    CHECK(at.record().answered.empty());
 }
 
 TEST_CASE("where time is short a trial goes on by itself, and nobody has answered it",
           "[study window]") {
-    const Sitting at(kHead + R"([[block]]
+    const Sitting at(head() + R"([[block]]
 name = "quick"
 form = "two-interval"
 conditions = ["secret-ice"]
@@ -407,11 +469,10 @@ interval-s = 0.5
 answer-s = 0.7
 question = "Which was smoother?"
 )");
-    Process program = at.desk.start(at.folder, at.words());
-    at.desk.act("search --sync --onlyvisible --name dibhr sleep 0.5");
-    // Pages go on by Enter; nothing that is pressed answers a question.
-    at.until_it_ends(program, [&] { at.press("Return"); });
-    CHECK(program.wait() == 0);
+    Participant person(at);
+    person.leave(StudyStep::instructions);
+    person.leave(StudyStep::feedback);
+    CHECK(person.close() == 0);
     const StudyRecord record = at.record();
     CHECK(record.finished);
     REQUIRE(record.answered.size() == 1);
@@ -419,42 +480,125 @@ question = "Which was smoother?"
     CHECK(record.answered[0].right == false);
 }
 
-TEST_CASE("a study that is killed at any moment goes on at that trial, no answer lost or doubled",
+TEST_CASE("a study that is killed or broken off goes on at that trial when its participant says so",
           "[study window]") {
-    const char* const asked = std::getenv("DIBHR_STUDY_KILLS");  // 50 is the long form
-    const int kills = asked == nullptr ? 1 : std::atoi(asked);
-    const Sitting at(kHead + R"([[block]]
-name = "pairs"
-form = "two-interval"
-pairs = "all"
-repetitions = )" + std::to_string(2 * kills) +
-                     "\nquestion = \"Which was smoother?\"\n");
+    const Sitting at(head() + kPairs + "repetitions = 2\n");
+    {
+        Participant person(at);
+        person.leave(StudyStep::instructions);
+        person.wait_for_interval(0, 0);
+        CHECK(person.ended_by(SIGKILL) == 128 + SIGKILL);
+    }
+    CHECK(at.record().answered.empty());
+    {
+        Participant person(at);
+        person.leave(StudyStep::instructions);
+        person.answer_pair(0, "1");
+        person.wait_for_interval(1, 0);
+        person.press("Return");
+        person.wait_for_interval(1, 1);
+        CHECK(person.ended_by(SIGTERM) == 0);
+    }
+    const std::vector<AnsweredTrial> before = at.record().answered;
+    REQUIRE(before.size() == 1);
+    Participant person(at);
+    person.wait_until(
+        [](const Seen& now) { return Participant::is_at(now, StudyStep::interval) && !now.waits; });
+    CHECK_FALSE(person.seen().force_enabled);
+    CHECK_FALSE(person.seen().surface);
+    person.press("Return");
+    person.answer_pair(1, "2");
+    CHECK(person.close() == 0);
+    const StudyRecord record = at.record();
+    CHECK(record.finished);
+    REQUIRE(record.answered.size() == 2);
+    CHECK(record.answered[0].answer == before[0].answer);
+    CHECK(record.answered[1].answer.choice == 1);
+    CHECK_FALSE(std::filesystem::exists(at.running_session()));
+}
+
+TEST_CASE("a study that is killed at any picture loses no answer and doubles none",
+          "[study window][long]") {
+    constexpr int kKills = 8;
+    const Sitting at(head() + kPairs + "repetitions = " + std::to_string(kKills) + "\n");
     Random dice(7);
     std::vector<AnsweredTrial> before;
-    for (int kill = 0; kill < kills; ++kill) {
-        Process program = at.desk.start(at.folder, at.words());
-        at.desk.act("search --sync --onlyvisible --name dibhr sleep 0.5");
-        at.press("Return");
-        if (kill == 0)  // the first time while something is felt
-            FalconOnUsb::wait_until([&] { return std::filesystem::exists(at.running_session()); });
-        const auto moment = std::chrono::steady_clock::now() +
-                            std::chrono::duration<double>(1.0 + 5.0 * dice.uniform());
-        while (kill > 0 && std::chrono::steady_clock::now() < moment) touch_and_answer(at);
-        std::this_thread::sleep_until(moment);
-        program.send(SIGKILL);
-        CHECK(program.wait() == 128 + SIGKILL);
+    for (int kill = 0; kill < kKills; ++kill) {
+        Participant person(at);
+        const double pictures = 20.0 + 200.0 * dice.uniform();
+        while (static_cast<double>(person.seen().picture) < pictures &&
+               !Participant::is_at(person.seen(), StudyStep::thanks))
+            person.go_on();
+        CHECK(person.ended_by(SIGKILL) == 128 + SIGKILL);
         const std::vector<AnsweredTrial> now = at.record().answered;
         REQUIRE(now.size() >= before.size());
         for (std::size_t k = 0; k < before.size(); ++k) CHECK(now[k].answer == before[k].answer);
         before = now;
     }
-    Process again = at.desk.start(at.folder, at.words());
-    at.desk.act("search --sync --onlyvisible --name dibhr sleep 0.5");
-    at.until_it_ends(
-        again, [&] { touch_and_answer(at); }, 150s + kills * 10s);
-    CHECK(again.wait() == 0);
+    Participant person(at);
+    while (!Participant::is_at(person.seen(), StudyStep::thanks)) person.go_on();
+    CHECK(person.close() == 0);
     const StudyRecord record = at.record();
     CHECK(record.finished);
-    CHECK(record.answered.size() == 2 * static_cast<std::size_t>(kills));
+    CHECK(record.answered.size() == kKills);
     CHECK_FALSE(std::filesystem::exists(at.running_session()));
+}
+
+TEST_CASE("trials are felt and answered with the Falcon alone", "[study window]") {
+    const Sitting at(head() + kPairs + "repetitions = 2\nbreak-after = 1\n" + kAdjustment);
+    write_firmware(at.folder / "firmware.bin");
+    const FalconOnUsb falcon(at.folder.path(), {"firmware", "home", "place 0 0 140"});
+    Participant person(at, {"--device", "falcon", "--firmware", "firmware.bin"}, falcon.host());
+    falcon.move_hand({0.0, 0.0, 105.0}, 0.3);
+    // Numbers as the grip has them, from 0; until the study has gone on.
+    const auto press = [&](int button, const std::function<bool(const Seen&)>& has_gone_on) {
+        falcon.tell("press " + std::to_string(1 << button));
+        person.wait_until(has_gone_on);
+        falcon.tell("press 0");
+    };
+    const auto leave = [&](StudyStep step) {
+        person.wait_for(step);
+        press(0, [step](const Seen& now) { return !Participant::is_at(now, step); });
+    };
+    const auto feel = [&](int trial, int interval) {
+        person.wait_for_interval(trial, interval);
+        person.wait_until([](const Seen& now) { return now.ready && now.buttons == 0; });
+        FalconOnUsb::wait_until([&] { return falcon.vector("motor_newton").z > 0.5; });
+    };
+    const auto leave_interval = [&](int trial, int interval) {
+        feel(trial, interval);
+        press(0, [=](const Seen& now) {
+            return now.interval != interval || !Participant::is_at(now, StudyStep::interval);
+        });
+    };
+    const auto answer = [&](int button) {
+        person.wait_for(StudyStep::question);
+        person.wait_until([](const Seen& now) { return now.buttons == 0; });
+        press(button,
+              [](const Seen& now) { return !Participant::is_at(now, StudyStep::question); });
+    };
+    leave(StudyStep::instructions);
+    for (const int trial : {0, 1}) {
+        leave_interval(trial, 0);
+        leave_interval(trial, 1);
+        answer(trial);
+        if (trial == 0) leave(StudyStep::pause);
+    }
+    leave_interval(2, 0);
+    feel(2, 1);
+    press(2, [](const Seen& now) { return !Participant::is_at(now, StudyStep::adjust); });
+    person.wait_for(StudyStep::thanks);
+    falcon.tell("press 1");
+    CHECK(person.end() == 0);
+
+    CHECK(at.errors().empty());
+    const StudyRecord record = at.record();
+    CHECK(record.finished);
+    REQUIRE(record.answered.size() == 3);
+    CHECK(record.answered[0].answer.choice == 0);
+    CHECK(record.answered[1].answer.choice == 1);
+    CHECK(record.answered[2].answer.number.has_value());
+    REQUIRE(run_dibhr(at.folder, {"study", "sessions", "answers/P7.dibhr-study", "--out", "s"})
+                .exit_code == 0);
+    check_same_bits(at, "P7-001.dibhr");
 }

@@ -2,21 +2,19 @@
 #include <chrono>
 #include <filesystem>
 #include <string>
-#include <thread>
 
 #include "core/video/depth/kept_choices.hpp"
 #include "core/video/depth/sidecar.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/eventually.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr const char* kMeet = "search --sync --onlyvisible --name dibhr sleep 0.6 ";
 
 /// A person's folder, whose settings leave only the Video panel open: its rows stand near the top.
 struct Home {
@@ -25,6 +23,7 @@ struct Home {
 
     Home() {
         write_depth_png(file, 64, 48, 100, 2);
+        write_depth_png(folder / "slope_color.png", 64, 48, 100, 2);
         fs::create_directories(folder / "config/dibhr");
         write_text(folder / "config/dibhr/settings.toml",
                    "[panels]\nvideo = true\ntouch = false\ndevice = false\n");
@@ -33,90 +32,96 @@ struct Home {
         return with_kept_choice({.find_out = true, .kept_in = folder / "config/dibhr/depth"}, file)
             .panel;
     }
-    /// Once that is kept, which takes as long as opening the file again.
-    [[nodiscard]] bool comes_to_keep(const DepthStatement& wanted) const {
-        const auto latest = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-        while (!(kept() == wanted) && std::chrono::steady_clock::now() < latest)
-            std::this_thread::sleep_for(std::chrono::milliseconds(50));
-        return kept() == wanted;
-    }
-    [[nodiscard]] Process view(const Desk& desk) const {
-        return desk.start_viewer(folder, {"slope_depth.png", "--depth-unit", "mm", "--device",
-                                          "mouse", "--size", "1280x800", "--seconds", "60"});
+    /// A window in which the Depth rows stand open.
+    [[nodiscard]] WindowProgram view(const Desk& desk) const {
+        return desk.start_viewer(folder, {"slope_color.png", "slope_depth.png", "--depth-unit",
+                                          "mm", "--device", "mouse", "--size", "640x560"});
     }
 };
 
-std::string click(int x, int y) {
-    return "mousemove " + std::to_string(x) + " " + std::to_string(y) +
-           " sleep 0.2 mousedown 1 sleep 0.2 mouseup 1 sleep 0.4 ";
-}
+/// A hand on the rows, by mouse and keyboard.
+class DepthRows {
+  public:
+    DepthRows(const Home& home, const WindowProgram& viewer) : home_(home), viewer_(viewer) {
+        viewer_.wait_for_surface();
+        click(395, 185);
+    }
 
-const std::string kOpenRows = click(998, 185);
-const std::string kChooseTrueShape = click(1160, 366) + click(1100, 426) + "sleep 1 ";
-const std::string kTypeView =
-    click(1160, 389) + "key --delay 60 6 0 d e g sleep 0.2 keydown Return sleep 0.2 keyup Return ";
-const std::string kDragColour =
-    "mousemove 1110 412 sleep 0.2 mousedown 1 sleep 0.2 mousemove 1130 412 sleep 0.2 mousemove "
-    "1150 412 sleep 0.3 mouseup 1 sleep 0.4 ";
-const std::string kTakeViewBack = click(1258, 389);
-const std::string kSaveSidecar = click(1005, 412);
+    void choose_true_shape() const {
+        click(528, 366);
+        click(490, 426);
+    }
+    void type_view() const {
+        click(528, 389);
+        viewer_.act("type 60deg key Return");
+    }
+    void take_view_back() const { click(608, 389); }
+    void drag_colour() const {
+        viewer_.act("mousemove 480 412 mousedown 1 mousemove 500 412 mousemove 520 412 mouseup 1");
+    }
+    void save_sidecar() const { click(415, 458); }
+
+    /// Once that is kept, which takes as long as opening the file again.
+    [[nodiscard]] bool come_to_keep(const DepthStatement& wanted) const {
+        const bool kept =
+            eventually([&] { return home_.kept() == wanted; }, std::chrono::minutes(1));
+        viewer_.wait_until([](const Seen& now) { return !now.opening; });
+        return kept;
+    }
+
+  private:
+    void click(int x, int y) const {
+        viewer_.act("mousemove " + std::to_string(x) + " " + std::to_string(y) + " click 1");
+    }
+
+    const Home& home_;
+    const WindowProgram& viewer_;
+};
 
 }  // namespace
 
-TEST_CASE("what is said on the Depth rows is kept for that file until it is taken back",
-          "[depth_rows]") {
+TEST_CASE(
+    "what is said on the Depth rows is kept for that file until it is taken back or a sidecar "
+    "takes its place; what cannot be is not kept",
+    "[depth_rows]") {
     const Desk desk;
     const Home home;
-    const DepthStatement view{.intrinsics = Intrinsics{.field_of_view_deg = 60.0}};
+    DepthStatement wanted;
     {
-        Process viewer = home.view(desk);
-        desk.act(kMeet + kOpenRows + kTypeView);
-        CHECK(home.comes_to_keep(view));
-        desk.act("key ctrl+q");
+        WindowProgram viewer = home.view(desk);
+        const DepthRows rows(home, viewer);
+        rows.choose_true_shape();  // no camera is known
+        viewer.wait_until([](const Seen& now) { return !now.message.str().empty(); });
+        viewer.act("key Escape");
+        CHECK(viewer.seen().message.str().empty());
+        CHECK(home.kept() == wanted);
+        rows.drag_colour();
+        wanted.registration = Registration{10.0, 0.0, 1.0};
+        CHECK(rows.come_to_keep(wanted));
+        rows.type_view();
+        wanted.intrinsics = Intrinsics{.field_of_view_deg = 60.0};
+        CHECK(rows.come_to_keep(wanted));
+        desk.press("key ctrl+q");
         REQUIRE(viewer.wait() == 0);
     }
-    Process viewer = home.view(desk);
-    desk.act(kMeet + kOpenRows);
-    CHECK(home.kept() == view);
-    desk.act(kTakeViewBack);
-    CHECK(home.comes_to_keep({}));
-    desk.act("key ctrl+q");
-    REQUIRE(viewer.wait() == 0);
+    WindowProgram viewer = home.view(desk);
+    const DepthRows rows(home, viewer);
+    CHECK(home.kept() == wanted);
+    rows.take_view_back();
+    CHECK(rows.come_to_keep({.registration = wanted.registration}));
+    rows.type_view();
+    CHECK(rows.come_to_keep(wanted));
+    rows.choose_true_shape();
+    wanted.geometry = Geometry::true_shape;
+    CHECK(rows.come_to_keep(wanted));
     CHECK_FALSE(fs::exists(sidecar_of(home.file)));
-}
-
-TEST_CASE("a choice that cannot be is not kept, and a sidecar takes the place of what is",
-          "[depth_rows]") {
-    const Desk desk;
-    const Home home;
-    Process viewer = home.view(desk);
-    desk.act(kMeet + kOpenRows + kChooseTrueShape + "key Escape sleep 0.3");
-    CHECK(home.kept() == DepthStatement{});  // no camera is known
-    desk.act(kTypeView);
-    CHECK(home.comes_to_keep({.intrinsics = Intrinsics{.field_of_view_deg = 60.0}}));
-    desk.act(kChooseTrueShape);
-    const DepthStatement chosen{.geometry = Geometry::true_shape,
-                                .intrinsics = Intrinsics{.field_of_view_deg = 60.0}};
-    CHECK(home.comes_to_keep(chosen));
-    desk.act(kSaveSidecar);
-    CHECK(home.comes_to_keep({}));
-    desk.act("key ctrl+q");
+    rows.save_sidecar();
+    CHECK(rows.come_to_keep({}));
+    desk.press("key ctrl+q");
     REQUIRE(viewer.wait() == 0);
     const auto sidecar = read_sidecar(home.file);
     REQUIRE(sidecar);
     CHECK(sidecar->geometry == Geometry::true_shape);
-    CHECK(sidecar->intrinsics == in_pixels(*chosen.intrinsics, 64, 48));
-}
-
-TEST_CASE("colour is dragged over the depth, and lies there for that file", "[depth_rows]") {
-    const Desk desk;
-    const Home home;
-    write_depth_png(home.folder / "slope_color.png", 64, 48, 100, 2);
-    Process viewer = desk.start_viewer(
-        home.folder, {"slope_color.png", "slope_depth.png", "--depth-unit", "mm", "--device",
-                      "mouse", "--size", "1280x800", "--seconds", "60"});
-    desk.act(kMeet + kOpenRows + kDragColour);
-    CHECK(home.comes_to_keep({.registration = Registration{10.0, 0.0, 1.0}}));
-    desk.act("key ctrl+q");
-    REQUIRE(viewer.wait() == 0);
+    CHECK(sidecar->intrinsics == in_pixels(*wanted.intrinsics, 64, 48));
+    CHECK(sidecar->registration == wanted.registration);
 }

@@ -7,6 +7,7 @@
 
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/desk.hpp"
+#include "tests/app/program/open_dialog.hpp"
 #include "tests/app/program/session_bus.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/eventually.hpp"
@@ -15,11 +16,8 @@
 namespace fs = std::filesystem;
 using namespace dibhr;
 using namespace dibhr::test;
-using namespace std::chrono_literals;
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// A window over a pair of pictures, with another pair, a bus, and helpers beside it.
 class Room {
@@ -43,28 +41,16 @@ class Room {
         fs::permissions(folder_ / "bin/zenity", fs::perms::owner_all);
     }
 
-    [[nodiscard]] Process open(const std::vector<std::string>& options = {}) const {
-        std::vector<std::string> arguments{"cup_rgb.png", "--device",          "mouse",
-                                           "--size",      "800x600",           "--seconds",
-                                           "60",          "--screenshot-name", "shot-{file}"};
+    [[nodiscard]] WindowProgram open(const std::vector<std::string>& options = {}) const {
+        std::vector<std::string> arguments{"cup_rgb.png", "--device", "mouse", "--size", "640x480"};
         arguments.insert(arguments.end(), options.begin(), options.end());
-        const std::vector<std::string> host{
-            "-u", "SSH_CONNECTION", "DBUS_SESSION_BUS_ADDRESS=" + bus_.address(),
-            "XDG_CURRENT_DESKTOP=", "PATH=" + file("bin").string() + ":/usr/bin:/bin"};
+        // No helper program but those of the test.
+        const std::vector<std::string> host{"-u", "SSH_CONNECTION",
+                                            "DBUS_SESSION_BUS_ADDRESS=" + bus_.address(),
+                                            "XDG_CURRENT_DESKTOP=", "PATH=" + file("bin").string()};
         return desk_.start_viewer(folder_, arguments, host);
     }
-    /// In the window once it is there.
-    void begin(const std::string& commands) const {
-        act("search --sync --onlyvisible --name dibhr sleep 0.7 " + commands);
-    }
-    void act(const std::string& commands) const { desk_.act(commands); }
-
-    /// Asks for a picture; whether it is one of that recording.
-    [[nodiscard]] bool shows(const std::string& recording) const {
-        act("key s");
-        const fs::path picture = folder_ / ("shot-" + recording + "_rgb.png");
-        return eventually([&] { return fs::exists(picture); }, 5s);
-    }
+    void press(const std::string& events) const { desk_.press(events); }
 
   private:
     Desk desk_{};
@@ -72,116 +58,123 @@ class Room {
     SessionBus bus_{};
 };
 
+void wait_for(const WindowProgram& viewer, const std::string& recording) {
+    viewer.wait_until([name = recording + "_rgb.png"](const Seen& now) {
+        return now.surface && now.file.str().ends_with(name);
+    });
+}
+
+void wait_until_asked(const Portal& portal) {
+    REQUIRE(eventually([&] { return portal.asked().times == 1; }));
+}
+
+void wait_until_closed(const Portal& portal) {
+    CHECK(eventually([&] { return portal.asked().closed; }));
+}
+
 }  // namespace
 
-TEST_CASE("Ctrl+O asks the desktop, and shows the colour and the depth that are chosen together",
-          "[desktop]") {
+TEST_CASE(
+    "Ctrl+O asks the desktop, once, for colour and depth, and again after it was cancelled; "
+    "the window asks itself by a key of its own, or where nobody answers",
+    "[desktop]") {
     Room room;
-    const Portal portal(
-        room.bus(), {.addresses = {room.address("jug_depth.png"), room.address("jug_rgb.png")}});
-    Process viewer = room.open();
-    room.begin("key ctrl+o sleep 1");
-    CHECK(room.shows("jug"));
-    room.act("key q");
-    CHECK(viewer.wait() == 0);
-    const PortalAsked asked = portal.asked();
-    CHECK(asked.times == 1);
-    CHECK(asked.folder == room.file("").parent_path());
-    CHECK(asked.parent.starts_with("x11:"));
-    CHECK_FALSE(asked.closed);
-}
-
-TEST_CASE("what is shown stays when the desktop's dialog is cancelled, and it can be asked again",
-          "[desktop]") {
-    Room room;
-    const Portal portal(room.bus(), {.response = 1, .after = 400ms});
-    Process viewer = room.open();
-    room.begin("key ctrl+o sleep 1 key ctrl+o sleep 1");
-    CHECK(portal.asked().times == 2);
-    CHECK(room.shows("cup"));
-    room.act("key q");
-    CHECK(viewer.wait() == 0);
-}
-
-TEST_CASE("the desktop's dialog is open once, and is closed with the window", "[desktop]") {
-    const bool by_signal = GENERATE(false, true);
-    Room room;
+    WindowProgram viewer = room.open();
+    viewer.wait_for_surface();
+    {
+        const Portal portal(room.bus(), {.addresses = {room.address("jug_depth.png"),
+                                                       room.address("jug_rgb.png")}});
+        viewer.act("key ctrl+o");
+        wait_for(viewer, "jug");  // with the depth that was chosen together
+        const PortalAsked asked = portal.asked();
+        CHECK(asked.times == 1);
+        CHECK(asked.folder == room.file("").parent_path());
+        CHECK(asked.parent.starts_with("x11:"));
+        CHECK_FALSE(asked.closed);
+    }
+    {
+        const Portal portal(room.bus(), {.response = 1});  // cancelled
+        viewer.act("key ctrl+o");
+        wait_until_asked(portal);
+        CHECK(eventually([&] {
+            viewer.act("key ctrl+o");  // nothing before the window knows that it was cancelled
+            return portal.asked().times >= 2;
+        }));
+        CHECK(viewer.seen().file.str().ends_with("jug_rgb.png"));
+    }
+    {
+        const Portal portal(room.bus(), {.answers = false});
+        CHECK(eventually([&] {
+            viewer.act("key ctrl+o");
+            return portal.asked().times == 1;
+        }));
+        viewer.act("key ctrl+o");
+        CHECK(portal.asked().times == 1);
+        CHECK_FALSE(portal.asked().closed);
+        viewer.act("key ctrl+shift+o");
+        wait_until_closed(portal);
+        open_by_name(viewer, "cup");
+        wait_for(viewer, "cup");
+        CHECK(portal.asked().times == 1);
+    }
+    {
+        const Portal portal(room.bus(), {.replies = false});
+        viewer.act("key ctrl+o");
+        wait_until_asked(portal);
+        open_by_name(viewer, "jug");  // in the window's own, which comes after two seconds
+        wait_for(viewer, "jug");
+    }
+    room.add_zenity("echo '" + room.file("cup_rgb.png").string() + "'\n");
+    viewer.act("key ctrl+o");
+    wait_for(viewer, "cup");
     const Portal portal(room.bus(), {.answers = false});
-    Process viewer = room.open();
-    room.begin("key ctrl+o sleep 0.5 key ctrl+o sleep 0.5");
-    CHECK(portal.asked().times == 1);
-    CHECK_FALSE(portal.asked().closed);
-    const auto begin = Clock::now();
-    by_signal ? viewer.send(SIGTERM) : room.act("key q");
+    viewer.act("key ctrl+o");
+    wait_until_asked(portal);
+    room.press("key q");
     CHECK(viewer.wait() == 0);
-    CHECK(Clock::now() - begin < 1500ms);
-    CHECK(eventually([&] { return portal.asked().closed; }, 1s));
+    wait_until_closed(portal);
 }
 
-TEST_CASE("the window's own dialog has a key of its own, which puts away the desktop's",
-          "[desktop]") {
+TEST_CASE("where the setting says so, the window asks itself", "[desktop]") {
     Room room;
-    const Portal portal(room.bus(), {.answers = false});
-    Process viewer = room.open();
-    room.begin("key ctrl+o sleep 0.5 key ctrl+shift+o sleep 0.5 type jug");
-    CHECK(eventually([&] { return portal.asked().closed; }, 1s));
-    room.act("sleep 0.3 key Return sleep 0.7");
-    CHECK(room.shows("jug"));
-    room.act("key q");
+    const Portal portal(room.bus(), {});
+    WindowProgram viewer = room.open({"--open-dialog", "window"});
+    viewer.wait_for_surface();
+    viewer.act("key ctrl+o");
+    open_by_name(viewer, "jug");
+    wait_for(viewer, "jug");
+    CHECK(portal.asked().times == 0);
+    room.press("key q");
     CHECK(viewer.wait() == 0);
 }
 
-TEST_CASE("where the portal does not answer, or the setting says so, the window asks itself",
-          "[desktop]") {
-    Room room;
-    const bool as_set = GENERATE(false, true);
-    const Portal portal(room.bus(), {.replies = false});
-    room.add_zenity("exit 255\n");
-    const std::vector<std::string> options =
-        as_set ? std::vector<std::string>{"--open-dialog", "window"} : std::vector<std::string>{};
-    Process viewer = room.open(options);
-    room.begin(std::string("key ctrl+o sleep ") + (as_set ? "0.5" : "3.5") + " type jug");
-    room.act("sleep 0.3 key Return sleep 0.7");
-    CHECK(portal.asked().times == (as_set ? 0 : 1));
-    CHECK(room.shows("jug"));
-    room.act("key q");
-    CHECK(viewer.wait() == 0);
-}
-
-TEST_CASE("a desktop that has no portal is asked through its helper program", "[desktop]") {
-    Room room;
-    room.add_zenity("echo '" + room.file("jug_rgb.png").string() + "'\n");
-    Process viewer = room.open();
-    room.begin("key ctrl+o sleep 1");
-    CHECK(room.shows("jug"));
-    room.act("key q");
-    CHECK(viewer.wait() == 0);
-}
-
-TEST_CASE("a helper program that hangs is ended with the window", "[desktop]") {
+TEST_CASE("a helper program that hangs is ended with the window, by a signal, too", "[desktop]") {
     Room room;
     const fs::path told = room.file("told");
-    room.add_zenity("echo $$ > '" + told.string() + "'\nexec sleep 1000\n");
-    Process viewer = room.open();
-    room.begin("key ctrl+o sleep 0.5");
-    REQUIRE(eventually([&] { return !read_text(told).empty(); }));
+    room.add_zenity("echo $$ > '" + told.string() + "'\nexec /bin/sleep 1000\n");
+    WindowProgram viewer = room.open();
+    viewer.wait_for_surface();
+    viewer.act("key ctrl+o");
+    REQUIRE(eventually([&] { return read_text(told).ends_with('\n'); }));
     const std::string child = read_text(told);
     const fs::path words = "/proc/" + child.substr(0, child.find('\n')) + "/cmdline";
     CHECK_FALSE(read_text(words).empty());
-    const auto begin = Clock::now();
-    room.act("key q");
+    viewer.send(SIGTERM);
     CHECK(viewer.wait() == 0);
-    CHECK(Clock::now() - begin < 1500ms);
-    CHECK(eventually([&words] { return read_text(words).empty(); }, 1s));
+    CHECK(eventually([&words] { return read_text(words).empty(); }));
 }
 
-TEST_CASE("a portal that is still thinking does not keep the program from ending", "[desktop]") {
+TEST_CASE("a portal that is still thinking does not keep the program from ending",
+          "[desktop][realtime]") {
     Room room;
     const Portal portal(room.bus(), {.replies = false});
-    Process viewer = room.open();
-    room.begin("key ctrl+o sleep 0.3");
-    const auto begin = Clock::now();
-    room.act("key q");
+    WindowProgram viewer = room.open();
+    viewer.wait_for_surface();
+    viewer.act("key ctrl+o");
+    wait_until_asked(portal);
+    const auto begin = std::chrono::steady_clock::now();
+    room.press("key q");
     CHECK(viewer.wait() == 0);
-    CHECK(Clock::now() - begin < 1500ms);
+    // Two seconds are given to the portal while a person waits.
+    CHECK(std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(1500));
 }

@@ -1,16 +1,21 @@
 // What is live in the real window: touched, lost and found again, recorded and replayed.
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <numbers>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -65,6 +70,59 @@ bool knows(const SessionMedia& video) {
            video.head_bytes < 4096 && video.sha256 == sha256_of_file(video.file, video.head_bytes);
 }
 
+void check_whole(const TemporaryFolder& folder, const fs::path& file) {
+    CAPTURE(file);
+    const Session session(file);
+    CHECK(session.fact("complete") == "1");
+    REQUIRE_FALSE(session.sources().empty());
+    CHECK(knows(session.sources().front().depth));
+    require_same_bits(folder, file);
+}
+
+/// What was recorded by key; empty: nothing.
+fs::path recorded_by_key(const TemporaryFolder& folder) {
+    for (const std::string& name : names_in(folder.path()))
+        if (name.starts_with("dibhr-") && name.ends_with(".dibhr")) return folder / name;
+    return {};
+}
+
+void wait_for_rows(const WindowProgram& viewer, std::uint64_t more) {
+    const std::uint64_t rows = viewer.seen().recorded_rows;
+    viewer.wait_until([wanted = rows + more](const Seen& now) {
+        return now.records && now.recorded_rows >= wanted;
+    });
+}
+
+/// Until `words` stand so often in a log.
+void wait_for_words(const fs::path& log, const std::string& words, int times = 1) {
+    INFO(words);
+    REQUIRE(eventually(
+        [&] {
+            const std::string told = read_text(log);
+            int found = 0;
+            for (auto at = told.find(words); at != std::string::npos; at = told.find(words, at + 1))
+                ++found;
+            return found >= times;
+        },
+        std::chrono::minutes(1)));
+}
+
+int carried_ticks(const fs::path& file) {
+    const Session session(file);
+    int carried = 0;
+    Session::Ticks ticks(session);
+    for (TickRecord tick; ticks.next(tick);)
+        if (tick.contact && tick.frames.source.motion && !tick.motion_unknown) ++carried;
+    return carried;
+}
+
+/// Whether somebody waits for what is sent to that port.
+bool is_listened_to(int port) {
+    std::array<char, 8> wanted{};
+    std::snprintf(wanted.data(), wanted.size(), ":%04X ", static_cast<unsigned>(port));
+    return read_text("/proc/net/udp").find(wanted.data()) != std::string::npos;
+}
+
 }  // namespace
 
 TEST_CASE("a live session keeps its video and replays to the same bits, a lost signal included",
@@ -74,16 +132,24 @@ TEST_CASE("a live session keeps its video and replays to the same bits, a lost s
     const int port = free_port();
     PictureSender sender(port, camera());
     const Desk desk;
-    Process viewer =
+    WindowProgram viewer =
         desk.start_viewer(folder, {PictureSender::url(port), "--record",
-                                   (folder / "a.dibhr").string(), "--seconds", "8", "--cleaning",
+                                   (folder / "a.dibhr").string(), "--size", "640x480", "--cleaning",
                                    "sensor", "--device", "goals:" + (folder / "goals.csv").string(),
                                    "--log-file", (folder / "told.txt").string()});
-    REQUIRE(eventually([&] { return fs::exists(folder / "a.dibhr"); }));
-    std::this_thread::sleep_for(std::chrono::milliseconds(2500));
+    wait_for_words(folder / "told.txt", "live: Signal from 'tcp://");
+    wait_for_rows(viewer, 600);
     sender.stop();
-    std::this_thread::sleep_for(std::chrono::milliseconds(900));
+    wait_for_words(folder / "told.txt", "live: No signal from 'tcp://");
+    viewer.wait_until(
+        [](const Seen& now) { return now.cut == static_cast<int>(SafetyCut::standstill); });
+    wait_for_rows(viewer, 600);
+    const std::uint64_t still_lost = viewer.seen().recorded_rows;
     sender.go_on();
+    wait_for_words(folder / "told.txt", "live: Signal from 'tcp://", 2);
+    viewer.wait_until([](const Seen& now) { return now.cut == 0; });
+    wait_for_rows(viewer, 300);
+    desk.press("key q");
     REQUIRE(viewer.wait() == 0);
     CHECK(fs::exists(folder / "a.depth.mkv"));
     CHECK_FALSE(fs::exists(folder / "a.color.mkv"));  // it has none
@@ -91,110 +157,108 @@ TEST_CASE("a live session keeps its video and replays to the same bits, a lost s
     REQUIRE(session.sources().size() >= 1);
     CHECK(session.sources().front().depth.file == folder / "a.depth.mkv");
     CHECK(knows(session.sources().front().depth));
-    const std::string told = read_text(folder / "told.txt");
-    const auto there = told.find("live: Signal from 'tcp://");
-    const auto lost = told.find("live: No signal from 'tcp://", there);
-    CHECK(lost != std::string::npos);
-    CHECK(told.find("live: Signal from 'tcp://", lost) != std::string::npos);
     require_same_bits(folder, folder / "a.dibhr");
-    // While nothing came there was no force, from 300 ms after the last picture on.
     const std::vector<Row> rows = read_session(folder / "a.dibhr");
-    int silent = 0;
-    int in_contact = 0;
-    for (const Row& row : rows) {
-        if (row.contact) ++in_contact;
-        if (row.cut != static_cast<int>(SafetyCut::standstill)) continue;
-        ++silent;
-    }
-    CHECK(in_contact > 1000);
-    CHECK(silent > 400);
-    CHECK(silent < 1100);
-    const auto first = std::find_if(rows.begin(), rows.end(), [](const Row& row) {
+    const auto is_cut = [](const Row& row) {
         return row.cut == static_cast<int>(SafetyCut::standstill);
-    });
-    for (auto row = first; row != rows.end() && row->t_s < first->t_s + 0.5; ++row)
-        if (row->t_s > first->t_s + 0.05) CHECK(glm::length(row->sent_newton) == 0.0);
+    };
+    const auto has_force = [](const Row& row) { return glm::length(row.sent_newton) > 0.0; };
+    const auto went_on = rows.begin() + static_cast<std::ptrdiff_t>(still_lost);
+    const auto lost = std::find_if_not(std::make_reverse_iterator(went_on), rows.rend(), is_cut);
+    // While nothing came there was no force, but for the first ticks in which it faded.
+    constexpr std::ptrdiff_t kFading = 50;
+    REQUIRE(went_on - lost.base() > 2 * kFading);
+    CHECK(std::none_of(lost.base() + kFading, went_on, has_force));
+    CHECK(std::count_if(rows.begin(), lost.base(), has_force) > 100);
+    CHECK(std::any_of(went_on, rows.end(), has_force));
 }
 
-TEST_CASE("a live recording that Ctrl+C or another size of the pictures ends is whole at once",
+TEST_CASE("a live recording that another size of the pictures or Ctrl+C ends is whole at once",
           "[live]") {
     const TemporaryFolder folder;
-    const bool changes = GENERATE(false, true);
-    CAPTURE(changes);
     const int port = free_port();
     PictureSender::Asked asked = camera();
     asked.columns = 320;
     asked.rows = 240;
     auto sender = std::make_unique<PictureSender>(port, asked);
     const Desk desk;
-    Process viewer = desk.start_viewer(
-        folder, {PictureSender::url(port), "--record", (folder / "a.dibhr").string(), "--seconds",
-                 "30", "--log-file", (folder / "told.txt").string()});
-    REQUIRE(eventually([&] { return fs::exists(folder / "a.dibhr"); }));
-    std::this_thread::sleep_for(std::chrono::seconds(2));
-    if (changes) {
-        sender.reset();
-        sender = std::make_unique<PictureSender>(port, camera());
-        REQUIRE(eventually(
-            [&] { return contains(read_text(folder / "told.txt"), "told: Recorded "); }));
-        CHECK(contains(read_text(folder / "told.txt"),
-                       "Finishing the recording, as what is live changed its form"));
-    }
+    WindowProgram viewer = desk.start_viewer(
+        folder, {PictureSender::url(port), "--record", (folder / "a.dibhr").string(), "--size",
+                 "640x480", "--device", "mouse", "--log-file", (folder / "told.txt").string()});
+    wait_for_rows(viewer, 300);
+    sender.reset();
+    sender = std::make_unique<PictureSender>(port, camera());
+    wait_for_words(folder / "told.txt",
+                   "Finishing the recording, as what is live changed its form");
+    wait_for_words(folder / "told.txt", "told: Recorded ");
+    check_whole(folder, folder / "a.dibhr");
+
+    viewer.wait_until([](const Seen& now) { return now.surface && !now.records; });
+    viewer.act("key ctrl+r");
+    wait_for_rows(viewer, 300);
     viewer.interrupt();
     CHECK(viewer.wait() == 0);
-    const Session session(folder / "a.dibhr");
-    CHECK(session.fact("complete") == "1");
-    REQUIRE_FALSE(session.sources().empty());
-    CHECK(knows(session.sources().front().depth));
-    require_same_bits(folder, folder / "a.dibhr");
+    REQUIRE_FALSE(recorded_by_key(folder).empty());
+    check_whole(folder, recorded_by_key(folder));
 }
 
-TEST_CASE("Ctrl+C ends what waits for a live source at once, and without a word", "[live]") {
+TEST_CASE("Ctrl+C ends what waits for a live source, and without a word", "[live]") {
     const TemporaryFolder folder;
-    REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
-    const std::string from = GENERATE(as<std::string>{}, "udp", "pipe");
-    const std::string name = from == "udp" ? "udp://127.0.0.1:" + std::to_string(free_port())
-                                           : "pipe:" + (folder / "pipe").string();
+    const fs::path pipe = folder / "pipe";
+    REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+    const int port = free_port();
+    const bool from_pipe = GENERATE(false, true);
+    const std::string name =
+        from_pipe ? "pipe:" + pipe.string() : "udp://127.0.0.1:" + std::to_string(port);
     CAPTURE(name);
     Process viewer({DIBHR_PROGRAM, "view", name},
                    {"XDG_CONFIG_HOME=" + folder.path().string(), "DISPLAY="},
                    folder / "errors.txt");
-    std::this_thread::sleep_for(std::chrono::seconds(1));
+    int writer = -1;
+    REQUIRE(eventually([&] {
+        if (from_pipe) writer = ::open(pipe.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+        return from_pipe ? writer >= 0 : is_listened_to(port);
+    }));
     viewer.interrupt();
     CHECK(viewer.wait() == 0);
     CHECK(read_text(folder / "errors.txt").empty());
+    if (writer >= 0) ::close(writer);
 }
 
 TEST_CASE("a packed stream is recorded by key with its colour, and seen again without it",
           "[live]") {
     const TemporaryFolder folder;
     const Desk desk;
-    Process viewer = desk.start_viewer(
+    WindowProgram viewer = desk.start_viewer(
         folder, {"lavfi:testsrc2=size=160x120:rate=30,format=yuv444p,split[a][b];[b]format=gray,"
                  "boxblur=8,format=yuv444p[c];[a][c]hstack",
-                 "--packing", "left-right", "--seconds", "12"});
-    desk.act(
-        "search --sync --onlyvisible --name dibhr sleep 1 mousemove 400 380 sleep 0.2 "
-        "mousedown 1 sleep 0.3 key ctrl+r sleep 2 mousemove_relative 60 10 sleep 1 key ctrl+r "
-        "sleep 0.3 mouseup 1");
+                 "--packing", "left-right", "--device", "mouse", "--size", "640x480"});
+    viewer.wait_for_surface();
+    viewer.act("mousemove 150 240 mousedown 1 key ctrl+r");
+    wait_for_rows(viewer, 100);
+    const double begin_s = viewer.seen().drawn_s;
+    viewer.act("mousemove_relative 30 10");
+    viewer.wait_until([begin_s](const Seen& now) { return now.drawn_s > begin_s + 0.6; });
+    viewer.act("key ctrl+r mouseup 1");
+    viewer.wait_until([](const Seen& now) { return !now.records; });
+    desk.press("key q");
     REQUIRE(viewer.wait() == 0);
-    fs::path session;
-    for (const std::string& name : names_in(folder.path()))
-        if (name.ends_with(".dibhr")) session = folder / name;
+    const fs::path session = recorded_by_key(folder);
     REQUIRE_FALSE(session.empty());
     const MediaDescription kept = open_media(fs::path(session).replace_extension(".color.mkv"),
                                              fs::path(session).replace_extension(".depth.mkv"))
                                       ->description();
     CHECK(kept.colour_columns == 160);
     CHECK(kept.depth_columns == 160);
-    CHECK(kept.duration_s > 2.0);
+    CHECK(kept.duration_s > 0.5);
     require_same_bits(folder, session);
 }
 
 TEST_CASE("a live session over what moves carries the hand, and replays to the same bits",
           "[live]") {
     const TemporaryFolder folder;
-    // A hill, on which a texture goes 3 px to the right from frame to frame; a finger that rests on
+    // Few frames a second: motion rests where there is no time for it, as on a busy machine. A
+    // hill, on which a texture goes 3 px to the right from frame to frame; a finger that rests on
     // it for most of the time.
     std::ofstream goals(folder / "goals.csv");
     goals << "t,x,y,z\n";
@@ -203,20 +267,22 @@ TEST_CASE("a live session over what moves carries the hand, and replays to the s
               << std::max(10.0, 80.0 * std::cos(0.001 * std::numbers::pi * k)) << '\n';
     goals.close();
     const Desk desk;
-    Process viewer = desk.start_viewer(
+    WindowProgram viewer = desk.start_viewer(
         folder,
-        {"lavfi:nullsrc=size=160x120:rate=30,format=gray,geq='128+50*sin(0.31*(X-3*N))*cos(0.23*Y)"
-         "+40*sin(0.13*Y+0.17*(X-3*N))',format=yuv444p[a];nullsrc=size=160x120:rate=30,format=gray,"
+        {"lavfi:nullsrc=size=160x120:rate=8,format=gray,geq='128+50*sin(0.31*(X-3*N))*cos(0.23*Y)"
+         "+40*sin(0.13*Y+0.17*(X-3*N))',format=yuv444p[a];nullsrc=size=160x120:rate=8,format=gray,"
          "geq='100+50*sin(0.02*X)',format=yuv444p[b];[a][b]hstack",
          "--packing", "left-right", "--depth-range", "255:0", "--carry", "on", "--friction", "0.8",
-         "--record", (folder / "a.dibhr").string(), "--seconds", "5", "--device",
+         "--record", (folder / "a.dibhr").string(), "--size", "640x480", "--device",
          "goals:" + (folder / "goals.csv").string()});
+    REQUIRE(eventually(
+        [&] {
+            wait_for_rows(viewer, 500);
+            return carried_ticks(folder / "a.dibhr") > 300;
+        },
+        std::chrono::minutes(1)));
+    desk.press("key q");
     REQUIRE(viewer.wait() == 0);
-    const Session session(folder / "a.dibhr");
-    int carried = 0;
-    Session::Ticks ticks(session);
-    for (TickRecord tick; ticks.next(tick);)
-        if (tick.contact && tick.frames.source.motion && !tick.motion_unknown) ++carried;
-    CHECK(carried > 500);
+    CHECK(carried_ticks(folder / "a.dibhr") > 300);
     require_same_bits(folder, folder / "a.dibhr");
 }

@@ -4,14 +4,16 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <string>
 #include <vector>
 
 #include "app/settings/settings.hpp"
 #include "core/plot/axes.hpp"
-#include "core/video/media.hpp"
+#include "core/video/frame_window.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/eventually.hpp"
 #include "tests/support/text.hpp"
 
 using namespace dibhr;
@@ -19,14 +21,14 @@ using namespace dibhr::test;
 
 namespace {
 
-/// The last picture of a second of the sample.
-ColourImage shown_with(const TemporaryFolder& folder, std::vector<std::string> options) {
-    const Desk desk;
-    options.insert(options.end(),
-                   {"--device", "mouse", "--seconds", "1", "--screenshot", "look.png"});
-    Process viewer = desk.start_viewer(folder, options);
-    REQUIRE(viewer.wait() == 0);
-    return open_media(folder / "look.png", folder / "look.png")->next()->colour;
+/// What is on the display.
+ColourImage picture_of(const Desk& desk) {
+    const std::string rgb = desk.picture();
+    ColourImage picture;
+    picture.columns = 1280;
+    picture.rows = 800;
+    picture.rgb.assign(rgb.begin(), rgb.end());
+    return picture;
 }
 
 /// Mean of the three channels.
@@ -90,95 +92,111 @@ Lightnesses on_red_button(const ColourImage& picture) {
     return seen;
 }
 
-/// The last picture of the sample, after `O` was pressed over it.
-ColourImage shown_after_o(const TemporaryFolder& folder, const std::string& algorithm) {
+/// How a window looks that is recording, its Session panel in sight.
+struct Look {
+    ColourImage picture{};
+    int columns{0};
+    Settings kept{};  ///< afterwards
+};
+
+Look look_with(const std::vector<std::string>& options) {
     const Desk desk;
-    Process viewer =
-        desk.start_viewer(folder, {"--device", "mouse", "--seconds", "30", "--algorithm", algorithm,
-                                   "--screenshot", "look.png"});
-    desk.act(
-        "search --sync --onlyvisible --name dibhr mousemove 470 600 sleep 0.6 key o sleep 1.0 "
-        "key q");
-    REQUIRE(viewer.wait() == 0);
-    return open_media(folder / "look.png", folder / "look.png")->next()->colour;
-}
-
-/// The part of a picture that the help sheet is in.
-std::vector<int> help_sheet(const std::filesystem::path& file) {
-    const ColourImage picture = open_media(file, file)->next()->colour;
-    std::vector<int> part;
-    for (int y = 120; y < picture.rows - 100; ++y)
-        for (int x = 180; x < 600; ++x) part.push_back(lightness(picture, x, y));
-    return part;
-}
-
-/// Whether the wheel moves the help sheet of a window of that size.
-bool help_sheet_scrolls(const std::string& size) {
-    const Desk desk;
-    const TemporaryFolder folder;
-    Process viewer = desk.start_viewer(
-        folder, {"--device", "mouse", "--pause", "--size", size, "--screenshot-name", "sheet"});
-    desk.act(
-        "search --sync --onlyvisible --name dibhr sleep 0.6 key question mousemove 400 300 sleep "
-        "0.5 key s sleep 0.5 click --delay 10 --repeat 20 5 sleep 0.5 key s key q");
-    REQUIRE(viewer.wait() == 0);
-    return help_sheet(folder / "sheet.png") != help_sheet(folder / "sheet-2.png");
-}
-
-}  // namespace
-
-TEST_CASE("a key names all algorithms in the colours of the plots, another press takes them away",
-          "[look]") {
-    const TemporaryFolder folder;
-    const ColourImage on = shown_after_o(folder, "pga");
-    CHECK(load_settings(folder / "config/dibhr/settings.toml").others);
-    const ColourImage off = shown_after_o(folder, "pga");
-    CHECK_FALSE(load_settings(folder / "config/dibhr/settings.toml").others);
-    for (const Algorithm algorithm : all_algorithms()) {
-        CAPTURE(name_of(algorithm));
-        CHECK(pixels_of(on, look_of(algorithm).stroke.ink) > 20);
-        CHECK(pixels_of(off, look_of(algorithm).stroke.ink) == 0);
-    }
-}
-
-TEST_CASE("the help sheet shows all keys at once, and scrolls in a window that is too small",
-          "[look]") {
-    CHECK_FALSE(help_sheet_scrolls("1280x800"));
-    CHECK(help_sheet_scrolls("800x600"));
-}
-
-TEST_CASE("the wall and the panels are dark or light, as the theme says", "[look]") {
-    const TemporaryFolder folder;
-    const ColourImage dark = shown_with(folder, {});
-    const ColourImage light = shown_with(folder, {"--theme", "light"});
-    for (const int x : {20, 1276}) {  // wall, panels
-        CHECK(lightness(dark, x, 790) < 70);
-        CHECK(lightness(light, x, 790) > 180);
-    }
-    // The command line's theme is for once.
-    CHECK(load_settings(folder / "config/dibhr/settings.toml").theme == Theme::dark);
-}
-
-TEST_CASE("the button that ends a recording is written white in every theme", "[look]") {
-    const std::string theme = GENERATE("dark", "light");
-    CAPTURE(theme);
     const TemporaryFolder folder;
     std::filesystem::create_directories(folder / "config/dibhr");
     write_text(folder / "config/dibhr/settings.toml",
                "[panels]\nvideo = false\ntouch = false\nsession = true\n");
-    const ColourImage picture = shown_with(folder, {"--theme", theme, "--record", "hand.dibhr"});
-    const Lightnesses letters = on_red_button(picture);
-    CHECK(letters.lightest > 200);
-    CHECK(letters.darkest > 60);
+    std::vector<std::string> arguments{"--device", "mouse", "--pause", "--record", "hand.dibhr"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    WindowProgram viewer = desk.start_viewer(folder, arguments);
+    viewer.wait_until([](const Seen& now) { return now.surface && now.recorded_rows > 0; });
+    viewer.wait_for_picture();
+    Look look{.picture = picture_of(desk), .columns = viewer.seen().columns};
+    desk.press("key q");
+    REQUIRE(viewer.wait() == 0);
+    look.kept = load_settings(folder / "config/dibhr/settings.toml");
+    return look;
 }
 
-TEST_CASE("text twice as large takes panels twice as wide, and a window no larger than the display",
-          "[look]") {
+/// The part of a picture that the help sheet is in.
+std::vector<int> help_sheet(const ColourImage& picture, int window_rows) {
+    std::vector<int> part;
+    for (int y = 120; y < window_rows - 100; ++y)
+        for (int x = 180; x < 600; ++x) part.push_back(lightness(picture, x, y));
+    return part;
+}
+
+/// Whether the wheel moves the help sheet.
+bool help_sheet_scrolls(const Desk& desk, const WindowProgram& viewer) {
+    const int rows = viewer.seen().rows;
+    const std::vector<int> before = help_sheet(picture_of(desk), rows);
+    desk.press("click 5 click 5 click 5 click 5");
+    viewer.wait_for_picture();
+    viewer.wait_for_picture();
+    return help_sheet(picture_of(desk), rows) != before;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a key names all algorithms in the colours of the plots, another press takes them away; "
+    "the help sheet shows all keys at once, and scrolls in a window that is too small",
+    "[look]") {
+    const Desk desk;
     const TemporaryFolder folder;
-    const ColourImage usual = shown_with(folder, {});
-    const ColourImage larger = shown_with(folder, {"--ui-scale", "1.5"});
-    CHECK(usual.columns == 1280);
-    CHECK(larger.columns == 1280);  // of a display that is as wide
-    CHECK(usual.columns - panels_begin(usual) == 340);
-    CHECK(larger.columns - panels_begin(larger) == 510);
+    WindowProgram viewer =
+        desk.start_viewer(folder, {"--device", "mouse", "--pause", "--algorithm", "pga"});
+    viewer.wait_for_surface();
+    viewer.act("mousemove 470 600");
+    const auto algorithms = all_algorithms();
+    const auto named = [&] {
+        const ColourImage picture = picture_of(desk);
+        return std::count_if(algorithms.begin(), algorithms.end(), [&](Algorithm algorithm) {
+            return pixels_of(picture, look_of(algorithm).stroke.ink) > 20;
+        });
+    };
+    const auto coloured = [&] {
+        const ColourImage picture = picture_of(desk);
+        return std::count_if(algorithms.begin(), algorithms.end(), [&](Algorithm algorithm) {
+            return pixels_of(picture, look_of(algorithm).stroke.ink) > 0;
+        });
+    };
+    viewer.act("key o");
+    CHECK(eventually([&] { return named() == std::ssize(algorithms); }));
+    viewer.act("key o");
+    CHECK(eventually([&] { return coloured() == 0; }));
+
+    viewer.act("key question mousemove 400 300");
+    REQUIRE(viewer.seen().help);
+    CHECK_FALSE(help_sheet_scrolls(desk, viewer));
+    viewer.act("windowsize 800 600");
+    viewer.wait_until([](const Seen& now) { return now.columns == 800; });
+    viewer.wait_for_picture();
+    CHECK(help_sheet_scrolls(desk, viewer));
+
+    viewer.act("key Escape key o");
+    desk.press("key q");
+    REQUIRE(viewer.wait() == 0);
+    CHECK(load_settings(folder / "config/dibhr/settings.toml").others);
+}
+
+TEST_CASE(
+    "wall and panels are dark or light, as the theme says, and wide as their text is large; "
+    "the button that ends a recording is written white",
+    "[look]") {
+    const Look dark = look_with({});
+    const Look light = look_with({"--theme", "light", "--ui-scale", "1.5"});
+    for (const int x : {20, 1276}) {  // wall, panels
+        CHECK(lightness(dark.picture, x, 790) < 70);
+        CHECK(lightness(light.picture, x, 790) > 180);
+    }
+    for (const Look* const look : {&dark, &light}) {
+        const Lightnesses letters = on_red_button(look->picture);
+        CHECK(letters.lightest > 200);
+        CHECK(letters.darkest > 60);
+        CHECK(look->columns == 1280);  // of a display that is no wider
+    }
+    CHECK(dark.columns - panels_begin(dark.picture) == 340);
+    CHECK(light.columns - panels_begin(light.picture) == 510);
+    // The command line's theme is for once.
+    CHECK(light.kept.theme == Theme::dark);
 }

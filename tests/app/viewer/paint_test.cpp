@@ -1,5 +1,7 @@
 // Painting on the relief: what a stroke lays, that it is felt, replayed, found again and removed.
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <glm/vec2.hpp>
 #include <string>
@@ -10,6 +12,7 @@
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/eventually.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -20,6 +23,10 @@ namespace {
 
 constexpr int kWide = 60;
 constexpr int kHigh = 40;
+
+constexpr const char* kSize = "640x480";
+/// Of the brush over the middle of the relief, which is left of the panels.
+constexpr const char* kStroke = "mousemove 150 240 key g mousedown 1 mousemove 160 242 mouseup 1";
 
 Lay lays(TouchMapKind kind, double value) {
     return {kind, [value](int, int) { return value; }};
@@ -124,29 +131,47 @@ TEST_CASE("a map of another resolution is painted over as it was felt", "[paint]
     }
 }
 
-TEST_CASE("what is painted in the window is felt there, replayed to the same bits, found again",
-          "[paint]") {
+TEST_CASE(
+    "what is painted in the window is taken back, files and all, painted again, felt there, "
+    "replayed to the same bits, and found again",
+    "[paint]") {
     const Desk desk;
     const TemporaryFolder folder;
-    write_depth_png(folder / "cup_depth.png", 320, 240, 120);
-    const std::vector<std::string> options{
-        "cup_depth.png", "--raw-depth", "--device", "mouse",    "--no-sync", "--size",
-        "800x600",       "--seconds",   "60",       "--record", "a.dibhr"};
+    write_depth_png(folder / "cup_depth.png", 160, 120, 120);
     const double bare_newton = pressed_force(folder, 32, 24);
+    const auto kept = [&folder] {
+        return fs::exists(folder / "cup_stiffness.png") &&
+               fs::exists(folder / "cup_friction.png") && fs::exists(folder / "cup_height.png") &&
+               fs::exists(folder / "cup_maps.toml");
+    };
+    const auto gone = [&folder] {
+        return !fs::exists(folder / "cup_stiffness.png") && !fs::exists(folder / "cup_maps.toml");
+    };
     {
-        // The picture's middle is the relief's: left of the panels.
-        Process viewer = desk.start_viewer(folder, options);
-        desk.act(
-            "search --sync --onlyvisible --name dibhr sleep 1.5 mousemove 270 260 key g "
-            "sleep 0.5 mousedown 1 sleep 0.5 mousemove 280 262 sleep 0.5 mouseup 1 sleep 0.8 "
-            "key g sleep 0.4 mousedown 1 sleep 0.5 mousemove 250 260 sleep 0.5 mouseup 1 "
-            "sleep 0.4 key q");
+        WindowProgram viewer =
+            desk.start_viewer(folder, {"cup_depth.png", "--raw-depth", "--device", "mouse",
+                                       "--no-sync", "--size", kSize, "--record", "a.dibhr"});
+        viewer.wait_for_surface();
+        viewer.act(kStroke);
+        viewer.wait_until([](const Seen& now) { return now.painted && now.can_undo; });
+        CHECK(eventually(kept));
+        viewer.act("key ctrl+z");
+        viewer.wait_until([](const Seen& now) { return !now.painted && !now.can_undo; });
+        CHECK(eventually(gone));
+        viewer.act("key ctrl+shift+z");
+        viewer.wait_until([](const Seen& now) { return now.painted; });
+        CHECK(eventually(kept));
+        viewer.act("key g mousedown 1");
+        viewer.wait_until([](const Seen& now) { return !now.brush && now.contact; });
+        viewer.act("mousemove_relative -20 0");
+        const std::uint64_t rows = viewer.seen().recorded_rows;
+        viewer.wait_until([rows](const Seen& now) { return now.recorded_rows > rows; });
+        viewer.act("mouseup 1");
+        desk.press("key q");
         REQUIRE(viewer.wait() == 0);
     }
-    CHECK(fs::exists(folder / "cup_stiffness.png"));
-    CHECK(fs::exists(folder / "cup_friction.png"));
-    CHECK(fs::exists(folder / "cup_height.png"));
-    const auto maps = read_touch_maps(folder / "cup_depth.png", 320, 240);
+    CHECK(kept());
+    const auto maps = read_touch_maps(folder / "cup_depth.png", 160, 120);
     REQUIRE(maps);
     CHECK(maps->stiffness.covers_anything());
     require_same_bits(folder, folder / "a.dibhr");
@@ -167,43 +192,20 @@ TEST_CASE("what is painted in the window is felt there, replayed to the same bit
     CHECK(pressed_force(folder, 32, 24) == bare_newton);
 }
 
-TEST_CASE("what was painted is taken back with Ctrl+Z, files and all, and painted again",
-          "[paint]") {
-    const Desk desk;
-    const TemporaryFolder folder;
-    write_depth_png(folder / "cup_depth.png", 64, 48, 120);
-    const std::string stroke =
-        "search --sync --onlyvisible --name dibhr sleep 1.5 mousemove 270 260 key g sleep 0.5 "
-        "mousedown 1 sleep 0.5 mousemove 290 262 sleep 0.5 mouseup 1 sleep 0.8 ";
-    const std::vector<std::string> options{"cup_depth.png", "--raw-depth", "--device",
-                                           "mouse",         "--no-sync",   "--size",
-                                           "800x600",       "--seconds",   "60"};
-    {
-        Process viewer = desk.start_viewer(folder, options);
-        desk.act(stroke + "key ctrl+z sleep 0.4 key q");
-        REQUIRE(viewer.wait() == 0);
-    }
-    CHECK_FALSE(fs::exists(folder / "cup_stiffness.png"));
-    CHECK_FALSE(fs::exists(folder / "cup_maps.toml"));
-    {
-        Process viewer = desk.start_viewer(folder, options);
-        desk.act(stroke + "key ctrl+z sleep 0.4 key ctrl+shift+z sleep 0.4 key q");
-        REQUIRE(viewer.wait() == 0);
-    }
-    CHECK(read_touch_maps(folder / "cup_depth.png", 64, 48) != nullptr);
-}
-
 TEST_CASE("maps that cannot be read are told, and are not painted over", "[paint]") {
     const Desk desk;
     const TemporaryFolder folder;
     write_depth_png(folder / "cup_depth.png", 64, 48, 120);
     write_text(folder / "cup_stiffness.png", "somebody's work");
-    Process viewer = desk.start_viewer(folder, {"cup_depth.png", "--device", "mouse", "--no-sync",
-                                                "--size", "800x600", "--seconds", "60"});
-    desk.act(
-        "search --sync --onlyvisible --name dibhr sleep 1.5 key Escape sleep 0.3 mousemove "
-        "270 260 key g sleep 0.5 mousedown 1 sleep 0.5 mousemove 290 262 sleep 0.5 mouseup 1 "
-        "sleep 0.6 key q");
+    WindowProgram viewer = desk.start_viewer(
+        folder, {"cup_depth.png", "--device", "mouse", "--no-sync", "--size", kSize});
+    viewer.wait_for_surface();
+    CHECK(contains(viewer.seen().message.str(), "cup_stiffness.png"));
+    viewer.act("key Escape");
+    viewer.act(kStroke);
+    CHECK_FALSE(viewer.seen().brush);
+    CHECK_FALSE(viewer.seen().painted);
+    desk.press("key q");
     REQUIRE(viewer.wait() == 0);
     CHECK(read_text(folder / "cup_stiffness.png") == "somebody's work");
     CHECK_FALSE(fs::exists(folder / "cup_height.png"));

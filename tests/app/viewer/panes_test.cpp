@@ -12,9 +12,11 @@
 #include <vector>
 
 #include "app/panels/panels.hpp"
+#include "core/video/media.hpp"
 #include "render/relief_paint.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/desk.hpp"
+#include "tests/app/program/passing_ticks.hpp"
 #include "tests/support/catch.hpp"
 
 using namespace dibhr;
@@ -40,11 +42,10 @@ ViewerState panes_on() {
     return state;
 }
 
-std::array<int, 3> pixel(const std::string& rgb, int x, int y) {
+std::array<int, 3> pixel(const ColourImage& picture, int x, int y) {
     std::array<int, 3> levels{};
     for (std::size_t c = 0; c < 3; ++c)
-        levels[c] =
-            static_cast<std::uint8_t>(rgb[3 * static_cast<std::size_t>(y * kWidth + x) + c]);
+        levels[c] = picture.rgb[3 * static_cast<std::size_t>(y * kWidth + x) + c];
     return levels;
 }
 
@@ -83,9 +84,9 @@ TEST_CASE("panes show the colour and the depth, the relief is touched below them
           "[panes]") {
     const Desk desk;
     const TemporaryFolder folder;
-    run_shell(folder,
-              "ffmpeg -nostdin -v error -f lavfi -i color=red:s=64x48 -frames:v 1 "
-              "flat_color.png");
+    ColourImage red{kColumns, kRows, {}};
+    for (int k = 0; k < kColumns * kRows; ++k) red.rgb.insert(red.rgb.end(), {254, 0, 0});
+    write_png(red, folder / "flat_color.png");
     write_depth_png(folder / "flat_depth.png", kColumns, kRows, 128);
     std::filesystem::create_directories(folder / "config/dibhr");
     write_text(folder / "config/dibhr/settings.toml", "[window]\npanels-visible = false\n");
@@ -93,23 +94,24 @@ TEST_CASE("panes show the colour and the depth, the relief is touched below them
     const int below = static_cast<int>(panes_height(state));
     const std::string middle =
         std::to_string(kWidth / 2) + " " + std::to_string((kHeight + below) / 2);
-    Process viewer =
-        desk.start_viewer(folder, {"flat_color.png", "flat_depth.png", "--raw-depth", "--device",
-                                   "mouse", "--size", "800x600", "--record", "hand.dibhr",
-                                   "--screenshot", "last.png", "--seconds", "30"});
-    desk.act("search --sync --onlyvisible --name dibhr sleep 0.6 key k sleep 0.4 mousemove " +
-             middle + " sleep 0.6 key q");
+    WindowProgram viewer = desk.start_viewer(
+        folder, {"flat_color.png", "flat_depth.png", "--raw-depth", "--device", "mouse", "--size",
+                 "800x600", "--record", "hand.dibhr", "--screenshot", "last.png"});
+    viewer.wait_for_surface();
+    viewer.act("key k mousemove " + middle);
+    wait_for_ticks(viewer, kTicksToRest);
+    desk.press("key q");
     REQUIRE(viewer.wait() == 0);
 
     const Row last = read_session(folder / "hand.dibhr").back();
     CHECK_THAT(last.goal.x, WithinAbs(0.5 * (kColumns - 1), 1.5));
     CHECK_THAT(last.goal.y, WithinAbs(0.5 * (kRows - 1), 6.0));  // seen a little from above
-    run_shell(folder, "ffmpeg -nostdin -v error -i last.png -f rawvideo -pix_fmt rgb24 last.rgb");
-    const std::string rgb = read_text(folder / "last.rgb");
-    REQUIRE(rgb.size() == 3UL * kWidth * kHeight);
-    check_near(pixel(rgb, kWidth / 4, below / 4), {254, 0, 0});
+    const ColourImage picture = read_colour_picture(folder / "last.png");
+    REQUIRE(picture.columns == kWidth);
+    REQUIRE(picture.rows == kHeight);
+    check_near(pixel(picture, kWidth / 4, below / 4), {254, 0, 0});
     const auto ramp = depth_colours(ReliefPaint::turbo);
-    check_near(pixel(rgb, 3 * kWidth / 4, below / 4),
+    check_near(pixel(picture, 3 * kWidth / 4, below / 4),
                {ramp->rgb[3 * 128], ramp->rgb[3 * 128 + 1], ramp->rgb[3 * 128 + 2]});
     CHECK(contains(read_text(folder / "config/dibhr/settings.toml"), "panes = true"));
 }

@@ -1,11 +1,15 @@
 // Keys that move a video, typed into the real window; what is recorded tells where it went.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstddef>
 #include <filesystem>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "app/settings/file_memory.hpp"
@@ -14,7 +18,9 @@
 #include "core/video/media.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/desk.hpp"
+#include "tests/app/program/passing_ticks.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/eventually.hpp"
 #include "tests/support/text.hpp"
 
 namespace fs = std::filesystem;
@@ -26,221 +32,425 @@ namespace {
 
 constexpr double kFrame_s = 0.1;
 
-/// 100 seconds of film.
-void make_long_films(const TemporaryFolder& folder) {
-    const std::string quiet = "ffmpeg -nostdin -v error -y -f lavfi -i ";
-    run_shell(quiet + "color=gray:s=64x48:r=10:d=100 -c:v ffv1 '" +
-              (folder / "long_color.mkv").string() + "'");
-    run_shell(quiet + "color=gray:s=64x48:r=10:d=100,format=gray -c:v ffv1 '" +
-              (folder / "long_depth.mkv").string() + "'");
+/// 100 seconds of film, which all tests read and none changes.
+const TemporaryFolder& long_films() {
+    static const TemporaryFolder folder;
+    static const bool made = [] {
+        const std::string film =
+            "ffmpeg -nostdin -v error -f lavfi -i color=gray:s=64x48:r=10:d=100";
+        run_shell(folder, film + " -c:v ffv1 long_color.mkv");
+        run_shell(folder, film + ",format=gray -c:v ffv1 long_depth.mkv");
+        return true;
+    }();
+    static_cast<void>(made);
+    return folder;
 }
 
-/// What is recorded while these keys are typed.
-std::vector<Row> played(const std::vector<std::string>& options, const std::string& commands,
-                        const std::string& settings = {}) {
-    const Desk desk;
-    const TemporaryFolder folder;
-    make_long_films(folder);
-    fs::create_directories(folder / "config/dibhr");
-    write_text(folder / "config/dibhr/settings.toml", settings);
-    std::vector<std::string> arguments{"long_color.mkv", "--raw-depth", "--device", "mouse",
-                                       "--record",       "hand.dibhr",  "--size",   "640x480",
-                                       "--seconds",      "30"};
-    arguments.insert(arguments.end(), options.begin(), options.end());
-    Process viewer = desk.start_viewer(folder, arguments);
-    desk.act("search --sync --onlyvisible --name dibhr sleep 0.6 " + commands + "key q");
-    REQUIRE(viewer.wait() == 0);
-    return read_session(folder / "hand.dibhr");
+/// A window over a long film, and what is recorded in it.
+class FilmWindow {
+  public:
+    explicit FilmWindow(std::vector<std::string> options, const std::string& settings = {})
+        : FilmWindow(long_films() / "long_color.mkv", std::make_shared<TemporaryFolder>(),
+                     raw(std::move(options)), settings) {}
+
+    /// With what was kept in `home`.
+    FilmWindow(const fs::path& film, std::shared_ptr<TemporaryFolder> home,
+               std::vector<std::string> options, const std::string& settings = {})
+        : home_(std::move(home)),
+          session_(fresh_session(*home_)),
+          viewer_(start(film, std::move(options), settings)) {
+        viewer_.wait_for_surface();
+    }
+
+    [[nodiscard]] const TemporaryFolder& home() const { return *home_; }
+    [[nodiscard]] Seen seen() const { return viewer_.seen(); }
+    void act(const std::string& events) const { viewer_.act(events); }
+    template <typename Condition>
+    void wait_until(const Condition& is_so) const {
+        viewer_.wait_until(is_so);
+    }
+    void let_ticks_pass(std::uint64_t ticks) const { wait_for_ticks(viewer_, ticks); }
+
+    /// Keys, one after the other as quickly as a hand can, between two pictures.
+    void press_at_once(const std::vector<std::string>& keys) const {
+        viewer_.send(SIGSTOP);
+        for (const std::string& key : keys) {
+            desk_.press("key " + key);
+            // GLFW takes a press in the same millisecond for the one before.
+            std::this_thread::sleep_for(std::chrono::milliseconds(25));
+        }
+        viewer_.send(SIGCONT);
+    }
+
+    /// Until the frame of that moment is drawn and touched.
+    void comes_to(double media_s, double within_s = 1.5 * kFrame_s) const {
+        const auto is_there = [=](const Seen& now) {
+            return now.surface && std::abs(now.drawn_s - media_s) <= within_s &&
+                   std::abs(now.media_s - media_s) <= within_s;
+        };
+        INFO("waits for " << media_s << " s");
+        viewer_.wait_until(is_there);
+        // What is drawn was handed to the ticks before.
+        const std::uint64_t ticks = seen().ticks + 2;
+        viewer_.wait_until(
+            [&](const Seen& now) { return is_there(now) && now.touchable && now.ticks >= ticks; });
+    }
+
+    /// Until what plays has begun again so often.
+    void wait_for_laps(int laps) const {
+        double before_s = seen().media_s;
+        viewer_.wait_until([&](const Seen& now) {
+            if (now.media_s < before_s - 3.0 * kFrame_s) --laps;
+            before_s = now.media_s;
+            return laps <= 0;
+        });
+    }
+
+    /// What was recorded, of the window that ends now.
+    [[nodiscard]] std::vector<Row> end() {
+        desk_.press("key q");
+        REQUIRE(viewer_.wait() == 0);
+        return read_session(session_);
+    }
+    [[nodiscard]] std::vector<SessionMark> marks() const { return Session(session_).marks(); }
+    [[nodiscard]] std::vector<std::string> touched_depths() const {
+        std::vector<std::string> files;
+        const Session session(session_);
+        for (const SessionSource& source : session.sources())
+            files.push_back(source.depth.file.filename().string());
+        files.erase(std::unique(files.begin(), files.end()), files.end());
+        return files;
+    }
+
+  private:
+    static std::vector<std::string> raw(std::vector<std::string> options) {
+        options.emplace_back("--raw-depth");
+        return options;
+    }
+    static fs::path fresh_session(const TemporaryFolder& home) {
+        for (int number = 1;; ++number) {
+            const fs::path session = home / ("hand" + std::to_string(number) + ".dibhr");
+            if (!fs::exists(session)) return session;
+        }
+    }
+    WindowProgram start(const fs::path& film, std::vector<std::string> options,
+                        const std::string& settings) const {
+        if (!settings.empty()) {
+            fs::create_directories(*home_ / "config/dibhr");
+            write_text(*home_ / "config/dibhr/settings.toml", settings);
+        }
+        options.insert(options.begin(), {film.string(), "--device", "mouse", "--record",
+                                         session_.string(), "--size", "640x480"});
+        return desk_.start_viewer(*home_, options);
+    }
+
+    Desk desk_{};
+    std::shared_ptr<TemporaryFolder> home_;
+    fs::path session_;
+    WindowProgram viewer_;
+};
+
+/// One moment of the video after the other was touched.
+void check_touched(const std::vector<Row>& rows, const std::vector<double>& wanted_s) {
+    auto row = rows.begin();
+    for (const double media_s : wanted_s) {
+        CAPTURE(media_s);
+        row = std::find_if(row, rows.end(), [media_s](const Row& one) {
+            return one.surface && std::abs(one.video_s - media_s) <= 1.5 * kFrame_s;
+        });
+        REQUIRE(row != rows.end());
+    }
+}
+
+/// Rows from one time of the ticks to another.
+std::vector<Row> rows_between(const std::vector<Row>& rows, double from_s, double to_s) {
+    std::vector<Row> some;
+    for (const Row& row : rows)
+        if (row.t_s >= from_s && row.t_s < to_s && row.surface) some.push_back(row);
+    return some;
+}
+
+/// How fast the video goes on in most of the ticks in which it does.
+double speed_in(const std::vector<Row>& rows) {
+    std::vector<double> speeds;
+    for (std::size_t k = 1; k < rows.size(); ++k) {
+        const double moved_s = rows[k].video_s - rows[k - 1].video_s;
+        if (moved_s > 0.0) speeds.push_back(moved_s / (rows[k].t_s - rows[k - 1].t_s));
+    }
+    REQUIRE(speeds.size() > 20);
+    const auto middle = speeds.begin() + static_cast<std::ptrdiff_t>(speeds.size() / 2);
+    std::nth_element(speeds.begin(), middle, speeds.end());
+    return *middle;
+}
+
+/// Begins anew at least once, and is never outside.
+void check_laps(const std::vector<Row>& rows, double from_s, double to_s) {
+    REQUIRE(rows.size() > 100);
+    double least_s = rows.front().video_s, most_s = rows.front().video_s;
+    int laps = 0;
+    for (std::size_t k = 1; k < rows.size(); ++k) {
+        least_s = std::min(least_s, rows[k].video_s);
+        most_s = std::max(most_s, rows[k].video_s);
+        if (rows[k].video_s < rows[k - 1].video_s - 3.0 * kFrame_s) ++laps;
+    }
+    CHECK(least_s >= from_s - kFrame_s);
+    CHECK(most_s <= to_s + kFrame_s);
+    CHECK(laps > 0);
+}
+
+/// Where each press met the relief.
+std::vector<Vec3> pressed_places(const std::vector<Row>& rows) {
+    std::vector<Vec3> places;
+    bool met = false;
+    for (const Row& row : rows) {
+        if (row.pressed && row.contact && !met) places.push_back(row.proxy);
+        met = row.pressed && (met || row.contact);
+    }
+    return places;
+}
+
+/// Presses where the pointer is, when the hand has come there.
+void press_and_release(const FilmWindow& film) {
+    film.let_ticks_pass(kTicksToRest);
+    film.act("mousedown 1");
+    film.wait_until([](const Seen& now) { return now.contact; });
+    film.act("mouseup 1");
+    film.wait_until([](const Seen& now) { return !now.contact; });
+}
+
+/// Three films in a folder of it.
+std::shared_ptr<TemporaryFolder> home_with_films() {
+    auto home = std::make_shared<TemporaryFolder>();
+    fs::create_directory(*home / "films");
+    for (const std::string of : {"_color.mkv", "_depth.mkv"}) {
+        for (const std::string name : {"films/long", "films/other", "films/still"})
+            fs::copy_file(long_films() / ("long" + of), *home / (name + of));
+    }
+    return home;
+}
+
+/// By its button.
+void open_dialog(const FilmWindow& film) {
+    film.act("mousemove 387 93 click 1");
+    film.wait_until([](const Seen& now) { return now.dialog && now.dialog_entries == 3; });
 }
 
 }  // namespace
 
-TEST_CASE("arrows seek by 5, 1 and 60 seconds, Home and End to the start and the last second",
-          "[playing]") {
-    std::string commands = "key space sleep 0.3 ";
-    for (const char* key :
-         {"Home", "Up", "Right", "shift+Right", "shift+Left", "Left", "Down", "End"}) {
-        commands += std::string("key ") + key + " sleep 0.7 ";
-    }
-    std::vector<double> held = held_moments(played({}, commands));
-    const std::vector<double> wanted{0.0, 60.0, 65.0, 66.0, 65.0, 60.0, 0.0, 99.0};
-    if (held.size() > wanted.size()) held.erase(held.begin());  // where it was paused
-    CAPTURE(held);
-    REQUIRE(held.size() == wanted.size());
-    for (std::size_t k = 0; k < wanted.size(); ++k)
-        CHECK_THAT(held[k], WithinAbs(wanted[k], 1.5 * kFrame_s));
-}
-
-TEST_CASE("every press counts, as short as it is, also of many between two pictures", "[playing]") {
-    const Desk desk;
-    const TemporaryFolder folder;
-    make_long_films(folder);
-    Process viewer = desk.start_viewer(
-        folder, {"long_color.mkv", "--raw-depth", "--device", "mouse", "--record", "hand.dibhr",
-                 "--size", "640x480", "--seconds", "30", "--pause"});
-    desk.act("search --sync --onlyvisible --name dibhr sleep 0.6");
-    const auto press = [](const std::string& key) {
-        return "keydown " + key + " sleep 0.012 keyup " + key + " sleep 0.05 ";
+TEST_CASE(
+    "arrows seek by 5, 1 and 60 seconds, Home and End to the start and the last second, and every "
+    "press counts, also of many between two pictures",
+    "[playing]") {
+    FilmWindow film({"--start", "42", "--pause"});
+    film.comes_to(42.0);
+    std::vector<double> wanted{42.0};
+    const auto goes_to = [&](double media_s) {
+        film.comes_to(media_s);
+        wanted.push_back(media_s);
     };
-    // No picture is drawn while it stands still.
-    viewer.send(SIGSTOP);
-    desk.act(press("Right") + press("Up") + press("Right") + press("Right"));
-    viewer.send(SIGCONT);
-    desk.act("sleep 0.7");
-    for (int k = 0; k < 10; ++k) {  // ten pictures a second
-        viewer.send(SIGSTOP);
-        desk.act(k % 2 == 0 ? press("shift+Left") : "sleep 0.06");
-        viewer.send(SIGCONT);
-        desk.act("sleep 0.04");
+    const std::vector<std::pair<std::string, double>> presses{
+        {"Home", 0.0},        {"Up", 60.0},   {"Right", 65.0}, {"shift+Right", 66.0},
+        {"shift+Left", 65.0}, {"Left", 60.0}, {"Down", 0.0}};
+    for (const auto& [key, media_s] : presses) {
+        film.act("key " + key);
+        goes_to(media_s);
     }
-    desk.act("sleep 0.7 key q");
-    REQUIRE(viewer.wait() == 0);
-    const std::vector<double> held = held_moments(read_session(folder / "hand.dibhr"));
-    CAPTURE(held);
-    REQUIRE(held.size() >= 3);
-    CHECK_THAT(held.front(), WithinAbs(0.0, 1.5 * kFrame_s));
-    CHECK_THAT(held[1], WithinAbs(75.0, 1.5 * kFrame_s));
-    CHECK_THAT(held.back(), WithinAbs(70.0, 1.5 * kFrame_s));
+    film.press_at_once({"Right", "Up", "Right", "Right"});
+    goes_to(75.0);
+    for (int k = 0; k < 5; ++k) {
+        film.press_at_once({"shift+Left"});
+        goes_to(wanted.back() - 1.0);
+    }
+    film.act("key End");
+    goes_to(99.0);
+    CHECK_FALSE(film.seen().playing);
+    check_touched(film.end(), wanted);
 }
 
 TEST_CASE("own keys move the video, and are lost to what had them", "[playing]") {
-    const std::string own =
-        "[keys]\nplay-or-pause = [\"F5\", \"Z\"]\nseek-forward-far = \"L\"\ngo-to-end = "
-        "\"Shift+L\"\n"
-        "seek-forward = \"Home\"\ngo-to-start = \"Ctrl+G\"\n";
-    std::string commands = "key F5 sleep 0.3 ";
-    for (const char* key : {"ctrl+g", "space", "l", "Up", "Home", "End", "shift+l", "ctrl+g"})
-        commands += std::string("key ") + key + " sleep 0.7 ";
-    std::vector<double> held = held_moments(played({}, commands, own));
-    const std::vector<double> wanted{0.0, 60.0, 65.0, 99.0, 0.0};
-    if (held.size() > wanted.size()) held.erase(held.begin());  // where it was paused
-    CAPTURE(held);
-    REQUIRE(held.size() == wanted.size());
-    for (std::size_t k = 0; k < wanted.size(); ++k)
-        CHECK_THAT(held[k], WithinAbs(wanted[k], 1.5 * kFrame_s));
-}
-
-TEST_CASE("a key doubles the speed, and Backspace makes it normal again", "[playing]") {
-    const std::string back = GENERATE("", "key BackSpace sleep 0.3 ");
-    const double speed = back.empty() ? 2.0 : 1.0;
-    CAPTURE(speed);
-    const std::vector<Row> rows = played({}, "key Prior sleep 0.3 " + back + "sleep 2 ");
-    REQUIRE(rows.size() > 1500);
-    const Row& from = rows[rows.size() - 1200];
-    const Row& to = rows[rows.size() - 100];
-    CHECK_THAT((to.video_s - from.video_s) / (to.t_s - from.t_s), WithinAbs(speed, 0.25));
-}
-
-TEST_CASE("options say where it begins, that it stands still, and how fast it goes on",
-          "[playing]") {
-    SECTION("standing still") {
-        const std::vector<Row> rows = played({"--start", "42", "--pause"}, "sleep 0.6 ");
-        const std::vector<double> held = held_moments(rows);
-        REQUIRE(held.size() == 1);
-        CHECK_THAT(held[0], WithinAbs(42.0, 1.5 * kFrame_s));
-    }
-    SECTION("faster") {
-        const std::vector<Row> rows = played({"--start", "10", "--speed", "3"}, "sleep 2 ");
-        REQUIRE(rows.size() > 1500);
-        const Row& from = rows[rows.size() - 1200];
-        const Row& to = rows[rows.size() - 100];
-        CHECK(from.video_s > 10.0);
-        CHECK_THAT((to.video_s - from.video_s) / (to.t_s - from.t_s), WithinAbs(3.0, 0.4));
-    }
-    SECTION("not again from the start") {
-        const std::vector<double> held =
-            held_moments(played({"--start", "99", "--loop", "off"}, "sleep 2.5 "));
-        REQUIRE(held.size() == 1);
-        CHECK_THAT(held[0], WithinAbs(100.0 - kFrame_s, 0.5 * kFrame_s));
-    }
-}
-
-TEST_CASE("a key plays from here to here again and again, and then all again", "[playing]") {
-    const std::vector<Row> rows =
-        played({"--start", "50"}, "key a sleep 0.8 key a sleep 3 key a sleep 2 ");
-    double latest_s = 0.0;
-    int laps = 0;
-    for (std::size_t k = 1; k < rows.size(); ++k) {
-        if (!rows[k].surface || !rows[k - 1].surface) continue;
-        if (rows[k].video_s < rows[k - 1].video_s - 0.3) ++laps;
-        latest_s = std::max(latest_s, rows[k].video_s);
-    }
-    CHECK(laps >= 2);
-    CHECK(laps <= 5);
-    CHECK(rows.back().video_s > 51.5);  // beyond where it was to end
-    CHECK(latest_s < 60.0);
-}
-
-TEST_CASE("options say what part is played, once or again and again", "[playing]") {
-    const std::string looping = GENERATE("on", "off");
-    CAPTURE(looping);
-    std::vector<Row> rows = played({"--start", "10", "--end", "11", "--loop", looping}, "sleep 3 ");
-    const auto is_there = [](const Row& row) {
-        return row.surface && row.video_s >= 10.0 - kFrame_s;
+    FilmWindow film({},
+                    "[keys]\nplay-or-pause = [\"F5\", \"Z\"]\nseek-forward-far = \"L\"\n"
+                    "go-to-end = \"Shift+L\"\nseek-forward = \"Home\"\ngo-to-start = \"Ctrl+G\"\n");
+    REQUIRE(film.seen().playing);
+    film.act("key F5");
+    CHECK_FALSE(film.seen().playing);
+    film.act("key z");
+    CHECK(film.seen().playing);
+    film.act("key z");
+    CHECK_FALSE(film.seen().playing);
+    double at_s = 0.0;
+    const auto seeks = [&](const std::string& key, double media_s) {
+        film.act("key " + key);
+        film.comes_to(media_s);
+        at_s = film.seen().media_s;
     };
+    const auto does_nothing = [&](const std::string& key) {
+        CAPTURE(key);
+        film.act("key " + key);
+        CHECK_FALSE(film.seen().playing);
+        CHECK(film.seen().media_s == at_s);
+    };
+    seeks("ctrl+g", 0.0);
+    does_nothing("space");
+    seeks("l", 60.0);
+    does_nothing("Up");
+    seeks("Home", 65.0);
+    does_nothing("End");
+    seeks("shift+l", 99.0);
+    seeks("ctrl+g", 0.0);
+    check_touched(film.end(), {0.0, 60.0, 65.0, 99.0, 0.0});
+}
+
+TEST_CASE(
+    "options and keys say what part is played again and again, and how fast; a key plays all again",
+    "[playing]") {
+    FilmWindow film({"--start", "10", "--end", "11", "--loop", "on", "--speed", "4"});
+    film.wait_for_laps(2);
+    film.act("key m");
+    const double all_from_s = film.seen().media_s;
+    film.act("key a");
+    CHECK(film.seen().part_to_s < 0.0);
+    film.wait_until([](const Seen& now) { return now.drawn_s > 13.0; });
+    film.act("key a");
+    const double from_s = film.seen().part_from_s;
+    CHECK(from_s > all_from_s);
+    film.wait_until([=](const Seen& now) { return now.media_s > from_s + 1.0; });
+    film.act("key a");
+    const double to_s = film.seen().part_to_s;
+    CHECK(film.seen().part_from_s == from_s);
+    CHECK(to_s > from_s + 1.0);
+    film.wait_for_laps(1);
+    film.act("key m");
+    film.wait_for_laps(2);
+    film.act("key m key a");
+    film.wait_until([=](const Seen& now) { return now.drawn_s > to_s + 1.0; });
+    film.act("key BackSpace");
+    CHECK(film.seen().speed == 1.0);
+    film.act("key m");
+    film.let_ticks_pass(400);
+    film.act("key m key Prior");
+    CHECK(film.seen().speed == 2.0);
+    film.act("key m");
+    film.let_ticks_pass(400);
+    film.act("key m");
+
+    std::vector<Row> rows = film.end();
+    std::vector<double> at_s;
+    for (const SessionMark& mark : film.marks()) at_s.push_back(mark.t_s);
+    REQUIRE(at_s.size() == 7);
     // It is opened at its very beginning, and sought to the part at once.
-    rows.erase(rows.begin(), std::find_if(rows.begin(), rows.end(), is_there));
-    REQUIRE(rows.size() > 1000);
-    for (const Row& row : rows) {
-        if (!row.surface) continue;
-        CHECK(row.video_s >= 10.0 - kFrame_s);
-        CHECK(row.video_s <= 11.0 + kFrame_s);
-    }
-    const auto goes_back = [](const Row& before, const Row& after) {
-        return before.surface && after.surface && after.video_s < before.video_s - 0.3;
-    };
-    const bool again = std::adjacent_find(rows.begin(), rows.end(), goes_back) != rows.end();
-    CHECK(again == (looping == "on"));
-    if (looping == "off") CHECK_THAT(rows.back().video_s, WithinAbs(11.0, 1.5 * kFrame_s));
+    const auto first = std::find_if(rows.begin(), rows.end(), [](const Row& row) {
+        return row.surface && row.video_s >= 10.0 - kFrame_s;
+    });
+    REQUIRE(first != rows.end());
+    const std::vector<Row> asked = rows_between(rows, first->t_s, at_s[0]);
+    check_laps(asked, 10.0, 11.0);
+    CHECK_THAT(speed_in(asked), WithinAbs(4.0, 0.01));
+    check_laps(rows_between(rows, at_s[1], at_s[2]), from_s, to_s);
+    CHECK_THAT(speed_in(rows_between(rows, at_s[3], at_s[4])), WithinAbs(1.0, 0.01));
+    CHECK_THAT(speed_in(rows_between(rows, at_s[5], at_s[6])), WithinAbs(2.0, 0.01));
 }
 
-TEST_CASE("a window that fills the screen does not change the size it is kept with", "[playing]") {
-    const Desk desk;
-    const TemporaryFolder folder;
-    make_long_films(folder);
-    Process viewer =
-        desk.start_viewer(folder, {"long_color.mkv", "--device", "mouse", "--size", "640x480",
-                                   "--full-screen", "--seconds", "4", "--screenshot", "last.png"});
-    REQUIRE(viewer.wait() == 0);
-    const MediaDescription picture = describe_media(folder / "last.png");
+TEST_CASE(
+    "options say that a part is played once, on the whole screen, whose size is not kept; after it "
+    "the film is played to its own end",
+    "[playing]") {
+    FilmWindow film({"--start", "10", "--end", "11", "--loop", "off", "--speed", "4",
+                     "--full-screen", "--screenshot", "last.png"});
+    const auto stands_still = [](const Seen& now) { return now.surface && !now.playing; };
+    film.wait_until(stands_still);
+    film.comes_to(11.0);
+    CHECK(film.seen().columns == 1280);
+    CHECK(film.seen().rows == 800);
+    film.act("key a key End");
+    CHECK(film.seen().part_to_s < 0.0);
+    film.comes_to(99.0);
+    film.act("key space");
+    film.wait_until(stands_still);
+    film.comes_to(100.0 - kFrame_s, 0.5 * kFrame_s);
+
+    std::vector<Row> rows = film.end();
+    std::erase_if(rows, [](const Row& row) {
+        return !row.surface || row.video_s < 10.0 - kFrame_s || row.video_s > 95.0;
+    });
+    REQUIRE(rows.size() > 100);
+    const auto earlier = [](const Row& a, const Row& b) { return a.video_s < b.video_s; };
+    CHECK(std::is_sorted(rows.begin(), rows.end(), earlier));
+    CHECK(rows.back().video_s <= 11.0 + kFrame_s);
+    const MediaDescription picture = describe_media(film.home() / "last.png");
     CHECK(picture.colour_columns == 1280);
     CHECK(picture.colour_rows == 800);
-    run_shell("! grep -rqE '1280|800' '" + folder.path().string() + "' --include=settings.toml");
+    run_shell("! grep -rqE '1280|800' '" + film.home().path().string() +
+              "' --include=settings.toml");
 }
 
-TEST_CASE("with the panels hidden the force switch stays, and the time line comes to the pointer",
-          "[playing]") {
-    const auto rows = played({},
-                             "key Tab sleep 0.3 key space sleep 0.3 "
-                             // The switch in the corner, where nothing else is.
-                             "mousemove 590 460 sleep 0.3 mousedown 1 sleep 0.2 mouseup 1 "
-                             "sleep 0.4 mousedown 1 sleep 0.2 mouseup 1 sleep 0.4 "
-                             // The line, a little right of its middle.
-                             "mousemove 200 452 sleep 0.4 mousedown 1 sleep 0.2 mouseup 1 "
-                             "sleep 0.8 ");
-    const auto is_off = [](const Row& row) { return row.cut == static_cast<int>(SafetyCut::off); };
-    const auto off = std::find_if(rows.begin(), rows.end(), is_off);
-    REQUIRE(off != rows.end());
-    CHECK(std::find_if_not(off, rows.end(), is_off) != rows.end());
-    CHECK(rows.back().video_s > 20.0);
-    CHECK(rows.back().video_s < 95.0);
+TEST_CASE(
+    "a copied view is taken again: the hand then touches where it did; with the panels hidden the "
+    "force switch stays, and the time line comes to the pointer",
+    "[playing]") {
+    FilmWindow film({"--start", "20", "--pause"});
+    film.comes_to(20.0);
+    film.act("mousemove 200 260 key ctrl+c");
+    press_and_release(film);
+    film.act("click 4 click 4 click 4 click 4");
+    press_and_release(film);
+    film.act("key ctrl+v");
+    press_and_release(film);
+
+    film.act("key Tab");
+    CHECK_FALSE(film.seen().panels);
+    // The switch in the corner, where nothing else is.
+    film.act("mousemove 590 460 click 1");
+    CHECK_FALSE(film.seen().force_enabled);
+    film.wait_until([](const Seen& now) { return now.cut == static_cast<int>(SafetyCut::off); });
+    film.act("click 1");
+    CHECK(film.seen().force_enabled);
+    film.wait_until([](const Seen& now) { return now.cut != static_cast<int>(SafetyCut::off); });
+    // The line, a little right of its middle.
+    film.act("mousemove 200 452 click 1");
+    film.wait_until([](const Seen& now) { return now.drawn_s > 21.0 && now.touchable; });
+    CHECK(film.seen().drawn_s < 95.0);
+
+    const std::vector<Row> rows = film.end();
+    const std::vector<Vec3> touched = pressed_places(rows);
+    REQUIRE(touched.size() == 3);
+    CHECK(glm::length(touched[1] - touched[0]) > 2.0);
+    CHECK(glm::length(touched[2] - touched[0]) < 0.5);
+    CHECK(rows.back().video_s > 21.0);
 }
 
 TEST_CASE(
     "while E explains an update the video stands still, its step keys step the explanation, "
     "and the hand is felt on",
     "[playing]") {
-    const std::vector<Row> rows =
-        played({"--start", "20"},
-               "mousemove 200 250 sleep 0.3 mousedown 1 sleep 0.5 key e sleep 0.6 "
-               "key period sleep 0.5 key period sleep 0.5 mousemove 240 250 sleep 0.6 "
-               "key e sleep 0.4 key period sleep 0.6 ");
-    const std::vector<double> held = held_moments(rows);
-    REQUIRE(held.size() == 2);
-    CHECK(held[1] > held[0]);  // paused between two frames, it steps to the next one
-    CHECK(held[1] <= held[0] + 1.01 * kFrame_s);
+    FilmWindow film({"--start", "20", "--friction", "0"});
+    film.wait_until([](const Seen& now) { return now.drawn_s >= 20.0; });
+    film.act("mousemove 200 250");
+    film.let_ticks_pass(kTicksToRest);
+    film.act("mousedown 1");
+    film.wait_until([](const Seen& now) { return now.contact; });
+    film.let_ticks_pass(kTicksToRest);
+    film.act("key e");
+    film.wait_until([](const Seen& now) { return now.explained && !now.playing; });
+    film.let_ticks_pass(kTicksToRest);
+    const double still_s = film.seen().media_s;
+    film.act("mousemove 300 250");
+    film.let_ticks_pass(kTicksToRest);
+    film.act("key period");
+    CHECK(film.seen().explained_steps == 1);
+    film.act("key period");
+    CHECK(film.seen().explained_steps == 2);
+    CHECK(film.seen().media_s == still_s);
+    film.act("key e");
+    CHECK_FALSE(film.seen().explained);
+    CHECK_FALSE(film.seen().playing);
+    film.act("key period");  // paused between two frames, it steps to the next one
+    film.wait_until([=](const Seen& now) { return now.drawn_s > still_s && now.touchable; });
+    CHECK(film.seen().drawn_s <= still_s + 1.01 * kFrame_s);
+
+    const std::vector<Row> rows = film.end();
     const auto in_still = [&](const Row& row) {
-        return row.surface && row.contact && !(row.video_s < held[0] || row.video_s > held[0]);
+        return row.surface && row.contact && std::abs(row.video_s - still_s) < 1e-6;
     };
     const auto first = std::find_if(rows.begin(), rows.end(), in_still);
     const auto last = std::find_if(rows.rbegin(), rows.rend(), in_still);
@@ -252,92 +462,71 @@ TEST_CASE(
 TEST_CASE(
     "another recording is opened with the pointer alone, and the next one of the folder by key",
     "[playing]") {
-    const Desk desk;
-    const TemporaryFolder folder;
-    make_long_films(folder);
-    fs::create_directory(folder / "films");
-    for (const std::string of : {"_color.mkv", "_depth.mkv"}) {
-        for (const std::string name : {"films/long", "films/other", "films/still"})
-            fs::copy_file(folder / ("long" + of), folder / (name + of));
-    }
-    Process viewer =
-        desk.start_viewer(folder, {"films/long_color.mkv", "--raw-depth", "--device", "mouse",
-                                   "--record", "hand.dibhr", "--seconds", "60"});
-    desk.act(
-        "search --sync --onlyvisible --name dibhr sleep 0.8 "
-        "mousemove 970 97 sleep 0.3 mousedown 1 sleep 0.1 mouseup 1 sleep 0.8 "  // Open
-        "mousemove 350 280 sleep 0.3 mousedown 1 sleep 0.1 mouseup 1 sleep 0.1 "
-        "mousedown 1 sleep 0.1 mouseup 1 sleep 1.5 mousemove 300 600 "
-        "key ctrl+Next sleep 1.5 key ctrl+q");
-    REQUIRE(viewer.wait() == 0);
-    std::vector<std::string> opened;
-    const Session session(folder / "hand.dibhr");
-    for (const SessionSource& source : session.sources())
-        opened.push_back(source.depth.file.filename().string());
-    opened.erase(std::unique(opened.begin(), opened.end()), opened.end());
-    CHECK(opened ==
+    const auto home = home_with_films();
+    FilmWindow film(*home / "films/long_color.mkv", home, {});
+    std::uint32_t shown = film.seen().drawn_media;
+    const auto shows = [&](const std::string& name) {
+        film.wait_until([&](const Seen& now) {
+            return now.drawn_media != shown && now.touchable && now.file.str().ends_with(name);
+        });
+        shown = film.seen().drawn_media;
+        film.let_ticks_pass(20);
+    };
+    open_dialog(film);
+    film.act("mousemove 140 153 click 1 mousemove 540 426 click 1");  // the second one, Open
+    CHECK_FALSE(film.seen().dialog);
+    shows("other_color.mkv");
+    film.act("key ctrl+Next");
+    shows("still_color.mkv");
+    static_cast<void>(film.end());
+    CHECK(film.touched_depths() ==
           std::vector<std::string>{"long_depth.mkv", "other_depth.mkv", "still_depth.mkv"});
 }
 
-TEST_CASE("a copied view is taken again: the hand then touches where it did", "[playing]") {
-    const auto touched = [](const std::string& keys) {
-        const auto rows = played({"--start", "20", "--pause"},
-                                 "mousemove 200 260 sleep 0.3 key ctrl+c sleep 0.3 " + keys +
-                                     "mousedown 1 sleep 0.8 mouseup 1 ");
-        const auto first = std::find_if(rows.begin(), rows.end(),
-                                        [](const Row& row) { return row.surface && row.contact; });
-        REQUIRE(first < rows.end());
-        return first->proxy;
-    };
-    const std::string away = "click 4 click 4 click 4 click 4 sleep 0.3 ";
-    const Vec3 before = touched("");
-    const Vec3 elsewhere = touched(away);
-    const Vec3 again = touched(away + "key ctrl+v sleep 0.4 ");
-    CHECK(glm::length(elsewhere - before) > 2.0);
-    CHECK(glm::length(again - before) < 0.5);
+// Two clicks are a double click within 0.3 s.
+TEST_CASE("a double click opens what the Open dialog lists", "[playing][realtime]") {
+    const auto home = home_with_films();
+    FilmWindow film(*home / "films/long_color.mkv", home, {"--no-sync"});
+    open_dialog(film);
+    film.act("mousemove 140 153 click 1 click 1");
+    CHECK_FALSE(film.seen().dialog);
+    film.wait_until(
+        [](const Seen& now) { return now.surface && now.file.str().ends_with("other_color.mkv"); });
+    static_cast<void>(film.end());
 }
 
 TEST_CASE(
     "a file is found again as it was left: relief and view, and, where it is wished, the moment",
     "[playing]") {
-    const Desk desk;
-    const TemporaryFolder folder;
-    make_long_films(folder);
-    run_shell(
-        "ffmpeg -nostdin -v error -y -f lavfi -i \"color=gray:s=64x48:r=10:d=100,"
-        "format=gray,geq=lum='40+3*X'\" -c:v ffv1 '" +
-        (folder / "long_depth.mkv").string() + "'");  // a slope
-    const auto rows_of = [&](const std::vector<std::string>& options, const std::string& commands) {
-        static int taken = 0;
-        const std::string session = "hand" + std::to_string(++taken) + ".dibhr";
-        std::vector<std::string> arguments{"long_color.mkv", "--device",  "mouse",
-                                           "--record",       session,     "--size",
-                                           "640x480",        "--seconds", "30"};
-        arguments.insert(arguments.end(), options.begin(), options.end());
-        Process viewer = desk.start_viewer(folder, arguments);
-        desk.act("search --sync --onlyvisible --name dibhr sleep 0.6 " + commands + "key q");
-        REQUIRE(viewer.wait() == 0);
-        return read_session(folder / session);
+    const auto home = std::make_shared<TemporaryFolder>();
+    const fs::path film_file = *home / "slope_color.mkv";
+    fs::copy_file(long_films() / "long_color.mkv", film_file);
+    run_shell(*home,
+              "ffmpeg -nostdin -v error -f lavfi -i \"color=gray:s=64x48:r=10:d=100,"
+              "format=gray,geq=lum='40+3*X'\" -c:v ffv1 slope_depth.mkv");
+    keep_memory(*home / "state/dibhr/files", film_file, {.relief_px = 30.0});
+    const auto touched = [](FilmWindow& film) {
+        film.act("mousemove 200 260");
+        press_and_release(film);
+        const std::vector<Vec3> places = pressed_places(film.end());
+        REQUIRE(places.size() == 1);
+        return places.front();
     };
-    const auto touched = [](const std::vector<Row>& rows) {
-        const auto first = std::find_if(rows.begin(), rows.end(),
-                                        [](const Row& row) { return row.surface && row.contact; });
-        REQUIRE(first < rows.end());
-        return first->proxy;
-    };
-    const std::string press = "mousemove 200 260 sleep 0.3 mousedown 1 sleep 0.8 mouseup 1 ";
-    keep_memory(folder / "state/dibhr/files", folder / "long_color.mkv", {.relief_px = 30.0});
-    const Vec3 zoomed = touched(
-        rows_of({"--start", "50", "--pause", "--resume", "on"},
-                "mousemove 200 260 sleep 0.2 click 4 click 4 click 4 click 4 sleep 0.3 " + press));
-    const std::vector<Row> again = rows_of({"--pause", "--resume", "on"}, press);
-    CHECK(glm::length(touched(again) - zoomed) < 0.5);
-    CHECK_THAT(again.back().video_s, WithinAbs(50.0, 1.5 * kFrame_s));
-    const Vec3 other = touched(rows_of({"--pause", "--relief", "80"}, press));
-    CHECK(std::abs(other.z - zoomed.z) > 10.0);
-    const std::vector<Row> anew = rows_of({"--pause"}, press);  // 80 was for once
-    CHECK(glm::length(touched(anew) - zoomed) < 0.5);
-    CHECK_THAT(anew.back().video_s, WithinAbs(0.0, 1.5 * kFrame_s));
+    Vec3 zoomed{0.0};
+    {
+        FilmWindow film(film_file, home, {"--start", "50", "--pause"});
+        film.comes_to(50.0);
+        film.act("mousemove 200 260 click 4 click 4 click 4 click 4");
+        zoomed = touched(film);
+    }
+    {
+        FilmWindow film(film_file, home, {"--pause", "--resume", "on", "--relief", "80"});
+        film.comes_to(50.0);
+        CHECK(std::abs(touched(film).z - zoomed.z) > 10.0);
+    }
+    FilmWindow film(film_file, home, {"--pause"});
+    film.comes_to(0.0);
+    CHECK(glm::length(touched(film) - zoomed) < 0.5);  // 80 was for once
 }
 
 TEST_CASE("a window that stays shows what cannot be opened, and opens something else",
@@ -345,16 +534,25 @@ TEST_CASE("a window that stays shows what cannot be opened, and opens something 
     const Desk desk;
     const TemporaryFolder folder;
     write_depth_png(folder / "cup_depth.png", 64, 48, 120);
-    const std::vector<std::string> wrong{
-        "no_depth.png", "--stay", "--device",          "mouse",      "--size", "800x600",
-        "--seconds",    "60",     "--screenshot-name", "seen-{file}"};
     CHECK(run_dibhr(folder, {"no_depth.png", "--device", "mouse"}).exit_code == 1);
-    Process viewer = desk.start_viewer(folder, wrong);
+    WindowProgram viewer =
+        desk.start_viewer(folder, {"no_depth.png", "--stay", "--device", "mouse", "--size",
+                                   "640x480", "--screenshot-name", "seen-{file}"});
+    viewer.wait_until([](const Seen& now) { return contains(now.message.str(), "no_depth.png"); });
+    viewer.act("key Escape");
+    CHECK(viewer.seen().message.str().empty());
     // Keys that want a picture find none.
-    desk.act(
-        "search --sync --onlyvisible --name dibhr sleep 1 key Escape sleep 0.2 key e g n k i d "
-        "a period Home F sleep 0.4 key n g sleep 0.2 mousemove 200 300 mousedown 1 sleep 0.2 "
-        "mouseup 1 key ctrl+o sleep 1.5 key Return sleep 1.5 key s sleep 1.5 key q");
+    for (const std::string key : {"e", "g", "n", "k", "i", "d", "a", "period", "Home", "F"})
+        viewer.act("key " + key);
+    viewer.act("key n key g mousemove 200 300 mousedown 1 mouseup 1");
+    CHECK_FALSE(viewer.seen().open);
+    viewer.act("key ctrl+o");
+    viewer.wait_until([](const Seen& now) { return now.dialog && now.dialog_entries == 1; });
+    viewer.act("key Return");
+    viewer.wait_for_surface();
+    viewer.act("key s");
+    CHECK(eventually([&] { return fs::exists(folder / "seen-cup_depth.png"); },
+                     std::chrono::minutes(1)));
+    desk.press("key q");
     REQUIRE(viewer.wait() == 0);
-    CHECK(fs::exists(folder / "seen-cup_depth.png"));
 }

@@ -5,6 +5,7 @@
 #include "app/panels/panels.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/desk.hpp"
+#include "tests/app/program/passing_ticks.hpp"
 #include "tests/support/catch.hpp"
 
 using namespace dibhr;
@@ -52,15 +53,27 @@ TEST_CASE("a click of the ruler touches nothing, and one after it does", "[ruler
     const Desk desk;
     const TemporaryFolder folder;
     write_depth_png(folder / "slope_depth.png", 64, 48, 100, 2);
-    Process viewer =
+    WindowProgram viewer =
         desk.start_viewer(folder, {"slope_depth.png", "--raw-depth", "--device", "mouse", "--size",
-                                   "640x480", "--record", "hand.dibhr", "--seconds", "30"});
-    const std::string click = "mousedown 1 sleep 0.6 mouseup 1 sleep 0.4 ";
-    desk.act(
-        "search --sync --onlyvisible --name dibhr sleep 0.6 mousemove 170 240 sleep 0.4 key n "
-        "sleep 0.3 " +
-        click + "mousemove 190 250 sleep 0.2 " + click + "key m key n sleep 0.4 " + click +
-        "key q");
+                                   "640x480", "--record", "hand.dibhr"});
+    viewer.wait_for_surface();
+    const auto click = [&viewer] {
+        viewer.act("mousedown 1");
+        wait_for_ticks(viewer, kTicksToRest);  // long enough to be felt
+        viewer.act("mouseup 1");
+    };
+    viewer.act("mousemove 170 240 key n");
+    REQUIRE(viewer.seen().ruler);
+    click();
+    CHECK(viewer.seen().ruler_points == 1);
+    viewer.act("mousemove 190 250");
+    click();
+    CHECK(viewer.seen().ruler_points == 2);
+    CHECK_FALSE(viewer.seen().contact);
+    viewer.act("key n");
+    CHECK_FALSE(viewer.seen().ruler);
+    click();
+    desk.press("key q");
     REQUIRE(viewer.wait() == 0);
     int presses = 0;
     bool before = false;

@@ -8,7 +8,6 @@
 #include <iterator>
 #include <memory>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -21,6 +20,7 @@
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/recorded_session.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/eventually.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -32,35 +32,51 @@ namespace {
 struct Recorded {
     Recorded() {
         const std::string film =
-            "ffmpeg -v error -f lavfi -i testsrc2=size=120x90:rate=30:duration=0.5";
+            "ffmpeg -v error -f lavfi -i testsrc2=size=64x48:rate=30:duration=0.5";
         run_shell(folder, film + " -c:v ffv1 film_color.mkv");
         run_shell(folder, film + ",format=gray -c:v ffv1 film_depth.mkv");
-        record_session(folder / "mine.dibhr",
+        record_session(file,
                        {.colour = folder / "film_color.mkv", .depth = folder / "film_depth.mkv"});
     }
-    [[nodiscard]] std::unique_ptr<OpenedSession> open() const {
-        return std::make_unique<OpenedSession>(folder / "mine.dibhr", false);
+    [[nodiscard]] std::unique_ptr<OpenedSession> open() const { return open(file); }
+    [[nodiscard]] static std::unique_ptr<OpenedSession> open(const std::filesystem::path& session) {
+        return std::make_unique<OpenedSession>(session, false);
     }
     [[nodiscard]] std::vector<TickRecord> ticks() const {
-        const Session session(folder / "mine.dibhr");
+        const Session session(file);
         std::vector<TickRecord> ticks;
         Session::Ticks rows(session);
         for (TickRecord tick; rows.next(tick);) ticks.push_back(tick);
         return ticks;
     }
     TemporaryFolder folder{};
+    std::filesystem::path file{folder / "mine.dibhr"};
 };
+
+/// For tests that change nothing of it.
+const Recorded& recorded_once() {
+    static const Recorded once;
+    return once;
+}
+
+/// When the next picture is shown: the replay's clock goes on by pictures, not by the machine.
+SessionPlayer::Time next_picture() {
+    static SessionPlayer::Time now{};
+    return now += std::chrono::milliseconds(50);
+}
 
 /// Makes pictures until `done`; what passed meanwhile.
 template <typename Done>
 std::vector<SessionMoment> play_until(SessionPlayer& player, Done done) {
     std::vector<SessionMoment> passed;
-    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    while (!done(passed)) {
-        REQUIRE(std::chrono::steady_clock::now() < patience);
-        player.advance([&passed](const SessionMoment& moment) { passed.push_back(moment); });
-        std::this_thread::sleep_for(std::chrono::milliseconds(3));
-    }
+    const auto keep = [&passed](const SessionMoment& moment) { passed.push_back(moment); };
+    REQUIRE(eventually(
+        [&] {
+            if (done(passed)) return true;
+            player.advance(next_picture(), keep);
+            return done(passed);
+        },
+        std::chrono::minutes(1)));
     return passed;
 }
 
@@ -75,11 +91,20 @@ SessionMoment arrival(SessionPlayer& player) {
     return passed.back();
 }
 
+/// The number of the last tick that is due.
+std::int64_t last_due(const std::vector<TickRecord>& ticks, double due_s) {
+    const auto next =
+        std::upper_bound(ticks.begin(), ticks.end(), due_s,
+                         [](double time_s, const TickRecord& tick) { return time_s < tick.t_s; });
+    REQUIRE(next != ticks.begin());
+    return std::prev(next)->tick;
+}
+
 }  // namespace
 
 TEST_CASE("a replay passes every tick once and in order, over exactly the frames it touched",
           "[player]") {
-    const Recorded recorded;
+    const Recorded& recorded = recorded_once();
     SessionPlayer player(recorded.open());
     player.set_speed(4.0);
     const std::vector<SessionMoment> passed = play_to_end(player);
@@ -104,7 +129,7 @@ TEST_CASE("a replay passes every tick once and in order, over exactly the frames
 TEST_CASE(
     "Explain in a replay shows the next tick's update, and ends when the replay goes elsewhere",
     "[player]") {
-    const Recorded recorded;
+    const Recorded& recorded = recorded_once();
     const std::vector<TickRecord> ticks = recorded.ticks();
     const auto touching = std::find_if(ticks.begin(), ticks.end(), [](const TickRecord& tick) {
         return tick.contact && tick.moves > 2;
@@ -119,11 +144,13 @@ TEST_CASE(
     ViewerExplaining explaining;
     replay.begin(recorded.open(), {}, state);
     const auto show_until = [&](auto done) {
-        play_until(*replay.player(), [&](const auto&) {
-            replay.advance(state);
-            explaining.advance(replay.shown(), state, camera, 0.0);
-            return done();
-        });
+        REQUIRE(eventually(
+            [&] {
+                replay.advance(state, next_picture());
+                explaining.advance(replay.shown(), state, camera, 0.0);
+                return done();
+            },
+            std::chrono::minutes(1)));
     };
     replay.player()->pause();
     replay.player()->seek(before.t_s);
@@ -153,19 +180,46 @@ TEST_CASE(
     CHECK(camera.clip_from_grid(1.5) == view);
 }
 
-TEST_CASE("a replay keeps the session's time", "[player]") {
-    const Recorded recorded;
+TEST_CASE("a replay keeps the session's time, and stands still only for what is not read yet",
+          "[player]") {
+    const double speed = GENERATE(0.5, 1.0, 4.0);
+    CAPTURE(speed);
+    const Recorded& recorded = recorded_once();
+    const std::vector<TickRecord> ticks = recorded.ticks();
     SessionPlayer player(recorded.open());
-    static_cast<void>(arrival(player));
-    const auto begin = std::chrono::steady_clock::now();
-    const std::vector<SessionMoment> passed = play_to_end(player);
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-    // Never faster; slower only as far as a busy machine makes it.
-    CHECK(took.count() > 0.9 * (passed.back().tick.t_s - passed.front().tick.t_s));
+    player.set_speed(speed);
+    double begin_s = 0.0;  // of the session, at `begin`
+    SessionPlayer::Time begin{};
+    const auto anchor = [&](SessionPlayer::Time now) {
+        begin = now;
+        begin_s = player.moment()->tick.t_s;
+    };
+    std::size_t in_time = 0;
+    REQUIRE(eventually(
+        [&] {
+            const bool had_begun = player.moment() != nullptr;
+            const SessionPlayer::Time now = next_picture();
+            player.advance(now, [](const SessionMoment&) {});
+            if (player.moment() == nullptr) return false;
+            if (!had_begun) anchor(now);
+            const std::chrono::duration<double> passed = now - begin;
+            const double due_s = begin_s + speed * passed.count();
+            CHECK(player.moment()->tick.t_s <= due_s);
+            if (player.playback().waiting) {
+                anchor(now);
+            } else {
+                CHECK(player.moment()->tick.tick == last_due(ticks, due_s));
+                ++in_time;
+            }
+            return !player.playback().playing;
+        },
+        std::chrono::minutes(1)));
+    CHECK(in_time > 0);
+    CHECK(player.moment()->tick.tick == ticks.back().tick);
 }
 
 TEST_CASE("a replay goes to any time, and by single ticks, whether it plays or not", "[player]") {
-    const Recorded recorded;
+    const Recorded& recorded = recorded_once();
     const std::vector<TickRecord> ticks = recorded.ticks();
     SessionPlayer player(recorded.open());
     player.pause();
@@ -191,7 +245,7 @@ TEST_CASE("a replay goes to any time, and by single ticks, whether it plays or n
 }
 
 TEST_CASE("of a replay a part is played again and again, or once", "[player]") {
-    const Recorded recorded;
+    const Recorded& recorded = recorded_once();
     SessionPlayer player(recorded.open());
     const double begin_s = player.playback().begin_s;
     const MediaPart part{begin_s + 0.2, begin_s + 0.4};
@@ -224,7 +278,7 @@ TEST_CASE("of a replay a part is played again and again, or once", "[player]") {
 }
 
 TEST_CASE("of many seeks in a row the last one counts", "[player]") {
-    const Recorded recorded;
+    const Recorded& recorded = recorded_once();
     const std::vector<TickRecord> ticks = recorded.ticks();
     SessionPlayer player(recorded.open());
     player.pause();
@@ -237,11 +291,11 @@ TEST_CASE("of many seeks in a row the last one counts", "[player]") {
 
 TEST_CASE("the recorded parameters, computed again, give the recorded bits; others do not",
           "[player]") {
-    const Recorded recorded;
+    const Recorded& recorded = recorded_once();
     SessionPlayer player(recorded.open());
     player.set_speed(4.0);
     const bool same = GENERATE(true, false);
-    TouchParameters parameters = Session(recorded.folder / "mine.dibhr").parameters().front().touch;
+    TouchParameters parameters = Session(recorded.file).parameters().front().touch;
     if (!same) parameters.friction = {0.0, 0.0};
     player.compute(parameters);
     std::size_t compared = 0, different = 0;
@@ -258,9 +312,11 @@ TEST_CASE("the recorded parameters, computed again, give the recorded bits; othe
 }
 
 TEST_CASE("people count ticks from 0, the session's first, wherever the loop's began", "[player]") {
-    const Recorded recorded;
-    run_shell(recorded.folder, "sqlite3 mine.dibhr 'UPDATE tick_data SET tick = tick + 5000'");
-    SessionPlayer player(recorded.open());
+    const Recorded& recorded = recorded_once();
+    const TemporaryFolder folder;
+    std::filesystem::copy_file(recorded.file, folder / "later.dibhr");
+    run_shell(folder, "sqlite3 later.dibhr 'UPDATE tick_data SET tick = tick + 5000'");
+    SessionPlayer player(Recorded::open(folder / "later.dibhr"));
     player.set_speed(4.0);
     std::int64_t count = 0;
     for (const SessionMoment& moment : play_to_end(player)) {
@@ -272,10 +328,10 @@ TEST_CASE("people count ticks from 0, the session's first, wherever the loop's b
 
 TEST_CASE("beside other parameters the recorded algorithm's proxy is where it was recorded",
           "[player]") {
-    const Recorded recorded;
+    const Recorded& recorded = recorded_once();
     SessionPlayer player(recorded.open());
     player.set_speed(4.0);
-    TouchParameters parameters = Session(recorded.folder / "mine.dibhr").parameters().front().touch;
+    TouchParameters parameters = Session(recorded.file).parameters().front().touch;
     const Algorithm recorded_algorithm = std::exchange(parameters.algorithm, Algorithm::pga);
     REQUIRE(recorded_algorithm == Algorithm::dibhr);
     player.compute(parameters);
@@ -300,11 +356,11 @@ TEST_CASE("beside other parameters the recorded algorithm's proxy is where it wa
 
 TEST_CASE("after a jump other parameters are computed from a second earlier, and shown when ready",
           "[player]") {
-    const Recorded recorded;
+    const Recorded& recorded = recorded_once();
     const std::vector<TickRecord> ticks = recorded.ticks();
     SessionPlayer player(recorded.open());
     player.pause();
-    player.compute(Session(recorded.folder / "mine.dibhr").parameters().front().touch);
+    player.compute(Session(recorded.file).parameters().front().touch);
     static_cast<void>(arrival(player));
     player.seek(ticks[400].t_s);
     const auto passed = play_until(player, [&ticks](const auto& moments) {
@@ -319,29 +375,39 @@ TEST_CASE("after a jump other parameters are computed from a second earlier, and
     CHECK(same_bits(*passed.back().computed, ticks[400]));
 }
 
-TEST_CASE("a film that is gone or has changed, and a session without ticks, are told when opened",
+TEST_CASE("a film that has changed or is gone, and a session without ticks, are told when opened",
           "[player]") {
     const Recorded recorded;
-    const auto file = recorded.folder / "film_color.mkv";
-    const std::string change = GENERATE("rm film_color.mkv", "printf x >>film_color.mkv");
-    run_shell(recorded.folder, change);
-    std::string told;
-    try {
-        static_cast<void>(recorded.open());
-    } catch (const InputError& error) {
-        told = error.what();
-    }
-    CAPTURE(told);
-    CHECK(told.find(file.string()) != std::string::npos);
-    CHECK(told.find('\n') == std::string::npos);
-    const ProgramResult result =
-        run_dibhr(recorded.folder, {(recorded.folder / "mine.dibhr").string()});
-    CHECK(result.exit_code == 1);
-    CHECK(result.errors == "dibhr: " + told + "\n");
+    const auto told_of = [&recorded](const std::filesystem::path& session) {
+        std::string told;
+        try {
+            static_cast<void>(Recorded::open(session));
+        } catch (const InputError& error) {
+            told = error.what();
+        }
+        CAPTURE(told);
+        CHECK(told.find('\n') == std::string::npos);
+        const ProgramResult result = run_dibhr(recorded.folder, {session.string()});
+        CHECK(result.exit_code == 1);
+        CHECK(result.errors == "dibhr: " + told + "\n");
+        return told;
+    };
+    const std::filesystem::path empty = recorded.folder / "empty.dibhr";
+    std::filesystem::copy_file(recorded.file, empty);
+    run_shell(recorded.folder, "sqlite3 empty.dibhr 'DELETE FROM tick_data'");
+    CHECK(contains(told_of(empty), empty.string() + ": holds no tick"));
+    const std::string film = (recorded.folder / "film_color.mkv").string();
+    run_shell(recorded.folder, "printf x >>film_color.mkv");
+    const std::string changed = told_of(recorded.file);
+    CHECK(contains(changed, film));
+    run_shell(recorded.folder, "rm film_color.mkv");
+    const std::string gone = told_of(recorded.file);
+    CHECK(contains(gone, film));
+    CHECK(gone != changed);
 }
 
 TEST_CASE("what cannot be said of a replay is bad usage", "[player]") {
-    const Recorded recorded;
+    const Recorded& recorded = recorded_once();
     for (const std::vector<std::string>& more :
          {std::vector<std::string>{"--record", "x.dibhr"}, {"depth.mkv"}, {"--raw-depth"}}) {
         std::vector<std::string> arguments{"view", "mine.dibhr"};

@@ -2,15 +2,13 @@
 // disks.
 #include <sys/mount.h>
 
-#include <chrono>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
-#include <optional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "app/settings/material.hpp"
@@ -19,8 +17,9 @@
 #include "core/video/libraries.hpp"
 #include "core/video/media.hpp"
 #include "tests/app/program/desk.hpp"
+#include "tests/app/program/open_dialog.hpp"
+#include "tests/app/program/passing_ticks.hpp"
 #include "tests/support/catch.hpp"
-#include "tests/support/eventually.hpp"
 #include "tests/support/text.hpp"
 
 using namespace dibhr;
@@ -31,13 +30,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kMeet = "search --sync --onlyvisible --name dibhr sleep 0.4 ";
-
 /// A second of film with shapes, holes and noise, so that cleaning and looping have work to do.
 void make_films(const TemporaryFolder& folder) {
-    const std::string quiet = "ffmpeg -nostdin -v error -y -f lavfi -i testsrc2=s=160x120:r=30:d=1";
-    run_shell(quiet + " -c:v ffv1 '" + (folder / "film_color.mkv").string() + "'");
-    run_shell(quiet + ",format=gray -c:v ffv1 '" + (folder / "film_depth.mkv").string() + "'");
+    static const TemporaryFolder films;
+    static const bool made = [] {
+        const std::string film = "ffmpeg -nostdin -v error -f lavfi -i testsrc2=s=80x60:r=30:d=1";
+        run_shell(film + " -c:v ffv1 '" + (films / "film_color.mkv").string() + "'");
+        run_shell(film + ",format=gray -c:v ffv1 '" + (films / "film_depth.mkv").string() + "'");
+        return true;
+    }();
+    static_cast<void>(made);
+    for (const std::string name : {"film_color.mkv", "film_depth.mkv"})
+        fs::copy_file(films / name, folder / name);
+}
+
+WindowProgram start_window(const Desk& desk, const TemporaryFolder& folder,
+                           std::vector<std::string> arguments,
+                           const std::string& size = "640x480") {
+    const std::vector<std::string> more{"--device", "mouse", "--size", size};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return desk.start_viewer(folder, arguments);
 }
 
 /// Of all panels only Touch stands open: its rows begin near the top.
@@ -47,22 +59,47 @@ void open_touch_panel_only(const TemporaryFolder& folder) {
         << "[panels]\nvideo = false\ntouch = true\ndevice = false\n";
 }
 
-/// Strokes over the relief, pressed in.
-std::string stroke() {
-    std::string commands = "mousemove 330 380 sleep 0.4 mousedown 1 sleep 0.3 ";
-    for (int step = 0; step < 25; ++step) commands += "mousemove_relative -- 9 2 sleep 0.01 ";
-    return commands;
+/// A stroke over the relief, pressed in, which goes on.
+void begin_stroke(const WindowProgram& viewer) {
+    viewer.act("mousemove 100 " + std::to_string(viewer.seen().rows / 2 + 10));
+    wait_for_ticks(viewer, kTicksToRest);
+    viewer.act("mousedown 1");
+    viewer.wait_until([](const Seen& now) { return now.contact; });
+    for (int step = 0; step < 4; ++step) viewer.act("mousemove_relative 28 6");
+    wait_for_ticks(viewer, kTicksToRest);
 }
 
-/// Clicks on the list of algorithms, under two lines of materials, an entry of it, and the sliders
-/// under it.
-std::string change_touch_panel() {
-    std::string commands;
-    for (const int y : {146, 186, 206, 218, 230, 242, 254, 266}) {
-        commands += "mousemove 1130 " + std::to_string(y) + " sleep 0.15 mousedown 1 sleep 0.15 " +
-                    "mouseup 1 sleep 0.15 ";
-    }
-    return commands;
+void stroke(const WindowProgram& viewer) {
+    begin_stroke(viewer);
+    viewer.act("mouseup 1");
+    viewer.wait_until([](const Seen& now) { return !now.contact; });
+}
+
+void begin_recording(const WindowProgram& viewer) {
+    viewer.act("key ctrl+r");
+    viewer.wait_until([](const Seen& now) { return now.records; });
+}
+
+void end_recording(const WindowProgram& viewer) {
+    viewer.act("key ctrl+r");
+    viewer.wait_until([](const Seen& now) { return !now.records; });
+}
+
+void click(const WindowProgram& viewer, int x, int y) {
+    viewer.act("mousemove " + std::to_string(x) + " " + std::to_string(y) + " click 1");
+}
+
+/// Clicks on the list of algorithms, under three lines of materials, on an entry of it, and on the
+/// sliders under it.
+void change_touch_panel(const WindowProgram& viewer) {
+    for (const int y : {170, 213, 193, 216, 239, 262, 285}) click(viewer, 550, y);
+}
+
+/// In the message box, which is closed.
+void take_message(const WindowProgram& viewer, const std::string& words) {
+    viewer.wait_until([&](const Seen& now) { return contains(now.message.str(), words); });
+    viewer.act("key Escape");
+    CHECK(viewer.seen().message.str().empty());
 }
 
 /// The file that Ctrl+R made.
@@ -110,39 +147,54 @@ class SmallDisk {
 
 TEST_CASE(
     "a recording begun, marked and ended by key replays to the same bits, whatever was changed "
-    "meanwhile",
+    "meanwhile; a material is chosen by one click, and there the next time",
     "[session]") {
     const Desk desk;
     const TemporaryFolder folder;
     make_films(folder);
     open_touch_panel_only(folder);
-    Process viewer = desk.start_viewer(
-        folder, {"film_color.mkv", "--device", "mouse", "--size", "1280x800", "--seconds", "60"});
-    desk.act(std::string(kMeet) + "sleep 0.5 key ctrl+r sleep 0.3 " + stroke() +
-             "key m sleep 0.2 " + "key f sleep 0.2 key f sleep 0.2 mouseup 1");
-    desk.act(change_touch_panel());
-    desk.act("mousemove 400 300 sleep 0.2 " + stroke() +
-             "key space sleep 0.4 key period sleep 0.3 " +
-             "key Right sleep 0.3 mouseup 1 key ctrl+r sleep 0.8 key ctrl+q");
-    REQUIRE(viewer.wait() == 0);
+    {
+        // So high that the panels need not be scrolled when the recording's own opens.
+        WindowProgram viewer = start_window(desk, folder, {"film_color.mkv"}, "640x800");
+        viewer.wait_for_surface();
+        begin_recording(viewer);
+        begin_stroke(viewer);
+        viewer.act("key m");
+        CHECK(viewer.seen().marks == 1);
+        viewer.act("key f");
+        wait_for_ticks(viewer, 20);
+        viewer.act("key f mouseup 1");
+        change_touch_panel(viewer);
+        begin_stroke(viewer);
+        viewer.act("mouseup 1");
+        click(viewer, 477, 101);  // bark
+        begin_stroke(viewer);
+        viewer.act("key space");
+        CHECK_FALSE(viewer.seen().playing);
+        viewer.act("key period key Right mouseup 1");
+        end_recording(viewer);
+        desk.press("key ctrl+q");
+        REQUIRE(viewer.wait() == 0);
+    }
     const fs::path file = recorded_by_key(folder);
     CHECK_FALSE(fs::exists(file.string() + "-wal"));
     const Session session(file);
     session.check();
     CHECK(session.fact("complete") == "1");
-    for (const auto& [library, version] : library_versions()) {
+    for (const auto& [library, version] : library_versions())
         CHECK(session.fact(library) == version);
-    }
     CHECK(session.missing() == 0);
     CHECK(contacts_in(file) > 200);
     REQUIRE(session.marks().size() == 1);
     CHECK(session.marks().front().t_s > session.begin_s());
     CHECK(session.marks().front().t_s < session.end_s());
+    const TouchParameters& plain = session.parameters().front().touch;
+    CHECK(session.parameters().front().bump.file.empty());
     bool other_algorithm = false, other_friction = false, other_cutoff = false, force_off = false;
     for (const SessionParameters& parameters : session.parameters()) {
-        const TouchParameters& first = session.parameters().front().touch;
-        other_algorithm = other_algorithm || parameters.touch.algorithm != first.algorithm;
-        other_friction = other_friction || !(parameters.touch.friction == first.friction);
+        if (!parameters.bump.file.empty()) continue;  // they are the material's
+        other_algorithm = other_algorithm || parameters.touch.algorithm != plain.algorithm;
+        other_friction = other_friction || !(parameters.touch.friction == plain.friction);
         const double cutoff_hz = parameters.touch.coupling.damping_cutoff_hz;
         other_cutoff = other_cutoff || cutoff_hz > 0.0;
         CHECK_THAT(cutoff_hz, WithinAbs(std::round(cutoff_hz), 0.0));  // as it is shown, from "off"
@@ -152,35 +204,18 @@ TEST_CASE(
     CHECK(other_friction);
     CHECK(other_cutoff);
     CHECK(force_off);
-    require_same_bits(folder, file);
-}
-
-TEST_CASE("a material is chosen by one click, felt, recorded and replayed, and there the next time",
-          "[session]") {
-    const Desk desk;
-    const TemporaryFolder folder;
-    make_films(folder);
-    open_touch_panel_only(folder);
-    const auto view = [&](const std::string& recording, const std::string& commands) {
-        Process viewer =
-            desk.start_viewer(folder, {"film_color.mkv", "--device", "mouse", "--size", "1280x800",
-                                       "--record", recording, "--seconds", "60"});
-        desk.act(kMeet + commands + "key ctrl+q");
-        REQUIRE(viewer.wait() == 0);
-        require_same_bits(folder, folder / recording);
-    };
-    const std::string click_on_bark =
-        "sleep 0.5 mousemove 1063 101 sleep 0.2 mousedown 1 sleep 0.2 mouseup 1 sleep 0.5 ";
-    view("first.dibhr", click_on_bark + stroke() + "mouseup 1 sleep 0.3 ");
-    view("next.dibhr", "sleep 0.5 " + stroke() + "mouseup 1 sleep 0.3 ");
-
-    const Session first(folder / "first.dibhr");
-    const TouchParameters plain = first.parameters().front().touch;
-    CHECK(first.parameters().front().bump.file.empty());
-    const SessionParameters& chosen = first.parameters().back();
+    const SessionParameters& chosen = session.parameters().back();
     CHECK(chosen.bump.file.filename() == "bark.png");
     CHECK(is_made_of(material_called("bark"), chosen.touch));
     CHECK_FALSE(chosen.touch == plain);
+    require_same_bits(folder, file);
+
+    WindowProgram viewer = start_window(desk, folder, {"film_color.mkv", "--record", "next.dibhr"});
+    viewer.wait_for_surface();
+    stroke(viewer);
+    desk.press("key ctrl+q");
+    REQUIRE(viewer.wait() == 0);
+    require_same_bits(folder, folder / "next.dibhr");
     const Session next(folder / "next.dibhr");
     CHECK(next.fact("material") == "bark");
     CHECK(next.parameters().front().touch == chosen.touch);
@@ -192,69 +227,85 @@ TEST_CASE("a material is chosen by one click, felt, recorded and replayed, and t
     }
 }
 
-TEST_CASE("a report is made from a replay by a button, while the window goes on", "[session]") {
+TEST_CASE(
+    "a session is replayed in the window by itself or moved by keys, reported on by a button, left "
+    "for touching, and ends like any other",
+    "[session]") {
     const Desk desk;
     const TemporaryFolder folder;
     make_films(folder);
     {
-        Process viewer =
-            desk.start_viewer(folder, {"film_color.mkv", "--device", "mouse", "--size", "1280x800",
-                                       "--record", "hand.dibhr", "--seconds", "60"});
-        desk.act(kMeet + stroke() + "mouseup 1 key ctrl+q");
-        REQUIRE(viewer.wait() == 0);
-    }
-    Process viewer =
-        desk.start_viewer(folder, {"hand.dibhr", "--size", "1280x800", "--seconds", "60"});
-    desk.act(std::string(kMeet) +
-             "sleep 0.5 mousemove 1180 98 sleep 0.3 mousedown 1 sleep 0.2 mouseup 1");
-    const fs::path page = folder / "hand-report/report.html";
-    CHECK(eventually([&page] { return fs::exists(page); }, std::chrono::seconds(20)));
-    desk.act(std::string(kMeet) + "key ctrl+q");
-    CHECK(viewer.wait() == 0);
-    CHECK(contains(read_text(page), "</html>"));
-    CHECK(read_text(folder / "errors.txt").empty());
-}
-
-TEST_CASE("a session is replayed in the window, moved by keys, and ends like any other",
-          "[session]") {
-    const Desk desk;
-    const TemporaryFolder folder;
-    make_films(folder);
-    {
-        Process viewer =
-            desk.start_viewer(folder, {"film_color.mkv", "--device", "mouse", "--relief", "40",
-                                       "--record", "hand.dibhr", "--seconds", "60"});
-        desk.act(std::string(kMeet) + stroke() + "mouseup 1 sleep 0.2 key q");
+        WindowProgram viewer = start_window(
+            desk, folder, {"film_color.mkv", "--relief", "40", "--record", "hand.dibhr"});
+        viewer.wait_for_surface();
+        stroke(viewer);
+        desk.press("key q");
         REQUIRE(viewer.wait() == 0);
     }
     const std::string recorded = read_text(folder / "hand.dibhr");
-    SECTION("by itself") {
-        Process viewer = desk.start_viewer(
-            folder, {"hand.dibhr", "--seconds", "2", "--size", "800x600", "--screenshot", "r.png"});
+    {
+        WindowProgram viewer = desk.start_viewer(
+            folder, {"hand.dibhr", "--speed", "4", "--size", "320x240", "--screenshot", "r.png"});
+        viewer.wait_until([](const Seen& now) {
+            return now.replays && now.surface && !now.playing && now.media_s == now.duration_s;
+        });
+        desk.press("key q");
         CHECK(viewer.wait() == 0);
-        CHECK(describe_media(folder / "r.png").colour_columns == 800);
+        CHECK(describe_media(folder / "r.png").colour_columns == 320);
         CHECK_FALSE(fs::exists(folder / "config"));
+        CHECK(read_text(folder / "errors.txt").empty());
     }
-    SECTION("by keys, through another algorithm, and back to touching") {
-        Process viewer = desk.start_viewer(
-            folder, {"hand.dibhr", "--algorithm", "pga", "--seconds", "60", "--device", "mouse"});
-        desk.act(std::string(kMeet) +
-                 "sleep 0.5 key space sleep 0.2 key period sleep 0.2 key comma sleep 0.2 key Home "
-                 "sleep 0.2 key l sleep 0.1 key bracketright sleep 0.1 key space sleep 0.4 key "
-                 "Right sleep 0.3 key Left sleep 0.3");
-        // A replay is not recorded; a video opened from it is touched again.
-        desk.act("key ctrl+r sleep 0.2 key ctrl+o sleep 0.4 type film_color.mkv");
-        desk.act("sleep 0.3 keydown Return sleep 0.3 keyup Return sleep 1 key ctrl+r sleep 0.5 " +
-                 stroke() + "mouseup 1 key ctrl+r sleep 0.6 key ctrl+q");
-        CHECK(viewer.wait() == 0);
-        const fs::path again = recorded_by_key(folder);
-        CHECK(contacts_in(again) > 100);
-        // With the parameters of before, not those of the session, which do not last.
-        const Fit fit = fit_of(open_depth(folder / "film_depth.mkv")->description());
-        CHECK(Session(again).parameters().front().touch.shape == SurfaceShape{fit.relief_px});
-        require_same_bits(folder, again);
-        CHECK(load_settings(folder / "config/dibhr/settings.toml").touch == Settings{}.touch);
-    }
+    WindowProgram viewer =
+        start_window(desk, folder, {"hand.dibhr", "--algorithm", "pga", "--pause"});
+    viewer.wait_until([](const Seen& now) { return now.replays && now.surface && now.tick == 0; });
+    const auto is_at = [&viewer](std::int64_t tick) {
+        viewer.wait_until([tick](const Seen& now) { return now.tick == tick; });
+    };
+    viewer.act("key period");
+    is_at(1);
+    viewer.act("key period");
+    is_at(2);
+    viewer.act("key comma");
+    is_at(1);
+    viewer.act("key Home");
+    is_at(0);
+    // What a key did to a replay is seen in the picture after it.
+    viewer.act("key l key bracketright");
+    viewer.wait_until([](const Seen& now) { return now.looping && now.speed == 1.1; });
+    viewer.act("key space");
+    viewer.wait_until([](const Seen& now) { return now.tick > 200; });
+    viewer.act("key space");
+    viewer.wait_until([](const Seen& now) { return !now.playing; });
+    const double forward_s = std::min(viewer.seen().media_s + 5.0, viewer.seen().duration_s);
+    viewer.act("key Right");
+    viewer.wait_until([=](const Seen& now) { return now.media_s > forward_s - 1e-3; });
+    const double back_s = std::max(viewer.seen().media_s - 5.0, 0.0);
+    viewer.act("key Left");
+    viewer.wait_until([=](const Seen& now) { return now.media_s < back_s + 0.5; });
+
+    click(viewer, 556, 98);  // Make a report
+    viewer.wait_until([](const Seen& now) { return now.notice.str().starts_with("Report: "); });
+    const std::string page = read_text(folder / "hand-report/report.html");
+    CHECK(contains(page, "</html>"));
+
+    viewer.act("key ctrl+r");
+    CHECK(contains(viewer.seen().notice.str(), "A replay is not recorded"));
+    CHECK_FALSE(viewer.seen().records);
+    viewer.act("key ctrl+o");
+    open_by_name(viewer, "film_color.mkv");
+    viewer.wait_until([](const Seen& now) { return !now.replays && now.touchable && now.surface; });
+    begin_recording(viewer);
+    stroke(viewer);
+    end_recording(viewer);
+    desk.press("key ctrl+q");
+    CHECK(viewer.wait() == 0);
+    const fs::path again = recorded_by_key(folder);
+    CHECK(contacts_in(again) > 100);
+    // With the parameters of before, not those of the session, which do not last.
+    const Fit fit = fit_of(open_depth(folder / "film_depth.mkv")->description());
+    CHECK(Session(again).parameters().front().touch.shape == SurfaceShape{fit.relief_px});
+    require_same_bits(folder, again);
+    CHECK(load_settings(folder / "config/dibhr/settings.toml").touch == Settings{}.touch);
     CHECK(read_text(folder / "errors.txt").empty());
     CHECK(read_text(folder / "hand.dibhr") == recorded);
 }
@@ -264,12 +315,15 @@ TEST_CASE("a session file that vanishes while it is recorded is told, and the pr
     const Desk desk;
     const TemporaryFolder folder;
     make_films(folder);
-    Process viewer = desk.start_viewer(folder, {"film_color.mkv", "--device", "mouse", "--record",
-                                                "gone.dibhr", "--seconds", "60"});
-    desk.act(std::string(kMeet) + "sleep 0.5");
+    WindowProgram viewer = start_window(desk, folder, {"film_color.mkv", "--record", "gone.dibhr"});
+    viewer.wait_for_surface();
+    viewer.wait_until([](const Seen& now) { return now.recorded_rows > 100; });
     run_shell("rm '" + (folder / "gone.dibhr").string() + "'*");
-    desk.act("sleep 1.2 key Escape sleep 0.2 key ctrl+r sleep 0.5 " + stroke() +
-             "mouseup 1 key ctrl+r sleep 0.6 key q");
+    take_message(viewer, "gone.dibhr stopped");
+    begin_recording(viewer);
+    stroke(viewer);
+    end_recording(viewer);
+    desk.press("key q");
     CHECK(viewer.wait() == 1);
     const std::string told = read_text(folder / "errors.txt");
     CHECK(told.starts_with("dibhr: Recording to gone.dibhr stopped: "));
@@ -282,7 +336,7 @@ TEST_CASE("a session file that vanishes while it is recorded is told, and the pr
 TEST_CASE("a disk that becomes full in the midst of a recording stops neither hand nor program",
           "[session]") {
     const TemporaryFolder folder;
-    const SmallDisk disk(folder / "disk", 1024);
+    const SmallDisk disk(folder / "disk", 768);
     if (!disk.mounted()) {
         WARN("skipped: a small disk can only be mounted by root");
         CHECK_FALSE(disk.mounted());
@@ -290,11 +344,17 @@ TEST_CASE("a disk that becomes full in the midst of a recording stops neither ha
     }
     const Desk desk;
     make_films(folder);
-    Process viewer = desk.start_viewer(folder, {"film_color.mkv", "--device", "mouse", "--record",
-                                                "disk/full.dibhr", "--seconds", "90"});
-    desk.act(std::string(kMeet) + stroke() + "sleep 12");
-    desk.act("key Escape mouseup 1 sleep 0.2 key ctrl+r sleep 0.5 " + stroke() +
-             "mouseup 1 key ctrl+r sleep 0.6 key q");
+    WindowProgram viewer =
+        start_window(desk, folder, {"film_color.mkv", "--record", "disk/full.dibhr"});
+    viewer.wait_for_surface();
+    begin_stroke(viewer);
+    take_message(viewer, "disk/full.dibhr stopped");
+    CHECK(viewer.seen().contact);
+    viewer.act("mouseup 1");
+    begin_recording(viewer);
+    stroke(viewer);
+    end_recording(viewer);
+    desk.press("key q");
     CHECK(viewer.wait() == 1);
     const std::string told = read_text(folder / "errors.txt");
     INFO(told);

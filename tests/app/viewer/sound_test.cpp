@@ -1,12 +1,15 @@
 // What the real window sounds like: the samples that it gives a sound device, written into a file;
 // and machines that have none.
+#include <poll.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -30,19 +33,36 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kMeet = "search --sync --onlyvisible --name dibhr sleep 0.4 ";
-constexpr const char* kPress = "mousemove 400 560 sleep 1 mousedown 1 sleep 0.6 ";
+using State = SoundOutput::State;
+using Words = std::vector<std::string>;
 
-std::string drag(int way) {
-    std::string commands;
-    for (int step = 0; step < 50; ++step)
-        commands += "mousemove_relative -- " + std::to_string(way) + " 0 sleep 0.012 ";
-    return commands;
+constexpr const char* kPress = "mousemove 250 336 mousedown 1";
+constexpr std::size_t kTenth = 4800;  // samples
+
+/// What follows, in a folder whose settings hide the panels.
+Words small_window(const TemporaryFolder& folder, Words arguments) {
+    fs::create_directories(folder / "config/dibhr");
+    write_text(folder / "config/dibhr/settings.toml", "[window]\npanels-visible = false\n");
+    arguments.insert(arguments.end(), {"--device", "mouse", "--size", "640x480"});
+    return arguments;
+}
+
+/// Drags to and fro over what is touched, for as long as nobody is satisfied.
+template <typename Condition>
+bool rub_until(const WindowProgram& viewer, const Condition& is_so) {
+    return eventually(
+        [&] {
+            for (const char* const way : {"40 0", "40 0", "-40 0", "-40 0"})
+                viewer.act(std::string("mousemove_relative ") + way);
+            return is_so();
+        },
+        std::chrono::minutes(1));
 }
 
 /// Starts the viewer with a game pad, whose motors write into pad.txt of its folder.
-std::vector<std::string> holding_a_pad() {
-    return {"env", "LD_PRELOAD=" VIRTUAL_PAD, "VIRTUAL_PAD=pad.txt"};
+Words holding_a_pad(Words host) {
+    host.insert(host.end(), {"LD_PRELOAD=" VIRTUAL_PAD, "VIRTUAL_PAD=pad.txt"});
+    return host;
 }
 
 /// What a pad's motors were told.
@@ -58,6 +78,20 @@ std::vector<Told> motors_told(const fs::path& file) {
     return all;
 }
 
+bool both_turned(const std::vector<Told>& motors) {
+    return std::any_of(motors.begin(), motors.end(), [](auto told) { return told.low > 0; }) &&
+           std::any_of(motors.begin(), motors.end(), [](auto told) { return told.high > 0; });
+}
+
+bool stand_still(const std::vector<Told>& motors) {
+    return !motors.empty() && motors.back().low + motors.back().high == 0;
+}
+
+bool is_silent(const std::vector<float>& samples, std::size_t from) {
+    return std::all_of(samples.begin() + static_cast<std::ptrdiff_t>(from), samples.end(),
+                       [](float sample) { return std::abs(sample) < 1e-4F; });
+}
+
 /// A sound server that takes calls and never answers.
 class SilentServer {
   public:
@@ -71,6 +105,10 @@ class SilentServer {
         REQUIRE(::listen(socket_, 8) == 0);
     }
     ~SilentServer() { ::close(socket_); }
+    [[nodiscard]] bool was_called() const {
+        pollfd call{socket_, POLLIN, 0};
+        return ::poll(&call, 1, 0) > 0;
+    }
     SilentServer(const SilentServer&) = delete;
     SilentServer& operator=(const SilentServer&) = delete;
 
@@ -80,125 +118,124 @@ class SilentServer {
 
 }  // namespace
 
-TEST_CASE("what is touched in the window is heard, and nothing once the force is off", "[sound]") {
+TEST_CASE(
+    "what is touched in the window turns a game pad's motors and is heard, unless it is "
+    "muted; neither once the force is off",
+    "[sound]") {
     const Desk desk;
     const TemporaryFolder folder;
-    Process viewer = desk.start_viewer(folder,
-                                       {"--device", "mouse", "--material", "wood", "--pause",
-                                        "--record", "hand.dibhr", "--seconds", "30"},
-                                       sounding_into_file());
-    desk.act(kMeet + std::string(kPress) + drag(2));
-    desk.act("key f sleep 0.3 " + drag(-2) + drag(2) + "key q");
+    WindowProgram viewer = desk.start_viewer(
+        folder,
+        small_window(folder, {"--material", "wood", "--pause", "--mute", "--record", "hand.dibhr"}),
+        holding_a_pad(sounding_into_file()));
+    const auto motors = [&folder] { return motors_told(folder / "pad.txt"); };
+    const auto samples = [&folder] { return samples_of(folder / "sound.raw"); };
+    const auto heard = [&samples] {
+        const std::vector<bool> tenths = heard_tenths(samples());
+        return std::count(tenths.begin(), tenths.end(), true);
+    };
+    viewer.wait_for_surface();
+    viewer.act(kPress);
+    viewer.wait_until([](const Seen& now) { return now.contact; });
+    CHECK(rub_until(viewer, [&] { return both_turned(motors()); }));
+    CHECK_FALSE(fs::exists(folder / "sound.raw"));  // no device is opened
+    CHECK(viewer.seen().sound == static_cast<int>(State::quiet));
+    CHECK(read_text(folder / "errors.txt").empty());  // SDL tells later that it writes a file
+
+    viewer.act("mouseup 1");
+    viewer.wait_until([](const Seen& now) { return !now.contact; });
+    viewer.act("key u");
+    viewer.wait_until(
+        [](const Seen& now) { return now.sound == static_cast<int>(State::playing); });
+    CHECK(eventually([&] { return samples().size() > 2 * kTenth; }));
+    CHECK(is_silent(samples(), 0));  // in the air
+    viewer.act("mousedown 1");
+    CHECK(rub_until(viewer, [&] { return heard() >= 5; }));
+
+    viewer.act("key f");
+    viewer.wait_until([](const Seen& now) { return !now.force_enabled; });
+    CHECK(eventually([&] { return stand_still(motors()); }));
+    const std::size_t silent_from = samples().size() + kTenth;  // what was on its way is heard
+    CHECK(rub_until(viewer, [&] { return samples().size() > silent_from; }));
+    const std::size_t told = motors().size();
+    const std::uint64_t without_force = viewer.seen().recorded_rows;
+    CHECK(rub_until(viewer, [&] { return samples().size() > silent_from + 4 * kTenth; }));
+    CHECK(is_silent(samples(), silent_from));
+    CHECK(motors().size() == told);
+    const std::uint64_t with_force = viewer.seen().recorded_rows;
+    viewer.act("key f");
+    CHECK(rub_until(viewer, [&] { return motors().size() > told; }));
+
+    viewer.act("key u");
+    viewer.wait_until([](const Seen& now) { return now.sound == static_cast<int>(State::quiet); });
+    const std::size_t muted = samples().size();
+    viewer.act("mousemove_relative 40 0 mousemove_relative -40 0");
+    CHECK(samples().size() == muted);
+    desk.press("key q");
     REQUIRE(viewer.wait() == 0);
-    const auto rows = read_session(folder / "hand.dibhr");
-    const auto samples = samples_of(folder / "sound.raw");
-    CHECK(std::all_of(samples.begin(), samples.end(),
-                      [](float sample) { return std::abs(sample) <= 1.0F; }));
-    const std::vector<bool> heard = heard_tenths(samples);
-    const auto first = std::find(heard.begin(), heard.end(), true);
-    CHECK(first - heard.begin() >= 5);  // the hand was in the air
-    CHECK(std::count(heard.begin(), heard.end(), true) >= 5);
-    const auto last = std::find(heard.rbegin(), heard.rend(), true);
-    CHECK(last - heard.rbegin() >= 8);
-    // In which the hand went on sliding over what it touched.
-    REQUIRE(rows.size() > 1000);
+    CHECK(stand_still(motors()));
+    CHECK_FALSE(contains(read_text(folder / "errors.txt"), "dibhr:"));
+    const std::vector<float> all = samples();
+    CHECK(
+        std::all_of(all.begin(), all.end(), [](float sample) { return std::abs(sample) <= 1.0F; }));
+    // The command line's word is not kept.
+    CHECK_FALSE(contains(read_text(folder / "config/dibhr/settings.toml"), "mute = true"));
+    // While it was silent the hand went on sliding over what it touched.
+    const std::vector<Row> rows = read_session(folder / "hand.dibhr");
+    REQUIRE(with_force > without_force);
     double way_px = 0.0;
-    for (auto row = rows.end() - 800; row != rows.end(); ++row) {
-        CHECK(row->contact);
-        way_px += glm::distance(row->proxy, (row - 1)->proxy);
+    for (std::size_t k = without_force; k < with_force; ++k) {
+        CHECK(rows.at(k).contact);
+        if (glm::length(rows[k].sent_newton) == 0.0)
+            way_px += glm::distance(rows[k].proxy, rows[k - 1].proxy);
     }
     CHECK(way_px > 20.0);
 }
 
-TEST_CASE("a game pad rumbles with what is touched in the window, muted or not, until force off",
-          "[sound]") {
+TEST_CASE(
+    "without a sound device, its game pads off, the window goes on and says nothing on stderr",
+    "[sound]") {
+    const Words missing = GENERATE(Words{"env", "SDL_AUDIODRIVER=nonsense"},
+                                   Words{"env", "SDL_AUDIODRIVER=alsa", "AUDIODEV=nonsense"});
     const Desk desk;
     const TemporaryFolder folder;
-    Process viewer = desk.start_viewer(
-        folder, {"--device", "mouse", "--material", "wood", "--pause", "--mute", "--seconds", "30"},
-        holding_a_pad());
-    desk.act(kMeet + std::string(kPress) + drag(2));
-    const auto touched = motors_told(folder / "pad.txt");
-    CHECK(std::any_of(touched.begin(), touched.end(), [](auto told) { return told.low > 0; }));
-    CHECK(std::any_of(touched.begin(), touched.end(), [](auto told) { return told.high > 0; }));
-    desk.act("key f sleep 0.3");
-    const auto stopped = motors_told(folder / "pad.txt");
-    REQUIRE_FALSE(stopped.empty());
-    CHECK(stopped.back().low + stopped.back().high == 0);
-    desk.act(drag(-2) + "sleep 0.1");
-    CHECK(motors_told(folder / "pad.txt").size() == stopped.size());
-    desk.act("key f sleep 1 " + drag(2) + "key q");
+    WindowProgram viewer = desk.start_viewer(
+        folder, small_window(folder, {"--pause", "--game-pad", "off", "--record", "hand.dibhr"}),
+        holding_a_pad(missing));
+    viewer.wait_until([](const Seen& now) {
+        return now.surface && now.sound == static_cast<int>(State::no_device);
+    });
+    viewer.act(kPress);
+    viewer.wait_until([](const Seen& now) { return now.contact; });
+    const std::uint64_t rows = viewer.seen().recorded_rows;
+    CHECK(rub_until(viewer, [&] { return viewer.seen().recorded_rows > rows + 500; }));
+    desk.press("key q");
     CHECK(viewer.wait() == 0);
-    const auto at_the_end = motors_told(folder / "pad.txt");
-    CHECK(at_the_end.size() > stopped.size());
-    CHECK(at_the_end.back().low + at_the_end.back().high == 0);
     CHECK(read_text(folder / "errors.txt").empty());
-}
-
-TEST_CASE("with --game-pad off no pad is touched, and the word is not kept", "[sound]") {
-    const Desk desk;
-    const TemporaryFolder folder;
-    Process viewer = desk.start_viewer(
-        folder, {"--device", "mouse", "--pause", "--game-pad", "off", "--seconds", "30"},
-        holding_a_pad());
-    desk.act(kMeet + std::string(kPress) + drag(2) + "key q");
-    CHECK(viewer.wait() == 0);
     CHECK_FALSE(fs::exists(folder / "pad.txt"));
     CHECK_FALSE(contains(read_text(folder / "config/dibhr/settings.toml"), "game-pad = false"));
-}
-
-TEST_CASE("a window that is muted opens no sound device until its key is pressed", "[sound]") {
-    const Desk desk;
-    const TemporaryFolder folder;
-    Process viewer = desk.start_viewer(
-        folder, {"--device", "mouse", "--mute", "--seconds", "30", "--size", "640x480"},
-        sounding_into_file());
-    desk.act(kMeet + std::string("sleep 1"));
-    CHECK_FALSE(fs::exists(folder / "sound.raw"));
-    CHECK(read_text(folder / "errors.txt").empty());
-    desk.act("key u sleep 1");
-    CHECK(fs::exists(folder / "sound.raw"));
-    desk.act("key u sleep 1");
-    const auto size = fs::file_size(folder / "sound.raw");
-    desk.act("sleep 0.3");
-    CHECK(fs::file_size(folder / "sound.raw") == size);
-    desk.act("key q");
-    CHECK(viewer.wait() == 0);
-    // The command line's word is not kept.
-    CHECK_FALSE(contains(read_text(folder / "config/dibhr/settings.toml"), "mute = true"));
-}
-
-TEST_CASE("without a sound device the window goes on and says nothing on stderr", "[sound]") {
-    const auto missing =
-        GENERATE(std::vector<std::string>{"env", "SDL_AUDIODRIVER=nonsense"},
-                 std::vector<std::string>{"env", "SDL_AUDIODRIVER=alsa", "AUDIODEV=nonsense"});
-    const Desk desk;
-    const TemporaryFolder folder;
-    Process viewer = desk.start_viewer(
-        folder,
-        {"--device", "mouse", "--record", "hand.dibhr", "--seconds", "3", "--size", "640x480"},
-        missing);
-    CHECK(viewer.wait() == 0);
-    CHECK(read_text(folder / "errors.txt").empty());
-    CHECK(read_session(folder / "hand.dibhr").size() > 1000);
 }
 
 TEST_CASE("a sound server that never answers holds up neither the window nor its end", "[sound]") {
     const Desk desk;
     const TemporaryFolder folder;
     const SilentServer server(folder / "pulse");
-    Process viewer = desk.start_viewer(
-        folder,
-        {"--device", "mouse", "--record", "hand.dibhr", "--seconds", "3", "--size", "640x480"},
-        {"timeout", "20", "env", "SDL_AUDIODRIVER=pulseaudio",
-         "PULSE_SERVER=unix:" + (folder / "pulse").string()});
+    WindowProgram viewer = desk.start_viewer(
+        folder, small_window(folder, {"--record", "hand.dibhr"}),
+        {"env", "SDL_AUDIODRIVER=pulseaudio", "PULSE_SERVER=unix:" + (folder / "pulse").string()});
+    viewer.wait_for_surface();
+    REQUIRE(eventually([&server] { return server.was_called(); }));
+    const std::uint64_t rows = viewer.seen().recorded_rows;
+    viewer.wait_until([rows](const Seen& now) { return now.recorded_rows > rows + 200; });
+    const auto end = std::chrono::steady_clock::now();
+    desk.press("key q");
     CHECK(viewer.wait() == 0);
+    // Whoever waits for the server does so for half a minute.
+    CHECK(std::chrono::steady_clock::now() - end < std::chrono::seconds(20));
     CHECK(read_text(folder / "errors.txt").empty());
-    CHECK(read_session(folder / "hand.dibhr").size() > 1000);
 }
 
 TEST_CASE("a sound device is opened when it is wanted, and that there is none is told", "[sound]") {
-    using State = SoundOutput::State;
     constexpr SoundOutput::Wish kHeard{.speaker = true};
     SECTION("a device that plays") {
         const Variable driver("SDL_AUDIODRIVER", "dummy");

@@ -32,8 +32,11 @@ TEST_CASE("threads of the program race for nothing while a hand touches and is r
     const Desk desk;
     const TemporaryFolder folder;
     write_press(folder / "goals.csv");
-    Process viewer = desk.start_viewer(
-        folder, {"--device", "goals:goals.csv", "--record", "touch.dibhr", "--seconds", "10"});
+    WindowProgram viewer = desk.start_viewer(
+        folder, {"--device", "goals:goals.csv", "--record", "touch.dibhr", "--size", "640x480"});
+    viewer.wait_until([](const Seen& now) { return now.contact && now.recorded_rows > 500; });
+    viewer.wait_until([](const Seen& now) { return now.recorded_rows > 3000; });
+    desk.press("key q");
     CHECK(viewer.wait() == 0);  // 66 after a report
     CHECK(read_text(folder / "errors.txt") == "");
     const auto rows = read_session(folder / "touch.dibhr");

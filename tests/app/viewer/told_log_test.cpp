@@ -18,17 +18,20 @@ using namespace dibhr::test;
 
 namespace {
 
-const std::string kInWindow = "search --sync --onlyvisible --name dibhr sleep 0.7 ";
-
-/// Runs the window over a picture, with these options and keys.
-void run(const Desk& desk, const TemporaryFolder& folder, const std::vector<std::string>& options,
-         const std::string& keys) {
+/// Runs the window over a picture with these options, pressing a key for its panels and one that
+/// ends it.
+void run(const TemporaryFolder& folder, const std::vector<std::string>& options,
+         const std::string& quit) {
     write_depth_png(folder / "cup_depth.png", 64, 48, 120);
-    std::vector<std::string> arguments{"cup_depth.png", "--device",  "mouse", "--size",
-                                       "800x600",       "--seconds", "30"};
+    std::vector<std::string> arguments{"cup_depth.png", "--device", "mouse", "--size", "640x480"};
     arguments.insert(arguments.end(), options.begin(), options.end());
-    Process viewer = desk.start_viewer(folder, arguments);
-    desk.act(kInWindow + keys);
+    const Desk desk;
+    WindowProgram viewer = desk.start_viewer(folder, arguments);
+    viewer.wait_for_surface();
+    const bool panels = viewer.seen().panels;
+    viewer.act("key Tab");
+    CHECK(viewer.seen().panels != panels);
+    desk.press("key " + quit);
     CHECK(viewer.wait() == 0);
 }
 
@@ -36,25 +39,21 @@ void run(const Desk& desk, const TemporaryFolder& folder, const std::vector<std:
 
 TEST_CASE("settings that others sent are read from their file, and changed there alone",
           "[settings]") {
-    const Desk desk;
     const TemporaryFolder folder;
     write_text(folder / "theirs.toml",
                "[window]\npanels-visible = false\n[touch]\nrelief = 77.0\n[keys]\nquit = \"F7\"\n");
-    run(desk, folder, {"--settings", "theirs.toml"}, "key Tab sleep 0.4 key F7");
+    run(folder, {"--settings", "theirs.toml"}, "F7");
     const Settings kept = load_settings(folder / "theirs.toml");
     CHECK(kept.panels_visible);
     CHECK(kept.touch.shape.relief_px == 77.0);
     CHECK(kept.keys == std::vector<OwnKeys>{{"quit", {"F7"}}});
     CHECK_FALSE(fs::exists(folder / "config/dibhr/settings.toml"));
-    run(desk, folder, {"--settings", "new.toml"}, "key Tab sleep 0.4 key q");
-    CHECK_FALSE(load_settings(folder / "new.toml").panels_visible);
 }
 
 TEST_CASE("a log keeps each line that is told, with its time, behind those of before", "[log]") {
-    const Desk desk;
     const TemporaryFolder folder;
-    const std::vector<std::string> options{"--log-file", "told.txt"};
-    run(desk, folder, options, "key Tab sleep 0.4 key q");
+    run(folder, {"--log-file", "told.txt", "--settings", "new.toml"}, "q");
+    CHECK_FALSE(load_settings(folder / "new.toml").panels_visible);  // a file that was not there
     const std::string first = read_text(folder / "told.txt");
     CHECK(contains(first, "begin: dibhr "));
     CHECK(contains(first, "told: Panels hidden"));

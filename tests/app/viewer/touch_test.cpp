@@ -1,18 +1,27 @@
 // The real window under a synthetic pointer: what is recorded is what a hand on the mouse must
 // feel.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <string>
 #include <vector>
 
 #include "core/haptics/safety.hpp"
 #include "core/session/session.hpp"
 #include "core/video/media.hpp"
+#include "tests/app/program/command_program.hpp"
 #include "tests/app/program/desk.hpp"
+#include "tests/app/program/passing_ticks.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/eventually.hpp"
 
+namespace fs = std::filesystem;
 using namespace dibhr;
 using namespace dibhr::test;
 using Catch::Matchers::WithinAbs;
@@ -33,39 +42,53 @@ Vec3 plane_normal() {
     return glm::normalize(Vec3{-kRelief_px / 255.0, 0.0, 1.0});
 }
 
-/// Two seconds of film, 240 x 180, without loss.
-void make_films(const TemporaryFolder& folder) {
-    const std::string quiet = "ffmpeg -nostdin -v error -y -f lavfi -i ";
-    run_shell(quiet + "testsrc2=s=240x180:r=30:d=2 -c:v ffv1 '" +
-              (folder / "plane_color.mkv").string() + "'");
-    run_shell(quiet + "nullsrc=s=240x180:r=30:d=2,format=gray,geq=lum='X+10' -c:v ffv1 '" +
-              (folder / "plane_depth.mkv").string() + "'");
+/// Two seconds of film, 240 x 180, without loss, which all tests read and none changes.
+const TemporaryFolder& plane_films() {
+    static const TemporaryFolder folder;
+    static const bool made = [] {
+        const std::string quiet = "ffmpeg -nostdin -v error -f lavfi -i ";
+        run_shell(folder, quiet + "testsrc2=s=240x180:r=30:d=2 -c:v ffv1 plane_color.mkv");
+        run_shell(folder, quiet +
+                              "nullsrc=s=240x180:r=30:d=2,format=gray,geq=lum='X+10' "
+                              "-c:v ffv1 plane_depth.mkv");
+        return true;
+    }();
+    static_cast<void>(made);
+    return folder;
 }
 
-constexpr const char* kMeet = "search --sync --onlyvisible --name dibhr sleep 0.4 ";
-constexpr const char* kHoverAndPress = "mousemove 330 400 sleep 0.7 mousedown 1 sleep 0.6 ";
-
-std::string drag_to_the_right() {
-    std::string commands;
-    for (int step = 0; step < 100; ++step) commands += "mousemove_relative -- 3 0 sleep 0.012 ";
-    return commands;
+/// Starts a window over the plane, which is recorded.
+WindowProgram view_plane(const Desk& desk, const TemporaryFolder& home,
+                         const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{(plane_films() / "plane_color.mkv").string()};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const std::vector<std::string> more{"--device",     "mouse",    "--record", "hand.dibhr",
+                                        "--screenshot", "last.png", "--size",   "640x480"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return desk.start_viewer(home, arguments);
 }
 
-/// Plays a chain of commands to the viewer over the plane and gives back what it recorded.
-std::vector<Row> recorded(const std::string& commands, const std::string& friction) {
-    const Desk desk;
-    const TemporaryFolder folder;
-    make_films(folder);
-    Process viewer = desk.start_viewer(
-        folder, {"plane_color.mkv", "--raw-depth", "--relief", "100", "--friction", friction,
-                 "--device", "mouse", "--record", "hand.dibhr", "--screenshot", "last.png",
-                 "--size", "1280x800", "--seconds", "30"});
-    desk.act(kMeet + commands + "key q");
-    REQUIRE(viewer.wait() == 0);
-    const MediaDescription picture = describe_media(folder / "last.png");
-    CHECK(picture.colour_columns == 1280);
-    CHECK(picture.colour_rows == 800);
-    return read_session(folder / "hand.dibhr");
+/// The plane as it is in the film.
+std::vector<std::string> raw_with_friction(const std::string& friction) {
+    return {"--raw-depth", "--relief", "100", "--friction", friction};
+}
+
+bool is_felt(const Seen& now) {
+    return now.sent_newton > 0.3;
+}
+
+void hover_and_press(const WindowProgram& viewer) {
+    viewer.act("mousemove 80 230");
+    wait_for_ticks(viewer, kTicksToRest);
+    viewer.act("mousedown 1");
+    viewer.wait_until([](const Seen& now) { return now.contact; });
+    wait_for_ticks(viewer, kTicksToRest);
+    viewer.wait_until(is_felt);
+}
+
+void drag_to_the_right(const WindowProgram& viewer) {
+    for (int step = 0; step < 20; ++step) viewer.act("mousemove_relative 10 0");
+    wait_for_ticks(viewer, kTicksToRest);
 }
 
 std::size_t first_press(const std::vector<Row>& rows) {
@@ -104,129 +127,189 @@ void check_hovering(const std::vector<Row>& rows) {
     }
 }
 
-void check_contact(const Row& row) {
-    CAPTURE(row.t_s, row.goal.x, row.goal.z, row.proxy.x, row.proxy.z);
-    CHECK_THAT(row.proxy.z, WithinAbs(elevation(row.proxy), 1e-6));
-    CHECK(row.goal.z < elevation(row.goal));
-    const Vec3 spring = kStiffness_newton_per_mm * kPitch_mm * (row.proxy - row.goal);
-    CHECK_THAT(glm::distance(row.spring_newton, spring), WithinAbs(0.0, 1e-9));
-    CHECK(glm::length(row.sent_newton) <= SafetyLimits{}.max_force_newton + 1e-9);
+template <typename Property>
+auto rows_without(const std::vector<Row>& rows, const Property& has) {
+    return std::count_if(rows.begin(), rows.end(), std::not_fn(has));
 }
 
-}  // namespace
+/// Rows in contact, all of them on the plane, and those that slide: by the friction that there is.
+void check_drag(const std::vector<Row>& rows, double friction) {
+    std::vector<Row> contacts;
+    std::copy_if(rows.begin(), rows.end(), std::back_inserter(contacts),
+                 [](const Row& row) { return row.contact; });
+    REQUIRE(contacts.size() > 500);
+    CHECK(rows_without(contacts, [](const Row& row) {
+              return std::abs(row.proxy.z - elevation(row.proxy)) < 1e-6;
+          }) == 0);
+    CHECK(rows_without(contacts, [](const Row& row) { return row.goal.z < elevation(row.goal); }) ==
+          0);
+    CHECK(rows_without(contacts, [](const Row& row) {
+              const Vec3 spring = kStiffness_newton_per_mm * kPitch_mm * (row.proxy - row.goal);
+              return glm::distance(row.spring_newton, spring) < 1e-9;
+          }) == 0);
+    CHECK(rows_without(contacts, [](const Row& row) {
+              return glm::length(row.sent_newton) <= SafetyLimits{}.max_force_newton + 1e-9;
+          }) == 0);
+    CHECK(rows_without(contacts, [friction](const Row& row) {
+              return friction_felt(row) < friction + 0.01;
+          }) == 0);
 
-TEST_CASE(
-    "a pressed mouse puts the proxy on the surface, the goal under it, and dragged it is held back",
-    "[window]") {
-    const double friction = GENERATE(0.0, 0.8);
-    CAPTURE(friction);
-    const auto rows = recorded(kHoverAndPress + drag_to_the_right() + "mouseup 1 sleep 0.3 ",
-                               friction > 0.0 ? "0.8" : "0");
-    check_hovering(rows);
-    std::size_t contacts = 0;
-    for (const Row& row : rows) {
-        if (!row.contact) continue;
-        ++contacts;
-        check_contact(row);
-        CHECK(friction_felt(row) < friction + 0.01);
-    }
-    CHECK(contacts > 500);
-    const auto sliding = sliding_rows(rows);
+    const std::vector<Row> sliding = sliding_rows(rows);
     REQUIRE(sliding.size() > 100);
-    for (const Row& row : sliding) {
-        CHECK_THAT(friction_felt(row), WithinAbs(friction, 0.01));
-        if (friction > 0.0) CHECK(row.spring_newton.x < 0.0);
-    }
-    // Not in each row: a late tick on a busy machine takes the force off for a moment.
-    const auto felt = std::count_if(sliding.begin(), sliding.end(),
-                                    [](const Row& row) { return row.sent_newton.z > 0.0; });
-    CHECK(static_cast<double>(felt) > 0.5 * static_cast<double>(sliding.size()));
-    CHECK_FALSE(rows.back().contact);
-    CHECK_THAT(glm::length(rows.back().sent_newton), WithinAbs(0.0, 1e-12));
+    CHECK(rows_without(sliding, [friction](const Row& row) {
+              return std::abs(friction_felt(row) - friction) < 0.01;
+          }) == 0);
+    CHECK(rows_without(sliding, [friction](const Row& row) {
+              return !(friction > 0.0) || row.spring_newton.x < 0.0;
+          }) == 0);
+    CHECK(rows_without(sliding, [](const Row& row) { return row.sent_newton.z >= 0.0; }) == 0);
+    CHECK(std::any_of(sliding.begin(), sliding.end(),
+                      [](const Row& row) { return row.sent_newton.z > 0.1; }));
 }
 
-TEST_CASE("the force key takes the force off in the middle of a contact, and puts it on again",
-          "[window]") {
-    const auto rows =
-        recorded(std::string(kHoverAndPress) + "key f sleep 0.5 key f sleep 1 mouseup 1 ", "0.4");
+/// The force goes, while what is touched is felt no less, and comes back.
+void check_force_off(const std::vector<Row>& rows) {
     const auto is_off = [](const Row& row) { return row.cut == static_cast<int>(SafetyCut::off); };
+    const auto is_strong = [](const Row& row) { return glm::length(row.sent_newton) > 0.3; };
     const auto off = std::find_if(rows.begin(), rows.end(), is_off);
-    REQUIRE(off != rows.end());
-    REQUIRE(off != rows.begin());
-    // Not in the very row before: a late tick or the film's loop may just have begun the ramp
-    // again.
-    const auto before = off - std::min<std::ptrdiff_t>(1000, off - rows.begin());
-    CHECK(std::any_of(before, off,
-                      [](const Row& row) { return glm::length(row.sent_newton) > 0.3; }));
-    const auto on = std::find_if_not(off, rows.end(), is_off);
+    const auto on = std::find_if(rows.rbegin(), rows.rend(), is_off).base();
     REQUIRE(on - off > 200);
-    for (auto row = off; row != on; ++row)
-        CHECK_THAT(glm::length(row->sent_newton), WithinAbs(0.0, 1e-12));
+    CHECK(std::any_of(rows.begin(), off, is_strong));
+    CHECK(std::all_of(off, on, [](const Row& row) { return row.sent_newton == Vec3(0.0); }));
     CHECK((on - 1)->contact);
     CHECK(glm::length((on - 1)->spring_newton) > 0.3);
-    const auto strongest = std::max_element(on, rows.end(), [](const Row& a, const Row& b) {
-        return glm::length(a.sent_newton) < glm::length(b.sent_newton);
-    });
-    REQUIRE(strongest != rows.end());
-    CHECK(glm::length(strongest->sent_newton) > 0.3);
+    CHECK(std::any_of(on, rows.end(), is_strong));
 }
 
-TEST_CASE(
-    "Ctrl+C in the middle of a contact ends the viewer in order, its recording and picture whole",
-    "[window]") {
-    const Desk desk;
-    const TemporaryFolder folder;
-    make_films(folder);
-    Process viewer =
-        desk.start_viewer(folder, {"plane_color.mkv", "--record", "hand.dibhr", "--screenshot",
-                                   "last.png", "--size", "640x480", "--seconds", "30"});
-    desk.act(std::string(kMeet) + "mousemove 150 220 sleep 0.3 mousedown 1 sleep 0.5");
-    viewer.interrupt();
-    CHECK(viewer.wait() == 0);
-    CHECK(read_session(folder / "hand.dibhr").size() > 500);
-    CHECK(describe_media(folder / "last.png").colour_columns == 640);
-    CHECK_FALSE(std::filesystem::exists(folder / "config"));
-}
-
-TEST_CASE("while its key is held the depth is felt as recorded", "[window]") {
-    const Desk desk;
-    const TemporaryFolder folder;
-    make_films(folder);
-    Process viewer = desk.start_viewer(folder, {"plane_color.mkv", "--device", "mouse", "--record",
-                                                "hand.dibhr", "--seconds", "30"});
-    desk.act(kMeet + std::string("sleep 2 keydown b sleep 2 keyup b sleep 2 key q"));
-    REQUIRE(viewer.wait() == 0);
-    const Session session(folder / "hand.dibhr");
-    std::vector<bool> cleaned;  // whenever it changed
+/// Whether what was touched had its holes filled, whenever that changed.
+std::vector<bool> cleaned_in(const fs::path& file) {
+    const Session session(file);
+    std::vector<bool> cleaned;
     Session::Ticks ticks(session);
     for (TickRecord tick; ticks.next(tick);) {
         const bool is_cleaned = tick.frames.source.fill_holes;
         if (tick.surface && (cleaned.empty() || cleaned.back() != is_cleaned))
             cleaned.push_back(is_cleaned);
     }
-    CHECK(cleaned == std::vector{true, false, true});
+    return cleaned;
 }
 
-TEST_CASE("a file that cannot be opened from the window is told there, and the program goes on",
-          "[window]") {
-    const Desk desk;  // the file's name begins with the key that quits, so typing must not act
-    const TemporaryFolder folder;
-    make_films(folder);
-    Process viewer =
-        desk.start_viewer(folder, {"plane_color.mkv", "--record", "hand.dibhr", "--seconds", "30"});
-    desk.act(std::string(kMeet) + "key ctrl+o sleep 0.3 type quartz.mp4");
-    desk.act("sleep 0.3 keydown Return sleep 0.3 keyup Return sleep 0.5 key Escape sleep 0.2");
-    const auto pictures = [&folder] {
-        const auto names = names_in(folder.path());
-        return std::count_if(names.begin(), names.end(), [](const std::string& name) {
-            return name.starts_with("dibhr-") && name.ends_with(".png");
-        });
-    };
-    // On a busy machine the picture that takes Escape may come later than this key.
-    for (int k = 0; k < 10 && pictures() == 0; ++k) desk.act("key F12 sleep 0.5");
-    CHECK(pictures() > 0);
-    desk.act("key ctrl+q");
+/// The last picture is of the window's size, and nothing is kept of what nobody changed.
+void check_last_picture(const TemporaryFolder& home) {
+    const MediaDescription picture = describe_media(home / "last.png");
+    CHECK(picture.colour_columns == 640);
+    CHECK(picture.colour_rows == 480);
+    CHECK_FALSE(fs::exists(home / "config"));
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a pressed mouse puts the proxy on the surface, the goal under it, and dragged it is held "
+    "back; the force key takes the force off in the middle of the contact, and puts it on again",
+    "[window]") {
+    const Desk desk;
+    const TemporaryFolder home;
+    WindowProgram viewer = view_plane(desk, home, raw_with_friction("0.8"));
+    viewer.wait_for_surface();
+    hover_and_press(viewer);
+    viewer.act("key f");
+    wait_for_ticks(viewer, kTicksToRest);
+    CHECK(viewer.seen().contact);
+    viewer.act("key f");
+    viewer.wait_until(is_felt);
+    drag_to_the_right(viewer);
+    viewer.wait_until(is_felt);
+    viewer.act("mouseup 1");
+    viewer.wait_until([](const Seen& now) { return !now.contact && now.sent_newton == 0.0; });
+    desk.press("key q");
+    REQUIRE(viewer.wait() == 0);
+
+    const std::vector<Row> rows = read_session(home / "hand.dibhr");
+    check_hovering(rows);
+    check_drag(rows, 0.8);
+    check_force_off(rows);
+    CHECK_FALSE(rows.back().contact);
+    CHECK_THAT(glm::length(rows.back().sent_newton), WithinAbs(0.0, 1e-12));
+}
+
+TEST_CASE(
+    "without friction nothing holds a drag back; what ends in the middle of the contact has its "
+    "recording and its picture whole",
+    "[window]") {
+    const Desk desk;
+    const TemporaryFolder home;
+    WindowProgram viewer = view_plane(desk, home, raw_with_friction("0"));
+    viewer.wait_for_surface();
+    hover_and_press(viewer);
+    drag_to_the_right(viewer);
+    desk.press("key q");
+    REQUIRE(viewer.wait() == 0);
+    const std::vector<Row> rows = read_session(home / "hand.dibhr");
+    check_hovering(rows);
+    check_drag(rows, 0.0);
+    CHECK(rows.back().contact);
+    check_last_picture(home);
+}
+
+// 600 ms after the signal it would be ended at once, which is told by exit code 1.
+TEST_CASE(
+    "Ctrl+C in the middle of a contact ends the viewer in order, its recording and picture whole",
+    "[window][realtime]") {
+    const Desk desk;
+    const TemporaryFolder home;
+    WindowProgram viewer = view_plane(desk, home, {});
+    viewer.wait_for_surface();
+    hover_and_press(viewer);
+    viewer.interrupt();
     CHECK(viewer.wait() == 0);
-    CHECK(std::filesystem::file_size(folder / "errors.txt") == 0);
-    CHECK(read_session(folder / "hand.dibhr").size() > 1000);
+    const std::vector<Row> rows = read_session(home / "hand.dibhr");
+    CHECK(rows.size() > 500);
+    CHECK(rows.back().contact);
+    check_last_picture(home);
+}
+
+TEST_CASE(
+    "while its key is held the depth is felt as recorded; a file that cannot be opened is told in "
+    "the window, and the program goes on",
+    "[window]") {
+    const Desk desk;
+    const TemporaryFolder home;
+    WindowProgram viewer = view_plane(desk, home, {});
+    viewer.wait_for_surface();
+    const fs::path session = home / "hand.dibhr";
+    const auto come_to = [&session](const std::vector<bool>& cleaned) {
+        return eventually([&] { return cleaned_in(session) == cleaned; }, std::chrono::minutes(1));
+    };
+    CHECK(come_to({true}));
+    viewer.act("keydown b");
+    CHECK(viewer.seen().as_recorded);
+    CHECK(come_to({true, false}));
+    viewer.act("keyup b");
+    CHECK_FALSE(viewer.seen().as_recorded);
+    CHECK(come_to({true, false, true}));
+
+    // The file's name begins with the key that quits: typing must not act.
+    viewer.act("key ctrl+o");
+    viewer.wait_until([](const Seen& now) { return now.dialog_typing; });
+    viewer.act("type quartz.mp4 key Return");
+    viewer.wait_until([](const Seen& now) { return contains(now.message.str(), "quartz.mp4"); });
+    viewer.act("key Escape");
+    CHECK(viewer.seen().message.str().empty());
+    const std::uint64_t rows = viewer.seen().recorded_rows;
+    viewer.act("key F12");
+    const auto is_picture = [](const std::string& name) {
+        return name.starts_with("dibhr-") && name.ends_with(".png");
+    };
+    CHECK(eventually(
+        [&] {
+            const auto names = names_in(home.path());
+            return std::any_of(names.begin(), names.end(), is_picture);
+        },
+        std::chrono::minutes(1)));
+    viewer.wait_until([rows](const Seen& now) { return now.recorded_rows > rows; });
+    desk.press("key ctrl+q");
+    CHECK(viewer.wait() == 0);
+    CHECK(fs::file_size(home / "errors.txt") == 0);
+    CHECK(cleaned_in(session) == std::vector{true, false, true});
 }

@@ -1,45 +1,54 @@
 // Signals that end the viewer in order, whichever thread they reach.
+#include "app/window/signals.hpp"
+
 #include <unistd.h>
 
-#include <chrono>
+#include <condition_variable>
 #include <csignal>
+#include <mutex>
 #include <stop_token>
 #include <thread>
 
-#include "app/window/signals.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/eventually.hpp"
 
 using namespace dibhr;
+using dibhr::test::eventually;
 
 namespace {
 
-bool arrives(EndingSignals& signals, std::chrono::milliseconds patience) {
-    const auto end = std::chrono::steady_clock::now() + patience;
-    while (std::chrono::steady_clock::now() < end) {
-        if (signals.arrived()) return true;
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return false;
+/// Sleeps until it is asked to stop.
+void idle(const std::stop_token& stop) {
+    std::mutex mutex;
+    std::condition_variable_any never;
+    std::unique_lock lock(mutex);
+    never.wait(lock, stop, [] { return false; });
+}
+
+/// Sent to this process, and not yet taken by a thread.
+bool is_pending(int signal) {
+    sigset_t pending;
+    return sigpending(&pending) == 0 && sigismember(&pending, signal) == 1;
 }
 
 }  // namespace
 
 TEST_CASE("a wish to end arrives even when a thread that was there before takes the signal",
           "[signals]") {
-    const std::jthread foreign([](const std::stop_token& stop) {  // holds nothing back
-        while (!stop.stop_requested()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    });
+    const std::jthread foreign(idle);  // holds nothing back
     EndingSignals signals;
     const int signal = GENERATE(as<int>{}, SIGTERM, SIGINT, SIGHUP, SIGQUIT);
     CAPTURE(signal);
     for (int k = 0; k < 3; ++k) {
         REQUIRE(::kill(::getpid(), signal) == 0);
-        CHECK(arrives(signals, std::chrono::seconds(5)));
+        CHECK(eventually([&signals] { return signals.arrived(); }));
     }
 }
 
 TEST_CASE("Ctrl+Z neither stops the viewer nor ends it", "[signals]") {
     EndingSignals signals;
     REQUIRE(::kill(::getpid(), SIGTSTP) == 0);
-    CHECK_FALSE(arrives(signals, std::chrono::milliseconds(50)));
+    REQUIRE(is_pending(SIGTSTP));
+    CHECK_FALSE(signals.arrived());
+    CHECK_FALSE(is_pending(SIGTSTP));
 }

@@ -2,8 +2,9 @@
 // started as the real ones are.
 #include "core/estimate/depth_estimate.hpp"
 
+#include <sys/stat.h>
+
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
@@ -44,6 +45,16 @@ std::string by_frames(const std::string& step) {
 
 const std::string kCopy = "cp \"$f\" \"$out/.$name\" && mv \"$out/.$name\" \"$out/$name\"";
 
+/// Made once.
+const fs::path& plain_clip() {
+    static const TemporaryFolder folder;
+    static const fs::path clip = [] {
+        make_flat_clip(folder / "plain.mkv", kFrames, 30, kLossless);
+        return folder / "plain.mkv";
+    }();
+    return clip;
+}
+
 /// A folder with a video of colour alone, whose frame n has level 5 n, and an estimator.
 struct Bench {
     TemporaryFolder folder{};
@@ -52,7 +63,10 @@ struct Bench {
 
     explicit Bench(const std::string& script, const std::string& filter = "", int width = 64) {
         fs::create_directories(home);
-        make_flat_clip(clip(), kFrames, 30, kLossless, filter, width);
+        if (filter.empty() && width == 64)
+            fs::copy_file(plain_clip(), clip());
+        else
+            make_flat_clip(clip(), kFrames, 30, kLossless, filter, width);
         write_script(script);
     }
     [[nodiscard]] fs::path clip() const { return home / "my clip.mkv"; }
@@ -175,32 +189,36 @@ TEST_CASE("a crash at frame 7 keeps six, says so in a line, and the next run goe
 
 TEST_CASE("a slow one shows how far it is, is cancelled at once, and goes on the next time",
           "[estimate]") {
-    Bench bench(by_frames(kCopy + "\nsleep 0.2 &\nwait"));
+    Bench bench("");
+    const fs::path gate = bench.home / "gate";
+    REQUIRE(::mkfifo(gate.c_str(), 0600) == 0);
+    // Each frame waits for a line of the gate.
+    bench.write_script("exec 3<gate\n" + by_frames("read line <&3\n" + kCopy));
     std::optional<DepthEstimate> made{DepthEstimate{}};
     std::thread maker([&] { made = estimate_depth(bench.request(), bench.watch); });
-    const auto far = [&] {
+    {
+        std::ofstream may_go_on(gate);  // waits for the estimator
+        for (const std::size_t done : {2U, 5U}) {
+            may_go_on << (done == 2 ? "1\n2\n" : "3\n4\n5\n") << std::flush;
+            CHECK(eventually([&] { return bench.watch.progress().done == done; }));
+        }
+        CHECK(eventually([&] { return bench.watch.progress().left_s.has_value(); }));
         const EstimateProgress now = bench.watch.progress();
-        return now.step == EstimateStep::estimating && now.done >= 3 && now.left_s;
-    };
-    CHECK(eventually(far));
-    const EstimateProgress now = bench.watch.progress();
-    CHECK(now.of == kFrames);
-    CHECK(now.left_s.value_or(0.0) > 0.5);
-    CHECK(contains(in_words(now), "estimating frame "));
-    CHECK(contains(in_words(now), " left"));
-    const auto asked = std::chrono::steady_clock::now();
-    bench.watch.stop();
-    maker.join();
-    CHECK(std::chrono::steady_clock::now() - asked < std::chrono::seconds(5));
+        CHECK(now.step == EstimateStep::estimating);
+        CHECK(now.of == kFrames);
+        CHECK(now.left_s.value_or(0.0) > 0.0);
+        CHECK(contains(in_words(now), "estimating frame "));
+        CHECK(contains(in_words(now), " left"));
+        bench.watch.stop();
+        maker.join();  // it waits for the next line
+    }
     CHECK_FALSE(made);
-    const std::size_t kept = bench.kept_frames();
-    CHECK(kept >= 3);
-    CHECK(kept < kFrames);
+    CHECK(bench.kept_frames() == 5);
     bench.write_script(by_frames("echo $name >> given\n" + kCopy));
     EstimateWatch watch;
     REQUIRE(estimate_depth(bench.request(), watch));
     const std::string given = read_text(bench.home / "given");
-    CHECK(static_cast<std::size_t>(std::count(given.begin(), given.end(), '\n')) == kFrames - kept);
+    CHECK(std::count(given.begin(), given.end(), '\n') == kFrames - 5);
 }
 
 TEST_CASE("one that will not end when it is asked to is killed, with all that it started",
@@ -227,9 +245,7 @@ TEST_CASE("one that shows no sign of life is ended when patience is", "[estimate
     Bench bench("sleep 60\n");
     EstimateRequest request = bench.request();
     request.patience_s = 1.0;
-    const auto begin = std::chrono::steady_clock::now();
     CHECK(contains(bench.failure(request), "showed no sign of life for 1 s and was ended"));
-    CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(20));
 }
 
 TEST_CASE("what is there and wrong is told in a line, and nothing is kept as depth", "[estimate]") {

@@ -1,13 +1,11 @@
-// The paper's goals, the statistics, and that the walk's cost stays where it belongs.
+// The paper's goals, and the statistics.
 #include <cmath>
 #include <vector>
 
 #include <glm/geometric.hpp>
 
 #include "core/experiment/experiment.hpp"
-#include "core/haptics/dibhr.hpp"
 #include "core/metrics/force_variation.hpp"
-#include "tests/core/haptics/surfaces.hpp"
 #include "tests/support/catch.hpp"
 
 using namespace dibhr;
@@ -41,24 +39,4 @@ TEST_CASE("quantiles are samples by nearest rank", "[statistics]") {
     CHECK(s.p999 == 999.0);
     CHECK(s.highest == 1000.0);
     CHECK(statistics_of({}).count == 0);
-}
-
-TEST_CASE("an update visits as many primitives on a large image as on a small one", "[cost]") {
-    // The cost in primitives, not in seconds: it does not depend on the machine.
-    const auto moves_on = [](int columns, int rows) {
-        const DepthImage image = test::flat(columns, rows, 100.0);
-        const DepthSurface surface(image, image, 0.0, {255.0, 0.0});
-        Dibhr dibhr;
-        double moves = 0.0;
-        for (int k = 0; k < 2000; ++k) {
-            const Vec3 goal = circle_goal({columns / 2.0, rows / 2.0, 100.0, 20.0}, k);
-            const Proxy& proxy = dibhr.update(surface, goal, {0.4, 0.4});
-            CHECK_FALSE(proxy.bound_met);
-            moves += proxy.moves;
-        }
-        return moves / 2000.0;
-    };
-    const double on_small = moves_on(720, 486);
-    CHECK_THAT(moves_on(2160, 1458), WithinAbs(on_small, 0.01));
-    CHECK(on_small < 30.0);
 }

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -21,12 +20,6 @@ namespace {
 Algorithm each_algorithm() {
     return GENERATE(Algorithm::dibhr, Algorithm::pga, Algorithm::neighborhood,
                     Algorithm::god_object);
-}
-
-/// Updates of the wild run, of each algorithm; DIBHR_LONG_UPDATES asks for more.
-long wild_updates() {
-    const char* asked = std::getenv("DIBHR_LONG_UPDATES");
-    return (asked == nullptr ? 1'000'000 : std::atol(asked)) / 4;
 }
 
 /// 10^exponent, the exponent anywhere in between, of either sign.
@@ -72,15 +65,12 @@ Scene wild_scene(test::Dice& dice, int columns, int rows) {
     return scene;
 }
 
-}  // namespace
-
-TEST_CASE("goals of any size on any ground: finite, on or above the surface, within the moves",
-          "[bounded]") {
+void require_bounds_kept_by_wild_goals(long updates_in_all) {
     const Algorithm algorithm = each_algorithm();
     constexpr int kScenes = 40;
     constexpr int kMostToCatchUp = 3000;  // a proxy that never gets to its goal would go on
     test::Dice dice(101 + static_cast<std::uint64_t>(algorithm));
-    const long updates = wild_updates() / kScenes;
+    const long updates = updates_in_all / kScenes;
     for (int n = 0; n < kScenes; ++n) {
         const int columns = n % 10 == 9 ? 1280 : 2 + static_cast<int>(dice.uniform(0.0, 90.0));
         const int rows = n % 10 == 9 ? 720 : 2 + static_cast<int>(dice.uniform(0.0, 70.0));
@@ -124,6 +114,18 @@ TEST_CASE("goals of any size on any ground: finite, on or above the surface, wit
         }
         SUCCEED();
     }
+}
+
+}  // namespace
+
+TEST_CASE("goals of any size on any ground: finite, on or above the surface, within the moves",
+          "[bounded]") {
+    require_bounds_kept_by_wild_goals(60'000);
+}
+
+TEST_CASE("goals of any size on any ground keep all bounds for a million updates",
+          "[bounded][long]") {
+    require_bounds_kept_by_wild_goals(250'000);  // of each of four algorithms
 }
 
 TEST_CASE("a hand that presses goes on pressing while its proxy catches up over uneven ground",

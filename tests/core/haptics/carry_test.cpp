@@ -131,7 +131,7 @@ MotionField constant_field(int columns, int rows, MotionField::Way way) {
 
 TEST_CASE("a material point is where it is, however often it was asked for on the way", "[carry]") {
     for (const NamedMotion& named : motions(400.0)) {
-        MovingScene scene(640, 480, 15.0, named.motion, flat_ground(0.0));
+        MovingScene scene(640, 480, 15.0, named.motion, 0.0);
         const auto walked_to = [&](double end_s, auto next_s) {
             MaterialPoint point;
             Vec2 place = named.touched;
@@ -168,7 +168,7 @@ TEST_CASE("a finger that sticks ends where its material point does", "[carry]") 
     const auto [frames_per_s, px_per_s] =
         GENERATE(some_of<Played>({{15.0, 400.0}, {30.0, 25.0}, {60.0, 150.0}}, 1));
     for (const NamedMotion& named : motions(px_per_s)) {
-        MovingScene scene(640, 480, frames_per_s, named.motion, flat_ground(kElevation_px));
+        MovingScene scene(640, 480, frames_per_s, named.motion, kElevation_px);
         for (const Algorithm algorithm : all_algorithms()) {
             Finger finger(scene, carrying(algorithm, 5.0));
             const Vec3 goal(named.touched, kElevation_px - 90.0);  // held within 450 px of its foot
@@ -189,7 +189,7 @@ TEST_CASE("what moves under a resting finger drags it as friction does", "[carry
     constexpr double kPressed_px = 20.0;
     const double px_per_s = GENERATE(some_of<double>({40.0, 400.0}, 1));
     for (const NamedMotion& named : motions(px_per_s)) {
-        MovingScene scene(640, 480, 30.0, named.motion, flat_ground(kElevation_px));
+        MovingScene scene(640, 480, 30.0, named.motion, kElevation_px);
         for (const Algorithm algorithm : all_algorithms()) {
             const TouchParameters parameters = carrying(algorithm, kFriction);
             Finger finger(scene, parameters);
@@ -225,7 +225,8 @@ TEST_CASE("a sliding finger feels the difference of the two speeds", "[carry]") 
     const Vec2 surface_px_per_s(200.0, 0.0);
     const Vec2 hand_px_per_s =
         GENERATE(Vec2(200.0, 120.0), Vec2(80.0, 0.0), Vec2(320.0, 0.0), Vec2(-100.0, -50.0));
-    MovingScene scene(640, 480, 30.0, translating(surface_px_per_s), flat_ground(kElevation_px));
+    static MovingScene scene(640, 480, 30.0, translating(surface_px_per_s),
+                             kElevation_px);  // for all of them
     Finger finger(scene, carrying(Algorithm::dibhr, 0.4));
     Vec3 goal(200.0, 200.0, kElevation_px + 1.0);
     finger.tick(goal, 0.0);
@@ -244,7 +245,8 @@ TEST_CASE("a finger that goes along with what it touches feels no drag and no da
     TouchParameters parameters = carrying(any_algorithm(), 0.4);
     parameters.coupling.damping_newton_s_per_m = 5.0;
     parameters.coupling.damping_cutoff_hz = GENERATE(0.0, 50.0);
-    MovingScene scene(640, 480, 30.0, translating(px_per_s), flat_ground(kElevation_px));
+    static MovingScene scene(640, 480, 30.0, translating(px_per_s),
+                             kElevation_px);  // for all of them
     const auto force_at_end = [&](bool carry, Vec2 hand_px_per_s) {
         TouchParameters here = parameters;
         here.carry = carry;
@@ -279,7 +281,7 @@ TEST_CASE("a sphere that moves takes the finger on it along", "[carry]") {
         const double up2 = 80.0 * 80.0 - glm::dot(off, off);
         return 60.0 + (up2 > 0.0 ? std::sqrt(up2) : 0.0);
     };
-    MovingScene scene(480, 320, 60.0, translating(px_per_s), sphere);
+    static MovingScene scene(480, 320, 60.0, translating(px_per_s), sphere);  // for all of them
     Finger finger(scene, carrying(algorithm, 0.8));
     const Vec2 touched = centre + Vec2(25.0, -20.0);
     Vec3 goal(touched, sphere(touched, 0.0) + 1.0);
@@ -334,21 +336,24 @@ TEST_CASE("without carry, or without motion, nothing is carried: the same bits",
             const std::vector<Touch> others{run(1, false, with(moving)), run(2, true, going),
                                             run(3, true, with(still))};
             for (const Touch& other : others) {
-                CAPTURE(named.name, k);
-                REQUIRE(other.proxy == off.proxy);
-                REQUIRE(other.spring_force_newton == off.spring_force_newton);
-                REQUIRE(other.sent_force_newton == off.sent_force_newton);
-                REQUIRE(other.carried == Vec3(0.0));
+                if (other.proxy == off.proxy &&
+                    other.spring_force_newton == off.spring_force_newton &&
+                    other.sent_force_newton == off.sent_force_newton && other.carried == Vec3(0.0))
+                    continue;
+                CAPTURE(named.name, k, other.carried.x, other.carried.y);
+                FAIL("another touch than without carry");
             }
         }
     }
+    SUCCEED();
 }
 
-TEST_CASE("no field, however wrong, throws a proxy about, below the surface or out of the image",
-          "[carry]") {
+namespace {
+
+/// `ticks` of each algorithm.
+void require_not_thrown(int ticks) {
     constexpr int kColumns = 50;
     constexpr int kRows = 40;
-    constexpr int kTicks = 250000;  // four algorithms: a million
     const Algorithm algorithm = any_algorithm();
     const auto walker = make_algorithm(algorithm);
     const auto surfaces = hostile_surfaces(kColumns, kRows);
@@ -368,7 +373,7 @@ TEST_CASE("no field, however wrong, throws a proxy about, below the surface or o
     double last = 0.0;
     int carried = 0;
     double farthest_px = 0.0;
-    for (int k = 0; k < kTicks; ++k) {
+    for (int k = 0; k < ticks; ++k) {
         if (k % 40 == 0) spoil();
         goal += Vec3(dice.uniform(-1.0, 1.0), dice.uniform(-1.0, 1.0), dice.uniform(-3.0, 3.0));
         goal = glm::clamp(goal, Vec3(-5.0, -5.0, -20.0), Vec3(54.0, 44.0, 260.0));
@@ -391,12 +396,23 @@ TEST_CASE("no field, however wrong, throws a proxy about, below the surface or o
         FAIL("the proxy was thrown");
     }
     CAPTURE(name_of(algorithm), carried);
-    CHECK(carried > kTicks / 50);
+    CHECK(carried > ticks / 50);
     CHECK(farthest_px <= 1.0);
 }
 
+}  // namespace
+
+TEST_CASE("no field, however wrong, throws a proxy about, below the surface or out of the image",
+          "[carry]") {
+    require_not_thrown(50'000);
+}
+
+TEST_CASE("no field throws a proxy about in a million updates", "[carry][long]") {
+    require_not_thrown(250'000);  // of each of four algorithms
+}
+
 TEST_CASE("what only touches the air, or begins anew, is not carried", "[carry]") {
-    MovingScene scene(200, 100, 30.0, translating({300.0, 0.0}), flat_ground(kElevation_px));
+    MovingScene scene(200, 100, 30.0, translating({300.0, 0.0}), kElevation_px);
     TouchRenderer renderer;
     const TouchParameters parameters = carrying(any_algorithm(), 5.0);
     double last_s = 0.0;

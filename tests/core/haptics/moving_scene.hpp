@@ -38,10 +38,6 @@ inline PointMotion turning(Vec2 centre, double turn_per_s, double growth_per_s =
 /// Elevation [px] at a place of the image at a time.
 using Ground = std::function<double(Vec2 place, double t_s)>;
 
-inline Ground flat_ground(double elevation_px) {
-    return [=](Vec2, double) { return elevation_px; };
-}
-
 /// A video of moving material, with whole levels only where the ground has them; relief 255 px.
 class MovingScene {
   public:
@@ -51,12 +47,18 @@ class MovingScene {
           frames_per_s_(frames_per_s),
           motion_(std::move(motion)),
           ground_(std::move(ground)) {}
+    /// Everywhere of one elevation.
+    MovingScene(int columns, int rows, double frames_per_s, PointMotion motion, double flat_px)
+        : MovingScene(columns, rows, frames_per_s, std::move(motion),
+                      [=](Vec2, double) { return flat_px; }) {
+        is_flat_ = true;
+    }
 
     [[nodiscard]] double frames_per_s() const { return frames_per_s_; }
     [[nodiscard]] Vec2 at(Vec2 begin, double t_s) const { return motion_(begin, t_s); }
 
     [[nodiscard]] std::shared_ptr<const DepthImage> depth(int frame) {
-        auto& image = images_[frame];
+        auto& image = images_[is_flat_ ? 0 : frame];
         if (!image) {
             image = std::make_shared<const DepthImage>(
                 image_of(columns_, rows_, 255.0,
@@ -84,12 +86,13 @@ class MovingScene {
         const Vec2 right = way_at({1.0, 0.0}) - origin;
         const Vec2 down = way_at({0.0, 1.0}) - origin;
         MotionField field{columns_, rows_, {}};
-        field.ways.reserve(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+        field.ways.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+        std::size_t k = 0;
         for (int j = 0; j < rows_; ++j) {
-            for (int i = 0; i < columns_; ++i) {
+            for (int i = 0; i < columns_; ++i, ++k) {
                 const Vec2 way =
                     origin + static_cast<double>(i) * right + static_cast<double>(j) * down;
-                field.ways.push_back({static_cast<float>(way.x), static_cast<float>(way.y)});
+                field.ways[k] = {static_cast<float>(way.x), static_cast<float>(way.y)};
             }
         }
         return field;
@@ -110,6 +113,7 @@ class MovingScene {
     double frames_per_s_;
     PointMotion motion_;
     Ground ground_;
+    bool is_flat_{false};  // all images are the same
     std::map<int, std::shared_ptr<const DepthImage>> images_{};
     std::map<int, std::shared_ptr<const MotionField>> fields_{};
 };

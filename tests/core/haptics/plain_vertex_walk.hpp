@@ -1,4 +1,4 @@
-// The yardstick of PGA's time: the shortest walk over the VERTEXes that has its friction, and so
+// The yardstick of PGA's cost: the shortest walk over the VERTEXes that has its friction, and so
 // its proxies.
 #pragma once
 
@@ -29,6 +29,9 @@ class PlainVertexWalk {
         stand_on(surface.triangle_at(goal.x, goal.y),
                  {goal.x, goal.y, surface.elevation_at(goal.x, goal.y)});
     }
+
+    /// How many VERTEXes it has come to.
+    [[nodiscard]] long arrivals() const noexcept { return arrivals_; }
 
     /// Where the proxy is then.
     Vec3 follow(const DepthSurface& surface, Vec3 goal) noexcept {
@@ -174,6 +177,7 @@ class PlainVertexWalk {
             at_ = end;
             i_ = i;
             j_ = j;
+            ++arrivals_;
             return Stop::at_the_end;
         }
         at_ += (along - std::sqrt(radius2)) / length2 * piece;
@@ -185,6 +189,7 @@ class PlainVertexWalk {
     int i_{0}, j_{0};    ///< the VERTEX it is at or came from
     int first_{0};       ///< of kAround: the first of the neighbours that it is among
     int neighbours_{0};  ///< how many: 0 at a VERTEX, 2 on a TRIANGLE, 3 on an EDGE
+    long arrivals_{0};
 };
 
 }  // namespace dibhr::test

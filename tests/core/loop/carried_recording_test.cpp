@@ -32,9 +32,10 @@ constexpr double kTick_s = 0.001;
 class WanderingVideo final : public RecordedFrames {
   public:
     explicit WanderingVideo(PointMotion motion = turning({80.0, 48.0}, 1.5, 0.1))
-        : scene_(160, 96, kFramesPerSecond, std::move(motion), [](Vec2 place, double t_s) {
-              return 100.0 + 8.0 * std::sin(0.1 * place.x + 2.0 * t_s) * std::cos(0.12 * place.y);
-          }) {}
+        : scene_(160, 96, kFramesPerSecond, std::move(motion), {[](Vec2 place, double t_s) {
+                     return 100.0 +
+                            8.0 * std::sin(0.1 * place.x + 2.0 * t_s) * std::cos(0.12 * place.y);
+                 }}) {}
 
     [[nodiscard]] Frame frame_number(int k, double time_s) {
         return {.depth = scene_.depth(k),

@@ -1,5 +1,4 @@
 // What the haptic tick hands to the recorder, and that it replays to the same bits.
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -43,7 +42,7 @@ FrameWindow rising_window(int columns, int rows, float step = 1.0F) {
         frame.cleaning = {{.remove_spikes = true, .steady = true}, {3.0, 255.0}};
     }
     window.count = 2;
-    window.clock = {std::chrono::steady_clock::now(), 0.0, 1.0};
+    window.clock = {bench_time(), 0.0, 1.0};
     return window;
 }
 

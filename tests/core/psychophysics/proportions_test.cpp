@@ -39,7 +39,7 @@ TEST_CASE("the binomial test counts what is no likelier than what was seen", "[p
 TEST_CASE("a guess is an effect in at most 5 % of studies, by mid-p in about 5 %",
           "[proportions]") {
     const double chance = GENERATE(0.5, 1.0 / 3.0);
-    constexpr int kStudies = 4000;
+    constexpr int kStudies = 2000;
     Random random(5);
     int exact = 0;
     int mid = 0;

@@ -44,63 +44,90 @@ PsychometricFunction person_of(Curve curve, double guess) {
     return {curve, 0.5, scale, 0.5, guess, 0.02};
 }
 
+/// So many, each with so many bootstraps.
+struct Studies {
+    int count{20};
+    int bootstraps{99};
+};
+
+/// As the README tells where DIBHR_ALL_STUDIES is set.
+Studies many_studies(int count) {
+    if (std::getenv("DIBHR_ALL_STUDIES") != nullptr) return {1000, 399};
+    return {count, 99};
+}
+
 struct Recovery {
     double bias{0.0};      ///< of the threshold, as a share of it
     double coverage{0.0};  ///< of its interval
 };
 
-Recovery recovered(const PsychometricFunction& person, const Simulate& simulate, int studies,
-                   int bootstraps) {
-    const FitSettings settings{person.curve, person.level, person.guess, 0.06, bootstraps};
+Recovery recovered(const PsychometricFunction& person, const Simulate& simulate,
+                   const Studies& studies) {
+    const FitSettings settings{person.curve, person.level, person.guess, 0.06, studies.bootstraps};
     Recovery found;
-    for (int study = 0; study < studies; ++study) {
+    for (int study = 0; study < studies.count; ++study) {
         const auto seed = static_cast<std::uint64_t>(study);
         Random random = draws_for(seed, {1});
         const PsychometricFit fit = fitted(simulate(person, random), settings, simulate, seed);
-        found.bias += (fit.function.threshold / person.threshold - 1.0) / studies;
-        found.coverage += fit.threshold.holds(person.threshold) ? 1.0 / studies : 0.0;
+        found.bias += (fit.function.threshold / person.threshold - 1.0) / studies.count;
+        found.coverage += fit.threshold.holds(person.threshold) ? 1.0 / studies.count : 0.0;
     }
     return found;
 }
 
-/// A thousand studies each, as the README tells, where DIBHR_ALL_STUDIES is set.
-bool all_studies() {
-    return std::getenv("DIBHR_ALL_STUDIES") != nullptr;
+/// Of a share of 0.95 over so few studies.
+double standard_error(const Studies& studies) {
+    return std::sqrt(0.95 * 0.05 / studies.count);
+}
+
+void require_unbiased(const Studies& studies) {
+    const Form form = GENERATE(some_of(kForms, 1));
+    const Curve curve = GENERATE(Curve::logistic, Curve::weibull);
+    const bool staircase = GENERATE(false, true);
+    const PsychometricFunction person = person_of(curve, form.guess);
+    const Simulate simulate =
+        staircase ? same_staircases(rule_of(form), 4) : same_levels(constant_levels(40));
+    const Recovery found = recovered(person, simulate, studies);
+    CAPTURE(form.name, name_of(curve), staircase, studies.count, found.bias, found.coverage);
+    CHECK_THAT(found.bias, WithinAbs(0.0, 0.05));
+    // 2 % are allowed, which a thousand studies show.
+    const double beside = studies.count < 1000 ? 4.0 * standard_error(studies) : 0.02 + 1e-9;
+    CHECK_THAT(found.coverage, WithinAbs(0.95, beside));
+}
+
+void require_few_trials_covered(const Studies& studies) {
+    // Steep between three levels: the fit often is a step, of which a bootstrap alone thinks that
+    // nothing else is possible.
+    const Form form = GENERATE(some_of(kForms, 1));
+    const int trials = GENERATE(12, 33, 99);
+    LevelCounts levels;
+    for (const double x : {0.05, 0.15, 0.3}) levels.push_back({x, {0, trials}});
+    const PsychometricFunction person{Curve::logistic, 0.15, 0.025, 0.5, form.guess, 0.05};
+    const Recovery found = recovered(person, same_levels(levels), studies);
+    CAPTURE(form.name, trials, studies.count, found.coverage);
+    CHECK(found.coverage >= 0.95 - 0.02 - 2.5 * standard_error(studies));
 }
 
 }  // namespace
 
 TEST_CASE("thresholds are unbiased and their intervals cover as often as they say",
           "[psychometric]") {
-    const Form form = GENERATE(some_of(kForms, 1));
-    const Curve curve = GENERATE(Curve::logistic, Curve::weibull);
-    const bool staircase = GENERATE(false, true);
-    const int studies = all_studies() ? 1000 : DIBHR_SANITIZED ? 20 : 100;
-    const PsychometricFunction person = person_of(curve, form.guess);
-    const Simulate simulate =
-        staircase ? same_staircases(rule_of(form), 4) : same_levels(constant_levels(40));
-    const Recovery found = recovered(person, simulate, studies, all_studies() ? 399 : 99);
-    CAPTURE(form.name, name_of(curve), staircase, studies, found.bias, found.coverage);
-    CHECK_THAT(found.bias, WithinAbs(0.0, 0.05));
-    // Four standard errors of a share of 0.95 over so few studies, beside the 2 % that are allowed.
-    const double slack = all_studies() ? 1e-9 : 4.0 * std::sqrt(0.95 * 0.05 / studies) - 0.02;
-    CHECK_THAT(found.coverage, WithinAbs(0.95, 0.02 + slack));
+    require_unbiased({});
+}
+
+TEST_CASE("thresholds of many studies are unbiased, and their intervals cover as they say",
+          "[psychometric][long]") {
+    require_unbiased(many_studies(100));
 }
 
 TEST_CASE("of few trials the threshold's interval covers it nearly as often as it says",
           "[psychometric]") {
-    // Steep between three levels: the fit often is a step, of which a bootstrap alone thinks that
-    // nothing else is possible.
-    const Form form = GENERATE(some_of(kForms, 1));
-    const int trials = GENERATE(12, 33, 99);
-    const int studies = all_studies() ? 1000 : DIBHR_SANITIZED ? 20 : 200;
-    LevelCounts levels;
-    for (const double x : {0.05, 0.15, 0.3}) levels.push_back({x, {0, trials}});
-    const PsychometricFunction person{Curve::logistic, 0.15, 0.025, 0.5, form.guess, 0.05};
-    const Recovery found =
-        recovered(person, same_levels(levels), studies, all_studies() ? 399 : 99);
-    CAPTURE(form.name, trials, studies, found.coverage);
-    CHECK(found.coverage >= 0.95 - 0.02 - 2.5 * std::sqrt(0.95 * 0.05 / studies));
+    require_few_trials_covered({});
+}
+
+TEST_CASE("of few trials, too, an interval covers the threshold in many studies",
+          "[psychometric][long]") {
+    require_few_trials_covered(many_studies(200));
 }
 
 TEST_CASE("a rough fit is the same function, and knows who has a threshold", "[psychometric]") {

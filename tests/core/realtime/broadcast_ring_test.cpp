@@ -36,7 +36,7 @@ std::vector<std::uint64_t> all_of(Ring::Listener& listener) {
 
 }  // namespace
 
-TEST_CASE("every listener hears each value that comes after it, in order", "[realtime]") {
+TEST_CASE("every listener hears each value that comes after it, in order", "[ring]") {
     Ring ring;
     Ring::Listener early(ring);
     CHECK(all_of(early).empty());
@@ -52,7 +52,7 @@ TEST_CASE("every listener hears each value that comes after it, in order", "[rea
 }
 
 TEST_CASE("a listener that was away goes on with newer values and counts what it missed",
-          "[realtime]") {
+          "[ring]") {
     Ring ring;
     Ring::Listener away(ring);
     for (std::uint64_t n = 1; n <= 1000; ++n) ring.push(copied(n));
@@ -63,7 +63,7 @@ TEST_CASE("a listener that was away goes on with newer values and counts what it
 }
 
 TEST_CASE("a producer waits for no listener, and no value comes torn, twice or before another",
-          "[realtime]") {
+          "[ring]") {
     constexpr std::uint64_t kCount = 100'000;
     Ring ring;
     std::array<std::uint64_t, 3> wrong{};

@@ -1,99 +1,149 @@
-// Who listens to a heartbeat hears when its thread stands still, and only then.
+// Who listens to a heartbeat hears when its thread stands still, and only then. The time is the
+// test's own; what the kernel says of threads is true.
+#include "core/realtime/heartbeat.hpp"
+
+#include <sys/syscall.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <thread>
+#include <utility>
 
-#include "core/realtime/heartbeat.hpp"
+#include "tests/core/realtime/blocked_thread.hpp"
 #include "tests/support/catch.hpp"
 
 using namespace dibhr;
+using namespace dibhr::test;
 using namespace std::chrono_literals;
 using Clock = Heartbeat::Clock;
+
+namespace {
+
+constexpr Clock::time_point kBeat{5h};
+
+}  // namespace
 
 TEST_CASE("a heart is silent for as long as its last beat is past", "[heartbeat]") {
     Heartbeat heart;
     HeartbeatListener listener(&heart);
+    heart.beat(kBeat);
+    CHECK(listener.silence(kBeat) == 0s);
+    CHECK(listener.silence(kBeat + 300ms) == 300ms);
+    CHECK(listener.silence(kBeat - 1s) == 0s);  // a tick that began before the beat
+    heart.beat(kBeat + 400ms);
+    CHECK(listener.silence(kBeat + 450ms) == 50ms);
     const Clock::time_point before = Clock::now();
-    heart.beat();
-    const Clock::time_point after = Clock::now();
-    CHECK(listener.silence(before + 300ms) <= 300ms);
-    CHECK(listener.silence(after + 300ms) >= 300ms);
-    CHECK(listener.silence(before - 1s) == 0s);  // a tick that began before the beat
-    heart.beat();
-    CHECK(listener.silence(Clock::now()) < 300ms);
+    heart.beat();  // now
+    CHECK(listener.silence(before) == 0s);
+    CHECK(listener.silence(Clock::now() + 300ms) >= 300ms);
 }
 
 TEST_CASE("a heart that rests, has not begun or is none is never silent", "[heartbeat]") {
     Heartbeat heart;
     HeartbeatListener listener(&heart);
-    CHECK(listener.silence(Clock::now() + 1h) == 0s);
-    heart.beat();
+    CHECK(listener.silence(kBeat + 1h) == 0s);
+    heart.beat(kBeat);
     heart.rest();
-    CHECK(listener.silence(Clock::now() + 1h) == 0s);
-    CHECK(HeartbeatListener(nullptr).silence(Clock::now() + 1h) == 0s);
+    CHECK(listener.silence(kBeat + 1h) == 0s);
+    CHECK(HeartbeatListener(nullptr).silence(kBeat + 1h) == 0s);
 }
 
 namespace {
 
-/// The longest silence of a thread that beats once and then does `work`, in that time.
-template <typename Work>
-Clock::duration longest_silence(bool also_computes, const Work& work,
-                                std::chrono::milliseconds time = 1s) {
-    Heartbeat heart;
-    std::atomic<bool> begun{false};
-    std::thread thread([&] {
-        if (also_computes) heart.also_computes();
-        heart.beat();
-        begun = true;
-        work();
-        heart.rest();
-    });
-    while (!begun) std::this_thread::yield();
-    HeartbeatListener listener(&heart);
-    Clock::duration longest{};
-    for (const auto end = Clock::now() + time; Clock::now() < end;) {
-        longest = std::max(longest, listener.silence(Clock::now()));
-        std::this_thread::sleep_for(1ms);
+/// What nobody writes into: who reads from it waits until it is closed.
+class EndlessPipe {
+  public:
+    EndlessPipe() { REQUIRE(::pipe(ends_.data()) == 0); }
+    ~EndlessPipe() {
+        close_end();
+        ::close(ends_[0]);
     }
-    thread.join();
-    return longest;
-}
+    EndlessPipe(const EndlessPipe&) = delete;
+    EndlessPipe& operator=(const EndlessPipe&) = delete;
+
+    void wait() const {
+        char byte{};
+        [[maybe_unused]] const auto got = ::read(ends_[0], &byte, 1);
+    }
+    void close_end() {
+        if (ends_[1] >= 0) ::close(std::exchange(ends_[1], -1));
+    }
+
+  private:
+    std::array<int, 2> ends_{};
+};
+
+enum class AlsoComputes { no, yes };
+
+/// A thread that beats once and then does its work.
+class BeatingThread {
+  public:
+    BeatingThread(AlsoComputes also, std::function<void()> work)
+        : thread_([this, also, work = std::move(work)] {
+              if (also == AlsoComputes::yes) heart_.also_computes();
+              heart_.beat(kBeat);
+              id_ = static_cast<pid_t>(::syscall(SYS_gettid));
+              work();
+          }) {
+        while (id_ == 0) std::this_thread::yield();
+    }
+    ~BeatingThread() { thread_.join(); }
+    BeatingThread(const BeatingThread&) = delete;
+    BeatingThread& operator=(const BeatingThread&) = delete;
+
+    [[nodiscard]] pid_t id() const { return id_; }
+    /// Of one who listens once a millisecond, for so long from the beat on.
+    [[nodiscard]] Clock::duration longest_silence(std::chrono::milliseconds until) const {
+        HeartbeatListener listener(&heart_);
+        Clock::duration longest{};
+        for (auto at = 0ms; at <= until; at += 1ms)
+            longest = std::max(longest, listener.silence(kBeat + at));
+        return longest;
+    }
+
+  private:
+    Heartbeat heart_{};
+    std::atomic<pid_t> id_{0};
+    std::thread thread_;
+};
 
 }  // namespace
 
 TEST_CASE("a thread that decodes for long is heard while it computes, but not while it waits",
           "[heartbeat]") {
-    const auto compute = [] {
-        volatile unsigned sum = 0;
-        for (const auto end = Clock::now() + 1200ms; Clock::now() < end;) sum = sum + 1;
-    };
-    const auto wait_for_a_disk = [] {
-        // Catch2's assertions are for one thread: what fails here is heard as no silence below.
-        std::array<int, 2> ends{};
-        if (pipe(ends.data()) != 0) return;
-        std::thread disk([&] {
-            std::this_thread::sleep_for(1200ms);
-            [[maybe_unused]] const auto written = write(ends[1], "x", 1);
-        });
-        char byte{};
-        [[maybe_unused]] const auto got = read(ends[0], &byte, 1);
-        disk.join();
-        close(ends[0]);
-        close(ends[1]);
-    };
-    CHECK(longest_silence(true, compute) < 200ms);
-    CHECK(longest_silence(true, wait_for_a_disk) > 900ms);
-    CHECK(longest_silence(false, compute) > 900ms);  // as a window that loops for ever
+    SECTION("it computes") {
+        std::atomic<bool> enough{false};
+        const auto compute = [&enough] {
+            volatile unsigned sum = 0;
+            while (!enough) sum = sum + 1;
+        };
+        const BeatingThread decoder(AlsoComputes::yes, compute);
+        const BeatingThread window(AlsoComputes::no, compute);  // as one that loops for ever
+        CHECK(decoder.longest_silence(1200ms) <= 100ms);
+        CHECK(window.longest_silence(1200ms) == 1200ms);
+        enough = true;
+    }
+    SECTION("it waits for a disk") {
+        EndlessPipe disk;
+        const BeatingThread decoder(AlsoComputes::yes, [&disk] { disk.wait(); });
+        CHECK(comes_to_wait_in(SYS_read, decoder.id()));
+        CHECK(decoder.longest_silence(1200ms) == 1200ms);
+        disk.close_end();
+    }
 }
 
 TEST_CASE("a thread that waits for another one is heard, but not for ever", "[heartbeat]") {
-    const auto wait_for_a_thread = [] {
-        std::thread other([] { std::this_thread::sleep_for(3200ms); });
+    EndlessPipe disk;
+    const BeatingThread waiting(AlsoComputes::yes, [&disk] {
+        std::thread other([&disk] { disk.wait(); });
         other.join();
-    };
-    CHECK(longest_silence(true, wait_for_a_thread) < 200ms);
-    CHECK(longest_silence(true, wait_for_a_thread, 3s) > 600ms);
+    });
+    CHECK(comes_to_wait_in(SYS_futex, waiting.id()));
+    CHECK(waiting.longest_silence(1999ms) <= 100ms);
+    CHECK(waiting.longest_silence(3s) > 1s);
+    disk.close_end();
 }

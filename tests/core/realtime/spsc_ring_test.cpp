@@ -33,14 +33,14 @@ bool whole(const Numbered& value) {
 
 }  // namespace
 
-TEST_CASE("an empty ring gives nothing", "[realtime]") {
+TEST_CASE("an empty ring gives nothing", "[ring]") {
     SpscRing<int, 4> ring;
     int value = 7;
     CHECK_FALSE(ring.pop(value));
     CHECK(value == 7);
 }
 
-TEST_CASE("a ring holds as many values as its size, in order, again and again", "[realtime]") {
+TEST_CASE("a ring holds as many values as its size, in order, again and again", "[ring]") {
     SpscRing<int, 8> ring;
     for (int round = 0; round < 5; ++round) {
         for (int k = 0; k < 8; ++k) REQUIRE(ring.push(10 * round + k));
@@ -53,7 +53,7 @@ TEST_CASE("a ring holds as many values as its size, in order, again and again", 
     CHECK(ring.dropped() == 0);
 }
 
-TEST_CASE("a full ring drops the new value, counts it, and keeps the old ones", "[realtime]") {
+TEST_CASE("a full ring drops the new value, counts it, and keeps the old ones", "[ring]") {
     SpscRing<int, 4> ring;
     for (int k = 0; k < 4; ++k) REQUIRE(ring.push(k));
     CHECK_FALSE(ring.push(4));
@@ -67,7 +67,7 @@ TEST_CASE("a full ring drops the new value, counts it, and keeps the old ones", 
 }
 
 TEST_CASE("between two threads the ring keeps order, tears nothing, and loses only what it counts",
-          "[realtime]") {
+          "[ring]") {
     constexpr std::uint64_t kCount = 100000;
     SpscRing<Numbered, 64> ring;
     std::thread producer([&] {
@@ -100,7 +100,7 @@ TEST_CASE("between two threads the ring keeps order, tears nothing, and loses on
     CHECK(received <= kCount + 1);
 }
 
-TEST_CASE("a consumer that keeps up receives every value", "[realtime]") {
+TEST_CASE("a consumer that keeps up receives every value", "[ring]") {
     constexpr std::uint64_t kCount = 50000;
     SpscRing<Numbered, 64> ring;
     std::thread producer([&] {
@@ -123,7 +123,7 @@ TEST_CASE("a consumer that keeps up receives every value", "[realtime]") {
     CHECK(wrong == 0);
 }
 
-TEST_CASE("a ring says how many values wait in it", "[realtime]") {
+TEST_CASE("a ring says how many values wait in it", "[ring]") {
     SpscRing<Numbered, 4> ring;
     CHECK(ring.size() == 0);
     for (std::uint64_t n = 1; n <= 6; ++n) {

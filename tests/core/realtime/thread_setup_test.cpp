@@ -40,7 +40,7 @@ Seen seen_from_a_thread(const char* name) {
 
 }  // namespace
 
-TEST_CASE("the priority that is reported is the one in force", "[realtime]") {
+TEST_CASE("the priority that is reported is the one in force", "[threads]") {
     const Seen seen = seen_from_a_thread("haptic");
     CAPTURE(seen.grants.priority.answer);
     CHECK(((seen.policy & ~SCHED_RESET_ON_FORK) == SCHED_FIFO) == seen.grants.priority.granted);
@@ -48,23 +48,23 @@ TEST_CASE("the priority that is reported is the one in force", "[realtime]") {
                                                                                : "refused: "));
 }
 
-TEST_CASE("a memory lock is granted or refused with a reason", "[realtime]") {
+TEST_CASE("a memory lock is granted or refused with a reason", "[threads]") {
     const Seen seen = seen_from_a_thread("haptic");
     const auto& lock = seen.grants.memory_lock;
     CAPTURE(lock.answer);
     CHECK((lock.granted ? lock.answer == "locked" : lock.answer.starts_with("refused: ")));
 }
 
-TEST_CASE("a thread made by a real-time thread is an ordinary one", "[realtime]") {
+TEST_CASE("a thread made by a real-time thread is an ordinary one", "[threads]") {
     CHECK(seen_from_a_thread("haptic").policy_of_child == SCHED_OTHER);
 }
 
-TEST_CASE("the thread carries its name, cut to what the kernel keeps", "[realtime]") {
+TEST_CASE("the thread carries its name, cut to what the kernel keeps", "[threads]") {
     CHECK(seen_from_a_thread("haptic").name == "haptic");
     CHECK(seen_from_a_thread("a name of more than fifteen").name == "a name of more ");
 }
 
-TEST_CASE("a thread that asked sleeps without slack", "[realtime]") {
+TEST_CASE("a thread that asked sleeps without slack", "[threads]") {
     // Real-time threads have none at all; the kernel then reports 0 or the 1 ns asked for.
     CHECK(seen_from_a_thread("haptic").timer_slack_ns <= 1);
 }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
-#include <thread>
 
 #include "tests/support/catch.hpp"
 
@@ -26,8 +25,7 @@ TickSchedule started_schedule() {
 
 }  // namespace
 
-TEST_CASE("deadlines stand on the grid of the first one, however unsteady the ticks",
-          "[realtime]") {
+TEST_CASE("deadlines stand on the grid of the first one, however unsteady the ticks", "[timer]") {
     TickSchedule schedule = started_schedule();
     for (int k = 1; k <= 1000; ++k) {
         REQUIRE(schedule.next_deadline() == kStart + k * 1ms);
@@ -38,7 +36,7 @@ TEST_CASE("deadlines stand on the grid of the first one, however unsteady the ti
     CHECK(schedule.skipped() == 0);
 }
 
-TEST_CASE("a tick's dt is the true time since the last tick began", "[realtime]") {
+TEST_CASE("a tick's dt is the true time since the last tick began", "[timer]") {
     TickSchedule schedule = started_schedule();
     CHECK_THAT(schedule.begin_tick(kStart + 1100us).dt_s, WithinAbs(0.0011, 1e-12));
     CHECK_THAT(schedule.begin_tick(kStart + 2000us).dt_s, WithinAbs(0.0009, 1e-12));
@@ -46,7 +44,7 @@ TEST_CASE("a tick's dt is the true time since the last tick began", "[realtime]"
 }
 
 TEST_CASE("a tick is late when it begins a whole period after its deadline, not before",
-          "[realtime]") {
+          "[timer]") {
     const auto after = GENERATE(0us, 1us, 999us, 1000us, 1001us, 5300us);
     TickSchedule schedule = started_schedule();
     const auto timing = schedule.begin_tick(kStart + 1ms + after);
@@ -55,7 +53,7 @@ TEST_CASE("a tick is late when it begins a whole period after its deadline, not 
     CHECK(schedule.late_ticks() == (after >= 1ms ? 1U : 0U));
 }
 
-TEST_CASE("deadlines missed by a late tick are counted and not made up for", "[realtime]") {
+TEST_CASE("deadlines missed by a late tick are counted and not made up for", "[timer]") {
     TickSchedule schedule = started_schedule();
     schedule.begin_tick(kStart + 6300us);  // meant for 1 ms
     CHECK(schedule.ticks() == 1);
@@ -65,7 +63,7 @@ TEST_CASE("deadlines missed by a late tick are counted and not made up for", "[r
     CHECK_FALSE(schedule.begin_tick(kStart + 7ms).late);
 }
 
-TEST_CASE("ticks and skipped deadlines together are the deadlines that passed", "[realtime]") {
+TEST_CASE("ticks and skipped deadlines together are the deadlines that passed", "[timer]") {
     TickSchedule schedule = started_schedule();
     auto now = kStart;
     for (int k = 0; k < 500; ++k) {
@@ -77,12 +75,12 @@ TEST_CASE("ticks and skipped deadlines together are the deadlines that passed", 
     CHECK(schedule.ticks() + schedule.skipped() == passed);
 }
 
-TEST_CASE("the timer never begins a tick before its deadline", "[realtime]") {
-    TickTimer timer(1ms);
-    auto before = std::chrono::steady_clock::now();
+TEST_CASE("the timer never begins a tick before its deadline", "[timer]") {
+    TickTimer timer(200us);
+    const auto before = std::chrono::steady_clock::now();
     for (int k = 1; k <= 50; ++k) {
         const auto timing = timer.wait();
-        REQUIRE(timing.begin >= before + k * 1ms);
+        REQUIRE(timing.begin >= before + k * 200us);
         REQUIRE(timing.lateness >= 0ns);
         REQUIRE(timing.dt_s > 0.0);
     }
@@ -90,18 +88,19 @@ TEST_CASE("the timer never begins a tick before its deadline", "[realtime]") {
     CHECK(timer.schedule().lateness().count() == 50);
 }
 
-TEST_CASE("a tick that overran is followed by a late one with the true dt", "[realtime]") {
-    TickTimer timer(1ms);
-    timer.wait();
-    std::this_thread::sleep_for(20ms);
+TEST_CASE("a tick that overran is followed by a late one with the true dt", "[timer]") {
+    TickTimer timer(10us);
+    const auto last = timer.wait().begin;
+    while (std::chrono::steady_clock::now() < last + 200us) {
+    }
     const auto timing = timer.wait();
     CHECK(timing.late);
-    CHECK(timing.dt_s >= 0.020);
+    CHECK(timing.dt_s >= 200e-6);
     CHECK(timer.schedule().late_ticks() >= 1);
     CHECK(timer.schedule().skipped() >= 18);
 }
 
-TEST_CASE("lateness falls into bins that double", "[realtime]") {
+TEST_CASE("lateness falls into bins that double", "[timer]") {
     LatenessHistogram histogram;
     histogram.add(-5us);
     histogram.add(999ns);
@@ -117,14 +116,14 @@ TEST_CASE("lateness falls into bins that double", "[realtime]") {
     CHECK(histogram.worst() == 1024us);
 }
 
-TEST_CASE("an absurd lateness stays in the last bin", "[realtime]") {
+TEST_CASE("an absurd lateness stays in the last bin", "[timer]") {
     LatenessHistogram histogram;
     histogram.add(std::chrono::hours(100));
     CHECK(histogram.in_bin(LatenessHistogram::kBins - 1) == 1);
     CHECK(histogram.quantile(1.0) == std::chrono::hours(100));
 }
 
-TEST_CASE("a quantile is the upper end of the bin that holds it", "[realtime]") {
+TEST_CASE("a quantile is the upper end of the bin that holds it", "[timer]") {
     LatenessHistogram histogram;
     CHECK(histogram.quantile(0.5) == 0ns);
     for (int k = 0; k < 99; ++k) histogram.add(5us);

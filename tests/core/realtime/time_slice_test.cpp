@@ -26,7 +26,7 @@ bool has_slices() {
     return major > 6 || (major == 6 && minor >= 12);
 }
 
-TEST_CASE("a thread takes turns as long as it asks for, and keeps its priority", "[realtime]") {
+TEST_CASE("a thread takes turns as long as it asks for, and keeps its priority", "[threads]") {
     std::thread([] {
         setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), 3);
         CHECK(set_time_slice(kPatientSlice) == has_slices());
@@ -38,12 +38,12 @@ TEST_CASE("a thread takes turns as long as it asks for, and keeps its priority",
 
 TEST_CASE(
     "slices out of the kernel's range are not granted as they are, those of others not at all",
-    "[realtime]") {
+    "[threads]") {
     std::thread([] { CHECK_FALSE(set_time_slice(std::chrono::seconds(5))); }).join();
     CHECK_FALSE(set_time_slice(kPatientSlice, 0x3fffffff));  // there is no such thread
 }
 
-TEST_CASE("a real-time thread needs no slices", "[realtime]") {
+TEST_CASE("a real-time thread needs no slices", "[threads]") {
     std::thread([] {
         const RealtimeGrants grants = become_realtime("slices");
         if (grants.priority.granted) CHECK_FALSE(set_time_slice(kPatientSlice));

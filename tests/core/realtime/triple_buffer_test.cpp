@@ -45,7 +45,8 @@ class Owned {
 
 }  // namespace
 
-TEST_CASE("a triple buffer gives its initial value until something is published", "[realtime]") {
+TEST_CASE("a triple buffer gives its initial value until something is published",
+          "[triple buffer]") {
     TripleBuffer<int> buffer;
     CHECK_FALSE(buffer.fresh());
     CHECK(buffer.front() == 0);
@@ -58,14 +59,14 @@ TEST_CASE("a triple buffer gives its initial value until something is published"
     CHECK(buffer.front() == 5);
 }
 
-TEST_CASE("the reader skips to the newest of several published values", "[realtime]") {
+TEST_CASE("the reader skips to the newest of several published values", "[triple buffer]") {
     TripleBuffer<int> buffer;
     for (int k = 1; k <= 10; ++k) buffer.publish(k);
     CHECK(buffer.front() == 10);
     CHECK_FALSE(buffer.fresh());
 }
 
-TEST_CASE("what the reader holds does not change while the writer goes on", "[realtime]") {
+TEST_CASE("what the reader holds does not change while the writer goes on", "[triple buffer]") {
     TripleBuffer<int> buffer;
     buffer.publish(1);
     const int& held = buffer.front();
@@ -76,7 +77,7 @@ TEST_CASE("what the reader holds does not change while the writer goes on", "[re
 }
 
 TEST_CASE("between two threads nothing is torn, nothing goes back, and the last value arrives",
-          "[realtime]") {
+          "[triple buffer]") {
     constexpr std::uint64_t kLast = 50000;
     TripleBuffer<Sample> buffer;
     std::thread writer([&] {
@@ -102,7 +103,7 @@ TEST_CASE("between two threads nothing is torn, nothing goes back, and the last 
     CHECK(buffer.front().words[31] == kLast);
 }
 
-TEST_CASE("what a slot owns is freed on the writer's thread only", "[realtime]") {
+TEST_CASE("what a slot owns is freed on the writer's thread only", "[triple buffer]") {
     constexpr int kCount = 5000;
     std::atomic<int> freed_elsewhere{0};
     std::atomic<bool> reading{true};

@@ -10,7 +10,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -26,6 +25,7 @@ using dibhr::TickRecord;
 using dibhr::TickRing;
 using dibhr::test::answer;
 using dibhr::test::eventually;
+using dibhr::test::HandClock;
 using dibhr::test::output_of;
 using dibhr::test::push;
 using dibhr::test::query;
@@ -50,15 +50,12 @@ TEST_CASE("ticks pushed at full speed in bursts are all recorded, in order", "[s
     const auto ring = std::make_unique<TickRing>();
     {
         const Recorder recorder(folder.file(), *ring, {});
-        std::thread producer([&] {
-            for (std::int64_t burst = 0; burst < kBursts; ++burst) {
-                for (std::int64_t n = 0; n < kBurst; ++n) {
-                    push(*ring, tick_record(burst * kBurst + n));
-                }
-                std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        for (std::int64_t burst = 0; burst < kBursts; ++burst) {
+            for (std::int64_t n = 0; n < kBurst; ++n) {
+                push(*ring, tick_record(burst * kBurst + n));
             }
-        });
-        producer.join();
+            REQUIRE(eventually([&] { return ring->size() == 0; }));
+        }
     }
     const auto all = std::to_string(kBursts * kBurst);
     CHECK(answer(folder.file(), "SELECT count(*) FROM tick") == all);
@@ -184,14 +181,28 @@ TEST_CASE("a closed session is one file, which SQLite's own shell reads", "[sess
                     "' 'select tick, gx, gy from tick'") == "41|41.0|41.1\n");
 }
 
-TEST_CASE("ticks are in the file within a moment, while the recording goes on", "[session]") {
+TEST_CASE("ticks are in the file a tenth of a second later, while the recording goes on",
+          "[session]") {
     const SessionFolder folder;
     const auto ring = std::make_unique<TickRing>();
-    const Recorder recorder(folder.file(), *ring, {});
+    HandClock clock;
+    const Recorder recorder(folder.file(), *ring, {}, nullptr, clock.now());
     CHECK(recorder.status().recording);
     push(*ring, tick_record(1));
-    CHECK(eventually([&] { return answer(folder.file(), "SELECT count(*) FROM tick") == "1"; }));
+    CHECK(eventually([&] { return ring->size() == 0; }));
+    // It looks whether it is time, again and again.
+    const auto looks_again = [&clock] {
+        const int before = clock.looks;
+        return eventually([&] { return clock.looks >= before + 2; });
+    };
+    CHECK(looks_again());
+    clock.pass(std::chrono::milliseconds(99));
+    CHECK(looks_again());
+    CHECK(recorder.status().rows == 0);
+    CHECK(answer(folder.file(), "SELECT count(*) FROM tick") == "0");
+    clock.pass(std::chrono::milliseconds(1));
     CHECK(eventually([&] { return recorder.status().rows == 1; }));
+    CHECK(answer(folder.file(), "SELECT count(*) FROM tick") == "1");
     CHECK(recorder.status().bytes > 0);
     CHECK(recorder.status().failure.empty());
 }
@@ -207,7 +218,8 @@ TEST_CASE("a tick the ring had no room for is counted, in the status and in the 
     std::optional<Recorder> recorder(std::in_place, folder.file(), *ring, SessionFacts{});
     CHECK(eventually([&] { return recorder->status().rows == 16384; }));
     std::uint64_t dropped = 0;
-    for (const std::int64_t end = next + 200000; next < end; ++next) {
+    constexpr std::int64_t kMore = 100'000;
+    for (const std::int64_t end = next + kMore; next < end; ++next) {
         dropped += ring->push(tick_record(next)) ? 0 : 1;
     }
     CHECK(eventually([&] { return recorder->status().dropped == dropped; }));
@@ -216,7 +228,7 @@ TEST_CASE("a tick the ring had no room for is counted, in the status and in the 
     CHECK(answer(folder.file(), "SELECT value FROM session WHERE key = 'dropped_count'") ==
           std::to_string(dropped));
     CHECK(answer(folder.file(), "SELECT count(*) FROM tick") ==
-          std::to_string(16384 + 200000 - dropped));
+          std::to_string(16384 + kMore - static_cast<std::int64_t>(dropped)));
 }
 
 TEST_CASE("while ticks are recorded, what they were logged in is merged into the file and cut",

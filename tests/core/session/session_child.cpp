@@ -1,7 +1,7 @@
-// Records made-up ticks until it is killed: session_child FILE COUNTER TICKS_PER_MS FLUSH_MS.
-// COUNTER is a file of eight bytes, through which the test sees how many ticks were pushed;
-// FLUSH_MS is how long the disk needs for what is to be flushed once ticks come, -1 for a disk
-// that fails then. Prints why the recording stopped, if it does.
+// Records made-up ticks until it is killed: session_child FILE COUNTERS TICKS_PER_MS FLUSH.
+// COUNTERS is a file of Counters, through which the test sees how far it is; FLUSH says what the
+// disk does with what is to be flushed once ticks come: "works", "hangs" for ever, "fails", or how
+// many milliseconds it needs. Prints why the recording stopped, if it does.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/syscall.h>
@@ -10,25 +10,29 @@
 #include <atomic>
 #include <cerrno>
 #include <chrono>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <string_view>
 #include <thread>
 
 #include "core/session/recorder.hpp"
 #include "tests/core/session/exploration.hpp"
+#include "tests/core/session/session_child.hpp"
 #include "tests/core/session/session_folder.hpp"
 
 namespace {
 
+enum class Flush { works, hangs, fails };
+std::atomic<Flush> flush{Flush::works};
 std::atomic<int> flush_ms{0};
 
 }  // namespace
 
 /// In place of the C library's: SQLite flushes through it.
 extern "C" int fdatasync(int file) {
-    if (flush_ms < 0) {
+    while (flush == Flush::hangs) ::pause();
+    if (flush == Flush::fails) {
         errno = EIO;
         return -1;
     }
@@ -40,10 +44,11 @@ int main(int, char** arguments) {
     using namespace dibhr;
     const int file = ::open(arguments[2], O_RDWR);
     void* const memory =
-        ::mmap(nullptr, sizeof(std::int64_t), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+        ::mmap(nullptr, sizeof(test::Counters), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
     if (file < 0 || memory == MAP_FAILED) return 1;
-    auto& pushed = *static_cast<std::atomic<std::int64_t>*>(memory);
+    auto& counters = *static_cast<test::Counters*>(memory);
     const int per_ms = std::atoi(arguments[3]);
+    const std::string_view disk = arguments[4];
 
     test::MovingSurface surface;
     test::Exploration hand(surface);
@@ -52,11 +57,13 @@ int main(int, char** arguments) {
     recorder.parameters(hand.parameters);
     recorder.media(1, "colour.mp4", "depth.mp4");
     flush_ms = std::atoi(arguments[4]);
+    flush = disk == "hangs" ? Flush::hangs : disk == "fails" ? Flush::fails : Flush::works;
     auto deadline = std::chrono::steady_clock::now();
-    while (recorder.status().failure.empty()) {
+    for (RecorderStatus status; status.failure.empty(); status = recorder.status()) {
+        counters.kept = static_cast<std::int64_t>(status.rows);
         for (int k = 0; k < per_ms; ++k) {
             test::push(*ring, hand.next());
-            pushed.fetch_add(1);
+            ++counters.pushed;
         }
         deadline += std::chrono::milliseconds(1);
         std::this_thread::sleep_until(deadline);

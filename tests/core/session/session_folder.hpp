@@ -3,6 +3,7 @@
 
 #include <sqlite3.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -79,6 +80,20 @@ inline void push(TickRing& ring, const TickRecord& record) {
     while (ring.size() == ring.room()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     (void)ring.push(record);
 }
+
+/// A time that a test moves, and how often it was looked at.
+struct HandClock {
+    std::atomic<std::chrono::steady_clock::time_point> time{std::chrono::steady_clock::now()};
+    std::atomic<int> looks{0};
+
+    [[nodiscard]] Now now() {
+        return [this] {
+            ++looks;
+            return time.load();
+        };
+    }
+    void pass(std::chrono::milliseconds span) { time = time.load() + span; }
+};
 
 /// A session of `count` ticks and no more.
 inline void record_ticks(const std::filesystem::path& file, std::int64_t count) {

@@ -122,9 +122,8 @@ struct Touching : TouchedPlane {
 }  // namespace
 
 TEST_CASE("a bump every period is heard at speed / period, whatever else is heard", "[sound]") {
-    const double hiss = GENERATE(0.3, 1.0);
-    const auto [period_px, px_per_s] = GENERATE(
-        table<double, double>({{8.0, 400.0}, {8.0, 1600.0}, {12.0, 3000.0}, {9.0, 3600.0}}));
+    const auto [hiss, period_px, px_per_s] = GENERATE(table<double, double, double>(
+        {{0.3, 8.0, 400.0}, {1.0, 8.0, 1600.0}, {0.3, 12.0, 3000.0}, {1.0, 9.0, 3600.0}}));
     CAPTURE(hiss, period_px, px_per_s);
     SoundChoice choice;
     choice.material.hiss = hiss;
@@ -156,7 +155,7 @@ TEST_CASE("scraping over what is smooth is noise, higher and louder the faster i
     const auto high_share = [](const std::vector<float>& heard) {
         double high = 0.0;
         double all = 0.0;
-        for (double hz = 100.0; hz < 8000.0; hz *= 1.03) {
+        for (double hz = 100.0; hz < 8000.0; hz *= 1.06) {
             const double power = hz * power_at(heard, hz);
             all += power;
             if (hz > 1000.0) high += power;
@@ -343,7 +342,7 @@ TEST_CASE("a device whose clock goes otherwise is neither late nor without sound
     const auto tick = [](bool contact) {
         return SoundTick{{0.0, 0.0, contact ? 0.0 : 5.0}, contact ? 1.0 : 0.0, contact, true};
     };
-    for (int k = 0; k < 60'000; ++k) {
+    for (int k = 0; k < 20'000; ++k) {  // by then the clocks are 40 ms apart
         ring->push(tick(false));
         listener.hear(ticks, 0.001 * drift);
     }

@@ -44,7 +44,7 @@ double binomial_power(int trials, double share) {
 TEST_CASE("the power of one participant is that of the binomial test", "[study plan]") {
     const Protocol page = protocol(page_of_conditions(2, kPairs + "repetitions = 40\n"));
     PlanSettings settings{.effect = {.guesses = false, .prefers = "a", .share = 0.7},
-                          .studies = DIBHR_SANITIZED ? 100 : 400,
+                          .studies = 200,
                           .most_participants = 1};
     const PlanLine line = on_the_page(plan_of(page, settings));
     CHECK(line.finding == "a rather than b");
@@ -59,7 +59,7 @@ TEST_CASE("a smaller effect, and people who differ more, need more participants"
     const auto enough = [&](double share, double spread) {
         PlanSettings settings{
             .effect = {.guesses = false, .prefers = "a", .share = share, .spread = spread},
-            .studies = DIBHR_SANITIZED ? 40 : 150};
+            .studies = 50};
         return on_the_page(plan_of(page, settings)).enough;
     };
     const int large = enough(0.85, 0.0);
@@ -77,7 +77,7 @@ TEST_CASE("more trials make a threshold more precise", "[study plan]") {
         "[[block]]\nform = \"two-interval\"\nquestion = \"Which?\"\nvary = \"friction\"\n"
         "reference = 0.3\nlevels = [0.02, 0.06, 0.1, 0.14, 0.2, 0.3]\nrepetitions = 10\n"));
     PlanSettings settings{.effect = {.guesses = false, .threshold = 0.12, .slope = 20.0},
-                          .studies = DIBHR_SANITIZED ? 40 : 150,
+                          .studies = 80,
                           .most_participants = 1};
     std::vector<double> precision;
     for (const PlanLine& line : plan_of(page, settings))
@@ -98,7 +98,7 @@ TEST_CASE("the precision of a threshold is how far 95 % of all studies' estimate
                 levels));
         const PlanSettings settings{
             .effect = {.guesses = false, .threshold = threshold, .slope = 20.0},
-            .studies = DIBHR_SANITIZED ? 20 : 60,
+            .studies = 20,
             .most_participants = 8};
         for (const PlanLine& one : plan_of(page, settings))
             if (one.finding.starts_with("threshold") && one.as_on_the_page)

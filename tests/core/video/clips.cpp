@@ -2,11 +2,13 @@
 #include "tests/core/video/clips.hpp"
 
 #include <cstdlib>
+#include <map>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
 #include "core/error.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace dibhr::test {
 
@@ -17,10 +19,22 @@ void ffmpeg(const std::string& arguments) {
 
 void make_flat_clip(const std::filesystem::path& file, int frames, int frames_per_s,
                     const std::string& encoding, const std::string& filter, int width, int height) {
-    ffmpeg("-f lavfi -i \"color=black:s=" + std::to_string(width) + "x" + std::to_string(height) +
-           ":r=" + std::to_string(frames_per_s) + ",format=gray,geq=lum='5*N'" +
-           (filter.empty() ? "" : "," + filter) + "\" -frames:v " + std::to_string(frames) +
-           " -fps_mode passthrough " + encoding + " '" + file.string() + "'");
+    // Each once: many cases want the same ones.
+    static const TemporaryFolder made;
+    static std::map<std::string, std::filesystem::path> clips;
+    const std::string arguments = "-f lavfi -i \"color=black:s=" + std::to_string(width) + "x" +
+                                  std::to_string(height) + ":r=" + std::to_string(frames_per_s) +
+                                  ",format=gray,geq=lum='5*N'" +
+                                  (filter.empty() ? "" : "," + filter) + "\" -frames:v " +
+                                  std::to_string(frames) + " -fps_mode passthrough " + encoding;
+    const std::string ending = file.extension().string();
+    std::filesystem::path& clip = clips[arguments + ending];
+    if (clip.empty()) {
+        const std::filesystem::path path = made / (std::to_string(clips.size()) + ending);
+        ffmpeg(arguments + " '" + path.string() + "'");
+        clip = path;
+    }
+    std::filesystem::copy_file(clip, file, std::filesystem::copy_options::overwrite_existing);
 }
 
 void turn(const std::filesystem::path& file, const std::filesystem::path& turned, int degrees) {

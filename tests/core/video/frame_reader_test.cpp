@@ -26,6 +26,7 @@
 
 using namespace dibhr;
 using namespace dibhr::test;
+using Catch::Matchers::WithinAbs;
 
 namespace {
 
@@ -36,13 +37,26 @@ double frame_s(int k) {
     return k * kFrame_s;
 }
 
-/// Frames that lie in memory; going to one takes `jump`, but for those that stand alone.
-/// `reached` counts the jumps that arrived.
+/// What a media did, and how long it took by its own clock.
+struct Disk {
+    std::atomic<int> jumps{0};          ///< that arrived
+    std::atomic<int> made{0};           ///< frames that were given out
+    std::chrono::milliseconds jump{0};  ///< takes so long
+    double passing_s{1e-6};             ///< as it says of a frame
+    std::atomic<std::chrono::milliseconds> worked{std::chrono::milliseconds{0}};
+
+    [[nodiscard]] std::chrono::steady_clock::time_point now() const {
+        return std::chrono::steady_clock::time_point{} + worked.load();
+    }
+};
+
+/// Frames that lie in memory; going to one takes a jump of the disk, but for those that stand
+/// alone.
 class KeyedMedia : public Media {
   public:
-    KeyedMedia(std::vector<DepthImage> frames, std::chrono::milliseconds jump,
-               std::shared_ptr<std::atomic<int>> reached = nullptr)
-        : frames_(std::move(frames)), jump_(jump), reached_(std::move(reached)) {
+    explicit KeyedMedia(std::vector<DepthImage> frames,
+                        std::shared_ptr<Disk> disk = std::make_shared<Disk>())
+        : frames_(std::move(frames)), disk_(std::move(disk)) {
         description_.frames_per_s = 1.0 / kFrame_s;
         description_.depth_columns = frames_.front().columns;
         description_.depth_rows = frames_.front().rows;
@@ -55,8 +69,8 @@ class KeyedMedia : public Media {
         frame.media_s = frame_s(static_cast<int>(position_));
         frame.index = static_cast<std::int64_t>(position_++);
         frame.always_whole = true;
-        frame.passing_s = 1e-6;
-        if (made_) ++*made_;
+        frame.passing_s = disk_->passing_s;
+        ++disk_->made;
         return frame;
     }
     std::optional<RawFrame> next_from(double earliest_s) override {
@@ -64,12 +78,10 @@ class KeyedMedia : public Media {
             ++position_;
         return next();
     }
-    /// Counts the frames that are given out.
-    void count_made(std::shared_ptr<std::atomic<int>> made) { made_ = std::move(made); }
     void seek(double media_s) override {
-        std::this_thread::sleep_for(jump_);
+        disk_->worked = disk_->worked.load() + disk_->jump;
         position_ = std::min(index_at(media_s), frames_.size() - 1);
-        if (reached_) ++*reached_;
+        ++disk_->jumps;
     }
     void seek_near(double media_s) override {
         position_ = index_at(media_s) / kKeyFrames * kKeyFrames;
@@ -80,9 +92,7 @@ class KeyedMedia : public Media {
         return static_cast<std::size_t>((media_s + kTimeTolerance_s) / kFrame_s);
     }
     std::vector<DepthImage> frames_;
-    std::chrono::milliseconds jump_;
-    std::shared_ptr<std::atomic<int>> reached_;
-    std::shared_ptr<std::atomic<int>> made_{};
+    std::shared_ptr<Disk> disk_;
     std::size_t position_{0};
     MediaDescription description_{};
 };
@@ -113,9 +123,16 @@ Frame gone_by(int px, int index) {
     return frame;
 }
 
-std::unique_ptr<FrameReader> sensor_reader(const std::vector<DepthImage>& frames,
-                                           std::chrono::milliseconds jump = {}) {
-    auto reader = std::make_unique<FrameReader>(std::make_unique<KeyedMedia>(frames, jump));
+constexpr std::chrono::milliseconds kSlowJump{150};
+
+/// Of 60 frames on that disk, by whose clock everything is timed.
+std::unique_ptr<FrameReader> timed_reader(const std::shared_ptr<Disk>& disk) {
+    return std::make_unique<FrameReader>(std::make_unique<KeyedMedia>(shaken_frames(60), disk), 0,
+                                         ReadingHearts{}, [disk] { return disk->now(); });
+}
+
+std::unique_ptr<FrameReader> sensor_reader(const std::vector<DepthImage>& frames) {
+    auto reader = std::make_unique<FrameReader>(std::make_unique<KeyedMedia>(frames));
     reader->set_cleaning({.preset = CleaningPreset::sensor});
     return reader;
 }
@@ -139,6 +156,39 @@ TEST_CASE("frames that would come too late are passed over and counted, the last
     CHECK(last->index == 29);
     CHECK_FALSE(reader->after(frame_s(29), {.earliest_s = 100.0}));
     CHECK(reader->passed_over() == 6 + 20);
+}
+
+TEST_CASE("frames that are passed over share the wait, and what is waited for is summed up",
+          "[reader]") {
+    constexpr double kWait_s = 0.050;
+    constexpr double kNewest = 0.1;  // the weight of the newest of a moving mean
+    // Who reads looks at the clock when it begins to wait; whenever it looks again it is later.
+    int looks = 0;
+    const auto reader_looks = [&looks, here = std::this_thread::get_id()] {
+        const bool later = std::this_thread::get_id() == here && ++looks > 1;
+        return std::chrono::steady_clock::time_point{} +
+               std::chrono::milliseconds(later ? std::lround(1000.0 * kWait_s) : 0);
+    };
+    const auto disk = std::make_shared<Disk>();
+    disk->passing_s = 0.0;  // it does not say how long that takes
+    FrameReader reader(std::make_unique<KeyedMedia>(shaken_frames(30), disk), 0, ReadingHearts{},
+                       reader_looks);
+    reader.set_cleaning({.preset = CleaningPreset::raw});
+    REQUIRE(reader.at(0.0));
+    CHECK_THAT(reader.decoding_s(), WithinAbs(0.0, 1e-9));
+    CHECK_THAT(reader.waited_s(), WithinAbs(0.0, 1e-9));
+    double mean_s = 0.0;
+    double from_s = 0.0;
+    for (const int frames : {10, 1, 5}) {
+        looks = 0;
+        const auto next = reader.after(from_s, {.earliest_s = from_s + frame_s(frames) - 1e-6});
+        REQUIRE(next);
+        CHECK(next->media_s - from_s == Approx(frame_s(frames)));
+        from_s = next->media_s;
+        mean_s += kNewest * (kWait_s / frames - mean_s);
+        CHECK_THAT(reader.decoding_s(), WithinAbs(mean_s, 1e-9));
+    }
+    CHECK_THAT(reader.waited_s(), WithinAbs(3.0 * kWait_s, 1e-9));
 }
 
 TEST_CASE("where frames are passed over in-betweens rest first, then motion, and both come back",
@@ -183,12 +233,10 @@ TEST_CASE("a frame is the same bits whether those before it were passed over or 
 TEST_CASE("what is passed over while it plays is not made, and a step is one frame all the same",
           "[reader]") {
     const auto frames = shaken_frames(400);
-    const auto made = std::make_shared<std::atomic<int>>(0);
-    auto media = std::make_unique<KeyedMedia>(frames, std::chrono::milliseconds(0));
-    media->count_made(made);
-    FrameReader reader(std::move(media));
+    const auto disk = std::make_shared<Disk>();
+    FrameReader reader(std::make_unique<KeyedMedia>(frames, disk));
     reader.set_cleaning({.preset = CleaningPreset::gentle});
-    FrameReader every(std::make_unique<KeyedMedia>(frames, std::chrono::milliseconds(0)));
+    FrameReader every(std::make_unique<KeyedMedia>(frames));
     every.set_cleaning({.preset = CleaningPreset::gentle});
     std::vector<std::vector<float>> in_order;
     for (auto frame = every.at(0.0); frame; frame = every.after(frame->media_s))
@@ -207,7 +255,7 @@ TEST_CASE("what is passed over while it plays is not made, and a step is one fra
     }
     CHECK(reader.passed_over() == passed_over);
     CHECK(passed_over >= 5 * 40);
-    CHECK(*made < 5 * 41);
+    CHECK(disk->made < 5 * 41);
 
     // Also while the decoder has passed over the next one, or kept frames end.
     const auto next = reader.after(frame->media_s);
@@ -225,9 +273,8 @@ TEST_CASE("where kept frames end while they are played, the decoder has jumped b
           "[reader]") {
     const auto frames = shaken_frames(80);
     const bool steady = GENERATE(false, true);
-    const auto reached = std::make_shared<std::atomic<int>>(0);
-    FrameReader reader(
-        std::make_unique<KeyedMedia>(frames, std::chrono::milliseconds(20), reached));
+    const auto disk = std::make_shared<Disk>();
+    FrameReader reader(std::make_unique<KeyedMedia>(frames, disk));
     reader.set_cleaning({.preset = steady ? CleaningPreset::sensor : CleaningPreset::gentle});
     std::vector<std::vector<float>> played;
     for (auto frame = reader.at(0.0); frame && played.size() < 60;
@@ -236,14 +283,14 @@ TEST_CASE("where kept frames end while they are played, the decoder has jumped b
     REQUIRE(played.size() == 60);
     auto frame = reader.at(0.0);  // long gone: where kept frames begin is found again
     REQUIRE(frame);
-    const int jumps = *reached;
+    const int jumps = disk->jumps;
     for (int k = 1; k < 30; ++k) {
         frame = reader.after(frame->media_s);
         REQUIRE(frame);
         REQUIRE((frame->depth->levels == played[static_cast<std::size_t>(k)]));
     }
-    REQUIRE(eventually([&] { return *reached > jumps; }));
-    const int on_its_way = *reached;
+    REQUIRE(eventually([&] { return disk->jumps > jumps; }));
+    const int on_its_way = disk->jumps;
     for (int k = 30; k < 60; ++k) {
         frame = reader.after(frame->media_s);
         CAPTURE(k);
@@ -251,19 +298,21 @@ TEST_CASE("where kept frames end while they are played, the decoder has jumped b
         REQUIRE(frame->index == k);
         REQUIRE((frame->depth->levels == played[static_cast<std::size_t>(k)]));
     }
-    CHECK(*reached == on_its_way);  // no other jump was to be waited for
+    CHECK(disk->jumps == on_its_way);  // no other jump was to be waited for
 }
 
 TEST_CASE("where a jump takes long a frame near it is there at once, and says how it was cleaned",
-          "[reader][alone]") {
-    const auto frames = shaken_frames(60);
-    const auto slow = sensor_reader(frames, std::chrono::milliseconds(150));
+          "[reader]") {
+    const auto disk = std::make_shared<Disk>();
+    disk->jump = kSlowJump;
+    const auto slow = timed_reader(disk);
+    slow->set_cleaning({.preset = CleaningPreset::sensor});
     REQUIRE(slow->at(0.0));
     CHECK_FALSE(slow->preview(0.0));  // it is kept
-    const auto begin = std::chrono::steady_clock::now();
+    const int jumps = disk->jumps;
     const auto preview = slow->preview(frame_s(37));
-    CHECK(std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(140));
     REQUIRE(preview);
+    CHECK(disk->jumps == jumps);
     CHECK(preview->index == 30);
     CleaningSteps alone = kSensorSteps;
     alone.steady = false;
@@ -271,8 +320,10 @@ TEST_CASE("where a jump takes long a frame near it is there at once, and says ho
     const auto sought = slow->at(frame_s(37));
     REQUIRE(sought);
     CHECK(sought->index == 37);
-    CHECK(sought->depth->levels == sensor_reader(frames)->at(frame_s(37))->depth->levels);
-    CHECK_FALSE(sensor_reader(frames)->preview(frame_s(37)));  // as quick itself
+    CHECK(disk->jumps > jumps);
+    const auto quick = sensor_reader(shaken_frames(60));
+    CHECK_FALSE(quick->preview(frame_s(37)));  // as quick itself
+    CHECK(sought->depth->levels == quick->at(frame_s(37))->depth->levels);
 }
 
 TEST_CASE("a preview is seen and not touched, and the frame that was sought takes its place",
@@ -280,9 +331,9 @@ TEST_CASE("a preview is seen and not touched, and the frame that was sought take
     Playback::Time now{std::chrono::hours(1)};
     Playback playback;
     playback.set_cleaning({.preset = CleaningPreset::sensor});
-    playback.open(std::make_unique<FrameReader>(std::make_unique<KeyedMedia>(
-                      shaken_frames(60), std::chrono::milliseconds(150))),
-                  now);
+    const auto disk = std::make_shared<Disk>();
+    disk->jump = kSlowJump;
+    playback.open(timed_reader(disk), now);
     const bool paused = GENERATE(false, true);
     if (paused) playback.pause(now);
     playback.seek(frame_s(25), now);  // the first jump tells how long one takes
@@ -306,9 +357,9 @@ TEST_CASE("a preview is seen and not touched, and the frame that was sought take
 TEST_CASE("a step from a preview is one from the frame that was sought", "[playback]") {
     Playback::Time now{std::chrono::hours(1)};
     Playback playback;
-    playback.open(std::make_unique<FrameReader>(std::make_unique<KeyedMedia>(
-                      shaken_frames(60), std::chrono::milliseconds(150))),
-                  now);
+    const auto disk = std::make_shared<Disk>();
+    disk->jump = kSlowJump;
+    playback.open(timed_reader(disk), now);
     playback.seek(frame_s(25), now);
     playback.seek(frame_s(48), now);
     REQUIRE(playback.sought_s());
@@ -317,12 +368,12 @@ TEST_CASE("a step from a preview is one from the frame that was sought", "[playb
     CHECK(playback.window().frames[0].index == 47);
 }
 
-TEST_CASE("while nothing else is to be done the step back is made ready", "[playback][alone]") {
+TEST_CASE("while nothing else is to be done the step back is made ready", "[playback]") {
     Playback::Time now{std::chrono::hours(1)};
     Playback playback;
-    playback.open(std::make_unique<FrameReader>(std::make_unique<KeyedMedia>(
-                      shaken_frames(60), std::chrono::milliseconds(150))),
-                  now);
+    const auto disk = std::make_shared<Disk>();
+    disk->jump = kSlowJump;
+    playback.open(timed_reader(disk), now);
     CHECK_FALSE(playback.has_time());  // it plays
     playback.seek(frame_s(48), now);
     playback.pause(now);
@@ -336,9 +387,9 @@ TEST_CASE("while nothing else is to be done the step back is made ready", "[play
         REQUIRE(playback.has_time());
         playback.make_ready_to_step_back();
         CHECK_FALSE(playback.has_time());
-        const auto begin = std::chrono::steady_clock::now();
+        const int jumps = disk->jumps;
         playback.step(-1, now);
-        CHECK(std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(140));
+        CHECK(disk->jumps == jumps);
         CHECK(playback.window().frames[0].index == frame);
     }
 }
@@ -361,8 +412,7 @@ TEST_CASE("a reader of large frames keeps within its memory", "[reader]") {
     const Shaken shaken{[](int, int i, int j) { return 80.0 + 0.05 * i + 0.01 * j; },
                         [](double) { return 0.8; }, 1280, 720};
     const std::size_t before = resident_bytes();
-    FrameReader reader(std::make_unique<KeyedMedia>(std::vector<DepthImage>(60, shaken.truth(0)),
-                                                    std::chrono::milliseconds(0)));
+    FrameReader reader(std::make_unique<KeyedMedia>(std::vector<DepthImage>(60, shaken.truth(0))));
     const std::size_t given = resident_bytes();  // 220 MB of frames
     reader.set_cleaning({.preset = preset});
     for (auto frame = reader.at(0.0); frame; frame = reader.after(frame->media_s)) {

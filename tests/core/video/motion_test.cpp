@@ -83,7 +83,7 @@ TEST_CASE("nothing moves in a still scene, whatever the camera's noise", "[motio
 TEST_CASE("nothing moves in a still scene that a video codec has coded", "[motion]") {
     const Shape shape = GENERATE(some_of<Shape>({Shape::hand, Shape::plane}, 1));
     const std::vector<Frame> frames =
-        test::film(scene_of(shape, Goes::along, 0.0), 12, 30.0, {.brightness = 3.0}, true);
+        test::film(scene_of(shape, Goes::along, 0.0), 7, 30.0, {.brightness = 3.0}, true);
     MotionEstimator estimator;
     for (std::size_t k = 1; k < frames.size(); ++k)
         CHECK(estimator.between(frames[k - 1], frames[k]) == nullptr);

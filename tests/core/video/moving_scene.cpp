@@ -88,9 +88,11 @@ double MovingScene::grown(double t_s) const {
 
 MovingScene::Point MovingScene::on_thing(double t_s, Point place) const {
     const Point middle = this->middle(t_s);
-    const double turn = what_.goes == Goes::round ? what_.speed_px_per_s / size_px() * t_s : 0.0;
-    const double x = (place.x - middle.x) / grown(t_s);
-    const double y = (place.y - middle.y) / grown(t_s);
+    const double size = grown(t_s);
+    const double x = (place.x - middle.x) / size;
+    const double y = (place.y - middle.y) / size;
+    if (what_.goes != Goes::round) return {x, y};
+    const double turn = what_.speed_px_per_s / size_px() * t_s;
     return {std::cos(turn) * x + std::sin(turn) * y, std::cos(turn) * y - std::sin(turn) * x};
 }
 
@@ -102,19 +104,26 @@ MovingScene::Point MovingScene::off_thing(double t_s, Point on) const {
 }
 
 MovingScene::Seen MovingScene::at(double t_s, Point place) const {
-    const Point on = on_thing(t_s, place);
-    const double bright = 140.0 + 0.8 * texture(on, 3);
-    if (what_.shape == Shape::plane) return {100.0 + 0.1 * on.x + 0.05 * on.y, bright, 1};
+    return at(on_thing(t_s, place), place);
+}
+
+MovingScene::Seen MovingScene::at(Point on, Point place) const {
+    if (what_.shape == Shape::plane) return {100.0 + 0.1 * on.x + 0.05 * on.y, 1};
     if (what_.shape == Shape::sphere) {
         const double left = size_px() * size_px() - on.x * on.x - on.y * on.y;
-        if (left > 0.0) return {80.0 + std::sqrt(left), bright, 1};
+        if (left > 0.0) return {80.0 + std::sqrt(left), 1};
     }
     if (what_.shape == Shape::hand) {
         const double scale = what_.columns / 640.0;
         const double height = scale * hand_height({on.x / scale, on.y / scale});
-        if (height > 0.0) return {kWall_px + height, bright, 1};
+        if (height > 0.0) return {kWall_px + height, 1};
     }
-    return {kWall_px + 0.02 * place.x, 110.0 + texture(place, 31), 0};
+    return {kWall_px + 0.02 * place.x, 0};
+}
+
+double MovingScene::brightness(double t_s, Point place) const {
+    const Point on = on_thing(t_s, place);
+    return at(on, place).object == 0 ? 110.0 + texture(place, 31) : 140.0 + 0.8 * texture(on, 3);
 }
 
 MovingScene::Point MovingScene::gone(double t_s, Point place, double later_s) const {
@@ -143,8 +152,7 @@ Frame MovingScene::frame(double t_s, const CameraNoise& noise) const {
     const DepthImage depth = image_of(what_.columns, what_.rows, 255.0, [&](int i, int j) {
         double bright = noise.brightness * normal(random);
         for (const double x : {-0.25, 0.25})
-            for (const double y : {-0.25, 0.25})
-                bright += 0.25 * at(t_s, {i + x, j + y}).brightness;
+            for (const double y : {-0.25, 0.25}) bright += 0.25 * brightness(t_s, {i + x, j + y});
         const auto grey = static_cast<std::uint8_t>(std::clamp(std::lround(bright), 0L, 255L));
         colour->rgb.insert(colour->rgb.end(), {grey, grey, grey});
         const double off_px = noise.elevation_px > 0.0 ? noise.elevation_px * normal(random) : 0.0;

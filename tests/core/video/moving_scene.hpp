@@ -37,13 +37,13 @@ class MovingScene {
     };
     struct Seen {
         double elevation_px;
-        double brightness;  ///< [0, 255]
-        int object;         ///< 0: the wall
+        int object;  ///< 0: the wall
     };
 
     explicit MovingScene(const What& what) : what_(what) {}
 
     [[nodiscard]] Seen at(double t_s, Point place) const;
+    [[nodiscard]] double brightness(double t_s, Point place) const;  ///< [0, 255]
     /// Where the point that is seen at `place` at `t_s` is at `later_s`.
     [[nodiscard]] Point gone(double t_s, Point place, double later_s) const;
 
@@ -62,6 +62,7 @@ class MovingScene {
     [[nodiscard]] double grown(double t_s) const;
     [[nodiscard]] Point on_thing(double t_s, Point place) const;
     [[nodiscard]] Point off_thing(double t_s, Point on) const;
+    [[nodiscard]] Seen at(Point on, Point place) const;
 
     What what_;
 };

@@ -128,6 +128,17 @@ cv::Mat landscape(bool coloured) {
     return coloured ? view : grey_of(view);
 }
 
+/// Three pictures of each input, or as many as it has, by one run of ffmpeg.
+void code(const std::vector<std::string>& inputs, const std::vector<std::string>& videos) {
+    std::string arguments;
+    for (const std::string& input : inputs) arguments += input + " ";
+    for (std::size_t k = 0; k < videos.size(); ++k)
+        arguments += "-map " + std::to_string(k) +
+                     " -frames:v 3 -c:v libx264 -threads 1 -crf 20 -pix_fmt yuv420p '" + videos[k] +
+                     "' ";
+    ffmpeg(arguments);
+}
+
 struct Named {
     const char* name;
     cv::Mat picture;
@@ -190,20 +201,28 @@ TEST_CASE("photographs, stereo pairs, text and drawings are not taken for depth"
 TEST_CASE("what is no depth is not opened alone, and the line says what is missing", "[kind]") {
     const auto [ending, bits] = GENERATE(
         table<std::string, int>({{"png", 8}, {"png", 16}, {"jpg", 8}, {"tiff", 8}, {"mp4", 8}}));
+    const TemporaryFolder folder;
+    const auto number_of = [&](std::size_t k, const std::string& form) {
+        return folder / (std::to_string(k) + "/IMG_0001." + form);
+    };
     const std::vector<Named> all = no_depth();
-    for (const Named& no : all) {
-        const TemporaryFolder folder;
-        const auto still = folder / ("IMG_0001." + (ending == "mp4" ? "png" : ending));
-        const auto file = folder / ("IMG_0001." + ending);
+    std::vector<std::string> stills, videos;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const auto still = number_of(k, ending == "mp4" ? "png" : ending);
+        std::filesystem::create_directory(still.parent_path());
         cv::Mat picture;
-        no.picture.convertTo(picture, bits == 16 ? CV_16U : CV_8U, bits == 16 ? 257.0 : 1.0);
+        all[k].picture.convertTo(picture, bits == 16 ? CV_16U : CV_8U, bits == 16 ? 257.0 : 1.0);
         REQUIRE(cv::imwrite(still.string(), picture));
-        if (ending == "mp4") {
-            ffmpeg("-i '" + still.string() + "' -c:v libx264 -crf 20 -pix_fmt yuv420p '" +
-                   file.string() + "'");
-            std::filesystem::remove(still);
-        }
-        CAPTURE(no.name, ending, bits);
+        stills.push_back("-i '" + still.string() + "'");
+        videos.push_back(number_of(k, ending).string());
+    }
+    if (ending == "mp4") {
+        code(stills, videos);
+        for (std::size_t k = 0; k < all.size(); ++k) std::filesystem::remove(number_of(k, "png"));
+    }
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const auto file = number_of(k, ending);
+        CAPTURE(all[k].name, ending, bits);
         const std::string line = refusal([&] { (void)open_media(file, {}, {.find_out = true}); });
         CHECK(contains(line, "needs a depth file"));
         CHECK(contains(line, file.string()));
@@ -213,12 +232,17 @@ TEST_CASE("what is no depth is not opened alone, and the line says what is missi
 
 TEST_CASE("test pictures are not taken for depth, also compressed", "[kind]") {
     const TemporaryFolder folder;
-    for (const std::string name : {"testsrc", "testsrc2", "smptebars", "smptehdbars", "rgbtestsrc",
-                                   "mandelbrot", "cellauto", "life", "gradients", "pal100bars"}) {
-        const auto file = folder / (name + ".mp4");
-        ffmpeg("-f lavfi -i " + name + " -frames:v 3 -c:v libx264 -crf 20 -pix_fmt yuv420p '" +
-               file.string() + "'");
-        const auto source = open_picture_source(file, PictureRole::colour);
+    const std::vector<std::string> names{"testsrc",    "testsrc2",   "smptebars", "smptehdbars",
+                                         "rgbtestsrc", "mandelbrot", "cellauto",  "life",
+                                         "gradients",  "pal100bars"};
+    std::vector<std::string> sources, videos;
+    for (const std::string& name : names) {
+        sources.push_back("-f lavfi -i " + name);
+        videos.push_back((folder / (name + ".mp4")).string());
+    }
+    code(sources, videos);
+    for (const std::string& name : names) {
+        const auto source = open_picture_source(folder / (name + ".mp4"), PictureRole::colour);
         std::vector<cv::Mat> pictures;
         while (auto taken = source->next()) pictures.push_back(taken->picture);
         REQUIRE(pictures.size() == 3);

@@ -191,8 +191,8 @@ TEST_CASE("other text, and bytes that are none, are no lists", "[lists]") {
     CHECK_FALSE(is_picture_list(folder.path()));
 }
 
-TEST_CASE("a list of a million lines is read", "[lists]") {
-    constexpr int kLines = DIBHR_SANITIZED ? 100'000 : 1'000'000;
+TEST_CASE("a list of a hundred thousand lines is read", "[lists]") {
+    constexpr int kLines = 100'000;
     const TemporaryFolder folder;
     write_tum(folder.path());
     std::string text;

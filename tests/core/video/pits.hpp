@@ -25,15 +25,16 @@ inline int count_pits(const DepthImage& raw, const DepthImage& cleaned, Pits whi
     constexpr int kReach = 10;
     constexpr double kDeep_px = 5.0;
     const auto is_pit = [&](int i, int j) {
-        double lowest_px = 1e9;
+        const double rim_px = elevation_px(cleaned, raw.index(i, j)) + kDeep_px;
+        bool near_data = false;
         for (int y = std::max(j - kReach, 0); y <= std::min(j + kReach, raw.rows - 1); ++y)
             for (int x = std::max(i - kReach, 0); x <= std::min(i + kReach, raw.columns - 1); ++x) {
                 const int away = (x - i) * (x - i) + (y - j) * (y - j);
                 if (away == 0 || away > kReach * kReach || std::isnan(raw.at(x, y))) continue;
-                lowest_px = std::min(lowest_px, elevation_px(cleaned, raw.index(x, y)));
+                if (elevation_px(cleaned, raw.index(x, y)) <= rim_px) return false;
+                near_data = true;
             }
-        const bool near_data = lowest_px < 1e9;
-        return near_data && elevation_px(cleaned, raw.index(i, j)) < lowest_px - kDeep_px;
+        return near_data;
     };
     int pits = 0;
     for (int j = 0; j < raw.rows; ++j)

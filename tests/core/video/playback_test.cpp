@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -26,37 +27,13 @@ namespace {
 /// Flat frames at given times: frame n has level n + 1. `breaks_at`: this frame cannot be read.
 class FlatMedia : public Media {
   public:
-    explicit FlatMedia(std::vector<double> times, int breaks_at = -1,
-                       std::chrono::milliseconds each = {}, double frames_per_s = 10.0)
-        : times_(std::move(times)), breaks_at_(breaks_at), each_(each) {
+    explicit FlatMedia(std::vector<double> times, int breaks_at = -1, double frames_per_s = 10.0)
+        : times_(std::move(times)), breaks_at_(breaks_at) {
         description_.frames = static_cast<std::int64_t>(times_.size());
         description_.frames_per_s = frames_per_s;
     }
     [[nodiscard]] const MediaDescription& description() const override { return description_; }
-    /// What was made so far, on a machine as slow as it is.
-    struct Made {
-        std::atomic<int> frames{0};
-        std::atomic<double> took_s{0.0};
-    };
-    /// Those that are passed over are only decoded; the others take longer.
-    void take_to_make(std::chrono::milliseconds making, Made& made) {
-        making_ = making;
-        made_ = &made;
-    }
-    std::optional<RawFrame> next_from(double earliest_s) override {
-        if (making_.count() == 0) return Media::next_from(earliest_s);
-        for (; position_ + 1 < times_.size() && times_[position_] < earliest_s; ++position_)
-            std::this_thread::sleep_for(each_);
-        return next();
-    }
     std::optional<RawFrame> next() override {
-        const auto begin = std::chrono::steady_clock::now();
-        std::this_thread::sleep_for(each_ + making_);
-        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-        if (made_ != nullptr) {
-            ++made_->frames;
-            made_->took_s += took.count();
-        }
         if (position_ == times_.size()) return std::nullopt;
         if (static_cast<int>(position_) == breaks_at_)
             throw InputError("'clip' breaks off: record it again");
@@ -65,7 +42,6 @@ class FlatMedia : public Media {
         frame.media_s = times_[position_];
         frame.index = static_cast<std::int64_t>(position_++);
         frame.always_whole = true;
-        if (making_.count() > 0) frame.passing_s = std::chrono::duration<double>(each_).count();
         return frame;
     }
     void seek(double media_s) override {
@@ -74,12 +50,17 @@ class FlatMedia : public Media {
             ++position_;
     }
 
+  protected:
+    /// Passes over the next one, unless it is the last.
+    bool pass(double earliest_s) {
+        const bool passes = position_ + 1 < times_.size() && times_[position_] < earliest_s;
+        if (passes) ++position_;
+        return passes;
+    }
+
   private:
     std::vector<double> times_;
     int breaks_at_;
-    std::chrono::milliseconds each_;  ///< to decode one
-    std::chrono::milliseconds making_{};
-    Made* made_{nullptr};
     std::size_t position_{0};
     MediaDescription description_{};
 };
@@ -398,86 +379,148 @@ TEST_CASE("a machine too slow for all frames shows as many as it can, in their t
     CHECK_FALSE(scene.playback.waits());
 }
 
-TEST_CASE("frames that were passed over make those after them come no later", "[playback][alone]") {
-    std::vector<double> times;
-    for (int n = 0; n < 1000; ++n) times.push_back(0.01 * n);
-    constexpr std::chrono::milliseconds kDecoding(6);  // of 10
-    constexpr std::chrono::milliseconds kCleaning(12);
-    const auto shown_per_s = [&] {
-        Playback playback;
-        Time now{std::chrono::hours(1)};
-        playback.open(
-            std::make_unique<FrameReader>(std::make_unique<FlatMedia>(times, -1, kDecoding, 100.0)),
-            now);
-        int shown = 0;
-        for (int k = 0; k < 100; ++k) {
-            if (k == 20) now += std::chrono::milliseconds(400);  // a standstill
-            playback.advance(now);
-            if (!playback.needs_frame()) {
-                now += std::chrono::milliseconds(1);
-                continue;
-            }
-            const auto begin = std::chrono::steady_clock::now();
-            REQUIRE(playback.read_ahead(now));
-            now += (std::chrono::steady_clock::now() - begin) + kCleaning;
-            playback.arrived(now);
-            ++shown;
-        }
-        return shown / playback.window().frames[0].media_s;
+namespace {
+
+using Seconds = std::chrono::duration<double>;
+
+/// What a frame takes of a machine.
+struct Work {
+    double decoding_s{0.0};  ///< also where it is passed over
+    double making_s{0.0};    ///< beyond that, on the thread that decodes
+    double waiting_s{0.0};   ///< of the one that reads, for that
+    double cleaning_s{0.0};  ///< and after it
+};
+
+/// A thousand frames, a hundred a second, of a machine that takes as long as it is told to.
+class WorkingMedia : public FlatMedia {
+  public:
+    struct Done {
+        std::atomic<int> made{0};
+        std::atomic<std::chrono::nanoseconds> worked{std::chrono::nanoseconds{0}};
     };
-    // 19 of them, and 11 if they did; where decoding sleeps too long it is slower in any case.
-    double best = 0.0;
-    for (int round = 0; round < 8 && best < 14.0; ++round) best = std::max(best, shown_per_s());
-    CHECK(best > 14.0);
+    WorkingMedia(const Work& work, Done& done)
+        : FlatMedia(hundredths(), -1, kFrames_per_s), work_(work), done_(done) {}
+
+    std::optional<RawFrame> next() override { return next_from(0.0); }
+    std::optional<RawFrame> next_from(double earliest_s) override {
+        while (pass(earliest_s)) take(work_.decoding_s);
+        take(work_.decoding_s + work_.making_s);
+        std::optional<RawFrame> frame = FlatMedia::next();
+        if (frame) frame->passing_s = work_.decoding_s;
+        ++done_.made;
+        return frame;
+    }
+
+    static constexpr double kFrames_per_s = 100.0;
+
+  private:
+    [[nodiscard]] static std::vector<double> hundredths() {
+        std::vector<double> times;
+        for (int n = 0; n < 1000; ++n) times.push_back(n / kFrames_per_s);
+        return times;
+    }
+    void take(double seconds) {
+        done_.worked =
+            done_.worked.load() + std::chrono::round<std::chrono::nanoseconds>(Seconds(seconds));
+    }
+
+    Work work_;
+    Done& done_;
+};
+
+/// Plays on such a machine, whose time goes on with its work.
+class WorkingScene {
+  public:
+    explicit WorkingScene(const Work& work) : work_(work) {
+        playback.open(std::make_unique<FrameReader>(std::make_unique<WorkingMedia>(work, done), 0,
+                                                    ReadingHearts{}, [this] { return time(); }),
+                      now);
+    }
+    /// Reads a frame, if one is wanted; else a millisecond passes.
+    void go_on() {
+        playback.advance(now);
+        if (!playback.needs_frame()) return pass(0.001);
+        looks_ = 0;
+        REQUIRE(playback.read_ahead(now));
+        pass(work_.waiting_s + work_.cleaning_s);
+        playback.arrived(now);
+        ++shown;
+    }
+    void go_on_until(double played_s) {
+        while (this->played_s() < played_s) go_on();
+    }
+    void pass(double seconds) { now += of(seconds); }
+    [[nodiscard]] double played_s() const { return Seconds(now - kBegin).count(); }
+    [[nodiscard]] double media_s() const { return playback.window().frames[0].media_s; }
+    [[nodiscard]] std::int64_t newest() const {
+        const FrameWindow window = playback.window();
+        return window.frames[window.count - 1].index;
+    }
+
+    static constexpr Time kBegin{std::chrono::hours(1)};
+    WorkingMedia::Done done{};
+    Time now{kBegin};
+    int shown{0};  ///< or ready to be
+    Playback playback{};
+
+  private:
+    [[nodiscard]] static Time::duration of(double seconds) {
+        return std::chrono::round<Time::duration>(Seconds(seconds));
+    }
+    /// Who decodes has worked so long. Who reads looks when it begins to wait, and again.
+    [[nodiscard]] Time time() {
+        if (std::this_thread::get_id() != reader_) return kBegin + done.worked.load();
+        return ++looks_ > 1 ? now + of(work_.waiting_s) : now;
+    }
+
+    Work work_;
+    std::thread::id reader_{std::this_thread::get_id()};
+    int looks_{0};
+};
+
+}  // namespace
+
+TEST_CASE("frames that were passed over make those after them come no later", "[playback]") {
+    // Of 10 ms. So one of three is shown, the least that leaves time for both.
+    WorkingScene scene({.decoding_s = 0.006, .waiting_s = 0.006, .cleaning_s = 0.012});
+    const auto shown_in_two_seconds = [&scene] {
+        const int before = scene.shown;
+        scene.go_on_until(scene.played_s() + 2.0);
+        return scene.shown - before;
+    };
+    scene.go_on_until(1.0);
+    const int shown = shown_in_two_seconds();
+    CHECK(shown > 60);
+    CHECK(shown < 72);
+    scene.pass(0.4);  // a standstill
+    scene.go_on_until(scene.played_s() + 0.2);
+    CHECK(std::abs(shown_in_two_seconds() - shown) <= 2);
+    CHECK_THAT(scene.media_s(), WithinAbs(scene.played_s(), 0.1));
+    CHECK_FALSE(scene.playback.waits());
+}
+
+TEST_CASE("what is waited for is not taken for what cleaning takes", "[playback]") {
+    WorkingScene scene({.decoding_s = 0.001, .waiting_s = 0.008, .cleaning_s = 0.001});
+    scene.go_on_until(4.0);
+    CHECK(scene.newest() == scene.shown);  // there is time for all
+    CHECK_THAT(scene.media_s(), WithinAbs(scene.played_s(), 0.1));
 }
 
 TEST_CASE("where decoding is too slow every frame is shown, and the clock waits", "[playback]") {
-    std::vector<double> times;
-    for (int n = 0; n < 400; ++n) times.push_back(0.01 * n);
-    Playback playback;
-    Time now{std::chrono::hours(1)};
-    playback.open(std::make_unique<FrameReader>(
-                      std::make_unique<FlatMedia>(times, -1, std::chrono::milliseconds(20), 100.0)),
-                  now);
-    const auto begin = std::chrono::steady_clock::now();
-    const auto clock = [&] { return now + (std::chrono::steady_clock::now() - begin); };
-    int shown = 0;
-    while (std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(3000)) {
-        playback.advance(clock());
-        if (!playback.needs_frame() || !playback.read_ahead(clock())) continue;
-        playback.arrived(clock());
-        ++shown;
-    }
-    CHECK(playback.waits());
-    CHECK(shown > 0.6 * static_cast<double>(playback.window().frames[0].index));
+    WorkingScene scene({.decoding_s = 0.020, .waiting_s = 0.020});
+    scene.go_on_until(6.0);
+    CHECK(scene.playback.waits());
+    CHECK(scene.newest() == scene.shown);
+    CHECK(scene.media_s() < 0.6 * scene.played_s());
 }
 
-TEST_CASE("where frames are slow to make and not to decode the time is kept", "[playback][alone]") {
-    constexpr double kTime_s = 4.0;
-    FlatMedia::Made made;
-    std::vector<double> times;
-    for (int n = 0; n < 1000; ++n) times.push_back(0.01 * n);
-    auto media = std::make_unique<FlatMedia>(times, -1, std::chrono::milliseconds(2), 100.0);
-    media->take_to_make(std::chrono::milliseconds(18), made);
-    Playback playback;
-    playback.open(std::make_unique<FrameReader>(std::move(media)),
-                  std::chrono::steady_clock::now());
-    const auto begin = std::chrono::steady_clock::now();
-    int shown = 0;
-    while (std::chrono::steady_clock::now() - begin < std::chrono::duration<double>(kTime_s)) {
-        playback.advance(std::chrono::steady_clock::now());
-        if (!playback.needs_frame()) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-            continue;
-        }
-        REQUIRE(playback.read_ahead(std::chrono::steady_clock::now()));
-        playback.arrived(std::chrono::steady_clock::now());
-        ++shown;
-    }
-    CHECK_FALSE(playback.waits());
-    CHECK(playback.window().frames[0].media_s > 3.5);
-    CHECK(made.took_s > 0.5 * kTime_s);  // 20 of 22 ms; the others decode what is passed over
-    CHECK(shown > 0.65 * made.frames);   // few of them come too late
+TEST_CASE("where frames are slow to make and not to decode the time is kept", "[playback]") {
+    WorkingScene scene({.decoding_s = 0.002, .making_s = 0.018, .cleaning_s = 0.001});
+    scene.go_on_until(6.0);
+    CHECK_FALSE(scene.playback.waits());
+    CHECK_THAT(scene.media_s(), WithinAbs(scene.played_s(), 0.1));
+    CHECK(scene.shown > 6 * 32);                  // one of three, since each takes 22 ms
+    CHECK(scene.shown > 0.65 * scene.done.made);  // few of them come too late
 }
 
 TEST_CASE("a change of cleaning shows at once, also when paused", "[playback]") {

@@ -432,7 +432,7 @@ TEST_CASE("a long bag is opened in time", "[bag]") {
         Bag bag(folder / "long.db3");
         const int depth = bag.topic("/depth", "Image");
         for (int n = 0; n < 20'000; ++n)
-            bag.add(depth, depth_image(1.0 + 0.01 * n, n % 100, 64, 48));
+            bag.add(depth, depth_image(1.0 + 0.01 * n, n % 100, 16, 12));
     }
     CHECK(open_depth(folder / "long.db3")->description().frames == 20'000);
 }

@@ -139,8 +139,8 @@ TEST_CASE("of a Falcon and an Inverse3 the first that is ready touches, and the 
     start_firmware(unit);
     home(unit);
     bus.plug(unit);
-    loop.tick_for(milliseconds(1500));
-    CHECK(loop.device.falcon()->in_hand());
+    REQUIRE(loop.tick_until([&] { return loop.device.falcon()->in_hand(); }));
+    loop.tick_for(milliseconds(100));
     CHECK(touching() == Touching::inverse3);
     CHECK(log_of(unit).with_force == 0);
 

@@ -73,9 +73,9 @@ Examples, in the build folder:
   ./falcon_host --serial A --serial B --command '@B refuse 13' -- ./dibhr devices
 
 The exit status is the program's; 2: bad usage. The units outlive the program: falcon_host ends
-when the program has ended and no process has a unit open any more, at most a second later. PROGRAM
-has to be the program itself, not a script that starts it. Of /sys it sees no more than the simulated bus and /sys/devices/system, so
-with OpenGL it has to draw in software.
+when the program has ended and no process has a unit open any more, at most 20 s later. PROGRAM
+has to be the program itself, not a script that starts it. Of /sys it sees no more than the
+simulated bus and /sys/devices/system, so with OpenGL it has to draw in software.
 )";
 
 /// The command line is wrong.
@@ -362,7 +362,7 @@ int run(Arguments arguments) {
         [&](const std::stop_token& stop) { run_script(stop, script, host); });
     const int status = wait_for(program, signals);
     // What it left behind may have something to say yet.
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     while (host.in_use() && std::chrono::steady_clock::now() < end) {
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }

@@ -118,7 +118,7 @@ int UsbClient::descriptor() const {
 }
 
 bool UsbClient::pump_until(const std::function<bool()>& is_so) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     while (!is_so()) {
         if (std::chrono::steady_clock::now() > deadline) return false;
         timeval ten_ms{0, 10'000};

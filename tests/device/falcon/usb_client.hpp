@@ -32,7 +32,7 @@ class UsbClient {
     /// As libusb_bulk_transfer; `moved` is how many bytes went.
     int write(std::vector<std::uint8_t> bytes, int& moved, unsigned timeout_ms = 1000);
     int read(std::vector<std::uint8_t>& bytes, unsigned timeout_ms = 1000);
-    /// Lets libusb work until it is true; false after ten seconds.
+    /// Lets libusb work until it is true; false after a minute.
     [[nodiscard]] bool pump_until(const std::function<bool()>& is_so);
 
     /// Of the open node below libusb.

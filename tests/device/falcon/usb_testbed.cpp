@@ -34,6 +34,11 @@ std::string interface_path_of(const UsbPlace& place) {
     return path_of(place) + "/1-" + std::to_string(place.port) + ":1.0";
 }
 
+/// As the kernel numbers USB devices.
+std::string device_number_of(const UsbPlace& place) {
+    return "189:" + std::to_string(place.address - 1);
+}
+
 struct Identity {
     std::string vendor{};
     std::string product{};
@@ -55,38 +60,63 @@ std::string describe(const std::string& path, const UsbPlace& place, const Ident
          << "\nA: busnum=1\\n\nA: devnum=" << place.address << "\\n\nA: speed=" << identity.speed
          << "\\n\nA: bConfigurationValue=1\\n\nA: bNumConfigurations=1\\n\nA: idVendor="
          << identity.vendor << "\\n\nA: idProduct=" << identity.product
-         << "\\n\nA: bcdDevice=" << identity.release << "\\n\nA: dev=189:" << minor << "\\n\n"
+         << "\\n\nA: bcdDevice=" << identity.release << "\\n\nA: dev=" << device_number_of(place)
+         << "\\n\n"
          << identity.more << "H: descriptors=" << hexadecimal(descriptors) << "\n\n";
     return text.str();
 }
 
-}  // namespace
-
-UsbTestbed::UsbTestbed() : testbed_(umockdev_testbed_new()) {
-    // The answer is kept by the library, so it may be asked only now.
-    if (umockdev_in_mock_environment() == 0) {
-        g_object_unref(testbed_);
-        throw std::runtime_error("libumockdev-preload.so.0 is not linked first, or not preloaded");
-    }
-    const std::vector<std::uint8_t> hub{18, 1, 0, 2, 9, 0,  1, 64, 0x6B, 0x1D, 2,    0, 0, 6, 3,
-                                        2,  1, 1, 9, 2, 25, 0, 1,  1,    0,    0xE0, 0, 9, 4, 0,
-                                        0,  1, 9, 0, 0, 0,  7, 5,  0x81, 3,    4,    0, 12};
-    add_from(describe(kBus, {.port = 0, .address = 1}, {"1d6b", "0002", "0600", "480", ""}, hub));
-    // What drawing and counting processors need of the machine.
-    std::filesystem::create_directory_symlink(kMachine, folder() + kMachine);
-}
-
-UsbTestbed::~UsbTestbed() {
-    unlink((folder() + kMachine).c_str());
-    g_object_unref(testbed_);
-}
-
-void UsbTestbed::add_from(const std::string& description) {
+void add_to(UMockdevTestbed* testbed, const std::string& description) {
     GError* error = nullptr;
-    if (umockdev_testbed_add_from_string(testbed_, description.c_str(), &error) != 0) return;
+    if (umockdev_testbed_add_from_string(testbed, description.c_str(), &error) != 0) return;
     const std::string reason = error->message;
     g_error_free(error);
     throw std::runtime_error("umockdev: " + reason);
+}
+
+std::string folder_of(UMockdevTestbed* testbed) {
+    gchar* const folder = umockdev_testbed_get_root_dir(testbed);
+    std::string text = folder;
+    g_free(folder);
+    return text;
+}
+
+/// The testbed with its root hub.
+struct Bus {
+    Bus() : testbed(umockdev_testbed_new()) {
+        // The answer is kept by the library, so it may be asked only now.
+        if (umockdev_in_mock_environment() == 0) {
+            g_object_unref(testbed);
+            throw std::runtime_error(
+                "libumockdev-preload.so.0 is not linked first, or not preloaded");
+        }
+        const std::vector<std::uint8_t> hub{18, 1, 0, 2, 9, 0,  1, 64, 0x6B, 0x1D, 2,    0, 0, 6, 3,
+                                            2,  1, 1, 9, 2, 25, 0, 1,  1,    0,    0xE0, 0, 9, 4, 0,
+                                            0,  1, 9, 0, 0, 0,  7, 5,  0x81, 3,    4,    0, 12};
+        add_to(testbed,
+               describe(kBus, {.port = 0, .address = 1}, {"1d6b", "0002", "0600", "480", ""}, hub));
+        // What drawing and counting processors need of the machine.
+        std::filesystem::create_directory_symlink(kMachine, folder_of(testbed) + kMachine);
+    }
+    ~Bus() {
+        unlink((folder_of(testbed) + kMachine).c_str());
+        g_object_unref(testbed);
+    }
+    Bus(const Bus&) = delete;
+    Bus& operator=(const Bus&) = delete;
+
+    UMockdevTestbed* testbed;
+};
+
+}  // namespace
+
+UsbTestbed::UsbTestbed() {
+    static const Bus bus;  // some dozens of files, which are made once a program
+    testbed_ = bus.testbed;
+}
+
+void UsbTestbed::add_from(const std::string& description) {
+    add_to(testbed_, description);
 }
 
 void UsbTestbed::add(const UsbPlace& place, const std::string& serial) {
@@ -109,13 +139,11 @@ void UsbTestbed::remove(const UsbPlace& place) {
         umockdev_testbed_remove_device(testbed_, ("/sys" + path).c_str());
     }
     unlink((folder() + place.node()).c_str());
+    unlink((folder() + "/sys/dev/char/" + device_number_of(place)).c_str());
 }
 
 std::string UsbTestbed::folder() const {
-    gchar* const folder = umockdev_testbed_get_root_dir(testbed_);
-    std::string text = folder;
-    g_free(folder);
-    return text;
+    return folder_of(testbed_);
 }
 
 }  // namespace dibhr::test::falcon

@@ -9,14 +9,12 @@
 
 namespace dibhr::test::falcon {
 
-/// One bus with its root hub. While it exists, the whole of /sys is this testbed's for the program,
-/// and for the programs it starts with libumockdev-preload.so.0 and UMOCKDEV_DIR. One at a time.
+/// One bus with its root hub, which all have that are of this class. From the first one on the
+/// whole of /sys is this testbed's for the program, and for the programs it starts with
+/// libumockdev-preload.so.0 and UMOCKDEV_DIR.
 class UsbTestbed {
   public:
     UsbTestbed();
-    ~UsbTestbed();
-    UsbTestbed(const UsbTestbed&) = delete;
-    UsbTestbed& operator=(const UsbTestbed&) = delete;
 
     void add(const UsbPlace& place, const std::string& serial);
     void remove(const UsbPlace& place);

@@ -81,7 +81,7 @@ TEST_CASE("whatever is said of the device that keeps it from touching takes the 
     const Fault& fault = GENERATE(from_range(faults()));
     CAPTURE(fault.name);
     ServiceDesk desk;
-    REQUIRE(desk.press());
+    REQUIRE(desk.begins_to_press());
     const auto began = Clock::now();
     desk.service.with(fault.begin);
     CHECK(desk.tick_until([&] { return desk.stage() == fault.stage; }));
@@ -102,7 +102,7 @@ TEST_CASE("whatever is said of the device that keeps it from touching takes the 
 }
 
 TEST_CASE("another program that uses the device from before on has it", "[inverse3_faults]") {
-    simulated::Scene scene;
+    simulated::Scene scene = usual_scene();
     scene.arms[0].in_use = true;
     ServiceDesk desk(scene);
     CHECK(desk.tick_until([&] { return desk.stage() == Stage::in_use; }));
@@ -110,13 +110,13 @@ TEST_CASE("another program that uses the device from before on has it", "[invers
     CHECK(desk.sentence().find("another program") != std::string::npos);
     for (const simulated::Heard& one : desk.service.heard()) CHECK_FALSE(one.drives);
     desk.service.with([](simulated::Scene& there) { there.arms[0].in_use = false; });
-    CHECK(desk.press());
+    CHECK(desk.begins_to_press());
 }
 
 TEST_CASE("a position that jumps takes the force off, and it rises again from where it is",
           "[inverse3_faults]") {
     ServiceDesk desk;
-    REQUIRE(desk.press());
+    REQUIRE(desk.begins_to_press());
     desk.service.with([](simulated::Scene& scene) { scene.arms[0].position_m.x += 0.1; });
     int taken_over = 0;
     (void)desk.tick_until(
@@ -126,30 +126,28 @@ TEST_CASE("a position that jumps takes the force off, and it rises again from wh
         },
         milliseconds(100));
     CHECK(taken_over == 1);
-    CHECK(desk.press());
+    CHECK(desk.begins_to_press());
 }
 
 TEST_CASE("a preset that is changed under us is set again, and the force rises anew",
           "[inverse3_faults]") {
     ServiceDesk desk;
-    REQUIRE(desk.press());
+    REQUIRE(desk.begins_to_press());
+    const auto preset = [&] {
+        return desk.service.with([](simulated::Scene& scene) { return scene.arms[0].preset; });
+    };
     desk.service.with([](simulated::Scene& scene) { scene.arms[0].preset = "arm_front"; });
     int taken_over = 0;
-    (void)desk.tick_until(
-        [&] {
-            taken_over += desk.loop.reading.taken_over ? 1 : 0;
-            return false;
-        },
-        milliseconds(2500));
-    CHECK(taken_over >= 1);
-    CHECK(desk.service.with([](simulated::Scene& scene) { return scene.arms[0].preset; }) ==
-          "defaults");
-    CHECK(desk.press());
+    CHECK(desk.tick_until([&] {
+        taken_over += desk.loop.reading.taken_over ? 1 : 0;
+        return taken_over > 0 && preset() == "defaults";
+    }));
+    CHECK(desk.begins_to_press());
 }
 
 TEST_CASE("a service that does not take the preset is asked some times, then told, without force",
           "[inverse3_faults]") {
-    simulated::Scene scene;
+    simulated::Scene scene = usual_scene();
     scene.arms[0].preset = "arm_front";
     scene.manners.takes_preset = false;
     const std::string asked = GENERATE("led_front", "defaults");
@@ -180,7 +178,7 @@ TEST_CASE("a service that answers slowly makes springs softer, and the loop know
     simulated::Scene scene;
     scene.manners.delay = std::chrono::microseconds(3500);
     ServiceDesk desk(scene);
-    REQUIRE(desk.press());
+    REQUIRE(desk.begins_to_press());
     desk.tick_for(milliseconds(500));
     REQUIRE(desk.loop.reading.limits);
     const DeviceLimits& limits = *desk.loop.reading.limits;
@@ -199,7 +197,7 @@ TEST_CASE("a service that answers slowly makes springs softer, and the loop know
 TEST_CASE("a device whose entry goes is still sent zeros, should it still be there",
           "[inverse3_faults]") {
     ServiceDesk desk;
-    REQUIRE(desk.press());
+    REQUIRE(desk.begins_to_press());
     const auto began = Clock::now();
     desk.service.with([](simulated::Scene& scene) { scene.arms.clear(); });
     CHECK(desk.tick_until([&] { return desk.stage() == Stage::no_device; }));
@@ -216,10 +214,10 @@ TEST_CASE("a device whose entry goes is still sent zeros, should it still be the
 
 TEST_CASE("when ours is unplugged the one beside it is not pushed until it is plugged in anew",
           "[inverse3_faults]") {
-    simulated::Scene scene;
+    simulated::Scene scene = usual_scene();
     scene.arms = {simulated::Arm{.id = "A"}, simulated::Arm{.id = "B"}};
     ServiceDesk desk(scene);
-    REQUIRE(desk.press());
+    REQUIRE(desk.begins_to_press());
     desk.service.with([](simulated::Scene& there) { there.arms.erase(there.arms.begin()); });
     CHECK(desk.tick_until([&] { return desk.stage() == Stage::no_device; }));
     desk.tick_for(milliseconds(800));
@@ -230,7 +228,7 @@ TEST_CASE("when ours is unplugged the one beside it is not pushed until it is pl
     SECTION("ours comes back") {
         desk.service.with(
             [](simulated::Scene& there) { there.arms.push_back(simulated::Arm{.id = "A"}); });
-        CHECK(desk.press());
+        CHECK(desk.begins_to_press());
         CHECK(desk.loop.device.status().id == "A");
     }
     SECTION("the other one is plugged in anew") {
@@ -238,7 +236,7 @@ TEST_CASE("when ours is unplugged the one beside it is not pushed until it is pl
         desk.tick_for(milliseconds(300));
         desk.service.with(
             [](simulated::Scene& there) { there.arms.push_back(simulated::Arm{.id = "B"}); });
-        CHECK(desk.press());
+        CHECK(desk.begins_to_press());
         CHECK(desk.loop.device.status().id == "B");
     }
 }
@@ -246,7 +244,7 @@ TEST_CASE("when ours is unplugged the one beside it is not pushed until it is pl
 TEST_CASE("a service that stands still for longer than it is waited for has a zero to read",
           "[inverse3_faults]") {
     ServiceDesk desk;
-    REQUIRE(desk.press());
+    REQUIRE(desk.begins_to_press());
     desk.service.with([](simulated::Scene& scene) { scene.manners.answers = false; });
     desk.tick_for(milliseconds(200));
     desk.service.forget_heard();
@@ -261,7 +259,7 @@ TEST_CASE("a service that stands still for longer than it is waited for has a ze
 TEST_CASE("a service that keeps silent takes the force off, is missed, and comes back",
           "[inverse3_faults]") {
     ServiceDesk desk;
-    REQUIRE(desk.press());
+    REQUIRE(desk.begins_to_press());
     const auto began = Clock::now();
     desk.service.with([](simulated::Scene& scene) { scene.manners.answers = false; });
     desk.tick_for(milliseconds(60));
@@ -293,7 +291,7 @@ TEST_CASE("a service that keeps silent takes the force off, is missed, and comes
 TEST_CASE("a service that closes, breaks off, or cannot be reached for a while is found again",
           "[inverse3_faults]") {
     ServiceDesk desk;
-    REQUIRE(desk.press());
+    REQUIRE(desk.begins_to_press());
     const auto how = GENERATE(simulated::Loss::closed, simulated::Loss::reset);
     const bool restarts = GENERATE(true, false);
     if (restarts) desk.service.refuse();
@@ -312,27 +310,27 @@ TEST_CASE("a service that closes, breaks off, or cannot be reached for a while i
 TEST_CASE("a megabyte in the place of an answer ends the connection, and the next one is fine",
           "[inverse3_faults]") {
     ServiceDesk desk;
-    REQUIRE(desk.press());
+    REQUIRE(desk.begins_to_press());
     desk.service.with([](simulated::Scene& scene) { scene.manners.garble = Garble::megabyte; });
     CHECK(desk.tick_until([&] { return desk.stage() == Stage::not_understood; }));
     desk.service.with([](simulated::Scene& scene) { scene.manners.garble = Garble::none; });
-    CHECK(desk.press());
+    CHECK(desk.begins_to_press());
 }
 
 TEST_CASE("answers that nobody asked for make no pose older", "[inverse3_faults]") {
-    simulated::Scene scene;
+    simulated::Scene scene = usual_scene();
     scene.manners.garble = Garble::two;
     ServiceDesk desk(scene);
-    REQUIRE(desk.press());
+    REQUIRE(desk.begins_to_press());
     desk.tick_for(milliseconds(300));
     CHECK(desk.stage() == Stage::ready);
     CHECK(desk.loop.device.status().unasked > 50);
-    CHECK(desk.loop.device.pose_age() < milliseconds(10));
+    CHECK(desk.loop.device.pose_age() < milliseconds(2));
 }
 
-TEST_CASE("a service that takes no force is noticed within a second, and told",
+TEST_CASE("a service that takes no force is noticed after a quarter of a second, and told",
           "[inverse3_faults]") {
-    simulated::Scene scene;
+    simulated::Scene scene = usual_scene();
     // Neither dialect is what it takes: it ignores the one, and the other is not allowed.
     scene.manners.takes = simulated::Takes::values;
     simulated::Service service(scene);
@@ -343,7 +341,7 @@ TEST_CASE("a service that takes no force is noticed within a second, and told",
     loop.force_newton = {0.0, 0.0, 1.0};
     const auto began = Clock::now();
     CHECK(loop.tick_until([&] { return loop.device.status().stage == Stage::deaf; }));
-    CHECK(Clock::now() - began < milliseconds(1000));
+    CHECK(Clock::now() - began < milliseconds(300));
     CHECK(loop.device.status().sentence.find("takes no force") != std::string::npos);
     loop.tick_for(milliseconds(50));
     CHECK_FALSE(loop.reading.ready);
@@ -359,7 +357,7 @@ TEST_CASE("slow and shaky answers keep the hand safe, never two messages under w
     ServiceDesk desk(scene);
     const bool usable = scene.manners.delay < milliseconds(5);
     if (usable) {
-        CHECK(desk.press());
+        CHECK(desk.begins_to_press());
     } else {
         desk.tick_for(milliseconds(1500));
         CHECK(desk.strongest_after({}, milliseconds(400)) < 0.2);

@@ -28,16 +28,17 @@ inline ConnectionOptions options_for(const simulated::Service& service) {
     return options;
 }
 
-inline simulated::Scene scene_with(const simulated::Manners& manners) {
+/// Of a service of 1 kHz: half of the exchanges with one that answers at once.
+inline simulated::Scene usual_scene() {
     simulated::Scene scene;
-    scene.manners = manners;
+    scene.manners.tick = milliseconds(1);
     return scene;
 }
 
 /// Presses with a force that the loop's own last stage limits and lets rise.
 class ServiceDesk {
   public:
-    explicit ServiceDesk(simulated::Scene scene = {}, const std::string& device = {})
+    explicit ServiceDesk(simulated::Scene scene = usual_scene(), const std::string& device = {})
         : service(std::move(scene)), loop([&] {
               ConnectionOptions options = options_for(service);
               options.device = device;
@@ -50,7 +51,7 @@ class ServiceDesk {
 
     /// Ticks until it is so; false when it never was.
     template <typename IsSo>
-    bool tick_until(IsSo&& is_so, milliseconds patience = milliseconds(10'000)) {
+    bool tick_until(IsSo&& is_so, milliseconds patience = milliseconds(60'000)) {
         return loop.tick_until(
             [&] {
                 choose_force();
@@ -63,6 +64,11 @@ class ServiceDesk {
     }
     bool press() {
         return tick_until([&] { return loop.reading.ready && reaches_full_force(); });
+    }
+    /// A part of it, which is there sooner.
+    bool begins_to_press() {
+        return tick_until(
+            [&] { return loop.reading.ready && glm::length(loop.force_newton) > 0.3; });
     }
     [[nodiscard]] Stage stage() const { return loop.device.status().stage; }
     [[nodiscard]] std::string sentence() const { return loop.device.status().sentence; }

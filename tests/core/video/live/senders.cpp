@@ -12,10 +12,15 @@
 
 #include <csignal>
 #include <cstddef>
+#include <fstream>
+#include <iomanip>
 #include <map>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 #include <vector>
+
+#include "tests/support/eventually.hpp"
 
 namespace dibhr::test {
 
@@ -66,6 +71,29 @@ int free_port() {
     return ntohs(address.sin_port);
 }
 
+/// By the kernel's tables (proc(5)): a TCP socket that listens (0A), a UDP one that is bound (07).
+bool comes_to_listen(int port) {
+    std::ostringstream local;
+    local << ':' << std::uppercase << std::hex << std::setw(4) << std::setfill('0') << port;
+    const auto listens = [&](const char* table, const std::string& state) {
+        std::ifstream lines(table);
+        for (std::string line; std::getline(lines, line);) {
+            std::istringstream words(line);
+            std::string number;
+            std::string here;
+            std::string there;
+            std::string now;
+            words >> number >> here >> there >> now;
+            if (here.ends_with(local.str()) && now == state) return true;
+        }
+        return false;
+    };
+    return eventually([&] {
+        return listens("/proc/net/tcp", "0A") || listens("/proc/net/tcp6", "0A") ||
+               listens("/proc/net/udp", "07") || listens("/proc/net/udp6", "07");
+    });
+}
+
 PictureSender::PictureSender(int port, Asked asked)
     : asked_(std::move(asked)), listener_(bound(SOCK_STREAM, port)) {
     ::listen(listener_, 1);
@@ -73,9 +101,62 @@ PictureSender::PictureSender(int port, Asked asked)
 }
 
 PictureSender::~PictureSender() {
-    leaving_ = true;
+    {
+        const std::lock_guard lock(mutex_);
+        leaving_ = true;
+    }
+    changed_.notify_all();
     thread_.join();
     ::close(listener_);
+}
+
+void PictureSender::stop() {
+    std::unique_lock lock(mutex_);
+    stopped_ = true;
+    changed_.notify_all();
+    changed_.wait(lock, [this] { return !sends_; });
+}
+
+void PictureSender::go_on() {
+    {
+        const std::lock_guard lock(mutex_);
+        stopped_ = false;
+    }
+    changed_.notify_all();
+}
+
+int PictureSender::send() {
+    std::unique_lock lock(mutex_);
+    ++asked_for_;
+    changed_.notify_all();
+    changed_.wait_for(lock, std::chrono::seconds(60),
+                      [this] { return asked_for_ == 0 && !sends_; });
+    return sent_;
+}
+
+/// Waits for that time, or while it is stopped for send(). False: it leaves.
+bool PictureSender::may_send(int k, Clock::time_point when) {
+    std::unique_lock lock(mutex_);
+    sends_ = false;
+    changed_.notify_all();
+    for (;;) {
+        const auto is_new = [this, was_stopped = stopped_] {
+            return leaving_ || stopped_ != was_stopped || (stopped_ && asked_for_ > 0);
+        };
+        bool due = false;
+        if (stopped_)
+            changed_.wait(lock, is_new);
+        else
+            due = !changed_.wait_until(lock, when, is_new);
+        if (leaving_) return false;
+        if (stopped_ && asked_for_ > 0)
+            --asked_for_;
+        else if (!due)
+            continue;
+        sends_ = true;
+        sent_ = k;
+        return true;
+    }
 }
 
 void PictureSender::run() {
@@ -106,13 +187,15 @@ void PictureSender::serve(int connection) {
         const std::chrono::duration<double> due(k / asked_.frames_per_s / asked_.clock_rate);
         auto when = start + std::chrono::duration_cast<Clock::duration>(due);
         if (asked_.late) when += asked_.late(k);
-        std::this_thread::sleep_until(when);
-        while (stopped_ && !leaving_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        if (!may_send(k, when)) break;
         if (asked_.sent) asked_.sent(k, Clock::now());
         if (!sent_whole(connection, begin.data(), begin.size()) ||
             !sent_whole(connection, picture.data(), 2 * picture.size()))
-            return;
+            break;
     }
+    const std::lock_guard lock(mutex_);
+    sends_ = false;
+    changed_.notify_all();
 }
 
 Ffmpeg::Ffmpeg(const std::string& arguments) : child_(::fork()) {

@@ -5,8 +5,10 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <mutex>
 #include <string>
 #include <thread>
 
@@ -14,6 +16,9 @@ namespace dibhr::test {
 
 /// A number that nobody else uses for a while.
 [[nodiscard]] int free_port();
+
+/// Whether somebody comes to listen at that port of this machine.
+[[nodiscard]] bool comes_to_listen(int port);
 
 /// 16-bit grey pictures, uncompressed (YUV4MPEG2), to whoever connects.
 class PictureSender {
@@ -40,17 +45,29 @@ class PictureSender {
     [[nodiscard]] static std::string url(int port) {
         return "tcp://127.0.0.1:" + std::to_string(port);
     }
-    /// Nothing is sent until go_on(); the connection stays.
-    void stop() { stopped_ = true; }
-    void go_on() { stopped_ = false; }
+    /// Nothing is sent until go_on(), but for what send() asks for; the connection stays. Waits for
+    /// the picture that is being sent.
+    void stop();
+    void go_on();
+    /// The next picture, while it is stopped, and its number. Waits until it is on its way.
+    int send();
 
   private:
     void run();
     void serve(int connection);
+    [[nodiscard]] bool may_send(int k, Clock::time_point when);
 
     Asked asked_;
     int listener_;
-    std::atomic<bool> leaving_{false}, stopped_{false};
+    std::atomic<bool> leaving_{false};
+
+    std::mutex mutex_{};
+    std::condition_variable changed_{};
+    bool stopped_{false};  // under the mutex, as the rest
+    bool sends_{false};    ///< a picture is on its way to the socket
+    int asked_for_{0};     ///< by send()
+    int sent_{-1};         ///< the last one
+
     std::thread thread_;
 };
 

@@ -1,0 +1,130 @@
+// The program as it is shipped, but for its main(): after each picture it writes what it has shown
+// where the test reads it, and hangs when the test asks for that.
+#include <cstdlib>
+#include <memory>
+
+#include "app/commands/program.hpp"
+#include "tests/app/program/seen.hpp"
+
+namespace {
+
+using namespace dibhr;
+using dibhr::test::MappedBoard;
+using dibhr::test::Seen;
+
+void see_media(const PictureShown& shown, Seen& seen) {
+    const ViewerState& state = shown.state;
+    seen.file.set(state.replay ? state.replay->file.string() : state.media.colour_path.string());
+    seen.replays = state.replay.has_value();
+    seen.open = seen.replays || state.playback.open;
+    seen.opening = state.opening;
+    seen.surface = shown.surface.makes_surface();
+    seen.playing = state.playback.playing;
+    seen.looping = state.playback.looping;
+    const MediaPart part = state.playback.part.value_or(MediaPart{-1.0, -1.0});
+    seen.part_from_s = part.from_s;
+    seen.part_to_s = part.to_s;
+    seen.speed = state.playback.speed;
+    seen.media_s = state.playback.media_s;
+    seen.duration_s = state.playback.duration_s;
+    if (seen.surface) {
+        const Frame& frame = shown.surface.nearest();
+        seen.drawn_s = frame.media_s;
+        seen.drawn_frame = frame.index;
+        seen.drawn_media = frame.media;
+    }
+    if (!state.replay) return;
+    const SessionPlayback& playback = state.replay->playback;
+    seen.playing = playback.playing;
+    seen.looping = playback.looping;
+    seen.speed = playback.speed;
+    seen.media_s = playback.now_s - playback.begin_s;
+    seen.duration_s = playback.end_s - playback.begin_s;
+    seen.tick = state.replay->tick_count;
+}
+
+void see_window(const ViewerState& state, Seen& seen) {
+    seen.in_front = state.in_front;
+    seen.columns = static_cast<int>(state.window_width);
+    seen.rows = static_cast<int>(state.window_height);
+    seen.panels = state.settings.panels_visible;
+    seen.help = state.help_open;
+    seen.dialog = state.dialog.shown;
+    seen.dialog_reads = state.dialog.reads;
+    seen.dialog_typing = state.dialog.shown && state.dialog.asks_for_keyboard == 0;
+    seen.dialog_entries = state.dialog.rows.entries.size();
+    seen.statistics = state.statistics;
+    seen.ruler = state.ruler.has_value();
+    seen.ruler_points = state.ruler ? static_cast<int>(state.ruler->places.size()) : 0;
+    seen.brush = state.brush.on;
+    seen.painted = state.brush.has_paint;
+    seen.can_undo = state.brush.can_undo;
+    seen.as_recorded = state.as_recorded;
+    seen.explained = state.explained.has_value();
+    seen.explained_steps = state.explained ? state.explained->taken : 0;
+    seen.depth_offered = state.depth_offer.has_value();
+    seen.depth_made = state.depth_offer && !state.depth_offer->depth.empty();
+    if (state.under_pointer) {
+        seen.pointed_column = static_cast<float>(state.under_pointer->column);
+        seen.pointed_row = static_cast<float>(state.under_pointer->row);
+    }
+    seen.message.set(state.message);
+    seen.notice.set(state.notice);
+}
+
+void see_touch(const ViewerState& state, Seen& seen) {
+    const HapticState& haptic = state.haptic;
+    seen.ticks = haptic.ticks;
+    seen.touchable = haptic.touchable;
+    seen.contact = haptic.touch.proxy.contact;
+    seen.ready = haptic.hand.ready;
+    seen.mouse_fallback = haptic.hand.stand_in;
+    seen.force_enabled = state.force_enabled;
+    seen.buttons = haptic.hand.buttons;
+    seen.cut = static_cast<int>(haptic.touch.cut);
+    seen.spring_newton = glm::length(haptic.touch.spring_force_newton);
+    seen.sent_newton = glm::length(haptic.touch.sent_force_newton);
+    seen.standstills = haptic.standstill.count;
+}
+
+void see_outputs(const ViewerState& state, Seen& seen) {
+    seen.records = state.recording.has_value();
+    seen.recorded_rows = state.recording ? state.recording->status.rows : 0;
+    seen.marks = state.recording ? state.recording->marks.size() : 0;
+    seen.clip = state.clip.has_value();
+    seen.clip_finishing = state.clip && state.clip->finishing;
+    seen.clip_s = state.clip ? state.clip->time_s : 0.0;
+    seen.sound = static_cast<int>(state.sound);
+}
+
+Seen seen_of(const PictureShown& shown, std::uint64_t number) {
+    Seen seen;
+    seen.picture = number;
+    see_media(shown, seen);
+    see_window(shown.state, seen);
+    see_touch(shown.state, seen);
+    see_outputs(shown.state, seen);
+    if (shown.study == nullptr) return seen;
+    seen.study = true;
+    seen.study_step = shown.study->step;
+    seen.trial = shown.study->trial;
+    seen.interval = shown.study->interval;
+    seen.waits = shown.study->waits;
+    seen.leaving = shown.study->leaving;
+    return seen;
+}
+
+PictureHook hook_of(const char* file) {
+    if (file == nullptr) return {};
+    const auto board = std::make_shared<MappedBoard>(file);
+    return [board, number = std::uint64_t{0}](const PictureShown& shown) mutable {
+        (*board)->write(seen_of(shown, ++number));
+        while ((*board)->hangs) continue;
+    };
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return run_program(argc, argv, hook_of(std::getenv(dibhr::test::SeenBoard::kVariable)));
+}

@@ -1,0 +1,80 @@
+// What the grip's buttons say at an adjustment, and how a long press of one is told from a short
+// one.
+#include <chrono>
+#include <optional>
+
+#include "app/study/study_pages.hpp"
+#include "tests/core/study/pages.hpp"
+#include "tests/support/catch.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr bool kDown = true;
+constexpr LongPress::Clock::time_point kBegin{5s};
+
+LongPress begun() {
+    LongPress press;
+    press.begin(kBegin);
+    return press;
+}
+
+/// At what is turned, of an adjustment.
+StudyRun at_adjustment() {
+    StudyRun run(protocol(page_of_conditions(1, R"([[block]]
+form = "adjust"
+vary = "friction"
+reference = 0.3
+question = "Q"
+[block.adjust]
+lowest = 0
+highest = 0.6
+)")),
+                 1);
+    while (run.step() != StudyStep::adjust) run.go_on();
+    return run;
+}
+
+}  // namespace
+
+TEST_CASE("a press that is let go of within a second is short, and is told once", "[study]") {
+    LongPress press = begun();
+    CHECK(press.ended(kBegin, kDown) == std::nullopt);
+    CHECK(press.ended(kBegin + 999ms, kDown) == std::nullopt);
+    CHECK(press.ended(kBegin + 999ms, !kDown) == false);
+    CHECK(press.ended(kBegin + 2s, !kDown) == std::nullopt);
+}
+
+TEST_CASE("a press that is held for a second is long, and is told then and once", "[study]") {
+    LongPress press = begun();
+    CHECK(press.ended(kBegin + 1s, kDown) == true);
+    CHECK(press.ended(kBegin + 2s, kDown) == std::nullopt);
+    CHECK(press.ended(kBegin + 2s, !kDown) == std::nullopt);
+    press.begin(kBegin + 3s);
+    CHECK(press.ended(kBegin + 3s, !kDown) == false);
+}
+
+TEST_CASE("a press that is forgotten is none", "[study]") {
+    LongPress press = begun();
+    press.forget();
+    CHECK(press.ended(kBegin + 1s, !kDown) == std::nullopt);
+}
+
+TEST_CASE("at an adjustment the grip turns, feels the other one, and says equal by a long press",
+          "[study]") {
+    const StudyRun run = at_adjustment();
+    const StudyShown view;
+    const auto said = [&](int button, bool held = false) {
+        return press_of_button(run, view, button, held).value();
+    };
+    CHECK(said(0).kind == StudyPress::Kind::turn);
+    CHECK(said(0).value < 0.0);
+    CHECK(said(1).kind == StudyPress::Kind::turn);
+    CHECK(said(1).value > 0.0);
+    CHECK(said(kLongPressButton).kind == StudyPress::Kind::feel);
+    CHECK(said(kLongPressButton).which == 1 - run.interval());
+    CHECK(said(kLongPressButton, true).kind == StudyPress::Kind::go_on);
+}

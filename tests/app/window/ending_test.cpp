@@ -1,0 +1,250 @@
+// The wish to end and the crash, each in a child process that holds nothing but what takes them.
+#include "app/window/ending.hpp"
+
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "app/window/crash_handler.hpp"
+#include "app/window/last_words.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/eventually.hpp"
+
+using namespace dibhr;
+using namespace std::chrono_literals;
+
+namespace {
+
+struct HowItEnded {
+    int status{0};  ///< 128 + signal
+    std::string errors{};
+};
+
+/// Runs in a process of its own, which begins with `life` and tells by one byte that it may be
+/// disturbed.
+class Child {
+  public:
+    using Life = std::function<int(int told)>;
+
+    explicit Child(const Life& life) {
+        REQUIRE(::pipe(told_.data()) == 0);
+        REQUIRE(::pipe(errors_.data()) == 0);
+        process_ = ::fork();
+        REQUIRE(process_ >= 0);
+        if (process_ == 0) {
+            const rlimit no_core{0, 0};
+            ::setrlimit(RLIMIT_CORE, &no_core);
+            ::dup2(errors_[1], STDERR_FILENO);
+            ::close(errors_[1]);
+            ::_exit(life(told_[1]));
+        }
+        ::close(told_[1]);
+        ::close(errors_[1]);
+    }
+    ~Child() {
+        ::close(told_[0]);
+        ::close(errors_[0]);
+        if (process_ <= 0) return;
+        ::kill(process_, SIGKILL);
+        ::waitpid(process_, nullptr, 0);
+    }
+    Child(const Child&) = delete;
+    Child& operator=(const Child&) = delete;
+
+    void wait_until_told() const {
+        char byte = 0;
+        REQUIRE(::read(told_[0], &byte, 1) == 1);
+    }
+    void send(int signal) const { REQUIRE(::kill(process_, signal) == 0); }
+    HowItEnded wait() {
+        HowItEnded how;
+        std::array<char, 256> part{};
+        for (ssize_t size = 0; (size = ::read(errors_[0], part.data(), part.size())) > 0;)
+            how.errors.append(part.data(), static_cast<std::size_t>(size));
+        int status = 0;
+        REQUIRE(::waitpid(process_, &status, 0) == process_);
+        process_ = -1;
+        how.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+        return how;
+    }
+
+  private:
+    std::array<int, 2> told_{};
+    std::array<int, 2> errors_{};
+    pid_t process_{-1};
+};
+
+void tell(int told) {
+    if (::write(told, "!", 1) != 1) ::_exit(99);
+}
+
+/// A program that does what it is asked.
+int end_when_asked(int told) {
+    LastWords words;
+    Ending ending(words);
+    tell(told);
+    const bool asked = test::eventually([&] { return ending.asked().load(); }, 60s);
+    return asked && ending.without_force() ? 0 : 98;
+}
+
+/// One that does not.
+int hang(int told) {
+    LastWords words;
+    words.doing("sleeping");
+    words.recording("hand.dibhr");
+    const Ending ending(words);
+    tell(told);
+    for (;;) ::pause();
+}
+
+/// The first thing that is done in a crash.
+void say_first() noexcept {
+    if (::write(STDERR_FILENO, "first, ", 7) != 7) ::_exit(97);
+}
+
+int crash(const std::function<void()>& how) {
+    LastWords words;
+    words.recording("hand.dibhr");
+    const CrashHandler handler(words, &say_first);
+    how();
+    return 0;
+}
+
+}  // namespace
+
+TEST_CASE("two signals within 200 ms are one wish to end; a later one is another", "[ending]") {
+    const EndWishes::Time begin{};
+    EndWishes wishes;
+    CHECK_FALSE(wishes.is_another(begin));
+    CHECK_FALSE(wishes.is_another(begin + 199ms));
+    CHECK(wishes.is_another(begin + 200ms));
+    CHECK(wishes.is_another(begin + 599ms));
+}
+
+TEST_CASE("patience with the program lasts 600 ms from the first wish, which no other one renews",
+          "[ending]") {
+    const EndWishes::Time begin{};
+    EndWishes wishes;
+    CHECK_FALSE(wishes.patience_left(begin));
+    (void)wishes.is_another(begin);
+    CHECK(wishes.patience_left(begin) == 600ms);
+    (void)wishes.is_another(begin + 150ms);
+    CHECK(wishes.patience_left(begin + 599ms + 1us) == 1ms);  // never too short a sleep
+    CHECK(wishes.patience_left(begin + 600ms) == 0ms);
+    CHECK(wishes.patience_left(begin + 5s) == 0ms);
+}
+
+TEST_CASE("a signal asks for the end and takes the force off, whichever of the four it is",
+          "[ending]") {
+    const int signal = GENERATE(as<int>{}, SIGTERM, SIGINT, SIGHUP, SIGQUIT);
+    CAPTURE(signal);
+    Child program(end_when_asked);
+    program.wait_until_told();
+    program.send(signal);
+    const HowItEnded how = program.wait();
+    CHECK(how.status == 0);
+    CHECK(how.errors.empty());
+}
+
+TEST_CASE("a program that hangs is ended after a signal, and says what it did", "[ending]") {
+    Child program(hang);
+    program.wait_until_told();
+    program.send(SIGTERM);
+    program.send(SIGHUP);  // of the same wish
+    const HowItEnded how = program.wait();
+    CHECK(how.status == 1);
+    CHECK(how.errors ==
+          "dibhr: asked to end, but hung while sleeping; the force is off, ended at once; the "
+          "recording up to now is in hand.dibhr\n");
+}
+
+TEST_CASE("a display that goes takes the force off, and asks for nothing", "[ending]") {
+    Child program([](int told) {
+        std::array<int, 2> display{};
+        if (::socketpair(AF_UNIX, SOCK_STREAM, 0, display.data()) != 0) return 96;
+        LastWords words;
+        Ending ending(words);
+        ending.watch_display(display[0]);
+        tell(told);
+        if (ending.without_force()) return 95;
+        ::close(display[1]);
+        if (!test::eventually([&] { return ending.without_force().load(); }, 60s)) return 94;
+        return ending.asked() ? 93 : 0;
+    });
+    CHECK(program.wait().status == 0);
+}
+
+TEST_CASE("a crash takes the force off, is told in one line, and ends as it would have",
+          "[crash]") {
+    const auto [signal, name] = GENERATE(table<int, std::string>({{SIGSEGV, "segmentation fault"},
+                                                                  {SIGBUS, "bus error"},
+                                                                  {SIGFPE, "arithmetic error"},
+                                                                  {SIGILL, "illegal instruction"},
+                                                                  {SIGABRT, "aborted"},
+                                                                  {SIGXFSZ, "file-size limit"}}));
+    if (DIBHR_SANITIZED && signal != SIGXFSZ) {
+        SUCCEED("a sanitizer's own handlers stay");
+        return;
+    }
+    CAPTURE(name);
+    Child program([signal = signal](int told) {
+        return crash([&] {
+            tell(told);
+            for (;;) ::pause();
+        });
+    });
+    program.wait_until_told();
+    program.send(signal);
+    const HowItEnded how = program.wait();
+    CHECK(how.status == 128 + signal);
+    CHECK(how.errors == "first, dibhr: crashed (" + name +
+                            "); the force is off; the recording up to now is in hand.dibhr\n");
+}
+
+TEST_CASE("an exception that nobody catches is told in one line", "[crash]") {
+    if (DIBHR_SANITIZED) {
+        SUCCEED("a sanitizer's own handlers stay");
+        return;
+    }
+    Child faulty([](int) {
+        return crash([] { std::thread([] { throw std::runtime_error("a fault"); }).join(); });
+    });
+    const HowItEnded fault = faulty.wait();
+    CHECK(fault.status == 128 + SIGABRT);
+    CHECK(fault.errors ==
+          "first, dibhr: crashed (a fault); the force is off; the recording up to now is in "
+          "hand.dibhr\n");
+    Child short_of_memory(
+        [](int) { return crash([] { std::thread([] { throw std::bad_alloc(); }).join(); }); });
+    const HowItEnded lack = short_of_memory.wait();
+    CHECK(lack.status == 1);
+    CHECK(lack.errors.starts_with("first, dibhr: crashed (there is not enough memory: "));
+}
+
+TEST_CASE("a write of the program's own that meets the limit of a file's size fails, no more",
+          "[crash]") {
+    Child program([](int) {
+        return crash([] {
+            std::FILE* const file = std::tmpfile();
+            const rlimit none{0, 0};
+            ::setrlimit(RLIMIT_FSIZE, &none);
+            if (::write(::fileno(file), "x", 1) != -1 || errno != EFBIG) ::_exit(92);
+        });
+    });
+    const HowItEnded how = program.wait();
+    CHECK(how.status == 0);
+    CHECK(how.errors.empty());
+}
