@@ -200,7 +200,7 @@ TEST_CASE("a crash takes the force off, is told in one line, and ends as it woul
         return;
     }
     CAPTURE(name);
-    Child program([signal = signal](int told) {
+    Child program([](int told) {
         return crash([&] {
             tell(told);
             for (;;) ::pause();
