@@ -523,11 +523,12 @@ TEST_CASE("a study that is killed at any picture loses no answer and doubles non
     const Sitting at(head() + kPairs + "repetitions = " + std::to_string(kKills) + "\n");
     Random dice(7);
     std::vector<AnsweredTrial> before;
-    for (int kill = 0; kill < kKills; ++kill) {
+    // A study whose last answer is in the file ends as soon as it is started again.
+    for (int kill = 0; kill < kKills && before.size() < kKills - 1; ++kill) {
         Participant person(at);
         const double pictures = 20.0 + 200.0 * dice.uniform();
         while (static_cast<double>(person.seen().picture) < pictures &&
-               !Participant::is_at(person.seen(), StudyStep::thanks))
+               person.seen().trial < kKills - 1)
             person.go_on();
         CHECK(person.ended_by(SIGKILL) == 128 + SIGKILL);
         const std::vector<AnsweredTrial> now = at.record().answered;
