@@ -17,13 +17,13 @@
 
 namespace dibhr {
 
-bool EndWishes::is_another(Time now) noexcept {
+bool EndRequests::is_repeated(Time now) noexcept {
     if (first_) return now - *first_ >= kOneWish;
     first_ = now;
     return false;
 }
 
-std::optional<std::chrono::milliseconds> EndWishes::patience_left(Time now) const noexcept {
+std::optional<std::chrono::milliseconds> EndRequests::patience_left(Time now) const noexcept {
     using std::chrono::milliseconds;
     if (!first_) return std::nullopt;
     return std::max(std::chrono::ceil<milliseconds>(*first_ + kPatience - now), milliseconds(0));
@@ -52,11 +52,11 @@ void Ending::watch_display(int connection) {
 void Ending::run() {
     using Clock = std::chrono::steady_clock;
     pthread_setname_np(pthread_self(), "dibhr-signals");
-    EndWishes wishes;
+    EndRequests requests;
     bool again = false;
     while (!again) {
         int timeout_ms = -1;
-        if (const auto left = wishes.patience_left(Clock::now())) {
+        if (const auto left = requests.patience_left(Clock::now())) {
             if (left->count() == 0) break;
             timeout_ms = static_cast<int>(left->count());
         }
@@ -70,7 +70,7 @@ void Ending::run() {
         if (ready[2].revents != 0 && display_.compare_exchange_strong(display, -1))
             without_force_ = true;
         if (!signals_.arrived()) continue;
-        again = wishes.is_another(Clock::now());
+        again = requests.is_repeated(Clock::now());
         without_force_ = true;
         asked_ = true;
     }

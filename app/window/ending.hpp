@@ -12,8 +12,8 @@
 
 namespace dibhr {
 
-/// What somebody wishes who sends signals, by when they come.
-class EndWishes {
+/// The requests to end, by the times of their signals.
+class EndRequests {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
@@ -23,7 +23,7 @@ class EndWishes {
     static constexpr std::chrono::milliseconds kOneWish{200};
 
     /// A signal has come: whether it is another wish than the first one.
-    [[nodiscard]] bool is_another(Time now) noexcept;
+    [[nodiscard]] bool is_repeated(Time now) noexcept;
     /// What is left of kPatience since the first wish, or nothing of it; no value: there was none.
     [[nodiscard]] std::optional<std::chrono::milliseconds> patience_left(Time now) const noexcept;
 
@@ -32,7 +32,7 @@ class EndWishes {
 };
 
 /// While it lives, SIGINT, SIGTERM, SIGHUP and SIGQUIT are taken by a thread of their own: they ask
-/// for the end, and if the program still lives after EndWishes::kPatience, or another one comes,
+/// for the end, and if the program still lives after EndRequests::kPatience, or another one comes,
 /// that thread says what hangs and ends it with status 1. Ctrl+Z is held back. Made before any
 /// thread is started.
 class Ending {

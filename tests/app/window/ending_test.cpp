@@ -126,25 +126,25 @@ int crash(const std::function<void()>& how) {
 }  // namespace
 
 TEST_CASE("two signals within 200 ms are one wish to end; a later one is another", "[ending]") {
-    const EndWishes::Time begin{};
-    EndWishes wishes;
-    CHECK_FALSE(wishes.is_another(begin));
-    CHECK_FALSE(wishes.is_another(begin + 199ms));
-    CHECK(wishes.is_another(begin + 200ms));
-    CHECK(wishes.is_another(begin + 599ms));
+    const EndRequests::Time begin{};
+    EndRequests requests;
+    CHECK_FALSE(requests.is_repeated(begin));
+    CHECK_FALSE(requests.is_repeated(begin + 199ms));
+    CHECK(requests.is_repeated(begin + 200ms));
+    CHECK(requests.is_repeated(begin + 599ms));
 }
 
 TEST_CASE("patience with the program lasts 600 ms from the first wish, which no other one renews",
           "[ending]") {
-    const EndWishes::Time begin{};
-    EndWishes wishes;
-    CHECK_FALSE(wishes.patience_left(begin));
-    (void)wishes.is_another(begin);
-    CHECK(wishes.patience_left(begin) == 600ms);
-    (void)wishes.is_another(begin + 150ms);
-    CHECK(wishes.patience_left(begin + 599ms + 1us) == 1ms);  // never too short a sleep
-    CHECK(wishes.patience_left(begin + 600ms) == 0ms);
-    CHECK(wishes.patience_left(begin + 5s) == 0ms);
+    const EndRequests::Time begin{};
+    EndRequests requests;
+    CHECK_FALSE(requests.patience_left(begin));
+    (void)requests.is_repeated(begin);
+    CHECK(requests.patience_left(begin) == 600ms);
+    (void)requests.is_repeated(begin + 150ms);
+    CHECK(requests.patience_left(begin + 599ms + 1us) == 1ms);  // never too short a sleep
+    CHECK(requests.patience_left(begin + 600ms) == 0ms);
+    CHECK(requests.patience_left(begin + 5s) == 0ms);
 }
 
 TEST_CASE("a signal asks for the end and takes the force off, whichever of the four it is",
