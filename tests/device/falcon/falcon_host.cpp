@@ -1,4 +1,5 @@
 // Runs an unmodified program with simulated Falcons on its USB; kUsage tells how.
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -350,6 +351,7 @@ int run(Arguments arguments) {
     const pid_t program = fork();
     if (program < 0) throw std::runtime_error("cannot start another process");
     if (program == 0) {
+        ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a killed host leaves no program behind
         pthread_sigmask(SIG_SETMASK, &before, nullptr);
         become_program(arguments, host);
     }
