@@ -9,4 +9,9 @@ namespace dibhr {
 /// May be called on any thread. `std::chrono::steady_clock::now` wherever nothing else is said.
 using Now = std::function<std::chrono::steady_clock::time_point()>;
 
+/// Of a moment on that clock [s].
+[[nodiscard]] inline double seconds_of(std::chrono::steady_clock::time_point time) {
+    return std::chrono::duration<double>(time.time_since_epoch()).count();
+}
+
 }  // namespace dibhr

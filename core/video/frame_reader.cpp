@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/video/cleaning/remembering_media.hpp"
+#include "core/video/moving_mean.hpp"
 
 namespace dibhr {
 
@@ -25,7 +26,6 @@ constexpr double kUnknownInterval_s = 1.0 / 25.0;
 constexpr int kPlaying = static_cast<int>(FrameWindow::kFrames);
 constexpr int kInTime = 30;               ///< so many frames in a row: the machine keeps up
 constexpr std::int64_t kMostApart = 3;    // frames: what is farther apart is not followed
-constexpr double kNewest = 0.1;           ///< the weight of the newest of a moving mean
 constexpr double kSoon_s = 0.1;           ///< what comes sooner needs no preview
 constexpr double kJump_s_a_pixel = 1e-7;  ///< a guess, until one was measured
 
@@ -120,11 +120,11 @@ void FrameReader::tell_wait(const RawFrame& raw, std::int64_t frames, double wai
     const auto count = static_cast<double>(frames);
     const bool only_decoded = raw.passing_s > 0.0 && !plan_.steps.steady;
     const double passing_s = only_decoded ? raw.passing_s : waited_s / count;
-    decoding_s_ += kNewest * (passing_s - decoding_s_);
+    decoding_s_ = moving_mean(decoding_s_, passing_s);
     if (!only_decoded)
         making_s_ = 0.0;
     else if (const auto making_s = media_.making_s())
-        making_s_ += kNewest * (*making_s - making_s_);
+        making_s_ = moving_mean(making_s_, *making_s);
 }
 
 FrameReader::Kept* FrameReader::keep(RawFrame raw) {

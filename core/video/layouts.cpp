@@ -133,7 +133,7 @@ std::vector<fs::path> videos_in(const fs::path& folder) {
 }
 
 /// The colour video that a depth video belongs to: named colour before others; null when none.
-const fs::path* colour_of(const fs::path& depth, const std::vector<fs::path>& videos) {
+const fs::path* colour_beside(const fs::path& depth, const std::vector<fs::path>& videos) {
     const std::string subject = subject_of(depth);
     const fs::path* found = nullptr;
     for (const fs::path& video : videos) {
@@ -155,7 +155,7 @@ std::vector<VideoPair> pairs_of(const std::vector<fs::path>& videos) {
             colours.push_back(video);
     }
     for (const fs::path& depth : depths) {
-        if (const fs::path* const colour = colour_of(depth, videos))
+        if (const fs::path* const colour = colour_beside(depth, videos))
             pairs.push_back({*colour, depth});
     }
     if (pairs.empty() && colours.size() == 1 && depths.size() == 1)

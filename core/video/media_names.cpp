@@ -44,10 +44,6 @@ bool ends_as(const fs::path& file, Words endings) {
     return std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 
-bool is_digit(char c) {
-    return std::isdigit(static_cast<unsigned char>(c)) != 0;
-}
-
 bool is_one_of(std::string_view word, Words words) {
     return std::find(words.begin(), words.end(), word) != words.end();
 }
@@ -163,6 +159,10 @@ std::optional<fs::path> of_same_subject(const fs::path& given, Fits fits) {
 }
 
 }  // namespace
+
+bool is_digit(char c) {
+    return std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
 
 std::string lower_case(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),

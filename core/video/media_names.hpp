@@ -12,6 +12,9 @@ namespace dibhr {
 /// The text with A to Z as a to z.
 [[nodiscard]] std::string lower_case(std::string text);
 
+/// 0 to 9.
+[[nodiscard]] bool is_digit(char c);
+
 /// Whether there is a folder of that name.
 [[nodiscard]] bool is_folder(const std::filesystem::path& place);
 

@@ -78,7 +78,7 @@ std::unique_ptr<PictureSource> unsqueezed(std::unique_ptr<PictureSource> half,
 }
 
 /// Letters and digits between other characters, as small letters.
-std::vector<std::string> words_of(const std::string& name) {
+std::vector<std::string> plain_words_of(const std::string& name) {
     std::vector<std::string> words(1);
     for (const char c : lower_case(name)) {
         if (std::isalnum(static_cast<unsigned char>(c)) != 0)
@@ -163,7 +163,7 @@ UnpackedSources open_packed(const fs::path& place, const PackedForm& form) {
 }
 
 std::optional<NamedPacking> packing_by_name(const fs::path& file) {
-    const std::vector<std::string> words = words_of(file.stem().string());
+    const std::vector<std::string> words = plain_words_of(file.stem().string());
     NamedPacking said;
     bool says = false;
     // From the end: words inside a name may mean anything.

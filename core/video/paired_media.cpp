@@ -29,7 +29,7 @@ double colour_start_s(const SourceFacts& colour, const SourceFacts& depth) {
 }
 
 /// Near is light, far is dark, no data is grey.
-ColourImage painted(const DepthImage& depth) {
+ColourImage painted_depth(const DepthImage& depth) {
     const cv::Mat levels(depth.rows, depth.columns, CV_32FC1,
                          const_cast<float*>(depth.levels.data()));  // only read
     cv::Mat shades;
@@ -156,7 +156,7 @@ std::optional<RawFrame> PairedMedia::frame_of(std::optional<TimedPicture> taken)
         put_straight(frame, colour);
     else if (colour_)
         frame.colour = colour_of(colour);
-    if (painted_) frame.colour = painted(frame.depth);
+    if (painted_) frame.colour = painted_depth(frame.depth);
     return frame;
 }
 

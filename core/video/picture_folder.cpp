@@ -22,14 +22,6 @@ namespace dibhr {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-bool is_digit(char c) {
-    return std::isdigit(static_cast<unsigned char>(c)) != 0;
-}
-
-}  // namespace
-
 bool is_picture(const fs::path& file) {
     std::error_code ignored;
     return named_picture(file) && !file.filename().string().starts_with('.') &&

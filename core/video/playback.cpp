@@ -10,13 +10,14 @@
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/moving_mean.hpp"
 
 namespace dibhr {
 namespace {
 
 constexpr double kJump_s = 0.001;      ///< a jump begins later: no playback time means two frames
-constexpr double kNewest = 0.2;        ///< the weight of the newest of a moving mean
 constexpr double kMostDecoding = 0.8;  ///< of the time from frame to frame
+constexpr double kNewestPlayed = 0.2;  ///< the weight of the newest frame in what is told
 constexpr std::chrono::seconds kToldFor{3};
 constexpr double kMuch = 1.5;  ///< intervals: what is made in less comes too late now and then only
 constexpr double kMostBehind_s = 1.0;  ///< beyond this the clock waits
@@ -245,7 +246,7 @@ bool Playback::read_next(Time now) {
     complete_ = !next;
     if (!next) return false;
     const auto passed = static_cast<double>(reader_->passed_over() - passed_over);
-    passed_over_ += kNewest * (passed - passed_over_);
+    passed_over_ = moving_mean(passed_over_, passed, kNewestPlayed);
     next->time_s = std::max(next->media_s + offset_s_, newest.time_s + kJump_s);
     reader_->connect(frames_.back(), *next);
     frames_.push_back(std::move(*next));
@@ -318,7 +319,7 @@ double Playback::earliest_s(Time now, double takes_s) const {
 void Playback::arrived(Time now) {
     const double took_s = std::chrono::duration<double>(now - reading_since_).count() -
                           (reader_->waited_s() - waited_before_s_);
-    cleaning_s_ += (cleaning_s_ > 0.0 ? kNewest : 1.0) * (std::max(took_s, 0.0) - cleaning_s_);
+    cleaning_s_ = moving_mean_from_first(cleaning_s_, std::max(took_s, 0.0), kNewestPlayed);
     waits_ = waited_ && now - *waited_ < kToldFor;
     if (frames_.size() < 2) return;
     const bool starts = std::exchange(starts_, false);

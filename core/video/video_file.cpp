@@ -16,6 +16,7 @@
 #include "core/video/formats/camera_files.hpp"
 #include "core/video/live/live_record.hpp"
 #include "core/video/media.hpp"
+#include "core/video/moving_mean.hpp"
 #include "core/video/video_packets.hpp"
 
 namespace dibhr {
@@ -27,7 +28,6 @@ constexpr double kFewFrames = 3.0;     ///< before the wanted one none is skippe
 constexpr double kMissing_s = 0.5;     ///< less than this at the end is a container's rounding,
 constexpr double kMissingPart = 0.15;  ///< and less than this part may be a long last frame
 constexpr double kMostSampled = 1e8;   ///< pixels decoded to get samples: a third of a second
-constexpr double kNewest = 0.1;        ///< the weight of the newest of a moving mean
 constexpr double kLongest_s = 1e6;     ///< bounds a seek into a file of unknown length
 
 /// A whole file ends there at the earliest.
@@ -148,7 +148,7 @@ bool VideoFile::grab() {
     const bool follows = index_ >= 0 && !jumped_;
     // The first one fills the decoder's threads.
     if (follows && decoder_.skipped_s().empty())
-        decoding_s_ += (decoding_s_ > 0.0 ? kNewest : 1.0) * (taken.count() - decoding_s_);
+        decoding_s_ = moving_mean_from_first(decoding_s_, taken.count());
     time_s_ = decoder_.time_s();
     if (index_ < 0 && !(time_s_ >= 0.0)) time_s_ = 0.0;
     if (follows && !(time_s_ > last_s)) {

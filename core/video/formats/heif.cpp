@@ -45,7 +45,7 @@ void require_done(const heif_error& error, const fs::path& file) {
                      " cannot be decoded as a HEIC picture: it may be damaged, export it again");
 }
 
-Context opened(const fs::path& file) {
+Context opened_heif(const fs::path& file) {
     Context context(heif_context_alloc());
     if (context == nullptr) throw InputError(shown(file) + " cannot be read: memory is full");
     require_done(heif_context_read_from_file(context.get(), file.c_str(), nullptr), file);
@@ -143,14 +143,14 @@ bool is_heif(std::string_view head) {
 }
 
 StillPicture read_heif(const fs::path& file, PictureRole role) {
-    const Context context = opened(file);
+    const Context context = opened_heif(file);
     const Handle primary = primary_of(*context, file);
     return role == PictureRole::colour ? read_colour(*primary, file) : read_depth(*primary, file);
 }
 
 bool heif_has_depth(const fs::path& file) {
     try {
-        const Context context = opened(file);
+        const Context context = opened_heif(file);
         return depth_id(*primary_of(*context, file)).has_value();
     } catch (const InputError&) {
         return false;

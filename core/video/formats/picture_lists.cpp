@@ -25,8 +25,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kLookedAt_bytes = 1 << 16;  ///< for a first line after comments
-constexpr std::uintmax_t kLongest_bytes = 256 << 20;
+constexpr std::size_t kListBegin_bytes = 1 << 16;  ///< for a first line after comments
+constexpr std::uintmax_t kLongestList_bytes = 256 << 20;
 constexpr double kLargestNumber = 1e20;  ///< more than nanoseconds since 1970
 
 /// A picture's name at a time, as a line has it.
@@ -255,7 +255,7 @@ class ListReader {
 }  // namespace
 
 bool is_picture_list(const fs::path& file) {
-    const std::string text = beginning_of(file, kLookedAt_bytes);
+    const std::string text = beginning_of(file, kListBegin_bytes);
     if (text.find('\0') != std::string::npos) return false;
     bool found = false;
     for_each_line(text,
@@ -265,11 +265,11 @@ bool is_picture_list(const fs::path& file) {
 
 PictureSet read_picture_list(const fs::path& list) {
     std::error_code failed;
-    if (fs::file_size(list, failed) > kLongest_bytes && !failed)
+    if (fs::file_size(list, failed) > kLongestList_bytes && !failed)
         throw InputError(shown(list) +
                          " is a list of more than 256 megabytes: give one of fewer pictures");
     ListReader reader(list);
-    for_each_line(beginning_of(list, kLongest_bytes),
+    for_each_line(beginning_of(list, kLongestList_bytes),
                   [&reader](std::string_view line) { reader.take(line); });
     return reader.finish();
 }

@@ -43,7 +43,7 @@ bool is_bag_name(const fs::path& file) {
 }
 
 /// The file, or those of a folder.
-BagFiles opened(const fs::path& place) {
+BagFiles opened_bags(const fs::path& place) {
     BagFiles files;
     if (!is_folder(place)) {
         files.push_back(std::make_unique<BagFile>(place));
@@ -314,12 +314,12 @@ bool is_ros_bag(const fs::path& place) {
 }
 
 bool ros_bag_holds(const fs::path& place, PictureRole role) {
-    BagFiles files = opened(place);
+    BagFiles files = opened_bags(place);
     return !chosen(files, role).topic.name.empty();
 }
 
 std::unique_ptr<PictureSource> open_ros_topic(const fs::path& place, PictureRole role) {
-    BagFiles files = opened(place);
+    BagFiles files = opened_bags(place);
     Choice choice = chosen(files, role);
     if (choice.topic.name.empty())
         throw InputError(

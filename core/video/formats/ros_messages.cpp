@@ -23,7 +23,7 @@ namespace dibhr {
 namespace {
 
 constexpr std::uint32_t kLongestSide = 1U << 20;
-constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 30;  ///< OpenCV's own limit
+constexpr std::uint64_t kMostImagePixels = std::uint64_t{1} << 30;  ///< OpenCV's own limit
 
 /// Reads a message from its beginning; beyond its end there is nothing but zeros, and it is told.
 class CdrReader {
@@ -127,7 +127,7 @@ cv::Mat plain_picture(const RosImage& image) {
     const Encoding* const encoding = encoding_of(image.encoding);
     const std::uint64_t pixels = std::uint64_t{image.columns} * image.rows;
     const auto most = static_cast<std::uint32_t>(std::numeric_limits<int>::max());
-    if (encoding == nullptr || pixels == 0 || pixels > kMostPixels || image.columns > most ||
+    if (encoding == nullptr || pixels == 0 || pixels > kMostImagePixels || image.columns > most ||
         image.rows > most)
         return {};
     const std::uint64_t row_bytes = std::uint64_t{image.columns} * CV_ELEM_SIZE(encoding->type);

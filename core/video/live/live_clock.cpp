@@ -6,23 +6,21 @@
 #include <utility>
 #include <vector>
 
+#include "core/realtime/now.hpp"
+#include "core/video/moving_mean.hpp"
+
 namespace dibhr {
 
 namespace {
 
 constexpr double kJump_s = 0.001;        ///< what begins anew is later than all that was shown
-constexpr double kOtherTime_s = 1.0;     ///< stamps farther apart are of another time
-constexpr double kNewest = 0.1;          ///< the weight of the newest of a moving mean
+constexpr double kOtherStamps_s = 1.0;   ///< stamps farther apart are of another time
 constexpr std::size_t kRemembered = 64;  ///< frames: two seconds
 constexpr double kLate = 0.05;     ///< the share of frames that may come later than is reckoned
 constexpr double kUnevenly = 1.0;  ///< intervals that are waited for uneven frames, at most
 constexpr double kSlow_s = 0.3, kQuick_s = 2.0;      ///< in which an error is made good
 constexpr double kSlowest = 0.05, kQuickest = 0.02;  ///< by which the speed may differ from 1
 constexpr double kAlike_s = 0.0005;
-
-double seconds_of(LiveClock::Time time) {
-    return std::chrono::duration<double>(time.time_since_epoch()).count();
-}
 
 /// `share` of them are less.
 double quantile(std::vector<double>& values, double share) {
@@ -48,7 +46,7 @@ void LiveClock::begin_with(Frame frame, double stamp_s, Time now, std::deque<Fra
 
 bool LiveClock::goes_on_to(double stamp_s, const std::deque<Frame>& frames) const noexcept {
     const double since_s = stamp_s - last_stamp_s_;
-    return !begins_ && !frames.empty() && since_s > 0.0 && since_s < kOtherTime_s;
+    return !begins_ && !frames.empty() && since_s > 0.0 && since_s < kOtherStamps_s;
 }
 
 bool LiveClock::add(Frame frame, double stamp_s, Time now, std::deque<Frame>& frames) {
@@ -58,7 +56,7 @@ bool LiveClock::add(Frame frame, double stamp_s, Time now, std::deque<Frame>& fr
         begin_with(std::move(frame), stamp_s, now, frames);
         return true;
     }
-    interval_s_ += kNewest * (std::min(since_s, 2.0 * interval_s_) - interval_s_);
+    interval_s_ = moving_mean(interval_s_, std::min(since_s, 2.0 * interval_s_));
     frame.time_s = stamp_s + offset_s_;
     if (std::exchange(alone_, false)) {  // held until now: also where frames were missing
         Frame& held = frames.back();

@@ -10,7 +10,9 @@
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/realtime/now.hpp"
 #include "core/video/media.hpp"
+#include "core/video/moving_mean.hpp"
 
 namespace dibhr {
 
@@ -18,14 +20,9 @@ namespace {
 
 using Clock = LiveFeed::Clock;
 
-constexpr double kNewest = 0.1;  ///< the weight of the newest of a moving mean
 constexpr double kLongestInterval_s = 0.5;
 constexpr std::size_t kLongestName = 100;
 constexpr std::chrono::milliseconds kUnheard{1500};  ///< what sent no packet since sends none
-
-double seconds_of(Clock::time_point time) {
-    return std::chrono::duration<double>(time.time_since_epoch()).count();
-}
 
 /// A source without stamps has those of its pictures' coming.
 void stamp(LivePicture& picture) {
@@ -97,7 +94,7 @@ bool LiveFeed::take_depth(LivePicture picture) {
         }
         const double since_s = std::chrono::duration<double>(now - signal_.last).count();
         if (signal_.last != Clock::time_point{} && since_s < kLongestInterval_s)
-            interval_s_ += kNewest * (since_s - interval_s_);
+            interval_s_ = moving_mean(interval_s_, since_s);
         signal_.last = now;
         signal_.refused = false;
         if (two_) {

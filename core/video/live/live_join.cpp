@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/realtime/now.hpp"
+
 namespace dibhr {
 
 namespace {
@@ -15,10 +17,6 @@ constexpr double kOtherTime_s = 1.0;  ///< a clock that is so far off was set
 constexpr double kOneClock_s = 0.25;
 constexpr std::size_t kMostColours = 8;
 constexpr std::size_t kMostWaiting = 2;
-
-double seconds_of(LiveJoin::Time time) {
-    return std::chrono::duration<double>(time.time_since_epoch()).count();
-}
 
 }  // namespace
 

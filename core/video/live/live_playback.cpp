@@ -10,6 +10,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/video/live/live_name.hpp"
 #include "core/video/live/taken_pictures.hpp"
+#include "core/video/moving_mean.hpp"
 
 namespace dibhr {
 
@@ -17,7 +18,6 @@ namespace {
 
 using Time = LivePlayback::Time;
 
-constexpr double kNewest = 0.1;  ///< the weight of the newest of a moving mean
 constexpr double kShortestSilence_s = 0.15;
 constexpr double kLongestSilence_s = 0.25;  ///< and at least that of slow cameras:
 constexpr double kSlowIntervals = 1.5;
@@ -26,7 +26,7 @@ constexpr std::chrono::seconds kMovedLately{1};
 constexpr float kMoved = 0.01F;  ///< of the highest level, and beyond the noise
 constexpr float kMovedNoise = 5.0F;
 constexpr std::size_t kMovedPart = 500;  ///< one pixel in so many
-constexpr std::size_t kLookedAt = 7;     ///< every so many pixels
+constexpr std::size_t kCompared = 7;     ///< every so many pixels
 constexpr std::chrono::milliseconds kTellAgain{500};
 constexpr double kMilliseconds = 1000.0;
 constexpr std::uint64_t kLiveOnes = std::uint64_t{1} << 32;  ///< none is one of a file's
@@ -48,9 +48,9 @@ double file_s(double time_s) {
 bool differ(const DepthImage& a, const DepthImage& b, float by) {
     if (a.levels.size() != b.levels.size()) return true;
     std::size_t moved = 0;
-    for (std::size_t k = 0; k < a.levels.size(); k += kLookedAt)
+    for (std::size_t k = 0; k < a.levels.size(); k += kCompared)
         moved += static_cast<std::size_t>(std::fabs(a.levels[k] - b.levels[k]) > by);
-    return moved * kLookedAt * kMovedPart > a.levels.size();
+    return moved * kCompared * kMovedPart > a.levels.size();
 }
 
 }  // namespace
@@ -239,7 +239,7 @@ void LivePlayback::show(Frame frame, Time now) {
     const double ahead_s = frames_.back().time_s - clock_.clock().playback_s(ready);
     const double behind_s =
         std::max(ahead_s, 0.0) + seconds_between(last_.taken->pair->depth.arrived, ready);
-    behind_s_ += (behind_s_ > 0.0 ? kNewest : 1.0) * (behind_s - behind_s_);
+    behind_s_ = moving_mean_from_first(behind_s_, behind_s);
 }
 
 void LivePlayback::keep(const RawFrame& raw) {
