@@ -18,7 +18,7 @@
 namespace dibhr {
 
 bool EndRequests::is_repeated(Time now) noexcept {
-    if (first_) return now - *first_ >= kOneWish;
+    if (first_) return now - *first_ >= kOneRequest;
     first_ = now;
     return false;
 }

@@ -19,12 +19,13 @@ class EndRequests {
 
     /// With the last tick, the recorder's last transaction and the line, less than a second.
     static constexpr std::chrono::milliseconds kPatience{600};
-    /// A terminal that closes, or `timeout`, sends two signals for one wish.
-    static constexpr std::chrono::milliseconds kOneWish{200};
+    /// A terminal that closes, or `timeout`, sends two signals for one request.
+    static constexpr std::chrono::milliseconds kOneRequest{200};
 
-    /// A signal has come: whether it is another wish than the first one.
+    /// A signal has come: whether it is another request than the first one.
     [[nodiscard]] bool is_repeated(Time now) noexcept;
-    /// What is left of kPatience since the first wish, or nothing of it; no value: there was none.
+    /// What is left of kPatience since the first request, or nothing of it; no value: there was
+    /// none.
     [[nodiscard]] std::optional<std::chrono::milliseconds> patience_left(Time now) const noexcept;
 
   private:

@@ -1,4 +1,5 @@
-// Ctrl+C and a request to end, taken as a wish to close the window, so that the force ends at zero.
+// Ctrl+C and a request to end, handled as a request to close the window, so that the force ends at
+// zero.
 #pragma once
 
 namespace dibhr {

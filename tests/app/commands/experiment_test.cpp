@@ -6,8 +6,8 @@
 
 #include "app/commands/command_line.hpp"
 #include "app/settings/command_options.hpp"
-#include "core/session/session_file.hpp"
 #include "tests/app/program/command_program.hpp"
+#include "tests/app/program/recorded_session.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/text.hpp"
 
@@ -25,24 +25,6 @@ std::string usage_error(std::vector<std::string> arguments) {
         return error.what();
     }
     return "nothing";
-}
-
-/// A session of ticks that touch, or do not, over a depth video of 640 columns and `rows` rows.
-void write_session(const std::filesystem::path& file, const std::string& rows, int ticks) {
-    SessionFile session(file,
-                        {{"depth-columns", "640"}, {"depth-rows", rows}, {"depth", "depth.mp4"}});
-    session.begin();
-    for (int k = 0; k < ticks; ++k) {
-        TickRecord tick;
-        tick.tick = k;
-        tick.t_s = 0.001 * k;
-        tick.frames.from_frame = k / 33;
-        tick.contact = true;
-        tick.goal = {250.0 + 0.1 * k, 400.0, 90.0};
-        session.add(tick);
-    }
-    session.commit();
-    session.merge_log();
 }
 
 }  // namespace
@@ -135,8 +117,8 @@ TEST_CASE("a hand or an output that cannot be used ends with 1 and one line", "[
     write_text(folder / "row.csv", "t,x,y\n0,1,2\n");
     write_text(folder / "text.dibhr", "this is no session\n");
     write_text(folder / "empty.dibhr", "");
-    write_session(folder / "none.dibhr", "480", 0);
-    write_session(folder / "foreign.dibhr", "240", 50);
+    write_moving_hand(folder / "none.dibhr", 0);
+    write_moving_hand(folder / "foreign.dibhr", 50, 240);
     const auto before = names_in(folder.path());
     const std::vector<std::vector<std::string>> bad{
         {"human", "--trace", "nan.csv"},         {"human", "--trace", "column.csv"},

@@ -13,10 +13,10 @@
 #include "app/commands/experiment_human.hpp"
 #include "core/metrics/force_variation.hpp"
 #include "core/session/session.hpp"
-#include "core/session/session_file.hpp"
 #include "core/study/study_file.hpp"
 #include "tests/app/commands/study_page.hpp"
 #include "tests/app/program/command_program.hpp"
+#include "tests/app/program/recorded_session.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/text.hpp"
 
@@ -84,24 +84,6 @@ void check_reported(const PathRun& path, const Json& motion) {
     }
 }
 
-/// A session of ticks that touch the sample.
-void write_session(const std::filesystem::path& file, int ticks) {
-    SessionFile session(file,
-                        {{"depth-columns", "640"}, {"depth-rows", "480"}, {"depth", "depth.mp4"}});
-    session.begin();
-    for (int k = 0; k < ticks; ++k) {
-        TickRecord tick;
-        tick.tick = k;
-        tick.t_s = 0.001 * k;
-        tick.frames.from_frame = k / 33;
-        tick.contact = true;
-        tick.goal = {250.0 + 0.1 * k, 400.0, 90.0};
-        session.add(tick);
-    }
-    session.commit();
-    session.merge_log();
-}
-
 }  // namespace
 
 TEST_CASE("each trial is a session in which the modelled hand feels what the experiment feels",
@@ -139,7 +121,7 @@ question = "Which was smoother?"
 TEST_CASE("experiment human says whose hand it is", "[experiment]") {
     const TemporaryFolder folder;
     write_text(folder / "pen.csv", "t_s,x_mm,y_mm\n0,10,10\n0.5,20,30\n1,40,10\n");
-    write_session(folder / "hand.dibhr", 300);
+    write_moving_hand(folder / "hand.dibhr", 300);
     const HandInput trace = read_hand({.trace = folder / "pen.csv"});
     CHECK(contains(human_goals(trace, sample(), 0.4).source, "a person's trace, pen.csv"));
     const ProgramResult result = run_dibhr(

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <thread>
 
 #include "core/loop/haptic_tick.hpp"
 #include "core/session/recorder.hpp"
+#include "core/session/session_file.hpp"
 #include "core/video/frame_reader.hpp"
 #include "core/video/libraries.hpp"
 #include "core/video/media.hpp"
@@ -110,6 +112,24 @@ void record_session(const std::filesystem::path& file, const RecordedSession& wa
     REQUIRE(status.failure.empty());
     REQUIRE(status.dropped == 0);
     REQUIRE(status.rows == static_cast<std::uint64_t>(count));
+}
+
+void write_moving_hand(const std::filesystem::path& file, int ticks, int depth_rows) {
+    SessionFile session(file, {{"depth-columns", "640"},
+                               {"depth-rows", std::to_string(depth_rows)},
+                               {"depth", "depth.mp4"}});
+    session.begin();
+    for (int k = 0; k < ticks; ++k) {
+        TickRecord tick;
+        tick.tick = k;
+        tick.t_s = 0.001 * k;
+        tick.frames.from_frame = k / 33;
+        tick.contact = true;
+        tick.goal = {250.0 + 0.1 * k, 400.0, 90.0};
+        session.add(tick);
+    }
+    session.commit();
+    session.merge_log();
 }
 
 }  // namespace dibhr::test

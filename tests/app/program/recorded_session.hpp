@@ -24,4 +24,8 @@ struct RecordedSession {
 /// The hand goes over the whole picture, in and out of the surface. Halfway the friction changes.
 void record_session(const std::filesystem::path& file, const RecordedSession& wanted);
 
+/// A session of a hand that goes to the right in contact, over a depth video of 640 x `depth_rows`
+/// pixels that is nowhere.
+void write_moving_hand(const std::filesystem::path& file, int ticks, int depth_rows = 480);
+
 }  // namespace dibhr::test

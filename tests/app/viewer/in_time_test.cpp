@@ -112,7 +112,7 @@ TEST_CASE("a second signal ends a program that hangs at once", "[ways out][realt
     at.viewer.hang();
     at.falcon.wait_for_zeros(200.0);
     at.viewer.interrupt();
-    // From 200 ms on it is another wish, from 600 ms on there would be no need of one.
+    // From 200 ms on it is another request, from 600 ms on there would be no need of one.
     const auto moment = Clock::now();
     FalconOnUsb::wait_until([&] { return seconds_since(moment) > 0.25; });
     at.viewer.interrupt();

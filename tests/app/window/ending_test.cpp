@@ -1,4 +1,4 @@
-// The wish to end and the crash, each in a child process that holds nothing but what takes them.
+// Requests to end and the crash, each in a child process that holds nothing but what handles them.
 #include "app/window/ending.hpp"
 
 #include <sys/resource.h>
@@ -125,7 +125,7 @@ int crash(const std::function<void()>& how) {
 
 }  // namespace
 
-TEST_CASE("two signals within 200 ms are one wish to end; a later one is another", "[ending]") {
+TEST_CASE("two signals within 200 ms are one request to end; a later one is another", "[ending]") {
     const EndRequests::Time begin{};
     EndRequests requests;
     CHECK_FALSE(requests.is_repeated(begin));
@@ -134,8 +134,9 @@ TEST_CASE("two signals within 200 ms are one wish to end; a later one is another
     CHECK(requests.is_repeated(begin + 599ms));
 }
 
-TEST_CASE("patience with the program lasts 600 ms from the first wish, which no other one renews",
-          "[ending]") {
+TEST_CASE(
+    "patience with the program lasts 600 ms from the first request, which no other one renews",
+    "[ending]") {
     const EndRequests::Time begin{};
     EndRequests requests;
     CHECK_FALSE(requests.patience_left(begin));
@@ -163,7 +164,7 @@ TEST_CASE("a program that hangs is ended after a signal, and says what it did", 
     Child program(hang);
     program.wait_until_told();
     program.send(SIGTERM);
-    program.send(SIGHUP);  // of the same wish
+    program.send(SIGHUP);  // of the same request
     const HowItEnded how = program.wait();
     CHECK(how.status == 1);
     CHECK(how.errors ==
