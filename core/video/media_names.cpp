@@ -53,7 +53,7 @@ bool is_between_words(char before, char after) {
     const auto is = [](int (*kind)(int), char c) {
         return kind(static_cast<unsigned char>(c)) != 0;
     };
-    return is_digit(before) != is_digit(after) ||
+    return is_decimal_digit(before) != is_decimal_digit(after) ||
            (is(std::islower, before) && is(std::isupper, after));
 }
 
@@ -160,7 +160,7 @@ std::optional<fs::path> of_same_subject(const fs::path& given, Fits fits) {
 
 }  // namespace
 
-bool is_digit(char c) {
+bool is_decimal_digit(char c) {
     return std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
 
@@ -226,16 +226,16 @@ bool in_natural_order(const std::string& a, const std::string& b) {
     std::size_t i = 0;
     std::size_t j = 0;
     while (i < a.size() && j < b.size()) {
-        if (!is_digit(a[i]) || !is_digit(b[j])) {
+        if (!is_decimal_digit(a[i]) || !is_decimal_digit(b[j])) {
             if (a[i] != b[j]) return a[i] < b[j];
             ++i;
             ++j;
             continue;
         }
         const auto run = [](const std::string& text, std::size_t& at) {
-            while (at + 1 < text.size() && text[at] == '0' && is_digit(text[at + 1])) ++at;
+            while (at + 1 < text.size() && text[at] == '0' && is_decimal_digit(text[at + 1])) ++at;
             const std::size_t begin = at;
-            while (at < text.size() && is_digit(text[at])) ++at;
+            while (at < text.size() && is_decimal_digit(text[at])) ++at;
             return std::string_view(text).substr(begin, at - begin);
         };
         const std::string_view left = run(a, i);

@@ -13,7 +13,7 @@ namespace dibhr {
 [[nodiscard]] std::string lower_case(std::string text);
 
 /// 0 to 9.
-[[nodiscard]] bool is_digit(char c);
+[[nodiscard]] bool is_decimal_digit(char c);
 
 /// Whether there is a folder of that name.
 [[nodiscard]] bool is_folder(const std::filesystem::path& place);

@@ -30,14 +30,16 @@ bool is_picture(const fs::path& file) {
 
 NumberedPicture numbered(const fs::path& file) {
     const std::string name = file.stem().string();
-    const auto last = std::find_if(name.rbegin(), name.rend(), is_digit).base();
+    const auto last = std::find_if(name.rbegin(), name.rend(), is_decimal_digit).base();
     if (last == name.begin()) return {file, {}, false};
-    auto first = std::find_if_not(std::make_reverse_iterator(last), name.rend(), is_digit).base();
+    auto first =
+        std::find_if_not(std::make_reverse_iterator(last), name.rend(), is_decimal_digit).base();
     bool decimal = false;
-    if (first - name.begin() >= 2 && first[-1] == '.' && is_digit(first[-2])) {
+    if (first - name.begin() >= 2 && first[-1] == '.' && is_decimal_digit(first[-2])) {
         decimal = true;
         first =
-            std::find_if_not(std::make_reverse_iterator(first - 1), name.rend(), is_digit).base();
+            std::find_if_not(std::make_reverse_iterator(first - 1), name.rend(), is_decimal_digit)
+                .base();
     }
     return {file, std::strtod(std::string(first, last).c_str(), nullptr), decimal};
 }
