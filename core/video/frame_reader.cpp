@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/realtime/moving_mean.hpp"
 #include "core/video/cleaning/remembering_media.hpp"
-#include "core/video/moving_mean.hpp"
 
 namespace dibhr {
 

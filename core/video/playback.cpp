@@ -10,7 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/moving_mean.hpp"
+#include "core/realtime/moving_mean.hpp"
 
 namespace dibhr {
 namespace {

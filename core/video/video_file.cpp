@@ -13,10 +13,10 @@
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/realtime/moving_mean.hpp"
 #include "core/video/formats/camera_files.hpp"
 #include "core/video/live/live_record.hpp"
 #include "core/video/media.hpp"
-#include "core/video/moving_mean.hpp"
 #include "core/video/video_packets.hpp"
 
 namespace dibhr {

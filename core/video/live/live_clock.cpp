@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/realtime/moving_mean.hpp"
 #include "core/realtime/now.hpp"
-#include "core/video/moving_mean.hpp"
 
 namespace dibhr {
 

@@ -10,9 +10,9 @@
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/realtime/moving_mean.hpp"
 #include "core/realtime/now.hpp"
 #include "core/video/media.hpp"
-#include "core/video/moving_mean.hpp"
 
 namespace dibhr {
 

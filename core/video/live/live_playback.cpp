@@ -8,9 +8,9 @@
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/realtime/moving_mean.hpp"
 #include "core/video/live/live_name.hpp"
 #include "core/video/live/taken_pictures.hpp"
-#include "core/video/moving_mean.hpp"
 
 namespace dibhr {
 
