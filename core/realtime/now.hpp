@@ -9,7 +9,7 @@ namespace dibhr {
 /// May be called on any thread. `std::chrono::steady_clock::now` wherever nothing else is said.
 using Now = std::function<std::chrono::steady_clock::time_point()>;
 
-/// Of a moment on that clock [s].
+/// The reading of that clock at `time` [s].
 [[nodiscard]] inline double seconds_of(std::chrono::steady_clock::time_point time) {
     return std::chrono::duration<double>(time.time_since_epoch()).count();
 }

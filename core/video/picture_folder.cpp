@@ -2,7 +2,6 @@
 #include "core/video/picture_folder.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kJump_s = 0.001;      ///< a jump begins later: no playback time means two frames
 constexpr double kMostDecoding = 0.8;  ///< of the time from frame to frame
-constexpr double kNewestPlayed = 0.2;  ///< the weight of the newest frame in what is told
+constexpr double kNewestPlayed = 0.2;  ///< the weight of the newest frame in the means
 constexpr std::chrono::seconds kToldFor{3};
 constexpr double kMuch = 1.5;  ///< intervals: what is made in less comes too late now and then only
 constexpr double kMostBehind_s = 1.0;  ///< beyond this the clock waits
