@@ -53,8 +53,10 @@ double Playback::moment(Time now) const {
     return frames_.empty() ? playback_s : std::min(playback_s, frames_.back().time_s);
 }
 
+/// Behind all frames that there were: while this one was read they were shown on.
 void Playback::jump_to(Frame frame, Time now) {
-    frame.time_s = frames_.empty() ? 0.0 : clock_.playback_s(now) + kJump_s;
+    frame.time_s =
+        frames_.empty() ? 0.0 : std::max(clock_.playback_s(now), frames_.back().time_s) + kJump_s;
     offset_s_ = frame.time_s - frame.media_s;
     frames_.clear();
     frames_.push_back(std::move(frame));

@@ -325,6 +325,25 @@ TEST_CASE("a seek shows that frame at once and counts as a discontinuity", "[pla
     CHECK(scene.moment_s() > before.clock.playback_s(scene.now));
 }
 
+TEST_CASE("a jump that takes long to read comes behind all that is shown meanwhile", "[playback]") {
+    Scene scene(kTenths);
+    scene.pass(0.25);
+    const FrameWindow before = scene.playback.window();
+    REQUIRE(before.count > 2);
+    const bool steps = GENERATE(false, true);
+    if (steps)
+        scene.playback.step(-1, scene.now);
+    else
+        scene.playback.seek(0.52, scene.now);
+    const FrameWindow jumped = scene.playback.window();
+    for (const int later_ms : {0, 50, 100, 300, 1000}) {
+        CAPTURE(later_ms);
+        const Time later = scene.now + std::chrono::milliseconds(later_ms);
+        const Frame* const shown = before.at(before.clock.playback_s(later)).from;
+        CHECK(shown->time_s < jumped.at(jumped.clock.playback_s(later)).from->time_s);
+    }
+}
+
 TEST_CASE("no playback time ever means two frames, whatever is done", "[playback]") {
     Scene scene(kTenths);
     double newest_s = scene.moment_s();
