@@ -274,7 +274,7 @@ Json json_of_session(const fs::path& file) {
 void print_json(const fs::path& file, const DepthRequest& request) {
     const Json json =
         names_session(file) ? json_of_session(file) : json_of(file, describe_media(file, request));
-    std::cout << json.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
+    std::cout << json_line(json) << '\n';
 }
 
 void describe(const fs::path& file, const DepthRequest& request) {

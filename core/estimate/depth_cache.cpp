@@ -57,7 +57,7 @@ int locked(const fs::path& folder) {
 std::optional<EstimateRecord> record_in(const fs::path& folder) try {
     std::ifstream in(folder / kRecord, std::ios::binary);
     if (!in) return std::nullopt;
-    const Json json = Json::parse(in);
+    const Json json = parsed_json(std::string(std::istreambuf_iterator<char>(in), {}));
     if (json.at("version") != kVersion) return std::nullopt;
     EstimateRecord record;
     record.colour.file = json.at("colour").get<std::string>();

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
 namespace dibhr {
 
@@ -18,8 +19,12 @@ template <typename Items, typename ToJson>
 
 /// Indented, with a line break at the end. Numbers read back to the same bits; what is not finite
 /// becomes null, and bytes that are no UTF-8 become U+FFFD.
-[[nodiscard]] inline std::string json_text(const Json& json) {
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
+[[nodiscard]] std::string json_text(const Json& json);
+
+/// Likewise in one line, without a line break.
+[[nodiscard]] std::string json_line(const Json& json);
+
+/// A discarded value when the text is no JSON.
+[[nodiscard]] Json parsed_json(std::string_view text);
 
 }  // namespace dibhr

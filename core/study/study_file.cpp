@@ -91,15 +91,15 @@ void make_if_missing(const fs::path& file) {
 }
 
 std::string json_text(const TouchValues& values) {
-    nlohmann::json json = nlohmann::json::object();
+    Json json = Json::object();
     for (const auto& [name, number] : values.numbers) json[name] = number;
     for (const auto& [name, word] : values.words) json[name] = word;
-    return json.dump();
+    return json_line(json);
 }
 
 TouchValues values_in(const std::string& text, const fs::path& file) {
     TouchValues values;
-    const auto json = nlohmann::json::parse(text, nullptr, false);
+    const auto json = parsed_json(text);
     if (!json.is_object()) refuse(file, "is damaged: the values of an interval are no JSON object");
     for (const auto& [name, value] : json.items()) {
         if (value.is_number()) values.numbers[name] = value.get<double>();

@@ -38,10 +38,6 @@ std::string text_of(const fs::path& file) {
     return text;
 }
 
-Json json_of(std::string_view text) {
-    return Json::parse(text.begin(), text.end(), nullptr, false);  // no exception: discarded
-}
-
 std::string_view trimmed(std::string_view text, std::string_view what) {
     const auto first = text.find_first_not_of(what);
     if (first == std::string_view::npos) return {};
@@ -227,7 +223,7 @@ std::optional<PackedForm> form_inside(const fs::path& video, cv::Size picture) {
     if (begin == std::string::npos) return std::nullopt;
     const auto end = text.find('}', begin);  // it holds no other braces
     if (end == std::string::npos) return std::nullopt;
-    const Json metadata = json_of(std::string_view(text).substr(begin, end - begin + 1));
+    const Json metadata = parsed_json(std::string_view(text).substr(begin, end - begin + 1));
     if (!metadata.is_object()) return std::nullopt;
     return record3d_form(metadata, picture);
 }
@@ -275,7 +271,7 @@ std::optional<PackedForm> form_beside(const fs::path& video, cv::Size picture) {
     if (!beside || !fs::is_regular_file(beside->file, ignored)) return std::nullopt;
     const std::string text = text_of(beside->file);
     const bool is_asset = lower_case(beside->file.extension().string()) == ".asset";
-    const Json metadata = is_asset ? asset_of(text) : json_of(text);
+    const Json metadata = is_asset ? asset_of(text) : parsed_json(text);
     if (!metadata.is_object()) return std::nullopt;
     auto form = depthkit_form(metadata, picture, beside->of_that_name);
     if (!form) form = record3d_form(metadata, picture);

@@ -26,7 +26,7 @@ std::optional<ServiceVersion> version_at(std::uint16_t port) {
     try {
         const std::string text =
             http_get(port, "/version", std::chrono::steady_clock::now() + kAnswerTakes);
-        const Json told = Json::parse(text, nullptr, false);
+        const Json told = parsed_json(text);
         if (!told.is_object()) return {};
         const auto version = told.find("project_version");
         if (version == told.end() || !version->is_string()) return {};

@@ -34,7 +34,7 @@ std::string text_of(const fs::path& file) {
 /// A discarded value when it is no JSON, or too long. Zeros behind it belong to what held it.
 Json json_of(const std::string& text) {
     if (text.size() > kLongest_bytes) return Json::value_t::discarded;
-    return Json::parse(text.substr(0, text.find('\0')), nullptr, false);
+    return parsed_json(text.substr(0, text.find('\0')));
 }
 
 std::optional<double> number_in(const Json& json, const char* name) {

@@ -19,7 +19,7 @@ Json kept_of(const SurveyedArm& arm) {
     Json all;
     for (const char* const name : kKept) all[name] = "not answered";
     for (const KeptSetting& kept : arm.kept) {
-        const Json told = Json::parse(kept.told, nullptr, false);
+        const Json told = parsed_json(kept.told);
         all[kept.name] = told.is_discarded() ? Json(kept.told) : told;
     }
     return all;

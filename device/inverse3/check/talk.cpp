@@ -21,7 +21,7 @@ constexpr std::chrono::milliseconds kLooksEvery{5};   // whether the person lets
 
 /// Text that is no JSON stays text.
 Json as_told(std::string_view text) {
-    Json told = Json::parse(text, nullptr, false);
+    Json told = parsed_json(text);
     return told.is_discarded() ? Json(text) : told;
 }
 

@@ -11,15 +11,13 @@ namespace dibhr::inverse3::simulated {
 
 namespace {
 
-using nlohmann::json;
-using nlohmann::ordered_json;
 
-ordered_json vector_of(Vec3 v) {
+Json vector_of(Vec3 v) {
     return {{"x", v.x}, {"y", v.y}, {"z", v.z}};
 }
 
-ordered_json config_of(const Arm& arm, bool newer) {
-    ordered_json config{{"type", arm.minverse ? "minverse" : "inverse3"},
+Json config_of(const Arm& arm, bool newer) {
+    Json config{{"type", arm.minverse ? "minverse" : "inverse3"},
                         {"handedness", arm.handedness},
                         {"gravity_compensation", {{"enabled", true}}}};
     if (newer) config["preset"] = arm.preset;
@@ -29,11 +27,11 @@ ordered_json config_of(const Arm& arm, bool newer) {
 
 constexpr const char* kPositionHere = "position is put here";
 
-ordered_json entry_of(const Arm& arm, const Scene& scene, bool whole) {
+Json entry_of(const Arm& arm, const Scene& scene, bool whole) {
     const bool newer = scene.manners.newer_shape;
-    ordered_json entry{{"device_id", arm.id}};
+    Json entry{{"device_id", arm.id}};
     if (whole) entry["config"] = config_of(arm, newer);
-    ordered_json state{{"cursor_position", vector_of(arm.position_m)},
+    Json state{{"cursor_position", vector_of(arm.position_m)},
                        {"cursor_velocity", vector_of(Vec3{0.0})}};
     if (!arm.position_text.empty()) state["cursor_position"] = kPositionHere;
     if (newer) state["current_cursor_force"] = vector_of(arm.force_newton);
@@ -46,14 +44,14 @@ ordered_json entry_of(const Arm& arm, const Scene& scene, bool whole) {
     return entry;
 }
 
-ordered_json entry_of(const Grip& grip) {
+Json entry_of(const Grip& grip) {
     constexpr std::array kLetters{"a", "b", "c", "home"};
-    ordered_json buttons = ordered_json::object();
+    Json buttons = Json::object();
     for (std::size_t k = 0; k < kLetters.size(); ++k) {
         const std::string name = grip.numbered ? "button_" + std::to_string(k) : kLetters[k];
         buttons[name] = (grip.buttons >> k & 1U) != 0;
     }
-    ordered_json state{{"orientation", {{"w", 1}, {"x", 0}, {"y", 0}, {"z", 0}}}};
+    Json state{{"orientation", {{"w", 1}, {"x", 0}, {"y", 0}, {"z", 0}}}};
     if (grip.list == "verse_grip") {
         state["button"] = (grip.buttons & 1U) != 0;
         state["hall"] = 3;
@@ -66,13 +64,13 @@ ordered_json entry_of(const Grip& grip) {
             {"status", {{"connected", true}, {"awake", grip.awake}, {"ready", grip.awake}}}};
 }
 
-std::optional<Vec3> vector_in(const json& force, const char* dialect) {
+std::optional<Vec3> vector_in(const Json& force, const char* dialect) {
     const auto found = force.find(dialect);
     if (found == force.end() || !found->is_object()) return {};
     return Vec3{found->value("x", 0.0), found->value("y", 0.0), found->value("z", 0.0)};
 }
 
-void obey_force(Scene& scene, const json& force, Arm* arm, Clock::time_point now, Obeyed& done) {
+void obey_force(Scene& scene, const Json& force, Arm* arm, Clock::time_point now, Obeyed& done) {
     const Takes takes = scene.manners.takes;
     const auto vector = vector_in(force, "vector");
     const auto values = vector_in(force, "values");
@@ -84,24 +82,24 @@ void obey_force(Scene& scene, const json& force, Arm* arm, Clock::time_point now
     arm->force_at = now;
 }
 
-void obey_device(Scene& scene, const json& device, Clock::time_point now, Obeyed& done) {
+void obey_device(Scene& scene, const Json& device, Clock::time_point now, Obeyed& done) {
     done.arm = device.value("device_id", "");
     Arm* const arm = scene.arm(done.arm);
-    const json configure = device.value("configure", json::object());
+    const Json configure = device.value("configure", Json::object());
     done.asks_preset = configure.contains("preset");
     if (arm != nullptr && done.asks_preset && scene.manners.takes_preset) {
         arm->preset = configure["preset"].value("preset", arm->preset);
         arm->basis = "XYZ";
     }
-    const json commands = device.value("commands", json::object());
+    const Json commands = device.value("commands", Json::object());
     if (commands.contains("set_cursor_force")) {
         obey_force(scene, commands["set_cursor_force"], arm, now, done);
     }
 }
 
-void obey_message(Scene& scene, const json& root, Clock::time_point now, Obeyed& done) {
-    done.wants_whole = root.value("session", json::object()).contains("force_render_full_state");
-    for (const json& device : root.value("inverse3", json::array())) {
+void obey_message(Scene& scene, const Json& root, Clock::time_point now, Obeyed& done) {
+    done.wants_whole = root.value("session", Json::object()).contains("force_render_full_state");
+    for (const Json& device : root.value("inverse3", Json::array())) {
         obey_device(scene, device, now, done);
     }
 }
@@ -122,13 +120,13 @@ void Scene::forget_old_forces(Clock::time_point now) {
 }
 
 std::string state_text(const Scene& scene, bool whole) {
-    ordered_json message;
+    Json message;
     if (scene.manners.newer_shape) message["session_id"] = 7;
-    message["inverse3"] = ordered_json::array();
+    message["inverse3"] = Json::array();
     for (const Arm& arm : scene.arms) message["inverse3"].push_back(entry_of(arm, scene, whole));
     for (const Grip& grip : scene.grips) message[grip.list].push_back(entry_of(grip));
     message["something_new"] = {{"of", "a later version"}};
-    std::string text = message.dump();
+    std::string text = json_line(message);
     for (const Arm& arm : scene.arms) {
         const std::string here = '"' + std::string(kPositionHere) + '"';
         const auto at = text.find(here);
@@ -139,12 +137,12 @@ std::string state_text(const Scene& scene, bool whole) {
 
 Obeyed obey(Scene& scene, std::string_view message, Clock::time_point now) {
     Obeyed done;
-    const json root = json::parse(message, nullptr, false);
+    const Json root = parsed_json(message);
     if (!root.is_object()) return done;
     try {
         obey_message(scene, root, now, done);
         done.understood = true;
-    } catch (const json::exception&) {
+    } catch (const Json::exception&) {
         done.understood = false;  // a member of another kind than it has to be
     }
     return done;

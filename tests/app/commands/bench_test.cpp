@@ -84,7 +84,7 @@ void check_flat(const Json& json) {
 void check_grounds(const Json& json) {
     CHECK(names_in(json.at("grounds"), "path") == kRows);
     for (const Json& row : json.at("grounds")) {
-        CAPTURE(row.dump());
+        CAPTURE(json_line(row));
         const Json& costs = row.at("algorithms");
         REQUIRE(algorithms_in(costs) == all_names());
         // Where the sample's frames jump, a person's outline leaves the proxy half an image behind.
@@ -108,7 +108,7 @@ void check_grounds(const Json& json) {
 void check_jumps(const Json& json) {
     CHECK(names_in(json.at("jumps"), "jump") == kJumps);
     for (const Json& row : json.at("jumps")) {
-        CAPTURE(row.dump());
+        CAPTURE(json_line(row));
         REQUIRE(algorithms_in(row.at("algorithms")) == all_names());
         for (const Json& jump : row.at("algorithms")) {
             CHECK(jump.at("slowest_update").at("max_us") >= jump.at("first_update").at("max_us"));
@@ -194,7 +194,7 @@ TEST_CASE("bench times every algorithm on every ground, for people and for scrip
     const ProgramResult result = run_dibhr(folder, {"bench", "--json", "numbers.json"});
     INFO(result.errors);
     REQUIRE(result.exit_code == 0);
-    const Json json = Json::parse(read_text(folder / "numbers.json"));
+    const Json json = parsed_json(read_text(folder / "numbers.json"));
     CHECK(json.at("mu").get<double>() == 0.4);
     CHECK(json.at("depth_px").get<double>() == 20.0);
     CHECK(json.at("clock_us").get<double>() > 0.0);

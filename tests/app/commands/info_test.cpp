@@ -44,12 +44,12 @@ TEST_CASE("info, touch and surface hear what was chosen in the window before", "
     const ProgramResult info = run_dibhr(folder, {"info", "my_depth.png", "--json"});
     INFO(info.output << info.errors);
     CHECK(info.exit_code == 0);
-    const Json json = Json::parse(info.output);
+    const Json json = parsed_json(info.output);
     CHECK(json["near"] == "dark");
     CHECK(json["origin"]["near"] == "panel");
     const ProgramResult given =
         run_dibhr(folder, {"info", "my_depth.png", "--json", "--near", "bright"});
-    CHECK(Json::parse(given.output)["origin"]["near"] == "command line");
+    CHECK(parsed_json(given.output)["origin"]["near"] == "command line");
 
     const auto surface = [&](const std::vector<std::string>& options) {
         std::vector<std::string> arguments{"surface", "my_depth.png", "--out", "a.pfm"};

@@ -1,9 +1,9 @@
 // `dibhr study report` and `dibhr study plan` as a person runs them.
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "core/files/json.hpp"
 #include "tests/app/commands/study_page.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/support/catch.hpp"
@@ -11,7 +11,6 @@
 
 using namespace dibhr;
 using namespace dibhr::test;
-using Json = nlohmann::json;
 
 namespace {
 
@@ -30,7 +29,7 @@ ProgramResult run_participant(const TemporaryFolder& folder, const std::string& 
 }
 
 Json report_in(const TemporaryFolder& folder, const std::string& name) {
-    return Json::parse(read_text(folder / name / "report.json"));
+    return parsed_json(read_text(folder / name / "report.json"));
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ TEST_CASE("the longest message fits, and any name of a device is whole JSON", "[
                       .whole_state = true,
                       .force_newton = Vec3{-1.2345678901234567e-300},
                       .dialect = ForceDialect::vector};
-    const auto json = nlohmann::json::parse(written(order));
+    const auto json = parsed_json(written(order));
     CHECK(json["inverse3"][0]["device_id"] == name);
     CHECK(json["session"].contains("force_render_full_state"));
 }
