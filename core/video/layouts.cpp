@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <iterator>
 #include <optional>
-#include <regex>
+#include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -38,20 +38,18 @@ void take_camera(const CameraFile& camera, LayoutFacts& facts) {
     if (camera.levels_per_m) facts.known.scale = 1000.0 / *camera.levels_per_m;
 }
 
-bool all_match(const PictureRow& row, const std::regex& pattern) {
+bool all_match(const PictureRow& row, const std::string& pattern) {
     return !row.empty() &&
            std::all_of(row.begin(), row.end(), [&pattern](const NumberedPicture& picture) {
-               return std::regex_match(picture.file.filename().string(), pattern);
+               return fits_number_pattern(picture.file, pattern);
            });
 }
 
 /// 7-Scenes, and tsdf-fusion, whose pictures of colour are JPEG and whose camera is in a file:
 /// microsoft.com/en-us/research/project/rgb-d-dataset-7-scenes, github.com/andyzeng/tsdf-fusion.
 std::optional<LayoutFacts> facts_of_7_scenes(const fs::path& folder, const PictureSet& set) {
-    static const std::regex depth_name("frame-[0-9]{6}\\.depth\\.png");
-    static const std::regex colour_name("frame-[0-9]{6}\\.color\\.png");
-    if (!all_match(set.depth, depth_name)) return std::nullopt;
-    const bool is_7_scenes = all_match(set.colour, colour_name);
+    if (!all_match(set.depth, "frame-%06d.depth.png")) return std::nullopt;
+    const bool is_7_scenes = all_match(set.colour, "frame-%06d.color.png");
     LayoutFacts facts =
         millimetres({0.0, 65535.0}, is_7_scenes ? "7-Scenes names" : "tsdf-fusion names");
     for (const fs::path& place : {folder, folder.parent_path()}) {

@@ -2,17 +2,16 @@
 #include "core/video/picture_pattern.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <cstdlib>
 #include <optional>
-#include <regex>
 #include <string>
 #include <string_view>
 #include <system_error>
 
 #include "core/error.hpp"
 #include "core/video/media.hpp"
+#include "core/video/media_names.hpp"
 #include "core/video/picture_folder.hpp"
 
 namespace dibhr {
@@ -21,11 +20,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::regex& printf_number() {
-    static const std::regex number("%0?([0-9]{0,2})d");
-    return number;
-}
-
 /// The letters as they are, before and after a number.
 struct NumberPattern {
     std::string before{};
@@ -33,13 +27,18 @@ struct NumberPattern {
     std::size_t digits{1};  ///< at least
 };
 
+/// The first of printf's %d, with the number of digits that it asks for: %4d, %04d.
 std::optional<NumberPattern> number_pattern(const std::string& name) {
-    std::smatch found;
-    if (!std::regex_search(name, found, printf_number())) return std::nullopt;
-    NumberPattern pattern{found.prefix(), found.suffix(), 1};
-    if (found[1].length() > 0)
-        pattern.digits = static_cast<std::size_t>(std::max(1, std::atoi(found[1].str().c_str())));
-    return pattern;
+    for (auto at = name.find('%'); at != std::string::npos; at = name.find('%', at + 1)) {
+        const std::size_t first = name.compare(at, 2, "%0") == 0 ? at + 2 : at + 1;
+        std::size_t end = first;
+        while (end < std::min(name.size(), first + 2) && is_decimal_digit(name[end])) ++end;
+        if (name.compare(end, 1, "d") != 0) continue;
+        const int digits = std::atoi(name.substr(first, end - first).c_str());
+        return NumberPattern{name.substr(0, at), name.substr(end + 1),
+                             static_cast<std::size_t>(std::max(1, digits))};
+    }
+    return std::nullopt;
 }
 
 std::optional<double> number_of(const std::string& name, const NumberPattern& pattern) {
@@ -48,9 +47,7 @@ std::optional<double> number_of(const std::string& name, const NumberPattern& pa
     if (!fits) return std::nullopt;
     const std::string digits = name.substr(
         pattern.before.size(), name.size() - pattern.before.size() - pattern.after.size());
-    const bool is_number = std::all_of(digits.begin(), digits.end(),
-                                       [](unsigned char c) { return std::isdigit(c) != 0; });
-    if (!is_number) return std::nullopt;
+    if (!std::all_of(digits.begin(), digits.end(), is_decimal_digit)) return std::nullopt;
     return std::strtod(digits.c_str(), nullptr);
 }
 
@@ -78,6 +75,11 @@ bool fits_stars(std::string_view name, std::string_view pattern) {
 }
 
 }  // namespace
+
+bool fits_number_pattern(const fs::path& file, const std::string& pattern) {
+    const auto numbers = number_pattern(pattern);
+    return numbers && number_of(file.filename().string(), *numbers);
+}
 
 bool is_picture_pattern(const fs::path& place) {
     const std::string name = place.filename().string();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace dibhr {
 
@@ -10,6 +11,10 @@ struct PictureSet;
 /// Whether the name is a pattern, with a number as printf has it (%d, %04d) or with stars, and no
 /// file is called so.
 [[nodiscard]] bool is_picture_pattern(const std::filesystem::path& place);
+
+/// Whether the file's name is of that pattern, which has a number: "frame-%06d.png".
+[[nodiscard]] bool fits_number_pattern(const std::filesystem::path& file,
+                                       const std::string& pattern);
 
 /// The pictures in the pattern's folder whose names it matches, by number; as unnamed, whatever
 /// they are called. Throws InputError when there are none.

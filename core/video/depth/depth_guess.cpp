@@ -307,10 +307,12 @@ int levels_used(const std::vector<cv::Mat>& pictures) {
     for (const cv::Mat& picture : pictures) {
         cv::Mat all;
         grey_of(picture).convertTo(all, CV_32F);
-        for (int j = 0; j < all.rows; ++j) {
-            const float* row = all.ptr<float>(j);
-            for (int i = 0; i < all.cols; ++i)
-                if (std::isfinite(row[i])) used.insert(row[i]);
+        for (int j = 0; j < all.rows; ++j) {  // a row has far fewer levels than pixels
+            float* const row = all.ptr<float>(j);
+            float* const end = std::remove_if(row, row + all.cols,
+                                              [](float level) { return !std::isfinite(level); });
+            std::sort(row, end);
+            used.insert(row, std::unique(row, end));
         }
     }
     return static_cast<int>(used.size());

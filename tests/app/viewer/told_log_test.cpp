@@ -1,7 +1,6 @@
 // Settings in a file that is named, and the log of what a person is told.
 #include <algorithm>
 #include <filesystem>
-#include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -15,6 +14,7 @@
 namespace fs = std::filesystem;
 using namespace dibhr;
 using namespace dibhr::test;
+using Catch::Matchers::Matches;
 
 namespace {
 
@@ -62,13 +62,13 @@ TEST_CASE("a log keeps each line that is told, with its time, behind those of be
     CHECK(all.starts_with(first));
     CHECK(contains(all, " error: "));
     CHECK(contains(all, "gone.mp4"));
-    CHECK(std::regex_search(all, std::regex(R"(ticks: \d+, late \d+, the worst by [\d.]+ ms\n)")));
-    const std::regex line(R"(\d{4}-\d\d-\d\d \d\d:\d\d:\d\d\.\d{3} [a-z]+: .+)");
+    bool ticks_told = false;
     std::istringstream lines(all);
-    for (std::string each; std::getline(lines, each);) {
-        INFO(each);
-        CHECK(std::regex_match(each, line));
+    for (std::string line; std::getline(lines, line);) {
+        CHECK_THAT(line, Matches(R"(\d{4}-\d\d-\d\d \d\d:\d\d:\d\d\.\d{3} [a-z]+: .+)"));
+        ticks_told |= Matches(R"(.*ticks: \d+, late \d+, the worst by [\d.]+ ms)").match(line);
     }
+    CHECK(ticks_told);
     CHECK(all.ends_with('\n'));
 }
 
