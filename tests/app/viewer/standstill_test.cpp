@@ -110,6 +110,7 @@ TEST_CASE(
 TEST_CASE("a disk under the video that stops takes the force off, and a signal ends the program",
           "[ways out]") {
     constexpr std::uint64_t kTicks = 300;
+    constexpr std::uint64_t kPictures = 30;
     const Stall stall("sample/depth.mp4");
     const Desk desk;
     const TemporaryFolder folder;
@@ -125,9 +126,13 @@ TEST_CASE("a disk under the video that stops takes the force off, and a signal e
     const auto is_off = [](const Seen& now) {
         return now.cut == static_cast<int>(SafetyCut::standstill) && now.sent_newton < 1e-12;
     };
-    viewer.wait_until(is_off);
-    const std::uint64_t before = viewer.seen().recorded_rows;
-    viewer.wait_until([&](const Seen& now) { return now.recorded_rows > before + kTicks; });
+    // A window that is late on a busy machine takes the force off, too, but not for so long.
+    Seen last_on = viewer.seen();
+    viewer.wait_until([&](const Seen& now) {
+        if (!is_off(now)) last_on = now;
+        return now.picture > last_on.picture + kPictures &&
+               now.recorded_rows > last_on.recorded_rows + 2 * kTicks;
+    });
     check_end_by_signal(viewer, folder, "closing the window");
     const Rows rows = read_session(folder / "hand.dibhr");
     // Up to the signal, which also makes the hand not ready.
