@@ -20,7 +20,7 @@ namespace dibhr {
 
 namespace {
 
-constexpr std::size_t kWidth = 79;  // of what is said, in characters
+constexpr std::size_t kLineLength = 79;  // of what is said, in characters
 
 /// Breaks long lines at spaces.
 std::string wrapped(const std::string& text) {
@@ -36,7 +36,7 @@ std::string wrapped(const std::string& text) {
         }
         if (c == ' ') space = result.size();
         result += c;
-        if (++column <= kWidth || space == std::string::npos) continue;
+        if (++column <= kLineLength || space == std::string::npos) continue;
         result[space] = '\n';
         column = result.size() - space - 1;
         space = std::string::npos;
