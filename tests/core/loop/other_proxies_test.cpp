@@ -15,6 +15,7 @@
 #include "tests/core/loop/loop_bench.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/some_of.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -161,7 +162,7 @@ struct Follower {
 
 TEST_CASE("beside any algorithm, each other one's proxy is where it would be had it run",
           "[side by side]") {
-    const HostileVideo video(GENERATE(range(std::size_t{1}, std::size_t{8})));
+    const HostileVideo video(GENERATE(some_of(std::vector<std::size_t>{1, 2, 3, 4, 5, 6, 7}, 1)));
     const Algorithm felt = GENERATE(Algorithm::dibhr, Algorithm::pga);
     HostileDrag drag(video, felt);
     Follower follower;
@@ -193,7 +194,7 @@ TEST_CASE("beside any algorithm, each other one's proxy is where it would be had
 TEST_CASE(
     "whenever one begins to look, the algorithm of the loop is at the loop's proxy from then on",
     "[side by side]") {
-    const HostileVideo video(GENERATE(range(std::size_t{1}, std::size_t{8})));
+    const HostileVideo video(GENERATE(some_of(std::vector<std::size_t>{1, 2, 3, 4, 5, 6, 7}, 1)));
     const Algorithm algorithm =
         GENERATE(Algorithm::dibhr, Algorithm::pga, Algorithm::neighborhood, Algorithm::god_object);
     HostileDrag drag(video, algorithm);

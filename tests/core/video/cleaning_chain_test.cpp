@@ -20,7 +20,7 @@ constexpr CleaningSteps kStepsOnly{.smooth_steps = true};
 
 const double kNone = std::nan("");
 
-DepthImage image_of(int columns, int rows, const std::function<double(int, int)>& level,
+DepthImage chain_input(int columns, int rows, const std::function<double(int, int)>& level,
                     double highest_level = 255.0) {
     DepthImage image{columns, rows, highest_level, {}};
     image.levels.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
@@ -65,7 +65,7 @@ double slope_error(const DepthImage& image, double along_row, double along_colum
 DepthImage hostile(unsigned seed, double highest_level = 255.0) {
     std::mt19937 random(seed);
     const double scale = highest_level / 255.0;
-    return image_of(
+    return chain_input(
         97, 61,
         [&](int i, int j) {
             if (random() % 20 == 0 || (i > 60 && j > 40)) return kNone;
@@ -114,7 +114,7 @@ TEST_CASE("smoothing keeps every pixel within half a level, in range, and the fa
 }
 
 TEST_CASE("real numbers beyond the range of levels are smoothed as its ends", "[cleaning]") {
-    DepthImage image = image_of(70, 20, [](int i, int) { return std::floor(100.0 + 0.2 * i); });
+    DepthImage image = chain_input(70, 20, [](int i, int) { return std::floor(100.0 + 0.2 * i); });
     image.at(20, 10) = -5.0F;
     image.at(40, 10) = 600.0F;
     image.at(60, 10) = 1e12F;
@@ -133,7 +133,7 @@ TEST_CASE("images of any size are smoothed by a smoother that has seen others as
     StepSmoother used;
     for (const int columns : {2, 31, 32, 33, 64, 33, 2}) {
         for (const int rows : {2, 40, 3, 100}) {
-            DepthImage image = image_of(columns, rows, [](int i, int j) {
+            DepthImage image = chain_input(columns, rows, [](int i, int j) {
                 return std::floor(60.0 + 0.3 * i + 0.1 * j) + (i * 7 + j * 5) % 3;
             });
             DepthImage other = image;
@@ -155,7 +155,7 @@ TEST_CASE("smoothing adds at most half a level to what filling and spike removal
 
 TEST_CASE("a flat image stays flat, however often it is cleaned", "[cleaning]") {
     const double level = GENERATE(0.0, 1.0, 128.0, 255.0);
-    const DepthImage flat = image_of(50, 40, [&](int, int) { return level; });
+    const DepthImage flat = chain_input(50, 40, [&](int, int) { return level; });
     CHECK(cleaned(cleaned(flat, kGentleSteps), kGentleSteps).levels == flat.levels);
 }
 
@@ -166,7 +166,7 @@ TEST_CASE("a plane cut into 8-bit terraces becomes a slope again", "[cleaning]")
     const auto plane = [across = across, down = down](int i, int j) {
         return std::round(100.0 + across * i + down * j);
     };
-    const DepthImage stepped = image_of(200, 160, plane);
+    const DepthImage stepped = chain_input(200, 160, plane);
     const DepthImage smooth = cleaned(stepped, kStepsOnly);
     CHECK(slope_error(smooth, across, down) < 0.25 * slope_error(stepped, across, down));
     CHECK(slope_error(smooth, across, down) < 0.05);
@@ -176,9 +176,9 @@ TEST_CASE("a curved surface in 8 bits becomes smoother, too", "[cleaning]") {
     const auto wave = [](int i, int j) {
         return 128.0 + 90.0 * std::sin(0.02 * i) * std::cos(0.017 * j);
     };
-    const DepthImage exact = image_of(320, 240, wave);
+    const DepthImage exact = chain_input(320, 240, wave);
     const DepthImage stepped =
-        image_of(320, 240, [&](int i, int j) { return std::round(wave(i, j)); });
+        chain_input(320, 240, [&](int i, int j) { return std::round(wave(i, j)); });
     const auto roughness = [&](const DepthImage& image) {
         DepthImage difference = image;
         for (std::size_t k = 0; k < difference.levels.size(); ++k)
@@ -189,7 +189,7 @@ TEST_CASE("a curved surface in 8 bits becomes smoother, too", "[cleaning]") {
 }
 
 TEST_CASE("a real edge keeps its height and its place", "[cleaning]") {
-    const DepthImage cliff = image_of(60, 40, [](int i, int) { return i < 30 ? 50.0 : 150.0; });
+    const DepthImage cliff = chain_input(60, 40, [](int i, int) { return i < 30 ? 50.0 : 150.0; });
     CHECK(cleaned(cliff, kGentleSteps).levels == cliff.levels);
 }
 
@@ -203,7 +203,7 @@ TEST_CASE("a small hole in a plane is filled with the plane", "[cleaning]") {
         {{50, 40, 1, 1}, {50, 40, 7, 7}, {50, 40, 10, 3}, {30, 20, 2, 10}}));
     CAPTURE(width, height);
     const auto plane = [](int i, int j) { return 80.0 + 0.25 * i + 0.5 * j; };
-    const DepthImage whole = image_of(200, 100, plane);
+    const DepthImage whole = chain_input(200, 100, plane);
     DepthImage holed = whole;
     for (int j = top; j < top + height; ++j)
         for (int i = left; i < left + width; ++i) holed.at(i, j) = std::nanf("");
@@ -213,7 +213,7 @@ TEST_CASE("a small hole in a plane is filled with the plane", "[cleaning]") {
 TEST_CASE("small holes are filled from within the levels around them, at the border too",
           "[cleaning]") {
     std::mt19937 random(5);
-    DepthImage image = image_of(160, 90, [](int i, int j) { return 90.0 + (i + 2 * j) % 60; });
+    DepthImage image = chain_input(160, 90, [](int i, int j) { return 90.0 + (i + 2 * j) % 60; });
     for (int k = 0; k < 40; ++k) {
         const int i = static_cast<int>(random() % 157);
         const int j = static_cast<int>(random() % 87);
@@ -230,7 +230,7 @@ TEST_CASE("holes in the highest level are no higher, whatever number that is", "
     for (int k = 1; k < 400; ++k) {
         const double highest = 13625.0 * k / 7.0;
         const DepthImage image = cleaned(
-            image_of(
+            chain_input(
                 90, 60,
                 [&](int i, int j) {
                     const bool small = i % 9 < 3 && j % 7 < 1 + i / 30;
@@ -253,7 +253,7 @@ TEST_CASE("a single pixel that stands out of all its neighbours takes their medi
                                                 {65535.0, 1500.0, 65535.0},
                                                 {65535.0, 1500.0, 900.0}}));
     CAPTURE(highest, spike);
-    const DepthImage clean = image_of(
+    const DepthImage clean = chain_input(
         20, 20, [level = level](int i, int j) { return level + (i + j) % 2; }, highest);
     DepthImage spiked = clean;
     spiked.at(7, 9) = static_cast<float>(spike);
@@ -262,13 +262,13 @@ TEST_CASE("a single pixel that stands out of all its neighbours takes their medi
 }
 
 TEST_CASE("two pixels side by side are a shape, not a spike", "[cleaning]") {
-    DepthImage image = image_of(20, 20, [](int, int) { return 100.0; });
+    DepthImage image = chain_input(20, 20, [](int, int) { return 100.0; });
     image.at(7, 9) = image.at(8, 9) = 140.0F;
     CHECK(cleaned(image, kSpikesOnly).levels == image.levels);
 }
 
 TEST_CASE("no pixel is left in a pit, at the border or beside a deeper one either", "[cleaning]") {
-    const DepthImage flat = image_of(20, 20, [](int, int) { return 100.0; });
+    const DepthImage flat = chain_input(20, 20, [](int, int) { return 100.0; });
     DepthImage image = flat;
     image.at(0, 5) = image.at(10, 0) = image.at(19, 19) = 95.0F;
     image.at(7, 9) = 60.0F;
@@ -280,7 +280,7 @@ TEST_CASE("no pixel is left in a pit, at the border or beside a deeper one eithe
 }
 
 TEST_CASE("a speck of depth in empty background is removed, not spread", "[cleaning]") {
-    DepthImage image = image_of(100, 100, [](int, int) { return kNone; });
+    DepthImage image = chain_input(100, 100, [](int, int) { return kNone; });
     image.at(50, 50) = 200.0F;
     const DepthImage clean = cleaned(image, kGentleSteps);
     CHECK(std::count(clean.levels.begin(), clean.levels.end(), 0.0F) == 10000);
@@ -291,7 +291,7 @@ TEST_CASE("images of any small size are cleaned without reading beside them", "[
         GENERATE(table<int, int>({{1, 1}, {2, 2}, {1, 9}, {3, 2}, {9, 3}, {2, 40}, {17, 16}}));
     CAPTURE(columns, rows);
     std::mt19937 random(6);
-    const DepthImage image = image_of(columns, rows, [&](int, int) {
+    const DepthImage image = chain_input(columns, rows, [&](int, int) {
         return random() % 4 == 0 ? kNone : static_cast<double>(random() % 4 * 60);
     });
     const CleaningPlan plan{

@@ -13,7 +13,6 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -479,21 +478,23 @@ void compare(const DepthImage& depth, double share, Found& found) {
     REQUIRE(depth.rows == kSceneRows);
     const cv::Mat& far = farness();
     std::vector<double> errors;
-    std::set<float> used;
+    std::vector<float> used;
     for (int j = 0; j < kSceneRows; ++j) {
         for (int i = 0; i < kSceneColumns; ++i) {
             const float level = depth.at(i, j);
             if (!std::isfinite(level)) continue;
             const double nearness = 1.0 - static_cast<double>(far.at<float>(j, i)) / kLast;
             errors.push_back(std::abs(static_cast<double>(level) / depth.highest_level - nearness));
-            used.insert(level);
+            used.push_back(level);
         }
     }
     REQUIRE_FALSE(errors.empty());
-    std::sort(errors.begin(), errors.end());
     const auto last = static_cast<double>(errors.size() - 1);
-    found.error = errors[static_cast<std::size_t>(share * last)];
-    found.levels = static_cast<int>(used.size());
+    const auto asked = errors.begin() + static_cast<std::ptrdiff_t>(share * last);
+    std::nth_element(errors.begin(), asked, errors.end());
+    found.error = *asked;
+    std::sort(used.begin(), used.end());
+    found.levels = static_cast<int>(std::unique(used.begin(), used.end()) - used.begin());
     found.missing = static_cast<int>(depth.levels.size() - errors.size());
 }
 
