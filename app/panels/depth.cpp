@@ -38,14 +38,14 @@ void word_row(const char* label, const char* help, const Values& values, const K
               std::optional<Value> DepthStatement::*fact, ViewerState& state) {
     const bool given = is_given(fact, state);
     const std::optional<Value>& panel = state.opened.request.panel.*fact;
-    const bool is_said = !given && panel.has_value();
+    const bool is_stated = !given && panel.has_value();
     std::array<std::string, Values().size() + 1> names;
     std::array<const char*, Values().size() + 1> shown{};
-    names[0] = is_said ? "auto" : with_origin(std::string(name_of(known.value)), known.origin);
+    names[0] = is_stated ? "auto" : with_origin(std::string(name_of(known.value)), known.origin);
     int chosen = 0;
     for (std::size_t k = 0; k < values.size(); ++k) {
         names[k + 1] = name_of(values[k]);
-        if (is_said && *panel == values[k]) chosen = static_cast<int>(k) + 1;
+        if (is_stated && *panel == values[k]) chosen = static_cast<int>(k) + 1;
     }
     std::transform(names.begin(), names.end(), shown.begin(),
                    [](const std::string& name) { return name.c_str(); });

@@ -27,7 +27,7 @@ struct NumberPattern {
     std::size_t digits{1};  ///< at least
 };
 
-/// The first of printf's %d, with the number of digits that it asks for: %4d, %04d.
+/// The first number in printf's form, with its least number of digits: %d, %4d, %04d.
 std::optional<NumberPattern> number_pattern(const std::string& name) {
     for (auto at = name.find('%'); at != std::string::npos; at = name.find('%', at + 1)) {
         const std::size_t first = name.compare(at, 2, "%0") == 0 ? at + 2 : at + 1;

@@ -84,8 +84,8 @@ std::string told_of(const ConnectionOptions& options, const std::string& target)
 }  // namespace
 
 std::string words_of_setting(std::string_view told) {
-    const Json value = told.size() > kLongestRead ? Json(Json::value_t::discarded)
-                                                  : parsed_json(told);
+    const Json value =
+        told.size() > kLongestRead ? Json(Json::value_t::discarded) : parsed_json(told);
     if (value.is_discarded()) return shortened(std::string(told));
     if (const auto refusal = refusal_in(value)) return "not told: " + shortened(*refusal);
     const std::string words = words_of(value, {});

@@ -11,15 +11,14 @@ namespace dibhr::inverse3::simulated {
 
 namespace {
 
-
 Json vector_of(Vec3 v) {
     return {{"x", v.x}, {"y", v.y}, {"z", v.z}};
 }
 
 Json config_of(const Arm& arm, bool newer) {
     Json config{{"type", arm.minverse ? "minverse" : "inverse3"},
-                        {"handedness", arm.handedness},
-                        {"gravity_compensation", {{"enabled", true}}}};
+                {"handedness", arm.handedness},
+                {"gravity_compensation", {{"enabled", true}}}};
     if (newer) config["preset"] = arm.preset;
     config["basis"] = {{"permutation", arm.basis}};
     return config;
@@ -32,7 +31,7 @@ Json entry_of(const Arm& arm, const Scene& scene, bool whole) {
     Json entry{{"device_id", arm.id}};
     if (whole) entry["config"] = config_of(arm, newer);
     Json state{{"cursor_position", vector_of(arm.position_m)},
-                       {"cursor_velocity", vector_of(Vec3{0.0})}};
+               {"cursor_velocity", vector_of(Vec3{0.0})}};
     if (!arm.position_text.empty()) state["cursor_position"] = kPositionHere;
     if (newer) state["current_cursor_force"] = vector_of(arm.force_newton);
     entry["state"] = std::move(state);

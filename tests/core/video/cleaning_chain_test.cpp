@@ -21,7 +21,7 @@ constexpr CleaningSteps kStepsOnly{.smooth_steps = true};
 const double kNone = std::nan("");
 
 DepthImage chain_input(int columns, int rows, const std::function<double(int, int)>& level,
-                    double highest_level = 255.0) {
+                       double highest_level = 255.0) {
     DepthImage image{columns, rows, highest_level, {}};
     image.levels.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
     for (int j = 0; j < rows; ++j)
