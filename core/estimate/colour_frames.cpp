@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/video/libraries.hpp"
 #include "core/video/media.hpp"
+#include "core/video/modules/picture_codecs.hpp"
 #include "core/video/pictures.hpp"
 
 namespace dibhr {
@@ -27,7 +28,7 @@ void write_frame(const cv::Mat& picture, const fs::path& file) {
     constexpr int kQuick = 1;  // of 9: they are read once
     bool written = false;
     try {
-        written = cv::imwrite(file.string(), picture, {cv::IMWRITE_PNG_COMPRESSION, kQuick});
+        written = picture_codecs().write(file.string(), picture, {cv::IMWRITE_PNG_COMPRESSION, kQuick});
     } catch (const cv::Exception&) {
     }
     if (!written)

@@ -7,7 +7,6 @@
 #include <limits>
 #include <memory>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -19,6 +18,7 @@
 #include "core/files/output_file.hpp"
 #include "core/video/media.hpp"
 #include "core/video/media_names.hpp"
+#include "core/video/modules/picture_codecs.hpp"
 #include "core/video/pictures.hpp"
 
 namespace dibhr {
@@ -176,10 +176,8 @@ cv::Mat levels_by(const LevelRule& rule, const cv::Mat& picture) {
 }
 
 void write_picture(const cv::Mat& levels, const fs::path& file) {
-    std::vector<unsigned char> png;
-    cv::imencode(".png", levels, png);
     OutputFile out(file);
-    out.write({reinterpret_cast<const char*>(png.data()), png.size()});
+    out.write(encoded_png(levels));
     out.commit();
 }
 

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <limits>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <utility>
@@ -18,6 +17,7 @@
 #include "core/video/formats/still_picture.hpp"
 #include "core/video/libraries.hpp"
 #include "core/video/media.hpp"
+#include "core/video/modules/picture_codecs.hpp"
 
 namespace dibhr {
 
@@ -86,9 +86,7 @@ std::string png_of(const ColourImage& picture) {
                       const_cast<std::uint8_t*>(picture.rgb.data()));  // only read
     cv::Mat bgr;
     cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
-    std::vector<std::uint8_t> png;
-    cv::imencode(".png", bgr, png);
-    return {png.begin(), png.end()};
+    return encoded_png(bgr);
 }
 
 namespace {

@@ -17,6 +17,7 @@
 #include "core/video/formats/claimed_size.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/libraries.hpp"
+#include "core/video/modules/picture_codecs.hpp"
 
 namespace dibhr {
 
@@ -161,7 +162,7 @@ cv::Mat decoded(Bytes data, int flags) {
                         const_cast<std::uint8_t*>(data.data()));  // only read
     try {
         const QuietErrors quiet;
-        return cv::imdecode(bytes, flags);
+        return picture_codecs().decode(bytes, flags);
     } catch (const cv::Exception&) {
         return {};
     }

@@ -18,6 +18,7 @@
 #include "core/video/formats/pfm.hpp"
 #include "core/video/libraries.hpp"
 #include "core/video/media.hpp"
+#include "core/video/modules/picture_codecs.hpp"
 
 namespace dibhr {
 
@@ -27,9 +28,22 @@ namespace fs = std::filesystem;
 
 using Reader = StillPicture (*)(const fs::path&, PictureRole);
 
+/// As most videos begin (MP4 and QuickTime, Matroska, AVI, NUT): they need no picture codecs to be
+/// loaded. Other videos are found by what the codecs say.
+bool is_video_container(std::string_view head) {
+    constexpr std::array<std::string_view, 9> kBrands{"isom", "iso2", "iso4", "iso5", "iso6",
+                                                      "mp41", "mp42", "M4V ", "qt  "};
+    if (head.size() < 12) return false;
+    if (head.substr(4, 4) == "ftyp")
+        return std::find(kBrands.begin(), kBrands.end(), head.substr(8, 4)) != kBrands.end();
+    return head.starts_with("\x1a\x45\xdf\xa3") || head.starts_with("nut/multimedia") ||
+           (head.starts_with("RIFF") && head.substr(8, 4) == "AVI ");
+}
+
 bool opencv_reads(const fs::path& file) {
+    if (is_video_container(head_of(file))) return false;
     try {
-        return cv::haveImageReader(file.string());
+        return picture_codecs().knows(file.string());
     } catch (const cv::Exception&) {
         return false;
     }
@@ -66,7 +80,7 @@ cv::Mat decoded(const fs::path& file, int flags) {
     cv::Mat picture;
     try {
         const QuietErrors quiet;
-        picture = cv::imread(file.string(), flags);
+        picture = picture_codecs().read(file.string(), flags);
     } catch (const cv::Exception&) {
         picture.release();  // refused, for example as too large: said below
     }

@@ -23,6 +23,7 @@
 #include "core/video/libraries.hpp"
 #include "core/video/media.hpp"
 #include "core/video/media_names.hpp"
+#include "core/video/modules/picture_codecs.hpp"
 #include "core/video/pictures.hpp"
 
 namespace dibhr {
@@ -233,9 +234,7 @@ std::string png_of(const TouchMap& map) {
             picture.at<cv::Vec4w>(j, i) = {pixel.level, pixel.level, pixel.level, pixel.cover};
         }
     }
-    std::vector<std::uint8_t> png;
-    cv::imencode(".png", picture, png);
-    return {png.begin(), png.end()};
+    return encoded_png(picture);
 }
 
 TouchMap touch_map_in(const std::string& png, const MapLimits& limits, const std::string& name) {
@@ -247,7 +246,7 @@ TouchMap touch_map_in(const std::string& png, const MapLimits& limits, const std
     if (fits) {
         set_up_libraries();
         const std::vector<std::uint8_t> bytes(png.begin(), png.end());
-        picture = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
+        picture = picture_codecs().decode(cv::Mat(bytes), cv::IMREAD_UNCHANGED);
     }
     if (!has_levels(picture)) throw InputError(name + ": holds a touch map that cannot be read");
     return map_of(picture, limits);

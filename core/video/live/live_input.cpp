@@ -3,7 +3,6 @@
 
 extern "C" {
 #include <libavcodec/avcodec.h>
-#include <libavdevice/avdevice.h>
 #include <libavformat/avformat.h>
 #include <libavutil/dict.h>
 #include <libavutil/error.h>
@@ -28,6 +27,7 @@ extern "C" {
 
 #include "core/error.hpp"
 #include "core/video/libraries.hpp"
+#include "core/video/modules/module.hpp"
 #include "core/video/pictures.hpp"
 
 namespace dibhr {
@@ -48,7 +48,9 @@ constexpr int kMostThreads = 4;
 
 void set_up_devices() {
     static std::once_flag once;
-    std::call_once(once, [] { avdevice_register_all(); });
+    std::call_once(once, [] {
+        reinterpret_cast<void (*)()>(symbol_in_module("dibhr_devices", "dibhr_register_devices"))();
+    });
 }
 
 std::string reason_of(int error) {
@@ -169,7 +171,7 @@ LiveInput::LiveInput(const LiveName& name, const std::string& shown, const LiveW
       packet_(av_packet_alloc()) {
     if (!frame_ || !packet_) throw std::bad_alloc();
     set_up_libraries();
-    set_up_devices();
+    if (!name.format.empty()) set_up_devices();
     if (kind_ == LiveKind::pipe) pipe_ = std::make_unique<Pipe>(name.url, shown);
     patience(kToOpen);
     const bool may_be_depth = kind_ == LiveKind::camera && wants.levels;

@@ -551,8 +551,10 @@ TEST_CASE("trials are felt and answered with the Falcon alone", "[study window]"
     const FalconOnUsb falcon(at.folder.path(), {"firmware", "home", "place 0 0 140"});
     Participant person(at, {"--device", "falcon", "--firmware", "firmware.bin"}, falcon.host());
     falcon.move_hand({0.0, 0.0, 105.0}, 0.3);
-    // Numbers as the grip has them, from 0; until the study has gone on.
+    // Numbers as the grip has them, from 0; until the study has gone on. Its window must have met the
+    // release before, else there is no new press.
     const auto press = [&](int button, const std::function<bool(const Seen&)>& has_gone_on) {
+        person.wait_until([](const Seen& now) { return now.buttons == 0; });
         falcon.tell("press " + std::to_string(1 << button));
         person.wait_until(has_gone_on);
         falcon.tell("press 0");
@@ -563,7 +565,7 @@ TEST_CASE("trials are felt and answered with the Falcon alone", "[study window]"
     };
     const auto feel = [&](int trial, int interval) {
         person.wait_for_interval(trial, interval);
-        person.wait_until([](const Seen& now) { return now.ready && now.buttons == 0; });
+        person.wait_until([](const Seen& now) { return now.ready; });
         FalconOnUsb::wait_until([&] { return falcon.vector("motor_newton").z > 0.5; });
     };
     const auto leave_interval = [&](int trial, int interval) {
@@ -574,7 +576,6 @@ TEST_CASE("trials are felt and answered with the Falcon alone", "[study window]"
     };
     const auto answer = [&](int button) {
         person.wait_for(StudyStep::question);
-        person.wait_until([](const Seen& now) { return now.buttons == 0; });
         press(button,
               [](const Seen& now) { return !Participant::is_at(now, StudyStep::question); });
     };

@@ -1,0 +1,26 @@
+// Pictures in files and in memory, by OpenCV's codecs.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+namespace dibhr {
+
+/// Functions of OpenCV's imgcodecs: the meaning of arguments, results and errors is theirs.
+struct PictureCodecs {
+    bool (*knows)(const std::string& file);
+    cv::Mat (*read)(const std::string& file, int flags);
+    cv::Mat (*decode)(const cv::Mat& bytes, int flags);
+    bool (*encode)(const std::string& extension, const cv::Mat& picture,
+                   std::vector<unsigned char>& bytes);
+    bool (*write)(const std::string& file, const cv::Mat& picture, const std::vector<int>& options);
+};
+
+/// Loads them when they are first asked for. Throws InputError if they are not there.
+[[nodiscard]] const PictureCodecs& picture_codecs();
+
+/// 1, 3 or 4 channels (in OpenCV's order) of 8 or 16 bits, as a PNG file's bytes.
+[[nodiscard]] std::string encoded_png(const cv::Mat& picture);
+
+}  // namespace dibhr
