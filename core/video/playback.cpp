@@ -58,6 +58,7 @@ void Playback::jump_to(Frame frame, Time now) {
     frame.time_s =
         frames_.empty() ? 0.0 : std::max(clock_.playback_s(now), frames_.back().time_s) + kJump_s;
     offset_s_ = frame.time_s - frame.media_s;
+    beyond_part_ = part_ && frame.media_s > part_->to_s;
     frames_.clear();
     frames_.push_back(std::move(frame));
     complete_ = false;
@@ -134,6 +135,7 @@ void Playback::set_looping(bool looping) {
 void Playback::set_part(const std::optional<MediaPart>& part) {
     if (part == part_) return;
     part_ = part;
+    beyond_part_ = false;  // also where its end was passed while it was being set
     complete_ = false;  // asked again by the next reading
     // Frames that are not of it any more are forgotten, but for one that the surface moves towards.
     if (frames_.size() <= 2) return;
@@ -244,6 +246,7 @@ bool Playback::read_next(Time now) {
         next.reset();
         if (looping_ && newest.media_s > begins_s) next = reader_->at(begins_s);
         if (next) offset_s_ += newest.media_s + lasts_s - next->media_s;
+        beyond_part_ = false;
     }
     complete_ = !next;
     if (!next) return false;
@@ -256,10 +259,8 @@ bool Playback::read_next(Time now) {
     return true;
 }
 
-/// Not beyond its end: what is shown, or, on a new lap, what is read ahead. The surface may move
-/// towards a frame beyond it, when the end is set where it is.
 bool Playback::in_part() const {
-    return part_ && std::min(frames_.front().media_s, frames_.back().media_s) <= part_->to_s;
+    return part_ && !beyond_part_;
 }
 
 /// With the media, or with the part that is played.

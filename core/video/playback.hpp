@@ -32,8 +32,8 @@ class Playback {
     void seek(double media_s, Time now);
     void step(int frames, Time now);
     void set_looping(bool looping);
-    /// Only this part of the media is played: at its end it stops, or begins the part again. What
-    /// is beyond it already goes on to the media's own end.
+    /// Only this part of the media is played: at its end it stops, or begins the part again. From
+    /// beyond it, where a seek or a step may lead, the media is played to its own end.
     void set_part(const std::optional<MediaPart>& part);
     void set_speed(double speed, Time now);
     void set_cleaning(const CleaningOptions& options);
@@ -124,6 +124,7 @@ class Playback {
     bool playing_{false};
     bool looping_{true};
     std::optional<MediaPart> part_{};
+    bool beyond_part_{false};  ///< sought or stepped there, since the part was set
     bool complete_{false};  ///< no frame follows the newest
     bool steps_back_{false};
     std::optional<double> ready_before_s_{};  ///< media time of the frame before which one is ready

@@ -212,12 +212,13 @@ TEST_CASE("without looping, playing ends with the part, and play begins with it 
     CHECK_THAT(scene.shown(), WithinAbs(2.0, 1e-6));
 }
 
-TEST_CASE("beyond the part that is set the media goes on to its own end, and begins as a whole",
+TEST_CASE("sought beyond the part the media goes on to its own end, and begins as a whole",
           "[playback]") {
     Scene scene(kTenths);
-    scene.pass(0.65);
     scene.playback.set_part(MediaPart{0.2, 0.4});
-    scene.pass(0.2);
+    scene.playback.seek(0.6, scene.now);
+    scene.settle();
+    scene.pass(0.25);
     CHECK_THAT(scene.shown(), WithinAbs(0.5, 1e-6));
     scene.pass(0.4);  // and from there on in it
     CHECK_THAT(scene.shown(), WithinAbs(4.5, 1e-6));
@@ -243,6 +244,17 @@ TEST_CASE("a part whose end is set where it is begins again from there", "[playb
     scene.pass(0.3);
     CHECK_THAT(scene.shown(), WithinAbs(4.5, 1e-5));
     CHECK(scene.playback.window().frames[1].index == 2);
+}
+
+TEST_CASE("a part whose end has been passed when it is set begins again at once", "[playback]") {
+    Scene scene(kTenths);
+    scene.pass(0.65);
+    scene.playback.set_part(MediaPart{0.2, 0.4});
+    scene.pass(0.1);
+    CHECK_THAT(scene.shown(), WithinAbs(7.5, 1e-6));  // towards a frame that was there already
+    CHECK(scene.playback.window().frames[1].index == 2);
+    scene.pass(0.2);
+    CHECK_THAT(scene.shown(), WithinAbs(3.5, 1e-5));
 }
 
 TEST_CASE("a part of one frame is held", "[playback]") {
