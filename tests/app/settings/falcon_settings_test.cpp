@@ -44,7 +44,8 @@ TEST_CASE("what is kept about the Falcon comes back exactly, whatever its serial
           "[falcon][settings]") {
     const TemporaryFolder folder;
     Settings settings;
-    settings.falcon.connection = {GENERATE("", "SIM00001", "a \"b\" \\c\n\u00fc"), false, true};
+    settings.falcon.connection = {GENERATE("", "SIM00001", "a \"b\" \\c\n\u00fc"),
+                                  GENERATE(false, true), GENERATE(false, true)};
     settings.falcon.buttons = {ButtonAction::none, ButtonAction::clutch, ButtonAction::clutch,
                                ButtonAction::take_screenshot};
     settings.falcon.force_in_front_only = false;

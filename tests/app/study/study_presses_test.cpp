@@ -78,3 +78,26 @@ TEST_CASE("at an adjustment the grip turns, feels the other one, and says equal 
     CHECK(said(kLongPressButton).which == 1 - run.interval());
     CHECK(said(kLongPressButton, true).kind == StudyPress::Kind::go_on);
 }
+
+TEST_CASE("of two intervals the keys 1 and 2 and the arrows choose one, and no other key answers",
+          "[study]") {
+    StudyRun run(protocol(page_of_conditions(2, R"([[block]]
+form = "two-interval"
+question = "Q"
+pairs = [["a", "b"]]
+answer-s = 5
+)")),
+                 1);
+    while (run.step() != StudyStep::question) run.go_on();
+    const StudyShown view;
+    const auto chosen = [&](const char* key) -> std::optional<int> {
+        const auto press = press_of_key(run, view, key, false);
+        if (!press || press->kind != StudyPress::Kind::choose) return std::nullopt;
+        return press->which;
+    };
+    CHECK(chosen("1") == 0);
+    CHECK(chosen("2") == 1);
+    CHECK(chosen("Left") == 0);
+    CHECK(chosen("Right") == 1);
+    for (const char* key : {"0", "3", "9", "a", "Enter", " "}) CHECK(chosen(key) == std::nullopt);
+}

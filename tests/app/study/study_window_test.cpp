@@ -298,6 +298,43 @@ std::size_t bright_values(const std::string& picture) {
     return bright;
 }
 
+/// A study whose second trial a signal ends, after one that was killed in its first.
+void check_going_on(int signal, int exit_code) {
+    const Sitting at(head() + kPairs + "repetitions = 2\n");
+    {
+        Participant person(at);
+        person.leave(StudyStep::instructions);
+        person.wait_for_interval(0, 0);
+        CHECK(person.ended_by(SIGKILL) == 128 + SIGKILL);
+    }
+    CHECK(at.record().answered.empty());
+    {
+        Participant person(at);
+        person.leave(StudyStep::instructions);
+        person.answer_pair(0, "1");
+        person.wait_for_interval(1, 0);
+        person.press("Return");
+        person.wait_for_interval(1, 1);
+        CHECK(person.ended_by(signal) == exit_code);
+    }
+    const std::vector<AnsweredTrial> before = at.record().answered;
+    REQUIRE(before.size() == 1);
+    Participant person(at);
+    person.wait_until(
+        [](const Seen& now) { return Participant::is_at(now, StudyStep::interval) && !now.waits; });
+    CHECK_FALSE(person.seen().force_enabled);
+    CHECK_FALSE(person.seen().surface);
+    person.press("Return");
+    person.answer_pair(1, "2");
+    CHECK(person.close() == 0);
+    const StudyRecord record = at.record();
+    CHECK(record.finished);
+    REQUIRE(record.answered.size() == 2);
+    CHECK(record.answered[0].answer == before[0].answer);
+    CHECK(record.answered[1].answer.choice == 1);
+    CHECK_FALSE(std::filesystem::exists(at.running_session()));
+}
+
 }  // namespace
 
 TEST_CASE("a newcomer is led from the first page to the thanks by keys alone", "[study window]") {
@@ -480,41 +517,15 @@ question = "Which was smoother?"
     CHECK(record.answered[0].right == false);
 }
 
-TEST_CASE("a study that is killed or broken off goes on at that trial when its participant says so",
+TEST_CASE("a study that is killed goes on at that trial when its participant says so",
           "[study window]") {
-    const Sitting at(head() + kPairs + "repetitions = 2\n");
-    {
-        Participant person(at);
-        person.leave(StudyStep::instructions);
-        person.wait_for_interval(0, 0);
-        CHECK(person.ended_by(SIGKILL) == 128 + SIGKILL);
-    }
-    CHECK(at.record().answered.empty());
-    {
-        Participant person(at);
-        person.leave(StudyStep::instructions);
-        person.answer_pair(0, "1");
-        person.wait_for_interval(1, 0);
-        person.press("Return");
-        person.wait_for_interval(1, 1);
-        CHECK(person.ended_by(SIGTERM) == 0);
-    }
-    const std::vector<AnsweredTrial> before = at.record().answered;
-    REQUIRE(before.size() == 1);
-    Participant person(at);
-    person.wait_until(
-        [](const Seen& now) { return Participant::is_at(now, StudyStep::interval) && !now.waits; });
-    CHECK_FALSE(person.seen().force_enabled);
-    CHECK_FALSE(person.seen().surface);
-    person.press("Return");
-    person.answer_pair(1, "2");
-    CHECK(person.close() == 0);
-    const StudyRecord record = at.record();
-    CHECK(record.finished);
-    REQUIRE(record.answered.size() == 2);
-    CHECK(record.answered[0].answer == before[0].answer);
-    CHECK(record.answered[1].answer.choice == 1);
-    CHECK_FALSE(std::filesystem::exists(at.running_session()));
+    check_going_on(SIGKILL, 128 + SIGKILL);
+}
+
+// 600 ms after the signal the program would be ended at once, which is told by exit code 1.
+TEST_CASE("a study that is broken off goes on at that trial when its participant says so",
+          "[study window][realtime]") {
+    check_going_on(SIGTERM, 0);
 }
 
 TEST_CASE("a study that is killed at any picture loses no answer and doubles none",
@@ -551,8 +562,8 @@ TEST_CASE("trials are felt and answered with the Falcon alone", "[study window]"
     const FalconOnUsb falcon(at.folder.path(), {"firmware", "home", "place 0 0 140"});
     Participant person(at, {"--device", "falcon", "--firmware", "firmware.bin"}, falcon.host());
     falcon.move_hand({0.0, 0.0, 105.0}, 0.3);
-    // Numbers as the grip has them, from 0; until the study has gone on. Its window must have met the
-    // release before, else there is no new press.
+    // Numbers as the grip has them, from 0; until the study has gone on. Its window must have met
+    // the release before, else there is no new press.
     const auto press = [&](int button, const std::function<bool(const Seen&)>& has_gone_on) {
         person.wait_until([](const Seen& now) { return now.buttons == 0; });
         falcon.tell("press " + std::to_string(1 << button));

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -95,6 +96,35 @@ double seconds_since(Clock::time_point moment) {
     return std::chrono::duration<double>(Clock::now() - moment).count();
 }
 
+void check_one_clip(const TemporaryFolder& folder) {
+    CHECK(std::ranges::count_if(names_in(folder.path()), [](const std::string& name) {
+              return contains(name, "all.mp4");
+          }) == 1);
+}
+
+/// A clip from the start to the window's end, of a window that is made smaller meanwhile.
+void check_whole_clip(const std::function<void(const Desk&, const WindowProgram&)>& end_window) {
+    const Desk desk;
+    const TemporaryFolder folder;
+    put_films(folder);
+    const auto start = Clock::now();
+    WindowProgram viewer = desk.start_viewer(folder, film_and({"--clip", "all.mp4"}));
+    viewer.wait_until([](const Seen& now) { return now.clip && now.clip_s > 0.2; });
+    viewer.act("windowsize 500 470");
+    viewer.wait_until([](const Seen& now) { return now.columns == 500; });
+    const double resized_s = viewer.seen().clip_s;
+    viewer.wait_until([&](const Seen& now) { return now.clip_s > resized_s + 0.2; });
+    const double shown_s = viewer.seen().clip_s;
+    end_window(desk, viewer);
+    REQUIRE(viewer.wait() == 0);
+    const Probed clip = probed(folder, "all.mp4");
+    CHECK(clip.columns == kColumns);
+    CHECK(clip.rows == kRows);
+    CHECK(clip.length_s > shown_s - kRounding_s);
+    CHECK(clip.length_s < seconds_since(start));
+    check_one_clip(folder);
+}
+
 }  // namespace
 
 TEST_CASE(
@@ -158,41 +188,31 @@ TEST_CASE(
 
 TEST_CASE("an option saves a clip from start to end, and a resized window stays within its size",
           "[clip]") {
+    check_whole_clip([](const Desk& desk, const WindowProgram&) { desk.press("key q"); });
+}
+
+// 600 ms after the signal the program would be ended at once, which is told by exit code 1.
+TEST_CASE("a clip that an option saves is whole when a signal ends the window",
+          "[clip][realtime]") {
+    check_whole_clip([](const Desk&, const WindowProgram& viewer) { viewer.send(SIGTERM); });
+}
+
+TEST_CASE("a clip that an option saves ends with what is played", "[clip]") {
     const Desk desk;
     const TemporaryFolder folder;
     put_films(folder);
     const auto start = Clock::now();
-    SECTION("until a signal") {
-        WindowProgram viewer = desk.start_viewer(folder, film_and({"--clip", "all.mp4"}));
-        viewer.wait_until([](const Seen& now) { return now.clip && now.clip_s > 0.2; });
-        viewer.act("windowsize 500 470");
-        viewer.wait_until([](const Seen& now) { return now.columns == 500; });
-        const double resized_s = viewer.seen().clip_s;
-        viewer.wait_until([&](const Seen& now) { return now.clip_s > resized_s + 0.2; });
-        const double shown_s = viewer.seen().clip_s;
-        viewer.send(SIGTERM);
-        REQUIRE(viewer.wait() == 0);
-        const Probed clip = probed(folder, "all.mp4");
-        CHECK(clip.columns == kColumns);
-        CHECK(clip.rows == kRows);
-        CHECK(clip.length_s > shown_s - kRounding_s);
-        CHECK(clip.length_s < seconds_since(start));
-    }
-    SECTION("until what is played has ended") {
-        WindowProgram viewer = desk.start_viewer(
-            folder, film_and({"--clip", "all.mp4", "--end", "0.5", "--no-panels"}));
-        REQUIRE(viewer.wait() == 0);
-        const Seen last = viewer.seen();
-        CHECK_FALSE(last.playing);
-        CHECK(last.media_s > 0.4);  // two frames before
-        const Probed clip = probed(folder, "all.mp4");
-        CHECK(clip.columns < kColumns * 2 / 3);
-        CHECK(clip.length_s > last.clip_s - kRounding_s);
-        CHECK(clip.length_s < seconds_since(start));
-    }
-    CHECK(std::ranges::count_if(names_in(folder.path()), [](const std::string& name) {
-              return contains(name, "all.mp4");
-          }) == 1);
+    WindowProgram viewer =
+        desk.start_viewer(folder, film_and({"--clip", "all.mp4", "--end", "0.5", "--no-panels"}));
+    REQUIRE(viewer.wait() == 0);
+    const Seen last = viewer.seen();
+    CHECK_FALSE(last.playing);
+    CHECK(last.media_s > 0.4);  // two frames before
+    const Probed clip = probed(folder, "all.mp4");
+    CHECK(clip.columns < kColumns * 2 / 3);
+    CHECK(clip.length_s > last.clip_s - kRounding_s);
+    CHECK(clip.length_s < seconds_since(start));
+    check_one_clip(folder);
 }
 
 TEST_CASE("a clip that cannot be written is told in one line, and the program goes on", "[clip]") {

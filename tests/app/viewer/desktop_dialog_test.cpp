@@ -2,6 +2,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,23 @@ void wait_until_asked(const Portal& portal) {
 
 void wait_until_closed(const Portal& portal) {
     CHECK(eventually([&] { return portal.asked().closed; }));
+}
+
+/// Asks a helper program that hangs for a file, and then ends the window.
+void check_helper_ends(const std::function<void(const Room&, const WindowProgram&)>& end_window) {
+    Room room;
+    const fs::path told = room.file("told");
+    room.add_zenity("echo $$ > '" + told.string() + "'\nexec /bin/sleep 1000\n");
+    WindowProgram viewer = room.open();
+    viewer.wait_for_surface();
+    viewer.act("key ctrl+o");
+    REQUIRE(eventually([&] { return read_text(told).ends_with('\n'); }));
+    const std::string child = read_text(told);
+    const fs::path words = "/proc/" + child.substr(0, child.find('\n')) + "/cmdline";
+    CHECK_FALSE(read_text(words).empty());
+    end_window(room, viewer);
+    CHECK(viewer.wait() == 0);
+    CHECK(eventually([&words] { return read_text(words).empty(); }));
 }
 
 }  // namespace
@@ -148,20 +166,13 @@ TEST_CASE("where the setting says so, the window asks itself", "[desktop]") {
     CHECK(viewer.wait() == 0);
 }
 
-TEST_CASE("a helper program that hangs is ended with the window, by a signal, too", "[desktop]") {
-    Room room;
-    const fs::path told = room.file("told");
-    room.add_zenity("echo $$ > '" + told.string() + "'\nexec /bin/sleep 1000\n");
-    WindowProgram viewer = room.open();
-    viewer.wait_for_surface();
-    viewer.act("key ctrl+o");
-    REQUIRE(eventually([&] { return read_text(told).ends_with('\n'); }));
-    const std::string child = read_text(told);
-    const fs::path words = "/proc/" + child.substr(0, child.find('\n')) + "/cmdline";
-    CHECK_FALSE(read_text(words).empty());
-    viewer.send(SIGTERM);
-    CHECK(viewer.wait() == 0);
-    CHECK(eventually([&words] { return read_text(words).empty(); }));
+TEST_CASE("a helper program that hangs is ended with the window", "[desktop]") {
+    check_helper_ends([](const Room& room, const WindowProgram&) { room.press("key q"); });
+}
+
+TEST_CASE("a helper program that hangs is ended with a window that a signal ends",
+          "[desktop][realtime]") {
+    check_helper_ends([](const Room&, const WindowProgram& viewer) { viewer.send(SIGTERM); });
 }
 
 TEST_CASE("a portal that is still thinking does not keep the program from ending",

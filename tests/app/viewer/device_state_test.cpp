@@ -78,9 +78,11 @@ TEST_CASE("only the force of a Falcon waits for the window, and only when it is 
     CHECK_FALSE(waits_for_front(state));  // no Falcon is there
     state.falcon->status.stage = GENERATE(falcon::Stage::homing, falcon::Stage::ready);
     CHECK(waits_for_front(state));
+    CHECK_FALSE(asked_settings(state).force_enabled);
     CHECK(state.force_enabled);  // the person's own switch stays as it is
     state.in_front = true;
     CHECK_FALSE(waits_for_front(state));
+    CHECK(asked_settings(state).force_enabled);
     state.in_front = false;
     state.settings.falcon.force_in_front_only = false;
     CHECK_FALSE(waits_for_front(state));

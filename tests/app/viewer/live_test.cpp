@@ -196,13 +196,14 @@ TEST_CASE("a live recording that another size of the pictures or Ctrl+C ends is 
     viewer.wait_until([](const Seen& now) { return now.surface && !now.records; });
     viewer.act("key ctrl+r");
     wait_for_rows(viewer, 300);
-    viewer.interrupt();
+    desk.press("key q");
     CHECK(viewer.wait() == 0);
     REQUIRE_FALSE(recorded_by_key(folder).empty());
     check_whole(folder, recorded_by_key(folder));
 }
 
-TEST_CASE("Ctrl+C ends what waits for a live source, and without a word", "[live]") {
+// 600 ms after the signal the program would be ended at once, with a line.
+TEST_CASE("Ctrl+C ends what waits for a live source, and without a word", "[live][realtime]") {
     const TemporaryFolder folder;
     const fs::path pipe = folder / "pipe";
     REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);

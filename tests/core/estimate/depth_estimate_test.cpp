@@ -281,7 +281,8 @@ TEST_CASE("a program that is not there, or no program, is told by its name", "[e
     Bench bench("");
     EstimateRequest request = bench.request();
     request.command = "no-such-estimator {input} {output}";
-    CHECK(contains(bench.failure(request), "there is no program 'no-such-estimator'"));
+    CHECK(contains(bench.failure(request),
+                   "there is no program 'no-such-estimator'; install it, or write its whole path"));
     request.command = "'" + bench.clip().string() + "' {input} {output}";
     CHECK(contains(bench.failure(request), "cannot be executed; make it executable (chmod +x)"));
     write_text(bench.program(), "#!/no/such/python\n");

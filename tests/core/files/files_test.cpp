@@ -47,7 +47,12 @@ TEST_CASE("an output file is there after commit, and nothing is without it", "[f
         out.commit();
     }
     CHECK(read_text(file) == "the whole");
+    const auto open_files = [] {
+        return std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator());
+    };
+    const auto before = open_files();
     { OutputFile(file).write("broken off"); }
+    CHECK(open_files() == before);
     CHECK(read_text(file) == "the whole");
     CHECK(std::distance(fs::directory_iterator(file.parent_path()), {}) == 1);
 }

@@ -236,6 +236,19 @@ TEST_CASE("a staircase that goes down and up again has answers at one level, not
             CHECK((&one == &other || std::abs(one.x - other.x) > 0.01 * one.x));
 }
 
+TEST_CASE("until the first reversals a staircase takes longer steps", "[staircase]") {
+    Staircase staircase({.down_after = 1, .first_reversals = 2, .first_steps = 3.0});
+    std::vector<double> levels;
+    for (const bool right : {true, true, false, true, true, false}) {
+        staircase.answer(right);
+        levels.push_back(staircase.level());
+    }
+    // The step at which it turns for the second time is an ordinary one.
+    const std::vector<double> expected{0.7, 0.4, 0.7, 0.6, 0.5, 0.6};
+    for (std::size_t k = 0; k < levels.size(); ++k)
+        CHECK_THAT(levels[k], WithinAbs(expected[k], 1e-9));
+}
+
 TEST_CASE("a staircase keeps within its bounds and ends as it is told", "[staircase]") {
     StaircaseRule rule;
     rule.down_after = 1;

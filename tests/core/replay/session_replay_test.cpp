@@ -64,6 +64,24 @@ void record_exploration(const SessionFolder& folder, MovingSurface& surface) {
     go_on(900);
 }
 
+/// One flat picture for every frame that is asked for, and which video's each was.
+class AskedFrames final : public RecordedFrames {
+  public:
+    std::vector<std::uint32_t> media{};
+
+    [[nodiscard]] Frame frame(const FrameSource& source, double media_s) override {
+        media.push_back(source.media);
+        return {.depth = image_, .media_s = media_s};
+    }
+    [[nodiscard]] std::shared_ptr<const BumpMap> bump(const SessionParameters&) override {
+        return nullptr;
+    }
+
+  private:
+    std::shared_ptr<const DepthImage> image_{
+        std::make_shared<DepthImage>(DepthImage{4, 4, 255.0, std::vector<float>(16, 100.0F)})};
+};
+
 }  // namespace
 
 TEST_CASE("a session replays to the same proxies and forces, bit for bit", "[replay]") {
@@ -164,4 +182,34 @@ TEST_CASE("a renderer that was reset is as a new one", "[replay]") {
         REQUIRE(again.proxy.active == first.proxy.active);
         REQUIRE(again.sent_force_newton == first.sent_force_newton);
     }
+}
+
+TEST_CASE("the frame that was blended into is none of the next video, whatever its time is",
+          "[replay]") {
+    const SessionFolder folder;
+    {
+        const auto ring = std::make_unique<TickRing>();
+        Recorder recorder(folder.file(), *ring, {});
+        recorder.media(1, "colour.mp4", "depth.mp4");
+        recorder.media(2, "other-colour.mp4", "other-depth.mp4");
+        recorder.parameters({.version = 1, .touch = {}, .limits = {}, .bump = {}});
+        for (std::int64_t number = 0; number < 4; ++number) {
+            TickRecord tick = tick_record(number);
+            tick.surface = true;
+            tick.dt_s = 0.001;
+            tick.settings = 1;
+            tick.frames = {{.media = number < 2 ? 1U : 2U},
+                           number,
+                           number + 1,
+                           0.1 * static_cast<double>(number),
+                           0.1 * static_cast<double>(number + 1),
+                           0.1};
+            push(*ring, tick);
+        }
+    }
+    const Session session(folder.file());
+    AskedFrames frames;
+    SessionReplay replay(session, frames, {{}});
+    while (replay.next()) continue;
+    CHECK(frames.media == std::vector<std::uint32_t>{1, 1, 1, 2, 2, 2});
 }

@@ -124,3 +124,15 @@ TEST_CASE("a program that was stopped did not touch meanwhile", "[report]") {
     CHECK_THAT(numbers.duration_s, WithinAbs(60.2, 1e-9));
     CHECK_THAT(numbers.contact_s, WithinAbs(0.2 - 0.001 + kLongestTick_s, 1e-9));
 }
+
+TEST_CASE("of two frames that are blended the nearer one counts as touched", "[report]") {
+    const double blend = GENERATE(0.2, 0.8);
+    const TemporaryFolder folder;
+    MadeSession made;
+    made.ticks = ticks_touching(100, 0, 100);
+    for (TickRecord& tick : made.ticks) tick.blend = blend;
+    record(folder / "a.dibhr", made);
+    const SessionNumbers numbers = numbers_of(Session(folder / "a.dibhr"));
+    const FramePair& frames = made.ticks.front().frames;
+    CHECK(numbers.places.at(1).longest_frame_s() == (blend < 0.5 ? frames.from_s : frames.to_s));
+}

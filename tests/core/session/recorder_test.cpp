@@ -1,8 +1,13 @@
 // The recorder: every tick once, in order, in a file that SQLite's own shell reads.
 #include "core/session/recorder.hpp"
 
+#include <fcntl.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -10,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -41,7 +47,20 @@ std::vector<std::string> files_in(const std::filesystem::path& folder) {
     return names;
 }
 
+std::atomic<int> log_flushes{0};
+
 }  // namespace
+
+/// In place of the C library's: counts the flushes of a log that are none of SQLite's own, which
+/// opens its files for writing.
+extern "C" int fdatasync(int file) {
+    std::error_code ignored;
+    const auto name =
+        std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(file), ignored);
+    if (name.string().ends_with("-wal") && (::fcntl(file, F_GETFL) & O_ACCMODE) == O_RDONLY)
+        ++log_flushes;
+    return static_cast<int>(::syscall(SYS_fdatasync, file));
+}
 
 TEST_CASE("ticks pushed at full speed in bursts are all recorded, in order", "[session]") {
     constexpr std::int64_t kBursts = 8;
@@ -249,4 +268,13 @@ TEST_CASE("while ticks are recorded, what they were logged in is merged into the
     CAPTURE(longest, std::filesystem::file_size(log));
     CHECK(cut);
     CHECK(answer(folder.file(), "PRAGMA integrity_check") == "ok");
+}
+
+TEST_CASE("while a recording goes on its log is flushed to the disk again and again", "[session]") {
+    const SessionFolder folder;
+    const auto ring = std::make_unique<TickRing>();
+    const int before = log_flushes;
+    const Recorder recorder(folder.file(), *ring, {});
+    push(*ring, tick_record(1));
+    CHECK(eventually([&] { return log_flushes >= before + 2; }));
 }

@@ -194,3 +194,10 @@ TEST_CASE("real numbers as recorded stay as they are, however high", "[scale]") 
     }
     CHECK(std::isnan(depth.at(7, 0)));
 }
+
+TEST_CASE("a level beyond those that the bits allow stands as high as the highest", "[scale]") {
+    const DepthScale scale(meaning_of(DepthUnit::levels, {1023.0, 0.0}), 10);
+    const cv::Mat picture = (cv::Mat_<std::uint16_t>(1, 3) << 1023, 1024, 65535);
+    const DepthImage depth = scale.image_of(picture);
+    CHECK(depth.levels == std::vector<float>(3, scale(1023.0)));
+}

@@ -342,3 +342,14 @@ TEST_CASE("a steadied frame has the same bits whichever way it was come to", "[h
     for (int k = 40; k > 30; --k)
         CHECK(same(*other.before(frame_s(k))->depth, in_order[static_cast<std::size_t>(k - 1)]));
 }
+
+TEST_CASE("after a jump nothing is known of what was seen before it", "[holes]") {
+    const auto level = [](int, int) { return 100.0; };
+    const DepthImage whole = image_with(level, [](int, int) { return false; });
+    const DepthImage pitted = image_with(level, [](int i, int j) { return i == j; });
+    const DepthImage before = GENERATE_COPY(whole, pitted);
+    DepthMemory memory;
+    CHECK(memory.take(before, 0.0).empty());
+    memory.forget();
+    CHECK(memory.take(pitted, kFrame_s).empty());
+}

@@ -6,12 +6,15 @@
 
 #include "core/video/motion/motion_cells.hpp"
 #include "core/video/motion/motion_estimator.hpp"
+#include "core/video/motion/motion_spread.hpp"
+#include "core/video/motion/reused.hpp"
 #include "tests/core/haptics/surfaces.hpp"
 #include "tests/core/video/moving_scene.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/some_of.hpp"
 
 using namespace dibhr;
+using Catch::Matchers::WithinAbs;
 using test::MovingScene;
 using Shape = MovingScene::Shape;
 using Goes = MovingScene::Goes;
@@ -212,4 +215,34 @@ TEST_CASE(
     std::sort(off.begin(), off.end());
     CHECK(off[off.size() / 2] < 0.03F);
     CHECK(off.back() < 0.4F);
+}
+
+TEST_CASE("between the middles of cells ways change evenly, to the middle of each pixel",
+          "[motion]") {
+    constexpr int kCells = 4;
+    constexpr int kSide = kCells * kMotionCell_px;
+    MotionCells cells{.columns = kCells, .rows = kCells};
+    MotionWays ways;
+    for (MotionLayers* layers : {&cells.lowest, &cells.highest, &ways.right, &ways.down})
+        layers->resize(kCells, kCells);
+    cells.lowest.fill(100.0F);
+    cells.highest.fill(100.0F);
+    std::fill_n(cells.highest.of[1].values.begin(), kCells * kCells, MotionCells::kNoPart);
+    for (int j = 0; j < kCells; ++j) {
+        for (int i = 0; i < kCells; ++i) {
+            ways.right.of[0].row(j)[i] = static_cast<float>(i);
+            ways.down.of[0].row(j)[i] = static_cast<float>(j);
+        }
+    }
+    const DepthImage depth{kSide, kSide, 255.0, std::vector<float>(kSide * kSide, 100.0F)};
+    Reused<MotionField> fields;
+    const auto field = spread_motion(depth, cells, 1, ways, fields);
+    REQUIRE(field);
+    for (int j = kMotionCell_px / 2; j < kSide - kMotionCell_px / 2; ++j) {
+        for (int i = kMotionCell_px / 2; i < kSide - kMotionCell_px / 2; ++i) {
+            const MotionField::Way way = field->ways[depth.index(i, j)];
+            REQUIRE_THAT(way.right, WithinAbs((i + 0.5) / kMotionCell_px - 0.5, 0.01));
+            REQUIRE_THAT(way.down, WithinAbs((j + 0.5) / kMotionCell_px - 0.5, 0.01));
+        }
+    }
 }

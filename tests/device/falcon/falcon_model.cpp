@@ -8,7 +8,9 @@ namespace dibhr::test::falcon {
 
 namespace {
 
-constexpr std::uint8_t kOverrunAndFraming = 0x0A;  // line status bits 1 and 3
+constexpr std::uint8_t kOverrun = 0x02;            // line status bit 1
+constexpr std::uint8_t kOverrunAndFraming = 0x0A;  // and 3
+constexpr std::ptrdiff_t kHalf = 7;                // bytes of a reply
 constexpr std::size_t kFullPacket = 62;            // data bytes
 // Stray bytes that look like the beginning of a packet.
 constexpr std::array<std::uint8_t, 7> kGarbage{0x00, '<', 'A', 'P', '>', '<', 0xF3};
@@ -103,6 +105,16 @@ void FalconModel::spoil(FalconBoard::Bytes& reply) {
     if (strikes(faults.lost_to_overrun)) {
         chip_.report_line_error(kOverrunAndFraming);
         reply.clear();
+        return;
+    }
+    if (std::exchange(half_out_, false)) {
+        chip_.report_line_error(kOverrun);
+        reply.erase(reply.begin(), reply.begin() + kHalf);
+        return;
+    }
+    if (strikes(faults.lost_halves)) {
+        half_out_ = true;
+        reply.resize(kHalf);
         return;
     }
     if (strikes(faults.garbage_before)) {

@@ -66,6 +66,7 @@ class FalconModel {
     std::string serial_;
     FtdiChip chip_{};
     FalconBoard board_{};
+    bool half_out_{false};                // of the reply before
     FalconBoard::Bytes waiting_reply_{};  // for the one it will be merged with
     Moment line_free_{0};                 // the board's sending line
     Traffic traffic_{};

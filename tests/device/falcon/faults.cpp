@@ -18,6 +18,7 @@ constexpr std::array kNames{
     std::pair{"echo_fault_at", &Faults::echo_fault_at},
     std::pair{"dropped_replies", &Faults::dropped_replies},
     std::pair{"lost_to_overrun", &Faults::lost_to_overrun},
+    std::pair{"lost_halves", &Faults::lost_halves},
     std::pair{"garbage_before", &Faults::garbage_before},
     std::pair{"garbage_inside", &Faults::garbage_inside},
     std::pair{"merged_replies", &Faults::merged_replies},

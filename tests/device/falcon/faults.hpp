@@ -22,6 +22,7 @@ struct Faults {
     // While it runs.
     int dropped_replies{0};  ///< replies that never come
     int lost_to_overrun{0};  ///< replies lost in the chip, which reports overrun and framing
+    int lost_halves{0};      ///< times the end of a reply and the begin of the next are lost so
     int garbage_before{0};   ///< replies with stray bytes before them, "<" and letters among them
     int garbage_inside{0};   ///< replies broken by stray bytes in their middle
     int merged_replies{0};   ///< replies that wait for the next one and share its packet

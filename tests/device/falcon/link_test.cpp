@@ -85,7 +85,8 @@ TEST_CASE("replies that are split, joined, garbled, lost or spoilt do not end th
                                  Spoilt{{.garbage_before = 5}, false, true, false},
                                  Spoilt{{.garbage_inside = 5}, true, true, false},
                                  Spoilt{{.dropped_replies = 5}, true, false, false},
-                                 Spoilt{{.lost_to_overrun = 5}, true, false, true});
+                                 Spoilt{{.lost_to_overrun = 5}, true, false, true},
+                                 Spoilt{{.lost_halves = 5}, true, true, true});
     Linked linked;
     linked.unit.set_faults(spoilt.faults);
     linked.exchange_until(50);

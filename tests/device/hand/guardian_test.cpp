@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -162,4 +163,25 @@ TEST_CASE("a guardian keeps nothing of the program's open, and nothing that it w
         CHECK_FALSE(device.heard().has_value());
     }
     CHECK(::waitpid(-1, nullptr, WNOHANG) == -1);  // no child is left
+}
+
+TEST_CASE("however many guardians there were, an alarm reaches the one that there is",
+          "[guardian]") {
+    Device device;
+    const pid_t program = ::fork();
+    REQUIRE(program >= 0);
+    if (program == 0) {
+        for (int k = 0; k < 20; ++k) const Guardian gone("device");
+        Guardian guardian("device");
+        guardian.watch(device.of_program(), zero());
+        guardian.beat();
+        Guardian::alarm();
+        beat_for(guardian, std::chrono::seconds(30));  // it is alive, until the test ends it
+        ::_exit(0);
+    }
+    device.forget();
+    REQUIRE(device.hears(std::chrono::seconds(10)));
+    CHECK(device.heard().value_or("").starts_with(kZero));
+    CHECK(::kill(program, SIGKILL) == 0);
+    CHECK(::waitpid(program, nullptr, 0) == program);
 }

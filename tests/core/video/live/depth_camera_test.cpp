@@ -179,3 +179,14 @@ TEST_CASE("a camera of colour alone is left to libav", "[live]") {
     CHECK(DepthCamera::opened(depth_device(), fake) == nullptr);
     CHECK_FALSE(fake.open_now);
 }
+
+TEST_CASE("a picture stays as it is when the camera writes into its buffer again", "[live]") {
+    FakeCamera fake;
+    const auto camera = DepthCamera::opened(depth_device(), fake);
+    REQUIRE(camera);
+    fake.send();
+    DepthCamera::Picture picture;
+    REQUIRE(camera->read(picture, never));
+    for (int k = 0; k < 40; ++k) fake.send();  // into each of the buffers
+    CHECK(cv::countNonZero(picture.levels != 100) == 0);
+}
