@@ -122,6 +122,20 @@ TEST_CASE("a truncated video is refused in one line", "[errors]") {
     CHECK_FALSE(std::filesystem::exists(folder / "out.csv"));
 }
 
+TEST_CASE("where the picture codecs are not installed a picture is refused in one line",
+          "[errors]") {
+    const TemporaryFolder folder;
+    write_inputs(folder);
+    std::filesystem::copy_file(DIBHR_PROGRAM, folder / "alone");
+    run_shell(folder, "! ./alone info depth.png > output.txt 2> errors.txt");
+    CHECK(read_text(folder / "output.txt").empty());
+    const std::string errors = read_text(folder / "errors.txt");
+    CHECK(std::count(errors.begin(), errors.end(), '\n') == 1);
+    CHECK(contains(errors, "dibhr: a part of dibhr cannot be loaded: "));
+    CHECK(contains(errors, "libdibhr_picture_codecs.so"));
+    CHECK(contains(errors, "install dibhr again"));
+}
+
 TEST_CASE("an unreadable settings file is told and stays as it is", "[errors]") {
     const TemporaryFolder folder;
     write_depth_png(folder / "depth.png", 16, 12, 100);
