@@ -11,6 +11,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -68,6 +69,26 @@ class Device {
 
   private:
     std::array<int, 2> ends_{};
+};
+
+/// A forked process of the test, which ends with this.
+class Program {
+  public:
+    explicit Program(const std::function<void()>& run) : process_(::fork()) {
+        REQUIRE(process_ >= 0);
+        if (process_ > 0) return;
+        run();
+        ::_exit(0);
+    }
+    ~Program() {
+        ::kill(process_, SIGKILL);
+        ::waitpid(process_, nullptr, 0);
+    }
+    Program(const Program&) = delete;
+    Program& operator=(const Program&) = delete;
+
+  private:
+    pid_t process_;
 };
 
 void beat_for(Guardian& guardian, milliseconds span) {
@@ -167,21 +188,16 @@ TEST_CASE("a guardian keeps nothing of the program's open, and nothing that it w
 
 TEST_CASE("however many guardians there were, an alarm reaches the one that there is",
           "[guardian]") {
+    for (int k = 0; k < 20; ++k) const Guardian gone("device");
     Device device;
-    const pid_t program = ::fork();
-    REQUIRE(program >= 0);
-    if (program == 0) {
-        for (int k = 0; k < 20; ++k) const Guardian gone("device");
+    const Program program([&device] {  // it has been where the others were
         Guardian guardian("device");
         guardian.watch(device.of_program(), zero());
         guardian.beat();
         Guardian::alarm();
-        beat_for(guardian, std::chrono::seconds(30));  // it is alive, until the test ends it
-        ::_exit(0);
-    }
+        beat_for(guardian, std::chrono::hours(1));
+    });
     device.forget();
     REQUIRE(device.hears(std::chrono::seconds(10)));
     CHECK(device.heard().value_or("").starts_with(kZero));
-    CHECK(::kill(program, SIGKILL) == 0);
-    CHECK(::waitpid(program, nullptr, 0) == program);
 }
