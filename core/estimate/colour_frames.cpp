@@ -28,7 +28,8 @@ void write_frame(const cv::Mat& picture, const fs::path& file) {
     constexpr int kQuick = 1;  // of 9: they are read once
     bool written = false;
     try {
-        written = picture_codecs().write(file.string(), picture, {cv::IMWRITE_PNG_COMPRESSION, kQuick});
+        written =
+            picture_codecs().write(file.string(), picture, {cv::IMWRITE_PNG_COMPRESSION, kQuick});
     } catch (const cv::Exception&) {
     }
     if (!written)

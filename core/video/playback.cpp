@@ -136,7 +136,7 @@ void Playback::set_part(const std::optional<MediaPart>& part) {
     if (part == part_) return;
     part_ = part;
     beyond_part_ = false;  // also where its end was passed while it was being set
-    complete_ = false;  // asked again by the next reading
+    complete_ = false;     // asked again by the next reading
     // Frames that are not of it any more are forgotten, but for one that the surface moves towards.
     if (frames_.size() <= 2) return;
     frames_.resize(2);

@@ -125,7 +125,7 @@ class Playback {
     bool looping_{true};
     std::optional<MediaPart> part_{};
     bool beyond_part_{false};  ///< sought or stepped there, since the part was set
-    bool complete_{false};  ///< no frame follows the newest
+    bool complete_{false};     ///< no frame follows the newest
     bool steps_back_{false};
     std::optional<double> ready_before_s_{};  ///< media time of the frame before which one is ready
 };

@@ -2,6 +2,7 @@
 #include "core/video/formats/still_picture.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstddef>
 #include <fstream>

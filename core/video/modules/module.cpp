@@ -1,3 +1,4 @@
+// Finds a module and loads it.
 #include "core/video/modules/module.hpp"
 
 #include <dlfcn.h>

@@ -1,3 +1,4 @@
+// The codecs as their module offers them.
 #include "core/video/modules/picture_codecs.hpp"
 
 #include "core/video/modules/module.hpp"

@@ -522,7 +522,7 @@ TEST_CASE("a study that is killed goes on at that trial when its participant say
     check_going_on(SIGKILL, 128 + SIGKILL);
 }
 
-// 600 ms after the signal the program would be ended at once, which is told by exit code 1.
+// 600 ms after the signal the program would end itself at once, with exit code 1.
 TEST_CASE("a study that is broken off goes on at that trial when its participant says so",
           "[study window][realtime]") {
     check_going_on(SIGTERM, 0);

@@ -191,7 +191,7 @@ TEST_CASE("an option saves a clip from start to end, and a resized window stays 
     check_whole_clip([](const Desk& desk, const WindowProgram&) { desk.press("key q"); });
 }
 
-// 600 ms after the signal the program would be ended at once, which is told by exit code 1.
+// 600 ms after the signal the program would end itself at once, with exit code 1.
 TEST_CASE("a clip that an option saves is whole when a signal ends the window",
           "[clip][realtime]") {
     check_whole_clip([](const Desk&, const WindowProgram& viewer) { viewer.send(SIGTERM); });
