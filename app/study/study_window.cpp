@@ -132,7 +132,7 @@ bool StudyWindow::felt() const noexcept {
 void StudyWindow::show_one_picture() {
     const WindowInput input = window_.take_input();
     beat();
-    surface_.take_news(input.focus.in_front());
+    surface_.take_news(window_.in_front());
     if (!entered_ && !view_.before_start) enter_step();
     begin_if_there();
     look_at_time();

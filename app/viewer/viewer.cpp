@@ -207,7 +207,7 @@ void Viewer::show_one_picture() {
     wear_look();
     const WindowInput input = window_.take_input();
     beat();
-    state_.in_front = input.focus.in_front();
+    state_.in_front = window_.in_front();
     take_news();
     take_keys(input);
     take_dropped(input.dropped);

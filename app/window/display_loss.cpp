@@ -2,20 +2,9 @@
 // print a line of its own and call exit().
 #include "app/window/display_loss.hpp"
 
-#include <X11/Xlib.h>
-
-// Of GLFW's glfw3native.h; weak, since a GLFW that was built for Wayland alone has none.
-extern "C" [[gnu::weak]] Display* glfwGetX11Display();  // NOLINT: its name
+#include "app/window/x11.hpp"
 
 namespace dibhr {
-
-namespace {
-
-Display* x11_display() {
-    return glfwGetX11Display == nullptr ? nullptr : glfwGetX11Display();
-}
-
-}  // namespace
 
 int display_connection() {
     Display* const display = x11_display();

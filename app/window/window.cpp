@@ -13,13 +13,11 @@
 #include <utility>
 
 #include "app/settings/settings.hpp"
+#include "app/window/covered.hpp"
 #include "app/window/display_loss.hpp"
+#include "app/window/glfw_native.hpp"
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
-
-// Of GLFW's glfw3native.h, which brings X11's macros; weak, since a GLFW that was built for Wayland
-// alone has none.
-extern "C" [[gnu::weak]] unsigned long glfwGetX11Window(GLFWwindow*);  // NOLINT: its name
 
 namespace dibhr {
 
@@ -98,7 +96,8 @@ Window::Window(const WindowSize& size, bool sync, const std::string& title)
                           "): install a graphics driver, or libgl1-mesa-dri for software drawing");
     }
     glfwMakeContextCurrent(window_);
-    glfwSwapInterval(sync ? 1 : 0);
+    // Under Wayland a window that is hidden would wait for its picture until it is seen again.
+    glfwSwapInterval(sync && x11_window() != 0 ? 1 : 0);
     glfwSetWindowSizeLimits(window_, kSmallestWindow, kSmallestWindow, GLFW_DONT_CARE,
                             GLFW_DONT_CARE);
     glfwSetWindowUserPointer(window_, &input_);
@@ -127,14 +126,6 @@ void Window::collect_events() {
     glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** files) {
         input_of(window).dropped.assign(files, files + count);
     });
-    glfwSetWindowFocusCallback(window_, [](GLFWwindow* window, int given) {
-        WindowFocus& focus = input_of(window).focus;
-        focus.has = given == GLFW_TRUE;
-        focus.had = true;  // also by losing it
-    });
-    glfwSetWindowIconifyCallback(window_, [](GLFWwindow* window, int iconified) {
-        input_of(window).focus.iconified = iconified == GLFW_TRUE;
-    });
 }
 
 void Window::leave_without_display() {
@@ -154,7 +145,16 @@ void Window::close() {
 
 WindowInput Window::take_input() {
     glfwPollEvents();
-    return std::exchange(input_, {.focus = input_.focus});
+    return std::exchange(input_, {});
+}
+
+bool Window::in_front() const {
+    const auto is = [this](int attribute) {
+        return glfwGetWindowAttrib(window_, attribute) == GLFW_TRUE;
+    };
+    if (!is(GLFW_FOCUSED) || !is(GLFW_VISIBLE) || is(GLFW_ICONIFIED)) return false;
+    const glm::ivec2 size = framebuffer_size();
+    return !is_covered(x11_window(), size.x, size.y);
 }
 
 Pointer Window::pointer() const {
@@ -194,7 +194,8 @@ float Window::scale(double asked) const {
 }
 
 unsigned long Window::x11_window() const {
-    return glfwGetX11Window == nullptr ? 0 : glfwGetX11Window(window_);
+    const auto window = glfw_native<unsigned long(GLFWwindow*)>("glfwGetX11Window");
+    return window == nullptr ? 0 : window(window_);
 }
 
 void Window::set_title(const std::string& title) {

@@ -28,23 +28,12 @@ struct TypedCharacter {
     bool shift{false};
 };
 
-/// Whether people work in the window, as the display server has told it.
-struct WindowFocus {
-    bool had{false};  ///< the keyboard has been given to it, so that it can be lost
-    bool has{false};
-    bool iconified{false};
-
-    /// Never given a keyboard, as without a window manager, it has not lost one either.
-    [[nodiscard]] bool in_front() const { return !iconified && (has || !had); }
-};
-
 /// What happened since the last call of Window::take_input().
 struct WindowInput {
     std::vector<KeyPress> keys{};
     std::vector<TypedCharacter> characters{};
     std::vector<std::filesystem::path> dropped{};
     double wheel_steps{0.0};  ///< > 0: away from the person
-    WindowFocus focus{};      ///< now
 };
 
 /// The pointer now; position in pixels of the framebuffer from the upper left.
@@ -82,6 +71,9 @@ class Window {
 
     /// Looks for events, without waiting.
     WindowInput take_input();
+    /// Whether people work in it now: it has the keyboard and can be seen. Asked of the display
+    /// server itself: its events come in another order than what they are of.
+    [[nodiscard]] bool in_front() const;
     [[nodiscard]] Pointer pointer() const;
     /// Whether a GLFW key is down now.
     [[nodiscard]] bool holds(int key) const;
@@ -92,7 +84,7 @@ class Window {
     void set_title(const std::string& title);
     void toggle_full_screen();
     [[nodiscard]] bool full_screen() const;
-    void show_picture();  ///< swaps; waits for the display when in sync
+    void show_picture();  ///< swaps; waits for an X display when in sync
     /// Asks the display server something and waits for its answer: shows that it goes on. (Under
     /// Wayland nothing is asked.)
     void meet_display() const { static_cast<void>(framebuffer_size()); }

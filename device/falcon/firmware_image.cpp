@@ -302,8 +302,8 @@ FirmwareImage keep_firmware(const std::filesystem::path& file) {
     std::error_code failed;
     fs::create_directories(kept.parent_path(), failed);
     if (failed) {
-        throw InputError("cannot make the folder " + kept.parent_path().string() + " (" +
-                         failed.message() + ") that the firmware is kept in");
+        throw InputError("cannot make the folder " + kept.parent_path().string() +
+                         " for the firmware (" + failed.message() + "): make it and try again");
     }
     OutputFile copy(kept);
     copy.write(as_text(image.bytes));

@@ -108,6 +108,7 @@ class Desk {
     [[nodiscard]] WindowProgram start(const TemporaryFolder& folder,
                                       const std::vector<std::string>& words,
                                       const std::vector<std::string>& host = {}) const;
+    [[nodiscard]] const std::string& display() const { return server_->name(); }  ///< ":7"
     /// What is on the whole display, as raw RGB of 1280 x 800.
     [[nodiscard]] std::string picture() const { return server_->seat()->picture(); }
 

@@ -6,7 +6,6 @@
 
 #include "app/panels/viewer_state.hpp"
 #include "app/settings/grip_buttons.hpp"
-#include "app/window/window.hpp"
 #include "core/haptics/safety.hpp"
 #include "device/device_or_mouse.hpp"
 #include "device/falcon/packet.hpp"
@@ -58,15 +57,6 @@ TEST_CASE("stiffness is held for the Falcon, and left to the mouse while none an
     CHECK_THAT(stiffness(), WithinAbs(2.0, 0.0));
     state.falcon->status.stage = GENERATE(falcon::Stage::homing, falcon::Stage::ready);
     CHECK_THAT(stiffness(), WithinAbs(0.25, 1e-12));
-}
-
-TEST_CASE("a window is in front until it loses a keyboard that it had, or is an icon",
-          "[falcon][focus]") {
-    CHECK(WindowFocus{}.in_front());  // no window manager has given it one
-    CHECK(WindowFocus{.had = true, .has = true}.in_front());
-    CHECK_FALSE(WindowFocus{.had = true}.in_front());
-    CHECK_FALSE(WindowFocus{.iconified = true}.in_front());
-    CHECK_FALSE(WindowFocus{.had = true, .has = true, .iconified = true}.in_front());
 }
 
 TEST_CASE("only the force of a Falcon waits for the window, and only when it is wished",

@@ -27,7 +27,7 @@ void write_press(const std::filesystem::path& file) {
 
 }  // namespace
 
-TEST_CASE("threads of the program race for nothing while a hand touches and is recorded",
+TEST_CASE("threads of the program race for nothing while a hand touches, is recorded and replayed",
           "[window]") {
     const Desk desk;
     const TemporaryFolder folder;
@@ -41,4 +41,14 @@ TEST_CASE("threads of the program race for nothing while a hand touches and is r
     CHECK(read_text(folder / "errors.txt") == "");
     const auto rows = read_session(folder / "touch.dibhr");
     CHECK(std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.contact; }));
+
+    WindowProgram replay = desk.start_viewer(folder, {"touch.dibhr", "--size", "640x480"});
+    replay.wait_until([](const Seen& now) { return now.replays && now.tick > 500; });
+    desk.press("key End");
+    replay.wait_until([](const Seen& now) { return now.tick > 2000; });
+    desk.press("key Home");
+    replay.wait_until([](const Seen& now) { return now.tick < 1500; });
+    desk.press("key q");
+    CHECK(replay.wait() == 0);
+    CHECK(read_text(folder / "errors.txt") == "");
 }

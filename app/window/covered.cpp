@@ -1,0 +1,57 @@
+#include "app/window/covered.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "app/window/x11.hpp"
+
+namespace dibhr {
+
+namespace {
+
+/// A window manager may close its frame between two questions; Xlib would end the program then.
+class ErrorsPassedOver {
+  public:
+    ErrorsPassedOver() : before_(XSetErrorHandler([](Display*, XErrorEvent*) { return 0; })) {}
+    ~ErrorsPassedOver() { XSetErrorHandler(before_); }
+    ErrorsPassedOver(const ErrorsPassedOver&) = delete;
+    ErrorsPassedOver& operator=(const ErrorsPassedOver&) = delete;
+
+  private:
+    XErrorHandler before_;
+};
+
+/// The window's frame, the child of `root` that holds it; 0 when it has just gone.
+Window frame_of(Display* display, Window window, Window root) {
+    for (;;) {
+        Window of_screen = 0;
+        Window parent = 0;
+        Window* children = nullptr;
+        unsigned count = 0;
+        if (XQueryTree(display, window, &of_screen, &parent, &children, &count) == 0) return 0;
+        if (children != nullptr) XFree(children);
+        if (parent == root || parent == 0) return window;
+        window = parent;
+    }
+}
+
+}  // namespace
+
+bool is_covered(unsigned long x11_window, int width, int height) {
+    Display* const display = x11_display();
+    if (display == nullptr) return false;
+    const ErrorsPassedOver passed_over;
+    const Window root = DefaultRootWindow(display);
+    const Window frame = frame_of(display, x11_window, root);
+    const std::array<std::array<int, 2>, 5> of_four{{{2, 2}, {1, 1}, {3, 1}, {1, 3}, {3, 3}}};
+    return std::none_of(of_four.begin(), of_four.end(), [&](const auto& point) {
+        int x = 0;
+        int y = 0;
+        Window topmost = 0;
+        XTranslateCoordinates(display, x11_window, root, point[0] * width / 4,
+                              point[1] * height / 4, &x, &y, &topmost);
+        return topmost == frame;
+    });
+}
+
+}  // namespace dibhr

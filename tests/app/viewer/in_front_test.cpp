@@ -1,0 +1,180 @@
+// The force of a device only while people work in the window, under real window managers: the
+// events that a window gets come in different orders there, and the pointer stays inside it.
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/app/program/falcon_scene.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/eventually.hpp"
+#include "tests/support/text.hpp"
+
+using namespace dibhr::test;
+
+namespace {
+
+/// A display of its own with a window manager.
+struct ManagedDesk {
+    const Desk desk = Desk::of_its_own();
+    const TemporaryFolder folder{};
+    const Process manager;
+
+    explicit ManagedDesk(const std::string& program)
+        : manager({"sh", "-c", "exec " + program + " > /dev/null"}, {"DISPLAY=" + desk.display()},
+                  folder / "manager.txt") {
+        REQUIRE(eventually([this] { return performs("wmctrl -m"); }));
+    }
+    /// Whether a command line succeeds on this display.
+    [[nodiscard]] bool performs(const std::string& command) const {
+        const std::string line = "export DISPLAY=" + desk.display() + "; " + command;
+        return std::system(("exec > /dev/null 2>&1; " + line).c_str()) ==
+               0;  // NOLINT: of this test
+    }
+};
+
+/// A program that people lock their screen with: it lies over all windows, and has grabbed keyboard
+/// and mouse.
+class ScreenLock {
+  public:
+    explicit ScreenLock(const Desk& desk)
+        : process_({"i3lock", "--nofork"}, {"DISPLAY=" + desk.display()}, folder_ / "lock.txt") {}
+    void open() {
+        process_.send(SIGTERM);
+        process_.wait();
+    }
+
+  private:
+    TemporaryFolder folder_{};
+    Process process_;
+};
+
+void check_force_goes_and_comes_back(const std::string& manager) {
+    CAPTURE(manager);
+    const ManagedDesk managed(manager);
+    FalconScene at({.records = false, .desk = managed.desk});
+    at.press_in();
+    const std::string window = "$(xdotool search --class dibhr | tail -1)";
+    REQUIRE(managed.performs("xdotool mousemove --window " + window + " 50 60"));
+    const auto is_without_force = [&] {
+        at.viewer.wait_until([](const Seen& now) { return !now.in_front; });
+        at.falcon.wait_for_zeros(100.0);
+    };
+    const auto has_force_again = [&] {
+        at.viewer.wait_until([](const Seen& now) { return now.in_front; });
+        at.wait_for_force();
+    };
+    const auto goes_and_comes_back = [&](const std::string& goes, const std::string& back) {
+        CAPTURE(goes);
+        REQUIRE(managed.performs(goes));
+        is_without_force();
+        REQUIRE(managed.performs(back));
+        static_cast<void>(managed.performs("wmctrl -i -a " + window));  // some do already
+        has_force_again();
+    };
+    goes_and_comes_back("xdotool windowminimize " + window, "xdotool windowmap " + window);
+    goes_and_comes_back("xdotool windowunmap " + window, "xdotool windowmap " + window);
+    goes_and_comes_back("wmctrl -k on", "wmctrl -k off");
+    goes_and_comes_back("wmctrl -s 1", "wmctrl -s 0");
+    ScreenLock lock(managed.desk);
+    is_without_force();
+    lock.open();
+    has_force_again();
+    at.desk.press("key q");
+    CHECK(at.viewer.wait() == 0);
+}
+
+/// A Wayland compositor without a screen, with a keyboard that types nothing.
+struct Compositor {
+    const TemporaryFolder folder{};
+    std::vector<std::string> environment{};
+    std::unique_ptr<Process> compositor{}, keyboard{};
+
+    Compositor() {
+        write_text(folder / "sway.conf", "output HEADLESS-1 resolution 640x480\n");
+        environment = {"XDG_RUNTIME_DIR=" + folder.path().string(), "WLR_BACKENDS=headless",
+                       "WLR_RENDERER=pixman", "WLR_LIBINPUT_NO_DEVICES=1",
+                       "SWAYSOCK=" + (folder / "ipc").string()};
+        std::vector<std::string> words{"sway", "-c", (folder / "sway.conf").string()};
+        if (::geteuid() == 0) {  // which sway refuses
+            run_shell("chown nobody '" + folder.path().string() + "'");
+            words.insert(words.begin(),
+                         {"setpriv", "--reuid=nobody", "--regid=nogroup", "--clear-groups"});
+        }
+        compositor = std::make_unique<Process>(words, environment, folder / "sway.txt");
+        REQUIRE(eventually([this] { return performs("swaymsg workspace 1"); }));
+        REQUIRE(eventually([this] { return !socket().empty(); }));
+        environment.push_back("WAYLAND_DISPLAY=" + socket());
+        keyboard = std::make_unique<Process>(std::vector<std::string>{"wtype", "-s", "3600000"},
+                                             environment, folder / "keyboard.txt");
+    }
+    [[nodiscard]] std::string socket() const {
+        for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+            const std::string name = entry.path().filename().string();
+            if (name.starts_with("wayland-") && !name.ends_with(".lock")) return name;
+        }
+        return {};
+    }
+    /// Whether a command line succeeds there.
+    [[nodiscard]] bool performs(const std::string& command) const {
+        std::string line = "exec > /dev/null 2>&1; ";
+        for (const std::string& entry : environment) line += "export '" + entry + "'; ";
+        return std::system((line + command).c_str()) == 0;  // NOLINT: of this test
+    }
+    /// What starts a program on it.
+    [[nodiscard]] std::vector<std::string> host() const {
+        std::vector<std::string> words{"env", "-u", "DISPLAY"};
+        words.insert(words.end(), environment.begin(), environment.end());
+        return words;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("minimised, unmapped, under a lock, on another workspace a window has no force",
+          "[window][focus]") {
+    check_force_goes_and_comes_back("openbox");
+}
+
+TEST_CASE("nor has it under other window managers", "[window][focus][long]") {
+    check_force_goes_and_comes_back(GENERATE(as<std::string>{}, "icewm", "metacity"));
+}
+
+TEST_CASE("nor has it under Wayland on another workspace, put away, or under a lock",
+          "[window][focus][long]") {
+    if (!contains(glfwGetVersionString(), "Wayland")) {
+        SUCCEED("this GLFW is for X11 alone");
+        return;
+    }
+    const Compositor compositor;
+    FalconScene at({.records = false, .host = compositor.host()});
+    at.press_in();
+    const auto is_without_force = [&] {
+        at.viewer.wait_until([](const Seen& now) { return !now.in_front; });
+        at.falcon.wait_for_zeros(100.0);
+    };
+    const auto has_force_again = [&] {
+        at.viewer.wait_until([](const Seen& now) { return now.in_front; });
+        at.wait_for_force();
+    };
+    const auto goes_and_comes_back = [&](const std::string& goes, const std::string& back) {
+        CAPTURE(goes);
+        REQUIRE(compositor.performs(goes));
+        is_without_force();
+        REQUIRE(compositor.performs(back));
+        has_force_again();
+    };
+    goes_and_comes_back("swaymsg workspace 2", "swaymsg workspace 1");
+    goes_and_comes_back("swaymsg move scratchpad", "swaymsg scratchpad show");
+    {
+        const Process lock({"swaylock"}, compositor.environment, compositor.folder / "lock.txt");
+        is_without_force();
+    }
+    has_force_again();
+}
