@@ -134,9 +134,11 @@ TEST_CASE("the ends of an axis are the edges of its area, turned around or logar
     CHECK_THAT(decades.at(0.0, -3.0).y, WithinAbs(220.0, 1e-9));
 }
 
-TEST_CASE("a peak of one update among twenty thousand is drawn", "[axes]") {
+TEST_CASE("a peak or a dip of one update among twenty thousand is drawn", "[axes]") {
+    const bool peak = GENERATE(true, false);
+    CAPTURE(peak);
     std::vector<Vec2> values;
-    for (int k = 0; k < 20000; ++k) values.emplace_back(k, k == 12345 ? 1.0 : 0.0);
+    for (int k = 0; k < 20000; ++k) values.emplace_back(k, (k == 12345) == peak ? 1.0 : 0.0);
     const Axes axes({10.0, 10.0, 210.0, 110.0}, {{0.0, 19999.0}, "x"}, {{-0.1, 1.1}, "y"});
     Canvas canvas(220, 120, kWhite);
     axes.draw_series(canvas, values, {kBlack, 1.5, Dash::solid});
@@ -144,6 +146,7 @@ TEST_CASE("a peak of one update among twenty thousand is drawn", "[axes]") {
     const std::set<int> rows = dark_rows(canvas.finished(), x - 2, x + 3);
     REQUIRE_FALSE(rows.empty());
     CHECK(*rows.begin() < axes.at(0.0, 0.9).y);
+    CHECK(*rows.rbegin() > axes.at(0.0, 0.1).y);
 }
 
 TEST_CASE("a series stays in its area and breaks where there is no value", "[axes]") {

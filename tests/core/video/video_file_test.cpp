@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <opencv2/core.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -231,6 +232,21 @@ TEST_CASE("frames that are passed over change nothing of those after them", "[me
         CHECK(frame->depth.levels == all[to].depth.levels);
         CHECK(frame->colour.rgb == all[to].colour.rgb);
     }
+}
+
+TEST_CASE("a picture stays as it is while those after it are decoded", "[media]") {
+    const TemporaryFolder folder;
+    make_flat_clip(folder / "clip.mkv", 50, 25, GENERATE(kLossless, kH264));
+    VideoDecoder decoder(folder / "clip.mkv", 0);
+    REQUIRE(decoder.decode());
+    const cv::Mat levels = decoder.levels();
+    const cv::Mat colour = decoder.colour();
+    const cv::Mat levels_then = levels.clone();
+    const cv::Mat colour_then = colour.clone();
+    while (decoder.decode()) {
+    }
+    CHECK(cv::norm(levels, levels_then, cv::NORM_INF) == 0.0);
+    CHECK(cv::norm(colour, colour_then, cv::NORM_INF) == 0.0);
 }
 
 TEST_CASE("a run-up skips non-reference pictures, and tells their times", "[media]") {
