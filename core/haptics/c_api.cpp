@@ -1,5 +1,6 @@
 // dibhr.h over the C++ core: checks what it is given, and lets no exception out.
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdarg>
 #include <cstdint>
@@ -46,6 +47,19 @@ __attribute__((format(printf, 3, 4))) dibhr_status failed(const dibhr_handle* ha
     va_end(arguments);
     return status;
 }
+
+/// As %g shows it, with a decimal point whatever the host's locale.
+class Shown {
+  public:
+    explicit Shown(double number) noexcept {
+        std::to_chars(text_.data(), text_.data() + text_.size() - 1, number,
+                      std::chars_format::general, 6);
+    }
+    [[nodiscard]] const char* text() const noexcept { return text_.data(); }
+
+  private:
+    std::array<char, 16> text_{};  // "-1.23457e-308"
+};
 
 dibhr_status null_given(const dibhr_handle* handle, const char* what) noexcept {
     return failed(handle, DIBHR_BAD_ARGUMENT, "%s is NULL", what);
@@ -95,8 +109,8 @@ dibhr_status read_image(const dibhr_handle* handle, const dibhr_image* image, in
     const float highest = highest_of(*image);
     if (!(highest > 0.0F) || !std::isfinite(highest)) {
         return failed(handle, DIBHR_BAD_ARGUMENT,
-                      "a highest level of %g: above 0 and finite, as a float",
-                      image->highest_level);
+                      "a highest level of %s: above 0 and finite, as a float",
+                      Shown(image->highest_level).text());
     }
     const std::size_t packed =
         static_cast<std::size_t>(image->columns) * bytes_of_level(image->type);
@@ -110,7 +124,7 @@ dibhr_status read_image(const dibhr_handle* handle, const dibhr_image* image, in
         : image->type == DIBHR_LEVELS_16_BIT ? copy_levels<std::uint16_t>(*image, row_bytes, levels)
                                              : copy_levels<float>(*image, row_bytes, levels);
     if (all_in_range) return DIBHR_OK;
-    return failed(handle, DIBHR_BAD_ARGUMENT, "a level is not in 0 to %g", double{highest});
+    return failed(handle, DIBHR_BAD_ARGUMENT, "a level is not in 0 to %s", Shown(highest).text());
 } catch (const std::exception&) {  // bad_alloc, or a size that no vector can have
     return failed(handle, DIBHR_NO_MEMORY, "no memory for %d x %d levels", image->columns,
                   image->rows);
@@ -249,7 +263,8 @@ dibhr_status dibhr_push_depth(dibhr_handle* handle, const dibhr_image* next) {
 
 dibhr_status dibhr_set_blend(dibhr_handle* handle, double blend) {
     if (!(blend >= 0.0 && blend <= 1.0)) {
-        return failed(handle, DIBHR_BAD_ARGUMENT, "a blend of %g: it lies in 0 to 1", blend);
+        return failed(handle, DIBHR_BAD_ARGUMENT, "a blend of %s: it lies in 0 to 1",
+                      Shown(blend).text());
     }
     if (handle == nullptr) return DIBHR_BAD_ARGUMENT;
     handle->blend = blend;
@@ -302,8 +317,9 @@ dibhr_status dibhr_set(dibhr_handle* handle, const char* name, double value) {
     const TouchNumber* entry = entry_named(handle, name);
     if (entry == nullptr) return DIBHR_UNKNOWN_NAME;
     if (!(value >= entry->lowest && value <= entry->highest)) {
-        return failed(handle, DIBHR_OUT_OF_RANGE, "%s = %g: it lies in %g to %g %s", name, value,
-                      entry->lowest, entry->highest, entry->unit.data());
+        return failed(handle, DIBHR_OUT_OF_RANGE, "%s = %s: it lies in %s to %s %s", name,
+                      Shown(value).text(), Shown(entry->lowest).text(),
+                      Shown(entry->highest).text(), entry->unit.data());
     }
     entry->in(handle->parameters) = value;
     return DIBHR_OK;
@@ -353,8 +369,8 @@ dibhr_status dibhr_set_safety(dibhr_handle* handle, const dibhr_safety* safety) 
          {safety->max_force_newton, safety->max_change_newton_per_ms, safety->ramp_s,
           safety->max_tick_s, safety->max_goal_speed_mm_per_ms}) {
         if (!(limit >= 0.0 && std::isfinite(limit))) {
-            return failed(handle, DIBHR_BAD_ARGUMENT, "a limit of %g: at least 0 and finite",
-                          limit);
+            return failed(handle, DIBHR_BAD_ARGUMENT, "a limit of %s: at least 0 and finite",
+                          Shown(limit).text());
         }
     }
     SafetyLimits& limits = handle->limits;

@@ -2,8 +2,9 @@
 #include "core/haptics/explanation.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <optional>
@@ -238,9 +239,10 @@ std::string place(int i, int j) {
 }
 
 std::string pixels(double px) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.2f px", px);
-    return text;
+    std::array<char, 400> text{};  // of any number
+    const auto end =
+        std::to_chars(text.data(), text.data() + text.size(), px, std::chars_format::fixed, 2).ptr;
+    return std::string(text.data(), end) + " px";
 }
 
 /// What came before the piece it moved on was judged, in words; empty: nothing.

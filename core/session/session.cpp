@@ -323,7 +323,7 @@ HandTicks hand_ticks(const SessionReader& reader) {
 
 std::int64_t late_ticks(const SessionReader& reader) {
     SessionReader::Query query(
-        reader, "SELECT sum(lateness_us >= " + std::to_string(kLate_us) + ") FROM tick");
+        reader, "SELECT sum(lateness_us >= " + number_text(kLate_us, 1) + ") FROM tick");
     return query.next() ? query.integer(0) : 0;
 }
 

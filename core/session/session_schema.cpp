@@ -5,6 +5,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "core/files/plain_text.hpp"
 #include "core/haptics/safety.hpp"
 #include "core/haptics/surface.hpp"
 #include "core/session/tick_record.hpp"
@@ -68,10 +69,15 @@ std::string flag_unless(int shift) {
     return "1 - (" + bits(shift, 1) + ")";
 }
 
+/// With six digits after the point: these texts are compared when a file is read.
+std::string real_text(double value) {
+    return number_text(value, 6);
+}
+
 /// Whole nanoseconds, or else a real in the unit itself.
 std::string time_of(const std::string& column, double nanoseconds) {
     return "CASE typeof(" + column + ") WHEN 'integer' THEN " + column + " / " +
-           std::to_string(nanoseconds) + " ELSE " + column + " END";
+           real_text(nanoseconds) + " ELSE " + column + " END";
 }
 
 std::string proxy_of(const std::string& axis) {
@@ -110,7 +116,7 @@ std::string shortened_of(const std::string& axis) {
 std::string time_between() {
     return "CASE WHEN d.dt IS NULL THEN (d.t - (SELECT b.t FROM tick_data b WHERE b.tick = d.tick "
            "- 1)) / " +
-           std::to_string(kNanosecondsPerSecond) + " ELSE " +
+           real_text(kNanosecondsPerSecond) + " ELSE " +
            time_of("d.dt", kNanosecondsPerSecond) + " END";
 }
 

@@ -40,7 +40,7 @@ NumberedPicture numbered(const fs::path& file) {
             std::find_if_not(std::make_reverse_iterator(first - 1), name.rend(), is_decimal_digit)
                 .base();
     }
-    return {file, std::strtod(std::string(first, last).c_str(), nullptr), decimal};
+    return {file, number_of_text(std::string(first, last)).value_or(0.0), decimal};
 }
 
 std::vector<fs::path> entries_of(const fs::path& folder) {

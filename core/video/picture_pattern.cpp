@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/video/media.hpp"
 #include "core/video/media_names.hpp"
 #include "core/video/picture_folder.hpp"
@@ -48,7 +49,7 @@ std::optional<double> number_of(const std::string& name, const NumberPattern& pa
     const std::string digits = name.substr(
         pattern.before.size(), name.size() - pattern.before.size() - pattern.after.size());
     if (!std::all_of(digits.begin(), digits.end(), is_decimal_digit)) return std::nullopt;
-    return std::strtod(digits.c_str(), nullptr);
+    return number_of_text(digits);
 }
 
 /// Stars stand for any letters: what is between them follows in this order.

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/numbers.hpp"
 #include "core/video/media.hpp"
@@ -50,7 +51,8 @@ PfmHeader read_header(std::istream& in) {
     header.channels = word(in) == "PF" ? 3 : 1;
     header.columns = whole_number(word(in));
     header.rows = whole_number(word(in));
-    header.scale = std::strtod(word(in).c_str(), nullptr);
+    const std::string scale = word(in);
+    header.scale = number_of_text(scale.substr(scale.starts_with("+") ? 1 : 0)).value_or(0.0);
     in.get();  // the one white space before the data
     return header;
 }

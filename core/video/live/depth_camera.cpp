@@ -12,10 +12,11 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <string>
+
+#include "core/files/plain_text.hpp"
 
 namespace dibhr {
 
@@ -123,7 +124,7 @@ void DepthCamera::choose_rate(const LiveName& name) {
     v4l2_fract& interval = rate.parm.capture.timeperframe;
     if (const std::string wanted = option(name, "framerate"); !wanted.empty()) {
         interval = {1000,
-                    static_cast<std::uint32_t>(1000.0 * std::strtod(wanted.c_str(), nullptr))};
+                    static_cast<std::uint32_t>(1000.0 * number_of_text(wanted).value_or(0.0))};
         static_cast<void>(ask(VIDIOC_S_PARM, &rate));
     }
     if (interval.numerator > 0)

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <sstream>
+
+#include "core/files/plain_text.hpp"
 
 namespace dibhr::inverse3::simulated {
 
@@ -56,11 +57,11 @@ std::string state_of(const Scene& scene) {
     if (scene.arms.empty()) return "no device";
     const Arm& arm = scene.arms.front();
     const Vec3 mm = kMetre_mm * (arm.position_m - kMiddle_m);
-    std::array<char, 160> text{};
-    (void)std::snprintf(text.data(), text.size(),
-                        "hand_mm %.2f %.2f %.2f force_newton %.3f %.3f %.3f", mm.x, mm.y, mm.z,
-                        arm.force_newton.x, arm.force_newton.y, arm.force_newton.z);
-    return text.data();
+    std::string text = "hand_mm";
+    for (int axis = 0; axis < 3; ++axis) text += ' ' + number_text(mm[axis], 2);
+    text += " force_newton";
+    for (int axis = 0; axis < 3; ++axis) text += ' ' + number_text(arm.force_newton[axis], 3);
+    return text;
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 """What the tests of the Python module share."""
 
+import contextlib
+import locale
 import os
 import pathlib
 import subprocess
@@ -45,6 +47,22 @@ def circle(count=20000, centre=(242.0, 242.0), z=108.0, radius=200.0, step=4.961
     x = centre[0] + radius * np.cos(angle)
     y = centre[1] + radius * np.sin(angle)
     return np.column_stack([x, y, np.full(count, z)])
+
+
+@contextlib.contextmanager
+def decimal_commas():
+    """This process with numbers as a German program of Qt or GTK has them."""
+    with tempfile.TemporaryDirectory() as folder:
+        words = ["localedef", "-i", "de_DE", "-f", "UTF-8", f"{folder}/de_DE.UTF-8"]
+        subprocess.run(words, check=True)
+        os.environ["LOCPATH"] = folder
+        try:
+            locale.setlocale(locale.LC_ALL, "de_DE.UTF-8")
+            assert locale.localeconv()["decimal_point"] == ","
+            yield
+        finally:
+            locale.setlocale(locale.LC_ALL, "C")
+            del os.environ["LOCPATH"]
 
 
 class FolderTest(unittest.TestCase):

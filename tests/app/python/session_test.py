@@ -11,7 +11,7 @@ import unittest
 import numpy as np
 
 import dibhr
-from helpers import FolderTest, read_rows, run_dibhr
+from helpers import FolderTest, circle, decimal_commas, hills, read_rows, run_dibhr
 
 TICKS = 1000
 
@@ -53,6 +53,22 @@ class Sessions(FolderTest):
         self.assertTrue((ticks["frame"][~touched] == -1).all())
         self.assertGreater(ticks["contact"].sum(), 100)
         self.assertLessEqual({"none", "triangle"}, set(ticks["primitive"]))
+
+    def test_and_runs_are_the_same_in_a_program_with_decimal_commas(self):
+        def of_it_all():
+            session = dibhr.Session(self.file)
+            rows = dibhr.Renderer(dibhr.Surface(hills())).run(circle(200, (80, 60), 40.0, 30.0))
+            return session.ticks(), session.parameters, session.marks, rows
+
+        expected = of_it_all()
+        with decimal_commas():
+            found = of_it_all()
+            with self.assertRaisesRegex(dibhr.InputError, r"0\.5"):
+                dibhr.Renderer(dibhr.Surface(hills()), stiffness=-0.5)
+        self.assertEqual(found[1:3], expected[1:3])
+        for one, other in ((found[0], expected[0]), (found[3], expected[3])):
+            for column in set(one.dtype.names) - {"ns"}:
+                np.testing.assert_array_equal(one[column], other[column])
 
     def test_begin_as_the_rows_of_a_run(self):
         rows = dibhr.Renderer(dibhr.Surface(np.zeros((4, 4)))).run([[1, 1, 1]])

@@ -13,6 +13,7 @@
 #include "tests/core/haptics/surfaces.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/comma_locale.hpp"
 
 namespace {
 
@@ -189,6 +190,17 @@ TEST_CASE("every parameter of the table is set, read and kept in its range by it
     CHECK(dibhr_set_algorithm(hand.c, "rbf") == DIBHR_UNKNOWN_NAME);
     CHECK(std::string(dibhr_algorithm(hand.c)) == "dibhr");
     CHECK(dibhr_algorithm_at(dibhr::all_algorithms().size()) == nullptr);
+}
+
+TEST_CASE("what is wrong is said with decimal points in a host with a decimal comma", "[c_api]") {
+    const dibhr::test::CommaLocale locale;
+    Handle hand;
+    CHECK(dibhr_set_blend(hand.c, 1.5) == DIBHR_BAD_ARGUMENT);
+    CHECK(hand.error() == "a blend of 1.5: it lies in 0 to 1");
+    CHECK(dibhr_set_blend(hand.c, -1e300 / 7.0) == DIBHR_BAD_ARGUMENT);
+    CHECK(hand.error() == "a blend of -1.42857e+299: it lies in 0 to 1");
+    CHECK(dibhr_set(hand.c, "static-friction", kNan) == DIBHR_OUT_OF_RANGE);
+    CHECK(hand.error().find("nan") != std::string::npos);
 }
 
 TEST_CASE("a bad image is refused with a reason and the surface stays as it was", "[c_api]") {

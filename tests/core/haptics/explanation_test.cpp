@@ -10,6 +10,7 @@
 #include "core/haptics/neighbours.hpp"
 #include "tests/core/haptics/surfaces.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/comma_locale.hpp"
 
 using namespace dibhr;
 
@@ -164,7 +165,10 @@ TEST_CASE("over a flat ground the way to a goal below is told primitive by primi
     CHECK(slide.steps.back().end == StepEnd::stops_on_cone);
     CHECK(slide.steps.back().cone_px == Approx(2.0));
     CHECK(slide.result.position.x == Approx(5.2));
-    CHECK(text_of(slide.steps.back()).find("2.00 px") != std::string::npos);
+    {
+        const dibhr::test::CommaLocale locale;
+        CHECK(text_of(slide.steps.back()).find("2.00 px") != std::string::npos);
+    }
     CHECK(text_of(slide.steps.front()) ==
           "TRIANGLE (3, 3), upper left: the goal's foot is outside, so the proxy goes as far as "
           "EDGE (3, 3), diagonal.");

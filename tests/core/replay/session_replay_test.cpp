@@ -16,6 +16,7 @@
 #include "tests/core/session/exploration.hpp"
 #include "tests/core/session/session_folder.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/comma_locale.hpp"
 #include "tests/support/text.hpp"
 
 using namespace dibhr;
@@ -106,6 +107,18 @@ TEST_CASE("a session replays to the same proxies and forces, bit for bit", "[rep
     CHECK(ticks == 7450);
     CHECK(in_contact > 4000);  // or this would prove little
     CHECK(limited > 500);
+}
+
+TEST_CASE("a session is recorded and replayed to the same bits whatever the program's locale is",
+          "[replay]") {
+    const CommaLocale locale;
+    const SessionFolder folder;
+    MovingSurface surface;
+    record_exploration(folder, surface);
+    const Session session(folder.file());
+    SessionReplay replay(session, surface, {{}});
+    while (replay.next()) REQUIRE(same_bits(replay.touch(0), replay.recorded()));
+    CHECK(late_ticks(session.reader()) == 0);
 }
 
 TEST_CASE("a run with another friction gives other proxies, beside one that is as recorded",

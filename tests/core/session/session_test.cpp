@@ -5,12 +5,15 @@
 #include <cstdint>
 #include <fstream>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "core/files/content_hash.hpp"
 #include "core/session/recorder.hpp"
+#include "core/session/session_schema.hpp"
 #include "tests/core/session/session_folder.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/comma_locale.hpp"
 #include "tests/support/eventually.hpp"
 
 using namespace dibhr;
@@ -197,6 +200,17 @@ TEST_CASE("touch maps that were felt are kept whole, however large, by their ver
     const Session old(folder.file());
     CHECK(old.sources().at(0).source.maps == 0);
     CHECK(old.maps_of(3).empty());
+}
+
+TEST_CASE("the view of a version stays as its first sessions have it, in any locale", "[session]") {
+    const auto sum_of = [](const std::string& text) {
+        return sha256_of({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    };
+    REQUIRE(kSessionSchemaVersion == 2);
+    const std::string of_first = "cf2a02a5a82bb495b0340a2cd58f2d9a4a9e8d2c5076613c4dcb7e1bb01966b3";
+    CHECK(sum_of(tick_view()) == of_first);
+    const CommaLocale locale;  // as every program of Qt or GTK has it for its person
+    CHECK(sum_of(tick_view()) == of_first);
 }
 
 TEST_CASE("every tick has its wall time", "[session]") {

@@ -1,0 +1,35 @@
+// A locale whose numbers have a decimal comma, as every program of Qt or GTK sets it for its
+// person.
+#pragma once
+
+#include <clocale>
+#include <cstdlib>
+#include <string>
+
+#include "tests/support/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace dibhr::test {
+
+/// Of this process, while it lives; compiled by the C library's own tool.
+class CommaLocale {
+  public:
+    CommaLocale() {
+        const std::string compiled = (folder_ / "de_DE.UTF-8").string();
+        REQUIRE(std::system(("localedef -i de_DE -f UTF-8 '" + compiled + "'").c_str()) == 0);
+        ::setenv("LOCPATH", folder_.path().c_str(), 1);
+        REQUIRE(std::setlocale(LC_ALL, "de_DE.UTF-8") != nullptr);
+        REQUIRE(std::string(std::localeconv()->decimal_point) == ",");
+    }
+    ~CommaLocale() {
+        std::setlocale(LC_ALL, "C");
+        ::unsetenv("LOCPATH");
+    }
+    CommaLocale(const CommaLocale&) = delete;
+    CommaLocale& operator=(const CommaLocale&) = delete;
+
+  private:
+    TemporaryFolder folder_{};
+};
+
+}  // namespace dibhr::test
