@@ -150,10 +150,14 @@ std::string Session::fact(const std::string& key) const {
 }
 
 std::string Session::warning() const {
+    const std::string log = file().filename().string() + "-wal";
+    if (reader_.log() == SessionReader::Log::foreign)
+        return file().string() + ": its recording ended, so " + log +
+               " beside it belongs to another one and is not read; move it away";
     // The log may also have been merged by another program.
-    if (!reader_.lacks_log() || fact("complete") != "0") return {};
+    if (reader_.log() != SessionReader::Log::absent || fact("complete") != "0") return {};
     return file().string() + ": its recording was broken off, and its last moments may be in " +
-           file().filename().string() + "-wal, which is not here; copy both files";
+           log + ", which is not here; copy both files";
 }
 
 const SessionParameters* Session::parameters_of(std::uint64_t version) const noexcept {

@@ -36,16 +36,9 @@ SessionReader::SessionReader(const std::filesystem::path& file) : file_(file) {
         throw InputError(file.string() + ": no such file; check its name");
     }
     if (!std::filesystem::is_regular_file(file, failed)) refuse("no ordinary file");
-    // A file without a log beside it is complete: opened as immutable, SQLite makes no files beside
-    // it.
-    const bool complete = !std::filesystem::exists(file.string() + "-wal", failed);
-    if (complete) read_head();
-    // SQLite would take the log of an empty file for one that was left behind, and delete it.
-    if (!complete && std::filesystem::is_empty(file, failed)) {
-        throw InputError(file.string() + ": is empty, and only " + file.filename().string() +
-                         "-wal, the log of its recording, is beside it; copy both again from where "
-                         "it was recorded");
-    }
+    read_head();
+    // Opened as immutable, SQLite makes no files beside it, and reads none.
+    const bool complete = log_ != Log::needed;
     const std::string uri = "file:" + percent_encoded(std::filesystem::absolute(file).string()) +
                             "?mode=ro" + (complete ? "&immutable=1" : "");
     sqlite3* opened = nullptr;
@@ -93,7 +86,8 @@ void SessionReader::check_tables() const {
     }
 }
 
-/// The head of a file that was closed says how long it is, which is refused when it is shorter.
+/// The head of a file that was closed says how long it is, which is refused when it is shorter, and
+/// whether a log belongs to it.
 void SessionReader::read_head() {
     // SQLite's file format, section 1.3: the magic string; at 16 the size of a page, 1 for 65536;
     // at 18 and 19 a 2 each for a write-ahead log; at 28 the number of pages, valid if the numbers
@@ -103,6 +97,15 @@ void SessionReader::read_head() {
     std::ifstream stream(file_, std::ios::binary);
     stream.read(reinterpret_cast<char*>(head.data()), head.size());
     if (!stream.is_open()) throw InputError(file_.string() + ": cannot be read; make it readable");
+    // Asked after the head was read: a recording that ends meanwhile has no log any more.
+    std::error_code failed;
+    const bool logged = std::filesystem::exists(file_.string() + "-wal", failed);
+    // SQLite would take the log of an empty file for one that was left behind, and delete it.
+    if (stream.gcount() == 0 && logged) {
+        throw InputError(file_.string() + ": is empty, and only " + file_.filename().string() +
+                         "-wal, the log of its recording, is beside it; copy both again from where "
+                         "it was recorded");
+    }
     if (stream.gcount() == 0) refuse("it is empty");
     if (!std::equal(kMagic.begin(), kMagic.end(), head.begin())) refuse("no SQLite file");
     const auto number = [&head](std::size_t at, std::size_t bytes) {
@@ -110,10 +113,11 @@ void SessionReader::read_head() {
         for (std::size_t k = at; k < at + bytes; ++k) value = value << 8U | head[k];
         return value;
     };
-    lacks_log_ = head[18] == 2 && head[19] == 2;
+    const bool by_log = head[18] == 2 && head[19] == 2;
+    log_ = !by_log ? (logged ? Log::foreign : Log::none) : logged ? Log::needed : Log::absent;
+    if (log_ == Log::needed) return;  // which may hold what the file lacks
     const std::uint64_t page = number(16, 2) == 1 ? 65536 : number(16, 2);
     const std::uint64_t promised = page * number(28, 4);
-    std::error_code failed;
     const std::uint64_t there = std::filesystem::file_size(file_, failed);
     if (failed || number(24, 4) != number(92, 4) || there >= promised) return;
     throw InputError(file_.string() + ": is cut short (" + std::to_string(there) + " of " +
@@ -129,7 +133,7 @@ void SessionReader::check_kind() const {
     if (application == 0 && number("SELECT count(*) FROM sqlite_master") == 0) {
         std::error_code failed;
         const std::string log = file_.filename().string() + "-wal";
-        if (lacks_log_) {
+        if (log_ == Log::absent) {
             throw InputError(file_.string() +
                              ": its recording was broken off, and all of it is "
                              "in " +

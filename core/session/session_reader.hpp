@@ -21,8 +21,13 @@ class SessionReader {
     SessionReader& operator=(const SessionReader&) = delete;
 
     [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
-    /// It was written by way of a log, and none is beside it: merged, or not copied along.
-    [[nodiscard]] bool lacks_log() const noexcept { return lacks_log_; }
+    enum class Log {
+        none,     ///< the recording ended, which merged it
+        needed,   ///< the recording goes on, or was broken off
+        absent,   ///< likewise, and it is not beside the file: merged by others, or not copied
+        foreign,  ///< beside a file whose recording ended: another one's, and not read
+    };
+    [[nodiscard]] Log log() const noexcept { return log_; }
 
     /// Looks through the whole file. Throws InputError when it is damaged.
     void check() const;
@@ -42,7 +47,7 @@ class SessionReader {
     [[noreturn]] void refuse_damaged(const std::string& words) const;
 
     std::filesystem::path file_;
-    bool lacks_log_{false};
+    Log log_{Log::none};
     /// So that nothing of the file decides what is done with it, or for how long.
     mutable SqliteBounds bounds_{};
     SqliteDatabase database_{};

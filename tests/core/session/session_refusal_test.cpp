@@ -140,6 +140,32 @@ TEST_CASE("a recording copied without its log says so, and a whole one says noth
     CHECK(Session(folder.file()).warning().empty());
 }
 
+TEST_CASE("the log of another recording beside one that has ended is not read, and told",
+          "[session]") {
+    const SessionFolder folder;
+    const auto record = [](const std::filesystem::path& file, std::uint64_t ticks) {
+        const auto ring = std::make_unique<TickRing>();
+        auto recorder = std::make_unique<Recorder>(file, *ring, SessionFacts{{"note", "hello"}});
+        for (std::uint64_t n = 0; n < ticks; ++n)
+            push(*ring, tick_record(static_cast<std::int64_t>(n)));
+        REQUIRE(eventually([&] { return recorder->status().rows == ticks; }));
+        const std::filesystem::path log = file.string() + "-wal";
+        std::filesystem::copy_file(log, file.string() + "-copy");
+    };
+    record(folder.path() / "older.dibhr", 30);
+    record(folder.file(), 500);
+    const std::string log = folder.file().string() + "-wal";
+    std::filesystem::rename(folder.path() / "older.dibhr-copy", log);
+    const auto bytes = std::filesystem::file_size(log);
+
+    const Session session(folder.file());
+    CHECK(session.rows() == 500);
+    CHECK(session.fact("complete") == "1");
+    CHECK(contains(session.warning(), log.substr(log.rfind('/') + 1)));
+    CHECK(contains(session.warning(), "move it away"));
+    CHECK(std::filesystem::file_size(log) == bytes);
+}
+
 TEST_CASE("a file all of whose recording is in a log that is not there names the log",
           "[session]") {
     const SessionFolder folder;
