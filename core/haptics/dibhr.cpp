@@ -70,7 +70,7 @@ class SurfaceWalk : private ProxyWalk {
                     proxy_.slipping ? moving : sticking, start, goal_on);
         const Glide::End end = glide.run();
         proxy_.moves = glide.moves();
-        if (glide.moved()) move_to(glide.position());
+        move_to(glide.position());
         switch (end) {
             case Glide::End::above:
                 return leave();

@@ -63,7 +63,6 @@ class Glide {
 
     [[nodiscard]] Vec3 position() const noexcept { return position_; }
     [[nodiscard]] int moves() const noexcept { return moves_; }
-    [[nodiscard]] bool moved() const noexcept { return moved_; }
     /// On an EDGE that it crossed; else in the TRIANGLE it began in.
     [[nodiscard]] bool crossed() const noexcept { return crossed_; }
     /// The TRIANGLE it ended in, or beside whose EDGE.
@@ -243,7 +242,8 @@ class Glide {
         }
         const EdgeElevations z = facet_.elevations_along(kThrough);
         position_.z = z.begin + along * (z.end - z.begin);
-        if (!moved_ && position_ != from) {
+        const Vec3 gone = position_ - from;
+        if (!moved_ && glm::dot(gone, gone) > square(kThere_px)) {
             moved_ = true;
             holding_ = course_.moving;
         }

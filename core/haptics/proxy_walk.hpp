@@ -98,9 +98,11 @@ class ProxyWalk {
     /// The TRIANGLE of the active primitive, or around it, on whose side the goal is.
     [[nodiscard]] Facet ground_towards_goal() const noexcept;
 
+    /// Round-off of a proxy that stays is no move: it would end its sticking.
     void move_to(Vec3 position) noexcept {
-        if (position == proxy_.position) return;
+        const bool moves = squared_distance(proxy_.position, position) > square(kThere_px);
         proxy_.position = position;
+        if (!moves) return;
         proxy_.slipping = true;
         moved_ = true;
     }
