@@ -6,6 +6,7 @@
 
 #include "app/commands/command_line.hpp"
 #include "app/commands/output.hpp"
+#include "core/files/csv_table.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/session/session.hpp"
 
@@ -26,7 +27,7 @@ void append_cell(std::string& text, const SessionReader::Query& ticks, int colum
             append_number(text, ticks.real(column));
             break;
         case SessionReader::Kind::text:
-            text += ticks.text(column);
+            text += csv_cell(ticks.text(column));
             break;
     }
 }
@@ -58,7 +59,7 @@ int run_export(CLI::App& app, const Arguments& arguments) {
         rows.text() += '\n';
         rows.rows_done();
     };
-    add_row([&](int column) { rows.text() += ticks.name(column); });
+    add_row([&](int column) { rows.text() += csv_cell(ticks.name(column)); });
     for (std::int64_t done = 0; ticks.next(); ++done) {
         add_row([&](int column) { append_cell(rows.text(), ticks, column); });
         if (done % kRowsPerStep == 0) {

@@ -185,6 +185,12 @@ int run(const StudyOptions& options) {
         std::cout << file.file().string() << ": is finished\n";
         return 0;
     }
+    const std::vector<std::string> others = others_of_number(options.folder(), file.identity());
+    if (file.answered().empty() && !others.empty())
+        print_warning("the number " + std::to_string(file.identity().number) +
+                      " chooses the order of " + listed(others) +
+                      ", too: so that another person gets another order, leave, delete " +
+                      file.file().string() + " and give another --participant or --number");
     if (!file.answered().empty())
         std::cout << "goes on at trial " << file.answered().size() + 1 << '\n';
     pilot ? run_pilot(steps, file, *pilot) : lead_person(options, steps, file);

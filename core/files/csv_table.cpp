@@ -2,6 +2,7 @@
 #include "core/files/csv_table.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -101,6 +102,22 @@ double CsvTable::number(std::size_t column) const {
 
 void CsvTable::refuse(const std::string& what) const {
     throw InputError(file_ + ":" + std::to_string(line_) + ": " + what);
+}
+
+std::string csv_cell(std::string_view text) {
+    // The wide ones are what East Asian keyboards give.
+    constexpr std::array<std::string_view, 8> kFormula{"=",      "+",      "-",      "@",
+                                                       "\uFF1D", "\uFF0B", "\uFF0D", "\uFF20"};
+    std::string cell = one_line(text);
+    const std::size_t begin = std::min(cell.find_first_not_of(" \"'"), cell.size());
+    const std::string_view said = std::string_view(cell).substr(begin);
+    const bool formula =
+        std::ranges::any_of(kFormula, [said](auto sign) { return said.starts_with(sign); });
+    if (formula && !number_of_text(cell)) cell.insert(0, 1, '\'');
+    if (cell.find_first_of(",;\"") == std::string::npos) return cell;
+    std::string quoted = "\"";
+    for (const char each : cell) quoted.append(each == '"' ? 2 : 1, each);
+    return quoted + '"';
 }
 
 }  // namespace dibhr

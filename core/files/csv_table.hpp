@@ -1,4 +1,5 @@
-// A table that people wrote as CSV: a line of column names, in any order, then rows.
+// A table that people wrote as CSV: a line of column names, in any order, then rows; and a cell as
+// the program writes it.
 #pragma once
 
 #include <cstddef>
@@ -43,5 +44,9 @@ class CsvTable {
     std::size_t line_{0};
     std::vector<std::string_view> names_{}, cells_{};  // of the text
 };
+
+/// A cell of a CSV file (RFC 4180), on one line and in quotation marks where it must be. What a
+/// spreadsheet would take for a formula has an apostrophe before it, which makes it text.
+[[nodiscard]] std::string csv_cell(std::string_view text);
 
 }  // namespace dibhr

@@ -29,6 +29,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kLongestLabel = 40;
+constexpr int kMostNumber = 1000000;            ///< of a participant
 constexpr int kLongestSession_bytes = 1 << 30;  ///< a trial's; an hour's recording has less
 
 constexpr const char* kTables =
@@ -36,7 +37,7 @@ constexpr const char* kTables =
     "CREATE TABLE trial (trial INTEGER PRIMARY KEY, block INTEGER, position INTEGER, "
     "practice INTEGER, form TEXT, item INTEGER, repetition INTEGER, target INTEGER, "
     "track INTEGER, level REAL, choice INTEGER, number REAL, right INTEGER, reaction_s REAL, "
-    "utc_s REAL);"
+    "utc_s REAL, early INTEGER);"
     "CREATE TABLE interval (trial INTEGER, interval INTEGER, condition TEXT, value REAL, "
     "\"values\" TEXT, PRIMARY KEY (trial, interval)) WITHOUT ROWID;"
     "CREATE TABLE session (trial INTEGER PRIMARY KEY, file BLOB);"
@@ -54,11 +55,17 @@ constexpr const char* kTables =
     "('trial', 'choice', 'interval or answer, from 0; -1: none'),"
     "('trial', 'number', 'rating, or value turned to'),"
     "('trial', 'right', '1: right, 0: wrong, NULL: nothing is'),"
-    "('trial', 'reaction_s', 'since the question was put, or an adjustment was first felt'),"
+    "('trial', 'reaction_s', 'from when the question was on the screen, or an adjustment was first "
+    "felt, until the key or button went down'),"
     "('trial', 'utc_s', 'of the answer, since 1970'),"
     "('interval', 'value', 'of the varied parameter; NULL: none varies'),"
     "('interval', 'values', 'all that was set, as JSON'),"
     "('session', 'file', 'the trial''s ticks: a file that ends in .dibhr');";
+
+/// Since version 2.
+constexpr const char* kExplainEarly =
+    "INSERT INTO explanation VALUES ('trial', 'early', 'keys and buttons of an answer that were "
+    "pressed before the question was on the screen, and dropped; NULL: not counted');";
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& what) {
     throw InputError(one_line(file.string() + ": " + what));
@@ -132,16 +139,28 @@ double number_fact(Database& database, const std::string& key) {
     return number_of_text(fact(database, key)).value_or(0.0);
 }
 
-StudyIdentity identity_in(Database& database) {
-    return {.participant = fact(database, "participant"),
-            .number = static_cast<int>(number_fact(database, "number")),
-            .program = fact(database, "program"),
-            .protocol_name = fact(database, "protocol_name"),
-            .protocol_text = fact(database, "protocol"),
-            .protocol_sha256 = fact(database, "protocol_sha256"),
-            .seed = static_cast<std::uint64_t>(number_fact(database, "seed")),
-            .created_s = number_fact(database, "created_s"),
-            .pilot = fact(database, "pilot")};
+/// What is checked when a study is begun is checked when it is read: the file may be anybody's.
+StudyIdentity identity_in(Database& database, const fs::path& file) {
+    const double number = number_fact(database, "number");
+    if (!(number >= 1.0 && number <= kMostNumber))
+        refuse(file, "is damaged or made by hand: the participant's number is not one from 1 to " +
+                         std::to_string(kMostNumber));
+    StudyIdentity identity{
+        .participant = fact(database, "participant"),
+        .number = static_cast<int>(number),
+        .program = fact(database, "program"),
+        .protocol_name = fact(database, "protocol_name"),
+        .protocol_text = fact(database, "protocol"),
+        .protocol_sha256 = fact(database, "protocol_sha256"),
+        .seed = static_cast<std::uint64_t>(std::clamp(number_fact(database, "seed"), 0.0, 0x1p63)),
+        .created_s = number_fact(database, "created_s"),
+        .pilot = fact(database, "pilot")};
+    try {
+        require_label(identity.participant);
+    } catch (const InputError& error) {
+        refuse(file, std::string("is damaged or made by hand: ") + error.what());
+    }
+    return identity;
 }
 
 std::vector<StudyInterval> intervals_in(Database& database, int trial, const fs::path& file) {
@@ -156,13 +175,21 @@ std::vector<StudyInterval> intervals_in(Database& database, int trial, const fs:
     return intervals;
 }
 
+std::int64_t version_of(Database& database) {
+    return database.number("PRAGMA user_version");
+}
+
 std::vector<AnsweredTrial> answered_in(Database& database, const fs::path& file) {
     std::vector<AnsweredTrial> all;
     Rows rows(database,
-              "SELECT trial, block, position, practice, form, item, repetition, target, track, "
-              "level, choice, number, right, reaction_s, utc_s FROM trial ORDER BY trial");
+              std::string("SELECT trial, block, position, practice, form, item, repetition, "
+                          "target, track, level, choice, number, right, reaction_s, utc_s, ") +
+                  (version_of(database) < 2 ? "NULL" : "early") + " FROM trial ORDER BY trial");
     const auto whole = [&rows](int column) { return static_cast<int>(rows.integer(column)); };
     while (rows.next()) {
+        if (rows.integer(0) != static_cast<std::int64_t>(all.size()))
+            refuse(file, "is damaged: the trial after " + std::to_string(all.size()) +
+                             " others has the number " + std::to_string(rows.integer(0)));
         const auto form = value_named(kTrialForms, rows.text(4));
         if (!form) refuse(file, "is damaged: a trial has the form " + in_quotes(rows.text(4)));
         AnsweredTrial one{.trial = {.number = whole(0),
@@ -179,6 +206,7 @@ std::vector<AnsweredTrial> answered_in(Database& database, const fs::path& file)
         if (rows.has(9)) one.trial.level = rows.real(9);
         if (rows.has(11)) one.answer.number = rows.real(11);
         if (rows.has(12)) one.right = whole(12) != 0;
+        if (rows.has(15)) one.answer.early = whole(15);
         one.trial.intervals = intervals_in(database, one.trial.number, file);
         all.push_back(std::move(one));
     }
@@ -188,8 +216,8 @@ std::vector<AnsweredTrial> answered_in(Database& database, const fs::path& file)
 void require_kind(Database& database, const fs::path& file) {
     if (database.number("PRAGMA application_id") != kStudyApplicationId)
         refuse(file, "is no study of dibhr: name a file that dibhr study run made");
-    const auto version = database.number("PRAGMA user_version");
-    if (version != kStudySchemaVersion)
+    const std::int64_t version = version_of(database);
+    if (version < 1 || version > kStudySchemaVersion)
         refuse(file, "is a study of another version (" + std::to_string(version) + "; this is " +
                          std::to_string(kStudySchemaVersion) + "): use the program that made it");
 }
@@ -244,18 +272,38 @@ void require_label(const std::string& label) {
 }
 
 std::optional<int> number_in(const std::string& label) {
-    constexpr int kMost = 1000000;
     std::size_t digits = label.size();
     while (digits > 0 && std::isdigit(static_cast<unsigned char>(label[digits - 1])) != 0) --digits;
     const std::string text = label.substr(digits);
     if (text.empty() || text.size() > 7) return std::nullopt;
     const int number = std::stoi(text);
-    if (number < 1 || number > kMost) return std::nullopt;
+    if (number < 1 || number > kMostNumber) return std::nullopt;
     return number;
 }
 
 fs::path study_file_of(const fs::path& folder, const std::string& label) {
     return folder / (label + kStudyEnding);
+}
+
+std::vector<std::string> others_of_number(const fs::path& folder, const StudyIdentity& identity) {
+    std::vector<std::string> labels;
+    std::error_code failed;
+    for (const auto& entry : fs::directory_iterator(folder, failed)) {
+        const std::string label = entry.path().stem().string();
+        if (entry.path().extension() != kStudyEnding || label == identity.participant) continue;
+        std::optional<int> number = number_in(label);
+        bool same_study = true;
+        try {
+            const StudyRecord other = read_study(entry.path());
+            number = other.identity.number;
+            same_study = other.identity.protocol_sha256 == identity.protocol_sha256;
+        } catch (const InputError&) {
+            // Another program runs it, or it is no study: its label is all that is known.
+        }
+        if (same_study && number == identity.number) labels.push_back(label);
+    }
+    std::sort(labels.begin(), labels.end());
+    return labels;
 }
 
 struct StudyFile::Implementation {
@@ -279,7 +327,8 @@ struct StudyFile::Implementation {
     void begin(const StudyIdentity& wanted) {
         database.execute(
             "BEGIN IMMEDIATE; PRAGMA application_id = " + std::to_string(kStudyApplicationId) +
-            "; PRAGMA user_version = " + std::to_string(kStudySchemaVersion) + ";" + kTables);
+            "; PRAGMA user_version = " + std::to_string(kStudySchemaVersion) + ";" + kTables +
+            kExplainEarly);
         Statement row(database, "INSERT INTO study VALUES (?, ?)");
         for (const auto& [key, value] : facts_of(wanted))
             row.run(std::string_view(key), std::string_view(value));
@@ -289,7 +338,7 @@ struct StudyFile::Implementation {
 
     void go_on(const StudyIdentity& wanted) {
         require_kind(database, file);
-        identity = identity_in(database);
+        identity = identity_in(database, file);
         if (identity.protocol_sha256 != wanted.protocol_sha256)
             refuse(file,
                    "is of another protocol, or another version of it: give another "
@@ -303,11 +352,20 @@ struct StudyFile::Implementation {
                              : "is of the pilot " + in_quotes(identity.pilot) +
                                    ": give another --participant or --out");
         answered = answered_in(database, file);
+        if (version_of(database) < 2) add_early();
+    }
+
+    void add_early() {
+        database.execute(
+            std::string("BEGIN IMMEDIATE; ALTER TABLE trial ADD COLUMN early INTEGER;") +
+            kExplainEarly +
+            "UPDATE study SET value = '2' WHERE key = 'schema_version';"
+            "PRAGMA user_version = 2; COMMIT");
     }
 
     void insert(const AnsweredTrial& one, const fs::path& session) {
         const Trial& trial = one.trial;
-        Statement row(database, "INSERT INTO trial VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
+        Statement row(database, "INSERT INTO trial VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
         row.cell(trial.number);
         row.cell(trial.block);
         row.cell(trial.position);
@@ -323,7 +381,7 @@ struct StudyFile::Implementation {
         row.cell(one.right ? std::optional<std::int64_t>(*one.right ? 1 : 0) : std::nullopt);
         row.plain_real(one.answer.reaction_s);
         row.plain_real(one.utc_s);
-        row.run();
+        row.run(std::optional<std::int64_t>(one.answer.early));
         Statement interval(database, "INSERT INTO interval VALUES (?,?,?,?,?)");
         int number = 0;
         for (const StudyInterval& felt : trial.intervals) {
@@ -404,7 +462,7 @@ StudyRecord read_study(const fs::path& file) {
         database.distrust(kLongestSession_bytes);
         require_kind(database, file);
         StudyRecord record{.file = file,
-                           .identity = identity_in(database),
+                           .identity = identity_in(database, file),
                            .finished = fact(database, "finished") == "1",
                            .answered = answered_in(database, file)};
         Rows rows(database,
@@ -428,7 +486,7 @@ bool write_study_session(const fs::path& study, int trial, const fs::path& sessi
         Database database(study);
         database.distrust(kLongestSession_bytes);
         require_kind(database, study);
-        identity = identity_in(database);
+        identity = identity_in(database, study);
         Rows rows(database, "SELECT file FROM session WHERE trial = " + std::to_string(trial));
         return rows.next() ? rows.bytes(0) : std::string();
     });

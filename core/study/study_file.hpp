@@ -17,7 +17,7 @@ namespace dibhr {
 /// "dhst": the file says itself what it is (`PRAGMA application_id`).
 inline constexpr int kStudyApplicationId = 0x64687374;
 /// Counts changes of the tables (`PRAGMA user_version`).
-inline constexpr int kStudySchemaVersion = 1;
+inline constexpr int kStudySchemaVersion = 2;
 /// "P07.dibhr-study".
 inline constexpr const char* kStudyEnding = ".dibhr-study";
 
@@ -45,6 +45,11 @@ void require_label(const std::string& label);
 /// The file of a participant in a folder.
 [[nodiscard]] std::filesystem::path study_file_of(const std::filesystem::path& folder,
                                                   const std::string& label);
+
+/// Labels of other study files in that folder whose order the same number chooses. A file that
+/// another program has open has the number of its label.
+[[nodiscard]] std::vector<std::string> others_of_number(const std::filesystem::path& folder,
+                                                        const StudyIdentity& identity);
 
 /// A study that is being run: by one program at a time, which holds the file until it ends, however
 /// it ends. Every call throws InputError: what, which file, what to do next.

@@ -93,7 +93,10 @@ void StudyRun::compare(int interval) {
 }
 
 bool StudyRun::takes(const StudyAnswer& answer) const noexcept {
-    if (step_ != StudyStep::question && step_ != StudyStep::adjust) return false;
+    return (step_ == StudyStep::question || step_ == StudyStep::adjust) && would_take(answer);
+}
+
+bool StudyRun::would_take(const StudyAnswer& answer) const noexcept {
     const Block& now = block();
     const bool none = answer.choice < 0 && !answer.number;
     if (none) return now.answer_s > 0.0;

@@ -64,8 +64,10 @@ class StudyRun {
     [[nodiscard]] AnsweredTrial judged(const StudyAnswer& answer, double utc_s) const;
     /// Goes on from a judged answer once it is safely stored.
     void accept(const AnsweredTrial& answered);
-    /// Whether the question takes that answer: a choice there is, a rating in its range, a value
-    /// in the range of the adjustment, or (with a time limit) none.
+    /// Whether the trial's question takes that answer once it is put: a choice there is, a rating
+    /// in its range, a value in the range of the adjustment, or (with a time limit) none.
+    [[nodiscard]] bool would_take(const StudyAnswer& answer) const noexcept;
+    /// The same, and it is put now.
     [[nodiscard]] bool takes(const StudyAnswer& answer) const noexcept;
 
   private:

@@ -45,7 +45,12 @@ struct StudyAnswer {
     int choice{-1};
     /// A rating, or the value to which the parameter was turned.
     std::optional<double> number{};
-    double reaction_s{0.0};  ///< since the question was put, or an adjustment was first felt
+    /// From when the question was on the screen, or an adjustment was first felt, until the key or
+    /// button went down.
+    double reaction_s{0.0};
+    /// So many keys and buttons that answer were pressed before that, and dropped; nothing: nobody
+    /// counted them.
+    std::optional<int> early{};
 
     bool operator==(const StudyAnswer&) const = default;
 };

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "core/files/csv_table.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/study_report/study_report.hpp"
 
@@ -11,19 +12,12 @@ namespace dibhr {
 
 namespace {
 
-/// A line of cells, quoted where they must be (RFC 4180).
+/// A line of cells.
 class CsvLine {
   public:
     void text(std::string_view cell) {
         next();
-        const std::string plain = one_line(cell);
-        if (plain.find_first_of(",\"") == std::string::npos) {
-            line_ += plain;
-            return;
-        }
-        line_ += '"';
-        for (const char each : plain) line_.append(each == '"' ? 2 : 1, each);
-        line_ += '"';
+        line_ += csv_cell(cell);
     }
     void number(double value) {
         next();
@@ -88,6 +82,7 @@ std::string trial_line(const Protocol& protocol, const StudyIdentity& who,
     line.maybe(one.right.has_value(), std::int64_t{one.right.value_or(false) ? 1 : 0});
     line.number(one.answer.reaction_s);
     line.number(one.utc_s);
+    line.maybe(one.answer.early.has_value(), std::int64_t{one.answer.early.value_or(0)});
     return line.finish();
 }
 
@@ -96,7 +91,8 @@ std::string trial_line(const Protocol& protocol, const StudyIdentity& who,
 std::string trials_csv(const Study& study) {
     std::string text =
         "participant,number,pilot,trial,block,position,practice,form,reference,comparison,"
-        "repetition,target,track,parameter,level,choice,chosen,answer,right,reaction_s,utc_s\n";
+        "repetition,target,track,parameter,level,choice,chosen,answer,right,reaction_s,utc_s,"
+        "early\n";
     for (const StudyRecord& record : study.participants)
         for (const AnsweredTrial& one : record.answered)
             text += trial_line(study.protocol, record.identity, one);

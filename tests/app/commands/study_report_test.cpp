@@ -60,7 +60,8 @@ TEST_CASE("a report is a page, numbers, tables and pictures of all participants"
     const std::vector<std::string> lines = split(read_text(folder / "r/trials.csv"), '\n');
     CHECK(lines.at(0) ==
           "participant,number,pilot,trial,block,position,practice,form,reference,comparison,"
-          "repetition,target,track,parameter,level,choice,chosen,answer,right,reaction_s,utc_s");
+          "repetition,target,track,parameter,level,choice,chosen,answer,right,reaction_s,utc_s,"
+          "early");
     CHECK(lines.size() >= 81);
     CHECK(contains(lines.at(1), "P1,1,\"prefer=smooth-one,share=0.9,seed=3\",1,smoother,1,0,"));
     const std::string page = read_text(folder / "r/report.html");
@@ -69,6 +70,39 @@ TEST_CASE("a report is a page, numbers, tables and pictures of all participants"
     CHECK(contains(page, "people like these 8 participants notice a difference"));
     CHECK(contains(page, "data:image/png;base64,"));
     CHECK_FALSE(contains(page, "<script"));
+}
+
+TEST_CASE("the tables of a report hold no formula, whatever its page calls things",
+          "[study report]") {
+    const TemporaryFolder folder;
+    write_text(folder / "study.toml", R"(title = "T"
+[[condition]]
+name = "=cmd|' /C calc'!A0"
+[[condition]]
+name = "@other"
+[[block]]
+name = "+block"
+form = "two-interval"
+pairs = "all"
+question = "Q"
+)");
+    REQUIRE(run_participant(folder, "P1", "guess").exit_code == 0);
+    const ProgramResult made = run_dibhr(folder, {"study", "report", "answers", "--out", "r"});
+    INFO(made.errors);
+    REQUIRE(made.exit_code == 0);
+    const std::vector<std::string> lines = split(read_text(folder / "r/trials.csv"), '\n');
+    CHECK(contains(lines.at(1),
+                   "P1,1,guess,1,'+block,1,0,two-interval,'=cmd|' /C calc'!A0,'@other,"));
+}
+
+TEST_CASE("labels that end in one number are told before the first trial", "[study report]") {
+    const TemporaryFolder folder;
+    write_text(folder / "study.toml", kTwoAlgorithms);
+    CHECK(run_participant(folder, "P21", "guess").errors.empty());
+    const ProgramResult second = run_participant(folder, "Q21", "guess");
+    CHECK(second.exit_code == 0);
+    CHECK(contains(second.errors, "the number 21 chooses the order of P21, too"));
+    CHECK(run_participant(folder, "Q21", "guess").errors.empty());  // it has begun
 }
 
 TEST_CASE("each study that comes with the program gives a report", "[study report]") {

@@ -181,3 +181,39 @@ TEST_CASE("a folder, a device or a missing file is refused with what to give ins
         }
     }
 }
+TEST_CASE("no text of a CSV file is a formula to a spreadsheet", "[files]") {
+    for (const char* const formula : {"=cmd|' /C calc'!A0",
+                                      "=1+1",
+                                      "+1+1",
+                                      "-1+1",
+                                      "@SUM(A1)",
+                                      "=HYPERLINK(\"http://x\")",
+                                      " =1",
+                                      "\t=1",
+                                      "=1;2",
+                                      "\n=1",
+                                      "  +x",
+                                      "\"=1",
+                                      "'=1",
+                                      "\"\"=1",
+                                      "-x",
+                                      "+",
+                                      "=",
+                                      "\xEF\xBC\x9D"
+                                      "1",
+                                      "\xEF\xBC\x8B"
+                                      "1",
+                                      "\xEF\xBC\x8D"
+                                      "1",
+                                      "\xEF\xBC\xA0"
+                                      "A",
+                                      "=1,2"}) {
+        const std::string cell = csv_cell(formula);
+        CAPTURE(formula, cell);
+        CHECK((cell.starts_with("'") || cell.starts_with("\"'")));
+        CHECK(cell.find_first_of("\n\r\t") == std::string::npos);
+    }
+    for (const char* const word : {"", "P07", "how=d", "a-b", "-0.5", "1e-3", "prefer=x"})
+        CHECK(csv_cell(word) == std::string(word));
+    CHECK(csv_cell("a,\"b\"") == "\"a,\"\"b\"\"\"");
+}

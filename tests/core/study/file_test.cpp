@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,7 +43,7 @@ AnsweredTrial some_trial(int number) {
                       .target = 1,
                       .track = 0,
                       .level = 0.1 + 0.2 - 0.1},
-            .answer = {.choice = 1, .reaction_s = 0.7},
+            .answer = {.choice = 1, .reaction_s = 0.7, .early = 3},
             .right = true,
             .utc_s = 1.7e9 + 1.0 / 3.0};
 }
@@ -102,6 +103,49 @@ TEST_CASE("what is answered is read back to the last bit, with its session", "[s
     CHECK(again.answered() == record.answered);
 }
 
+TEST_CASE("a study that was begun before early keys were counted is read, and goes on", "[study]") {
+    const test::TemporaryFolder folder;
+    const auto file = study_file_of(folder.path(), "P07");
+    StudyFile(file, identity()).add(some_trial(0));
+    Database(file).execute(
+        "ALTER TABLE trial DROP COLUMN early; DELETE FROM explanation WHERE \"column\" = 'early';"
+        "UPDATE study SET value = '1' WHERE key = 'schema_version'; PRAGMA user_version = 1");
+    CHECK(read_study(file).answered.at(0).answer.early == std::nullopt);
+    StudyFile(file, identity()).add(some_trial(1));
+    const std::vector<AnsweredTrial> answered = read_study(file).answered;
+    REQUIRE(answered.size() == 2);
+    CHECK(answered[0].answer.early == std::nullopt);
+    CHECK(answered[1] == some_trial(1));
+    CHECK(Database(file).number("PRAGMA user_version") == kStudySchemaVersion);
+}
+
+TEST_CASE("labels that end in the same number are told of each other", "[study]") {
+    const test::TemporaryFolder folder;
+    const auto begin = [&](const char* label, int number, const char* protocol) {
+        StudyIdentity who = identity();
+        who.participant = label;
+        who.number = number;
+        who.protocol_sha256 = protocol;
+        return StudyFile(study_file_of(folder.path(), label), who);
+    };
+    const auto others = [&](const char* label, int number) {
+        StudyIdentity who = identity();
+        who.participant = label;
+        who.number = number;
+        return others_of_number(folder.path(), who);
+    };
+    CHECK(others("P21", 21).empty());
+    begin("P21", 21, "abc");
+    begin("P021", 21, "abc");
+    begin("R7", 21, "abc");     // by --number
+    begin("Q21", 4, "abc");     // by --number
+    begin("S21", 21, "other");  // another study
+    CHECK(others("P21", 21) == std::vector<std::string>{"P021", "R7"});
+    CHECK(others("P22", 22).empty());
+    const StudyFile running = begin("P4", 4, "abc");
+    CHECK(others("X4", 4) == std::vector<std::string>{"P4", "Q21"});
+}
+
 TEST_CASE("a study file is run by one program at a time", "[study]") {
     const test::TemporaryFolder folder;
     const auto file = study_file_of(folder.path(), "P07");
@@ -143,7 +187,7 @@ TEST_CASE("a study file whose trials never end is refused, and soon", "[study]")
         "DROP TABLE trial; CREATE VIEW trial AS WITH RECURSIVE c(x) AS (SELECT 0 UNION ALL "
         "SELECT x + 1 FROM c) SELECT sum(x) AS trial, 1 AS block, 0 AS position, 0 AS practice, "
         "'explore' AS form, 0 AS item, 0 AS repetition, 0 AS target, 0 AS track, 0 AS level, "
-        "0 AS choice, 0 AS number, 0 AS right, 0 AS reaction_s, 0 AS utc_s FROM c");
+        "0 AS choice, 0 AS number, 0 AS right, 0 AS reaction_s, 0 AS utc_s, 0 AS early FROM c");
     std::string refusal;
     try {
         (void)read_study(file);
@@ -151,6 +195,68 @@ TEST_CASE("a study file whose trials never end is refused, and soon", "[study]")
         refusal = error.what();
     }
     CHECK(refusal.find(file.string() + ": cannot be used (interrupted)") == 0);
+}
+
+TEST_CASE("a study file whose label is no label is refused, and nothing is written", "[study]") {
+    const test::TemporaryFolder folder;
+    const auto file = folder / "P07.dibhr-study";
+    StudyFile(file, identity()).add(some_trial(0));
+    const std::string elsewhere = (folder / "elsewhere").string();
+    const std::vector<std::string> labels{elsewhere,
+                                          "../P07",
+                                          "../../P07",
+                                          "a/../../b",
+                                          "/tmp/P07",
+                                          "./P07",
+                                          "..",
+                                          ".",
+                                          ".hidden",
+                                          "",
+                                          "~/P07",
+                                          "P07/",
+                                          "P 07",
+                                          "P07\n",
+                                          "P07\t",
+                                          "=cmd|' /C calc'!A0",
+                                          "+1",
+                                          "@x",
+                                          "-rf",
+                                          "_x",
+                                          "P07;x",
+                                          "\xc3\xa4",
+                                          "%2e%2e%2fP07",
+                                          "..\\P07",
+                                          std::string(41, 'a'),
+                                          "P07.dibhr"};
+    for (const std::string& label : labels) {
+        CAPTURE(label);
+        {
+            Database database(file);
+            Statement row(database, "UPDATE study SET value = ? WHERE key = 'participant'");
+            row.run(std::string_view(label));
+        }
+        CHECK_THROWS_AS(read_study(file), InputError);
+        CHECK_THROWS_AS(write_study_session(file, 0, folder / "s.dibhr"), InputError);
+        CHECK_FALSE(refusal_of(file, identity()).empty());
+    }
+    CHECK(test::names_in(folder.path()) == std::vector<std::string>{"P07.dibhr-study"});
+}
+
+TEST_CASE("a study file of a number or of trials that cannot be is refused", "[study]") {
+    const test::TemporaryFolder folder;
+    const auto file = folder / "P07.dibhr-study";
+    const auto refused_after = [&](const char* change) {
+        std::filesystem::remove(file);
+        StudyFile(file, identity()).add(some_trial(0));
+        Database(file).execute(change);
+        CHECK_THROWS_AS(read_study(file), InputError);
+    };
+    for (const char* const number : {"0", "-1", "1000001", "1e300", "x", ""})
+        refused_after(
+            ("UPDATE study SET value = '" + std::string(number) + "' WHERE key = 'number'")
+                .c_str());
+    for (const char* const trial : {"1", "-1", "4294967296"})
+        refused_after(("UPDATE trial SET trial = " + std::string(trial)).c_str());
 }
 
 TEST_CASE("a label is letters, digits, - and _", "[study]") {
