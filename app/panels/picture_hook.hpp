@@ -1,7 +1,9 @@
 // Follows the window from outside, picture by picture.
 #pragma once
 
+#include <chrono>
 #include <functional>
+#include <optional>
 
 #include "app/panels/viewer_state.hpp"
 #include "core/video/frame_window.hpp"
@@ -15,6 +17,8 @@ struct StudyPlace {
     int interval{0};      ///< of it, from 0
     bool waits{false};    ///< the interval's surface is not there yet
     bool leaving{false};  ///< the participant is asked whether to leave
+    /// When what is asked was on the screen; nothing: it is not yet.
+    std::optional<std::chrono::steady_clock::time_point> seen_since{};
 };
 
 /// A picture that the window has just shown; valid during the call.

@@ -22,6 +22,7 @@ struct StudyPress {
         feel,    ///< interval `which`: once more at a question; at an adjustment the other one
         turn,    ///< the parameter, by `value` of its range
         scroll,  ///< a page, down by `value` lines
+        early,   ///< would answer, but came before the question was on the screen
         ask_to_leave,
         stay,
         leave
@@ -57,18 +58,37 @@ struct StudyShown {
 /// Whether the mouse is over something to click: elsewhere it touches the relief.
 [[nodiscard]] bool mouse_is_over_button();
 
-/// What a key does now; nothing: nothing. `key`: as name_of(Key) has it, or the character typed.
+/// A key that went down.
+struct StudyKey {
+    std::string name{};  ///< as name_of(Key) has it, or the character typed
+    bool shift{false};
+    bool early{false};  ///< before what is asked now was on the screen
+};
+
+/// What it does; nothing: nothing.
 [[nodiscard]] std::optional<StudyPress> press_of_key(const StudyRun& run, const StudyShown& view,
-                                                     std::string_view key, bool shift);
+                                                     const StudyKey& key);
 
 /// The button whose long press does something else than its press, at an adjustment.
 inline constexpr int kLongPressButton = 2;
 
-/// What the grip's button does now: the answers by number; the first one also goes on. On a scale
+/// A button of the grip that went down.
+struct StudyButton {
+    int number{0};      ///< from 0
+    bool held{false};   ///< for a second
+    bool early{false};  ///< as StudyKey::early
+};
+
+/// What it does: the answers by number; the first one also goes on. On a scale
 /// the first two put the mark there, then move it, and the third one answers; at an adjustment the
-/// first two turn, the third one feels the other or, `held` for a second, says equal.
+/// first two turn, the third one feels the other or, held, says equal.
 [[nodiscard]] std::optional<StudyPress> press_of_button(const StudyRun& run, const StudyShown& view,
-                                                        int button, bool held = false);
+                                                        const StudyButton& button);
+
+struct EndedPress {
+    bool held{false};                            ///< long
+    std::chrono::steady_clock::time_point at{};  ///< it began, or had been held for long enough
+};
 
 /// Tells a long press of that button from a short one, when it is let go of or has been held for a
 /// second.
@@ -78,8 +98,8 @@ class LongPress {
 
     void begin(Clock::time_point now) noexcept { since_ = now; }
     void forget() noexcept { since_.reset(); }
-    /// Whether it was long, once that is known; then it is forgotten.
-    [[nodiscard]] std::optional<bool> ended(Clock::time_point now, bool down) noexcept;
+    /// Once it is known whether it was long; then it is forgotten.
+    [[nodiscard]] std::optional<EndedPress> ended(Clock::time_point now, bool down) noexcept;
 
   private:
     std::optional<Clock::time_point> since_{};

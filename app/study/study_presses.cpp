@@ -1,5 +1,7 @@
 // What keys and the grip's buttons do at each step.
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
 #include "app/study/study_pages.hpp"
 
@@ -33,11 +35,12 @@ Press answer_by_digit(const StudyRun& run, int digit) {
     if (block.form == TrialForm::rating) {
         if (has_wide_scale(block.question)) return std::nullopt;
         const StudyAnswer answer{.number = static_cast<double>(digit)};
-        return run.takes(answer) ? Press(StudyPress{Kind::rate, 0, *answer.number}) : std::nullopt;
+        return run.would_take(answer) ? Press(StudyPress{Kind::rate, 0, *answer.number})
+                                      : std::nullopt;
     }
     const StudyAnswer answer{.choice = digit - 1};
-    return digit >= 1 && run.takes(answer) ? Press(StudyPress{Kind::choose, digit - 1})
-                                           : std::nullopt;
+    return digit >= 1 && run.would_take(answer) ? Press(StudyPress{Kind::choose, digit - 1})
+                                                : std::nullopt;
 }
 
 /// The first press puts the mark into the middle, whichever way it points.
@@ -80,53 +83,79 @@ Press adjustment_key(const StudyRun& run, std::string_view key, bool shift) {
     return std::nullopt;
 }
 
+Press adjustment_button(const StudyRun& run, const StudyButton& button) {
+    if (button.number == kLongPressButton && button.held) return StudyPress{Kind::go_on};
+    if (button.number == kLongPressButton) return StudyPress{Kind::feel, 1 - run.interval()};
+    if (button.number > kLongPressButton || run.interval() == 0) return std::nullopt;
+    return StudyPress{Kind::turn, 0, button.number == 0 ? -0.02 : 0.02};
+}
+
+Press question_button(const StudyRun& run, const StudyShown& view, int button) {
+    if (run.block().form != TrialForm::rating) return answer_by_digit(run, button + 1);
+    if (button == 2) return rate(view);
+    if (button > 2) return std::nullopt;
+    return moved_mark(run.block().question, view, button == 0 ? -1.0 : 1.0);
+}
+
+/// Where a trial is: nowhere, in what is felt before its question, or where it is answered.
+enum class Place : std::uint8_t { page, interval, question };
+
+Place place_of(const StudyRun& run, const StudyShown& view) {
+    if (view.before_start) return Place::page;
+    if (run.step() == StudyStep::interval) return Place::interval;
+    const bool answers = run.step() == StudyStep::question || run.step() == StudyStep::adjust;
+    return answers ? Place::question : Place::page;
+}
+
+/// `goes_on`: leads on where nothing is answered; `answer`: what it is at the question.
+Press pressed(Place place, bool early, bool goes_on, const Press& answer) {
+    if (place == Place::question && !early) return answer;
+    if (place != Place::question && goes_on)
+        return early ? std::nullopt : Press(StudyPress{Kind::go_on});
+    return place != Place::page && answer ? Press(StudyPress{Kind::early}) : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<StudyPress> press_of_key(const StudyRun& run, const StudyShown& view,
-                                       std::string_view key, bool shift) {
+                                       const StudyKey& key) {
     if (view.asks_to_leave) {
-        if (key == "Esc" || key == "Enter") return StudyPress{Kind::stay};
-        if (key == "l" || key == "L") return StudyPress{Kind::leave};
+        if (key.early) return std::nullopt;
+        if (key.name == "Esc" || key.name == "Enter") return StudyPress{Kind::stay};
+        if (key.name == "l" || key.name == "L") return StudyPress{Kind::leave};
         return std::nullopt;
     }
-    if (key == "Esc") return StudyPress{Kind::ask_to_leave};
-    if (view.waits) return std::nullopt;  // for the surface, or the next step
-    if (!view.before_start && run.step() == StudyStep::adjust)
-        return adjustment_key(run, key, shift);
-    if (!view.before_start && run.step() == StudyStep::question) {
-        if (const auto press = question_key(run, view, key, shift)) return press;
-    } else if (key == "Enter" || key == " ") {
-        return StudyPress{Kind::go_on};
-    }
-    return scroll_key(run, key);
+    if (key.name == "Esc") return StudyPress{Kind::ask_to_leave};
+    const bool early = key.early || view.waits;  // for the surface, or the next step
+    const Place place = place_of(run, view);
+    Press answer;
+    if (place != Place::page)
+        answer = run.trial().form == TrialForm::adjust
+                     ? adjustment_key(run, key.name, key.shift)
+                     : question_key(run, view, key.name, key.shift);
+    const bool goes_on = key.name == "Enter" || key.name == " ";
+    if (const Press press = pressed(place, early, goes_on, answer)) return press;
+    const bool scrolls = !early && run.step() != StudyStep::adjust;
+    return scrolls ? scroll_key(run, key.name) : std::nullopt;
 }
 
-std::optional<StudyPress> press_of_button(const StudyRun& run, const StudyShown& view, int button,
-                                          bool held) {
-    if (view.waits || view.asks_to_leave) return std::nullopt;
-    if (view.before_start) return button == 0 ? Press(StudyPress{Kind::go_on}) : std::nullopt;
-    if (run.step() == StudyStep::question && run.block().form == TrialForm::rating) {
-        if (button == 2) return rate(view);
-        if (button > 2) return std::nullopt;
-        return moved_mark(run.block().question, view, button == 0 ? -1.0 : 1.0);
-    }
-    if (run.step() == StudyStep::question) return answer_by_digit(run, button + 1);
-    if (run.step() == StudyStep::adjust) {
-        if (button == kLongPressButton && held) return StudyPress{Kind::go_on};
-        if (button == kLongPressButton) return StudyPress{Kind::feel, 1 - run.interval()};
-        if (button > kLongPressButton || run.interval() == 0) return std::nullopt;
-        return StudyPress{Kind::turn, 0, button == 0 ? -0.02 : 0.02};
-    }
-    return button == 0 ? Press(StudyPress{Kind::go_on}) : std::nullopt;
+std::optional<StudyPress> press_of_button(const StudyRun& run, const StudyShown& view,
+                                          const StudyButton& button) {
+    if (view.asks_to_leave) return std::nullopt;
+    const Place place = place_of(run, view);
+    Press answer;
+    if (place != Place::page)
+        answer = run.trial().form == TrialForm::adjust ? adjustment_button(run, button)
+                                                       : question_button(run, view, button.number);
+    return pressed(place, button.early || view.waits, button.number == 0, answer);
 }
 
-std::optional<bool> LongPress::ended(Clock::time_point now, bool down) noexcept {
+std::optional<EndedPress> LongPress::ended(Clock::time_point now, bool down) noexcept {
     constexpr std::chrono::seconds kLong{1};
     if (!since_) return std::nullopt;
     const bool held = now - *since_ >= kLong;
     if (down && !held) return std::nullopt;
-    forget();
-    return held;
+    return EndedPress{held, *std::exchange(since_, std::nullopt) + (held ? kLong : kLong * 0)};
 }
 
 }  // namespace dibhr

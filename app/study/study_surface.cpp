@@ -175,22 +175,22 @@ void StudySurface::hand_over() {
     player_.set_cleaning(cleaning);
 }
 
-std::vector<int> StudySurface::take_presses() {
-    std::vector<int> pressed;
-    const auto take = [&](const ButtonPresses& now, const ButtonActions& actions, Grip of) {
+std::vector<StudySurface::ButtonPress> StudySurface::take_presses() {
+    std::vector<ButtonPress> pressed;
+    const auto take = [&](const auto& status, const ButtonActions& actions, Grip of) {
+        const ButtonPresses& now = status.presses;
         ButtonPresses& taken = pressed_[static_cast<std::size_t>(of)];
         for (std::size_t k = 0; k < now.size(); ++k) {
             if (now[k] == taken[k]) continue;
             if (actions[k] == ButtonAction::force_off)
                 rest();
             else
-                pressed.push_back(static_cast<int>(k));
+                pressed.push_back({static_cast<int>(k), status.pressed_at[k]});
         }
         taken = now;
     };
-    if (state_.falcon) take(state_.falcon->status.presses, own_.falcon.buttons, Grip::falcon);
-    if (state_.inverse3)
-        take(state_.inverse3->status.presses, own_.inverse3.buttons, Grip::inverse3);
+    if (state_.falcon) take(state_.falcon->status, own_.falcon.buttons, Grip::falcon);
+    if (state_.inverse3) take(state_.inverse3->status, own_.inverse3.buttons, Grip::inverse3);
     return pressed;
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -58,8 +59,12 @@ class StudySurface {
     void take_news(bool window_in_front);
     /// Once a picture, after all that was changed: to the next tick.
     void hand_over();
-    /// Numbers of the device's buttons, from 0, that were pressed since the last call.
-    [[nodiscard]] std::vector<int> take_presses();
+    struct ButtonPress {
+        int button{0};  ///< of the device, from 0
+        std::chrono::steady_clock::time_point at{};
+    };
+    /// Those since the last call.
+    [[nodiscard]] std::vector<ButtonPress> take_presses();
     [[nodiscard]] bool is_down(int button) const noexcept {
         return (state_.haptic.hand.buttons >> button & 1) != 0;
     }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "app/panels/device_state.hpp"
 #include "app/viewer/picture_time.hpp"
@@ -22,6 +24,10 @@ constexpr float kTextTimes = 1.7F;  // as large as in the viewer
 /// wait would tell a condition.
 constexpr double kPreparing_s = 0.9;
 constexpr double kLongestPreparing_s = 30.0;
+
+double seconds(std::chrono::steady_clock::duration time) {
+    return std::chrono::duration<double>(time).count();
+}
 
 double utc_now_s() {
     return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
@@ -120,8 +126,8 @@ void StudyWindow::beat() {
     heart_.beat();
 }
 
-double StudyWindow::since_s(Clock::time_point moment) const {
-    return std::chrono::duration<double>(Clock::now() - moment).count();
+bool StudyWindow::is_early(Clock::time_point press) const noexcept {
+    return !seen_since_ || press < *seen_since_;
 }
 
 bool StudyWindow::felt() const noexcept {
@@ -135,16 +141,29 @@ void StudyWindow::show_one_picture() {
     surface_.take_news(window_.in_front());
     if (!entered_ && !view_.before_start) enter_step();
     begin_if_there();
-    look_at_time();
     take(input);
+    look_at_time(Clock::now());
     if (over()) return;
+    enter_page();
     draw(input);
     surface_.hand_over();
     if (software_) beat_while_drawing([this] { beat(); });
     window_.show_picture();
     require_graphics();
     beat();
+    note_on_screen();
     if (after_picture_) report_picture();
+}
+
+/// What is pressed counts from here on, and so does the time of a question.
+void StudyWindow::note_on_screen() {
+    const bool asks =
+        view_.asks_to_leave || view_.before_start || (entered_.has_value() && !view_.waits);
+    if (seen_since_ || !asks) return;
+    beat_while_drawing([this] { beat(); });
+    seen_since_ = Clock::now();
+    const bool question = run_.step() == StudyStep::question && !view_.asks_to_leave;
+    if (question && !since_) since_ = seen_since_;
 }
 
 void StudyWindow::report_picture() const {
@@ -152,22 +171,31 @@ void StudyWindow::report_picture() const {
                            .trial = run_.trial().number,
                            .interval = run_.interval(),
                            .waits = view_.waits,
-                           .leaving = view_.asks_to_leave};
+                           .leaving = view_.asks_to_leave,
+                           .seen_since = seen_since_};
     after_picture_({surface_.state(), surface_.shown(), &place});
 }
 
-/// The next one is entered with the next picture: the loop has then seen the end of this one.
+/// What is felt next is entered with the next picture: the loop has then seen the end of this one.
 void StudyWindow::leave_step() {
     surface_.rest();
     long_press_.forget();
-    entered_ = false;
+    entered_.reset();
+    seen_since_.reset();
     view_.waits = true;
+    view_.mark.reset();
+}
+
+/// A page is entered with the picture that shows it first.
+void StudyWindow::enter_page() {
+    const bool felt = run_.step() == StudyStep::interval || run_.step() == StudyStep::adjust;
+    if (!entered_ && !felt && !view_.before_start) enter_step();
 }
 
 /// What the step that the run has come to needs, once.
 void StudyWindow::enter_step() {
-    entered_ = true;
-    since_ = Clock::now();
+    entered_ = Clock::now();
+    since_.reset();
     view_.has_limit = false;
     view_.left_share = 1.0;
     view_.picture = 0;
@@ -182,10 +210,6 @@ void StudyWindow::enter_step() {
         case StudyStep::interval:
         case StudyStep::adjust:
             enter_interval();
-            break;
-        case StudyStep::question:
-            surface_.rest();
-            view_.mark.reset();
             break;
         default:
             surface_.rest();
@@ -221,24 +245,27 @@ void StudyWindow::enter_interval() {
 
 /// From here on it is felt and seen.
 void StudyWindow::begin_if_there() {
-    if (!view_.waits || view_.asks_to_leave || since_s(since_) < kPreparing_s) return;
+    if (!view_.waits || view_.asks_to_leave || !entered_) return;
+    const double waited_s = seconds(Clock::now() - *entered_);
+    if (waited_s < kPreparing_s) return;
     if (!surface_.is_there()) {
-        if (since_s(since_) > kLongestPreparing_s)
+        if (waited_s > kLongestPreparing_s)
             throw InputError("the video of trial " + std::to_string(run_.trial().number + 1) +
                              " gives no surface: check its files with dibhr info");
         return;
     }
     view_.waits = false;
     since_ = Clock::now();
-    if (!turned_since_) turned_since_ = since_;
+    if (!turned_since_) turned_since_ = *since_;
     const MediaDescription& media = surface_.state().media;
     camera_.frame_relief(media.depth_columns, media.depth_rows,
                          surface_.state().settings.touch.shape.relief_px);
     surface_.begin_interval(run_.interval() + 1);
 }
 
-void StudyWindow::look_at_time() {
-    if (view_.waits || view_.asks_to_leave || view_.before_start) return;
+/// Whatever is limited ends by itself, when it is over at `now`.
+void StudyWindow::look_at_time(Clock::time_point now) {
+    if (view_.waits || view_.asks_to_leave || view_.before_start || !since_) return;
     const Block* const block =
         run_.step() == StudyStep::interval || run_.step() == StudyStep::question ? &run_.block()
                                                                                  : nullptr;
@@ -247,56 +274,91 @@ void StudyWindow::look_at_time() {
     const double limit_s = question ? block->answer_s : block->interval_s;
     view_.has_limit = limit_s > 0.0;
     if (!view_.has_limit) return;
-    view_.left_share = std::clamp(1.0 - since_s(since_) / limit_s, 0.0, 1.0);
-    if (since_s(since_) < limit_s) return;
-    question ? answer({}) : act({StudyPress::Kind::go_on});
+    const double passed_s = seconds(now - *since_);
+    view_.left_share = std::clamp(1.0 - passed_s / limit_s, 0.0, 1.0);
+    if (passed_s < limit_s) return;
+    question ? answer({}, now) : act({StudyPress::Kind::go_on}, now);
+}
+
+void StudyWindow::take_button(StudyButton button, Clock::time_point at) {
+    look_at_time(at);
+    button.early = is_early(at);
+    if (const auto press = press_of_button(run_, view_, button)) act(*press, at);
 }
 
 void StudyWindow::take_buttons() {
-    for (const int button : surface_.take_presses()) {
-        if (button == kLongPressButton && run_.step() == StudyStep::adjust && !view_.waits)
-            long_press_.begin(Clock::now());
-        else if (const auto press = press_of_button(run_, view_, button))
-            act(*press);
+    for (const auto& [button, at] : surface_.take_presses()) {
+        if (button == kLongPressButton && run_.step() == StudyStep::adjust && !is_early(at))
+            long_press_.begin(at);
+        else
+            take_button({.number = button}, at);
     }
-    const auto held = long_press_.ended(Clock::now(), surface_.is_down(kLongPressButton));
-    if (!held) return;
-    if (const auto press = press_of_button(run_, view_, kLongPressButton, *held)) act(*press);
+    const auto ended = long_press_.ended(Clock::now(), surface_.is_down(kLongPressButton));
+    if (ended) take_button({.number = kLongPressButton, .held = ended->held}, ended->at);
+}
+
+/// In the order in which they went down: of two answers the first one counts.
+void StudyWindow::take_keys(const WindowInput& input) {
+    struct Pressed {
+        std::string name{};
+        bool shift{false}, repeated{false}, typed{false};
+        Clock::time_point at{};
+    };
+    std::vector<Pressed> all;
+    for (const KeyPress& key : input.keys)
+        all.push_back({list_key(key.key) == ListKey::take ? "Enter" : name_of(Key{key.key}),
+                       key.shift, key.repeated, false, key.at});
+    for (const TypedCharacter& typed : input.characters)
+        if (typed.code <= 0x7f)
+            all.push_back({std::string(1, static_cast<char>(typed.code)), typed.shift,
+                           typed.repeated, true, typed.at});
+    std::ranges::stable_sort(all, {}, &Pressed::at);
+    std::optional<Clock::time_point> taken;  // by a key: what it types is no second press
+    for (const Pressed& one : all) {
+        if (one.typed && taken == one.at) continue;
+        look_at_time(one.at);
+        const auto press = press_of_key(run_, view_, {one.name, one.shift, is_early(one.at)});
+        if (!press) continue;
+        if (!one.typed) taken = one.at;
+        if (!one.repeated || (!one.typed && may_repeat(press->kind))) act(*press, one.at);
+    }
 }
 
 void StudyWindow::take(const WindowInput& input) {
+    if (input.clicked_at) clicked_at_ = *input.clicked_at;
     take_buttons();
-    for (const KeyPress& key : input.keys) {
-        const std::string name =
-            list_key(key.key) == ListKey::take ? "Enter" : name_of(Key{key.key});
-        const auto press = press_of_key(run_, view_, name, key.shift);
-        if (press && (!key.repeated || may_repeat(press->kind))) act(*press);
-    }
-    for (const TypedCharacter& typed : input.characters) {
-        if (typed.repeated || typed.code > 0x7f) continue;
-        const char character = static_cast<char>(typed.code);
-        const auto press = press_of_key(run_, view_, std::string_view(&character, 1), typed.shift);
-        if (press) act(*press);
-    }
+    take_keys(input);
 }
 
-void StudyWindow::act(const StudyPress& press) {
+/// As of when the mouse's button went down.
+void StudyWindow::take_click(const StudyPress& press) {
+    if (!is_early(clicked_at_)) return act(press, clicked_at_);
+    const bool answers = run_.step() == StudyStep::question || run_.step() == StudyStep::adjust;
+    if (answers && press.kind != StudyPress::Kind::mark) ++early_;
+}
+
+void StudyWindow::act(const StudyPress& press, Clock::time_point at) {
     using enum StudyPress::Kind;
     switch (press.kind) {
         case ask_to_leave:
             view_.asks_to_leave = true;
+            seen_since_.reset();
             asked_ = Clock::now();
             surface_.rest();
             return;
         case stay:
             view_.asks_to_leave = false;
-            since_ += Clock::now() - asked_;
+            seen_since_.reset();
+            if (since_) *since_ += Clock::now() - asked_;
             if (turned_since_) *turned_since_ += Clock::now() - asked_;
             // An interval that was broken off begins anew.
             if (felt()) leave_step();
             return;
         case leave:
             left_ = true;
+            return;
+        case early:
+            ++early_;
             return;
         case scroll:
             view_.scroll += static_cast<float>(press.value);
@@ -308,14 +370,14 @@ void StudyWindow::act(const StudyPress& press) {
         view_.before_start = false;
         return leave_step();
     }
-    if (run_.step() == StudyStep::question) return act_at_question(press);
-    if (run_.step() == StudyStep::adjust) return act_at_adjustment(press);
+    if (run_.step() == StudyStep::question) return act_at_question(press, at);
+    if (run_.step() == StudyStep::adjust) return act_at_adjustment(press, at);
     if (press.kind != go_on || view_.waits) return;
     run_.go_on();
     leave_step();
 }
 
-void StudyWindow::act_at_question(const StudyPress& press) {
+void StudyWindow::act_at_question(const StudyPress& press, Clock::time_point at) {
     using enum StudyPress::Kind;
     const Question& question = run_.block().question;
     if (press.kind == mark) {
@@ -325,13 +387,13 @@ void StudyWindow::act_at_question(const StudyPress& press) {
         run_.feel_again(press.which);
         leave_step();
     } else if (press.kind == choose) {
-        answer({.choice = press.which});
+        answer({.choice = press.which}, at);
     } else if (press.kind == rate) {
-        answer({.number = press.value});
+        answer({.number = press.value}, at);
     }
 }
 
-void StudyWindow::act_at_adjustment(const StudyPress& press) {
+void StudyWindow::act_at_adjustment(const StudyPress& press, Clock::time_point at) {
     using enum StudyPress::Kind;
     const Variation& vary = run_.block().variation;
     if (press.kind == turn) {
@@ -342,19 +404,22 @@ void StudyWindow::act_at_adjustment(const StudyPress& press) {
         run_.compare(press.which);
         leave_step();
     } else if (press.kind == go_on && !view_.waits) {
-        answer({.number = turned_});
+        answer({.number = turned_}, at);
     }
 }
 
 /// The session first, then both in one transaction, then the next page.
-void StudyWindow::answer(const StudyAnswer& given) {
+void StudyWindow::answer(const StudyAnswer& given, Clock::time_point at) {
     StudyAnswer whole = given;
-    whole.reaction_s = since_s(run_.step() == StudyStep::adjust ? *turned_since_ : since_);
+    whole.reaction_s =
+        seconds(at - (run_.step() == StudyStep::adjust ? *turned_since_ : since_.value_or(at)));
+    whole.early = early_;
     if (!run_.takes(whole)) return;
     const AnsweredTrial answered = run_.judged(whole, utc_now_s());
     surface_.end_trial();
     file_.add(answered, session_);
     in_trial_ = false;
+    early_ = 0;
     run_.accept(answered);
     leave_step();
 }
@@ -376,7 +441,7 @@ void StudyWindow::draw(const WindowInput& input) {
     view_.first_picture = false;
     view_.scroll = 0.0F;
     beat();
-    if (press) act(*press);
+    if (press) take_click(*press);
 }
 
 void StudyWindow::point(const Camera::Ray& ray, const PointerUse& use) {

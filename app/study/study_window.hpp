@@ -55,14 +55,19 @@ class StudyWindow {
     void enter_step();
     void leave_step();
     void enter_interval();
-    void look_at_time();
+    void enter_page();
+    void note_on_screen();
+    void look_at_time(Clock::time_point now);
     void begin_if_there();
     void take(const WindowInput& input);
     void take_buttons();
-    void act(const StudyPress& press);
-    void act_at_question(const StudyPress& press);
-    void act_at_adjustment(const StudyPress& press);
-    void answer(const StudyAnswer& answer);
+    void take_button(StudyButton button, Clock::time_point at);
+    void take_keys(const WindowInput& input);
+    void take_click(const StudyPress& press);
+    void act(const StudyPress& press, Clock::time_point at);
+    void act_at_question(const StudyPress& press, Clock::time_point at);
+    void act_at_adjustment(const StudyPress& press, Clock::time_point at);
+    void answer(const StudyAnswer& answer, Clock::time_point at);
     void draw(const WindowInput& input);
     void draw_relief();
     void point(const Camera::Ray& ray, const PointerUse& use);
@@ -74,7 +79,7 @@ class StudyWindow {
     [[nodiscard]] DepthSurface seen_surface() const;
     [[nodiscard]] bool felt() const noexcept;
     [[nodiscard]] bool over() const;
-    [[nodiscard]] double since_s(Clock::time_point moment) const;
+    [[nodiscard]] bool is_early(Clock::time_point press) const noexcept;
 
     const PictureHook after_picture_;
     StudyRun& run_;
@@ -93,13 +98,17 @@ class StudyWindow {
     ColourTexture page_picture_{};
     StudyShown view_{};
     StudySurface surface_;
-    bool entered_{false};              // the step that the run is at
+    std::optional<Clock::time_point> entered_{};  // the step that the run is at
+    /// What is asked now is on the screen: what was pressed before is not meant for it.
+    std::optional<Clock::time_point> seen_since_{};
+    Clock::time_point clicked_at_{};   // the mouse's button went down last
+    int early_{0};                     // answers that were pressed before their question was seen
     bool in_trial_{false};             // its session has begun,
     std::filesystem::path session_{};  // in this file
     bool left_{false};
-    bool hand_seen_{false};      // a mouse beside the relief is no hand
-    double turned_{0.0};         // the value an adjustment is at
-    Clock::time_point since_{};  // what is limited in time began,
+    bool hand_seen_{false};                     // a mouse beside the relief is no hand
+    double turned_{0.0};                        // the value an adjustment is at
+    std::optional<Clock::time_point> since_{};  // what is limited in time began,
     Clock::time_point asked_{};  // and stood still from here on, while leaving was asked about
     std::optional<Clock::time_point> turned_since_{};  // an adjustment was first felt
     LongPress long_press_{};

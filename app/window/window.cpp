@@ -23,8 +23,12 @@ namespace dibhr {
 
 namespace {
 
+GatheredInput& gathered_of(GLFWwindow* window) {
+    return *static_cast<GatheredInput*>(glfwGetWindowUserPointer(window));
+}
+
 WindowInput& input_of(GLFWwindow* window) {
-    return *static_cast<WindowInput*>(glfwGetWindowUserPointer(window));
+    return gathered_of(window).input;
 }
 
 bool pressed(GLFWwindow* window, int button) {
@@ -100,7 +104,7 @@ Window::Window(const WindowSize& size, bool sync, const std::string& title)
     glfwSwapInterval(sync && x11_window() != 0 ? 1 : 0);
     glfwSetWindowSizeLimits(window_, kSmallestWindow, kSmallestWindow, GLFW_DONT_CARE,
                             GLFW_DONT_CARE);
-    glfwSetWindowUserPointer(window_, &input_);
+    glfwSetWindowUserPointer(window_, &gathered_);
     collect_events();
 }
 
@@ -110,16 +114,23 @@ Window::~Window() {
 }
 
 void Window::collect_events() {
-    glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int mods) {
+    glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int code, int action, int mods) {
         if (action == GLFW_RELEASE) return;
-        input_of(window).keys.push_back({key, (mods & GLFW_MOD_CONTROL) != 0, action == GLFW_REPEAT,
-                                         (mods & GLFW_MOD_SHIFT) != 0});
+        GatheredInput& all = gathered_of(window);
+        all.key = {key, (mods & GLFW_MOD_CONTROL) != 0, action == GLFW_REPEAT,
+                   (mods & GLFW_MOD_SHIFT) != 0,
+                   all.times.of(EventTimes::Kind::key, static_cast<unsigned>(code))};
+        all.input.keys.push_back(all.key);
     });
     glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned character) {
-        WindowInput& input = input_of(window);
-        // GLFW tells a character right after the key that typed it.
-        const KeyPress by = input.keys.empty() ? KeyPress{} : input.keys.back();
-        input.characters.push_back({character, by.repeated, by.shift});
+        // GLFW tells a character after the key that typed it.
+        const KeyPress& by = gathered_of(window).key;
+        input_of(window).characters.push_back({character, by.repeated, by.shift, by.at});
+    });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int) {
+        if (button != GLFW_MOUSE_BUTTON_LEFT || action != GLFW_PRESS) return;
+        GatheredInput& all = gathered_of(window);
+        all.input.clicked_at = all.times.of(EventTimes::Kind::mouse_button, 1);
     });
     glfwSetScrollCallback(
         window_, [](GLFWwindow* window, double, double up) { input_of(window).wheel_steps += up; });
@@ -144,8 +155,9 @@ void Window::close() {
 }
 
 WindowInput Window::take_input() {
+    gathered_.times.look();
     glfwPollEvents();
-    return std::exchange(input_, {});
+    return std::exchange(gathered_.input, {});
 }
 
 bool Window::in_front() const {

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "app/window/event_times.hpp"
+
 struct GLFWwindow;
 
 namespace dibhr {
@@ -20,12 +22,14 @@ struct KeyPress {
     bool control{false};
     bool repeated{false};  ///< the key is being held down
     bool shift{false};
+    EventTimes::Time at{};  ///< when it went down
 };
 
 struct TypedCharacter {
     unsigned code{0};  ///< Unicode code point
     bool repeated{false};
     bool shift{false};
+    EventTimes::Time at{};  ///< when its key went down
 };
 
 /// What happened since the last call of Window::take_input().
@@ -34,6 +38,15 @@ struct WindowInput {
     std::vector<TypedCharacter> characters{};
     std::vector<std::filesystem::path> dropped{};
     double wheel_steps{0.0};  ///< > 0: away from the person
+    /// When the left button of the mouse went down last.
+    std::optional<EventTimes::Time> clicked_at{};
+};
+
+/// As the window's callbacks gather it.
+struct GatheredInput {
+    WindowInput input{};
+    KeyPress key{};  ///< the last one, whose character may come later
+    EventTimes times{};
 };
 
 /// The pointer now; position in pixels of the framebuffer from the upper left.
@@ -101,7 +114,7 @@ class Window {
     std::function<void()> on_display_loss_{};
     const std::function<void()> display_lost_{[this] { leave_without_display(); }};
     GLFWwindow* window_{nullptr};
-    WindowInput input_{};
+    GatheredInput gathered_{};
     glm::ivec2 place_{0};  // before the full screen
     glm::ivec2 size_{0};
 };

@@ -119,6 +119,7 @@ void Conversation::report(Time now) {
     Status& status = board_.draft();
     const LinkCounts counts = link_.counts();
     status.presses = memory_.buttons.presses();
+    status.pressed_at = memory_.buttons.pressed_at();
     status.replies = memory_.replies;
     status.resent = memory_.counts.resent + counts.resent;
     status.line_errors = memory_.counts.line_errors + counts.line_errors;

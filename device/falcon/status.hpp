@@ -52,6 +52,7 @@ struct Status {
     int load_try{0};          ///< 1 ..
     Reply reply{};            ///< the last one, buttons debounced
     ButtonPresses presses{};  ///< of plus, forward, centre, minus since the start
+    ButtonPressTimes pressed_at{};
     double replies_per_s{0.0};
     std::uint64_t replies{0};
     std::uint64_t resent{0};           ///< commands sent again for want of a reply

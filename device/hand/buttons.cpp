@@ -17,7 +17,9 @@ std::uint8_t ButtonDebounce::add(std::uint8_t buttons, Time at) noexcept {
         } else if (at - since_[k] >= kSteady) {
             changing_ = static_cast<std::uint8_t>(changing_ & ~bit);
             steady_ = static_cast<std::uint8_t>(steady_ ^ bit);
-            if ((steady_ & ~held_ & bit) != 0) ++presses_[k];
+            if ((steady_ & ~held_ & bit) == 0) continue;
+            ++presses_[k];
+            pressed_at_[k] = since_[k];
         }
     }
     return steady_;

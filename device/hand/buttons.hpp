@@ -12,6 +12,8 @@ namespace dibhr {
 inline constexpr std::size_t kGripButtonCount = 4;
 /// How often each went down since the start.
 using ButtonPresses = std::array<std::uint32_t, kGripButtonCount>;
+/// When each went down last, on the steady clock.
+using ButtonPressTimes = std::array<std::chrono::steady_clock::time_point, kGripButtonCount>;
 
 /// A button counts as pressed or released once it has been so, in every reading, for kSteady.
 class ButtonDebounce {
@@ -29,6 +31,9 @@ class ButtonDebounce {
     /// How often each went down, ever; bit 0 first.
     [[nodiscard]] const ButtonPresses& presses() const noexcept { return presses_; }
 
+    /// The reading that each press began with.
+    [[nodiscard]] const ButtonPressTimes& pressed_at() const noexcept { return pressed_at_; }
+
     /// All buttons up: the device is gone. The presses stay counted. What is down in the first
     /// reading after it, as in the very first one, was not pressed but held: it counts when it goes
     /// down again.
@@ -36,11 +41,12 @@ class ButtonDebounce {
 
   private:
     std::uint8_t steady_{0};
-    bool begins_{true};                           // the next reading is a link's first
-    std::uint8_t held_{0};                        // bits that have been down since then
-    std::uint8_t changing_{0};                    // bits that differ from steady_ ...
-    std::array<Time, kGripButtonCount> since_{};  // ... from these readings on
+    bool begins_{true};         // the next reading is a link's first
+    std::uint8_t held_{0};      // bits that have been down since then
+    std::uint8_t changing_{0};  // bits that differ from steady_ ...
+    ButtonPressTimes since_{};  // ... from these readings on
     ButtonPresses presses_{};
+    ButtonPressTimes pressed_at_{};
 };
 
 }  // namespace dibhr

@@ -445,6 +445,7 @@ void Conversation::publish_pose(const Arm& arm, Time at) {
 void Conversation::report(Time now) {
     Status& status = board_.draft();
     status.presses = memory_.buttons.presses();
+    status.pressed_at = memory_.buttons.pressed_at();
     status.exchanges = memory_.exchanges;
     status.unasked = memory_.unasked;
     status.not_understood = memory_.not_understood;

@@ -80,6 +80,7 @@ struct Status {
     bool dialect_confirmed{false};  ///< the service told back a force that was sent so
     std::optional<GripStatus> grip{};
     ButtonPresses presses{};
+    ButtonPressTimes pressed_at{};
     double exchanges_per_s{0.0};
     double exchange_ms{0.0};  ///< from a message to its answer, lately
     bool softened{false};     ///< they take so long that springs are held softer

@@ -94,6 +94,10 @@ struct Seen {
     int trial{-1}, interval{-1};
     bool waits{false};    ///< for the surface of an interval
     bool leaving{false};  ///< the participant is asked whether to leave
+    double asked_s{0.0};  ///< by the steady clock: what is asked is on the screen; 0: not yet
+    /// By the same clock, the newest question was on the screen; and its trial, -1: none was.
+    double question_seen_s{0.0};
+    int question_trial{-1};
 };
 static_assert(std::is_trivially_copyable_v<Seen>);
 

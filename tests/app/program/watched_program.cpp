@@ -1,9 +1,11 @@
 // The program as it is shipped, but for its main(): after each picture it writes what it has shown
 // where the test reads it, and hangs when the test asks for that.
+#include <chrono>
 #include <cstdlib>
 #include <memory>
 
 #include "app/commands/program.hpp"
+#include "core/study/study_run.hpp"
 #include "tests/app/program/seen.hpp"
 
 namespace {
@@ -11,6 +13,10 @@ namespace {
 using namespace dibhr;
 using dibhr::test::MappedBoard;
 using dibhr::test::Seen;
+
+double seconds_of(std::chrono::steady_clock::time_point moment) {
+    return std::chrono::duration<double>(moment.time_since_epoch()).count();
+}
 
 void see_media(const PictureShown& shown, Seen& seen) {
     const ViewerState& state = shown.state;
@@ -111,14 +117,28 @@ Seen seen_of(const PictureShown& shown, std::uint64_t number) {
     seen.interval = shown.study->interval;
     seen.waits = shown.study->waits;
     seen.leaving = shown.study->leaving;
+    if (shown.study->seen_since) seen.asked_s = seconds_of(*shown.study->seen_since);
     return seen;
+}
+
+/// Stays until the next one is seen.
+void see_question(const PictureShown& shown, Seen& last) {
+    const StudyPlace* const place = shown.study;
+    if (place == nullptr || place->step != static_cast<int>(StudyStep::question)) return;
+    if (place->leaving || !place->seen_since || place->trial == last.question_trial) return;
+    last.question_trial = place->trial;
+    last.question_seen_s = seconds_of(*place->seen_since);
 }
 
 PictureHook hook_of(const char* file) {
     if (file == nullptr) return {};
     const auto board = std::make_shared<MappedBoard>(file);
-    return [board, number = std::uint64_t{0}](const PictureShown& shown) mutable {
-        (*board)->write(seen_of(shown, ++number));
+    return [board, last = Seen{}](const PictureShown& shown) mutable {
+        Seen seen = seen_of(shown, last.picture + 1);
+        seen.question_trial = last.question_trial;
+        seen.question_seen_s = last.question_seen_s;
+        see_question(shown, seen);
+        (*board)->write(last = seen);
         while ((*board)->hangs) continue;
     };
 }

@@ -22,6 +22,15 @@ LongPress begun() {
     return press;
 }
 
+/// In its interval, of a trial that is answered yes or no.
+StudyRun at_interval() {
+    return StudyRun(protocol(page_of_conditions(1, R"([[block]]
+form = "explore"
+question = "Q"
+)")),
+                    1);
+}
+
 /// At what is turned, of an adjustment.
 StudyRun at_adjustment() {
     StudyRun run(protocol(page_of_conditions(1, R"([[block]]
@@ -42,25 +51,25 @@ highest = 0.6
 
 TEST_CASE("a press that is let go of within a second is short, and is told once", "[study]") {
     LongPress press = begun();
-    CHECK(press.ended(kBegin, kDown) == std::nullopt);
-    CHECK(press.ended(kBegin + 999ms, kDown) == std::nullopt);
-    CHECK(press.ended(kBegin + 999ms, !kDown) == false);
-    CHECK(press.ended(kBegin + 2s, !kDown) == std::nullopt);
+    CHECK_FALSE(press.ended(kBegin, kDown));
+    CHECK_FALSE(press.ended(kBegin + 999ms, kDown));
+    CHECK_FALSE(press.ended(kBegin + 999ms, !kDown).value().held);
+    CHECK_FALSE(press.ended(kBegin + 2s, !kDown));
 }
 
 TEST_CASE("a press that is held for a second is long, and is told then and once", "[study]") {
     LongPress press = begun();
-    CHECK(press.ended(kBegin + 1s, kDown) == true);
-    CHECK(press.ended(kBegin + 2s, kDown) == std::nullopt);
-    CHECK(press.ended(kBegin + 2s, !kDown) == std::nullopt);
+    CHECK(press.ended(kBegin + 1500ms, kDown).value().at == kBegin + 1s);
+    CHECK_FALSE(press.ended(kBegin + 2s, kDown));
+    CHECK_FALSE(press.ended(kBegin + 2s, !kDown));
     press.begin(kBegin + 3s);
-    CHECK(press.ended(kBegin + 3s, !kDown) == false);
+    CHECK_FALSE(press.ended(kBegin + 3s, !kDown).value().held);
 }
 
 TEST_CASE("a press that is forgotten is none", "[study]") {
     LongPress press = begun();
     press.forget();
-    CHECK(press.ended(kBegin + 1s, !kDown) == std::nullopt);
+    CHECK_FALSE(press.ended(kBegin + 1s, !kDown));
 }
 
 TEST_CASE("at an adjustment the grip turns, feels the other one, and says equal by a long press",
@@ -68,7 +77,7 @@ TEST_CASE("at an adjustment the grip turns, feels the other one, and says equal 
     const StudyRun run = at_adjustment();
     const StudyShown view;
     const auto said = [&](int button, bool held = false) {
-        return press_of_button(run, view, button, held).value();
+        return press_of_button(run, view, {.number = button, .held = held}).value();
     };
     CHECK(said(0).kind == StudyPress::Kind::turn);
     CHECK(said(0).value < 0.0);
@@ -91,7 +100,7 @@ answer-s = 5
     while (run.step() != StudyStep::question) run.go_on();
     const StudyShown view;
     const auto chosen = [&](const char* key) -> std::optional<int> {
-        const auto press = press_of_key(run, view, key, false);
+        const auto press = press_of_key(run, view, {.name = key});
         if (!press || press->kind != StudyPress::Kind::choose) return std::nullopt;
         return press->which;
     };
@@ -100,4 +109,32 @@ answer-s = 5
     CHECK(chosen("Left") == 0);
     CHECK(chosen("Right") == 1);
     for (const char* key : {"0", "3", "9", "a", "Enter", " "}) CHECK(chosen(key) == std::nullopt);
+}
+
+TEST_CASE(
+    "an answer that is pressed before its question is on the screen is early, and answers nothing",
+    "[study]") {
+    using Kind = StudyPress::Kind;
+    StudyRun run = at_interval();
+    StudyShown view;
+    const auto kind_of = [&](const char* key, bool early) {
+        return press_of_key(run, view, {.name = key, .early = early}).value().kind;
+    };
+    const auto kind_of_button = [&](int button, bool early) {
+        return press_of_button(run, view, {.number = button, .early = early}).value().kind;
+    };
+    CHECK(kind_of("1", false) == Kind::early);
+    CHECK(kind_of_button(1, false) == Kind::early);
+    CHECK(kind_of("Enter", false) == Kind::go_on);
+    CHECK_FALSE(press_of_key(run, view, {.name = "Enter", .early = true}));
+    CHECK_FALSE(press_of_button(run, view, {.number = 0, .early = true}));
+    run.go_on();
+    CHECK(kind_of("1", true) == Kind::early);
+    CHECK(kind_of_button(0, true) == Kind::early);
+    CHECK(kind_of("1", false) == Kind::choose);
+    CHECK(kind_of_button(0, false) == Kind::choose);
+    view.waits = true;
+    CHECK(kind_of("Right", false) == Kind::early);
+    view.before_start = true;  // nothing is asked
+    CHECK_FALSE(press_of_key(run, view, {.name = "1", .early = true}));
 }

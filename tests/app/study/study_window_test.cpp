@@ -1,4 +1,6 @@
 // A participant in front of the study's window: led by keys, by the grip's buttons, interrupted.
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstddef>
@@ -6,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <glm/geometric.hpp>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -121,6 +124,11 @@ view = "blank"
 question = "Was it smooth?"
 )";
 
+double now_s() {
+    using Clock = std::chrono::steady_clock;
+    return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+}
+
 /// A study, and a display for its participant.
 struct Sitting {
     explicit Sitting(const std::string& page) { write_text(folder / "study.toml", page); }
@@ -145,15 +153,23 @@ class Participant {
                 const std::vector<std::string>& host)
         : at_(at), program_(at.desk.start(at.folder, words(device), host)) {}
 
+    /// What is pressed after it counts.
     void wait_until(const std::function<bool(const Seen&)>& is_so) const {
         program_.wait_until(is_so);
+        wait_until_asked();
+    }
+    /// X stamps whole milliseconds: a key of the one in which something is seen first is early.
+    void wait_until_asked() const {
+        constexpr double kStamp_s = 0.001;
+        program_.wait_until(
+            [](const Seen& now) { return now.asked_s > 0.0 && now_s() > now.asked_s + kStamp_s; });
     }
     void wait_for(StudyStep step) const {
-        program_.wait_until([step](const Seen& now) { return is_at(now, step) && !now.waits; });
+        wait_until([step](const Seen& now) { return is_at(now, step) && !now.waits; });
     }
     /// Until it is felt; trials and intervals are counted from 0.
     void wait_for_interval(int trial, int interval) const {
-        program_.wait_until([=](const Seen& now) {
+        wait_until([=](const Seen& now) {
             return now.trial == trial && now.interval == interval && now.force_enabled;
         });
     }
@@ -187,6 +203,7 @@ class Participant {
     }
     [[nodiscard]] int leave_early() {
         press("Escape");
+        wait_until_asked();
         at_.desk.press("key l");
         return program_.wait();
     }
@@ -266,6 +283,73 @@ void check_same_bits(const Sitting& at, const std::string& session) {
     const ProgramResult result = run_dibhr(at.folder, {"replay", "s/" + session});
     INFO(result.errors);
     CHECK(contains(result.output, "identical, bit for bit"));
+}
+
+/// A key that was struck between the two.
+struct Struck {
+    char key{'1'};
+    double after_s{0.0}, before_s{0.0};  // by the steady clock
+};
+
+/// Strikes keys at random, among them Return, until the last question was answered.
+class Hammer {
+  public:
+    Hammer(const Sitting& at, const Participant& person) : at_(at), person_(person) {}
+
+    void strike_until_over() {
+        using enum StudyStep;
+        for (Seen now = person_.seen(); !Participant::is_at(now, thanks); now = look()) {
+            const double which = dice_.uniform();
+            if (which < 0.15)
+                at_.desk.press("key Return");
+            else
+                strike(which < 0.6 ? '1' : '2');
+        }
+    }
+    [[nodiscard]] const std::vector<Struck>& struck() const { return struck_; }
+    /// By trial: when its question was on the screen.
+    [[nodiscard]] const std::map<int, double>& asked_s() const { return asked_s_; }
+
+  private:
+    void strike(char key) {
+        const double after_s = now_s();
+        at_.desk.press(std::string("keydown ") + key);
+        struck_.push_back({key, after_s, now_s()});
+        at_.desk.press(std::string("keyup ") + key);
+    }
+    /// A random while; GLFW drops a key that comes twice in a millisecond.
+    Seen look() {
+        constexpr double kShortest_s = 0.003;
+        constexpr double kLongest_s = 0.03;
+        const double until_s = now_s() + kShortest_s + dice_.uniform() * kLongest_s;
+        Seen now = person_.seen();
+        while (now_s() < until_s) now = person_.seen();
+        if (now.question_trial >= 0) asked_s_[now.question_trial] = now.question_seen_s;
+        return now;
+    }
+
+    const Sitting& at_;
+    const Participant& person_;
+    Random dice_{11};
+    std::vector<Struck> struck_{};
+    std::map<int, double> asked_s_{};
+};
+
+/// The answer is the first key that was struck since the question was on the screen, and its
+/// reaction is as long as that took; fails the test where it is not.
+void check_first_since(const AnsweredTrial& one, double asked_s, const std::vector<Struck>& all) {
+    constexpr double kNear_s = 0.002;
+    CAPTURE(one.trial.number, one.answer.reaction_s, one.answer.choice);
+    CHECK(one.answer.reaction_s >= 0.0);
+    const double answered_s = asked_s + one.answer.reaction_s;
+    const auto by = std::find_if(all.begin(), all.end(), [&](const Struck& struck) {
+        return struck.after_s - kNear_s <= answered_s && answered_s <= struck.before_s + kNear_s;
+    });
+    REQUIRE(by != all.end());
+    CHECK(by->key - '1' == one.answer.choice);
+    const auto missed = std::find_if(
+        all.begin(), by, [&](const Struck& struck) { return struck.after_s > asked_s + kNear_s; });
+    CHECK(missed == by);
 }
 
 /// How many values of two pictures of the display differ, from one row to another.
@@ -515,6 +599,34 @@ question = "Which was smoother?"
     REQUIRE(record.answered.size() == 1);
     CHECK(record.answered[0].answer.choice == -1);
     CHECK(record.answered[0].right == false);
+}
+
+TEST_CASE("of keys that are hammered none answers before its question is on the screen",
+          "[study window]") {
+    constexpr std::size_t kTrials = 4;
+    const Sitting at(head() + kBlank + "repetitions = " + std::to_string(kTrials) + "\n");
+    Participant person(at);
+    person.leave(StudyStep::instructions);
+    Hammer hammer(at, person);
+    hammer.strike_until_over();
+    CHECK(person.close() == 0);
+    const std::vector<AnsweredTrial> answered = at.record().answered;
+    REQUIRE(answered.size() == kTrials);
+    REQUIRE(hammer.asked_s().size() == kTrials);
+    std::size_t used = 0;
+    for (const AnsweredTrial& one : answered) {
+        check_first_since(one, hammer.asked_s().at(one.trial.number), hammer.struck());
+        used += 1 + static_cast<std::size_t>(one.answer.early.value());
+    }
+    // Of those after the last answer nobody is asked.
+    const double last_s = hammer.asked_s().at(kTrials - 1) + answered.back().answer.reaction_s;
+    const auto counts = [&](double margin_s) {
+        return static_cast<std::size_t>(std::count_if(
+            hammer.struck().begin(), hammer.struck().end(),
+            [&](const Struck& struck) { return struck.after_s <= last_s + margin_s; }));
+    };
+    CHECK(used >= counts(-0.002));
+    CHECK(used <= counts(0.002));
 }
 
 TEST_CASE("a study that is killed goes on at that trial when its participant says so",

@@ -33,6 +33,15 @@ struct Replies {
 
 }  // namespace
 
+TEST_CASE("a press is as old as the first reading in which its button was down", "[buttons]") {
+    Replies grip;
+    grip.hold(0, 5);
+    const auto before = grip.now;
+    grip.hold(2, 20);
+    CHECK(grip.buttons.presses() == Presses{0, 1, 0, 0});
+    CHECK(grip.buttons.pressed_at()[1] == before + milliseconds(1));
+}
+
 TEST_CASE("a button counts once it has been down for 8 ms, not before", "[buttons]") {
     const int bit = GENERATE(1, 2, 4, 8);
     Replies grip;
