@@ -155,7 +155,8 @@ std::optional<EndedPress> LongPress::ended(Clock::time_point now, bool down) noe
     if (!since_) return std::nullopt;
     const bool held = now - *since_ >= kLong;
     if (down && !held) return std::nullopt;
-    return EndedPress{held, *std::exchange(since_, std::nullopt) + (held ? kLong : kLong * 0)};
+    return EndedPress{
+        held, *std::exchange(since_, std::nullopt) + (held ? kLong : std::chrono::seconds{0})};
 }
 
 }  // namespace dibhr

@@ -39,9 +39,9 @@ void write_study_report(const std::vector<std::filesystem::path>& files,
 
 /// A row is a trial, practice too: `participant,number,pilot,trial,block,position,practice,form,
 /// reference,comparison,repetition,target,track,parameter,level,choice,chosen,answer,right,
-/// reaction_s,utc_s,early`. Trials and positions count from 1, as intervals do in `target` and `choice`;
-/// what there is not is empty. `chosen`: the condition that was chosen, or the answer's name;
-/// `answer`: a rating, or the value an adjustment ended with; `early`: see StudyAnswer.
+/// reaction_s,utc_s,early`. Trials and positions count from 1, as intervals do in `target` and
+/// `choice`; what there is not is empty. `chosen`: the condition that was chosen, or the answer's
+/// name; `answer`: a rating, or the value an adjustment ended with; `early`: see StudyAnswer.
 [[nodiscard]] std::string trials_csv(const Study& study);
 
 /// A row is an interval that was recorded: `participant,trial,interval,condition,practice,
