@@ -1,7 +1,6 @@
 // Looks through Xlib's queue and leaves all in it.
 #include "app/window/event_times.hpp"
 
-
 #include <algorithm>
 
 #include "app/window/x11.hpp"
