@@ -5,6 +5,7 @@ extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
 #include <libavutil/log.h>
+#include <libavutil/mem.h>
 #include <libswscale/swscale.h>
 }
 
@@ -15,12 +16,15 @@ extern "C" {
 #include <unistd.h>
 #include <zip.h>
 
+#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
 #include <mutex>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/core/utils/logger.hpp>
+
+#include "core/video/formats/file_bytes.hpp"
 
 namespace dibhr {
 
@@ -41,6 +45,8 @@ void set_up_libraries() {
             cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
             av_log_set_level(AV_LOG_QUIET);
         }
+        // A file's own headers are unpacked into memory, too.
+        av_max_alloc(2 * static_cast<std::size_t>(kMostPictureBytes));
         // A pool of workers would wake on every conversion and push the haptic thread from its
         // core.
         cv::setNumThreads(1);

@@ -6,6 +6,7 @@ extern "C" {
 #include <libavformat/avformat.h>
 #include <libavutil/display.h>
 #include <libavutil/frame.h>
+#include <libavutil/pixdesc.h>
 }
 
 #include <array>
@@ -18,6 +19,7 @@ extern "C" {
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/video/formats/file_bytes.hpp"
 #include "core/video/media.hpp"
 
 namespace dibhr {
@@ -65,6 +67,15 @@ bool marks_non_reference(const AVCodecParameters& coded) {
     return coded.codec_id == AV_CODEC_ID_H264 && is_whole;
 }
 
+/// As its container says; what its packets say instead is bounded by libav.
+void require_plausible_frames(const std::filesystem::path& file, const AVCodecParameters& coded) {
+    const AVPixFmtDescriptor* const kind =
+        av_pix_fmt_desc_get(static_cast<AVPixelFormat>(coded.format));
+    const int bits = kind == nullptr ? 8 : av_get_padded_bits_per_pixel(kind);
+    if (coded.width > 0 && coded.height > 0)
+        require_plausible_size(file, coded.width, coded.height, (bits + 7) / 8);
+}
+
 }  // namespace
 
 void VideoDecoder::Closer::operator()(AVCodecContext* context) const noexcept {
@@ -79,11 +90,13 @@ VideoDecoder::VideoDecoder(const std::filesystem::path& file, int track)
     : packets_(file, track), frame_(av_frame_alloc()), kept_(av_frame_alloc()) {
     const AVCodec* const codec =
         packets_.is_open() ? avcodec_find_decoder(packets_.stream()->codecpar->codec_id) : nullptr;
+    if (codec != nullptr) require_plausible_frames(file, *packets_.stream()->codecpar);
     if (codec != nullptr) decoder_.reset(avcodec_alloc_context3(codec));
     bool opened = decoder_ != nullptr && frame_ != nullptr && kept_ != nullptr;
     if (opened) {
         opened = avcodec_parameters_to_context(decoder_.get(), packets_.stream()->codecpar) >= 0;
         decoder_->thread_count = 0;  // as many as there are cores
+        decoder_->max_pixels = kMostPixels;
         opened = opened && avcodec_open2(decoder_.get(), codec, nullptr) >= 0;
     }
     if (!opened)

@@ -54,6 +54,7 @@ VideoFile::VideoFile(const std::filesystem::path& file, PictureRole role, int tr
     const double promised_s = facts_.duration_s;
     if (!grab())
         throw InputError(shown(file) + " holds no picture that can be decoded: record it again");
+    facts_.start_s = decoder_.packets().start_s();
     facts_.bits = decoder_.bits();
     if (role == PictureRole::depth) know_live_recording();
     pixel_aspect_ = decoder_.pixel_aspect();
@@ -92,7 +93,6 @@ void VideoFile::read_facts() {
     facts_.frames_per_s = 1.0 / interval_s_;
     facts_.frames = packets.frames();
     facts_.duration_s = static_cast<double>(facts_.frames) * interval_s_;
-    facts_.start_s = packets.start_s();
     facts_.codec = decoder_.codec();
 }
 

@@ -6,6 +6,7 @@ extern "C" {
 #include <libavformat/avformat.h>
 #include <libavutil/avutil.h>
 #include <libavutil/dict.h>
+#include <libavutil/opt.h>
 #include <libavutil/pixdesc.h>
 #include <libavutil/rational.h>
 }
@@ -13,9 +14,12 @@ extern "C" {
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <string>
 #include <system_error>
 #include <utility>
+
+#include "core/video/formats/file_bytes.hpp"
 
 namespace dibhr {
 
@@ -23,26 +27,18 @@ namespace {
 
 constexpr int kMostPackets = 30000;  ///< looked through for the end: a quarter of an hour at 30 Hz
 
+using OpenedFile = std::unique_ptr<AVFormatContext, PacketsCloser>;
+
 bool is_video(const AVStream& stream) noexcept {
     return stream.codecpar->codec_type == AVMEDIA_TYPE_VIDEO &&
            (stream.disposition & AV_DISPOSITION_ATTACHED_PIC) == 0;
 }
 
-/// Null when it cannot be opened.
-AVFormatContext* opened(const std::filesystem::path& file) {
-    // Absolute and with its protocol, so that a colon in a name is no other one.
-    std::error_code gone;
-    const std::string url = "file:" + std::filesystem::absolute(file, gone).string();
-    AVFormatContext* context = nullptr;
-    if (avformat_open_input(&context, url.c_str(), nullptr, nullptr) != 0) return nullptr;
-    if (avformat_find_stream_info(context, nullptr) < 0) avformat_close_input(&context);
-    return context;
-}
-
-std::string tag_of(const AVStream& stream, const char* name) {
-    const AVDictionaryEntry* const entry = av_dict_get(stream.metadata, name, nullptr, 0);
-    return entry == nullptr ? std::string() : std::string(entry->value);
-}
+/// What a file may be: containers and streams that hold all that they show. What names other files
+/// or hosts is left out (playlists as HLS, DASH, IMF and concat, SDP, rows of pictures, scripts).
+constexpr const char* kContainers =
+    "matroska,mov,avi,nut,mpegts,mpeg,mpegvideo,flv,asf,ogg,ivf,mxf,yuv4mpegpipe,h264,hevc,av1,obu,"
+    "m4v,mjpeg,gif,apng,dv,vc1";
 
 std::vector<AVStream*> video_streams(const AVFormatContext* context) {
     std::vector<AVStream*> found;
@@ -50,6 +46,39 @@ std::vector<AVStream*> video_streams(const AVFormatContext* context) {
         if (is_video(*context->streams[k])) found.push_back(context->streams[k]);
     }
     return found;
+}
+
+/// What it holds is told by pictures of each stream, none of which is beyond the bound.
+bool find_streams(AVFormatContext* context) {
+    std::vector<AVDictionary*> options(context->nb_streams, nullptr);
+    for (AVDictionary*& option : options) av_dict_set_int(&option, "max_pixels", kMostPixels, 0);
+    const int result = avformat_find_stream_info(context, options.data());
+    for (AVDictionary*& option : options) av_dict_free(&option);
+    return result >= 0;
+}
+
+/// Null when it cannot be opened. Throws InputError when its pictures are beyond the bound.
+OpenedFile opened(const std::filesystem::path& file) {
+    // Absolute and with its protocol, so that a colon in a name is no other one.
+    std::error_code gone;
+    const std::string url = "file:" + std::filesystem::absolute(file, gone).string();
+    AVFormatContext* context = avformat_alloc_context();
+    if (context == nullptr) throw std::bad_alloc();
+    av_opt_set(context, "format_whitelist", kContainers, 0);
+    av_opt_set(context, "protocol_whitelist", "file", 0);
+    if (avformat_open_input(&context, url.c_str(), nullptr, nullptr) != 0) return nullptr;
+    OpenedFile opened(context);
+    for (const AVStream* const stream : video_streams(context)) {
+        const AVCodecParameters& claimed = *stream->codecpar;
+        if (claimed.width > 0 && claimed.height > 0)
+            require_plausible_size(file, claimed.width, claimed.height, 1);
+    }
+    return find_streams(context) ? std::move(opened) : nullptr;
+}
+
+std::string tag_of(const AVStream& stream, const char* name) {
+    const AVDictionaryEntry* const entry = av_dict_get(stream.metadata, name, nullptr, 0);
+    return entry == nullptr ? std::string() : std::string(entry->value);
 }
 
 }  // namespace
@@ -65,9 +94,11 @@ void PacketsCloser::operator()(AVPacket* packet) const noexcept {
 VideoPackets::VideoPackets(const std::filesystem::path& file, int track)
     : context_(opened(file)), packet_(av_packet_alloc()) {
     if (!packet_) return;
-    for (AVStream* const stream : video_streams(context_.get())) {
+    const std::vector<AVStream*> streams = video_streams(context_.get());
+    for (AVStream* const stream : streams) {
         if (track-- == 0) stream_ = stream;
     }
+    alone_ = streams.size() == 1;
     for (unsigned k = 0; context_ && k < context_->nb_streams; ++k) {
         AVStream* const stream = context_->streams[k];
         stream->discard = stream == stream_ ? AVDISCARD_DEFAULT : AVDISCARD_ALL;
@@ -96,8 +127,11 @@ std::int64_t VideoPackets::frames() const noexcept {
 double VideoPackets::start_s() const noexcept {
     // A transport stream begins at any time.
     const bool own_clock = (context_->iformat->flags & AVFMT_TS_DISCONT) != 0;
-    return own_clock ? std::numeric_limits<double>::quiet_NaN()
-                     : static_cast<double>(start()) * unit_s();
+    if (own_clock) return std::numeric_limits<double>::quiet_NaN();
+    // Where decoding begins at 0 the file counts from there (MP4 without an edit list, or in
+    // fragments; NUT; FLV): pictures that wait for others are no later for it.
+    const bool counts_decoding = alone_ && first_decoded_ == 0;
+    return counts_decoding ? 0.0 : static_cast<double>(start()) * unit_s();
 }
 
 std::string VideoPackets::tag(const char* name) const {
@@ -120,7 +154,10 @@ std::string VideoPackets::attachment(std::string_view name) const {
 AVPacket* VideoPackets::next() noexcept {
     av_packet_unref(packet_.get());
     while (av_read_frame(context_.get(), packet_.get()) >= 0) {
-        if (packet_->stream_index == stream_->index) return packet_.get();
+        if (packet_->stream_index == stream_->index) {
+            if (!first_decoded_) first_decoded_ = packet_->dts;
+            return packet_.get();
+        }
         av_packet_unref(packet_.get());
     }
     return nullptr;
@@ -184,7 +221,7 @@ std::optional<double> packets_end_s(const std::filesystem::path& file, int track
 }
 
 std::vector<VideoTrack> video_tracks(const std::filesystem::path& file) {
-    const std::unique_ptr<AVFormatContext, PacketsCloser> context(opened(file));
+    const OpenedFile context = opened(file);
     std::vector<VideoTrack> tracks;
     for (const AVStream* const stream : video_streams(context.get())) {
         VideoTrack track;

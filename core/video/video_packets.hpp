@@ -23,7 +23,8 @@ struct PacketsCloser {
 class VideoPackets {
   public:
     /// Of one of the file's video tracks, numbered from 0 (a cover picture is none). Not open when
-    /// there is no such track, or when the file is of an unknown kind.
+    /// there is no such track, or when the file is of an unknown kind. Throws InputError when its
+    /// pictures are beyond the bound.
     explicit VideoPackets(const std::filesystem::path& file, int track = 0);
 
     [[nodiscard]] bool is_open() const noexcept { return stream_ != nullptr; }
@@ -33,8 +34,8 @@ class VideoPackets {
     /// As the container says; an estimate; 0: it does not.
     [[nodiscard]] std::int64_t frames() const noexcept;
 
-    /// When the track begins, by the clock of its file [s]; NaN when that says nothing of another
-    /// file's.
+    /// When the track begins, by the clock of its file [s], once a packet was read; NaN when that
+    /// says nothing of another file's.
     [[nodiscard]] double start_s() const noexcept;
 
     /// What the file says of the track under that name; empty when nothing.
@@ -59,7 +60,9 @@ class VideoPackets {
 
     std::unique_ptr<AVFormatContext, PacketsCloser> context_;
     std::unique_ptr<AVPacket, PacketsCloser> packet_;
-    AVStream* stream_{nullptr};  // the context's
+    AVStream* stream_{nullptr};                    // the context's
+    bool alone_{false};                            // no other track of video has the same clock
+    std::optional<std::int64_t> first_decoded_{};  // the stamp by which the first packet is decoded
 };
 
 /// When the last frame of the track ends, as far as its packets are whole, counted from the track's

@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kEnding = ".npy";
 constexpr std::uint64_t kMostDeflated = 1032;  // bytes out of one
+constexpr std::uint64_t kMostPacked = 100;     // of what takes long to unpack
 
 [[noreturn]] void refuse_as_cut(const fs::path& file) {
     throw InputError(shown(file) + " is cut off or damaged: copy it or save it again");
@@ -57,6 +58,9 @@ class ZippedBytes : public ArrayBytes {
             throw InputError(shown(file_) + " is packed in an unknown way: save it by numpy.savez");
         if (stat.comp_size > size_of(file_) || stat.size / kMostDeflated > stat.comp_size)
             refuse_as_cut(file_);
+        if (stat.size / kMostPacked > stat.comp_size && stat.size > kMostPictureBytes)
+            throw InputError(shown(file_) + " unpacks to " + std::to_string(stat.size >> 20U) +
+                             " MB, of nearly nothing: save it by numpy.savez, not packed");
         index_ = stat.index;
         size_ = stat.size;
     }

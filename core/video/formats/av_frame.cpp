@@ -9,6 +9,7 @@ extern "C" {
 #include <libswscale/swscale.h>
 }
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -17,6 +18,8 @@ extern "C" {
 #include <opencv2/core.hpp>
 #include <string_view>
 #include <utility>
+
+#include "core/video/formats/file_bytes.hpp"
 
 namespace dibhr {
 
@@ -144,7 +147,9 @@ double pixel_aspect(const AVFrame& frame, const AVStream& stream) noexcept {
     const AVRational ratio = of_frame.num > 0 ? of_frame : stream.sample_aspect_ratio;
     if (ratio.num <= 0 || ratio.den <= 0) return 1.0;
     const double aspect = av_q2d(ratio);
-    return aspect > kMost || aspect < 1.0 / kMost ? 1.0 : aspect;
+    const double larger = std::max(aspect, 1.0 / aspect);
+    const double squares = larger * frame.width * frame.height;
+    return larger > kMost || squares > static_cast<double>(kMostPixels) ? 1.0 : aspect;
 }
 
 cv::Mat FramePictures::colour(const AVFrame& frame) {

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/formats/file_bytes.hpp"
 #include "core/video/media.hpp"
 
 namespace dibhr {
@@ -16,8 +17,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kLongestText_bytes = 1 << 20;       ///< of a topic's name
-constexpr int kLargestMessage_bytes = 512 << 20;  ///< a 100-megapixel picture of floats
+constexpr int kLongestText_bytes = 1 << 20;  ///< of a topic's name
+constexpr std::int64_t kLargestMessage_bytes = kMostPictureBytes + (1 << 16);  ///< and its header
 
 std::string text_in(sqlite3_stmt* statement, int column) {
     const unsigned char* const text = sqlite3_column_text(statement, column);

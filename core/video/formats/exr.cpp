@@ -150,6 +150,20 @@ cv::Mat in_display(const cv::Mat& values, const Box2i& data, const Box2i& displa
     return seen;
 }
 
+/// The library takes memory for all channels of a tile, or of as many rows as are packed together.
+void require_plausible_blocks(const fs::path& file, const Imf::Header& header) {
+    constexpr std::int64_t kMostRows = 256;
+    std::int64_t channel_bytes = 0;
+    for (auto at = header.channels().begin(); at != header.channels().end(); ++at)
+        channel_bytes += sizeof(float);
+    const Box2i data = header.dataWindow();
+    const bool tiled = header.hasTileDescription();
+    const std::int64_t columns = tiled ? header.tileDescription().xSize : columns_of(data);
+    const std::int64_t rows =
+        tiled ? header.tileDescription().ySize : std::min(rows_of(data), kMostRows);
+    require_plausible_size(file, columns, rows, channel_bytes);
+}
+
 cv::Mat read_channels(Imf::MultiPartInputFile& input, const Channels& channels,
                       const fs::path& file, float nothing) {
     const Imf::Header& header = input.header(channels.part);
@@ -160,7 +174,8 @@ cv::Mat read_channels(Imf::MultiPartInputFile& input, const Channels& channels,
     for (const Box2i& window : {data, display})
         require_plausible_size(file, columns_of(window), rows_of(window),
                                static_cast<int>(pixel_bytes));
-    Imf::InputPart part(input, channels.part);  // takes memory for rows of such a size
+    require_plausible_blocks(file, header);
+    Imf::InputPart part(input, channels.part);
     cv::Mat values(static_cast<int>(rows_of(data)), static_cast<int>(columns_of(data)),
                    CV_32FC(static_cast<int>(count)));
     Imf::FrameBuffer buffer;

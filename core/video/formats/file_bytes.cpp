@@ -15,7 +15,6 @@ namespace dibhr {
 
 namespace {
 
-constexpr std::int64_t kMostPixels = std::int64_t{1} << 30;  // OpenCV's own limit
 constexpr std::uint64_t kMostCompressed = 65536;  // flat pictures in DWAB and HEVC; deflate: 1032
 
 std::uint8_t screen_level(float light) {
@@ -42,21 +41,28 @@ std::uint64_t size_of(const std::filesystem::path& file) {
     return failed ? 0 : size;
 }
 
-bool can_hold(std::uint64_t bytes, std::int64_t columns, std::int64_t rows, int bytes_per_pixel) {
-    if (columns < 1 || rows < 1 || columns > kMostPixels / rows) return false;
+bool may_be_decoded(std::int64_t columns, std::int64_t rows,
+                    std::int64_t bytes_per_pixel) noexcept {
+    return columns >= 1 && rows >= 1 && columns <= kMostPixels / rows &&
+           columns * rows <= kMostPictureBytes / std::max<std::int64_t>(bytes_per_pixel, 1);
+}
+
+bool can_hold(std::uint64_t bytes, std::int64_t columns, std::int64_t rows,
+              std::int64_t bytes_per_pixel) {
+    if (!may_be_decoded(columns, rows, bytes_per_pixel)) return false;
     const auto decoded = static_cast<std::uint64_t>(columns * rows * bytes_per_pixel);
     return decoded / kMostCompressed <= bytes;
 }
 
 void require_plausible_size(const std::filesystem::path& file, std::int64_t columns,
-                            std::int64_t rows, int bytes_per_pixel) {
-    if (columns < 1 || rows < 1 || columns > kMostPixels / rows)
-        throw InputError(shown(file) + " says that it is " + std::to_string(columns) + " x " +
-                         std::to_string(rows) + " pixels: give a smaller one");
+                            std::int64_t rows, std::int64_t bytes_per_pixel) {
+    const std::string claim = shown(file) + " says that it is " + std::to_string(columns) + " x " +
+                              std::to_string(rows) + " pixels";
+    if (!may_be_decoded(columns, rows, bytes_per_pixel))
+        throw InputError(claim + " of " + std::to_string(bytes_per_pixel) +
+                         " bytes: give a smaller one, of at most 33 megapixels and 256 MB");
     if (!can_hold(size_of(file), columns, rows, bytes_per_pixel))
-        throw InputError(shown(file) + " says that it is " + std::to_string(columns) + " x " +
-                         std::to_string(rows) +
-                         " pixels and is too short for them: it is damaged, export it again");
+        throw InputError(claim + " and is too short for them: it is damaged, export it again");
 }
 
 cv::Mat screen_colours(const cv::Mat& linear) {

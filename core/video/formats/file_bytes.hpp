@@ -15,15 +15,26 @@ namespace dibhr {
 /// In bytes; 0 when it cannot be told.
 [[nodiscard]] std::uint64_t size_of(const std::filesystem::path& file);
 
-/// Whether so many bytes can hold such a picture, however well it is compressed: 2^30 pixels at
-/// most.
-[[nodiscard]] bool can_hold(std::uint64_t bytes, std::int64_t columns, std::int64_t rows,
-                            int bytes_per_pixel);
+/// The one bound of what is decoded, whatever the form: a picture of 8K, with four 16-bit channels.
+/// To touch a surface of so many pixels takes a gigabyte.
+inline constexpr std::int64_t kMostPixels = std::int64_t{1} << 25;
+inline constexpr std::int64_t kMostPictureBytes = 8 * kMostPixels;
+/// The most pictures that one file holds: four days at 30 Hz.
+inline constexpr std::int64_t kMostPictures = 10'000'000;
 
-/// Throws InputError when a header's picture is larger than any (2^30 pixels), or than what a file
-/// of that size can hold however well it is compressed: before memory is taken for it.
+/// Whether a picture is within that bound.
+[[nodiscard]] bool may_be_decoded(std::int64_t columns, std::int64_t rows,
+                                  std::int64_t bytes_per_pixel) noexcept;
+
+/// Whether so many bytes can hold such a picture, however well it is compressed; never one beyond
+/// the bound.
+[[nodiscard]] bool can_hold(std::uint64_t bytes, std::int64_t columns, std::int64_t rows,
+                            std::int64_t bytes_per_pixel);
+
+/// Throws InputError when a header's picture is beyond the bound, or larger than what a file of
+/// that size can hold however well it is compressed: before memory is taken for it.
 void require_plausible_size(const std::filesystem::path& file, std::int64_t columns,
-                            std::int64_t rows, int bytes_per_pixel);
+                            std::int64_t rows, std::int64_t bytes_per_pixel);
 
 /// 8-bit BGR as a screen shows it (the sRGB transfer), of linear light from 0 to 1 in the same
 /// order.

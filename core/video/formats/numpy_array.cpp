@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/numbers.hpp"
 #include "core/video/media.hpp"
 
@@ -23,8 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kMostNumbers = std::int64_t{1} << 30;  // of a picture: OpenCV's own limit
-constexpr std::int64_t kMostWholeBytes = std::int64_t{1} << 30;
 constexpr std::uint64_t kMostHeaderBytes = 65536;
 
 /// What stands behind "'name':" in the header's dictionary; empty when it has no such name.
@@ -189,10 +188,11 @@ PictureShape NumpyArray::pictures() const {
     shape.frames = sides[0];
     shape.rows = sides[1];
     shape.columns = sides[2];
-    if (shape.rows > kMostNumbers / shape.columns / shape.channels)
-        throw InputError(shown(file_) + " holds pictures of " + std::to_string(shape.columns) +
-                         " x " + std::to_string(shape.rows) + " pixels: save smaller ones");
-    if (header_.fortran && count_ > kMostWholeBytes / header_.number_bytes)
+    require_plausible_size(file_, shape.columns, shape.rows, shape.channels * header_.number_bytes);
+    if (shape.frames > kMostPictures)
+        throw InputError(shown(file_) + " holds " + std::to_string(shape.frames) +
+                         " pictures: save at most 10 million in one array");
+    if (header_.fortran && count_ > kMostPictureBytes / header_.number_bytes)
         throw InputError(shown(file_) +
                          " is too large in Fortran order: save numpy.ascontiguousarray of it");
     return shape;

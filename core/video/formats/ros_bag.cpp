@@ -17,6 +17,7 @@
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/formats/bag_file.hpp"
+#include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/ros_messages.hpp"
 #include "core/video/media.hpp"
 #include "core/video/media_names.hpp"
@@ -28,7 +29,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kMostMessages = 10'000'000;  ///< of one topic: four days at 30 Hz
 constexpr std::int64_t kLongestBag_ns = 1'000'000'000'000'000;  ///< a million seconds
 
 // When a message can have been recorded: sums and differences of such times are numbers, too.
@@ -151,7 +151,7 @@ std::vector<Stamped> messages_of(BagFiles& files, const Topic& wanted) {
     for (std::size_t k = 0; k < files.size(); ++k) {
         for (const Topic& topic : files[k]->topics()) {
             if (topic.name != wanted.name || topic.type != wanted.type) continue;
-            for (const auto& message : files[k]->messages(topic.id, kMostMessages)) {
+            for (const auto& message : files[k]->messages(topic.id, kMostPictures)) {
                 const auto head = files[k]->data(message.row, kStampBytes);
                 const std::int64_t stamp_ns = ros_stamp_ns(head).value_or(0);
                 if (stamp_ns > 0) stamped.push_back({k, message.row, stamp_ns});
@@ -214,7 +214,8 @@ class RosTopic : public PictureSource {
 
     [[nodiscard]] std::string unreadable() const {
         return shown(facts_.file) + " holds a picture of the topic " + one_line(topic_.name, 100) +
-               " that cannot be decoded: record it again without compressing messages";
+               " that cannot be decoded, or is larger than 33 megapixels: record it again without "
+               "compressing messages";
     }
 
     void tell_trouble(const std::string& what) {

@@ -24,7 +24,6 @@ namespace dibhr {
 namespace {
 
 constexpr std::uint32_t kLongestSide = 1U << 20;
-constexpr std::uint64_t kMostImagePixels = std::uint64_t{1} << 30;  ///< OpenCV's own limit
 
 /// Reads a message from its beginning; beyond its end there is nothing but zeros, and it is told.
 class CdrReader {
@@ -126,10 +125,8 @@ void swap_bytes(cv::Mat& picture) {
 
 cv::Mat plain_picture(const RosImage& image) {
     const Encoding* const encoding = encoding_of(image.encoding);
-    const std::uint64_t pixels = std::uint64_t{image.columns} * image.rows;
-    const auto most = static_cast<std::uint32_t>(std::numeric_limits<int>::max());
-    if (encoding == nullptr || pixels == 0 || pixels > kMostImagePixels || image.columns > most ||
-        image.rows > most)
+    if (encoding == nullptr ||
+        !may_be_decoded(image.columns, image.rows, CV_ELEM_SIZE(encoding->type)))
         return {};
     const std::uint64_t row_bytes = std::uint64_t{image.columns} * CV_ELEM_SIZE(encoding->type);
     // The last row may end with its pixels.
@@ -152,7 +149,7 @@ bool is_plausible_picture(Bytes data) {
     const Bytes begin = data.first(std::min(data.size(), kHeaderBytes));
     std::istringstream in(std::string(begin.begin(), begin.end()));
     const auto claimed = claimed_size(in);
-    return !claimed || can_hold(data.size(), claimed->columns, claimed->rows, 1);
+    return claimed && can_hold(data.size(), claimed->columns, claimed->rows, claimed->pixel_bytes);
 }
 
 cv::Mat decoded(Bytes data, int flags) {

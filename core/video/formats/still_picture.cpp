@@ -65,8 +65,11 @@ bool is_tiff(const std::string& head) {
 /// OpenCV takes memory for whatever a header says.
 void require_plausible_claim(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
-    if (const auto claimed = claimed_size(in))
-        require_plausible_size(file, claimed->columns, claimed->rows, 1);
+    const auto claimed = claimed_size(in);
+    if (!claimed)
+        throw InputError(shown(file) +
+                         " is a picture of unknown size: it may be damaged, export it as PNG");
+    require_plausible_size(file, claimed->columns, claimed->rows, claimed->pixel_bytes);
 }
 
 /// Also a damaged one, which OpenCV does not know any more: libav takes it for a video, and ends

@@ -407,6 +407,18 @@ TEST_CASE("databases that are no bags, or hostile ones, are refused in a line", 
     CHECK(said.find('\n') == std::string::npos);
 }
 
+TEST_CASE("a compressed picture of a bag beyond the bound is refused", "[bag][memory]") {
+    const TemporaryFolder folder;
+    const std::string png = encoded(".png", cv::Mat::zeros(5800, 5800, CV_16UC1));
+    CHECK(png.size() < 200'000);
+    {
+        Bag bag(folder / "large.db3");
+        bag.add(bag.topic("/depth/image/compressedDepth", "CompressedImage"),
+                compressed(1.0, "16UC1; compressedDepth png", std::string(12, '\0') + png));
+    }
+    CHECK(contains(refusal([&] { (void)open_depth(folder / "large.db3"); }), "larger than"));
+}
+
 TEST_CASE("a bag that was cut off or overwritten ends in a line or in what is left", "[bag]") {
     const TemporaryFolder folder;
     {

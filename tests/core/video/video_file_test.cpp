@@ -198,6 +198,30 @@ TEST_CASE("colour that begins later than depth by its file's clock is shown late
     CHECK(told == 20);
 }
 
+TEST_CASE("pictures that wait for others to be decoded are no later for it", "[media]") {
+    const TemporaryFolder folder;
+    const std::string waiting = "-c:v libx264 -qp 0 -bf 2 -b_strategy 0 -g 12 -pix_fmt yuv420p ";
+    const auto [ending, container] =
+        GENERATE(table<std::string, std::string>({{"mp4", ""},
+                                                  {"mp4", "-use_editlist 0"},
+                                                  {"mp4", "-movflags frag_keyframe+empty_moov"},
+                                                  {"mov", "-movflags frag_every_frame"},
+                                                  {"nut", ""},
+                                                  {"flv", ""},
+                                                  {"mkv", ""}}));
+    CAPTURE(ending, container);
+    make_flat_clip(folder / ("clip_color." + ending), 20, 10, waiting + container);
+    make_flat_clip(folder / "clip_depth.mkv", 20, 10, kLossless);
+    const auto media = open_media(folder / ("clip_color." + ending), folder / "clip_depth.mkv");
+    int told = 0;
+    while (const auto frame = media->next()) {
+        CHECK(std::lround(frame->colour.rgb[frame->colour.rgb.size() / 2] / 5.0) ==
+              std::lround(frame->depth.at(30, 20) / 5.0F));
+        ++told;
+    }
+    CHECK(told == 20);
+}
+
 TEST_CASE("frames that are passed over change nothing of those after them", "[media]") {
     const TemporaryFolder folder;
     const int colours_per_s = GENERATE(30, 60);
