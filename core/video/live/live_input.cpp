@@ -26,6 +26,7 @@ extern "C" {
 #include <thread>
 
 #include "core/error.hpp"
+#include "core/video/formats/file_bytes.hpp"
 #include "core/video/libraries.hpp"
 #include "core/video/modules/module.hpp"
 #include "core/video/pictures.hpp"
@@ -35,7 +36,9 @@ namespace dibhr {
 namespace {
 
 constexpr std::chrono::milliseconds kToOpen{4000};  ///< so long it may be silent at the begin
-constexpr std::chrono::milliseconds kSilent{1500};  ///< and so long later
+constexpr std::chrono::milliseconds kSilent{1500};  ///< and so long later,
+/// or, where the sender would notice that nobody listens any more, so long: it may only pause.
+constexpr std::chrono::minutes kSilentConnected{1};
 constexpr std::chrono::milliseconds kBetweenLooks{2};
 constexpr int kLooked_ms = 50;                 ///< how soon a pipe notices that it is to end
 constexpr std::chrono::seconds kEarly{1};      ///< what comes so much too early is no camera's
@@ -148,6 +151,7 @@ int LiveInput::read_pipe(void* input, std::uint8_t* bytes, int size) noexcept {
         const auto got = ::read(pipe.descriptor, bytes, static_cast<std::size_t>(size));
         if (got > 0) {
             pipe.began = true;
+            self.await(kSilent);
             return static_cast<int>(got);
         }
         if (got < 0 && errno != EAGAIN && errno != EINTR) return AVERROR(errno);
@@ -158,8 +162,10 @@ int LiveInput::read_pipe(void* input, std::uint8_t* bytes, int size) noexcept {
     return AVERROR_EXIT;
 }
 
-void LiveInput::patience(std::chrono::milliseconds patience) {
-    latest_ = Clock::now() + patience;
+/// Of a pipe that something came out of nothing may be lost, and its end is told by the system.
+void LiveInput::await(std::chrono::milliseconds patience) {
+    const bool began = pipe_ && pipe_->began;
+    latest_ = began ? Clock::time_point::max() : Clock::now() + patience;
 }
 
 LiveInput::LiveInput(const LiveName& name, const std::string& shown, const LiveWants& wants,
@@ -167,13 +173,14 @@ LiveInput::LiveInput(const LiveName& name, const std::string& shown, const LiveW
     : wants_(wants),
       heard_(heard),
       kind_(name.kind),
+      silent_(keeps_connection(name) ? kSilentConnected : kSilent),
       frame_(av_frame_alloc()),
       packet_(av_packet_alloc()) {
     if (!frame_ || !packet_) throw std::bad_alloc();
     set_up_libraries();
     if (!name.format.empty()) set_up_devices();
     if (kind_ == LiveKind::pipe) pipe_ = std::make_unique<Pipe>(name.url, shown);
-    patience(kToOpen);
+    await(kToOpen);
     const bool may_be_depth = kind_ == LiveKind::camera && wants.levels;
     if (may_be_depth) camera_ = DepthCamera::opened(name, calls_);
     if (camera_) return;
@@ -258,6 +265,7 @@ void LiveInput::open_decoder(const LiveName& name, const std::string& shown) {
                   avcodec_parameters_to_context(decoder_.get(), stream_->codecpar) >= 0;
     if (opened) {
         decoder_->pkt_timebase = stream_->time_base;
+        decoder_->max_pixels = kMostPixels;
         decoder_->flags |= AV_CODEC_FLAG_LOW_DELAY;
         decoder_->thread_type = FF_THREAD_SLICE;
         decoder_->thread_count =
@@ -273,7 +281,7 @@ void LiveInput::open_decoder(const LiveName& name, const std::string& shown) {
 
 /// False: nothing more comes.
 bool LiveInput::send_next() {
-    patience(kSilent);
+    await(silent_);
     for (;;) {
         av_packet_unref(packet_.get());
         const int got = av_read_frame(context_.get(), packet_.get());
@@ -348,7 +356,7 @@ bool LiveInput::take(LivePicture& picture) {
 
 /// What is seen of it, for whoever looks at it as a picture, is its higher half.
 bool LiveInput::read_camera(LivePicture& picture) {
-    patience(kSilent);
+    await(kSilent);
     DepthCamera::Picture taken;
     if (!camera_->read(taken, [this] { return is_over(this) != 0; })) return false;
     picture = {.levels = taken.levels,

@@ -81,7 +81,7 @@ class LiveInput {
     [[nodiscard]] int open(const LiveName& name, bool as_depth);
     [[noreturn]] void refuse(const LiveName& name, const std::string& shown, int result) const;
     void open_decoder(const LiveName& name, const std::string& shown);
-    void patience(std::chrono::milliseconds patience);
+    void await(std::chrono::milliseconds patience);
     [[nodiscard]] bool send_next();
     [[nodiscard]] bool is_whole();
     void keep_time(double stamp_s);
@@ -91,6 +91,7 @@ class LiveInput {
     const LiveWants& wants_;
     std::atomic<Clock::time_point>& heard_;
     LiveKind kind_;
+    std::chrono::milliseconds silent_;  // so long the next packet is waited for
     CameraCalls calls_{};
     std::unique_ptr<DepthCamera> camera_{};  // then there is nothing of libav's
     std::unique_ptr<Pipe> pipe_{};

@@ -20,18 +20,19 @@ struct Scheme {
     std::string_view begin;
     std::string_view allowed;  ///< and what it runs on
     bool needs_port;           ///< as it has none of its own
+    bool connected;            ///< its sender notices when nobody listens
 };
 
 /// Nothing that leads to a file of this machine, whatever a playlist says.
 constexpr std::array<Scheme, 8> kNetwork{
-    {{"rtsp://", "rtsp,rtp,udp,tcp", false},
-     {"rtsps://", "rtsp,rtsps,rtp,srtp,udp,tcp,tls,crypto", false},
-     {"rtp://", "rtp,udp", true},
-     {"udp://", "udp", true},
-     {"srt://", "srt", true},
-     {"tcp://", "tcp", true},
-     {"http://", "http,tcp", false},
-     {"https://", "https,http,tls,tcp,crypto", false}}};
+    {{"rtsp://", "rtsp,rtp,udp,tcp", false, true},
+     {"rtsps://", "rtsp,rtsps,rtp,srtp,udp,tcp,tls,crypto", false, true},
+     {"rtp://", "rtp,udp", true, false},
+     {"udp://", "udp", true, false},
+     {"srt://", "srt", true, true},
+     {"tcp://", "tcp", true, true},
+     {"http://", "http,tcp", false, true},
+     {"https://", "https,http,tls,tcp,crypto", false, true}}};
 constexpr std::string_view kCamera = "v4l2:";
 constexpr std::string_view kPipe = "pipe:";
 constexpr std::string_view kMade = "lavfi:";
@@ -147,6 +148,11 @@ LiveName live_name(const std::filesystem::path& place) {
     throw InputError(in_quotes(name) +
                      " names nothing live: give v4l2:/dev/video0, udp://..., rtsp://..., "
                      "srt://..., tcp://..., http://..., pipe:NAME or lavfi:SPEC");
+}
+
+bool keeps_connection(const LiveName& name) {
+    const Scheme* const scheme = network_scheme(name.url);
+    return name.kind == LiveKind::network && scheme != nullptr && scheme->connected;
 }
 
 bool has_known_host(const LiveName& name) {

@@ -35,6 +35,9 @@ struct LiveName {
 /// for a stream without the port that it needs.
 [[nodiscard]] LiveName live_name(const std::filesystem::path& place);
 
+/// Whether its sender notices when nobody listens any more: a silence there may be a pause.
+[[nodiscard]] bool keeps_connection(const LiveName& name);
+
 /// Whether the host of a network's name is found; asks the network, and waits for it.
 [[nodiscard]] bool has_known_host(const LiveName& name);
 

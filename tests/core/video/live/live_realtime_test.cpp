@@ -1,11 +1,16 @@
 // What a person is promised of live depth, by the machine's clock, from the sender to the hand: run
 // alone. The same by a time that the test makes: live_playback_test.cpp.
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -17,6 +22,7 @@
 #include "tests/core/video/live/senders.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/eventually.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/text.hpp"
 
 using namespace dibhr;
@@ -143,6 +149,72 @@ TEST_CASE("a signal that is lost is noticed in 210 ms, by the clock, too", "[liv
     while (!player.haptics().front().silent && seconds_since(last_sent) < 60.0)
         std::this_thread::yield();
     CHECK(seconds_since(last_sent) < 0.210);  // and 40 ms later the loop sends none
+}
+
+namespace {
+
+/// Standard input is that pipe while it lives.
+class PipedInput {
+  public:
+    explicit PipedInput(const std::string& fifo) {
+        const int pipe = ::open(fifo.c_str(), O_RDONLY | O_CLOEXEC);
+        ::dup2(pipe, STDIN_FILENO);
+        ::close(pipe);
+    }
+    ~PipedInput() {
+        ::dup2(kept_, STDIN_FILENO);
+        ::close(kept_);
+    }
+    PipedInput(const PipedInput&) = delete;
+    PipedInput& operator=(const PipedInput&) = delete;
+
+  private:
+    int kept_{::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0)};
+};
+
+/// The pictures are held while their sender pauses, that is told, and they go on by themselves.
+void require_back_after_pause(Ffmpeg& sender, const std::string& from, double pause_s) {
+    Player player;
+    player.set_cleaning({.preset = CleaningPreset::raw});
+    player.play_media(open_media(from, {}, as_sent(255.0)), 1);
+    REQUIRE(eventually([&] { return player.haptics().front().count > 1; }));
+    sender.stop();
+    REQUIRE(eventually([&] { return player.status().live->silent_s > pause_s; }));
+    CHECK(player.haptics().front().count > 0);
+    CHECK(contains(in_words(*player.status().live), "No signal"));
+    sender.go_on();
+    CHECK(eventually([&] { return player.status().live->signal; }));
+}
+
+}  // namespace
+
+TEST_CASE("a sender that pauses is held, told and seen again by itself, whatever the transport",
+          "[live][realtime]") {
+    const std::string port = std::to_string(free_port());
+    const TemporaryFolder folder;
+    const std::string fifo = (folder / "depth").string();
+    REQUIRE(::mkfifo(fifo.c_str(), 0600) == 0);
+    struct Way {
+        std::string to, from;
+    };
+    // A sender that listens, or writes into a pipe, ends when nobody reads any more.
+    const std::vector<Way> ways{
+        {"-f nut 'tcp://127.0.0.1:" + port + "?listen'", "tcp://127.0.0.1:" + port},
+        {"-f mpegts -listen 1 http://127.0.0.1:" + port, "http://127.0.0.1:" + port},
+        {"-f mpegts 'udp://127.0.0.1:" + port + "?pkt_size=1316'", "udp://127.0.0.1:" + port},
+        {"-f rtp_mpegts rtp://127.0.0.1:" + port, "rtp://127.0.0.1:" + port},
+        {"-f matroska '" + fifo + "'", "pipe:" + fifo},
+        {"-f nut '" + fifo + "'", "-"}};
+    const Way& way = ways[GENERATE(range<std::size_t>(0, 6))];
+    CAPTURE(way.from);
+    Ffmpeg sender(
+        "-re -f lavfi -i testsrc2=s=96x64:r=30,format=gray,boxblur=4 -c:v libx264 -preset "
+        "ultrafast -tune zerolatency -g 30 -pix_fmt yuvj420p " +
+        way.to);
+    if (contains(way.to, "listen")) REQUIRE(comes_to_listen(std::stoi(port)));
+    std::optional<PipedInput> input;
+    if (way.from == "-") input.emplace(fifo);
+    require_back_after_pause(sender, way.from, 2.5);
 }
 
 TEST_CASE("a stream that is met behind its key frame is waited for, and then asked for another",
