@@ -41,8 +41,9 @@ void require_whole(const std::filesystem::path& file, int track, double promised
     if (!(least_s > 0.0)) return;
     const std::optional<double> end_s = packets_end_s(file, track, least_s);
     if (!end_s || *end_s >= least_s) return;
-    throw InputError(shown(file) + " is cut off: it ends at " + number_text(*end_s, 1) + " s of " +
-                     number_text(promised_s, 1) + " s; copy or export it again");
+    throw InputError(shown(file) + " is cut off or has a damaged header: it ends at " +
+                     number_text(*end_s, 1) + " s of " + number_text(promised_s, 1) +
+                     " s; copy or export it again");
 }
 
 }  // namespace

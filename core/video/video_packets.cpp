@@ -129,9 +129,14 @@ double VideoPackets::start_s() const noexcept {
     const bool own_clock = (context_->iformat->flags & AVFMT_TS_DISCONT) != 0;
     if (own_clock) return std::numeric_limits<double>::quiet_NaN();
     // Where decoding begins at 0 the file counts from there (MP4 without an edit list, or in
-    // fragments; NUT; FLV): pictures that wait for others are no later for it.
-    const bool counts_decoding = alone_ && first_decoded_ == 0;
-    return counts_decoding ? 0.0 : static_cast<double>(start()) * unit_s();
+    // fragments; FLV; NUT, which does not say when it decodes): pictures that wait for others are
+    // no later for it.
+    const double start_s = static_cast<double>(start()) * unit_s();
+    const double waited_for = stream_->codecpar->video_delay;
+    const bool begins_at_0 = first_decoded_ == AV_NOPTS_VALUE
+                                 ? std::abs(start_s * frames_per_s() - waited_for) < 0.1
+                                 : first_decoded_ == 0;
+    return alone_ && begins_at_0 ? 0.0 : start_s;
 }
 
 std::string VideoPackets::tag(const char* name) const {

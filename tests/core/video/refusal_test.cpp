@@ -93,6 +93,17 @@ TEST_CASE("an mp4 that lost its end, and with it its index, is refused at openin
     CHECK(holds(refusal_of(folder / "part.mp4"), "cut off"));
 }
 
+TEST_CASE("a film that is whole and whose header is damaged is not said to be cut off only",
+          "[refusal]") {
+    const TemporaryFolder folder;
+    make_flat_clip(folder / "whole.mp4", 30, 25, kH264);
+    std::string bytes = read_text(folder / "whole.mp4");
+    const std::size_t samples = bytes.find("stts") + 12;  // how many have the first length
+    bytes.replace(samples, 2, "\x41\x41");
+    write_text(folder / "damaged.mp4", bytes);
+    CHECK(holds(refusal_of(folder / "damaged.mp4"), "damaged header"));
+}
+
 TEST_CASE("a video cut off before its first picture is refused", "[refusal]") {
     const TemporaryFolder folder;
     make_flat_clip(folder / "whole.mkv", 10, 25, kLossless, "noise=alls=60:allf=t", 320, 240);

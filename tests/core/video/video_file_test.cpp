@@ -200,7 +200,7 @@ TEST_CASE("colour that begins later than depth by its file's clock is shown late
 
 TEST_CASE("pictures that wait for others to be decoded are no later for it", "[media]") {
     const TemporaryFolder folder;
-    const std::string waiting = "-c:v libx264 -qp 0 -bf 2 -b_strategy 0 -g 12 -pix_fmt yuv420p ";
+    const std::string waiting = "-c:v libx264 -crf 4 -bf 2 -b_strategy 0 -g 12 -pix_fmt yuv420p ";
     const auto [ending, container] =
         GENERATE(table<std::string, std::string>({{"mp4", ""},
                                                   {"mp4", "-use_editlist 0"},
