@@ -46,7 +46,7 @@ void set_up_libraries() {
             av_log_set_level(AV_LOG_QUIET);
         }
         // A file's own headers are unpacked into memory, too.
-        av_max_alloc(2 * static_cast<std::size_t>(kMostPictureBytes));
+        av_max_alloc(static_cast<std::size_t>(kMostPictureBytes) + (std::size_t{1} << 20U));
         // A pool of workers would wake on every conversion and push the haptic thread from its
         // core.
         cv::setNumThreads(1);

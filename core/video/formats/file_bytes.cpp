@@ -59,8 +59,10 @@ void require_plausible_size(const std::filesystem::path& file, std::int64_t colu
     const std::string claim = shown(file) + " says that it is " + std::to_string(columns) + " x " +
                               std::to_string(rows) + " pixels";
     if (!may_be_decoded(columns, rows, bytes_per_pixel))
-        throw InputError(claim + " of " + std::to_string(bytes_per_pixel) +
-                         " bytes: give a smaller one, of at most 33 megapixels and 256 MB");
+        throw InputError(claim +
+                         (bytes_per_pixel > 1 ? " of " + std::to_string(bytes_per_pixel) + " bytes"
+                                              : std::string()) +
+                         ": give a smaller one, of at most 33 megapixels and 256 MB");
     if (!can_hold(size_of(file), columns, rows, bytes_per_pixel))
         throw InputError(claim + " and is too short for them: it is damaged, export it again");
 }
