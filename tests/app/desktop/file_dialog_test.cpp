@@ -51,7 +51,7 @@ Asked ask(const PortalManner& manner, const DialogTimes& times = kPatient) {
     return asked;
 }
 
-/// A folder of programs that are called so, in front of the machine's.
+/// A folder of programs that are called so, and no others: the machine may have them, too.
 class Helpers {
   public:
     void add(const std::string& name, const std::string& script) {
@@ -61,7 +61,7 @@ class Helpers {
         fs::permissions(file, fs::perms::owner_all);
     }
     [[nodiscard]] fs::path file(const char* name) const { return folder_ / name; }
-    [[nodiscard]] std::string path() const { return (folder_ / "bin").string() + ":/usr/bin:/bin"; }
+    [[nodiscard]] std::string path() const { return (folder_ / "bin").string(); }
     /// Prints its arguments, one between brackets, into a file.
     [[nodiscard]] std::string writes_arguments() const {
         return "for word; do printf '[%s]' \"$word\"; done > '" + file("words").string() + "'\n";
@@ -221,7 +221,7 @@ TEST_CASE("a helper that hangs is ended when the question is called off, with al
     Helpers helpers;
     const fs::path told = helpers.file("told");
     const std::string stubborn = GENERATE("", "trap '' TERM\n", "exec >&-\n");
-    helpers.add("zenity", stubborn + "sleep 1000 & echo $! > '" + told.string() + "'\nwait\n");
+    helpers.add("zenity", stubborn + "/bin/sleep 1000 & echo $! > '" + told.string() + "'\nwait\n");
     const Variable path("PATH", helpers.path().c_str());
     const Variable kind("XDG_CURRENT_DESKTOP", "");
     const CallOff off;
