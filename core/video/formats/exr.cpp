@@ -156,7 +156,7 @@ void require_plausible_blocks(const fs::path& file, const Imf::Header& header) {
     std::int64_t channel_bytes = 0;
     for (auto at = header.channels().begin(); at != header.channels().end(); ++at)
         channel_bytes += sizeof(float);
-    const Box2i data = header.dataWindow();
+    const Box2i& data = header.dataWindow();
     const bool tiled = header.hasTileDescription();
     const std::int64_t columns = tiled ? header.tileDescription().xSize : columns_of(data);
     const std::int64_t rows =
