@@ -132,12 +132,13 @@ TEST_CASE("a file that names other files or hosts is refused, and none of them i
     CHECK(files.size() >= 20);
     for (const auto& [name, content] : files) {
         CAPTURE(name);
-        write_text(theirs / name, content);
-        const std::string said = refusal([&] { (void)describe_media(theirs / name); });
+        const fs::path file = theirs / name;
+        write_text(file, content);
+        const std::string said = refusal([&] { (void)describe_media(file); });
         CHECK(contains(said, name));
         CHECK(said.find('\n') == std::string::npos);
-        CHECK_FALSE(refusal([&] { (void)open_depth(theirs / name); }).empty());
-        CHECK_FALSE(refusal([&] { (void)open_media(theirs / name, theirs / name); }).empty());
+        CHECK_FALSE(refusal([&] { (void)open_depth(file); }).empty());
+        CHECK_FALSE(refusal([&] { (void)open_media(file, file); }).empty());
         CHECK_FALSE(watched.was_opened());
         CHECK_FALSE(beside.was_opened());
         CHECK_FALSE(host.was_visited());
