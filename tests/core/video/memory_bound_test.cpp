@@ -198,8 +198,9 @@ Opening opening_of(const std::function<void()>& open) {
     ::getrusage(RUSAGE_SELF, &before);
     const pid_t child = ::fork();
     if (child == 0) {
+        // Only reached by a failure; what a sanitizer itself maps is beyond it at times.
         const rlimit most{3UL << 30, 3UL << 30};
-        ::setrlimit(RLIMIT_DATA, &most);
+        if (DIBHR_SANITIZED == 0) ::setrlimit(RLIMIT_DATA, &most);
         std::string said = "nothing";
         try {
             open();
