@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -149,30 +150,26 @@ TEST_CASE("what is live is held by a pause, and goes on with what comes then", "
 }
 
 TEST_CASE("how live frames move is known as they come, where it is wanted", "[live]") {
-    // Beside its depth, a texture that goes 3 px to the right from frame to frame.
-    const std::string scene =
-        "lavfi:nullsrc=size=160x120:rate=30,format=gray,geq='128+50*sin(0.31*(X-3*N))*cos(0.23*Y)"
-        "+40*sin(0.13*Y+0.17*(X-3*N))',format=yuv444p[a];color=gray:size=160x120:rate=30,"
-        "format=yuv444p[b];[a][b]hstack";
-    DepthRequest request = as_sent(255.0);
-    request.command_line.packing = DepthPacking::left_right;
-    // The time stands still while it is computed: there is always enough of it.
-    LiveTime now = std::chrono::steady_clock::now() - std::chrono::hours(1);
-    LivePlayback playback([&now] { return now; });
-    playback.set_cleaning({.preset = CleaningPreset::raw}, now);
-    playback.open(open_media(scene, {}, request), 1, nullptr, [] {});
-    const auto comes_with = [&](auto&& wanted) {
-        return eventually([&] {
-            now += std::chrono::milliseconds(2);
-            playback.take(now);
-            const FrameWindow window = playback.window();
-            return window.count > 1 && wanted(window.frames[0]);
-        });
+    // A relief that goes 3 px to the right from frame to frame.
+    PictureSender::Asked asked;
+    asked.level = [](int k, int column, int row) {
+        const double x = column - 3.0 * k;
+        return static_cast<std::uint16_t>(30000.0 +
+                                          13000.0 * std::sin(0.31 * x) * std::cos(0.23 * row) +
+                                          10000.0 * std::sin(0.13 * row + 0.17 * x));
     };
-    REQUIRE(comes_with([](const Frame& frame) { return frame.motion == nullptr; }));
+    LiveBench bench(asked);
+    LivePlayback& playback = bench.playback;
+    // The time stands still while the motion is computed: there is always enough of it.
+    const auto after_three = [&] {
+        pass(bench, 0.1, {.sent_s = in_time});
+        REQUIRE(playback.window().count > 1);
+        return playback.window().frames[0];
+    };
+    CHECK(after_three().motion == nullptr);
     playback.set_motion({.motion = true});
-    REQUIRE(comes_with([](const Frame& frame) { return frame.motion != nullptr; }));
-    const Frame moving = playback.window().frames[0];
+    const Frame moving = after_three();
+    REQUIRE(moving.motion != nullptr);
     std::vector<float> rights;
     for (int j = 20; j < 100; j += 4)
         for (int i = 20; i < 140; i += 4) rights.push_back(moving.motion->at(i, j).right);
@@ -180,6 +177,6 @@ TEST_CASE("how live frames move is known as they come, where it is wanted", "[li
     CHECK_THAT(static_cast<double>(rights[rights.size() / 2]), WithinAbs(3.0, 0.1));
     CHECK(moving.between == nullptr);
     playback.set_motion({.in_betweens = true});
-    CHECK(comes_with([](const Frame& frame) { return frame.between != nullptr; }));
-    CHECK_FALSE(playback.status(now).motion_rests);
+    CHECK(after_three().between != nullptr);
+    CHECK_FALSE(playback.status(bench.now()).motion_rests);
 }
