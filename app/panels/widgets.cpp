@@ -1,20 +1,22 @@
 // Rows and icons of the panels.
 #include "app/panels/widgets.hpp"
 
-#include "core/video/live/live_name.hpp"
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdarg>
+#include <cstddef>
 #include <cstdio>
 #include <numbers>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "app/panels/panels.hpp"
+#include "app/panels/typed_number.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/live/live_name.hpp"
 
 namespace dibhr {
 
@@ -183,30 +185,38 @@ bool number_row(const NumberRow& row, double& value) {
     ImGui::PushID(row.label);
     row_label(row.label, row.help);
     ImGui::SetNextItemWidth(value_width() - row.beside);
-    ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &row.lowest, &row.highest,
-                        named ? row.zero : row.format,
-                        row.logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+    const char* const format = named ? row.zero : row.format;
+    number_item("##value", row.format, value, [&] {
+        ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &row.lowest, &row.highest,
+                            format, row.logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+    });
     // What is dragged is rounded to the digits that are shown; a word has none.
     if (named && ImGui::IsMouseDown(ImGuiMouseButton_Left)) value = std::round(value);
     explain("Drag, or Ctrl+click to type a number");
     if (put_back_arrow(std::abs(value - row.standard) > 1e-9)) value = row.standard;
     ImGui::PopID();
-    if (!std::isfinite(value)) value = before;
     return std::abs(value - before) > 0.0;
 }
 
 Dragged dragged_row(const DraggedRow& row, std::span<double> values) {
-    const std::vector<double> before(values.begin(), values.end());
     ImGui::PushID(row.label);
     row_label(row.label, row.help);
-    ImGui::SetNextItemWidth(value_width());
-    ImGui::DragScalarN("##values", ImGuiDataType_Double, values.data(),
-                       static_cast<int>(values.size()), row.speed, &row.lowest, &row.highest,
-                       row.format, ImGuiSliderFlags_AlwaysClamp);
+    ImGui::BeginGroup();
+    ImGui::PushMultiItemsWidths(static_cast<int>(values.size()), value_width());
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        ImGui::PushID(static_cast<int>(k));
+        if (k > 0) ImGui::SameLine(0.0F, ImGui::GetStyle().ItemInnerSpacing.x);
+        double& value = values[k];
+        const bool typed = number_item("##value", row.format, value, [&] {
+            ImGui::DragScalar("##value", ImGuiDataType_Double, &value, row.speed, &row.lowest,
+                              &row.highest, row.format, ImGuiSliderFlags_AlwaysClamp);
+        });
+        if (typed) value = std::clamp(value, row.lowest, row.highest);
+        ImGui::PopItemWidth();
+        ImGui::PopID();
+    }
+    ImGui::EndGroup();
     const bool done = ImGui::IsItemDeactivatedAfterEdit();
-    const auto is_number = [](double value) { return std::isfinite(value); };
-    if (!std::all_of(values.begin(), values.end(), is_number))  // what is typed may be none
-        std::copy(before.begin(), before.end(), values.begin());
     explain("Drag, or Ctrl+click to type a number");
     const bool put_back = put_back_arrow(row.changed);
     ImGui::PopID();
