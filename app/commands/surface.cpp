@@ -46,11 +46,11 @@ std::unique_ptr<Media> open_given(const SurfaceOptions& options, TouchParameters
 
 [[noreturn]] void refuse_time(const fs::path& file, double time_s, double duration_s) {
     throw InputError(shown(file) + " lasts " + short_text(duration_s) +
-                     " s: give --time less than " + "that instead of " + short_text(time_s));
+                     " s: give --time less than that instead of " + short_text(time_s));
 }
 
-/// The frame shown at `time_s` of the media and, in a video, the one after it, which after the last
-/// one is the first again, as in playing. Throws InputError when the media ends before.
+/// The frame shown at `time_s` of the media and the one after it, if any: the last one stays until
+/// the media ends. Throws InputError when that is before.
 std::vector<Frame> frames_around(FrameReader& reader, double time_s) {
     const fs::path& file = reader.description().depth_path;
     if (reader.description().live && time_s > 0.0)
@@ -64,15 +64,13 @@ std::vector<Frame> frames_around(FrameReader& reader, double time_s) {
         return frames;
     }
     std::optional<Frame> next = reader.after(now->media_s);
-    if (next) {
-        next->time_s = next->media_s;
-    } else {
+    if (!next) {
         const double end_s = now->media_s + reader.last_interval_s(now->media_s);
-        if (time_s >= end_s - kTimeTolerance_s) refuse_time(file, time_s, end_s);
-        next = reader.at(0.0);
-        if (!next) return frames;
-        next->time_s = end_s;
+        constexpr double kRoundOff_s = 1e-6;
+        if (time_s >= end_s - kRoundOff_s) refuse_time(file, time_s, end_s);
+        return frames;
     }
+    next->time_s = next->media_s;
     reader.connect(frames.back(), *next);
     frames.push_back(std::move(*next));
     return frames;

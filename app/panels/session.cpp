@@ -1,5 +1,6 @@
 // The Session panel: recording what is touched, with who it was, notes and marks.
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -62,7 +63,8 @@ void draw_marks(ViewerState& state) {
                    ("Enter" + or_key + ", marks the moment with it").c_str(), true,
                    ImGui::GetContentRegionAvail().x - button - style.ItemSpacing.x);
     ImGui::SameLine();
-    if (ImGui::Button("Mark") || entered) state.requests.mark = true;
+    if (ImGui::Button("Mark") || entered)
+        state.requests.marks.push_back(std::chrono::steady_clock::now());
     explain("Marks this moment", state.keys, Action::mark);
     const std::vector<SessionMark>& marks = state.recording->marks;
     const std::size_t first = marks.size() - std::min(marks.size(), kMarksShown);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -174,7 +175,7 @@ struct Requests {
     bool remove_paint{false};
     bool reset_view{false};
     bool toggle_recording{false};
-    bool mark{false};
+    std::vector<std::chrono::steady_clock::time_point> marks{};  ///< moments to mark
     bool as_recorded{false};                        ///< a replay: no other parameters any more
     bool leave_replay{false};                       ///< its video is to be touched
     std::optional<std::filesystem::path> folder{};  ///< to be read, for the Open dialog

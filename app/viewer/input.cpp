@@ -2,6 +2,7 @@
 #include "app/viewer/input.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <locale>
@@ -34,7 +35,6 @@ double times_speed(double speed, double factor) {
 /// What the viewer does after the picture.
 constexpr std::pair<Action, bool Requests::*> kRequests[] = {
     {Action::record, &Requests::toggle_recording},
-    {Action::mark, &Requests::mark},
     {Action::reset_view, &Requests::reset_view},
     {Action::toggle_full_screen, &Requests::full_screen},
     {Action::take_screenshot, &Requests::screenshot},
@@ -231,6 +231,9 @@ Answer perform(Action action, ViewerState& state, Player& player) {
         case Action::centre_workspace:
             ++state.centred;
             return {"Hand centred"};
+        case Action::mark:
+            state.requests.marks.push_back(std::chrono::steady_clock::now());
+            return {};
         case Action::toggle_sound:
             settings.mute = !settings.mute;
             return {settings.mute ? "Sound off" : "Sound on"};

@@ -14,7 +14,7 @@ constexpr int kMostOfPane_px = 1024;  // of a texture's side: a pane is not much
 void ViewerPanes::show(const DepthBlend& shown, ViewerState& state) {
     state.panes = {};
     if (!shows_panes(state) || !shown.makes_surface()) return;
-    const Frame& frame = shown.shown().nearest();
+    const Frame& frame = shown.coloured();
     if (frame.colour && !frame.colour->rgb.empty())
         state.panes.colour = colour_.show(frame.colour, kMostOfPane_px, false);
     const ReliefPaint paint = depth_paint(state);

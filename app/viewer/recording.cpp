@@ -234,15 +234,18 @@ void ViewerRecording::maps(std::uint32_t version, std::vector<SessionMap> maps) 
     if (recorder_) recorder_->maps(maps_version_, maps_);
 }
 
-std::string ViewerRecording::mark(ViewerState& state) {
+std::string ViewerRecording::mark(ViewerState& state,
+                                  std::chrono::steady_clock::time_point moment) {
     if (!recorder_)
         return "Nothing is recorded that could be marked" +
                state.keys.told(Action::record, " begins");
     const char* typed = state.fields.tag.data();
     const std::string tag = *typed == '\0' ? kPlainTag : typed;
-    recorder_->mark(tag);
-    state.recording->marks.push_back({now_s(), tag, {}});
-    return "Marked at " + clock_text(now_s()) + ": " + tag;
+    recorder_->mark(tag, {}, moment);
+    const std::chrono::duration<double> ago = std::chrono::steady_clock::now() - moment;
+    const double t_s = std::max(0.0, now_s() - ago.count());
+    state.recording->marks.push_back({t_s, tag, {}});
+    return "Marked at " + clock_text(t_s) + ": " + tag;
 }
 
 void ViewerRecording::mark(const std::string& tag) {

@@ -51,8 +51,9 @@ class ViewerRecording {
     /// after the ticks.
     void maps(std::uint32_t version, std::vector<SessionMap> maps);
 
-    /// Marks this moment with the tag that was typed. A short notice.
-    std::string mark(ViewerState& state);
+    /// Marks `moment` with the tag that was typed. A short notice.
+    std::string mark(ViewerState& state, std::chrono::steady_clock::time_point moment =
+                                             std::chrono::steady_clock::now());
 
     /// Marks this moment. Nothing is recorded: does nothing.
     void mark(const std::string& tag);

@@ -329,17 +329,23 @@ void Viewer::take_keys(const WindowInput& input) {
                                                     [this](int key) { return window_.holds(key); });
     if (as_recorded && !state_.as_recorded && !state_.replay) tell("Depth as recorded");
     state_.as_recorded = as_recorded;
+    const auto take = [this](Action action, EventTimes::Time at) {
+        if (action == Action::mark && !state_.replay)
+            state_.requests.marks.push_back(at);
+        else
+            perform(action);
+    };
     for (const KeyPress& press : input.keys) {
         if (takes_keys(state_.dialog) && state_.message.empty()) take_dialog_key(press);
         if (const auto action = state_.keys.action_of_key(press.key, press.control, typing,
                                                           press.repeated, press.shift))
-            perform(*action);
+            take(*action, press.at);
     }
     if (typing) return;
     for (const TypedCharacter& typed : input.characters) {
         if (const auto action =
                 state_.keys.action_of_character(typed.code, typed.repeated, typed.shift))
-            perform(*action);
+            take(*action, typed.at);
     }
 }
 
@@ -538,7 +544,7 @@ void Viewer::carry_out_requests() {
         tell(window_.full_screen() ? "Full screen" : "Full screen off");
     }
     if (asked.toggle_recording) start_or_stop_recording();
-    if (asked.mark) tell(recording_.mark(state_));
+    for (const auto moment : asked.marks) tell(recording_.mark(state_, moment));
     if (asked.leave_replay) open({state_.media.colour_path, state_.media.depth_path});
     if (asked.action) perform(*asked.action);
     if (asked.screenshot) screenshots_.ask(PictureOf::window);

@@ -394,10 +394,10 @@ void Recorder::maps(std::uint32_t version, std::vector<SessionMap> maps) {
     });
 }
 
-void Recorder::mark(const std::string& tag, const std::string& text) {
-    implementation_->leave([moment = implementation_->now(), tag, text](Implementation& writer) {
-        writer.add_mark(moment, tag, text);
-    });
+void Recorder::mark(const std::string& tag, const std::string& text,
+                    std::optional<std::chrono::steady_clock::time_point> moment) {
+    implementation_->leave([moment = moment.value_or(implementation_->now()), tag,
+                            text](Implementation& writer) { writer.add_mark(moment, tag, text); });
 }
 
 void Recorder::mark_at(double t_s, const std::string& tag, const std::string& text) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,8 +58,9 @@ class Recorder {
     void media_is_whole(std::vector<SessionMedia> contents = {});
     /// The touch maps that ticks refer to by that version. May come after them.
     void maps(std::uint32_t version, std::vector<SessionMap> maps);
-    /// Marks this moment.
-    void mark(const std::string& tag, const std::string& text = {});
+    /// Marks this moment, or `moment`.
+    void mark(const std::string& tag, const std::string& text = {},
+              std::optional<std::chrono::steady_clock::time_point> moment = {});
     /// Marks a moment of ticks that have a clock of their own, from the first tick on.
     void mark_at(double t_s, const std::string& tag, const std::string& text = {});
     /// Changes or adds a fact: "participant", "note".

@@ -103,7 +103,9 @@ TEST_CASE("surface finds the depth beside the colour, and takes depth alone", "[
     CHECK_FALSE(read_text(folder / "a.ply").find("red") != std::string::npos);
 }
 
-TEST_CASE("between two frames the surface is blended as in playing", "[surface]") {
+TEST_CASE("between two frames the surface is blended as in playing, and the last frame stays until "
+          "the end",
+          "[surface]") {
     const TemporaryFolder folder;
     write_rising_film(folder);
     const auto height_at = [&folder](const std::string& time_s) {
@@ -113,7 +115,8 @@ TEST_CASE("between two frames the surface is blended as in playing", "[surface]"
     CHECK_THAT(height_at("0.05"), WithinAbs(75.0, 1e-4));
     CHECK_THAT(height_at("0.1"), WithinAbs(100.0, 1e-4));
     CHECK_THAT(height_at("0.18"), WithinAbs(140.0, 1e-4));
-    CHECK_THAT(height_at("0.25"), WithinAbs(100.0, 1e-4));  // half way back to the first
+    CHECK_THAT(height_at("0.25"), WithinAbs(150.0, 1e-4));
+    CHECK_THAT(height_at("0.2999"), WithinAbs(150.0, 1e-4));
 }
 
 TEST_CASE("a time at or beyond the end is refused with the duration", "[surface]") {

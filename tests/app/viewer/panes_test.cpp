@@ -115,3 +115,36 @@ TEST_CASE("panes show the colour and the depth, the relief is touched below them
                {ramp->rgb[3 * 128], ramp->rgb[3 * 128 + 1], ramp->rgb[3 * 128 + 2]});
     CHECK(contains(read_text(folder / "config/dibhr/settings.toml"), "panes = true"));
 }
+
+TEST_CASE("paused between two frames, panes and relief show the colour of the same one",
+          "[panes]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    const std::string film = "ffmpeg -nostdin -v error -f lavfi -i nullsrc=s=64x48:r=5:d=2,";
+    run_shell(
+        folder,
+        film + "geq=r='255*eq(mod(N\\,2)\\,0)':g='255*mod(N\\,2)':b=0 -c:v ffv1 film_color.mkv");
+    run_shell(folder, film + "geq=lum=128,format=gray -c:v ffv1 film_depth.mkv");
+    std::filesystem::create_directories(folder / "config/dibhr");
+    write_text(folder / "config/dibhr/settings.toml",
+               "[look]\npanes = true\n[window]\npanels-visible = false\n");
+    WindowProgram viewer = desk.start_viewer(
+        folder, {"film_color.mkv", "film_depth.mkv", "--raw-depth", "--device", "mouse", "--size",
+                 "800x600", "--in-betweens", "off", "--speed", "0.1", "--screenshot", "last.png"});
+    viewer.wait_for_surface();
+    // Of each 2 s in which a frame is shown, the second half: the next one is nearer.
+    viewer.wait_until([](const Seen& now) { return now.drawn_frame == 1 && now.media_s < 0.2; });
+    viewer.act("key space");
+    viewer.wait_until([](const Seen& now) { return !now.playing; });
+    const double media_s = viewer.seen().media_s;
+    desk.press("key q");
+    REQUIRE(viewer.wait() == 0);
+    const ColourImage picture = read_colour_picture(folder / "last.png");
+    const int below = static_cast<int>(panes_height(panes_on()));
+    const auto in_pane = pixel(picture, kWidth / 4, below / 4);
+    const auto in_relief = pixel(picture, kWidth / 2, (kHeight + below) / 2);
+    CAPTURE(media_s, in_pane, in_relief);
+    REQUIRE(std::abs(in_pane[0] - in_pane[1]) > 100);
+    REQUIRE(std::abs(in_relief[0] - in_relief[1]) > 50);
+    CHECK((in_pane[0] > in_pane[1]) == (in_relief[0] > in_relief[1]));
+}

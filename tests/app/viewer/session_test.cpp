@@ -3,12 +3,15 @@
 #include <sys/mount.h>
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "app/settings/material.hpp"
@@ -144,6 +147,40 @@ class SmallDisk {
 };
 
 }  // namespace
+
+TEST_CASE("a mark has the time at which its key was pressed, not that of the picture that took it",
+          "[session]") {
+    using Clock = std::chrono::steady_clock;
+    const Desk desk;
+    const TemporaryFolder folder;
+    make_films(folder);
+    WindowProgram viewer =
+        start_window(desk, folder, {"film_color.mkv", "--record", "marked.dibhr"});
+    viewer.wait_for_surface();
+    viewer.wait_until([](const Seen& now) { return now.records && now.recorded_rows > 0; });
+    viewer.send(SIGSTOP);
+    std::array<Clock::time_point, 2> before{}, after{};
+    for (std::size_t k = 0; k < 2; ++k) {
+        before[k] = Clock::now();
+        desk.press("key m");
+        after[k] = Clock::now();
+        // The time that is to be found between the marks.
+        std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    }
+    viewer.send(SIGCONT);
+    viewer.wait_until([](const Seen& now) { return now.marks == 2; });
+    desk.press("key ctrl+q");
+    REQUIRE(viewer.wait() == 0);
+    const std::vector<SessionMark> marks = Session(folder / "marked.dibhr").marks();
+    REQUIRE(marks.size() == 2);
+    const double apart_s = marks[1].t_s - marks[0].t_s;
+    const auto seconds = [](Clock::duration time) {
+        return std::chrono::duration<double>(time).count();
+    };
+    constexpr double kServer_s = 0.002;  // it counts whole milliseconds
+    CHECK(apart_s > seconds(before[1] - after[0]) - kServer_s);
+    CHECK(apart_s < seconds(after[1] - before[0]) + kServer_s);
+}
 
 TEST_CASE(
     "a recording begun, marked and ended by key replays to the same bits, whatever was changed "
