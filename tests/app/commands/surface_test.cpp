@@ -103,9 +103,10 @@ TEST_CASE("surface finds the depth beside the colour, and takes depth alone", "[
     CHECK_FALSE(read_text(folder / "a.ply").find("red") != std::string::npos);
 }
 
-TEST_CASE("between two frames the surface is blended as in playing, and the last frame stays until "
-          "the end",
-          "[surface]") {
+TEST_CASE(
+    "between two frames the surface is blended as in playing, and the last frame stays until "
+    "the end",
+    "[surface]") {
     const TemporaryFolder folder;
     write_rising_film(folder);
     const auto height_at = [&folder](const std::string& time_s) {
