@@ -36,6 +36,7 @@ ViewerClip::~ViewerClip() {
 void ViewerClip::start(const std::filesystem::path& file, ClipName name, PictureOf of) {
     recorder_ = std::make_unique<ClipRecorder>(file, name);
     file_ = file;
+    name_ = name;
     of_ = of;
     begin_.reset();
     end_.reset();
@@ -65,8 +66,10 @@ std::optional<std::string> ViewerClip::take_news(ViewerState& state) {
     const double length_s = begin_ ? seconds_between(*begin_, now) : 0.0;
     if (!recorder_->done()) {
         state.clip = ClipNews{file_, length_s, end_.has_value()};
+        tell_words(length_s);
         return {};
     }
+    forget_words();
     const std::unique_ptr<ClipRecorder> over = std::move(recorder_);
     try {
         return "Saved " + over->result().string() + ", " + clock_text(length_s);
@@ -74,6 +77,17 @@ std::optional<std::string> ViewerClip::take_news(ViewerState& state) {
         if (failure_.empty()) failure_ = error.what();
         throw;
     }
+}
+
+void ViewerClip::tell_words(double length_s) {
+    constexpr double kPlays_s = 2.0;  // by then there is a second in the file
+    if (in_words_ || length_s < kPlays_s) return;
+    words_.clip(recorder_->written(), file_, name_ == ClipName::replaces);
+    in_words_ = true;
+}
+
+void ViewerClip::forget_words() {
+    if (std::exchange(in_words_, false)) words_.clip({}, {}, false);
 }
 
 void ViewerClip::wait_for(std::unique_ptr<ClipRecorder> over, ClipEnd how) {
@@ -94,6 +108,7 @@ void ViewerClip::finish(ClipEnd how) {
     if (recorder_) {
         recorder_->stop(Clock::now(), how);
         wait_for(std::move(recorder_), how);
+        forget_words();
     }
     if (!failure_.empty()) throw InputError(failure_);
 }

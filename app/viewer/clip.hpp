@@ -9,6 +9,7 @@
 
 #include "app/panels/viewer_state.hpp"
 #include "app/viewer/errand.hpp"
+#include "app/window/last_words.hpp"
 #include "core/clip/clip_recorder.hpp"
 
 namespace dibhr {
@@ -17,8 +18,8 @@ class ViewerClip {
   public:
     using Clock = ClipRecorder::Clock;
 
-    /// `errands` outlive it.
-    explicit ViewerClip(Errands& errands) : errands_(errands) {}
+    /// Both outlive it. `words` keep what there is of a clip when the program hangs at its end.
+    ViewerClip(Errands& errands, LastWords& words) : errands_(errands), words_(words) {}
     /// What there is of a clip is kept when an error ends the program.
     ~ViewerClip();
     ViewerClip(const ViewerClip&) = delete;
@@ -47,10 +48,15 @@ class ViewerClip {
 
   private:
     void wait_for(std::unique_ptr<ClipRecorder> over, ClipEnd how);
+    void tell_words(double length_s);
+    void forget_words();
 
     Errands& errands_;
+    LastWords& words_;
     std::unique_ptr<ClipRecorder> recorder_{};  // null: no clip
     std::filesystem::path file_{};
+    ClipName name_{ClipName::replaces};
+    bool in_words_{false};
     PictureOf of_{PictureOf::window};
     std::optional<Clock::time_point> begin_{};  // of the first picture
     std::optional<Clock::time_point> end_{};

@@ -73,7 +73,7 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
       inverse3_(hand_, state_),
       service_settings_(errands),
       opening_(errands),
-      clip_(errands),
+      clip_(errands, ending.words()),
       estimating_(errands),
       browsing_(errands),
       desktop_(errands),

@@ -74,6 +74,7 @@ void Ending::run() {
         without_force_ = true;
         asked_ = true;
     }
+    words_.keep_clip();
     words_.tell({again ? "asked twice to end" : "asked to end", ", but hung while ",
                  words_.what_is_done(), "; the force is off, ended at once"});
     _exit(EXIT_FAILURE);

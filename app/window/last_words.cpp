@@ -1,7 +1,9 @@
 // One line, put together on the stack and written at once.
 #include "app/window/last_words.hpp"
 
+#include <fcntl.h>
 #include <poll.h>
+#include <stdio.h>  // renameat2
 #include <unistd.h>
 
 #include <array>
@@ -44,6 +46,21 @@ void LastWords::recording(const std::filesystem::path& file) {
     recording_.store(&files_.emplace_back(file.string()), std::memory_order_release);
 }
 
+void LastWords::clip(const std::filesystem::path& part, const std::filesystem::path& file,
+                     bool replaces) {
+    clip_.store(
+        part.empty() ? nullptr : &clips_.emplace_back(Clip{part.string(), file.string(), replaces}),
+        std::memory_order_release);
+}
+
+void LastWords::keep_clip() noexcept {
+    const Clip* const clip = clip_.exchange(nullptr);
+    if (clip == nullptr) return;
+    const unsigned flags = clip->replaces ? 0 : RENAME_NOREPLACE;
+    if (renameat2(AT_FDCWD, clip->part.c_str(), AT_FDCWD, clip->file.c_str(), flags) == 0)
+        kept_.store(clip);
+}
+
 void LastWords::tell(std::initializer_list<const char*> parts) const noexcept {
     const int error = errno;
     Line line;
@@ -52,6 +69,10 @@ void LastWords::tell(std::initializer_list<const char*> parts) const noexcept {
     if (const std::string* const file = recording_.load(std::memory_order_acquire)) {
         line.add("; the recording up to now is in ");
         line.add(file->c_str());
+    }
+    if (const Clip* const clip = kept_.load()) {
+        line.add("; the clip up to a second ago is in ");
+        line.add(clip->file.c_str());
     }
     line.write();
     errno = error;

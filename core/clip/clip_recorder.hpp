@@ -41,6 +41,8 @@ class ClipRecorder {
     std::filesystem::path result() { return result_.get(); }
 
     [[nodiscard]] std::uint64_t encoded() const;
+    /// Where the clip is written until it is whole; plays up to a second before its last picture.
+    [[nodiscard]] const std::filesystem::path& written() const noexcept { return file_.written(); }
 
   private:
     struct Shown {

@@ -197,6 +197,26 @@ TEST_CASE("a clip that an option saves is whole when a signal ends the window",
     check_whole_clip([](const Desk&, const WindowProgram& viewer) { viewer.send(SIGTERM); });
 }
 
+TEST_CASE("a window that hangs when a signal ends it keeps the clip up to a moment before",
+          "[clip]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    put_films(folder);
+    WindowProgram viewer = desk.start_viewer(folder, film_and({"--clip", "all.mp4"}));
+    viewer.wait_until([](const Seen& now) { return now.clip && now.clip_s > 3.0; });
+    viewer.hang();
+    viewer.send(SIGTERM);
+    CHECK(viewer.wait() == 1);
+    const std::string errors = read_text(folder / "errors.txt");
+    CHECK(contains(errors, "hung while drawing"));
+    CHECK(contains(errors, "the clip up to a second ago is in all.mp4"));
+    CHECK(std::ranges::count(errors, '\n') == 1);
+    const Probed clip = probed(folder, "all.mp4");
+    CHECK(clip.length_s > 1.0);
+    CHECK(clip.pictures > 5);
+    check_one_clip(folder);
+}
+
 TEST_CASE("a clip that an option saves ends with what is played", "[clip]") {
     const Desk desk;
     const TemporaryFolder folder;
