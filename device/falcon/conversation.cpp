@@ -49,7 +49,7 @@ Conversation::~Conversation() {
 std::optional<UsbError> Conversation::run(const std::stop_token& stop) {
     const std::stop_callback wake_to_leave(stop, [this] { exchange_.wake.signal(); });
     speak(Link::Clock::now());
-    while (!stop.stop_requested() && !link_.loss()) {
+    while (!stop.stop_requested() && !link_.loss() && !guardian_.died()) {
         link_.wait(next_look());
         guardian_.beat();
         const Time now = Link::Clock::now();

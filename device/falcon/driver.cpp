@@ -152,6 +152,11 @@ void Driver::talk(const UsbContext& usb, FtdiPort& port, const std::stop_token& 
     if (loss && loss->code() == LIBUSB_ERROR_PIPE) port.clear_stall();
     if (!loss || !loss->gone()) leave_without_force(port);
     if (loss) lose(loss->what());
+    if (guardian_.died()) {
+        lose(
+            "the process that takes the force off when dibhr dies was ended: another one begins, "
+            "and the force comes back");
+    }
 }
 
 void Driver::lose(const std::string& why) {

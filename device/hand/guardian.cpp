@@ -238,7 +238,7 @@ void step_aside(int socket) noexcept {
     const auto kept = static_cast<unsigned>(socket);
     if (kept > 0) (void)close_range(0, kept - 1, 0);
     (void)close_range(kept + 1, ~0U, 0);
-    (void)prctl(PR_SET_NAME, "dibhr guardian");
+    (void)prctl(PR_SET_NAME, Guardian::kProcessName);
     const sched_param priority{sched_get_priority_max(SCHED_FIFO) - 1};
     (void)sched_setscheduler(0, SCHED_FIFO, &priority);  // where it is allowed
 }
@@ -276,6 +276,8 @@ Guardian::Guardian(std::string device) : device_(std::move(device)) {
 }
 
 void Guardian::begin() noexcept {
+    failed_ = nullptr;
+    sent_before_ = 0;
     void* const page = mmap(nullptr, sizeof(SharedPage), PROT_READ | PROT_WRITE,
                             MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (page == MAP_FAILED) return give_up("memory");
@@ -296,12 +298,23 @@ void Guardian::begin() noexcept {
 }
 
 Guardian::~Guardian() {
+    if (socket_ >= 0) dismiss();
+    part();
+}
+
+void Guardian::part() noexcept {
     if (socket_ >= 0) {
-        dismiss();
         replace_in_all(socket_, 0);
         close(socket_);
     }
+    socket_ = -1;
     if (page_ != nullptr) (void)munmap(page_, sizeof(SharedPage));
+    page_ = nullptr;
+}
+
+bool Guardian::died() const noexcept {
+    pollfd end{socket_, 0, 0};
+    return socket_ >= 0 && poll(&end, 1, 0) == 1 && (end.revents & POLLHUP) != 0;
 }
 
 void Guardian::give_up(const char* step) noexcept {
@@ -331,6 +344,10 @@ bool Guardian::say(char word, int descriptor, const Farewell& farewell) noexcept
 }
 
 void Guardian::watch(int descriptor, const Farewell& farewell) noexcept {
+    if (socket_ < 0 || died()) {
+        part();
+        begin();
+    }
     beat();
     if (descriptor >= 0) {
         (void)say(kWatch, descriptor, farewell);

@@ -34,6 +34,9 @@ struct SharedPage;  // what both processes see
 /// and alarmed() is one thread's.
 class Guardian {
   public:
+    /// As `ps` shows it: without the program's name, so that `pkill dibhr` leaves it.
+    static constexpr const char* kProcessName = "force-guardian";
+
     /// `device`, for people: "Falcon".
     explicit Guardian(std::string device);
     ~Guardian();  ///< dismissed
@@ -56,6 +59,11 @@ class Guardian {
     /// It has sent something since it was dismissed last: what the program hears over a stream may
     /// be the answer to that.
     [[nodiscard]] bool spoken() const noexcept;
+    /// Somebody has ended it: the force is to go to zero. The next watch() begins another one.
+    [[nodiscard]] bool died() const noexcept;
+    /// Of a connection that may still be heard at its other end: the guardian takes this for the
+    /// program's end, and the next watch() begins another one.
+    void part() noexcept;
     /// It has closed its descriptor when this returns, or it hangs: then after 0.1 s.
     void dismiss() noexcept;
     /// The program lives. At least every 20 ms while it is watched.

@@ -35,6 +35,7 @@ void ArmWatch::add(const Arm& arm, Time at) noexcept {
     if (arm.config) config_ = arm.config;
     follow_use(arm.in_use, at);
     stage_ = stage_of(arm);
+    if (stands_still(arm, at) && stage_ == Stage::ready) stage_ = Stage::not_understood;
     jumped_ = arm.position_m && jumps_to(*arm.position_m, at);
     if (stage_ != Stage::ready || jumped_ || other_config) {
         trusted_ = 0;
@@ -74,6 +75,11 @@ void ArmWatch::follow_use(bool in_use, Time at) noexcept {
                       (pushed_since_ && at - *pushed_since_ < kOurPushBegins);
     }
     was_in_use_ = in_use;
+}
+
+bool ArmWatch::stands_still(const Arm& arm, Time at) noexcept {
+    return arm.position_m && arm.velocity_m_per_s &&
+           still_.add(*arm.position_m, glm::length(*arm.velocity_m_per_s), at);
 }
 
 bool ArmWatch::jumps_to(Vec3 position_m, Time at) const noexcept {

@@ -7,6 +7,7 @@
 
 #include "core/haptics/vec.hpp"
 #include "device/hand/epoch.hpp"
+#include "device/hand/still_pose.hpp"
 #include "device/inverse3/message.hpp"
 #include "device/inverse3/status.hpp"
 
@@ -36,6 +37,7 @@ class ArmWatch {
   private:
     [[nodiscard]] Stage stage_of(const Arm& arm) const noexcept;
     void follow_use(bool in_use, Time at) noexcept;
+    [[nodiscard]] bool stands_still(const Arm& arm, Time at) noexcept;
     [[nodiscard]] bool jumps_to(Vec3 position_m, Time at) const noexcept;
 
     Stage stage_{Stage::no_device};
@@ -44,6 +46,7 @@ class ArmWatch {
     bool jumped_{false};
     std::optional<Vec3> last_m_{};
     Time last_at_{};
+    StillPose still_{};
     std::optional<ArmConfig> config_{};  // the last one that was told
     std::optional<Time> driven_since_{};
     std::optional<Time> pushed_since_{};  // the last force that was not zero, after one that was

@@ -2,6 +2,7 @@
 #include "device/inverse3/conversation.hpp"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "device/inverse3/farewell.hpp"
@@ -65,6 +66,7 @@ Conversation::Conversation(ServiceLink& link, const ConnectionOptions& options, 
 }
 
 Conversation::~Conversation() {
+    if (guarded_in_ && !settled_) guardian_.part();
     unguard();
     exchange_.poses.publish(TimedPose{});  // nobody acts on an old pose
     memory_.buttons.release();
@@ -91,25 +93,13 @@ void Conversation::exchange_once(const std::stop_token& stop) {
     say(next_order());
     if (!await(sent_at_ + kLongestSilence, &stop)) {
         if (stop.stop_requested()) return;
-        give_up();
+        throw LinkError(Why::lost, "it has been silent for 2 s");
     }
     if (!sent_whole_) memory_.pace.add(sent_at_, Clock::now());  // a whole state takes longer
     take();
     in_flight_ = false;
     if (sent_drives_) force_answered_ = true;
     ++memory_.exchanges;
-}
-
-/// What the service still reads of this connection ends with a zero: the one time that two are in
-/// flight, since nothing follows.
-void Conversation::give_up() {
-    if (!arm_.empty() && drove_) say_zero(Clock::now() + kGoodbyeTakes);
-    throw LinkError(Why::lost, "it has been silent for 2 s");
-}
-
-void Conversation::say_zero(Time until) {
-    link_.send(memory_.writer.write({.arm = arm_, .force_newton = Vec3{0.0}, .dialect = dialect()}),
-               until);
 }
 
 bool Conversation::closed_on_force() const noexcept {
@@ -142,8 +132,8 @@ bool Conversation::wait(Time until) {
 /// What comes after it has spoken answers its words and not ours: the link ends, with a zero.
 void Conversation::tell_guardian() {
     guardian_.beat();
+    if (guarded_in_ && guardian_.died()) throw LinkError(Why::unguarded, "its guardian has ended");
     if (!guardian_.spoken()) return;
-    say_zero(Clock::now() + kGoodbyeTakes);
     throw LinkError(Why::stood_still, "dibhr itself stood still");
 }
 
@@ -159,15 +149,9 @@ void Conversation::say_goodbye() noexcept {
         const Time until = Clock::now() + kGoodbyeTakes;
         // What is in flight first: there is never more than one.
         if (in_flight_ && await(until, nullptr)) (void)link_.read(until);
-        if (!arm_.empty() && drove_) {
-            say_zero(until);
-            if (await(until, nullptr)) (void)link_.read(until);
-        }
-        unguard();  // the end is heard once nobody has the socket
-        link_.close(until);
+        settled_ = link_.close(until);
     } catch (const LinkError&) {
-        // It has gone before: nobody is left to say it to.
-        drove_ = false;
+        settled_ = false;  // it has gone before
     }
 }
 
@@ -177,7 +161,6 @@ void Conversation::say(const Order& order) {
     sent_newton_ = order.force_newton.value_or(Vec3{0.0});
     const Time now = Clock::now();
     if (sent_drives_) {
-        drove_ = true;
         memory_.watch.drove(now, sent_newton_ != Vec3{0.0});
         guard(order);
     }
@@ -190,8 +173,11 @@ void Conversation::say(const Order& order) {
 /// From the first force on, and anew where zero is said in another way.
 void Conversation::guard(const Order& order) {
     tell_guardian();
-    if (guarded_in_ == order.dialect || Guardian::alarmed()) return;
-    guardian_.watch(link_.descriptor(), farewell(order.arm, order.dialect));
+    if (guarded_in_ == order.dialect) return;
+    const Farewell last = farewell(order.arm, order.dialect);
+    link_.set_last_words(std::span(last.bytes).first(last.size));
+    if (Guardian::alarmed()) return;
+    guardian_.watch(link_.descriptor(), last);
     guarded_in_ = order.dialect;
     board_.draft().unguarded = guardian_.fault();
 }

@@ -43,7 +43,8 @@ class Conversation {
     /// All must outlive it. `newer`: a service of 3.5 or later, which it also tells by its words.
     Conversation(ServiceLink& link, const ConnectionOptions& options, bool newer,
                  Exchange& exchange, Board& board, Memory& memory, Guardian& guardian);
-    /// No pose is left behind, and nobody guards the link.
+    /// No pose is left behind. A link that did not end by a goodbye is left to its guardian, who
+    /// says zero over it and lets it go.
     ~Conversation();
     Conversation(const Conversation&) = delete;
     Conversation& operator=(const Conversation&) = delete;
@@ -58,12 +59,10 @@ class Conversation {
     void take_inventory(const std::stop_token& stop);
     void exchange_once(const std::stop_token& stop);
     void pause();
-    [[noreturn]] void give_up();
     void say_goodbye() noexcept;
 
     // What is said.
     void say(const Order& order);
-    void say_zero(Time until);
     void guard(const Order& order);
     void tell_guardian();
     void unguard() noexcept;
@@ -110,7 +109,7 @@ class Conversation {
     int presets_asked_{0};
     HearingWatch hearing_{};
     bool introduced_{false};
-    bool drove_{false};  // it was sent a force
+    bool settled_{false};  // the service has answered the goodbye
     std::optional<ForceDialect>
         guarded_in_{};  // how the guardian would say zero; nothing: no guard
     bool force_answered_{false};

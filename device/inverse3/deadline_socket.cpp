@@ -21,6 +21,8 @@ std::error_code last_error() noexcept {
     return {errno, std::system_category()};
 }
 
+constexpr std::uint8_t kCloseFrame = 0x88;  // its first byte (RFC 6455, 5.2)
+
 timespec time_left(Time until) noexcept {
     constexpr std::chrono::nanoseconds kLongest = std::chrono::hours(1);
     const auto now = DeadlineSocket::Clock::now();
@@ -81,12 +83,20 @@ std::size_t DeadlineSocket::read(std::span<std::uint8_t> into, std::error_code& 
 
 std::size_t DeadlineSocket::write(std::span<const iovec> parts, std::error_code& error) noexcept {
     error.clear();
+    std::size_t all = 0;
+    for (const iovec& part : parts) all += part.iov_len;
+    const bool closes = whole_ && !parts.empty() && parts.front().iov_len > 0 &&
+                        *static_cast<const std::uint8_t*>(parts.front().iov_base) == kCloseFrame;
+    if (closes) say_last_words();
     msghdr message{};
     message.msg_iov = const_cast<iovec*>(parts.data());  // it is only read
     message.msg_iovlen = parts.size();
     for (;;) {
         const ssize_t gone = sendmsg(descriptor_, &message, MSG_NOSIGNAL);
-        if (gone >= 0) return static_cast<std::size_t>(gone);
+        if (gone >= 0) {
+            whole_ = static_cast<std::size_t>(gone) == all;
+            return static_cast<std::size_t>(gone);
+        }
         if (errno == EAGAIN || errno == EINTR) {
             if ((error = wait_for(POLLOUT))) return 0;
         } else {
@@ -96,10 +106,25 @@ std::size_t DeadlineSocket::write(std::span<const iovec> parts, std::error_code&
     }
 }
 
+void DeadlineSocket::set_last_words(std::span<const std::uint8_t> frame) noexcept {
+    last_words_size_ = frame.size() <= last_words_.size() ? frame.size() : 0;
+    std::copy_n(frame.begin(), last_words_size_, last_words_.begin());
+}
+
+void DeadlineSocket::say_last_words() noexcept {
+    // Behind a part of a frame they would be taken for its rest.
+    if (descriptor_ >= 0 && whole_ && last_words_size_ > 0) {
+        (void)send(descriptor_, last_words_.data(), last_words_size_, MSG_NOSIGNAL | MSG_DONTWAIT);
+    }
+    last_words_size_ = 0;
+}
+
 void DeadlineSocket::close() noexcept {
+    say_last_words();
     if (descriptor_ >= 0) ::close(descriptor_);
     descriptor_ = -1;
     from_ = to_ = 0;
+    whole_ = true;
     bounds_ = {};
 }
 

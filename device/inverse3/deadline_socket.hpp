@@ -36,6 +36,8 @@ class DeadlineSocket {
     /// The parts one behind the other, in one call of the system: whoever dies leaves no half of
     /// them behind, unless there is no room.
     [[nodiscard]] std::size_t write(std::span<const iovec> parts, std::error_code& error) noexcept;
+    /// Sent once before the connection ends, whoever ends it: before a close frame, or close().
+    void set_last_words(std::span<const std::uint8_t> frame) noexcept;
     void close() noexcept;
 
     /// -1: not connected.
@@ -47,6 +49,7 @@ class DeadlineSocket {
 
   private:
     [[nodiscard]] std::error_code wait_for(short events) const noexcept;
+    void say_last_words() noexcept;
 
     int descriptor_{-1};
     Time deadline_{Time::max()};
@@ -54,6 +57,9 @@ class DeadlineSocket {
     std::array<std::uint8_t, 16384> came_{};  // and was not taken yet ...
     std::size_t from_{0};                     // ... from here
     std::size_t to_{0};                       // to here
+    bool whole_{true};                        // all frames that were begun
+    std::array<std::uint8_t, 512> last_words_{};
+    std::size_t last_words_size_{0};
 };
 
 }  // namespace dibhr::inverse3

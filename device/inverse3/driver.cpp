@@ -85,7 +85,10 @@ void Driver::lose(const LinkError& error, const Conversation& conversation) {
     if (!conversation.closed_on_force()) {
         memory_.dialects_refused = 0;
         tell(error.why() == Why::too_long ? Stage::not_understood : Stage::looking,
-             error.why() == Why::stood_still
+             error.why() == Why::unguarded
+                 ? "the process that takes the force off when dibhr dies was ended: another one "
+                   "begins, and the force comes back"
+             : error.why() == Why::stood_still
                  ? "dibhr stood still for a moment and the force was taken off: it comes back"
                  : "the Haply Inverse Service was lost (" + std::string(error.what()) +
                        "): it is looked for again; start it if it has ended",

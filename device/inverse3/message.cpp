@@ -18,7 +18,8 @@ using simdjson::dom::array;
 using simdjson::dom::element;
 using simdjson::dom::object;
 
-constexpr double kFarthest_m = 2.0;        // twice what an arm spans
+constexpr double kFarthest_m = 2.0;  // twice what an arm spans
+constexpr double kFastest_m_per_s = 1e3;
 constexpr double kStrongest_newton = 1e3;  // beyond it a force is no force
 
 /// The object's member, or nothing.
@@ -92,6 +93,7 @@ Arm arm_of(const object& device) noexcept {
     arm.config = config_in(device);
     const auto state = object_in(device, "state");
     arm.position_m = vector_in(state, "cursor_position", kFarthest_m);
+    arm.velocity_m_per_s = vector_in(state, "cursor_velocity", kFastest_m_per_s);
     arm.force_newton = vector_in(state, "current_cursor_force", kStrongest_newton);
     const auto status = object_in(device, "status");
     arm.calibrated = flag_in(status, "calibrated", false);

@@ -35,6 +35,7 @@ struct Arm {
     std::optional<ArmConfig> config{};
     /// Nothing where it is missing, no number, or farther off than any arm reaches.
     std::optional<Vec3> position_m{};
+    std::optional<Vec3> velocity_m_per_s{};
     std::optional<Vec3> force_newton{};  ///< as the service holds it; not told before 3.5
     bool calibrated{false};              ///< not told counts as not
     bool powered{true};                  ///< not told counts as yes: without power no force comes

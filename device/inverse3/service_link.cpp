@@ -175,14 +175,20 @@ int ServiceLink::descriptor() const noexcept {
     return stream_->socket.next_layer().socket().descriptor();
 }
 
-void ServiceLink::close(Time deadline) noexcept {
+void ServiceLink::set_last_words(std::span<const std::uint8_t> frame) noexcept {
+    stream_->socket.next_layer().socket().set_last_words(frame);
+}
+
+bool ServiceLink::close(Time deadline) noexcept {
     stream_->socket.next_layer().socket().set_deadline(deadline);
     try {
-        error_code ignored;
-        stream_->socket.close(websocket::close_code::normal, ignored);
+        error_code failure;
+        stream_->socket.close(websocket::close_code::normal, failure);
+        return !failure;
     } catch (const std::exception&) {
         // Beast has no memory for its goodbye: the socket is closed all the same.
         stream_->socket.next_layer().socket().close();
+        return false;
     }
 }
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -20,6 +21,7 @@ class LinkError : public DeviceError {
         not_the_service,  ///< somebody does who speaks something else
         lost,             ///< closed, broken off, or silent in the middle of a message
         too_long,         ///< a message that no device's state fills
+        unguarded,        ///< the guardian has died
         stood_still       ///< this program did, and its guardian has spoken to the service
     };
 
@@ -52,8 +54,10 @@ class ServiceLink {
     [[nodiscard]] bool wait(const Wake* wake, Time until) const noexcept;
     /// The socket, for the guardian.
     [[nodiscard]] int descriptor() const noexcept;
-    /// Says goodbye and waits for the answer; no error is told.
-    void close(Time deadline) noexcept;
+    /// A whole frame that the service is sent before the link ends, whoever ends it and however.
+    void set_last_words(std::span<const std::uint8_t> frame) noexcept;
+    /// Says goodbye and waits for the answer; false: there was none.
+    bool close(Time deadline) noexcept;
 
   private:
     struct Stream;

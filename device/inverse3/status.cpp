@@ -21,8 +21,8 @@ std::string sentence_for(Stage stage, const Status& status) {
                    (status.version.empty() ? std::string{} : " (" + status.version + ")") +
                    ": install version 3.1 or newer";
         case Stage::not_understood:
-            return "the Haply Inverse Service says what is not understood: no force; update the "
-                   "service or dibhr";
+            return "the Haply Inverse Service says what is not understood, or repeats an old "
+                   "position: no force; update the service or dibhr, and restart the service";
         case Stage::no_device:
             return "the Haply Inverse Service has no Inverse3: plug in its USB cable and its "
                    "power";

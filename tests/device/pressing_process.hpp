@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "device/hand/guardian.hpp"
 #include "tests/device/last_moment.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/eventually.hpp"
@@ -80,7 +81,8 @@ class PressingProcess {
         for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
             const std::string name = entry.path().filename().string();
             if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-            if (told_of(entry.path() / "comm") != "dibhr guardian\n") continue;
+            if (told_of(entry.path() / "comm") != std::string(Guardian::kProcessName) + "\n")
+                continue;
             if (told_of(entry.path() / "environ").find(folder_.path().string()) ==
                 std::string::npos)
                 continue;

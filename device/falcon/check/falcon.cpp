@@ -58,6 +58,11 @@ void CheckedFalcon::wait(Clock::time_point until) {
     talk().wait(std::min(until, Clock::now() + kBeatsEvery));
     guardian_.beat();
     if (talk_->loss()) throw UsbError(*talk_->loss());
+    if (guardian_.died()) {
+        throw DeviceError(
+            "the process that takes the force off when dibhr dies was ended: begin "
+            "the check again");
+    }
 }
 
 std::optional<CheckedFalcon::Heard> CheckedFalcon::exchange(const Command& command,

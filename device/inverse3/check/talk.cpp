@@ -2,6 +2,7 @@
 #include "device/inverse3/check/talk.hpp"
 
 #include <algorithm>
+#include <span>
 #include <thread>
 
 #include "device/inverse3/farewell.hpp"
@@ -95,6 +96,7 @@ void CheckTalk::introduce() {
 void CheckTalk::break_off() noexcept {
     if (guarded_in_) guardian_.dismiss();
     guarded_in_.reset();
+    if (link_) link_->set_last_words({});
     link_.reset();
 }
 
@@ -162,6 +164,11 @@ bool CheckTalk::hears(Clock::time_point until) {
         if (Clock::now() >= until) return false;
     }
     guardian_.beat();
+    if (guarded_in_ && guardian_.died()) {
+        throw LinkError(LinkError::Why::unguarded,
+                        "the process that takes the force off when dibhr dies was ended: begin "
+                        "the check again");
+    }
     if (guardian_.spoken()) {
         throw LinkError(LinkError::Why::stood_still,
                         "this check stood still and the force was taken off: begin it again");
@@ -183,7 +190,9 @@ bool CheckTalk::keep_silent(std::chrono::milliseconds span, const std::function<
 void CheckTalk::guard(ForceDialect dialect) noexcept {
     guardian_.beat();
     if (guarded_in_ == dialect) return;
-    guardian_.watch(link_->descriptor(), farewell(DeviceId(id_), dialect));
+    const Farewell last = farewell(DeviceId(id_), dialect);
+    link_->set_last_words(std::span(last.bytes).first(last.size));
+    guardian_.watch(link_->descriptor(), last);
     guarded_in_ = dialect;
 }
 
@@ -206,6 +215,7 @@ void CheckTalk::let_go() noexcept {
         }
     } catch (const LinkError&) {
         pushed_in_.reset();  // it has gone, and its session with it
+        guardian_.part();    // or it can still be heard
     }
     if (guarded_in_) guardian_.dismiss();
     guarded_in_.reset();

@@ -31,7 +31,7 @@ Json entry_of(const Arm& arm, const Scene& scene, bool whole) {
     Json entry{{"device_id", arm.id}};
     if (whole) entry["config"] = config_of(arm, newer);
     Json state{{"cursor_position", vector_of(arm.position_m)},
-               {"cursor_velocity", vector_of(Vec3{0.0})}};
+               {"cursor_velocity", vector_of(arm.velocity_m_per_s)}};
     if (!arm.position_text.empty()) state["cursor_position"] = kPositionHere;
     if (newer) state["current_cursor_force"] = vector_of(arm.force_newton);
     entry["state"] = std::move(state);

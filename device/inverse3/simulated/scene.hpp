@@ -21,6 +21,7 @@ struct Arm {
     bool minverse{false};
     std::string handedness{"right"};
     Vec3 position_m{0.0, -0.15, 0.18};
+    Vec3 velocity_m_per_s{0.0};   ///< as it is reported
     std::string position_text{};  ///< in the place of the position: "null", "{\"x\":NaN}"
     bool calibrated{true};
     bool powered{true};
@@ -52,6 +53,10 @@ enum class Garble {
     cut,
     empty,
     megabyte,
+    not_utf8,
+    masked,         ///< a frame as only a client may send it
+    reserved_bits,  ///< of a frame's first byte
+    close_frame,    ///< and it goes on to obey until the client's own
     array,
     binary,       ///< a whole answer, in a binary frame
     fragments,    ///< a whole answer, in three frames with a ping between them
@@ -65,7 +70,7 @@ struct Manners {
     Takes takes{Takes::vector};
     OnWrong on_wrong{OnWrong::ignores};
     bool inventory_at_once{true};
-    bool takes_preset{true};  ///< else it keeps its own
+    bool takes_preset{true};            ///< else it keeps its own
     bool answers{true};                 ///< else it keeps silent: half open
     std::chrono::microseconds tick{0};  ///< answers come at its own ticks; 0: at once
     std::chrono::microseconds delay{0};

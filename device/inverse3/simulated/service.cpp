@@ -320,6 +320,14 @@ std::string Service::answer_bytes(bool whole) {
             return frame("");
         case Garble::megabyte:
             return frame(std::string(1 << 20, ' '));
+        case Garble::not_utf8:
+            return frame("\xff\xfe");
+        case Garble::masked:
+            return std::string("\x81\x82\x01\x02\x03\x04zz", 8);
+        case Garble::reserved_bits:
+            return std::string("\xf1\x02{}", 4);
+        case Garble::close_frame:
+            return frame("", {Opcode::close});
         case Garble::array:
             return frame("[" + text + "]");
         case Garble::binary:

@@ -162,18 +162,23 @@ TEST_CASE("an alarm takes the force off for good, though the program goes on", "
     CHECK(pressing.forces_after(last_force_s) == 0);
 }
 
-TEST_CASE("a program whose guardian was killed presses on, and leaves in order", "[guardian]") {
+TEST_CASE("a program whose guardian was killed lets go, and presses with another guardian",
+          "[guardian]") {
     Pressing pressing("leave");
     (void)pressing.end_begins();
-    REQUIRE(::kill(pressing.guardian(), SIGKILL) == 0);
-    REQUIRE(pressing.its_guardian_ends());
-    const double alone_s = now_s();
-    REQUIRE(eventually([&] { return pressing.forces_after(alone_s) > 50; },
+    const pid_t first = pressing.guardian();
+    const double killed_s = now_s();
+    REQUIRE(::kill(first, SIGKILL) == 0);
+    REQUIRE(eventually([&] { return pressing.farewells_after(killed_s) >= 5; },
                        PressingProcess::kPatience));
-    pressing.go_on();
-    CHECK(pressing.ended() == 0);
-    CHECK(pressing.farewells_after(alone_s) == 5);
-    CHECK_FALSE(pressing.after(alone_s).back().has_force());
+    const double let_go_s = pressing.after(killed_s).back().t_s;
+    REQUIRE(eventually([&] { return pressing.forces_after(let_go_s) > 50; },
+                       PressingProcess::kPatience));
+    CHECK(pressing.guardian() != first);
+    REQUIRE(::kill(pressing.program(), SIGKILL) == 0);
+    CHECK(pressing.ended() == 128 + SIGKILL);
+    CHECK(pressing.is_let_go_by(5));
+    CHECK(pressing.its_guardian_ends());
 }
 
 TEST_CASE("zero is on the bus 0.1 s after a program has died, and 0.2 s after it was stopped",

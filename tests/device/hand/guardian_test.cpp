@@ -140,6 +140,27 @@ TEST_CASE("a guardian that has been told of another connection guards that one",
     CHECK_FALSE(first.hears(milliseconds(0)));
 }
 
+TEST_CASE("a guardian that was parted from says zero five times, and another one guards the next",
+          "[guardian]") {
+    Device first;
+    const Device second;
+    Guardian guardian("device");
+    CHECK_FALSE(guardian.died());
+    guardian.watch(first.of_program(), zero());
+    guardian.part();
+    first.forget();
+    std::string all;
+    while (first.hears(std::chrono::seconds(10))) {
+        const auto heard = first.heard();
+        if (!heard) break;
+        all += *heard;
+    }
+    CHECK(all == "zero.zero.zero.zero.zero.");
+    guardian.watch(second.of_program(), zero());
+    CHECK(guardian.fault().empty());
+    CHECK(second.hears(std::chrono::seconds(1)));
+}
+
 TEST_CASE("when its program ends without a word the guardian says zero five times, and goes",
           "[guardian]") {
     Device device;

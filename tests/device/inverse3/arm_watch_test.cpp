@@ -118,6 +118,19 @@ TEST_CASE("whatever keeps an arm from touching has its stage, and a new epoch fo
     CHECK(states.watch.epoch() != before);
 }
 
+TEST_CASE("a hand that rests is no frozen pose, nor one that is stopped and whose speed lags",
+          "[inverse3]") {
+    States states;
+    states.arm.velocity_m_per_s = Vec3{0.009, 0.0, 0.0};
+    states.come(1000);
+    CHECK(states.watch.stage() == Stage::ready);
+    for (double speed = 1.0; speed > 1e-4; speed *= 0.7) {
+        states.arm.velocity_m_per_s = Vec3{speed, 0.0, 0.0};
+        states.come();
+        CHECK(states.watch.stage() == Stage::ready);
+    }
+}
+
 TEST_CASE("a fast hand is no jump", "[inverse3]") {
     States states;
     states.come(5);

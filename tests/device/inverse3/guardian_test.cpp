@@ -131,6 +131,26 @@ TEST_CASE(
     CHECK(zero - later.begin() <= 1);
 }
 
+TEST_CASE("a program whose guardian was killed lets go, and presses with another guardian",
+          "[guardian]") {
+    Pressing pressing("leave");
+    (void)pressing.end_begins();
+    const pid_t first = pressing.guardian();
+    const double killed_s = Pressing::at_s(pressing.after(0.0).back());
+    REQUIRE(::kill(first, SIGKILL) == 0);
+    REQUIRE(
+        eventually([&] { return pressing.zeros_after(killed_s) > 0; }, PressingProcess::kPatience));
+    const std::vector<Heard> later = pressing.after(killed_s);
+    const double let_go_s = Pressing::at_s(*std::ranges::find_if(later, is_zero));
+    REQUIRE(eventually([&] { return pressing.forces_after(let_go_s) > 20; },
+                       PressingProcess::kPatience));
+    CHECK(pressing.guardian() != first);
+    REQUIRE(::kill(pressing.program(), SIGKILL) == 0);
+    CHECK(pressing.ended() == 128 + SIGKILL);
+    CHECK(pressing.is_let_go_by(5));
+    CHECK(pressing.its_guardian_ends());
+}
+
 TEST_CASE("an alarm takes the force off for good, though the program goes on", "[guardian]") {
     Pressing pressing("alarm");
     (void)pressing.end_begins();
