@@ -29,7 +29,8 @@ auto ParameterGlide::towards(const Values& target, double dt_s, bool at_once) no
     // Between none and one there is no low-pass, but a slower one.
     coupling.damping_cutoff_hz = target.parameters.coupling.damping_cutoff_hz;
     now_.limits.max_force_newton =
-        between(from_.limits.max_force_newton, target.limits.max_force_newton);
+        std::min(between(from_.limits.max_force_newton, target.limits.max_force_newton),
+                 target.limits.max_force_newton);
     return now_;
 }
 

@@ -9,8 +9,8 @@ namespace dibhr {
 /// A hand rests on the surface while somebody drags a slider: every number that the force follows
 /// from goes straight from what it is to what it is to be, in a tenth of a second, and starts anew
 /// from where it is when it is changed again. The algorithm, the sizes of a pixel and of the bump
-/// map, the low-pass and the limits that are no force are what they are at once. Deterministic: a
-/// recorded session takes the same way.
+/// map, the low-pass, a lowered limit of the force and the limits that are no force are what they
+/// are at once. Deterministic: a recorded session takes the same way.
 class ParameterGlide {
   public:
     static constexpr double kDuration_s = 0.1;

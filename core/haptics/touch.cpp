@@ -86,6 +86,7 @@ void TouchRenderer::reset() noexcept {
     safety_ = {};
     last_ = {};
     felt_share_ = 1.0;
+    contact_s_ = 0.0;
     goes_on_ = started_ = false;
 }
 
@@ -146,6 +147,8 @@ const Touch& TouchRenderer::update(const DepthSurface& surface, Vec3 hand,
     last_.carried = steps.carries ? Vec3(along, steps.rise) : Vec3(0.0);
     if (along != Vec2(0.0))
         steps.slid = last_.proxy.position - before.position - algorithm.carried_px();
+    if (comes_as_cut(before, steps.rise * parameters.coupling.pixel_pitch_mm, input.dt_s))
+        input.from_zero = true;
     fade_unseen(surface, parameters.coupling.unseen_share, input.dt_s);
     if (felt_share_ == 0.0) last_.proxy.contact = false;
     const Coupling coupling = felt_coupling(surface, last_.proxy, parameters.coupling, limits);
@@ -164,6 +167,13 @@ SurfaceMotion TouchRenderer::carrying(SurfaceMotion motion, const TouchParameter
     if (!parameters.carry) return {};
     motion.dt_s = input.dt_s;
     return goes_on ? motion : motion.begun_anew();
+}
+
+bool TouchRenderer::comes_as_cut(const Proxy& before, double rise_mm, double dt_s) noexcept {
+    constexpr double kFastest_mm_per_ms = 0.2;
+    constexpr double kNewContact_s = 0.1;  // longer than the frames between which a cut is blended
+    contact_s_ = before.contact ? contact_s_ + dt_s : 0.0;
+    return contact_s_ < kNewContact_s && rise_mm > kFastest_mm_per_ms * 1e3 * dt_s;
 }
 
 void TouchRenderer::fade_unseen(const DepthSurface& surface, double unseen_share,

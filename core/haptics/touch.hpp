@@ -118,6 +118,9 @@ class TouchRenderer {
     [[nodiscard]] Vec3 rendered_force(const Steps& steps, const Coupling& coupling,
                                       const SafetyInput& input,
                                       const SafetyLimits& limits) noexcept;
+    /// The surface rises faster than 0.2 m/s into a hand that did not touch it, as when the video
+    /// was cut: the force begins by the ramp.
+    [[nodiscard]] bool comes_as_cut(const Proxy& before, double rise_mm, double dt_s) noexcept;
     /// Moves the share of the force that is felt to what it is at the goal, within a fade.
     void fade_unseen(const DepthSurface& surface, double unseen_share, double dt_s) noexcept;
     /// Makes the algorithm the running one; true when it was not.
@@ -133,6 +136,7 @@ class TouchRenderer {
     Touch last_{};
     SurfaceMotion motion_{};
     double felt_share_{1.0};  ///< of the force: less where no surface was ever seen
+    double contact_s_{0.0};   ///< since the hand has touched something
     bool goes_on_{false};     ///< the next update goes on from the last one: it may carry
     bool started_{false};
 };

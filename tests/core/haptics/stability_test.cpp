@@ -153,6 +153,37 @@ TEST_CASE("a spring felt late creates energy, and the controller takes it out", 
     CHECK(control.flow().created_mw > 0.0);
 }
 
+TEST_CASE("a cut of the video under a hand that hovers begins by the ramp, a slow rise does not",
+          "[stability]") {
+    const DepthImage low = test::flat(40, 30, 100.0);
+    const DepthImage high = test::flat(40, 30, 200.0);
+    SafetyLimits asked;
+    asked.stability = true;
+    DeviceLimits moved;
+    moved.dynamics = kDevice;
+    const SafetyLimits limits = held_limits(asked, moved);
+    const TouchParameters parameters;
+    const auto strongest_within = [&](int ticks, int blended_over) {
+        TouchRenderer renderer;
+        double strongest = 0.0;
+        for (int k = -1000; k < ticks; ++k) {
+            const double blend = std::clamp(k / double(blended_over), 0.0, 1.0);
+            const DepthSurface surface(low, high, blend, {255.0, 0.0});
+            strongest = std::max(
+                strongest,
+                glm::length(renderer.update(surface, {20.3, 15.2, 120.4}, parameters, {}, limits)
+                                .sent_force_newton));
+        }
+        return strongest;
+    };
+    for (const int blended_over : {1, 20, 33, 66}) {
+        CAPTURE(blended_over);
+        CHECK(strongest_within(blended_over + 20, blended_over) < 0.35);
+        CHECK(strongest_within(blended_over + 1000, blended_over) > 3.9);  // by the ramp
+    }
+    CHECK(strongest_within(200, 500) > 0.8);  // 28 mm/s, felt as it comes: 2.8 mm, 1.1 of them lag
+}
+
 TEST_CASE("a controller that nothing moves, or that is not asked for, changes no bit",
           "[stability]") {
     const DepthImage image = test::flat(40, 30, 100.0);

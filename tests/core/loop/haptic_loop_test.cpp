@@ -88,9 +88,7 @@ TEST_CASE("whatever is changed in contact, no tick's force is off the line from 
         [](HapticSettings& s) { s.parameters.coupling.stiffness_newton_per_mm = 0.2; },
         [](HapticSettings& s) { s.parameters.coupling.damping_newton_s_per_m = 5.0; },
         [](HapticSettings& s) { s.parameters.shape.relief_px = 257.0; },
-        [](HapticSettings& s) { s.parameters.shape.roughness_px = 2.0; },
-        [](HapticSettings& s) { s.limits.max_force_newton = 0.3; },
-        [](HapticSettings& s) { s.limits.max_force_newton = 0.0; });
+        [](HapticSettings& s) { s.parameters.shape.roughness_px = 2.0; });
     Bench bench;
     HapticTick tick(bench.connections());
     bench.handed.bump = std::make_shared<const BumpMap>(BumpMap{2, 1, {0.0F, 1.0F}});
@@ -115,6 +113,23 @@ TEST_CASE("whatever is changed in contact, no tick's force is off the line from 
         CHECK(sent[k] <= highest + 1e-9);
         CHECK(std::abs(sent[k] - sent[k - 1]) <= 0.05);  // a tenth of what the safety stage lets
     }
+}
+
+TEST_CASE("a lowered limit of the force holds in the same tick, however often it is changed",
+          "[loop]") {
+    PressingBench bench;
+    REQUIRE(bench.hand.sent.z > 0.5);
+    for (int k = 0; k < 200; ++k) {
+        bench.handed.limits.max_force_newton = k % 2 == 0 ? 0.3 : 0.29;
+        bench.hand_over();
+        run_ticks(bench.tick, 1);
+        CHECK(bench.hand.sent.z <= bench.handed.limits.max_force_newton + 1e-12);
+    }
+    const double low = bench.hand.sent.z;
+    bench.handed.limits.max_force_newton = 4.0;  // a raised one glides
+    bench.hand_over();
+    run_ticks(bench.tick, 1);
+    CHECK(bench.hand.sent.z <= low + 0.05);
 }
 
 namespace {
