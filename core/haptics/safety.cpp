@@ -65,6 +65,15 @@ DeviceLimits at_scale(const DeviceLimits& device, double scale) noexcept {
           device.dynamics.margin_newton_s_per_m / scale}});
 }
 
+DeviceLimits at_delay(DeviceLimits device, double delay_s) noexcept {
+    constexpr double kStableShare = 0.25;
+    if (!(delay_s > device.dynamics.delay_s)) return device;
+    device.dynamics.delay_s = delay_s;
+    device.max_stiffness_newton_per_mm = std::min(device.max_stiffness_newton_per_mm,
+                                                  kStableShare * most_stiffness(device.dynamics));
+    return device;
+}
+
 Coupling held_coupling(Coupling coupling, const DeviceLimits& device) noexcept {
     const DeviceLimits most = usable(device);
     coupling.stiffness_newton_per_mm =

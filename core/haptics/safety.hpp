@@ -45,6 +45,12 @@ struct DeviceLimits {
 /// The limits of a hand of which a millimetre is `scale` image millimetres.
 [[nodiscard]] DeviceLimits at_scale(const DeviceLimits& device, double scale) noexcept;
 
+/// The limits of a device whose forces act `delay_s` after its pose was read, where that is later
+/// than it states: it damps less and drives more, and a pose that is new in one tick of some shows
+/// a velocity that jumps, so that no more than a quarter of the stiffness that a damper could hold
+/// is stable.
+[[nodiscard]] DeviceLimits at_delay(DeviceLimits device, double delay_s) noexcept;
+
 /// Spring and damper, no stiffer than the device can stand. A coupling that was held before stays
 /// as it is, bit by bit; so do limits.
 [[nodiscard]] Coupling held_coupling(Coupling coupling, const DeviceLimits& device) noexcept;

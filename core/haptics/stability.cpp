@@ -32,6 +32,11 @@ double most_damping(const DeviceDynamics& device) noexcept {
     return 0.75 * device.mass_kg / lateness_s(device);
 }
 
+Vec3 direction_of(Vec3 way) noexcept {
+    const double length = glm::length(way);
+    return length > 0.0 ? way / length : Vec3(0.0);
+}
+
 /// What a spring holds that pulls no harder than `most_newton` [mJ].
 double spring_energy(double length_mm, double stiffness, double most_newton) noexcept {
     const double most_mm = stiffness > 0.0 ? most_newton / stiffness : 0.0;
@@ -115,10 +120,12 @@ bool RestWatch::rests_after(Vec3 way, double dt_s, double resolution) noexcept {
     return rested_s_ > kRestsAfter_s;
 }
 
-double VideoMotion::followed(double rise_px, double dt_s) noexcept {
+double VideoMotion::followed(double rise_px, double dt_s, double most_px) noexcept {
     const double behind = lag_px_ + rise_px;
-    lag_px_ = behind * (1.0 - share_of_newest(dt_s, time_constant_of(kVideoCutoff_hz)));
-    return behind - lag_px_;
+    const double share = share_of_newest(dt_s, time_constant_of(kVideoCutoff_hz));
+    const double step = std::min(behind * share, most_px);
+    lag_px_ = behind - step;
+    return step;
 }
 
 Vec3 PassivityControl::acting(double dt_s, double delay_s) const noexcept {
@@ -137,8 +144,7 @@ auto PassivityControl::account_for(const Tick& tick, Vec3 along,
                                    const DeviceDynamics& device) noexcept -> Energy {
     const double stiffness = tick.stiffness_newton_per_mm;
     const double length_mm = glm::length(tick.lag_mm);
-    const Vec3 pull = std::min(stiffness * length_mm, tick.max_force_newton) * along;
-    const double from_video = 0.5 * glm::dot(pull_newton_ + pull, tick.video_step_mm);
+    const double from_video = take_pull(tick, along);
     // Both with the stiffness of now: one that is changed by a person creates nothing.
     const double stored = spring_energy(length_mm, stiffness, tick.max_force_newton) -
                           spring_energy(length_mm_, stiffness, tick.max_force_newton);
@@ -147,13 +153,22 @@ auto PassivityControl::account_for(const Tick& tick, Vec3 along,
         spring_energy(length_mm, stiffness, tick.max_force_newton);
     const double worked = glm::dot(acting(tick.dt_s, device.delay_s), tick.goal_step_mm);
     length_mm_ = length_mm;
-    pull_newton_ = pull;
     return {worked + stored - from_video + rubbed, from_video};
 }
 
+/// The spring's pull on the hand of now; what the video has put in since that of before [mJ].
+double PassivityControl::take_pull(const Tick& tick, Vec3 along) noexcept {
+    const Vec3 before = pull_newton_;
+    pull_newton_ =
+        std::min(tick.stiffness_newton_per_mm * glm::length(tick.lag_mm), tick.max_force_newton) *
+        along;
+    const double from_video = 0.5 * glm::dot(before + pull_newton_, tick.video_step_mm);
+    fill_video_tank(tick.dt_s, from_video);
+    return from_video;
+}
+
 Vec3 PassivityControl::force_after(const Tick& tick, const DeviceDynamics& device) noexcept {
-    const double length_mm = glm::length(tick.lag_mm);
-    const Vec3 along = length_mm > 0.0 ? tick.lag_mm / length_mm : Vec3(0.0);
+    const Vec3 along = direction_of(tick.lag_mm);
     const Energy energy = account_for(tick, along, device);
     const auto speed_in = [&](AdaptiveWindow& window) {
         return glm::dot(window.after(tick.goal_step_mm, tick.dt_s, device.resolution_mm), along);
@@ -173,18 +188,35 @@ Vec3 PassivityControl::force_after(const Tick& tick, const DeviceDynamics& devic
     return -damping / kMetre_mm * speed * along;
 }
 
+double PassivityControl::most_rise_mm(double stiffness) const noexcept {
+    // Where pull * rise + stiffness / 2 * rise^2 is what the tank holds.
+    const double pull = std::max(0.0, pull_newton_.z);
+    const double both = pull + std::sqrt(pull * pull + 2.0 * stiffness * video_mj_);
+    return both > 0.0 ? 2.0 * video_mj_ / both : std::numeric_limits<double>::infinity();
+}
+
+void PassivityControl::fill_video_tank(double dt_s, double from_video_mj) noexcept {
+    constexpr double kVideo_mw = 20.0;
+    video_mj_ = std::clamp(video_mj_ + kVideo_mw * dt_s - from_video_mj, 0.0, kVideoAtOnce_mj);
+}
+
 void PassivityControl::sent(Vec3 force_newton) noexcept {
     std::shift_right(sent_newton_.begin(), sent_newton_.end(), 1);
     sent_newton_.front() = force_newton;
 }
 
 void PassivityControl::pass(double dt_s) noexcept {
+    pull_newton_ = Vec3(0.0);
+    pass({.dt_s = dt_s});
+}
+
+void PassivityControl::pass(const Tick& tick) noexcept {
     quick_velocity_.forget();
     steady_velocity_.forget();
     rest_ = {};
-    pull_newton_ = Vec3(0.0);
     length_mm_ = owed_mj_ = 0.0;
-    follow_flow({}, dt_s);
+    const double from_video = take_pull(tick, direction_of(tick.lag_mm));
+    follow_flow({.from_video_mw = from_video / tick.dt_s}, tick.dt_s);
 }
 
 void PassivityControl::follow_flow(const EnergyFlow& now, double dt_s) noexcept {

@@ -94,12 +94,13 @@ class RestWatch {
 /// a chest or a waving hand lifts the finger, flicker of the depth does not.
 class VideoMotion {
   public:
-    /// How far the felt surface rises [px] in the `dt_s` in which the recorded one rose by
-    /// `rise_px` under the proxy.
-    double followed(double rise_px, double dt_s) noexcept;
+    /// How far the felt surface rises [px], at most by `most_px`, in the `dt_s` in which the
+    /// recorded one rose by `rise_px` under the proxy.
+    double followed(double rise_px, double dt_s, double most_px) noexcept;
     /// How far it lies below the recorded one [px].
     [[nodiscard]] double lag_px() const noexcept { return lag_px_; }
-    void forget() noexcept { lag_px_ = 0.0; }
+    /// The felt surface begins so far below the recorded one.
+    void begin(double lag_px) noexcept { lag_px_ = lag_px; }
 
   private:
     double lag_px_{0.0};
@@ -138,14 +139,22 @@ class PassivityControl {
     /// The force that was sent after it [N], without what the device adds itself.
     void sent(Vec3 force_newton) noexcept;
 
+    /// How far the felt surface may rise in the next tick [mm]: the video puts no more than 20 mJ
+    /// at once and 20 mW for long into a hand (an energy tank: Franken et al. 2011). What it takes
+    /// back is given again.
+    [[nodiscard]] double most_rise_mm(double stiffness_newton_per_mm) const noexcept;
+
     /// A tick out of contact, or with a force that is not the spring's: nothing is stored, nothing
     /// owed.
     void pass(double dt_s) noexcept;
+    /// A tick in contact while the force rises from zero: what the video puts in counts.
+    void pass(const Tick& tick) noexcept;
 
     [[nodiscard]] const EnergyFlow& flow() const noexcept { return flow_; }
 
   private:
-    static constexpr std::size_t kMostDelay = 8;  // ticks
+    static constexpr std::size_t kMostDelay = 16;  // ticks
+    static constexpr double kVideoAtOnce_mj = 20.0;
 
     [[nodiscard]] Vec3 acting(double dt_s, double delay_s) const noexcept;
 
@@ -156,6 +165,8 @@ class PassivityControl {
     };
     [[nodiscard]] Energy account_for(const Tick& tick, Vec3 along,
                                      const DeviceDynamics& device) noexcept;
+    void fill_video_tank(double dt_s, double from_video_mj) noexcept;
+    [[nodiscard]] double take_pull(const Tick& tick, Vec3 along) noexcept;
     void follow_flow(const EnergyFlow& now, double dt_s) noexcept;
     /// That takes out what is owed soon [N s/m].
     [[nodiscard]] double damping_for(double speed_mm_per_s,
@@ -168,6 +179,7 @@ class PassivityControl {
     Vec3 pull_newton_{0.0};  // of the spring on the hand, in the tick before
     double length_mm_{0.0};  // and how long it was
     double owed_mj_{0.0};
+    double video_mj_{kVideoAtOnce_mj};  ///< that the video may put in now
     EnergyFlow flow_{};
 };
 

@@ -147,7 +147,8 @@ const Touch& TouchRenderer::update(const DepthSurface& surface, Vec3 hand,
     last_.carried = steps.carries ? Vec3(along, steps.rise) : Vec3(0.0);
     if (along != Vec2(0.0))
         steps.slid = last_.proxy.position - before.position - algorithm.carried_px();
-    if (comes_as_cut(before, steps.rise * parameters.coupling.pixel_pitch_mm, input.dt_s))
+    if (limits.watched.moves() &&
+        comes_as_cut(before, steps.rise * parameters.coupling.pixel_pitch_mm, input.dt_s))
         input.from_zero = true;
     fade_unseen(surface, parameters.coupling.unseen_share, input.dt_s);
     if (felt_share_ == 0.0) last_.proxy.contact = false;
@@ -201,26 +202,27 @@ Vec3 TouchRenderer::rendered_force(const Steps& steps, const Coupling& coupling,
         return velocity - surface_velocity_.after(carried, input.dt_s, coupling.damping_cutoff_hz);
     };
     if (!device.moves()) {
-        video_motion_.forget();
+        video_motion_.begin(0.0);
         passivity_ = {};
         return coupling_force(last_.proxy, last_.goal, seen_from(last_.carried), coupling);
     }
 
     const Proxy& proxy = last_.proxy;
+    const double depth_px = std::max(0.0, proxy.position.z - last_.goal.z);
     if (!proxy.contact || !goes_on || !(input.dt_s > 0.0)) {
-        video_motion_.forget();
+        // A surface that is above the hand at once is felt from where the hand is.
+        video_motion_.begin(proxy.contact ? depth_px : 0.0);
         passivity_.pass(input.dt_s);
         return coupling_force(proxy, last_.goal, seen_from(last_.carried), coupling);
     }
-    const Vec3 felt_step(last_.carried.x, last_.carried.y,
-                         video_motion_.followed(steps.rise, input.dt_s));
+    const Vec3 felt_step(
+        last_.carried.x, last_.carried.y,
+        video_motion_.followed(steps.rise, input.dt_s,
+                               passivity_.most_rise_mm(coupling.stiffness_newton_per_mm) / mm));
+    if (video_motion_.lag_px() > depth_px) video_motion_.begin(depth_px);  // it pulls no hand down
     const Vec3 felt_from = last_.goal + Vec3(0.0, 0.0, video_motion_.lag_px());
     const Vec3 felt_velocity = seen_from(steps.carries ? felt_step : Vec3(0.0));
     const Vec3 force = coupling_force(proxy, felt_from, felt_velocity, coupling);
-    if (safety_.rising(limits)) {
-        passivity_.pass(input.dt_s);
-        return force;
-    }
     const PassivityControl::Tick tick{.dt_s = input.dt_s,
                                       .goal_step_mm = steps.goal * mm,
                                       .lag_mm = (proxy.position - felt_from) * mm,
@@ -228,7 +230,9 @@ Vec3 TouchRenderer::rendered_force(const Steps& steps, const Coupling& coupling,
                                       .max_force_newton = limits.max_force_newton,
                                       .video_step_mm = felt_step * mm,
                                       .slid_mm = steps.slid * mm};
-    return force + passivity_.force_after(tick, device);
+    if (!safety_.rising(limits)) return force + passivity_.force_after(tick, device);
+    passivity_.pass(tick);
+    return force;
 }
 
 Vec3 GoalVelocity::difference(Vec3 step, double dt_s, double resolution) noexcept {

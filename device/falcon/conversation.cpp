@@ -69,9 +69,11 @@ Conversation::Time Conversation::next_look() const noexcept {
 void Conversation::take(const Reply& reply, Time now) {
     memory_.homing.add(reply, now);
     ++memory_.replies;
+    if (!loop_paused_) memory_.delay.add(spoke_, now);
     Reply steady = reply;
     steady.buttons = memory_.buttons.add(reply.buttons, now);
-    exchange_.replies.publish(TimedReply{steady, now, memory_.homing.epoch(), memory_.replies});
+    exchange_.replies.publish(TimedReply{steady, now, memory_.homing.epoch(), memory_.replies,
+                                         memory_.delay.within_ms()});
     board_.draft().reply = steady;
 
     const bool ready = memory_.homing.ready();

@@ -10,6 +10,7 @@
 #include "device/falcon/reply_watch.hpp"
 #include "device/falcon/status.hpp"
 #include "device/falcon/usb.hpp"
+#include "device/hand/delay_watch.hpp"
 #include "device/hand/guardian.hpp"
 
 namespace dibhr::falcon {
@@ -18,6 +19,7 @@ namespace dibhr::falcon {
 struct Memory {
     HomingWatch homing{};
     ButtonDebounce buttons{};
+    DelayWatch delay{};
     std::uint64_t replies{0};
     LinkCounts counts{};  ///< of the links that are gone
 };

@@ -17,6 +17,7 @@ struct TimedReply {
     std::chrono::steady_clock::time_point at{};
     Epoch epoch{kNoEpoch};
     std::uint64_t number{0};  ///< 1 .., since the start
+    int exchange_ms{1};       ///< DelayWatch::within_ms()
 };
 
 struct TimedCommand {

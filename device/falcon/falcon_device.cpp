@@ -16,6 +16,11 @@ constexpr double kMaxForce_newton = 8.0;
 constexpr double kMaxStiffness_newton_per_mm = 1.0;
 constexpr DeviceDynamics kDynamics{
     .mass_kg = 0.1, .friction_newton_s_per_m = 0.5, .resolution_mm = 0.06, .delay_s = 0.002};
+/// From reading a pose until its force acts, where exchanges take so long: one and a half of them
+/// and half a tick of ours [s].
+constexpr double delay_s_of(int exchange_ms) noexcept {
+    return 1e-3 * (1.5 * exchange_ms + 0.5);
+}
 constexpr double kMetre_mm = 1000.0;
 
 Vec3 centre_of(const WorkspaceOptions& workspace) noexcept {
@@ -53,7 +58,8 @@ HandReading FalconDevice::read(const HandContext& context) noexcept {
     const bool posed = epoch_ != kNoEpoch && Clock::now() - newest.at < kOldestReply &&
                        find_pose(newest.reply.encoder);
     HandReading reading;
-    reading.limits = at_scale(specification_.limits, tuned_.workspace.scale);
+    reading.limits = at_scale(at_delay(specification_.limits, delay_s_of(newest.exchange_ms)),
+                              tuned_.workspace.scale);
     reading.buttons = newest.reply.buttons;
     reading.force_off = (newest.reply.buttons & tuned_.force_off_buttons) != 0;
     if (posed) {

@@ -2,6 +2,7 @@
 // many threads: no lock, no memory, nothing but async-signal-safe calls.
 #include "device/hand/guardian.hpp"
 
+#include <fcntl.h>
 #include <linux/usbdevice_fs.h>
 #include <poll.h>
 #include <sched.h>
@@ -19,6 +20,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstddef>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <new>
@@ -225,6 +227,28 @@ class Watch {
     bool sending_{false};
 };
 
+/// What `ps` shows of the arguments, of which `pkill -f` finds the program's name: the text of this
+/// process alone, where the kernel says that it is (proc_pid_stat(5), fields 48 and 49).
+void rename_arguments() noexcept {
+    std::array<char, 1024> text{};
+    const int file = open("/proc/self/stat", O_RDONLY | O_CLOEXEC);
+    const ssize_t length = file >= 0 ? read(file, text.data(), text.size() - 1) : 0;
+    if (file >= 0) close(file);
+    const char* field = length > 0 ? std::strrchr(text.data(), ')') : nullptr;
+    constexpr int kFromNameToBegin = 46;
+    for (int k = 0; field != nullptr && k < kFromNameToBegin; ++k)
+        field = std::strchr(field + 1, ' ');
+    if (field == nullptr) return;
+    char* rest = nullptr;
+    const auto begin = std::strtoull(field, &rest, 10);
+    const auto end = std::strtoull(rest, nullptr, 10);
+    if (begin == 0 || end <= begin) return;
+    auto* const arguments = reinterpret_cast<char*>(begin);
+    std::memset(arguments, 0, end - begin);
+    std::memcpy(arguments, Guardian::kProcessName,
+                std::min<std::size_t>(std::strlen(Guardian::kProcessName), end - begin - 1));
+}
+
 /// Out of the way of what ends the program: its terminal, its process group, a wish to end; and
 /// with nothing of the program's in its hands.
 void step_aside(int socket) noexcept {
@@ -238,6 +262,7 @@ void step_aside(int socket) noexcept {
     const auto kept = static_cast<unsigned>(socket);
     if (kept > 0) (void)close_range(0, kept - 1, 0);
     (void)close_range(kept + 1, ~0U, 0);
+    rename_arguments();
     (void)prctl(PR_SET_NAME, Guardian::kProcessName);
     const sched_param priority{sched_get_priority_max(SCHED_FIFO) - 1};
     (void)sched_setscheduler(0, SCHED_FIFO, &priority);  // where it is allowed

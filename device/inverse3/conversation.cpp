@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "device/inverse3/dynamics.hpp"
 #include "device/inverse3/farewell.hpp"
 
 namespace dibhr::inverse3 {
@@ -95,7 +96,7 @@ void Conversation::exchange_once(const std::stop_token& stop) {
         if (stop.stop_requested()) return;
         throw LinkError(Why::lost, "it has been silent for 2 s");
     }
-    if (!sent_whole_) memory_.pace.add(sent_at_, Clock::now());  // a whole state takes longer
+    if (!sent_whole_) memory_.delay.add(sent_at_, Clock::now());  // a whole state takes longer
     take();
     in_flight_ = false;
     if (sent_drives_) force_answered_ = true;
@@ -369,7 +370,7 @@ Stage Conversation::stage() const noexcept {
     if (of_arm != Stage::ready) return of_arm;
     if (board_.draft().other_preset && options_.preset != ShortWord(kUsualPreset))
         return Stage::other_preset;
-    return memory_.pace.pace() == Pace::too_slow ? Stage::slow : Stage::ready;
+    return memory_.delay.within_ms() > kLongestExchange_ms ? Stage::slow : Stage::ready;
 }
 
 Epoch Conversation::epoch() const noexcept {
@@ -420,7 +421,7 @@ void Conversation::try_other_dialect() {
 void Conversation::publish_pose(const Arm& arm, Time at) {
     TimedPose& pose = exchange_.poses.back();
     pose.epoch = epoch();
-    pose.pace = memory_.pace.pace();
+    pose.exchange_ms = memory_.delay.within_ms();
     pose.position_m = arm.position_m.value_or(Vec3{0.0});
     pose.buttons = buttons_;
     pose.at = at;
@@ -437,8 +438,8 @@ void Conversation::report(Time now) {
     status.not_understood = memory_.not_understood;
     status.dialect = dialect();
     status.dialect_confirmed = memory_.dialect_confirmed;
-    status.exchange_ms = memory_.pace.exchange_ms();
-    status.softened = memory_.pace.pace() != Pace::prompt;
+    status.exchange_ms = memory_.delay.mean_ms();
+    status.softened = memory_.delay.within_ms() > kPromptExchange_ms;
     if (now - rate_since_ >= kRatePeriod) {
         const std::chrono::duration<double> passed = now - rate_since_;
         status.exchanges_per_s =

@@ -10,12 +10,12 @@
 #include <string_view>
 
 #include "device/hand/buttons.hpp"
+#include "device/hand/delay_watch.hpp"
 #include "device/hand/guardian.hpp"
 #include "device/inverse3/arm_watch.hpp"
 #include "device/inverse3/exchange.hpp"
 #include "device/inverse3/message.hpp"
 #include "device/inverse3/order.hpp"
-#include "device/inverse3/pace_watch.hpp"
 #include "device/inverse3/service_link.hpp"
 #include "device/inverse3/status.hpp"
 
@@ -26,7 +26,7 @@ struct Memory {
     MessageReader reader{};
     OrderWriter writer{};
     ArmWatch watch{};  // its epochs go on counting
-    PaceWatch pace{};
+    DelayWatch delay{};
     ButtonDebounce buttons{};
     std::optional<ForceDialect> dialect{};  ///< found out; nothing: by the version
     bool dialect_confirmed{false};

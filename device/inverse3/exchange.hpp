@@ -9,7 +9,6 @@
 #include "core/realtime/triple_buffer.hpp"
 #include "device/hand/epoch.hpp"
 #include "device/hand/wake.hpp"
-#include "device/inverse3/pace_watch.hpp"
 
 namespace dibhr::inverse3 {
 
@@ -20,7 +19,7 @@ struct TimedPose {
     std::chrono::steady_clock::time_point at{};
     Epoch epoch{kNoEpoch};
     std::uint64_t number{0};  ///< 1 .., since the start
-    Pace pace{Pace::prompt};  ///< of the service; too slow has no epoch
+    int exchange_ms{1};       ///< DelayWatch::within_ms()
 };
 
 /// In the service's axes.

@@ -20,21 +20,8 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kOldestPose{20};
 constexpr double kMaxForce_newton = 10.0;  // for a moment; Tuning::max_force_newton lasts
 constexpr double kMaxStiffness_newton_per_mm = 1.0;
-constexpr double kSlowDelay_s =
-    0.009;                           // of exchanges that take up to 5 ms: one and a half, and ours
-constexpr double kSlowShare = 0.25;  // of the stiffness that a damper could hold
 constexpr int kTellAgesEvery = 500;  // ticks
 constexpr double kMetre_mm = 1000.0;
-
-/// A force that acts later damps less and drives more; and poses that are new in one tick of some
-/// show velocities that jump, so that no more than a share of what a damper could hold is stable.
-DeviceLimits limits_at(Pace pace, DeviceLimits limits) {
-    if (pace == Pace::prompt) return limits;
-    limits.dynamics.delay_s = kSlowDelay_s;
-    limits.max_stiffness_newton_per_mm =
-        std::min(limits.max_stiffness_newton_per_mm, kSlowShare * most_stiffness(limits.dynamics));
-    return limits;
-}
 
 /// The same pose gives the same goal.
 bool feel_alike(const Tuning& a, const Tuning& b) noexcept {
@@ -73,8 +60,8 @@ HandReading Inverse3Device::read(const HandContext& context) noexcept {
 
     const bool posed = epoch_ != kNoEpoch && pose_age_ < kOldestPose;
     HandReading reading;
-    reading.limits =
-        at_scale(limits_at(newest.pace, specification_.limits), tuned_.workspace.scale);
+    reading.limits = at_scale(at_delay(specification_.limits, delay_s_of(newest.exchange_ms)),
+                              tuned_.workspace.scale);
     reading.limits->max_force_newton =
         std::min(reading.limits->max_force_newton, tuned_.max_force_newton);
     reading.buttons = newest.buttons;

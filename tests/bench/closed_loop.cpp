@@ -40,7 +40,9 @@ class SimulatedArm final : public Device {
             .mass_kg = kMasses_kg.front(),
             .friction_newton_s_per_m = kFrictions_newton_s_per_m.front(),
             .resolution_mm = loop.resolution_mm,
-            .delay_s = loop.delay_ticks * kTick_s};
+            .delay_s = (loop.stated_ticks < 0 ? loop.delay_ticks : loop.stated_ticks) * kTick_s};
+        if (loop.measures_delay)
+            specification_.limits = at_delay(specification_.limits, loop.delay_ticks * kTick_s);
     }
 
     [[nodiscard]] const DeviceSpecification& specification() const noexcept override {
@@ -148,9 +150,10 @@ class Bench {
         handed_.limits.ramp_s = kTick_s;  // the hand has been there for long
         handed_.limits.stability = loop.stability;
         if (loop.stability && loop.damping) {
+            const DeviceLimits& device = arm_.specification().limits;
             Coupling& coupling = handed_.parameters.coupling;
-            coupling = stable_coupling(coupling, coupling.stiffness_newton_per_mm,
-                                       arm_.specification().limits.dynamics);
+            coupling = held_coupling(coupling, device);
+            coupling = stable_coupling(coupling, coupling.stiffness_newton_per_mm, device.dynamics);
         }
         hand_over();
     }

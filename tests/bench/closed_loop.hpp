@@ -34,6 +34,8 @@ struct ClosedLoop {
     double friction_newton_s_per_m{1.0};
     double resolution_mm{0.05};  ///< steps of the measured position
     int delay_ticks{2};          ///< between reading a pose and its force acting
+    int stated_ticks{-1};        ///< the delay that the device states; -1: as it is
+    bool measures_delay{true};   ///< its limits follow one that is longer than stated
     double press_newton{1.0};    ///< at rest
     double tap_newton_s{0.03};   ///< into the surface, after two seconds; 0: none
     double seconds{4.0};

@@ -88,11 +88,17 @@ void print_moving(const char* name, ClosedLoop loop) {
             return std::lround(t_s * 30.0) % 2 == 0 ? -0.5 : 0.5;
         };
         const auto flicker = run(flickering);
+        flickering.surface_mm = [](double t_s) {
+            return std::lround(std::floor(15.0 * t_s)) % 2 == 0 ? -10.0 : 10.0;
+        };
+        const auto jumps = run(flickering);
         std::printf(
-            "  %s: chest %.2f mm, %.2f mW; 3 Hz %.2f mm, %.2f mW; flicker %.2f mm, %.2f mW, %.2f N "
-            "|",
+            "  %s: chest %.2f mm, %.2f mW; 3 Hz %.2f mm, %.2f mW; flicker %.2f mm, %.2f mW, %.2f "
+            "N; "
+            "20 mm at 7.5 Hz %.1f mm, %.1f mW |",
             grip.name, chest.travel_mm, chest.work_mw, wave.travel_mm, wave.work_mw,
-            flicker.travel_mm, flicker.work_mw, flicker.buzz_newton);
+            flicker.travel_mm, flicker.work_mw, flicker.buzz_newton, jumps.travel_mm,
+            jumps.work_mw);
     }
     std::printf("\n");
     std::fflush(stdout);

@@ -126,6 +126,25 @@ TEST_CASE("no tapped hand swings on an Inverse3 as it is assumed to be", "[close
     }
 }
 
+TEST_CASE("a device that is later than it states has softer springs, and no tapped hand swings",
+          "[closed-loop]") {
+    double widest_mm = 0.0;
+    for (const int delay : {3, 5, 8, 12}) {
+        for (const Grip& grip : kGrips) {
+            ClosedLoop loop = on_a_loose_device(grip, kMasses_kg.front(), as_in_view());
+            loop.delay_ticks = delay;
+            loop.stated_ticks = 2;
+            loop.parameters.coupling.stiffness_newton_per_mm = 1.0;
+            const ClosedLoopResult result = run(loop);
+            CAPTURE(delay, grip.name, result.swing_mm);
+            CHECK_FALSE(oscillates(result));
+            loop.measures_delay = false;
+            widest_mm = std::max(widest_mm, run(loop).swing_mm);
+        }
+    }
+    CHECK(widest_mm > 10.0);  // as it was
+}
+
 TEST_CASE("watched, a hand is calm at three times the stiffness at which it swings unwatched",
           "[closed-loop]") {
     for (const auto& [grip, swings_at] :
@@ -226,6 +245,25 @@ TEST_CASE("what friction takes from a carried proxy hides no energy that renderi
         const double carried = lowest_oscillating_of(grip, pulled_aside(still));
         CAPTURE(grip.name, resting, carried);
         CHECK(carried >= 0.9 * resting);
+    }
+}
+
+TEST_CASE("however far and often the video jumps, it puts at most 20 mW into a hand",
+          "[closed-loop]") {
+    for (const double jump_mm : {5.0, 20.0, 60.0}) {
+        for (const double hertz : {1.0, 3.75, 7.5, 15.0}) {
+            for (const Grip& grip : kGrips) {
+                ClosedLoop loop = as_in_view();
+                loop.grip = grip;
+                loop.parameters.coupling.stiffness_newton_per_mm = 1.0;
+                const ClosedLoopResult result = run(over_a_moving_surface(loop, [&](double t_s) {
+                    return std::lround(std::floor(2.0 * hertz * t_s)) % 2 == 0 ? -0.5 * jump_mm
+                                                                               : 0.5 * jump_mm;
+                }));
+                CAPTURE(jump_mm, hertz, grip.name, result.work_mw, result.travel_mm);
+                CHECK(result.work_mw <= 20.0);
+            }
+        }
     }
 }
 

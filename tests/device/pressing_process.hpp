@@ -95,6 +95,8 @@ class PressingProcess {
         std::vector<pid_t> found;
         REQUIRE(eventually([&] { return !(found = guardians()).empty(); }, kPatience));
         REQUIRE(found.size() == 1);
+        const std::string process = "/proc/" + std::to_string(found.front());
+        CHECK(told_of(process + "/cmdline").starts_with(Guardian::kProcessName));
         return found.front();
     }
     [[nodiscard]] bool its_guardian_ends() const {

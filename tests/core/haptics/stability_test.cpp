@@ -105,6 +105,7 @@ TEST_CASE("a sudden stop is read within two ticks", "[stability]") {
 
 TEST_CASE("slow motion of the video is followed, flicker is not, and nothing stays behind",
           "[stability]") {
+    constexpr double kFar = 1e9;
     const auto passed = [](double hertz) {
         VideoMotion motion;
         double felt = 0.0;
@@ -112,7 +113,7 @@ TEST_CASE("slow motion of the video is followed, flicker is not, and nothing sta
         double highest = 0.0;
         for (int k = 1; k <= 8000; ++k) {
             const double place = std::sin(2.0 * std::numbers::pi * hertz * k * kTick_s);
-            felt += motion.followed(place - before, kTick_s);
+            felt += motion.followed(place - before, kTick_s, kFar);
             before = place;
             if (k > 4000) highest = std::max(highest, felt);
         }
@@ -121,8 +122,8 @@ TEST_CASE("slow motion of the video is followed, flicker is not, and nothing sta
     CHECK(passed(0.25) > 0.99);
     CHECK(passed(15.0) < 0.3);
     VideoMotion motion;
-    double felt = motion.followed(5.0, kTick_s);
-    for (int k = 0; k < 1000; ++k) felt += motion.followed(0.0, kTick_s);
+    double felt = motion.followed(5.0, kTick_s, kFar);
+    for (int k = 0; k < 1000; ++k) felt += motion.followed(0.0, kTick_s, kFar);
     CHECK_THAT(felt, WithinAbs(5.0, 1e-6));
 }
 

@@ -1,7 +1,6 @@
 // When an arm's poses may be trusted, and when a service is deaf or slow.
 #include "device/inverse3/arm_watch.hpp"
 
-#include "device/inverse3/pace_watch.hpp"
 #include "tests/support/catch.hpp"
 
 namespace {
@@ -191,43 +190,4 @@ TEST_CASE("a service that says in use whenever it is pushed means us, each time"
         states.arm.in_use = false;
         states.come(500);
     }
-}
-
-namespace {
-
-/// Exchanges one after the other, each of which takes so long, for a time.
-struct Exchanges {
-    PaceWatch watch{};
-    PaceWatch::Time now{};
-
-    Pace come(microseconds each, milliseconds span) {
-        for (const auto end = now + span; now < end;) {
-            watch.add(now, now + each);
-            now += each + microseconds(500);
-        }
-        return watch.pace();
-    }
-};
-
-}  // namespace
-
-TEST_CASE("answers that come late lately are slow, later ones too slow, and prompt ones are again",
-          "[inverse3]") {
-    Exchanges exchanges;
-    CHECK(exchanges.come(microseconds(1000), milliseconds(1000)) == Pace::prompt);
-    CHECK(exchanges.come(microseconds(4000), milliseconds(1000)) == Pace::slow);
-    CHECK(exchanges.come(microseconds(8000), milliseconds(400)) == Pace::too_slow);
-    CHECK(exchanges.watch.exchange_ms() > 5.0);
-    CHECK(exchanges.come(microseconds(4500), milliseconds(5000)) == Pace::too_slow);  // nearly back
-    CHECK(exchanges.come(microseconds(1000), milliseconds(800)) == Pace::too_slow);   // not long
-    CHECK(exchanges.come(microseconds(1000), milliseconds(800)) == Pace::slow);
-    CHECK(exchanges.come(microseconds(1000), milliseconds(1200)) == Pace::prompt);
-}
-
-TEST_CASE("one answer that comes late among prompt ones changes nothing", "[inverse3]") {
-    Exchanges exchanges;
-    (void)exchanges.come(microseconds(500), milliseconds(500));
-    const auto late =
-        GENERATE(microseconds(15'000), microseconds(100'000), microseconds(1'000'000));
-    CHECK(exchanges.come(late, milliseconds(1)) == Pace::prompt);
 }
