@@ -106,6 +106,10 @@ bool names_device(const std::string& name) {
            !after(kInverse3, name).empty();
 }
 
+bool moves_hand(const std::string& name) {
+    return name != "mouse" && after(kGoals, name).empty();
+}
+
 HandDevice make_hand_device(const std::string& name, const DeviceChoice& choice) {
     if (!names_device(name)) {
         throw DeviceError("no device is called " + name + "; use " + kDeviceNames);

@@ -50,6 +50,8 @@ struct HandDevice {
 
 /// Whether make_hand_device() knows what is meant by it.
 [[nodiscard]] bool names_device(const std::string& name);
+/// Whether that moves a hand: all but the mouse and goals.
+[[nodiscard]] bool moves_hand(const std::string& name);
 /// What it knows, for who has named another: "auto, mouse, falcon, ...".
 inline constexpr const char* kDeviceNames =
     "auto, falcon, falcon:SERIAL, inverse3, inverse3:ID, mouse or goals:FILE";

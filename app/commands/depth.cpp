@@ -15,6 +15,7 @@
 #include "app/commands/command_line.hpp"
 #include "app/commands/output.hpp"
 #include "app/settings/command_options.hpp"
+#include "app/settings/consent.hpp"
 #include "app/settings/estimators.hpp"
 #include "app/settings/settings.hpp"
 #include "app/window/signals.hpp"
@@ -56,14 +57,30 @@ std::string names_of(const std::vector<Estimator>& estimators) {
     return names;
 }
 
+/// A command of the settings is another's word until a person here agrees to it.
+Estimator agreed_to(const Estimator& estimator) {
+    if (Consent().knows(estimator.command)) return estimator;
+    throw InputError("the settings name the estimator " + estimator.name +
+                     ", which nobody has agreed to here, and it was not run: give it with --with, "
+                     "or agree in the window; it is " +
+                     escaped_text(estimator.command));
+}
+
+/// It is typed here.
+void take_word(const std::string& command) try {
+    Consent().agree(command);
+} catch (const InputError& error) {
+    print_warning(std::string(error.what()) + "; it will be asked again");
+}
+
 /// As the command line says, else the first of the settings.
 Estimator chosen_estimator(const DepthOptions& options, const std::vector<Estimator>& known) {
     if (is_command(options.with)) return {.name = options.name, .command = options.with};
     if (options.with.empty()) {
-        if (!known.empty()) return known.front();
+        if (!known.empty()) return agreed_to(known.front());
         throw UsageError("no estimator is known. " + how_to_have_an_estimator());
     }
-    if (const Estimator* const one = estimator_called(known, options.with)) return *one;
+    if (const Estimator* const one = estimator_called(known, options.with)) return agreed_to(*one);
     throw UsageError("--with " + in_quotes(options.with) +
                      " is neither a command with {input} or {frames} and {output} nor the name of "
                      "an estimator" +
@@ -174,6 +191,7 @@ int make_depth(const DepthOptions& options) {
                             .patience_s = options.patience_s,
                             .again = options.again};
     request.meaning.fill_in(estimator.meaning);
+    if (is_command(options.with)) take_word(estimator.command);
     if (!options.name.empty()) {
         Estimator kept = estimator;
         kept.meaning = request.meaning;

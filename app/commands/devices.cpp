@@ -10,6 +10,7 @@
 #include "app/commands/command_line.hpp"
 #include "app/commands/devices_inverse3.hpp"
 #include "app/commands/terminal_guide.hpp"
+#include "app/settings/consent.hpp"
 #include "app/settings/settings.hpp"
 #include "core/error.hpp"
 #include "core/files/content_hash.hpp"
@@ -81,7 +82,9 @@ using Facts = std::vector<std::pair<std::string, std::string>>;
 
 CheckResult check_falcon(const FirmwareAtHand& firmware, const std::filesystem::path& record,
                          const Facts& facts, CheckGuide& guide) {
-    const FalconSettings settings = load_settings(settings_path()).falcon;
+    Settings all = load_settings(settings_path());
+    Consent().hold_and_warn(all, settings_path());
+    const FalconSettings& settings = all.falcon;
     if (!firmware.trouble.empty()) std::cout << "kept firmware: " << firmware.trouble << '\n';
     falcon::CheckOptions options;
     options.serial = settings.connection.serial;

@@ -327,7 +327,9 @@ std::string man_page(const std::vector<DocumentedCommand>& commands) {
             ".SH FILES\n"
             ".TP\n\\fI~/.config/dibhr/settings.toml\\fR\nWhat a person changed in the window.\n"
             ".TP\n\\fI~/.config/dibhr/materials\\fR\nMaterials of one's own.\n"
-            ".TP\n\\fI~/.local/state/dibhr/recent\\fR\nFiles opened before.\n";
+            ".TP\n\\fI~/.local/state/dibhr/recent\\fR\nFiles opened before.\n"
+            ".TP\n\\fI~/.local/state/dibhr/agreed\\fR\nWhat somebody agreed to that protects the "
+            "hand less, and commands to run.\n";
     return page.str();
 }
 

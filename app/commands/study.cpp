@@ -19,6 +19,7 @@
 #include "app/commands/study_readiness.hpp"
 #include "app/settings/assets_path.hpp"
 #include "app/settings/command_options.hpp"
+#include "app/settings/consent.hpp"
 #include "app/settings/material.hpp"
 #include "app/settings/settings.hpp"
 #include "app/settings/study_values.hpp"
@@ -120,6 +121,9 @@ int check(const StudyOptions& options) {
     require_sample();
     print_protocol(protocol);
     std::cout << "media, materials and pictures are there\n";
+    for (const Doubt& doubt : doubts_of(protocol, Consent()))
+        std::cout << "protects the hand less: " << doubt.what << ' ' << doubt.asked
+                  << ", to be agreed to before its first page\n";
     print_readiness(protocol);
     return 0;
 }
@@ -154,6 +158,10 @@ void lead_person(const StudyOptions& options, StudyRun& run, StudyFile& file) {
     StudyWindowOptions wished{.size = options.size,
                               .settings = load_settings(settings_path()),
                               .after_picture = options.after_picture};
+    if (moves_hand(options.device)) {
+        Consent().hold_and_warn(wished.settings, settings_path());
+        wished.doubts = doubts_of(run.protocol(), Consent());
+    }
     if (options.mute) wished.settings.mute = true;
     HandDevice hand =
         make_hand_device(options.device, {{wished.settings.falcon.connection, options.firmware},

@@ -364,6 +364,8 @@ int run_view(CLI::App& app, const Arguments& arguments, const PictureHook& after
     try {
         options.in_file = options.settings = read_settings(options.settings_file, log);
         Settings& settings = options.settings;
+        if (moves_hand(options.device)) options.doubts = Consent().hold(settings);
+        warn(in_words(options.doubts, options.settings_file), log);
         ViewerParts parts;
         take_parameters(touch, parts, settings, log);
         if (ui_scale) settings.ui_scale = *ui_scale;
@@ -382,6 +384,7 @@ int run_view(CLI::App& app, const Arguments& arguments, const PictureHook& after
         if (touch.finger_mm) settings.finger_mm = *touch.finger_mm;
         if (touch.in_betweens) settings.in_betweens = *touch.in_betweens;
         take_fitting(touch, settings);
+        drop_changed(options.doubts, settings);  // by the command line
         options.touch = touch;
         options.open.request = touch.depth_request();
         require_writable_outputs(options);

@@ -45,6 +45,27 @@ void draw_choice(DepthOffer& offer) {
     index_row("Estimator", names, offer.chosen, "As the settings name them, in [estimators]", 0);
 }
 
+/// All of the command, as it is: no answer before its end was in sight.
+void draw_question(ViewerState& state, const DepthOffer& offer) {
+    ImGui::TextWrapped(
+        "The settings name this command, which nobody has agreed to here. It can do all that you "
+        "can do:");
+    constexpr float kMostLines = 12.0F;
+    const float width = ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize;
+    const float high = ImGui::CalcTextSize(offer.asks.c_str(), nullptr, false, width).y;
+    const float line = ImGui::GetTextLineHeight();
+    ImGui::BeginChild("command", {0.0F, std::min(high + line, kMostLines * line)});
+    ImGui::PushTextWrapPos(width);
+    ImGui::TextUnformatted(offer.asks.c_str());
+    ImGui::PopTextWrapPos();
+    const bool read = ImGui::GetScrollY() >= ImGui::GetScrollMaxY();
+    ImGui::EndChild();
+    ImGui::BeginDisabled(!read);
+    if (ImGui::Button("Run it, now and later")) ask_for(state, DepthWish::agree);
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+}
+
 void draw_making_button(ViewerState& state, DepthOffer& offer) {
     if (offer.estimators.empty()) {
         quiet_text(how_to_have_an_estimator() + ".");
@@ -60,7 +81,8 @@ void draw_making_button(ViewerState& state, DepthOffer& offer) {
 }  // namespace
 
 void draw_depth_offer(ViewerState& state) {
-    if (!state.depth_offer || state.dialog.shown || !state.message.empty()) return;
+    if (!state.depth_offer || state.dialog.shown || !state.message.empty() || !state.doubts.empty())
+        return;
     DepthOffer& offer = *state.depth_offer;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float relief_width = display.x - panel_column_width(state);
@@ -86,6 +108,8 @@ void draw_depth_offer(ViewerState& state) {
     if (!offer.depth.empty()) {
         if (ImGui::Button("Open it")) ask_for(state, DepthWish::open);
         ImGui::SameLine();
+    } else if (!offer.asks.empty()) {
+        draw_question(state, offer);
     } else {
         draw_making_button(state, offer);
     }

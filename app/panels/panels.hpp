@@ -103,6 +103,10 @@ void draw_explanation(ViewerState& state, const DepthSurface& surface,
 /// What to do where nothing is open.
 void draw_nothing_open(ViewerState& state);
 
+/// Over the relief, which goes on with the usual values: what protects the hand less in the
+/// settings file, to be agreed to.
+void draw_doubts(ViewerState& state);
+
 /// Over the relief, which goes on: a video of colour alone, and the depth that is made for it.
 void draw_depth_offer(ViewerState& state);
 

@@ -17,6 +17,7 @@ struct StudyPlace {
     int interval{0};      ///< of it, from 0
     bool waits{false};    ///< the interval's surface is not there yet
     bool leaving{false};  ///< the participant is asked whether to leave
+    bool agrees{false};   ///< whoever leads it is asked whether it may protect the hand less
     /// When what is asked was on the screen; nothing: it is not yet.
     std::optional<std::chrono::steady_clock::time_point> seen_since{};
 };

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "app/settings/consent.hpp"
 #include "app/settings/folder.hpp"
 #include "app/settings/keys.hpp"
 #include "app/settings/material.hpp"
@@ -160,7 +161,7 @@ struct OpenDialog {
 }
 
 /// What a person wants of depth that can be made for a video of colour alone.
-enum class DepthWish { make, cancel, open, close };
+enum class DepthWish { make, agree, cancel, open, close };
 
 /// What a panel asks the viewer to do after the picture.
 struct Requests {
@@ -171,6 +172,7 @@ struct Requests {
     std::optional<std::string> material{};        ///< as material_called() takes it
     std::string keep_material{};  ///< what is felt, under that name; empty: not asked
     std::optional<std::filesystem::path> firmware{};
+    std::optional<bool> agreed{};      ///< a person's word on ViewerState::doubts
     std::optional<DepthWish> depth{};  ///< of a video of colour alone
     bool remove_paint{false};
     bool reset_view{false};
@@ -219,8 +221,9 @@ struct PanesShown {
 struct DepthOffer {
     std::filesystem::path colour{};
     std::string words{};  ///< why it cannot be opened as it is, or what went wrong; empty: neither
-    std::vector<std::string> estimators{};       ///< names to choose from; none: it cannot be made
-    int chosen{0};                               ///< of them
+    std::vector<std::string> estimators{};  ///< names to choose from; none: it cannot be made
+    int chosen{0};                          ///< of them
+    std::string asks{};  ///< its command, escaped: it runs when a person agrees; empty: not asked
     std::optional<EstimateProgress> progress{};  ///< nothing: it is not being made
     bool ending{false};                          ///< it was cancelled, and is on its way
     std::filesystem::path depth{};  ///< made, while something else was opened; empty: not yet
@@ -319,7 +322,8 @@ struct ViewerState {
     std::uint32_t centred{0};  ///< counts the wishes to forget the clutch's shift
     std::shared_ptr<const BumpMap> bump{};
     std::filesystem::path bump_file{};
-    Material material{};  ///< chosen last; numbers and bump map may have been changed since
+    Material material{};          ///< chosen last; numbers and bump map may have been changed since
+    std::vector<Doubt> doubts{};  ///< of the settings file; a person is asked
 
     // Shown only.
     MaterialNames materials{};  ///< to choose from

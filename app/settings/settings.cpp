@@ -333,9 +333,7 @@ std::string toml_text(Settings settings) {
     for (const Setting& setting : list_of(settings)) {
         if (setting.table != table) text += "\n[" + std::string(setting.table) + "]\n";
         table = setting.table;
-        text += std::string(setting.name) + " = " +
-                std::visit([](const auto* value) { return toml_text(*value); }, setting.value) +
-                "\n";
+        text += std::string(setting.name) + " = " + text_of(setting) + "\n";
     }
     text += toml_text(settings.keys);
     if (!settings.estimators.empty()) text += "\n[estimators]\n";
@@ -389,15 +387,6 @@ void add_inverse3(std::vector<Setting>& list, Inverse3Settings& s) {
         list.push_back({"inverse3", number.name, &number.in(s), number.lowest, number.highest});
     }
     add_buttons(list, "inverse3", kInverse3Grip, s.buttons);
-}
-
-bool same(const Setting& a, const Setting& b) {
-    return std::visit([&](auto* value) { return *value == *std::get<decltype(value)>(b.value); },
-                      a.value);
-}
-
-void assign(const Setting& to, const Setting& from) {
-    std::visit([&](auto* value) { *value = *std::get<decltype(value)>(from.value); }, to.value);
 }
 
 }  // namespace
@@ -515,6 +504,19 @@ std::vector<Setting> list_of(Settings& s) {
                              {"charts", "energy", &s.charts.energy},
                              {"charts", "lateness", &s.charts.lateness}});
     return list;
+}
+
+bool same(const Setting& a, const Setting& b) {
+    return std::visit([&](auto* value) { return *value == *std::get<decltype(value)>(b.value); },
+                      a.value);
+}
+
+void assign(const Setting& to, const Setting& from) {
+    std::visit([&](auto* value) { *value = *std::get<decltype(value)>(from.value); }, to.value);
+}
+
+std::string text_of(const Setting& setting) {
+    return std::visit([](const auto* value) { return toml_text(*value); }, setting.value);
 }
 
 Settings changes_kept(Settings in_file, Settings started, Settings now) {

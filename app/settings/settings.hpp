@@ -128,6 +128,12 @@ struct Setting {
 /// All of them but the keys, in the order of the file; to read or change what `settings` holds.
 [[nodiscard]] std::vector<Setting> list_of(Settings& settings);
 
+[[nodiscard]] bool same(const Setting& a, const Setting& b);
+/// Of the same place in two lists.
+void assign(const Setting& to, const Setting& from);
+/// The value as the file has it.
+[[nodiscard]] std::string text_of(const Setting& setting);
+
 /// `in_file`, with every value that differs between `started` and `now` taken from `now`.
 [[nodiscard]] Settings changes_kept(Settings in_file, Settings started, Settings now);
 

@@ -77,6 +77,27 @@ TouchRequest request_of(const TouchValues& values) {
     return request;
 }
 
+void take_protections(const TouchValues& values, Settings& settings) {
+    const auto stability = values.words.find("stability");
+    settings.stability = stability == values.words.end() || stability->second != "off";
+    settings.damping_as_needed = !request_of(values).given.gives_damping();
+}
+
+std::vector<Doubt> doubts_of(const Protocol& protocol, const Consent& consent) {
+    Settings least;
+    for (const Condition& condition : protocol.conditions) {
+        Settings worn;
+        take_protections(condition.values, worn);
+        least.stability = least.stability && worn.stability;
+        least.damping_as_needed = least.damping_as_needed && worn.damping_as_needed;
+    }
+    for (const Block& block : protocol.blocks)
+        if (const TouchNumber* const varied = touch_number(block.variation.parameter))
+            least.damping_as_needed =
+                least.damping_as_needed && varied->topic != TouchTopic::damper;
+    return consent.hold(least);
+}
+
 void require_felt(const TouchValues& values) {
     const GivenParameters given = request_of(values).given;
     TouchParameters parameters;

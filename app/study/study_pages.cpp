@@ -255,6 +255,19 @@ Press draw_feedback(const StudyRun& run, const StudyShown& view) {
     return draw_page(body_of(view, {{words, 1.6F}}, 0.36F), std::array{go_on_part()});
 }
 
+/// Before all else, of whoever leads the study.
+Press draw_question_of_safety(const StudyShown& view) {
+    const PageBody body =
+        body_of(view,
+                {{"This study protects the hand less than usual:\n\n" + view.to_agree +
+                  "\nWhoever leads the study agrees to that here, once."}},
+                0.2F);
+    return draw_page(
+        body, std::array{button_part({.labels = {"Agree  (A)", "Leave  (Escape)"}}, [](int which) {
+            return StudyPress{which == 0 ? Kind::agree : Kind::ask_to_leave};
+        })});
+}
+
 /// Before a trial that nobody has called for yet.
 Press draw_start(const StudyRun& run, const StudyShown& view) {
     const std::string text = run.answered().empty()
@@ -309,9 +322,10 @@ std::optional<StudyPress> draw_study(const StudyRun& run, const StudyShown& view
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
                      ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse |
                      (over_relief ? ImGuiWindowFlags_NoBackground : ImGuiWindowFlags_None));
-    const Press press = view.asks_to_leave  ? draw_leaving(view)
-                        : view.before_start ? draw_start(run, view)
-                                            : draw_step(run, view);
+    const Press press = view.asks_to_leave       ? draw_leaving(view)
+                        : !view.to_agree.empty() ? draw_question_of_safety(view)
+                        : view.before_start      ? draw_start(run, view)
+                                                 : draw_step(run, view);
     draw_bars(run, view);
     ImGui::End();
     return press;

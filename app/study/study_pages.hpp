@@ -22,6 +22,7 @@ struct StudyPress {
         feel,    ///< interval `which`: once more at a question; at an adjustment the other one
         turn,    ///< the parameter, by `value` of its range
         scroll,  ///< a page, down by `value` lines
+        agree,   ///< to StudyShown::to_agree
         early,   ///< would answer, but came before the question was on the screen
         ask_to_leave,
         stay,
@@ -38,6 +39,7 @@ struct StudyShown {
     bool waits{false};          ///< an interval whose surface is not there yet
     bool asks_to_leave{false};  ///< the participant pressed Escape
     bool before_start{false};   ///< the program has begun, and nobody has called for the step yet
+    std::string to_agree{};     ///< what the study takes away, before its start; empty: nothing
     bool first_picture{false};  ///< of the page that is shown
     float scroll{0.0F};         ///< of it since the last picture, down by so many lines
     double left_share{1.0};     ///< of the time of an interval or an answer; 1 without a limit

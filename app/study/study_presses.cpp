@@ -126,6 +126,9 @@ std::optional<StudyPress> press_of_key(const StudyRun& run, const StudyShown& vi
         return std::nullopt;
     }
     if (key.name == "Esc") return StudyPress{Kind::ask_to_leave};
+    if (!view.to_agree.empty())
+        return !key.early && (key.name == "a" || key.name == "A") ? Press(StudyPress{Kind::agree})
+                                                                  : std::nullopt;
     const bool early = key.early || view.waits;  // for the surface, or the next step
     const Place place = place_of(run, view);
     Press answer;
@@ -141,7 +144,7 @@ std::optional<StudyPress> press_of_key(const StudyRun& run, const StudyShown& vi
 
 std::optional<StudyPress> press_of_button(const StudyRun& run, const StudyShown& view,
                                           const StudyButton& button) {
-    if (view.asks_to_leave) return std::nullopt;
+    if (view.asks_to_leave || !view.to_agree.empty()) return std::nullopt;
     const Place place = place_of(run, view);
     Press answer;
     if (place != Place::page)

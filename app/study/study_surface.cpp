@@ -57,8 +57,7 @@ void StudySurface::wear(const TouchValues& values) {
     Settings& settings = state_.settings = own_;
     settings.touch = {};
     settings.fit_relief = settings.fit_pitch = false;
-    settings.stability = word_of(values, "stability") != "off";
-    settings.damping_as_needed = !request.given.gives_damping();
+    take_protections(values, settings);
     settings.cleaning = {.preset = request.preset.value_or(CleaningPreset::automatic)};
     settings.finger_mm = request.finger_mm.value_or(0.0);
     settings.in_betweens = request.in_betweens.value_or(InBetweens::automatic);

@@ -79,6 +79,7 @@ Vec3 place_of(const MouseTarget& mouse, const DepthSurface& surface) {
 StudyWindow::StudyWindow(const StudyWindowOptions& options, StudyRun& run, StudyFile& file,
                          HandDevice hand, Ending& ending)
     : after_picture_(options.after_picture),
+      doubts_(options.doubts),
       run_(run),
       file_(file),
       ending_(ending),
@@ -93,7 +94,10 @@ StudyWindow::StudyWindow(const StudyWindowOptions& options, StudyRun& run, Study
     window_.on_display_loss([this] { leave_without_display(); });
     ending_.watch_display(display_connection());
     if (!options.size) window_.toggle_full_screen();
-    view_.before_start = run_.step() == StudyStep::interval;
+    for (const Doubt& doubt : doubts_)
+        view_.to_agree +=
+            std::string(doubt.what) + ": " + doubt.asked + ", usually " + doubt.usual + '\n';
+    view_.before_start = run_.step() == StudyStep::interval || !doubts_.empty();
 }
 
 StudyWindow::~StudyWindow() {
@@ -172,6 +176,7 @@ void StudyWindow::report_picture() const {
                            .interval = run_.interval(),
                            .waits = view_.waits,
                            .leaving = view_.asks_to_leave,
+                           .agrees = !view_.to_agree.empty(),
                            .seen_since = seen_since_};
     after_picture_({surface_.state(), surface_.shown(), &place});
 }
@@ -360,6 +365,8 @@ void StudyWindow::act(const StudyPress& press, Clock::time_point at) {
         case early:
             ++early_;
             return;
+        case agree:
+            return agree_to_study();
         case scroll:
             view_.scroll += static_cast<float>(press.value);
             return;
@@ -375,6 +382,13 @@ void StudyWindow::act(const StudyPress& press, Clock::time_point at) {
     if (press.kind != go_on || view_.waits) return;
     run_.go_on();
     leave_step();
+}
+
+void StudyWindow::agree_to_study() {
+    Consent().agree(doubts_);
+    view_.to_agree.clear();
+    view_.before_start = run_.step() == StudyStep::interval;
+    seen_since_.reset();
 }
 
 void StudyWindow::act_at_question(const StudyPress& press, Clock::time_point at) {

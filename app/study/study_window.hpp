@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/panels/picture_hook.hpp"
+#include "app/settings/consent.hpp"
 #include "app/settings/settings.hpp"
 #include "app/study/study_pages.hpp"
 #include "app/study/study_surface.hpp"
@@ -29,6 +30,7 @@ namespace dibhr {
 struct StudyWindowOptions {
     std::optional<std::pair<int, int>> size{};  ///< nothing: the whole screen
     Settings settings{};  ///< of which the device's, the limit of force and the loudness count
+    std::vector<Doubt> doubts{};  ///< of the study: somebody agrees to them first, or it ends
     PictureHook after_picture{};
 };
 
@@ -64,6 +66,7 @@ class StudyWindow {
     void take_button(StudyButton button, Clock::time_point at);
     void take_keys(const WindowInput& input);
     void take_click(const StudyPress& press);
+    void agree_to_study();
     void act(const StudyPress& press, Clock::time_point at);
     void act_at_question(const StudyPress& press, Clock::time_point at);
     void act_at_adjustment(const StudyPress& press, Clock::time_point at);
@@ -82,6 +85,7 @@ class StudyWindow {
     [[nodiscard]] bool is_early(Clock::time_point press) const noexcept;
 
     const PictureHook after_picture_;
+    const std::vector<Doubt> doubts_;
     StudyRun& run_;
     StudyFile& file_;
     Ending& ending_;

@@ -5,7 +5,7 @@
 #include <exception>
 #include <utility>
 
-#include "app/settings/estimators.hpp"
+#include "app/settings/consent.hpp"
 #include "core/files/plain_text.hpp"
 
 namespace dibhr {
@@ -44,11 +44,8 @@ void ViewerEstimating::something_opened(ViewerState& state) const {
         state.depth_offer.reset();
 }
 
-void ViewerEstimating::start(ViewerState& state) {
+void ViewerEstimating::start(const Estimator& estimator, ViewerState& state) {
     DepthOffer& offer = *state.depth_offer;
-    const auto chosen = static_cast<std::size_t>(offer.chosen);
-    if (chosen >= state.settings.estimators.size()) return;
-    const Estimator& estimator = state.settings.estimators[chosen];
     const EstimateRequest request{.colour = offer.colour,
                                   .command = estimator.command,
                                   .meaning = estimator.meaning,
@@ -59,14 +56,26 @@ void ViewerEstimating::start(ViewerState& state) {
     watch_ = watch;
     open_before_ = file_shown(state);
     offer.words.clear();
+    offer.asks.clear();
     offer.progress.emplace();
 }
 
 std::optional<OpenRequest> ViewerEstimating::perform(DepthWish wish, ViewerState& state) {
     if (!state.depth_offer) return {};
+    const auto chosen = static_cast<std::size_t>(state.depth_offer->chosen);
+    const auto& estimators = state.settings.estimators;
+    const bool runs = wish == DepthWish::make || wish == DepthWish::agree;
+    if (runs && chosen >= estimators.size()) return {};
     switch (wish) {
         case DepthWish::make:
-            start(state);
+            if (Consent().knows(estimators[chosen].command))
+                start(estimators[chosen], state);
+            else
+                state.depth_offer->asks = escaped_text(estimators[chosen].command);
+            return {};
+        case DepthWish::agree:
+            start(estimators[chosen], state);
+            Consent().agree(estimators[chosen].command);
             return {};
         case DepthWish::cancel:
             if (watch_) watch_->stop();

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/panels/viewer_state.hpp"
+#include "app/settings/estimators.hpp"
 #include "app/viewer/errand.hpp"
 #include "core/estimate/depth_estimate.hpp"
 
@@ -29,7 +30,8 @@ class ViewerEstimating {
     /// Whoever has opened something else wants no more of an offer that was not taken.
     void something_opened(ViewerState& state) const;
 
-    /// What a person wants of it. What is to be opened then, if anything.
+    /// What a person wants of it. What is to be opened then, if anything. A command to which nobody
+    /// has agreed here is asked about before it runs. Throws InputError where that cannot be kept.
     [[nodiscard]] std::optional<OpenRequest> perform(DepthWish wish, ViewerState& state);
 
     /// Once a picture: how it goes. What is to be opened, once it is made and nothing else was
@@ -40,7 +42,7 @@ class ViewerEstimating {
     void end();
 
   private:
-    void start(ViewerState& state);
+    void start(const Estimator& estimator, ViewerState& state);
     [[nodiscard]] std::optional<OpenRequest> opened(ViewerState& state);
 
     Errand<EstimateMade> making_;

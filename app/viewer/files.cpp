@@ -110,18 +110,19 @@ void SettingsKeeper::look(const Settings& now, double now_s) {
         wanted_ = wanted;
         changed_s_ = now_s;
     }
-    if (now_s - changed_s_ >= kSettleTime_s) save();
+    if (now_s - changed_s_ >= kSettleTime_s) save(now);
 }
 
 void SettingsKeeper::finish(const Settings& now) {
     wanted_ = changes_kept(in_file_, started_, now);
-    save();
+    save(now);
 }
 
-void SettingsKeeper::save() {
+void SettingsKeeper::save(const Settings& now) {
     if (same_settings(wanted_, written_)) return;
     written_ = wanted_;
     save_settings(wanted_, file_);
+    Consent().agree_to_changes(started_, now);
 }
 
 std::unique_ptr<Media> open_request(const OpenRequest& request) {

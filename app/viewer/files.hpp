@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/panels/viewer_state.hpp"
+#include "app/settings/consent.hpp"
 #include "app/settings/file_memory.hpp"
 #include "app/settings/settings.hpp"
 #include "app/viewer/painting.hpp"
@@ -47,7 +48,8 @@ class Screenshots {
     std::vector<std::future<std::string>> writing_{};
 };
 
-/// Saves the settings a person changed in the window, a little after each change and at the end.
+/// Saves the settings a person changed in the window, a little after each change and at the end,
+/// and that they agree to them.
 class SettingsKeeper {
   public:
     /// `in_file`: as read; `started`: as the window started, the command line's values on top. A
@@ -61,8 +63,11 @@ class SettingsKeeper {
     /// At the end: writes what is not yet written. Throws InputError.
     void finish(const Settings& now);
 
+    /// Nobody agrees to these: the file is to have the usual values.
+    void forget(const std::vector<Doubt>& doubts) { copy_doubted(doubts, {}, in_file_); }
+
   private:
-    void save();
+    void save(const Settings& now);
 
     Settings in_file_;
     Settings started_;

@@ -48,6 +48,8 @@ void close_topmost(ViewerState& state) {
         state.message.clear();
     } else if (state.dialog.shown) {
         state.dialog.shown = false;
+    } else if (!state.doubts.empty()) {
+        state.doubts.clear();  // asked again by the next window
     } else if (state.depth_offer && !state.depth_offer->progress) {
         state.requests.depth = DepthWish::close;
     } else {

@@ -68,7 +68,9 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
       gui_(window_, {window_.scale(options.settings.ui_scale), options.settings.theme}),
       software_(read_limits().software),
       pace_(shortest_picture(options.sync, software_)),
-      state_{.settings = options.settings, .keys = KeyTable(options.settings.keys)},
+      state_{.settings = options.settings,
+             .keys = KeyTable(options.settings.keys),
+             .doubts = options.doubts},
       falcon_(hand_, state_),
       inverse3_(hand_, state_),
       service_settings_(errands),
@@ -498,6 +500,7 @@ void Viewer::draw_panels(std::span<const KeyPress> pressed) {
     draw_overlay(state_, now_s());
     draw_nothing_open(state_);
     draw_explained();
+    draw_doubts(state_);
     draw_depth_offer(state_);
     draw_open_dialog(state_);
     draw_help_sheet(state_);
@@ -534,9 +537,11 @@ void Viewer::carry_out_requests() {
     if (!asked.keep_material.empty()) keep_material(asked.keep_material);
     if (asked.firmware) attempt([&] { tell(falcon_.use_firmware(*asked.firmware, state_)); });
     if (!asked.report.empty()) make_report(asked.report);
-    if (asked.depth) {
-        if (const auto made = estimating_.perform(*asked.depth, state_)) open(*made);
-    }
+    if (asked.agreed) take_word(*asked.agreed);
+    if (asked.depth)
+        attempt([&] {
+            if (const auto made = estimating_.perform(*asked.depth, state_)) open(*made);
+        });
     if (asked.remove_paint) painting_.remove_all(state_, player_);
     if (asked.reset_view) frame_relief();
     if (asked.full_screen) {
@@ -607,6 +612,15 @@ void Viewer::keep_settings() {
         state_.settings.height = size.y;
     }
     attempt([this] { keeper_.look(lasting_settings(), now_s()); });
+    if (!state_.doubts.empty()) drop_changed(state_.doubts, state_.settings);
+}
+
+/// On what the settings file takes away from what protects the hand.
+void Viewer::take_word(bool agreed) {
+    const std::vector<Doubt> doubts = std::exchange(state_.doubts, {});
+    if (!agreed) return keeper_.forget(doubts);
+    copy_doubted(doubts, options_.in_file, state_.settings);
+    attempt([&] { Consent().agree(doubts); });
 }
 
 void Viewer::start_or_stop_recording() {

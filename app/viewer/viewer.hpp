@@ -12,6 +12,7 @@
 #include "app/panels/picture_hook.hpp"
 #include "app/panels/viewer_state.hpp"
 #include "app/settings/command_options.hpp"
+#include "app/settings/consent.hpp"
 #include "app/settings/file_memory.hpp"
 #include "app/settings/keys.hpp"
 #include "app/settings/settings.hpp"
@@ -69,8 +70,9 @@ struct ViewOptions {
     bool any_media{false};   ///< replay: also over files that have changed
     TouchRequest touch{};    ///< the command line's alone: its parameters beat a session's
     std::filesystem::path settings_file{settings_path()};  ///< where they are kept
-    Settings in_file{};   ///< as read; the window saves only what a person changed in it
-    Settings settings{};  ///< the same, the command line's values on top
+    Settings in_file{};           ///< as read; the window saves only what a person changed in it
+    std::vector<Doubt> doubts{};  ///< of it: the usual values hold until a person agrees
+    Settings settings{};          ///< the same, the command line's values on top
     PictureHook after_picture{};
 };
 
@@ -140,6 +142,7 @@ class Viewer {
     void hand_over_settings();
     [[nodiscard]] CleaningOptions wanted_cleaning() const;
     void keep_settings();
+    void take_word(bool agreed);
     void show_media(std::unique_ptr<Media> media, const OpenRequest& request,
                     const FileMemory& memory, FoundMaps maps);
     void keep_memory();

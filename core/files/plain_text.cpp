@@ -101,6 +101,22 @@ std::string in_quotes(std::string_view text, std::size_t longest) {
     return "'" + shown + (text.size() > longest ? "...'" : "'");
 }
 
+std::string escaped_text(std::string_view text) {
+    constexpr std::string_view kDigits = "0123456789abcdef";
+    std::string result;
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        const unsigned byte = byte_at(text, k);
+        const bool hidden =
+            is_control(byte) || byte >= 0x80U || (text[k] == ' ' && k > 0 && text[k - 1] == ' ');
+        if (text[k] == '\\') result += '\\';
+        if (hidden)
+            result += {'\\', 'x', kDigits[byte >> 4U], kDigits[byte & 15U]};
+        else
+            result += text[k];
+    }
+    return result;
+}
+
 std::string html_text(std::string_view text) {
     constexpr std::array<std::pair<char, std::string_view>, 5> kMeant{
         {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&#39;"}}};

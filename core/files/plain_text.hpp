@@ -20,6 +20,10 @@ namespace dibhr {
 /// In quotation marks on one line, cut short after `longest` bytes.
 [[nodiscard]] std::string in_quotes(std::string_view text, std::size_t longest = 40);
 
+/// All of it, in printable ASCII on one line: other bytes as \x1b, a backslash doubled, and of
+/// blanks side by side all but the first as \x20. Two texts never look the same.
+[[nodiscard]] std::string escaped_text(std::string_view text);
+
 /// "a, b, c".
 [[nodiscard]] std::string listed(const std::vector<std::string>& words);
 

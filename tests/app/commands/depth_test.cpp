@@ -113,6 +113,23 @@ TEST_CASE("an estimator is named once, and is then the one that is taken", "[dep
                   "nor the name of an estimator (mine)");
 }
 
+TEST_CASE("an estimator of somebody's settings is not run until it is given here", "[depth]") {
+    const Home home;
+    fs::create_directories(home.folder / "dibhr");
+    write_text(home.folder / "dibhr/settings.toml",
+               "[estimators]\nmine = \"./estimator  {frames}\\u001b[8m {output}\"\n"
+               "second = \"" +
+                   kWith + "\"\n");
+    check_refused(home.depth({"clip.mp4"}), 1,
+                  "it is ./estimator \\x20{frames}\\x1b[8m {output}\n");
+    check_refused(home.depth({"clip.mp4", "--with", "second"}), 1, "it is " + kWith + "\n");
+    CHECK(home.starts() == 0);
+    CHECK(home.depth({"clip.mp4", "--with", kWith}).exit_code == 0);
+    CHECK(home.depth({"clip.mp4", "--with", "second", "--again"}).exit_code == 0);
+    CHECK(home.starts() == 2);
+    check_refused(home.depth({"clip.mp4"}), 1, "the estimator mine, which nobody has agreed to");
+}
+
 TEST_CASE("estimators in the settings come back as they were, and one that cannot be is told",
           "[depth]") {
     const TemporaryFolder folder;

@@ -171,6 +171,18 @@ TEST_CASE("a check takes its answers from a pipe, and keeps a record", "[falcon]
     check_summary_and_record(run_dibhr(folder, {"devices", "--check"}, host), folder);
 }
 
+TEST_CASE("a check measures with the usual mechanism where nobody has agreed to another",
+          "[falcon][check]") {
+    const TemporaryFolder folder;
+    const FalconOnUsb bare(folder.path(), {});
+    std::filesystem::create_directories(folder / "dibhr");
+    write_text(folder / "dibhr/settings.toml", "[falcon]\nthigh = 0.09\n");
+    const ProgramResult result = run_dibhr(folder, {"devices", "--check"}, bare.host());
+    CHECK(says(result.errors,
+               "settings.toml asks for Falcon's thigh [m] 0.09 in place of 0.06: "
+               "the usual holds"));
+}
+
 TEST_CASE("without a person the check measures what needs none, and keeps a record",
           "[falcon][check][realtime]") {
     const TemporaryFolder folder;

@@ -86,7 +86,8 @@ std::vector<std::string> environment_in(const TemporaryFolder& folder,
                                         const std::vector<std::string>& others = {}) {
     std::vector<std::string> entries{"XDG_CONFIG_HOME=" + folder.path().string(),
                                      "XDG_DATA_HOME=" + folder.path().string(),
-                                     "XDG_CACHE_HOME=" + (folder / "cache").string()};
+                                     "XDG_CACHE_HOME=" + (folder / "cache").string(),
+                                     "XDG_STATE_HOME=" + (folder / "state").string()};
     entries.insert(entries.end(), others.begin(), others.end());
     const auto name_of = [](std::string_view entry) { return entry.substr(0, entry.find('=')); };
     std::set<std::string, std::less<>> given{"DISPLAY", "WAYLAND_DISPLAY"};

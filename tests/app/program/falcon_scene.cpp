@@ -22,6 +22,8 @@ Words prepared(const TemporaryFolder& folder, const FalconSceneOptions& options)
         write_depth_png(folder / name, 64, 48, 64, 2);
     std::filesystem::create_directories(folder / "config/dibhr");
     write_text(folder / "config/dibhr/settings.toml", options.settings);
+    std::filesystem::create_directories(folder / "state/dibhr");
+    write_text(folder / "state/dibhr/agreed", options.agreed);
     Words arguments{"--device", options.device, "--size", "320x240", "--firmware", "firmware.bin"};
     if (options.records) arguments.insert(arguments.end(), {"--record", "hand.dibhr"});
     arguments.insert(arguments.end(), options.arguments.begin(), options.arguments.end());

@@ -25,6 +25,7 @@ struct FalconSceneOptions {
     std::string device{"falcon"};
     bool records{true};               ///< from the beginning on, into hand.dibhr
     std::string settings{};           ///< of the settings file
+    std::string agreed{};             ///< of the record of what was agreed to
     std::vector<std::string> host{};  ///< a program and its own arguments that starts all of it
     bool keeps_packets{false};        ///< FalconOnUsb::packets() is to be read
     Desk desk{};

@@ -68,6 +68,8 @@ void see_window(const ViewerState& state, Seen& seen) {
     seen.as_recorded = state.as_recorded;
     seen.explained = state.explained.has_value();
     seen.explained_steps = state.explained ? state.explained->taken : 0;
+    seen.doubts = state.doubts.size();
+    seen.asks_command = state.depth_offer && !state.depth_offer->asks.empty();
     seen.depth_offered = state.depth_offer.has_value();
     seen.depth_made = state.depth_offer && !state.depth_offer->depth.empty();
     if (state.under_pointer) {
@@ -117,6 +119,7 @@ Seen seen_of(const PictureShown& shown, std::uint64_t number) {
     seen.interval = shown.study->interval;
     seen.waits = shown.study->waits;
     seen.leaving = shown.study->leaving;
+    seen.agrees = shown.study->agrees;
     if (shown.study->seen_since) seen.asked_s = seconds_of(*shown.study->seen_since);
     return seen;
 }

@@ -629,6 +629,36 @@ TEST_CASE("of keys that are hammered none answers before its question is on the 
     CHECK(used <= counts(0.002));
 }
 
+TEST_CASE("a study that has stability off begins when whoever leads it agrees, once",
+          "[study window]") {
+    const Sitting at(kTitle + media("png") + kBase + "stability = false\n" + kPairs);
+    const std::vector<std::string> device{"--device", "auto"};
+    const auto asks = [](const Seen& now) { return now.study && now.agrees; };
+    {
+        Participant person(at, device, {});
+        person.wait_until(asks);
+        person.press("Return");
+        person.press("space");
+        CHECK(asks(person.seen()));
+        CHECK(person.leave_early() == 0);
+    }
+    CHECK_FALSE(std::filesystem::exists(at.folder / "state/dibhr/agreed"));
+    {
+        Participant person(at, device, {});
+        person.wait_until(asks);
+        person.press("a");
+        person.wait_until([](const Seen& now) { return !now.agrees; });
+        CHECK(Participant::is_at(person.seen(), StudyStep::instructions));
+        CHECK(person.leave_early() == 0);
+    }
+    CHECK(contains(read_text(at.folder / "state/dibhr/agreed"), "touch.stability false\n"));
+    Participant person(at, device, {});
+    person.wait_for(StudyStep::instructions);
+    CHECK_FALSE(person.seen().agrees);
+    CHECK(person.leave_early() == 0);
+    CHECK(at.errors().empty());
+}
+
 TEST_CASE("a study that is killed goes on at that trial when its participant says so",
           "[study window]") {
     check_going_on(SIGKILL, 128 + SIGKILL);

@@ -72,6 +72,7 @@ struct Home {
 };
 
 constexpr const char* kMake = "mousemove 100 115 click 1";
+constexpr const char* kRun = "mousemove 100 184 click 1";
 constexpr const char* kCancel = "mousemove 66 132 click 1";
 
 }  // namespace
@@ -88,6 +89,10 @@ TEST_CASE(
     open_by_name(viewer, "clip.mp4");
     viewer.wait_until([](const Seen& now) { return now.depth_offered; });
     viewer.act(kMake);
+    viewer.wait_until([](const Seen& now) { return now.asks_command; });
+    viewer.wait_for_picture();
+    CHECK_FALSE(home.runs());
+    viewer.act(kRun);
     REQUIRE(eventually([&] { return home.waits(); }, kPatience));
     viewer.act(kCancel);
     REQUIRE(eventually([&] { return !home.runs(); }, kPatience));
@@ -108,6 +113,8 @@ TEST_CASE(
     CHECK(contains(read_text(home.folder / "state/dibhr/recent"), "depth.mkv"));
     CHECK(home.keeps("depth.mkv"));
     CHECK(read_text(home.folder / "errors.txt").empty());
+    CHECK(contains(read_text(home.folder / "state/dibhr/agreed"),
+                   "run " + home.folder.path().string() + "/estimator {frames} {output}\n"));
     const std::vector<Row> touched = read_session(home.folder / "hand.dibhr");
     CHECK(std::count_if(touched.begin(), touched.end(),
                         [](const Row& row) { return row.contact; }) > 100);
@@ -122,6 +129,7 @@ TEST_CASE("depth that is being made ends with the window, and what is made of it
     WindowProgram viewer = home.view(desk, {"clip.mp4", "--stay"});
     viewer.wait_until([](const Seen& now) { return now.depth_offered; });
     viewer.act(kMake);
+    viewer.act(kRun);
     REQUIRE(eventually([&] { return home.waits(); }, kPatience));
     desk.press("key ctrl+q");
     REQUIRE(viewer.wait() == 0);

@@ -25,6 +25,11 @@ namespace {
 
 using TickRows = std::vector<Row>;
 
+// Of two values, over panels that are closed.
+constexpr const char* kAgree = "mousemove 90 159 click 1";
+constexpr const char* kKeepUsual = "mousemove 230 142 click 1";
+const std::string kWithoutPanels = "[window]\npanels-visible = false\n";
+
 bool falcon_touches(const Row& row) {
     return row.contact && row.ready && !row.stand_in;
 }
@@ -230,7 +235,8 @@ TEST_CASE(
     "the force stays while another window has the keyboard, when it is wished so, and rises again "
     "from zero when the hand is centred",
     "[falcon][window]") {
-    FalconScene at({.settings = "[falcon]\nforce-in-front-only = false\n"});
+    FalconScene at({.settings = "[falcon]\nforce-in-front-only = false\n",
+                    .agreed = "falcon.force-in-front-only false\n"});
     at.press_in();
     OtherWindow other(at);
     at.falcon.wait_for_forces(300.0);
@@ -241,6 +247,51 @@ TEST_CASE(
     const TickRows rows = at.finish();
     CHECK(std::none_of(rows.begin(), rows.end(),
                        [](const Row& row) { return cut_for(SafetyCut::off, row); }));
+}
+
+TEST_CASE(
+    "what protects the hand less in a settings file of others holds when a person agrees to it",
+    "[falcon][window]") {
+    const std::string sent = kWithoutPanels + "[device]\nmax-force = 8.0\n[falcon]\nforce-in-front-only = false\n";
+    FalconScene at({.settings = sent});
+    const auto pressed_newton = [&at] { return glm::length(at.falcon.vector("motor_newton")); };
+    at.falcon.move_hand({0.0, 0.0, 80.0}, 0.4);
+    FalconOnUsb::wait_until([&] { return pressed_newton() > 3.9; });
+    {
+        OtherWindow other(at);
+        at.falcon.wait_for_zeros(200.0);
+        other.close();
+    }
+    FalconOnUsb::wait_until([&] { return pressed_newton() > 3.9; });
+    CHECK(at.viewer.seen().doubts == 2);
+    CHECK(strongest(at.rows()) <= SafetyLimits{}.max_force_newton + 1e-9);
+    at.viewer.act(kAgree);
+    FalconOnUsb::wait_until([&] { return pressed_newton() > 6.0; });
+    {
+        OtherWindow other(at);
+        at.falcon.wait_for_forces(300.0);
+        other.close();
+    }
+    CHECK(at.viewer.seen().doubts == 0);
+    at.desk.press("key q");
+    REQUIRE(at.viewer.wait() == 0);
+    CHECK(
+        contains(at.errors(), "settings.toml asks for Max force [N] 8 in place of 4, Force only"));
+    CHECK(read_text(at.folder / "config/dibhr/settings.toml") == sent);
+    CHECK(contains(read_text(at.folder / "state/dibhr/agreed"),
+                   "device.max-force 8\nfalcon.force-in-front-only false\n"));
+}
+
+TEST_CASE("whoever keeps the usual values is not asked again", "[falcon][window]") {
+    FalconScene at({.settings = kWithoutPanels + "[touch]\nstability = false\ndamping-as-needed = false\n"});
+    at.viewer.wait_until([](const Seen& now) { return now.doubts == 2; });
+    at.viewer.act(kKeepUsual);
+    at.viewer.wait_until([](const Seen& now) { return now.doubts == 0; });
+    at.desk.press("key q");
+    REQUIRE(at.viewer.wait() == 0);
+    CHECK(contains(read_text(at.folder / "config/dibhr/settings.toml"), "stability = true\n"));
+    CHECK(contains(read_text(at.folder / "config/dibhr/settings.toml"), "as-needed = true\n"));
+    CHECK(read_text(at.folder / "state/dibhr/agreed").empty());
 }
 
 TEST_CASE("what is a jump is measured in the hand's millimetres, whatever the scale",

@@ -29,6 +29,14 @@ TEST_CASE("a text is shown on one line, cut short where it is too long", "[files
     CHECK(one_line("a long name of a file", 10) == "a long n..");
 }
 
+TEST_CASE("an escaped text is all there, and no two look the same", "[files]") {
+    CHECK(escaped_text("env -C ~/x run \"a b\"") == "env -C ~/x run \"a b\"");
+    CHECK(escaped_text(std::string("\0\x1b\x7f\n", 4)) == "\\x00\\x1b\\x7f\\x0a");
+    CHECK(escaped_text("a\\x1b") == "a\\\\x1b");
+    CHECK(escaped_text("a   b ") == "a \\x20\\x20b ");
+    CHECK(escaped_text("\xE2\x80\xAE\xD0\x85") == "\\xe2\\x80\\xae\\xd0\\x85");
+}
+
 TEST_CASE("a path in an address keeps its letters, whatever they mean there", "[files]") {
     CHECK(percent_encoded("/a b/50%?#\xc3\xbc.db3") == "/a%20b/50%25%3f%23%c3%bc.db3");
     std::string all;

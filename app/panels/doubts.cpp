@@ -1,0 +1,46 @@
+// What a settings file takes away from what protects the hand: usual and other value side by side,
+// and a person's word on it.
+#include <algorithm>
+#include <string>
+
+#include "app/panels/panels.hpp"
+#include "app/panels/widgets.hpp"
+
+namespace dibhr {
+
+void draw_doubts(ViewerState& state) {
+    if (state.doubts.empty() || state.replay || state.dialog.shown || !state.message.empty())
+        return;
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float room = display.x - panel_column_width(state);
+    const float em = ImGui::GetFontSize();
+    ImGui::SetNextWindowPos({0.5F * room, panes_height(state) + 0.08F * display.y},
+                            ImGuiCond_Always, {0.5F, 0.0F});
+    ImGui::SetNextWindowSize({std::max(std::min(32.0F * em, room - em), 8.0F * em), 0.0F});
+    ImGui::Begin("These settings protect the hand less", nullptr,
+                 ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
+    ImGui::TextWrapped(
+        "Nobody has agreed to this here. The usual values hold until you do, once and for all.");
+    if (ImGui::BeginTable("doubts", 3, ImGuiTableFlags_RowBg)) {
+        ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
+        ImGui::TableSetupColumn("usual", ImGuiTableColumnFlags_WidthFixed);
+        ImGui::TableSetupColumn("in the file", ImGuiTableColumnFlags_WidthFixed);
+        ImGui::TableHeadersRow();
+        for (const Doubt& doubt : state.doubts) {
+            for (const std::string& text : {std::string(doubt.what), doubt.usual, doubt.asked}) {
+                ImGui::TableNextColumn();
+                ImGui::TextWrapped("%s", text.c_str());
+            }
+        }
+        ImGui::EndTable();
+    }
+    if (ImGui::Button("Use those of the file")) state.requests.agreed = true;
+    constexpr const char* kKeep = "Keep the usual ones";
+    ImGui::SameLine();
+    if (ImGui::GetContentRegionAvail().x < ImGui::CalcTextSize(kKeep).x) ImGui::NewLine();
+    if (ImGui::Button(kKeep)) state.requests.agreed = false;
+    ImGui::End();
+}
+
+}  // namespace dibhr

@@ -1,0 +1,208 @@
+// The list of what protects the hand, and the record of what was agreed to: a line each.
+#include "app/settings/consent.hpp"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <optional>
+#include <sstream>
+#include <system_error>
+
+#include "app/settings/recent_files.hpp"
+#include "core/files/output_file.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/files/text_file.hpp"
+
+namespace dibhr {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Which values of a setting protect less than the usual one.
+enum class Less { higher, lower, other };
+
+struct Protection {
+    std::string_view table, name;
+    Less less;
+    std::string_view what;
+};
+
+// The measures of the Falcon's mechanism turn a force into torques and counts into millimetres:
+// with others a newton is another one, and so is the stiffness.
+constexpr std::array kProtections{
+    Protection{"device", "max-force", Less::higher, "Max force [N]"},
+    Protection{"touch", "stability", Less::other, "Stability control"},
+    Protection{"touch", "damping-as-needed", Less::other, "Damping as the hand needs"},
+    Protection{"falcon", "force-in-front-only", Less::other,
+               "Force only while the window is in front"},
+    Protection{"falcon", "button-minus", Less::other, "Falcon's minus button"},
+    Protection{"inverse3", "button-b", Less::other, "Inverse3's button B"},
+    Protection{"falcon", "boundary-stiffness", Less::lower, "Falcon's boundary [N/mm]"},
+    Protection{"falcon", "radius", Less::higher, "Falcon's boundary, radius [mm]"},
+    Protection{"falcon", "centre-z", Less::other, "Falcon's boundary, centre [mm]"},
+    Protection{"falcon", "counts-per-newton-metre", Less::higher, "Falcon's torque scale"},
+    Protection{"falcon", "gear", Less::other, "Falcon's gear"},
+    Protection{"falcon", "angle-at-zero", Less::other, "Falcon's angle at 0 [deg]"},
+    Protection{"falcon", "thigh", Less::other, "Falcon's thigh [m]"},
+    Protection{"falcon", "shin", Less::other, "Falcon's shin [m]"},
+    Protection{"falcon", "shin-end-d", Less::other, "Falcon's shin end d [m]"},
+    Protection{"falcon", "shin-end-e", Less::other, "Falcon's shin end e [m]"},
+    Protection{"falcon", "platform-radius", Less::other, "Falcon's platform c [m]"},
+    Protection{"falcon", "base-radius", Less::other, "Falcon's base r [m]"},
+    Protection{"falcon", "platform-shift", Less::other, "Falcon's platform f [m]"},
+    Protection{"falcon", "base-shift", Less::other, "Falcon's base s [m]"}};
+
+template <typename Place>  // a Setting or a Doubt
+const Protection* protection_of(const Place& place) {
+    const auto* const found =
+        std::find_if(kProtections.begin(), kProtections.end(), [&place](const Protection& one) {
+            return one.table == place.table && one.name == place.name;
+        });
+    return found == kProtections.end() ? nullptr : &*found;
+}
+
+bool protects_less(Less less, double value, double than) {
+    return less == Less::higher ? value > than : value < than;
+}
+
+bool protects_less(Less less, const Setting& value, const Setting& than) {
+    if (less == Less::other) return !same(value, than);
+    return protects_less(less, *std::get<double*>(value.value), *std::get<double*>(than.value));
+}
+
+std::string key_of(const Setting& setting) {
+    return std::string(setting.table) + '.' + std::string(setting.name) + ' ';
+}
+
+std::string key_of_command(const std::string& command) {
+    return "run " + escaped_text(command);
+}
+
+/// It, or a value that protects less still.
+bool was_agreed(const std::set<std::string>& lines, const Setting& setting, Less less) {
+    const std::string key = key_of(setting);
+    if (lines.contains(key + text_of(setting))) return true;
+    if (less == Less::other) return false;
+    return std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
+        const auto agreed =
+            line.starts_with(key) ? number_of_text(line.substr(key.size())) : std::nullopt;
+        return agreed && protects_less(less, *agreed, *std::get<double*>(setting.value));
+    });
+}
+
+/// For a person: on, off, a word, a number.
+std::string value_in_words(const Setting& setting) {
+    if (const bool* const* on = std::get_if<bool*>(&setting.value)) return **on ? "on" : "off";
+    std::string text = text_of(setting);
+    std::erase(text, '"');
+    return text;
+}
+
+bool is_of(const Doubt& doubt, const Setting& setting) {
+    return doubt.table == setting.table && doubt.name == setting.name;
+}
+
+}  // namespace
+
+fs::path consent_path() {
+    return recent_files_path().parent_path() / "agreed";
+}
+
+std::vector<Doubt> Consent::hold(Settings& settings) const {
+    const std::set<std::string> lines = agreed();
+    Settings usual;
+    const std::vector<Setting> asked = list_of(settings);
+    const std::vector<Setting> safe = list_of(usual);
+    std::vector<Doubt> doubts;
+    for (std::size_t k = 0; k < asked.size(); ++k) {
+        const Protection* const known = protection_of(asked[k]);
+        if (known == nullptr || !protects_less(known->less, asked[k], safe[k]) ||
+            was_agreed(lines, asked[k], known->less))
+            continue;
+        doubts.push_back({known->table, known->name, known->what, value_in_words(safe[k]),
+                          value_in_words(asked[k]), key_of(asked[k]) + text_of(asked[k])});
+        assign(asked[k], safe[k]);
+    }
+    return doubts;
+}
+
+void Consent::hold_and_warn(Settings& settings, const fs::path& file) const {
+    print_warning(in_words(hold(settings), file));
+}
+
+bool Consent::knows(const std::string& command) const {
+    return agreed().contains(key_of_command(command));
+}
+
+void Consent::agree(const std::vector<Doubt>& doubts) const {
+    std::vector<std::string> lines;
+    for (const Doubt& doubt : doubts) lines.push_back(doubt.record);
+    add(lines);
+}
+
+void Consent::agree(const std::string& command) const {
+    add({key_of_command(command)});
+}
+
+void Consent::agree_to_changes(Settings before, Settings now) const {
+    Settings held = now;
+    std::vector<Doubt> doubts = hold(held);
+    const std::vector<Setting> first = list_of(before);
+    const std::vector<Setting> last = list_of(now);
+    std::erase_if(doubts, [&](const Doubt& doubt) {
+        for (std::size_t k = 0; k < first.size(); ++k)
+            if (is_of(doubt, first[k])) return same(first[k], last[k]);
+        return true;
+    });
+    agree(doubts);
+}
+
+std::set<std::string> Consent::agreed() const {
+    std::istringstream text(small_text_in(record_).value_or(""));
+    std::set<std::string> lines;
+    for (std::string line; std::getline(text, line);) lines.insert(line);
+    return lines;
+}
+
+void Consent::add(const std::vector<std::string>& lines) const {
+    constexpr std::string_view kHead = "# Agreed to on this machine. Delete a line to be asked.";
+    std::set<std::string> all = agreed();
+    const std::size_t before = all.size();
+    all.insert(lines.begin(), lines.end());
+    if (all.size() == before) return;
+    all.insert(std::string(kHead));  // "#" comes before all that is a key
+    std::error_code failed;          // is told when the file is opened
+    fs::create_directories(record_.parent_path(), failed);
+    OutputFile out(record_);
+    for (const std::string& line : all) out.write(line + '\n');
+    out.commit();
+}
+
+void copy_doubted(const std::vector<Doubt>& doubts, Settings from, Settings& to) {
+    const std::vector<Setting> source = list_of(from);
+    const std::vector<Setting> target = list_of(to);
+    for (std::size_t k = 0; k < source.size(); ++k) {
+        const auto of_it = [&](const Doubt& doubt) { return is_of(doubt, source[k]); };
+        if (std::any_of(doubts.begin(), doubts.end(), of_it)) assign(target[k], source[k]);
+    }
+}
+
+void drop_changed(std::vector<Doubt>& doubts, Settings now) {
+    for (const Setting& setting : list_of(now))
+        std::erase_if(doubts, [&setting](const Doubt& doubt) {
+            return is_of(doubt, setting) && value_in_words(setting) != doubt.usual;
+        });
+}
+
+std::string in_words(const std::vector<Doubt>& doubts, const fs::path& file) {
+    if (doubts.empty()) return {};
+    std::vector<std::string> values;
+    for (const Doubt& doubt : doubts)
+        values.push_back(std::string(doubt.what) + " " + doubt.asked + " in place of " +
+                         doubt.usual);
+    return file.string() + " asks for " + listed(values) +
+           ": the usual holds until somebody agrees in the viewer's window";
+}
+
+}  // namespace dibhr

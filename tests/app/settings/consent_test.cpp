@@ -1,0 +1,267 @@
+// What settings, estimators and studies of others get only when a person here agrees.
+#include <algorithm>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/settings/consent.hpp"
+#include "app/settings/study_values.hpp"
+#include "app/viewer/files.hpp"
+#include "core/error.hpp"
+#include "core/files/plain_text.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/text.hpp"
+#include "tests/support/variable.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+
+namespace {
+
+/// A machine on which nobody has agreed to anything.
+struct Machine {
+    TemporaryFolder folder{};
+    Variable home{"XDG_STATE_HOME", folder.path().c_str()};
+    Consent consent{};
+
+    [[nodiscard]] Settings file(const std::string& text) const {
+        write_text(folder / "settings.toml", text);
+        std::vector<std::string> warnings;
+        Settings settings = load_settings(folder / "settings.toml", warnings);
+        CHECK(warnings.empty());
+        return settings;
+    }
+};
+
+std::vector<std::string> records_of(const std::vector<Doubt>& doubts) {
+    std::vector<std::string> records;
+    for (const Doubt& doubt : doubts) records.push_back(doubt.record);
+    return records;
+}
+
+Protocol study_with(const TouchValues& values, const std::string& varied = {}) {
+    Protocol protocol;
+    protocol.conditions = {{.name = "usual"}, {.name = "other", .values = values}};
+    protocol.blocks.resize(1);
+    protocol.blocks[0].variation.parameter = varied;
+    return protocol;
+}
+
+}  // namespace
+
+TEST_CASE("what protects the hand less in a file of others is held until a person agrees, once",
+          "[consent]") {
+    const auto [table, value] = GENERATE(Catch::Generators::table<std::string, std::string>(
+        {{"device", "max-force = 8.0"},
+         {"device", "max-force = 4.001"},
+         {"touch", "stability = false"},
+         {"touch", "damping-as-needed = false"},
+         {"falcon", "force-in-front-only = false"},
+         {"falcon", "button-minus = \"record\""},
+         {"falcon", "button-minus = \"none\""},
+         {"inverse3", "button-b = \"toggle-force\""},
+         {"falcon", "boundary-stiffness = 0.0"},
+         {"falcon", "boundary-stiffness = 0.29"},
+         {"falcon", "radius = 55.0"},
+         {"falcon", "centre-z = 150.0"},
+         {"falcon", "gear = 4.0"},
+         {"falcon", "angle-at-zero = 70.0"},
+         {"falcon", "thigh = 0.09"},
+         {"falcon", "shin = 0.07"},
+         {"falcon", "shin-end-d = 0.0"},
+         {"falcon", "shin-end-e = 0.03"},
+         {"falcon", "platform-radius = 0.03"},
+         {"falcon", "base-radius = 0.06"},
+         {"falcon", "platform-shift = 0.04"},
+         {"falcon", "base-shift = -0.04"}}));
+    CAPTURE(table, value);
+    const Machine machine;
+    const Settings asked = machine.file('[' + table + "]\n" + value + '\n');
+    Settings held = asked;
+    const std::vector<Doubt> doubts = machine.consent.hold(held);
+    REQUIRE(doubts.size() == 1);
+    CHECK(same_settings(held, Settings{}));
+    CHECK(doubts[0].usual != doubts[0].asked);
+    CHECK_FALSE(doubts[0].what.empty());
+    const std::string told = in_words(doubts, "sent.toml");
+    CHECK(contains(told, doubts[0].asked + " in place of " + doubts[0].usual));
+    copy_doubted(doubts, asked, held);
+    CHECK(same_settings(held, asked));
+    machine.consent.agree(doubts);
+    CHECK(Consent().hold(held).empty());
+    CHECK(same_settings(held, asked));
+}
+
+TEST_CASE("what protects the hand as usual or more, or has nothing to do with it, is not asked",
+          "[consent]") {
+    const std::string text =
+        GENERATE(as<std::string>(), "", "[device]\nmax-force = 4.0\n", "[device]\nmax-force = 0\n",
+                 "[falcon]\nradius = 20.0\nboundary-stiffness = 0.5\n",
+                 "[falcon]\ncounts-per-newton-metre = 3600.0\nfull-scale-counts = 1000.0\n",
+                 "[falcon]\nbutton-plus = \"force-off\"\nscale = 4.0\n",
+                 "[touch]\nstiffness = 10.0\ndamping = 100.0\nmaterial = \"bark\"\n");
+    const Machine machine;
+    const Settings asked = machine.file(text);
+    Settings held = asked;
+    CHECK(machine.consent.hold(held).empty());
+    CHECK(same_settings(held, asked));
+}
+
+TEST_CASE("who agreed to a limit agreed to lower ones, and is asked about higher ones",
+          "[consent]") {
+    const Machine machine;
+    const auto doubted = [&](const char* newton) {
+        Settings settings = machine.file(std::string("[device]\nmax-force = ") + newton + "\n");
+        return machine.consent.hold(settings);
+    };
+    machine.consent.agree(doubted("6.5"));
+    CHECK(doubted("6.5").empty());
+    CHECK(doubted("5").empty());
+    CHECK(doubted("6.6").size() == 1);
+    CHECK(read_text(consent_path()) ==
+          "# Agreed to on this machine. Delete a line to be asked.\ndevice.max-force 6.5\n");
+}
+
+TEST_CASE("everything that turns a force into what the Falcon's motors do is asked about",
+          "[consent]") {
+    Settings all;
+    for (const FalconNumber& number : falcon_numbers())
+        if (number.topic == FalconTopic::geometry)
+            number.in(all.falcon) = number.lowest + 0.37 * (number.highest - number.lowest);
+    for (ButtonActions* const actions : {&all.falcon.buttons, &all.inverse3.buttons})
+        std::replace(actions->begin(), actions->end(), ButtonAction::force_off, ButtonAction::none);
+    const Settings usual;
+    std::size_t changed = 0;
+    Settings first = usual;
+    Settings second = all;
+    for (std::size_t k = 0; k < list_of(first).size(); ++k)
+        changed += same(list_of(first)[k], list_of(second)[k]) ? 0 : 1;
+    CHECK(changed > 10);
+    CHECK(Machine().consent.hold(second).size() == changed);
+}
+
+TEST_CASE("a record that is damaged or not there means that nobody has agreed", "[consent]") {
+    const Machine machine;
+    const std::string record =
+        GENERATE(as<std::string>(), "", "device.max-force\n", "device.max-force nan\n",
+                 "device.max-force inf\n", "device.max-force 1e999\n", "device.max-force 8 N\n",
+                 " device.max-force 8\n", "device.max-force8\n", "touch.max-force 8\n",
+                 "max-force 8\n", "\xff\x00\n");
+    CAPTURE(record);
+    std::filesystem::create_directories(consent_path().parent_path());
+    write_text(consent_path(), record);
+    Settings settings = machine.file("[device]\nmax-force = 8.0\n");
+    CHECK(machine.consent.hold(settings).size() == 1);
+}
+
+TEST_CASE("what a person changes in the window is their word, and is not asked about later",
+          "[consent]") {
+    const Machine machine;
+    const auto file = machine.folder / "settings.toml";
+    const Settings in_file = machine.file("[touch]\nstability = false\n");
+    Settings started = in_file;
+    std::vector<Doubt> doubts = machine.consent.hold(started);
+    REQUIRE(doubts.size() == 1);
+    SettingsKeeper keeper(in_file, started, file);
+    Settings now = started;
+    now.max_force_newton = 7.0;
+    now.falcon.force_in_front_only = false;
+    keeper.finish(now);
+    Settings next = load_settings(file);
+    CHECK_FALSE(next.stability);  // of the file, to be asked about again
+    CHECK(records_of(machine.consent.hold(next)) ==
+          std::vector<std::string>{"touch.stability false"});
+    CHECK(next.max_force_newton > 6.9);
+    CHECK_FALSE(next.falcon.force_in_front_only);
+}
+
+TEST_CASE("an option of the command line is a word for one run alone", "[consent]") {
+    const Machine machine;
+    const auto file = machine.folder / "settings.toml";
+    Settings started = machine.file("");
+    started.stability = false;
+    SettingsKeeper keeper({}, started, file);
+    Settings now = started;
+    now.mute = true;
+    keeper.finish(now);
+    CHECK_FALSE(std::filesystem::exists(consent_path()));
+    CHECK(load_settings(file).stability);
+}
+
+TEST_CASE("a value that a person changes, or gives on the command line, is not asked about",
+          "[consent]") {
+    const Machine machine;
+    Settings now =
+        machine.file("[touch]\nstability = false\n[device]\nmax-force = 8.0\n[falcon]\ngear = 5\n");
+    std::vector<Doubt> doubts = machine.consent.hold(now);
+    REQUIRE(doubts.size() == 3);
+    drop_changed(doubts, now);
+    CHECK(doubts.size() == 3);
+    now.stability = false;
+    now.max_force_newton = 3.0;
+    drop_changed(doubts, now);
+    REQUIRE(doubts.size() == 1);
+    CHECK(doubts[0].name == "gear");
+}
+
+TEST_CASE("whoever keeps the usual values finds them in the file", "[consent]") {
+    const Machine machine;
+    const auto file = machine.folder / "settings.toml";
+    const Settings in_file =
+        machine.file("[device]\nmax-force = 8.0\n[touch]\nstiffness = 0.4\n[sound]\nmute = true\n");
+    Settings started = in_file;
+    const std::vector<Doubt> doubts = machine.consent.hold(started);
+    SettingsKeeper keeper(in_file, started, file);
+    keeper.finish(started);
+    CHECK(load_settings(file).max_force_newton > 7.9);  // nobody has said anything
+    keeper.forget(doubts);
+    keeper.finish(started);
+    const Settings kept = load_settings(file);
+    CHECK(same_settings(kept, started));
+    CHECK(kept.mute);
+    CHECK_FALSE(std::filesystem::exists(consent_path()));
+}
+
+TEST_CASE("a command is known as it was agreed to, to the last byte, and is seen whole",
+          "[consent]") {
+    const Machine machine;
+    const std::string agreed = "env -C ~/MiDaS run {frames} {output}";
+    machine.consent.agree(agreed);
+    CHECK(Consent().knows(agreed));
+    const std::string other = GENERATE_COPY(
+        as<std::string>(), "", agreed + " ", ' ' + agreed, agreed + '\n',
+        "env -C ~/MiDaS run  {frames} {output}", "env -C ~/MiDaS run\t{frames} {output}",
+        "env -C ~/MiDa\xd0\x85 run {frames} {output}", agreed + std::string(1, '\0'),
+        agreed + "\xe2\x80\xae", agreed + "\x1b[2K", agreed + "\r# harmless",
+        agreed + "\ndevice.max-force 8", "env -C \\x7e/MiDaS run {frames} {output}",
+        "env -C ~\\/MiDaS run {frames} {output}");
+    CAPTURE(other);
+    CHECK_FALSE(Consent().knows(other));
+    const std::string seen = escaped_text(other);
+    CHECK(seen != escaped_text(agreed));
+    CHECK(std::all_of(seen.begin(), seen.end(), [](char c) { return c >= ' ' && c <= '~'; }));
+    machine.consent.agree(other);
+    CHECK(Consent().knows(other));
+    Settings settings = machine.file("[device]\nmax-force = 8.0\n");
+    CHECK(Consent().hold(settings).size() == 1);  // no command is a line of another kind
+}
+
+TEST_CASE("a study that has stability or the hand's damping off is asked about", "[consent]") {
+    const Machine machine;
+    const auto doubted = [&](const Protocol& protocol) {
+        return records_of(doubts_of(protocol, machine.consent));
+    };
+    const std::vector<std::string> stability{"touch.stability false"};
+    const std::vector<std::string> damping{"touch.damping-as-needed false"};
+    CHECK(doubted(study_with({})).empty());
+    CHECK(doubted(study_with({.words = {{"stability", "on"}}}, "friction")).empty());
+    CHECK(doubted(study_with({.words = {{"stability", "off"}}})) == stability);
+    CHECK(doubted(study_with({.numbers = {{"damping", 0.0}}})) == damping);
+    CHECK(doubted(study_with({.numbers = {{"damping-cutoff", 0.0}}})) == damping);
+    CHECK(doubted(study_with({}, "damping")) == damping);
+    machine.consent.agree(
+        doubts_of(study_with({.words = {{"stability", "off"}}}), machine.consent));
+    CHECK(doubted(study_with({.words = {{"stability", "off"}}}, "damping")) == damping);
+}
