@@ -57,6 +57,32 @@ Settings read_settings(const fs::path& file, ToldLog& log) {
     return settings;
 }
 
+/// Puts a settings file that cannot be read aside, so that no change is kept in its place. What is
+/// told of it.
+std::string put_aside(const fs::path& file, const std::string& trouble) {
+    const auto numbered = [&file](int number) {
+        return file.string() + ".damaged" + (number > 1 ? "-" + std::to_string(number) : "");
+    };
+    int number = 1;
+    std::error_code failed;
+    while (fs::exists(numbered(number), failed)) ++number;
+    fs::rename(file, numbered(number), failed);
+    return trouble +
+           (failed ? ". It cannot be moved away: " + failed.message()
+                   : ". It is kept as " + numbered(number)) +
+           ". The usual settings hold.";
+}
+
+/// With --stay the window opens whatever the file is.
+Settings read_settings(const ViewOptions& options, ViewerParts& parts, ToldLog& log) try {
+    return read_settings(options.settings_file, log);
+} catch (const InputError& error) {
+    if (!options.stays) throw;
+    parts.damage = put_aside(options.settings_file, error.what());
+    warn(parts.damage, log);
+    return {};
+}
+
 /// How what is opened begins to play.
 void add_playing_options(CLI::App& app, ViewOptions& options) {
     add_number_option(app, "--start", 0.0, kLongestRun_s,
@@ -362,11 +388,11 @@ int run_view(CLI::App& app, const Arguments& arguments, const PictureHook& after
     ToldLog log(log_file.empty() ? log_file : whole_path(log_file), errands);
     log.keep("begin", std::string("dibhr ") + DIBHR_VERSION);
     try {
-        options.in_file = options.settings = read_settings(options.settings_file, log);
+        ViewerParts parts;
+        options.in_file = options.settings = read_settings(options, parts, log);
         Settings& settings = options.settings;
         if (moves_hand(options.device)) options.doubts = Consent().hold(settings);
         warn(in_words(options.doubts, options.settings_file), log);
-        ViewerParts parts;
         take_parameters(touch, parts, settings, log);
         if (ui_scale) settings.ui_scale = *ui_scale;
         if (theme) settings.theme = *theme;

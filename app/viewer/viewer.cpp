@@ -95,6 +95,7 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
     state_.bump_file = std::move(parts.bump_file);
     state_.material = std::move(parts.material);
     state_.materials = material_names();
+    state_.message = capitalised(parts.damage);
     wear_look();
     if (options.full_screen) window_.toggle_full_screen();
     if (!options.clip.empty()) clip_.start(options.clip, ClipName::replaces, options.pictures_of);
@@ -108,7 +109,8 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
     }
     if (!parts.media) {
         const bool offered = parts.lacks_depth && estimating_.offer(options.open.colour, state_);
-        if (!offered) state_.message = capitalised(parts.trouble);
+        if (!offered)
+            state_.message += (parts.damage.empty() ? "" : "\n\n") + capitalised(parts.trouble);
         return;
     }
     state_.media = parts.media->description();

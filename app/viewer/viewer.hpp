@@ -84,6 +84,7 @@ struct ViewerParts {
     std::unique_ptr<OpenedSession> session{};  ///< to be replayed, in place of media
     std::string trouble{};                     ///< why there is neither
     bool lacks_depth{false};                   ///< it is that there is colour alone
+    std::string damage{};                      ///< of the settings file, and what became of it
     HandDevice hand{};
     Material material{};  ///< of the settings or the command line
     std::shared_ptr<const BumpMap> bump{};

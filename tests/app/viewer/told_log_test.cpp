@@ -50,6 +50,31 @@ TEST_CASE("settings that others sent are read from their file, and changed there
     CHECK_FALSE(fs::exists(folder / "config/dibhr/settings.toml"));
 }
 
+TEST_CASE(
+    "a window that stays opens with the usual settings where its file is damaged, and keeps it",
+    "[settings]") {
+    const TemporaryFolder folder;
+    const std::string damaged = "[touch\nstiffness = = 3";
+    write_text(folder / "theirs.toml", damaged);
+    write_text(folder / "theirs.toml.damaged", "of before");
+    write_depth_png(folder / "cup_depth.png", 64, 48, 120);
+    CHECK(run_dibhr(folder, {"cup_depth.png", "--settings", "theirs.toml"}).exit_code == 1);
+    CHECK(read_text(folder / "theirs.toml") == damaged);
+    const Desk desk;
+    WindowProgram viewer = desk.start_viewer(
+        folder, {"cup_depth.png", "--settings", "theirs.toml", "--device", "mouse", "--stay"});
+    viewer.wait_for_surface();
+    CHECK(contains(viewer.seen().message.str(), "theirs.toml.damaged-2"));
+    viewer.act("key Escape");
+    viewer.act("key Tab");
+    desk.press("key q");
+    CHECK(viewer.wait() == 0);
+    CHECK(read_text(folder / "theirs.toml.damaged-2") == damaged);
+    CHECK(read_text(folder / "theirs.toml.damaged") == "of before");
+    CHECK_FALSE(load_settings(folder / "theirs.toml").panels_visible);
+    CHECK(contains(read_text(folder / "errors.txt"), "It is kept as "));
+}
+
 TEST_CASE("a log keeps each line that is told, with its time, behind those of before", "[log]") {
     const TemporaryFolder folder;
     run(folder, {"--log-file", "told.txt", "--settings", "new.toml"}, "q");
