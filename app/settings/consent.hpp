@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "app/settings/settings.hpp"
@@ -18,8 +19,6 @@ struct Doubt {
     std::string_view what{};           ///< "Max force [N]"
     std::string usual{}, asked{};      ///< "4" and "8"
     std::string record{};              ///< its line in the record
-
-    bool operator==(const Doubt&) const = default;
 };
 
 /// $XDG_STATE_HOME/dibhr/agreed, or ~/.local/state/dibhr/agreed.

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "app/settings/consent.hpp"
 #include "app/settings/settings.hpp"
 #include "tests/fuzz/entry.hpp"
 
@@ -28,10 +29,22 @@ void require_in_range(Settings settings) {
     }
 }
 
+/// Where nobody has agreed to anything.
+void require_held(Settings settings) {
+    const Consent nobody("/nonexistent/agreed");
+    static_cast<void>(nobody.hold(settings));
+    const SafetyLimits usual;
+    test::require_rule(settings.max_force_newton <= usual.max_force_newton && settings.stability &&
+                           settings.falcon.force_in_front_only && nobody.hold(settings).empty(),
+                       "what protects the hand less is held");
+    require_in_range(settings);
+}
+
 Settings load_with(const std::filesystem::path& file, std::vector<std::string>& warnings) {
     Settings settings = load_settings(file, warnings);
     for (const std::string& warning : warnings) test::require_one_line(warning);
     require_in_range(settings);
+    require_held(settings);
     return settings;
 }
 

@@ -231,13 +231,19 @@ TEST_CASE("a command is known as it was agreed to, to the last byte, and is seen
     machine.consent.agree(agreed);
     CHECK(Consent().knows(agreed));
     const std::string other = GENERATE_COPY(
-        as<std::string>(), "", agreed + " ", ' ' + agreed, agreed + '\n',
+        as<std::string>(), "", agreed + " ", ' ' + agreed, agreed + '\n', agreed + ";x",
         "env -C ~/MiDaS run  {frames} {output}", "env -C ~/MiDaS run\t{frames} {output}",
         "env -C ~/MiDa\xd0\x85 run {frames} {output}", agreed + std::string(1, '\0'),
-        agreed + "\xe2\x80\xae", agreed + "\x1b[2K", agreed + "\r# harmless",
-        agreed + "\ndevice.max-force 8", "env -C \\x7e/MiDaS run {frames} {output}",
-        "env -C ~\\/MiDaS run {frames} {output}");
+        agreed + "\xe2\x80\xae", agreed + "\xe2\x80\x8b", agreed + "\x1b[2K", agreed + "\x7f",
+        agreed + "\b\b\b", agreed + "\r# harmless", agreed + "\ndevice.max-force 8",
+        "env -C \\x7e/MiDaS run {frames} {output}", "env -C ~\\/MiDaS run {frames} {output}",
+        "env -C ~/midas run {frames} {output}", agreed + std::string(5000, ' ') + "x",
+        "sh -c \"rm -rf ~\" {frames} {output}");
     CAPTURE(other);
+    Settings sent;
+    sent.estimators = {{"mine", other, {}}};
+    save_settings(sent, machine.folder / "sent.toml");
+    CHECK(load_settings(machine.folder / "sent.toml").estimators == sent.estimators);
     CHECK_FALSE(Consent().knows(other));
     const std::string seen = escaped_text(other);
     CHECK(seen != escaped_text(agreed));
