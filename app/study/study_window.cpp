@@ -11,6 +11,7 @@
 #include "app/viewer/scene.hpp"
 #include "app/window/display_loss.hpp"
 #include "core/error.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/video/media.hpp"
 #include "render/drawing_threads.hpp"
 
@@ -385,7 +386,11 @@ void StudyWindow::act(const StudyPress& press, Clock::time_point at) {
 }
 
 void StudyWindow::agree_to_study() {
-    Consent().agree(doubts_);
+    try {
+        Consent().agree(doubts_);
+    } catch (const InputError& error) {
+        print_warning(std::string(error.what()) + "; it will be asked again");
+    }
     view_.to_agree.clear();
     view_.before_start = run_.step() == StudyStep::interval;
     seen_since_.reset();

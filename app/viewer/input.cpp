@@ -48,7 +48,7 @@ void close_topmost(ViewerState& state) {
         state.message.clear();
     } else if (state.dialog.shown) {
         state.dialog.shown = false;
-    } else if (!state.doubts.empty()) {
+    } else if (!state.doubts.empty() && !state.replay) {
         state.doubts.clear();  // asked again by the next window
     } else if (state.depth_offer && !state.depth_offer->progress) {
         state.requests.depth = DepthWish::close;

@@ -8,6 +8,7 @@
 #include "app/settings/consent.hpp"
 #include "app/settings/study_values.hpp"
 #include "app/viewer/files.hpp"
+#include "app/viewer/input.hpp"
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "tests/support/catch.hpp"
@@ -222,6 +223,21 @@ TEST_CASE("whoever keeps the usual values finds them in the file", "[consent]") 
     CHECK(same_settings(kept, started));
     CHECK(kept.mute);
     CHECK_FALSE(std::filesystem::exists(consent_path()));
+}
+
+TEST_CASE("whoever closes the question says nothing, and a replay has none to close", "[consent]") {
+    Player player;
+    ViewerState state;
+    state.doubts.resize(2);
+    state.help_open = true;
+    state.replay.emplace();
+    perform(Action::close_topmost, state, player);
+    CHECK(state.doubts.size() == 2);
+    CHECK_FALSE(state.help_open);
+    state.replay.reset();
+    perform(Action::close_topmost, state, player);
+    CHECK(state.doubts.empty());
+    CHECK_FALSE(state.requests.agreed);
 }
 
 TEST_CASE("a command is known as it was agreed to, to the last byte, and is seen whole",

@@ -67,8 +67,12 @@ class ServiceWork {
 /// The program on its display, recording, and the service that it finds.
 class Inverse3Scene {
   public:
-    explicit Inverse3Scene(Words arguments, Scene scene = scene_with_grip())
-        : service(serving(std::move(scene))), script(service), viewer(start(std::move(arguments))) {
+    /// `settings`: more of the file's.
+    explicit Inverse3Scene(Words arguments, Scene scene = scene_with_grip(),
+                           const std::string& settings = {})
+        : service(serving(std::move(scene))),
+          script(service),
+          viewer(start(std::move(arguments), settings)) {
         viewer.wait_for_surface();
     }
 
@@ -96,8 +100,8 @@ class Inverse3Scene {
             return scene.arms.empty() ? Vec3{0.0} : scene.arms.front().force_newton;
         });
     }
-    void wait_for_force() {
-        wait_until([this] { return glm::length(felt_newton()) > 0.6; });
+    void wait_for_force(double newton = 0.6) {
+        wait_until([this, newton] { return glm::length(felt_newton()) > newton; });
     }
     void wait_for_zero() {
         wait_until([this] { return glm::length(felt_newton()) < 1e-12; });
@@ -125,11 +129,11 @@ class Inverse3Scene {
     static void wait_until(const Condition& is_so) {
         REQUIRE(eventually(is_so, kPatience));
     }
-    WindowProgram start(Words arguments) {
+    WindowProgram start(Words arguments, const std::string& settings) {
         std::filesystem::create_directories(folder / "config/dibhr");
         write_text(folder / "config/dibhr/settings.toml",
                    "[inverse3]\nport = " + std::to_string(service.port()) +
-                       "\nolder-port = " + std::to_string(service.older_port()) + "\n");
+                       "\nolder-port = " + std::to_string(service.older_port()) + "\n" + settings);
         arguments.insert(arguments.end(), {"--record", "hand.dibhr", "--size", "320x240"});
         return desk.start_viewer(folder, arguments);
     }
@@ -179,6 +183,20 @@ TEST_CASE(
         std::find_if(heard.rbegin(), heard.rend(), [](const Heard& one) { return one.drives; });
     REQUIRE(last != heard.rend());
     CHECK_THAT(glm::length(last->force_newton), WithinAbs(0.0, 1e-12));
+}
+
+TEST_CASE("a greater force of a settings file of others is felt when a person agrees to it",
+          "[inverse3][window]") {
+    Inverse3Scene at({"--device", "inverse3", "--pause"}, Inverse3Scene::scene_with_grip(),
+                     "[device]\nmax-force = 8.0\n[window]\npanels-visible = false\n");
+    at.move_hand({0.0, 40.0, 0.0}, 0.5);
+    at.wait_for_force(3.9);
+    CHECK(strongest(at.rows()) <= SafetyLimits{}.max_force_newton + 1e-9);
+    at.viewer.act("mousemove 90 126 click 1");
+    at.wait_for_force(6.0);
+    at.desk.press("key q");
+    CHECK(at.viewer.wait() == 0);
+    CHECK(contains(read_text(at.folder / "errors.txt"), "asks for Max force [N] 8 in place of 4"));
 }
 
 TEST_CASE(
