@@ -28,6 +28,7 @@
 #include "app/window/ending.hpp"
 #include "app/window/last_words.hpp"
 #include "core/error.hpp"
+#include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/files/spelling.hpp"
 #include "core/haptics/words.hpp"
@@ -183,7 +184,7 @@ int run(const StudyOptions& options) {
     else
         pilot = pilot_called(options.pilot, protocol);
     std::error_code ignored;
-    fs::create_directories(options.folder(), ignored);
+    make_folders(options.folder(), ignored);
     StudyFile file(study_file_of(options.folder(), options.participant),
                    identity_of(options, protocol, page));
     StudyRun steps(protocol, file.identity().number, file.answered());
@@ -210,7 +211,7 @@ int run(const StudyOptions& options) {
 int take_sessions(const StudyOptions& options) {
     const StudyRecord study = read_study(options.file());
     std::error_code ignored;
-    fs::create_directories(options.folder(), ignored);
+    make_folders(options.folder(), ignored);
     int written = 0;
     for (std::size_t k = 0; k < study.answered.size(); ++k) {
         const int trial = study.answered[k].trial.number;

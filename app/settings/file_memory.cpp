@@ -55,7 +55,7 @@ void keep_memory(const fs::path& folder, const fs::path& media, const FileMemory
         fs::remove(file, failed);
         return;
     }
-    fs::create_directories(folder, failed);
+    make_folders(folder, failed);
     OutputFile out(file);
     out.write("# What dibhr remembers of " + shown(media) + "; delete it to forget.\n");
     if (memory.relief_px) out.write("relief = " + number_text(*memory.relief_px) + "\n");

@@ -274,7 +274,7 @@ fs::path save_material(const Material& material) {
     require_own_name(material.name);
     const fs::path folder = own_materials_folder();
     std::error_code failed;
-    fs::create_directories(folder, failed);
+    make_folders(folder, failed);
     fs::path map;
     if (!material.map.empty()) {
         map = material.name + material.map.extension().string();

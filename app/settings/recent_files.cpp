@@ -60,7 +60,7 @@ void remember(const RecentFile& opened, const fs::path& file) {
     files.insert(files.begin(), first);
     files.resize(std::min(files.size(), kMostKept));
     std::error_code failed;  // is told when the file is opened
-    fs::create_directories(file.parent_path(), failed);
+    make_folders(file.parent_path(), failed);
     OutputFile out(file);
     for (const RecentFile& kept : files)
         out.write(kept.colour.string() + "\t" + kept.depth.string() + "\n");

@@ -434,7 +434,7 @@ Settings load_settings(const fs::path& file) {
 void save_settings(const Settings& settings, const fs::path& file) {
     std::error_code failed;
     const fs::path folder = file.parent_path();
-    fs::create_directories(folder, failed);
+    make_folders(folder, failed);
     if (failed) {
         throw InputError("the settings are not kept: the folder " + folder.string() +
                          " cannot be written (" + failed.message() + "); make it writable");

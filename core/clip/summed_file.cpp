@@ -18,12 +18,14 @@ extern "C" {
 #include <utility>
 
 #include "core/clip/av_file.hpp"
+#include "core/files/output_file.hpp"
 
 namespace dibhr {
 
 namespace {
 
 constexpr int kPieceBytes = 1 << 16;
+constexpr std::chrono::seconds kBetweenFlushes{1};  // what a power cut takes; as of a session's log
 
 }  // namespace
 
@@ -35,7 +37,7 @@ void SummedFile::Free::operator()(AVIOContext* bytes) const noexcept {
 SummedFile::SummedFile(std::filesystem::path file)
     : file_(std::move(file)),
       descriptor_(::open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
-    require_written(descriptor_ < 0 ? AVERROR(errno) : 0);
+    require_written(descriptor_ < 0 || !flushed_folder(file_.parent_path()) ? AVERROR(errno) : 0);
     auto* const buffer = static_cast<unsigned char*>(av_malloc(kPieceBytes));
     // Whose bytes are constant from libavformat 61 on.
     const auto write_some = [](void* to, auto* bytes, int count) {
@@ -60,7 +62,14 @@ int SummedFile::write(void* file, const std::uint8_t* bytes, int count) noexcept
     self.sum_up(bytes, count);
     self.at_ += count;
     self.size_ = std::max(self.size_, self.at_);
-    return count;
+    return self.flush_in_time() ? count : AVERROR(errno);
+}
+
+bool SummedFile::flush_in_time() {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - flushed_at_ < kBetweenFlushes) return true;
+    flushed_at_ = now;
+    return flushed(descriptor_);
 }
 
 std::int64_t SummedFile::seek(void* file, std::int64_t to, int from) noexcept {
@@ -89,6 +98,7 @@ void SummedFile::end_head() {
 void SummedFile::finish() {
     avio_flush(bytes_.get());
     require_written(bytes_->error);
+    require_written(flushed(descriptor_) ? 0 : AVERROR(errno));
     require_written(::close(std::exchange(descriptor_, -1)) != 0 ? AVERROR(errno) : 0);
 }
 

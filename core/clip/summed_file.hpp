@@ -1,6 +1,7 @@
 // A file that libav writes, whose content is known when it ends; inside the room.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -12,8 +13,9 @@ struct AVIOContext;
 
 namespace dibhr {
 
-/// Sums up what is appended behind a head, which alone may be written again: nobody waits for the
-/// sum of a large file when it ends.
+/// A power cut takes the last second of it, of a finished one nothing. Sums up what is appended
+/// behind a head, which alone may be written again: nobody waits for the sum of a large file when
+/// it ends.
 class SummedFile {
   public:
     /// Writes over the file. Throws InputError.
@@ -38,6 +40,7 @@ class SummedFile {
 
     static int write(void* file, const std::uint8_t* bytes, int count) noexcept;
     static std::int64_t seek(void* file, std::int64_t to, int from) noexcept;
+    bool flush_in_time();
     void sum_up(const std::uint8_t* bytes, std::int64_t count);
 
     std::filesystem::path file_;
@@ -47,6 +50,7 @@ class SummedFile {
     std::optional<std::int64_t> head_{};  ///< its length, once it has ended
     std::int64_t summed_to_{0};
     bool written_again_{false};
+    std::chrono::steady_clock::time_point flushed_at_{std::chrono::steady_clock::now()};
     Sha256 sum_{};
     std::unique_ptr<AVIOContext, Free> bytes_{};
 };

@@ -2,9 +2,11 @@
 #include "core/files/output_file.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstddef>
 #include <cstdio>
 #include <cstring>
@@ -13,12 +15,16 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/files/plain_text.hpp"
 
 namespace dibhr {
 
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr const char* kPart = ".part";
+constexpr pid_t kMostPid = 1 << 22;  // proc(5), pid_max
 
 void remove_empty(const std::vector<fs::path>& folders) {
     std::error_code not_empty;
@@ -41,7 +47,76 @@ bool renamed_to_new(const fs::path& from, const fs::path& to) {
     return ::rename(from.c_str(), to.c_str()) == 0;
 }
 
+/// The program that writes a file of that name, "mine.csv.part1234-0"; 0: the name is another.
+pid_t writer_of(const std::string& name, const std::string& begin) {
+    if (!name.starts_with(begin)) return 0;
+    pid_t writer = 0;
+    std::size_t digits = begin.size();
+    for (; digits < name.size() && name[digits] >= '0' && name[digits] <= '9'; ++digits)
+        writer = writer > kMostPid ? writer : 10 * writer + (name[digits] - '0');
+    return digits < name.size() && name[digits] == '-' ? writer : 0;
+}
+
+/// What programs that were killed while they wrote this file have left of it. Another machine's, or
+/// container's, whose numbers mean nothing here, holds the lock of its own.
+void remove_left_over(const fs::path& target) {
+    std::error_code failed;
+    const std::string begin = target.filename().string() + kPart;
+    for (const auto& entry :
+         fs::directory_iterator(target.has_parent_path() ? target.parent_path() : ".", failed)) {
+        const pid_t writer = writer_of(entry.path().filename().string(), begin);
+        if (writer <= 0 || ::kill(writer, 0) == 0 || errno != ESRCH) continue;
+        if (entry.symlink_status(failed).type() != fs::file_type::regular) continue;
+        const int left = ::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+        if (left < 0) continue;
+        std::error_code kept;
+        const bool removed =
+            ::flock(left, LOCK_EX | LOCK_NB) == 0 && fs::remove(entry.path(), kept) && !kept;
+        ::close(left);
+        if (removed)
+            print_warning("removed " + entry.path().string() +
+                          ", which a program that was killed had left unfinished");
+    }
+}
+
 }  // namespace
+
+bool flushed(int file) noexcept {
+    while (::fsync(file) != 0) {
+        if (errno == EINTR) continue;
+        return errno == EINVAL || errno == ENOTSUP || errno == EROFS;  // there is no such thing
+    }
+    return true;
+}
+
+bool flushed_folder(const fs::path& folder) noexcept {
+    const char* const name = folder.empty() ? "." : folder.c_str();
+    const int opened = ::open(name, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (opened < 0) return errno == EACCES;  // one that takes files and shows none
+    const bool done = flushed(opened);
+    const int why = errno;
+    ::close(opened);
+    errno = why;
+    return done;
+}
+
+std::vector<fs::path> make_folders(const fs::path& folder, std::error_code& failed) {
+    std::vector<fs::path> missing, made;
+    fs::path part = fs::absolute(folder, failed).lexically_normal();
+    if (!part.has_filename()) part = part.parent_path();  // "report/"
+    for (; !part.empty() && !fs::exists(part, failed) && !failed; part = part.parent_path()) {
+        missing.insert(missing.begin(), part);
+    }
+    for (const fs::path& one : missing) {
+        if (failed) break;
+        if (!fs::create_directory(one, failed)) continue;
+        made.push_back(one);
+        if (!flushed_folder(one.parent_path())) failed.assign(errno, std::generic_category());
+    }
+    if (!failed && !fs::is_directory(folder, failed) && !failed)
+        failed = std::make_error_code(std::errc::not_a_directory);
+    return made;
+}
 
 OutputFile::OutputFile(const fs::path& target) : target_(target) {
     if (target == "-") {
@@ -61,12 +136,13 @@ OutputFile::OutputFile(const fs::path& target) : target_(target) {
     for (int links = 0; links < kMostLinks && fs::is_symlink(target_, ignored); ++links) {
         target_ = target_.parent_path() / fs::read_symlink(target_, ignored);
     }
+    remove_left_over(target_);
     // Not mkostemp(), whose files only their owner may read. Another program that was killed may
     // have left a file of such a name.
     constexpr int kMostLeftOver = 1000;
     for (int number = 0; file_ < 0 && number < kMostLeftOver; ++number) {
         temporary_ = target_;
-        temporary_ += ".part" + std::to_string(::getpid()) + "-" + std::to_string(number);
+        temporary_ += kPart + std::to_string(::getpid()) + "-" + std::to_string(number);
         file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (file_ < 0 && errno != EEXIST) break;
     }
@@ -74,6 +150,7 @@ OutputFile::OutputFile(const fs::path& target) : target_(target) {
         temporary_.clear();
         fail("cannot be written");
     }
+    ::flock(file_, LOCK_EX | LOCK_NB);  // whoever looks for what is left over sees it held
 }
 
 OutputFile::~OutputFile() {
@@ -93,10 +170,20 @@ void OutputFile::write(std::string_view bytes) {
     }
 }
 
+/// Before a file takes another one's name it is on the disk: a power cut must leave one of them.
 void OutputFile::close() {
-    const int file = file_;
-    file_ = -1;
+    const int file = std::exchange(file_, -1);
+    const bool on_disk = temporary_.empty() || flushed(file);
+    const int why = errno;
     if (::close(file) != 0) fail("cannot be written");
+    errno = why;
+    if (!on_disk) fail("cannot be written");
+}
+
+/// From here on a power cut leaves it under that name.
+void OutputFile::take_name() {
+    temporary_.clear();
+    if (!flushed_folder(target_.parent_path())) fail("cannot be written");
 }
 
 void OutputFile::commit() {
@@ -104,7 +191,7 @@ void OutputFile::commit() {
     close();
     if (temporary_.empty()) return;
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot be replaced");
-    temporary_.clear();
+    take_name();
 }
 
 fs::path OutputFile::commit_beside() {
@@ -120,7 +207,7 @@ fs::path OutputFile::commit_beside() {
         target_.replace_filename(wanted.stem().string() + "-" + std::to_string(number) +
                                  wanted.extension().string());
     }
-    temporary_.clear();
+    take_name();
     return target_;
 }
 
@@ -157,21 +244,11 @@ OutputFolder::~OutputFolder() {
 }
 
 void OutputFolder::make_folder() {
-    std::vector<fs::path> missing;
     std::error_code failed;
-    fs::path part = fs::absolute(folder_, failed).lexically_normal();
-    if (!part.has_filename()) part = part.parent_path();  // "report/"
-    for (; !part.empty() && !fs::exists(part, failed) && !failed; part = part.parent_path()) {
-        missing.insert(missing.begin(), part);
-    }
-    for (const fs::path& folder : missing) {
-        if (fs::create_directory(folder, failed)) made_.push_back(folder);
-        if (failed) break;
-    }
-    if (!failed && fs::is_directory(folder_, failed)) return;
+    made_ = make_folders(folder_, failed);
+    if (!failed) return;
     remove_empty(made_);
-    const std::string why = failed ? failed.message() : "it is no folder";
-    throw InputError(folder_.string() + " cannot take files (" + why +
+    throw InputError(folder_.string() + " cannot take files (" + failed.message() +
                      "): choose a folder you may write to");
 }
 

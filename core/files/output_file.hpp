@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace dibhr {
@@ -13,8 +14,22 @@ namespace dibhr {
 /// Whoever read standard output has enough: the program ends quietly.
 struct OutputClosed {};
 
+/// Waits until the disk has all that was written to an open file; false, and why in errno: it has
+/// not. What has no disk (a pipe) has nothing to wait for.
+[[nodiscard]] bool flushed(int file) noexcept;
+
+/// The same of a folder, "" is the present one: what was made, renamed and removed in it.
+[[nodiscard]] bool flushed_folder(const std::filesystem::path& folder) noexcept;
+
+/// As create_directories(), but a power cut leaves them. Gives those that were made, the outermost
+/// first.
+std::vector<std::filesystem::path> make_folders(const std::filesystem::path& folder,
+                                                std::error_code& failed);
+
 /// What is written goes to a file beside the target, which takes the target's place at commit().
-/// Without commit() nothing remains and an existing target stays as it was. A target that is no
+/// Without commit() nothing remains and an existing target stays as it was. After commit() a power
+/// cut leaves the new one, before it the old one, however a library wrote to written(). What a
+/// program that was killed left beside the target is removed, and that is told. A target that is no
 /// ordinary file (a pipe, /dev/null) is written directly.
 class OutputFile {
   public:
@@ -42,6 +57,7 @@ class OutputFile {
 
   private:
     void close();
+    void take_name();
     [[noreturn]] void fail(const char* what) const;
 
     std::filesystem::path target_;

@@ -396,7 +396,8 @@ void SessionFile::merge_log() {
 }
 
 void SessionFile::end_log() noexcept {
-    try_to("PRAGMA journal_mode = DELETE");
+    // After a power cut a journal in a file would have to be rolled back, which no reader does.
+    try_to("PRAGMA journal_mode = MEMORY");
 }
 
 /// What need not succeed: the file is as whole without, and readable with its log.

@@ -300,7 +300,7 @@ FirmwareImage keep_firmware(const std::filesystem::path& file) {
     FirmwareImage image = read_firmware(file);
     const fs::path kept = kept_firmware_path();
     std::error_code failed;
-    fs::create_directories(kept.parent_path(), failed);
+    make_folders(kept.parent_path(), failed);
     if (failed) {
         throw InputError("cannot make the folder " + kept.parent_path().string() +
                          " for the firmware (" + failed.message() + "): make it and try again");

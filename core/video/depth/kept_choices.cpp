@@ -34,7 +34,7 @@ std::string whole_path(const fs::path& media) {
 
 void write_choice(const fs::path& file, const fs::path& media, const DepthStatement& choice) {
     std::error_code failed;
-    fs::create_directories(file.parent_path(), failed);
+    make_folders(file.parent_path(), failed);
     if (failed)
         refuse("the folder " + shown(file.parent_path()) + " cannot be written (" +
                failed.message() + "); make it writable");

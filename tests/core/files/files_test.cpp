@@ -1,6 +1,9 @@
 // Output that appears whole or not at all, tables that people wrote, and text and numbers as
 // written.
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -9,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/files/csv_table.hpp"
@@ -106,6 +110,57 @@ TEST_CASE("an output file is written beside what another program left, and as re
     second.commit();
     first.commit();
     CHECK(read_text(folder / "both") == "1");
+}
+
+TEST_CASE("what programs that were killed left unfinished goes when the file is written again",
+          "[files]") {
+    const pid_t ended = ::fork();
+    if (ended == 0) ::_exit(0);
+    ::waitpid(ended, nullptr, 0);
+    const std::string dead = std::to_string(ended);
+    struct Left {
+        std::string name;
+        bool goes;
+    };
+    const std::vector<Left> all{{"out.csv.part" + dead + "-0", true},
+                                {"out.csv.part" + dead + "-7", true},
+                                {"out.csv.part" + dead + "-999", true},
+                                {"out.csv.part" + dead + "-0-wal", true},
+                                {"out.csv.part" + dead + "-0-journal", true},
+                                {"out.csv.part" + std::to_string(::getpid()) + "-9", false},
+                                {"out.csv.part1-0", false},
+                                {"out.csv.part" + dead, false},
+                                {"out.csv.part" + dead + "_0", false},
+                                {"out.csv.part-0", false},
+                                {"out.csv.part0-0", false},
+                                {"out.csv.part-5-0", false},
+                                {"out.csv.part99999999999999999999-0", true},
+                                {"out.csv.partial", false},
+                                {"out.csv.party" + dead + "-0", false},
+                                {"out.csv", false},
+                                {"out.csv.bak", false},
+                                {"xout.csv.part" + dead + "-0", false},
+                                {"out.csv2.part" + dead + "-0", false},
+                                {".out.csv.part" + dead + "-0", false},
+                                {"part" + dead + "-0", false}};
+    const TemporaryFolder folder;
+    for (const Left& left : all) test::write_text(folder / left.name, "left");
+    fs::create_directory(folder / ("out.csv.part" + dead + "-1"));
+    fs::create_symlink("out.csv.bak", folder / ("out.csv.part" + dead + "-2"));
+    test::write_text(folder / ("out.csv.part" + dead + "-3"), "held");
+    const int held =
+        ::open((folder / ("out.csv.part" + dead + "-3")).c_str(), O_RDONLY | O_CLOEXEC);
+    REQUIRE(::flock(held, LOCK_EX | LOCK_NB) == 0);  // by a program on another machine
+    { const OutputFile out(folder / "out.csv"); }
+    ::close(held);
+    for (const Left& left : all) {
+        CAPTURE(left.name);
+        CHECK(fs::exists(folder / left.name) != left.goes);
+    }
+    CHECK(fs::is_directory(folder / ("out.csv.part" + dead + "-1")));
+    CHECK(fs::is_symlink(folder / ("out.csv.part" + dead + "-2")));
+    CHECK(fs::exists(folder / ("out.csv.part" + dead + "-3")));
+    CHECK(read_text(folder / "out.csv.bak") == "left");
 }
 
 TEST_CASE("a link stays a link and a pipe stays a pipe", "[files]") {
