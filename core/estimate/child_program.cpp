@@ -1,4 +1,4 @@
-// vfork, a pipe, and signals to a group.
+// vfork, pipes, and signals to a keeper.
 #include "core/estimate/child_program.hpp"
 
 #include <fcntl.h>
@@ -19,6 +19,7 @@
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/modules/module.hpp"
 
 extern "C" char** environ;  // NOLINT(readability-redundant-declaration): glibc's needs _GNU_SOURCE
 
@@ -26,7 +27,8 @@ namespace dibhr {
 
 namespace {
 
-constexpr int kPolitely = 10;  // nice(2)
+constexpr int kPolitely = 10;                             // nice(2)
+constexpr std::size_t kMostWords = std::size_t{1} << 16;  ///< bytes that are taken at once
 
 /// The words, and null at their end, as exec takes them.
 std::vector<char*> as_pointers(std::vector<std::string>& words) {
@@ -48,6 +50,10 @@ std::vector<std::string> environment() {
 }
 
 [[noreturn]] void refuse(const std::string& program, int why) {
+    if (why < 0)
+        throw InputError(
+            "no estimator can be started: " + part_of_program("depth-keeper").string() + " (" +
+            std::strerror(-why) + "); end other programs, or install dibhr again");
     const std::string name = in_quotes(program, 200);
     if (why == ENOENT && ::access(program.c_str(), F_OK) == 0)
         throw InputError("the estimator cannot be started: the program that the first line of " +
@@ -62,48 +68,54 @@ std::vector<std::string> environment() {
     throw InputError("the estimator cannot be started: " + name + " (" + std::strerror(why) + ")");
 }
 
-/// Of the child, between its beginning and the program's: it shares this program's memory, so it
-/// calls the system alone, and changes nothing. What fails is written to `trouble`: an errno. The
-/// kernel kills it when the thread that started it ends, which waits for it otherwise: so however
-/// this program ends.
-[[noreturn]] void become(char* const* words, char** variables, int output, pid_t parent,
-                         int trouble) {
+/// What the keeper gets of this program: the ends of pipes.
+struct Ends {
+    int output{-1}, life{-1}, trouble{-1};
+};
+
+/// Of the child, between its beginning and the keeper's: it shares this program's memory, so it
+/// calls the system alone, and changes nothing. What fails is written to `trouble`: an errno, less
+/// than 0.
+[[noreturn]] void become(char* const* words, char** variables, const Ends& ends,
+                         ChildManner manner) {
     struct sigaction usual {};
     usual.sa_handler = SIG_DFL;  // NOLINT(cppcoreguidelines-pro-type-union-access): POSIX's
     for (const int signal : {SIGPIPE, SIGTERM, SIGINT, SIGHUP, SIGQUIT})
         ::sigaction(signal, &usual, nullptr);
-    sigset_t none;
-    ::sigemptyset(&none);
+    if (manner == ChildManner::polite) give_way(0);
     const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
-    const bool ready = ::prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && ::setpgid(0, 0) == 0 &&
-                       nothing >= 0 && ::dup2(nothing, STDIN_FILENO) >= 0 &&
-                       ::dup2(output, STDOUT_FILENO) >= 0 && ::dup2(output, STDERR_FILENO) >= 0 &&
-                       ::sigprocmask(SIG_SETMASK, &none, nullptr) == 0;
-    if (ready && ::getppid() == parent) ::execvpe(words[0], words, variables);
-    const int why = errno;
-    [[maybe_unused]] const ssize_t told = ::write(trouble, &why, sizeof why);
+    const bool ready =
+        ::setpgid(0, 0) == 0 && nothing >= 0 && ::dup2(nothing, STDIN_FILENO) >= 0 &&
+        ::dup2(ends.output, STDOUT_FILENO) >= 0 && ::dup2(ends.output, STDERR_FILENO) >= 0 &&
+        ::fcntl(ends.life, F_SETFD, 0) == 0 && ::fcntl(ends.trouble, F_SETFD, 0) == 0;
+    if (ready) ::execve(words[0], words, variables);
+    const int why = -errno;
+    [[maybe_unused]] const ssize_t told = ::write(ends.trouble, &why, sizeof why);
     ::_exit(EXIT_FAILURE);
 }
 
-/// 0, or why it could not be started. The child borrows this program's memory until the other
-/// program begins, as posix_spawn does it, which cannot say what it is killed by: a copy would
-/// disturb a hand that is felt meanwhile.
-int start(std::vector<std::string> words, int output, pid_t& child) {
+/// 0, or why it could not be started; less than 0: why its keeper could not. The child borrows this
+/// program's memory until the keeper begins, as posix_spawn does it: a copy would disturb a hand
+/// that is felt meanwhile.
+int start(const std::vector<std::string>& program, Ends ends, ChildManner manner, pid_t& child) {
+    // Closed by the program's beginning. (Where a sanitizer makes a copy of vfork(), no memory is
+    // shared through which it could be told.)
+    std::array<int, 2> trouble{};
+    if (::pipe2(trouble.data(), O_CLOEXEC) != 0) return -errno;
+    ends.trouble = trouble[1];
+    std::vector<std::string> words{part_of_program("depth-keeper").string(),
+                                   std::to_string(ends.life), std::to_string(ends.trouble)};
+    words.insert(words.end(), program.begin(), program.end());
     std::vector<std::string> variables = environment();
     const std::vector<char*> arguments = as_pointers(words);
     std::vector<char*> entries = as_pointers(variables);
-    const pid_t parent = ::getpid();
-    // Closed by the other program's beginning. (Where a sanitizer makes a copy of vfork(), no
-    // memory is shared through which it could be told.)
-    std::array<int, 2> trouble{};
-    if (::pipe2(trouble.data(), O_CLOEXEC) != 0) return errno;
     int why = 0;
     sigset_t all, before;
     ::sigfillset(&all);
     ::pthread_sigmask(SIG_SETMASK, &all, &before);  // a handler of ours would run in the child, too
     const pid_t started = ::vfork();  // NOLINT(clang-analyzer-security.insecureAPI.vfork)
-    if (started == 0) become(arguments.data(), entries.data(), output, parent, trouble[1]);
-    if (started < 0) why = errno;
+    if (started == 0) become(arguments.data(), entries.data(), ends, manner);
+    if (started < 0) why = -errno;
     ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
     child = started;
     ::close(trouble[1]);
@@ -125,23 +137,28 @@ void give_way(pid_t who) noexcept {
 }
 
 ChildProgram::ChildProgram(std::vector<std::string> words, ChildManner manner) {
-    std::array<int, 2> ends{};
-    if (::pipe2(ends.data(), O_CLOEXEC) != 0)
+    std::array<int, 2> output{}, life{};
+    if (::pipe2(output.data(), O_CLOEXEC) != 0)
         throw InputError("the estimator cannot be started: too many files are open");
-    const std::string program = words.front();
-    const int failed = start(std::move(words), ends[1], child_);
-    ::close(ends[1]);
-    words_end_ = ends[0];
+    if (::pipe2(life.data(), O_CLOEXEC) != 0) {
+        for (const int end : output) ::close(end);
+        throw InputError("the estimator cannot be started: too many files are open");
+    }
+    const int failed = start(words, {.output = output[1], .life = life[0]}, manner, child_);
+    ::close(output[1]);
+    ::close(life[0]);
+    words_end_ = output[0];
+    life_ = life[1];
     if (failed != 0) {
         ::close(words_end_);
-        refuse(program, failed);
+        ::close(life_);
+        refuse(words.front(), failed);
     }
     ::fcntl(words_end_, F_SETFL, O_NONBLOCK);
-    if (manner == ChildManner::polite) give_way(child_);
 }
 
 ChildProgram::~ChildProgram() {
-    ::kill(-child_, SIGKILL);
+    ::close(life_);
     if (!end_) ::waitpid(child_, nullptr, 0);
     if (words_end_ >= 0) ::close(words_end_);
 }
@@ -155,8 +172,8 @@ std::string ChildProgram::written(std::chrono::milliseconds patience) {
     ::poll(&reading, 1, static_cast<int>(patience.count()));
     std::string text;
     std::array<char, 4096> piece{};
-    ssize_t count = 0;
-    while ((count = ::read(words_end_, piece.data(), piece.size())) > 0)
+    ssize_t count = 1;
+    while (text.size() < kMostWords && (count = ::read(words_end_, piece.data(), piece.size())) > 0)
         text.append(piece.data(), static_cast<std::size_t>(count));
     if (count == 0) {
         ::close(words_end_);
@@ -175,13 +192,10 @@ std::optional<ChildEnd> ChildProgram::ended() {
 }
 
 void ChildProgram::end() {
-    ::kill(-child_, SIGTERM);
-    const auto latest = std::chrono::steady_clock::now() + kGrace;
-    while (!ended() && std::chrono::steady_clock::now() < latest)
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    ::kill(-child_, SIGKILL);
+    if (ended()) return;
+    ::kill(child_, SIGTERM);
     int status = 0;
-    if (!end_ && ::waitpid(child_, &status, 0) == child_) end_ = ChildEnd{0, SIGKILL};
+    if (::waitpid(child_, &status, 0) == child_) end_ = ChildEnd{0, SIGKILL};
 }
 
 }  // namespace dibhr

@@ -1,4 +1,4 @@
-// Another program, started in a process group of its own and ended with all that it started.
+// Another program, started by a keeper (keeper/depth_keeper.cpp) that ends it with all it started.
 #pragma once
 
 #include <sys/types.h>
@@ -30,31 +30,30 @@ void give_way(pid_t who) noexcept;
 
 class ChildProgram {
   public:
-    /// So long it may take to end when it is asked to.
-    static constexpr std::chrono::milliseconds kGrace{400};
-
     /// Starts it, without a shell and without a keyboard. Throws InputError when that cannot be:
-    /// what, and what to do next. It is killed when the thread that calls ends, even where that is
-    /// because this program was killed; what it started itself is not.
+    /// what, and what to do next. However this program ends, it is killed then, with all that it
+    /// started.
     ChildProgram(std::vector<std::string> words, ChildManner manner);
-    /// Kills what is left of its group.
+    /// Kills what is left of it.
     ~ChildProgram();
     ChildProgram(const ChildProgram&) = delete;
     ChildProgram& operator=(const ChildProgram&) = delete;
 
-    /// What it has written to its standard output and its standard error since the last call; waits
-    /// for it, or for its end, at most so long.
+    /// What it has written to its standard output and its standard error since the last call, or so
+    /// much of it that nobody works at it for long; waits for it, or for its end, at most so long.
     [[nodiscard]] std::string written(std::chrono::milliseconds patience);
     /// How it ended; nothing while it goes on.
     [[nodiscard]] std::optional<ChildEnd> ended();
-    /// Asks all of the group to end, and kills what is left after kGrace. Waits for that.
+    /// Asks it to end; what is left after 0.4 s is killed. Waits for that.
     void end();
 
-    [[nodiscard]] pid_t group() const noexcept { return child_; }
+    /// What SIGUSR1 makes kill it at once, with all that it started.
+    [[nodiscard]] pid_t keeper() const noexcept { return child_; }
 
   private:
-    pid_t child_{0};
-    int words_end_{-1};  ///< of a pipe, to read what it writes; negative: it has closed it
+    pid_t child_{0};     ///< the keeper, which ends as the program does
+    int life_{-1};       ///< of a pipe, whose other end the keeper watches
+    int words_end_{-1};  ///< likewise, to read what it writes; negative: it has closed it
     std::optional<ChildEnd> end_{};
 };
 

@@ -69,6 +69,7 @@ std::optional<EstimateRecord> record_in(const fs::path& folder) try {
     record.colour.times_s = json.at("times_s").get<std::vector<double>>();
     record.command = json.at("command");
     record.depth = json.at("depth");
+    record.sha256 = json.value("sha256", std::string());  // none in older ones
     record.levels = statement_in(json.at("levels"), kRecord);
     record.said = statement_in(json.at("said"), kRecord);
     const bool whole =
@@ -94,7 +95,7 @@ EstimateFolder::EstimateFolder(const fs::path& cache, const std::string& colour_
                                const std::string& command)
     : path_(cache / name_for(colour_sha256, command)) {
     std::error_code failed;
-    fs::create_directories(path_, failed);
+    make_folders(path_, failed);
     if (failed) refuse_folder(path_, failed.message());
     lock_ = locked(path_);
     if (lock_ < 0)
@@ -112,11 +113,17 @@ std::optional<EstimateRecord> EstimateFolder::record() const {
 
 void EstimateFolder::keep(const EstimateRecord& record) const {
     const ColourFrames& colour = record.colour;
-    const Json json{{"version", kVersion},         {"colour", colour.file.string()},
-                    {"columns", colour.columns},   {"rows", colour.rows},
-                    {"still", colour.still},       {"start_s", colour.start_s},
-                    {"times_s", colour.times_s},   {"command", record.command},
-                    {"depth", record.depth},       {"levels", toml_of(record.levels)},
+    const Json json{{"version", kVersion},
+                    {"colour", colour.file.string()},
+                    {"columns", colour.columns},
+                    {"rows", colour.rows},
+                    {"still", colour.still},
+                    {"start_s", colour.start_s},
+                    {"times_s", colour.times_s},
+                    {"command", record.command},
+                    {"depth", record.depth},
+                    {"sha256", record.sha256},
+                    {"levels", toml_of(record.levels)},
                     {"said", toml_of(record.said)}};
     OutputFile out(path_ / kRecord);
     out.write(json_text(json));

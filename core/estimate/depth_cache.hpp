@@ -19,6 +19,7 @@ struct EstimateRecord {
     std::string command{};
     DepthStatement said{};    ///< of the estimator's numbers, the last time
     std::string depth{};      ///< name of the finished file; empty: it is on its way
+    std::string sha256{};     ///< of that file
     DepthStatement levels{};  ///< of that file, as write_depth() gives it
 };
 

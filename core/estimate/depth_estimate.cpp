@@ -5,6 +5,7 @@
 #include <chrono>
 #include <fstream>
 #include <memory>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -35,6 +36,37 @@ double seconds_since(steady_clock::time_point begin) {
     return std::chrono::duration<double>(steady_clock::now() - begin).count();
 }
 
+/// All that an estimator says, or, of one that does not stop talking, its first and last words.
+class SaidFile {
+  public:
+    explicit SaidFile(const fs::path& file) : file_(file, std::ios::binary | std::ios::trunc) {}
+    ~SaidFile() {
+        if (left_out_ > 0) file_ << "\n[" << left_out_ << " bytes are left out here]\n";
+        file_ << last_;
+    }
+    SaidFile(const SaidFile&) = delete;
+    SaidFile& operator=(const SaidFile&) = delete;
+
+    void take(std::string_view text) {
+        const std::string_view first = text.substr(0, kMost - std::min(first_, kMost));
+        first_ += first.size();
+        file_ << first << std::flush;
+        last_ += text.substr(first.size());
+        if (last_.size() < 2 * kMost) return;
+        const std::size_t over = last_.size() - kMost;
+        last_.erase(0, over);
+        left_out_ += over;
+    }
+
+  private:
+    static constexpr std::size_t kMost = std::size_t{1}
+                                         << 19;  ///< bytes, of the first and the last
+
+    std::ofstream file_;
+    std::size_t first_{0}, left_out_{0};
+    std::string last_{};
+};
+
 /// One run of the estimator, watched until it ends.
 class Run {
   public:
@@ -44,11 +76,11 @@ class Run {
           frames_(frames),
           watch_(watch),
           patience_s_(request.patience_s),
-          said_file_(folder.said(), std::ios::binary | std::ios::trunc),
+          said_(folder.said()),
           child_(command.words({fs::absolute(request.colour), folder.frames(), folder.output()}),
                  request.manner) {
         before_ = std::min(row_so_far(folder_.output()).size(), frames_);
-        watch_.runs(child_.group());
+        watch_.runs(child_.keeper());
     }
     ~Run() { watch_.runs(0); }
     Run(const Run&) = delete;
@@ -75,7 +107,7 @@ class Run {
   private:
     void take_words(const std::string& text) {
         if (text.empty()) return;
-        said_file_ << text << std::flush;
+        said_.take(text);
         spoken_.take(text);
         alive_ = steady_clock::now();
         tell();
@@ -129,7 +161,7 @@ class Run {
     std::size_t frames_;
     EstimateWatch& watch_;
     double patience_s_;
-    std::ofstream said_file_;
+    SaidFile said_;
     SpokenProgress spoken_{};
     std::size_t before_{0};  ///< frames that were there already
     std::size_t done_{0};
@@ -187,8 +219,14 @@ class Estimation {
         folder_ = std::make_unique<EstimateFolder>(request_.cache, *sum, command_.text());
         if (request_.again) folder_->empty();
         const auto before = folder_->record();
-        if (before && !before->depth.empty() && fs::exists(folder_->path() / before->depth))
-            return opened(*before, true);
+        if (before && !before->depth.empty()) {
+            const fs::path depth = folder_->path() / before->depth;
+            const auto is = fs::exists(depth) ? sha256_of_file(depth, watch_.stopped()) : "";
+            if (!is) return std::nullopt;
+            if (*is == before->sha256) return opened(*before, true);
+            print_warning("the depth kept for " + shown(request_.colour) +
+                          " is not as it was written, and is made anew");
+        }
         if (!has_frames()) return std::nullopt;
         if (!all_there() && !run()) return std::nullopt;
         return written();
@@ -254,9 +292,12 @@ class Estimation {
             folder_->output(), colour_, request_.meaning.unit.value_or(DepthUnit::levels),
             folder_->path(), watch_.stopped(), teller(watch_, EstimateStep::checking));
         if (written.file.empty()) return std::nullopt;
+        const auto sum = sha256_of_file(written.file, watch_.stopped());
+        if (!sum) return std::nullopt;
         const DepthEstimate made = opened({.colour = colour_,
                                            .command = command_.text(),
                                            .depth = written.file.filename().string(),
+                                           .sha256 = *sum,
                                            .levels = written.levels},
                                           false);
         folder_->drop_work();
@@ -316,7 +357,7 @@ fs::path copy_depth(const DepthEstimate& estimate, const fs::path& colour, const
         throw InputError("the depth is written as " + ending.string() + ": let the name " +
                          shown(target) + " end so, or give a folder");
     std::error_code failed;
-    if (into_folder) fs::create_directories(out, failed);
+    if (into_folder) make_folders(out, failed);
     copy_whole(estimate.depth, target);
     if (const auto meaning = read_sidecar(estimate.depth)) write_sidecar(target, *meaning);
     return target;

@@ -1,4 +1,4 @@
-// Words for it, and the end of a group.
+// Words for it, and the end of an estimator.
 #include "core/estimate/estimate_watch.hpp"
 
 #include <cmath>
@@ -44,7 +44,7 @@ void EstimateWatch::stop_at_once() noexcept {
     stop_ = true;
     const std::scoped_lock lock(mutex_);
     at_once_ = true;
-    if (group_ > 0) ::kill(-group_, SIGKILL);
+    if (keeper_ > 0) ::kill(keeper_, SIGUSR1);
 }
 
 void EstimateWatch::tell(const EstimateProgress& progress) {
@@ -57,10 +57,10 @@ EstimateProgress EstimateWatch::progress() const {
     return progress_;
 }
 
-void EstimateWatch::runs(pid_t group) {
+void EstimateWatch::runs(pid_t keeper) {
     const std::scoped_lock lock(mutex_);
-    group_ = group;
-    if (group_ > 0 && at_once_) ::kill(-group_, SIGKILL);
+    keeper_ = keeper;
+    if (keeper_ > 0 && at_once_) ::kill(keeper_, SIGUSR1);
 }
 
 }  // namespace dibhr

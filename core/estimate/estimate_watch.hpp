@@ -43,14 +43,14 @@ class EstimateWatch {
     void tell(const EstimateProgress& progress);
     [[nodiscard]] EstimateProgress progress() const;
 
-    /// The estimator's process group; 0: none runs.
-    void runs(pid_t group);
+    /// The estimator's keeper; 0: none runs.
+    void runs(pid_t keeper);
 
   private:
     std::atomic<bool> stop_{false};
     mutable std::mutex mutex_{};  ///< of all below
     EstimateProgress progress_{};
-    pid_t group_{0};
+    pid_t keeper_{0};
     bool at_once_{false};
 };
 

@@ -13,21 +13,17 @@ namespace dibhr {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-/// Beside the program where it was built, in a folder of its own where it is installed.
-fs::path module_file(const std::string& name) {
-    const std::string file = "lib" + name + ".so";
+/// Beside it where it was built, in a folder of its own where it is installed.
+fs::path part_of_program(const std::string& file) {
     std::error_code ignored;
     const fs::path folder = fs::read_symlink("/proc/self/exe", ignored).parent_path();
     if (fs::exists(folder / file, ignored)) return folder / file;
     return folder.parent_path() / "lib" / "dibhr" / file;
 }
 
-}  // namespace
-
 void* symbol_in_module(const char* name, const char* symbol) {
-    void* module = dlopen(module_file(name).c_str(), RTLD_LAZY | RTLD_LOCAL);
+    void* module =
+        dlopen(part_of_program("lib" + std::string(name) + ".so").c_str(), RTLD_LAZY | RTLD_LOCAL);
     void* found = module != nullptr ? dlsym(module, symbol) : nullptr;
     if (found == nullptr)
         throw InputError("a part of dibhr cannot be loaded: " + std::string(dlerror()) +

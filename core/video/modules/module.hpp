@@ -2,10 +2,16 @@
 // linked into the program they would triple the time that each command takes to start.
 #pragma once
 
+#include <filesystem>
+#include <string>
+
 namespace dibhr {
 
-/// The address of `symbol` in the module libNAME.so, which lies beside the program or in
-/// ../lib/dibhr. The module stays loaded. Throws InputError if it is missing, or what it needs.
+/// A file that belongs to the program: it lies beside it, or in ../lib/dibhr.
+[[nodiscard]] std::filesystem::path part_of_program(const std::string& file);
+
+/// The address of `symbol` in the module libNAME.so, a part of the program. The module stays
+/// loaded. Throws InputError if it is missing, or what it needs.
 [[nodiscard]] void* symbol_in_module(const char* name, const char* symbol);
 
 }  // namespace dibhr

@@ -164,6 +164,30 @@ TEST_CASE("the second time depth is there at once, for the same content and comm
     CHECK(kept_estimates(bench.cache()).empty());
 }
 
+TEST_CASE("depth that is kept and damaged is made anew", "[estimate]") {
+    Bench bench(by_frames(kCopy));
+    const auto made = estimate_depth(bench.request(), bench.watch);
+    REQUIRE(made);
+    const std::string whole = read_text(made->depth);
+    std::string changed = whole;
+    changed[whole.size() / 2] = static_cast<char>(changed[whole.size() / 2] ^ 1);
+    std::string zeros = whole;
+    zeros.replace(whole.size() / 2, std::string::npos, whole.size() - whole.size() / 2, '\0');
+    std::size_t starts = 1;
+    for (const std::string& damaged :
+         {std::string(), zeros, changed, whole + "x", whole.substr(0, whole.size() - 1)}) {
+        write_text(made->depth, damaged);
+        const auto again = estimate_depth(bench.request(), bench.watch);
+        REQUIRE(again);
+        CHECK_FALSE(again->kept_before);
+        CHECK(bench.starts() == ++starts);
+        CHECK(levels_of(again->depth).size() == kFrames);
+    }
+    fs::remove(made->depth);
+    CHECK_FALSE(estimate_depth(bench.request(), bench.watch)->kept_before);
+    CHECK(estimate_depth(bench.request(), bench.watch)->kept_before);
+}
+
 TEST_CASE("a crash at frame 7 keeps six, says so in a line, and the next run goes on from there",
           "[estimate]") {
     Bench bench(
@@ -239,6 +263,37 @@ TEST_CASE("one that will not end when it is asked to is killed, with all that it
         };
         CHECK(eventually(ended));
     }
+}
+
+TEST_CASE(
+    "of one that talks without end the first and the last words are kept, and no disk is filled",
+    "[estimate]") {
+    // Three million bytes each, and last words.
+    const std::string millions = "head -c 3000000 /dev/zero | tr '\\0' ";
+    const std::string talk = GENERATE_COPY(
+        millions + "x", millions + "'\\n'", millions + "'\\r'", millions + "' '",
+        millions + "'\\t'", millions + "'\\b'", millions + "'\\033'", millions + "'\\377'",
+        millions + "'\\302'", millions + "'7' >&2", std::string("head -c 3000000 /dev/zero"),
+        std::string("head -c 3000000 /dev/urandom"),
+        std::string("head -c 3000000 /dev/urandom >&2"), std::string("yes | head -c 3000000"),
+        std::string("yes '1/2' | head -c 3000000"),
+        std::string("yes 'frame 7 of 24' | head -c 3000000"),
+        std::string("seq -f '%.0f/9000000' 200000 | head -c 3000000; head -c 1000000 /dev/zero"),
+        std::string("yes A | head -c 1500000; yes B | head -c 1500000 >&2"),
+        std::string("(yes A | head -c 1500000 & yes B | head -c 1500000 >&2; wait)"),
+        std::string("setsid sh -c 'yes C | head -c 3000000'; wait"));
+    CAPTURE(talk);
+    Bench bench("echo first words\n" + talk + "\necho\necho last words\nexit 3\n");
+    const std::string told = bench.failure(bench.request("{input} {output}"));
+    CHECK(contains(told, "ended with 3; it said last: 'last words'; all it said is in "));
+    CHECK(told.find('\n') == std::string::npos);
+    const auto kept = kept_estimates(bench.cache());
+    REQUIRE(kept.size() == 1);
+    const std::string said = read_text(kept.front().folder / "said.txt");
+    CHECK(said.size() < 1600000);
+    CHECK(said.starts_with("first words\n"));
+    CHECK(said.ends_with("last words\n"));
+    CHECK(contains(said, " bytes are left out here]"));
 }
 
 TEST_CASE("one that shows no sign of life is ended when patience is", "[estimate]") {
