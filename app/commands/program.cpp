@@ -15,6 +15,7 @@
 #include "app/settings/command_options.hpp"
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/files/terminal.hpp"
 
 namespace dibhr {
 
@@ -67,6 +68,7 @@ int run_program(int argc, char** argv, const PictureHook& after_picture) {
     mallopt(M_ARENA_MAX, 1);
     // A closed pipe is an ordinary end, not a signal.
     std::signal(SIGPIPE, SIG_IGN);
+    const PlainOutput plain(std::cout);
     std::cout.exceptions(std::ios::badbit);
     // An error line must not flush, and so throw for, what could not be printed.
     std::cerr.tie(nullptr);

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "app/window/signals.hpp"
+#include "core/files/plain_text.hpp"
 
 namespace dibhr {
 
@@ -65,9 +66,10 @@ class TerminalGuide final : public CheckGuide {
 
     void show(const std::string& state) override {
         if (!shown_live_) return;
-        const char* const rest_of_line_cleared = "\x1b[K";
-        std::cout << '\r' << state << rest_of_line_cleared << std::flush;
-        live_line_open_ = true;
+        std::cout.flush();
+        // What std::cout lets nobody do: the line is written over.
+        const std::string line = '\r' + one_line(state) + "\x1b[K";
+        live_line_open_ = ::write(STDOUT_FILENO, line.data(), line.size()) > 0;
     }
 
     /// What was typed before a question does not answer it.

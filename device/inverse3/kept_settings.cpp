@@ -19,9 +19,8 @@ constexpr std::chrono::milliseconds kTakes{300};
 constexpr std::size_t kLongest = 120;
 constexpr std::size_t kLongestRead = 4096;
 
-std::string shortened(std::string text) {
-    std::replace_if(
-        text.begin(), text.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+std::string shortened(const std::string& told) {
+    const std::string text = one_line(told);
     return text.size() > kLongest ? text.substr(0, kLongest) + "..." : text;
 }
 

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "core/files/json.hpp"
+#include "core/files/plain_text.hpp"
 #include "device/inverse3/service_link.hpp"
 
 namespace dibhr::inverse3 {
@@ -51,7 +52,7 @@ std::optional<ServiceVersion> version_of(std::string_view text) {
     const auto second = std::from_chars(first.ptr + 1, end, version.minor);
     if (second.ec != std::errc()) return {};
     // What is shown is one short word, whatever the service says.
-    version.text = text.substr(0, 32);
+    version.text = one_line(text, 32);
     return version;
 }
 

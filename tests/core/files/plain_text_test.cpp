@@ -1,7 +1,11 @@
 // What people and files say is shown as text, whatever it is.
+#include "core/files/plain_text.hpp"
+
+#include <ostream>
+#include <sstream>
 #include <string>
 
-#include "core/files/plain_text.hpp"
+#include "core/files/terminal.hpp"
 #include "tests/support/catch.hpp"
 
 using namespace dibhr;
@@ -54,4 +58,47 @@ TEST_CASE("base64 gives the standard's own examples", "[files]") {  // RFC 4648,
     CHECK(base64_text("fooba") == "Zm9vYmE=");
     CHECK(base64_text("foobar") == "Zm9vYmFy");
     CHECK(base64_text("\xFF\xFE") == "//4=");
+}
+
+TEST_CASE("nothing that is printed means anything to a terminal", "[files]") {
+    // What a device, a service or a file may be called.
+    const std::string hostile = GENERATE(
+        as<std::string>{}, "\x1b[31mred", "\x1b[2J", "\x1b]0;title\a", "\x1b]8;;http://x\x1b\\link",
+        "\x1b[8mhidden", "\x1b[1;1H", "\x1bP1$r\x1b\\", "\x1b[6n", "\x1b[?1049h", "\x1b",
+        "good\rbad", "a\b\b\bc", "\x7f", "\a\a", "\v\f",
+        "\x9b"
+        "31m",
+        "\xC2\x9b"
+        "31m",
+        "\xE2\x80\xAE"
+        "txt.exe",
+        "\xE2\x81\xA6x", std::string("a\0b", 3), "\xff\xfe", "\x0e\x0f", "\x1b[1", "\x1b[0;5m",
+        "\x1b"
+        "c",
+        "\xC2");
+    std::ostringstream printed;
+    {
+        const PlainOutput plain(printed);
+        std::ostream& out = printed;
+        out << "name: " << hostile << '\n' << hostile.substr(0, 1) << std::flush;
+        out << hostile.substr(1);
+        for (const char c : hostile) out.put(c);
+    }
+    const std::string text = printed.str();
+    CHECK(text.starts_with("name: "));
+    for (const char c : text)
+        CHECK((static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t'));
+    CHECK(utf8_text(text) == text);
+}
+
+TEST_CASE("what is printed plainly stays as it is, headings included", "[files]") {
+    const std::string text = "\x1b[1mUsage:\x1b[0m a\tb\nJ\xC3\xBCrgen \xE6\x97\xA5\n";
+    std::ostringstream printed;
+    {
+        const PlainOutput plain(printed);
+        printed << text << 12 << std::endl;
+    }
+    CHECK(printed.str() == text + "12\n");
+    printed << '\r';
+    CHECK(printed.str().ends_with('\r'));
 }
