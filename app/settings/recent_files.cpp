@@ -50,15 +50,20 @@ std::vector<RecentFile> read_recent_files(const fs::path& file) {
     return files;
 }
 
-void remember(const RecentFile& opened, const fs::path& file) {
+std::vector<RecentFile> with_first(const RecentFile& opened, std::vector<RecentFile> files) {
     const RecentFile first{whole(opened.colour), whole(opened.depth)};
     const std::string names = first.colour.string() + first.depth.string();
-    if (first.colour.empty() || names.find_first_of(kOwnBytes) != std::string::npos) return;
-    std::vector<RecentFile> files = read_recent_files(file);
-    if (!files.empty() && files.front() == first) return;
+    if (first.colour.empty() || names.find_first_of(kOwnBytes) != std::string::npos) return files;
     files.erase(std::remove(files.begin(), files.end(), first), files.end());
     files.insert(files.begin(), first);
     files.resize(std::min(files.size(), kMostKept));
+    return files;
+}
+
+void remember(const RecentFile& opened, const fs::path& file) {
+    const std::vector<RecentFile> before = read_recent_files(file);
+    const std::vector<RecentFile> files = with_first(opened, before);
+    if (files == before) return;
     std::error_code failed;  // is told when the file is opened
     make_folders(file.parent_path(), failed);
     OutputFile out(file);

@@ -22,7 +22,11 @@ struct RecentFile {
 /// that can be understood.
 [[nodiscard]] std::vector<RecentFile> read_recent_files(const std::filesystem::path& file);
 
-/// Puts it first, with absolute paths, and leaves it nowhere else. Throws InputError when the file
+/// With it first, with absolute paths, and nowhere else.
+[[nodiscard]] std::vector<RecentFile> with_first(const RecentFile& opened,
+                                                 std::vector<RecentFile> files);
+
+/// The same in the file. Throws InputError when the file
 /// cannot be written.
 void remember(const RecentFile& opened, const std::filesystem::path& file);
 

@@ -129,8 +129,11 @@ void Viewer::take_desktop_answer() {
 void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request,
                         const FileMemory& memory, FoundMaps maps) {
     explaining_.end(state_, camera_);
-    // Ticks would touch what no file holds.
-    if (media->description().live && recording_.asked_for())
+    // Ticks would touch what no file holds. Where nothing is recorded yet, what comes now is.
+    const bool live = media->description().live;
+    const std::filesystem::path waits =
+        live && request.again ? recording_.waits_with() : std::filesystem::path{};
+    if (live && recording_.asked_for())
         tell(recording_.stop(state_, request.again ? "what is live changed its form" : ""));
     if (!request.chosen) keep_memory();
     replay_.end(state_);
@@ -165,6 +168,7 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
     player_.play_media(
         std::move(media), media_number_,
         painting_.begin(std::move(maps), state_.media, remembered_file(state_.media).empty()));
+    if (!waits.empty()) attempt([&] { recording_.start_live(waits, state_); });
     if (request.at_s > 0.0) player_.seek(request.at_s);
     if (request.paused) player_.pause();
     if (!request.chosen) take_memory(memory, request);
@@ -190,7 +194,12 @@ void Viewer::keep_memory() try {
     const double at_s = player_.status().media_s;
     const bool goes_on = at_s > 0.0 && at_s < player_.status().duration_s - kNearEnd_s;
     if (goes_on) memory.at_s = at_s;
-    dibhr::keep_memory(file_memories_path(), remembered_, memory);
+    lasting_.add([folder = file_memories_path(), file = remembered_, memory] {
+        try {
+            dibhr::keep_memory(folder, file, memory);
+        } catch (const InputError&) {
+        }
+    });
 } catch (const std::exception&) {
 }
 
@@ -238,12 +247,18 @@ void Viewer::replay_session(std::unique_ptr<OpenedSession> session) {
 }
 
 /// A history that cannot be kept is none: whoever has such a home is told of the settings.
-void Viewer::keep_recent(const RecentFile& opened) try {
+void Viewer::keep_recent(const RecentFile& opened) {
     const SampleFiles sample = sample_files();
     const std::filesystem::path history = recent_files_path();
-    if (opened != RecentFile{sample.colour, sample.depth}) remember(opened, history);
     state_.recent = read_recent_files(history);
-} catch (const InputError&) {
+    if (opened == RecentFile{sample.colour, sample.depth}) return;
+    state_.recent = with_first(opened, state_.recent);
+    lasting_.add([opened, history] {
+        try {
+            remember(opened, history);
+        } catch (const InputError&) {
+        }
+    });
 }
 
 void Viewer::show_title(const std::filesystem::path& file) {
@@ -253,11 +268,10 @@ void Viewer::show_title(const std::filesystem::path& file) {
 
 /// What the panel says stays with the file that it made the depth.
 void Viewer::keep_panel(const std::filesystem::path& depth_before) {
-    attempt([&] {
-        const std::filesystem::path folder = depth_choices_path();
-        const std::filesystem::path& depth = depth_file(state_.media);
+    lasting_.add([folder = depth_choices_path(), depth_before, depth = depth_file(state_.media),
+                  panel = state_.opened.request.panel] {
         if (depth != depth_before) keep_choice(folder, depth_before, {});
-        keep_choice(folder, depth, state_.opened.request.panel);
+        keep_choice(folder, depth, panel);
     });
 }
 
@@ -284,12 +298,16 @@ void Viewer::follow_live() {
     OpenRequest request = state_.opened;
     request.request.live = nullptr;
     request.again = true;
-    opening_.start([request] { return try_open(request); });
+    open(request);
 }
 
+/// When what is remembered of files is written.
 void Viewer::open(const OpenRequest& request) {
-    if (!opening_.start([request] { return try_open(request); }))
-        tell("Still opening the last files");
+    const bool begun = opening_.start([request, remembered = lasting_.done_so_far()] {
+        if (remembered.valid()) remembered.wait();
+        return try_open(request);
+    });
+    if (!begun) tell("Still opening the last files");
 }
 
 std::string Viewer::save_sidecar() {

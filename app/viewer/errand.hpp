@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <deque>
 #include <future>
 #include <optional>
 #include <thread>
@@ -94,6 +95,55 @@ class Errand {
   private:
     Errands& all_;
     std::future<Result> result_{};
+};
+
+/// Pieces of work away from the window's thread, one after the other: what is to last, and waits
+/// for a disk.
+class ErrandsInOrder {
+  public:
+    /// `all` outlives it.
+    explicit ErrandsInOrder(Errands& all) : all_(all) {}
+    ErrandsInOrder(const ErrandsInOrder&) = delete;
+    ErrandsInOrder& operator=(const ErrandsInOrder&) = delete;
+
+    /// `work` holds all that it needs.
+    template <typename Work>
+    void add(Work work) {
+        std::packaged_task<void()> task([before = last_, work = std::move(work)] {
+            if (before.valid()) before.wait();
+            work();
+        });
+        last_ = task.get_future().share();
+        results_.push_back(last_);
+        std::thread([task = std::move(task), end = all_.one_leaves()]() mutable {
+            end.set_value_at_thread_exit();
+            task.make_ready_at_thread_exit();
+        }).detach();
+    }
+
+    /// Throws what the work has thrown, once.
+    void look() {
+        while (!results_.empty() &&
+               results_.front().wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+            const std::shared_future<void> done = results_.front();
+            results_.pop_front();
+            done.get();
+        }
+    }
+
+    /// The same, after waiting for it so long at most.
+    void finish(std::chrono::milliseconds patience) {
+        if (last_.valid()) last_.wait_for(patience);
+        look();
+    }
+
+    /// When all that was added until now is done; not valid: nothing was. For a thread that waits.
+    [[nodiscard]] std::shared_future<void> done_so_far() const { return last_; }
+
+  private:
+    Errands& all_;
+    std::shared_future<void> last_{};
+    std::deque<std::shared_future<void>> results_{};
 };
 
 }  // namespace dibhr

@@ -97,12 +97,14 @@ void Screenshots::finish() {
     for (auto& picture : std::exchange(writing_, {})) picture.get();
 }
 
-SettingsKeeper::SettingsKeeper(Settings in_file, Settings started, std::filesystem::path file)
+SettingsKeeper::SettingsKeeper(Settings in_file, Settings started, std::filesystem::path file,
+                               ErrandsInOrder& writing)
     : in_file_(std::move(in_file)),
       started_(std::move(started)),
       wanted_(in_file_),
       written_(in_file_),
-      file_(std::move(file)) {}
+      file_(std::move(file)),
+      writing_(writing) {}
 
 void SettingsKeeper::look(const Settings& now, double now_s) {
     const Settings wanted = changes_kept(in_file_, started_, now);
@@ -121,8 +123,10 @@ void SettingsKeeper::finish(const Settings& now) {
 void SettingsKeeper::save(const Settings& now) {
     if (same_settings(wanted_, written_)) return;
     written_ = wanted_;
-    save_settings(wanted_, file_);
-    Consent().agree_to_changes(started_, now);
+    writing_.add([settings = wanted_, file = file_, before = started_, now] {
+        save_settings(settings, file);
+        Consent().agree_to_changes(before, now);
+    });
 }
 
 std::unique_ptr<Media> open_request(const OpenRequest& request) {

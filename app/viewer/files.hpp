@@ -14,6 +14,7 @@
 #include "app/settings/consent.hpp"
 #include "app/settings/file_memory.hpp"
 #include "app/settings/settings.hpp"
+#include "app/viewer/errand.hpp"
 #include "app/viewer/painting.hpp"
 #include "core/replay/session_player.hpp"
 #include "core/video/media.hpp"
@@ -54,13 +55,13 @@ class SettingsKeeper {
   public:
     /// `in_file`: as read; `started`: as the window started, the command line's values on top. A
     /// value that still is what it started as stays in the file as it was.
-    SettingsKeeper(Settings in_file, Settings started, std::filesystem::path file);
+    SettingsKeeper(Settings in_file, Settings started, std::filesystem::path file,
+                   ErrandsInOrder& writing);
 
-    /// Once a picture. Writes when a change is two seconds old. Throws InputError, once for a
-    /// change.
+    /// Once a picture. Writes when a change is two seconds old; `writing` tells of a failure.
     void look(const Settings& now, double now_s);
 
-    /// At the end: writes what is not yet written. Throws InputError.
+    /// At the end: writes what is not yet written.
     void finish(const Settings& now);
 
     /// Nobody agrees to these: the file is to have the usual values.
@@ -74,6 +75,7 @@ class SettingsKeeper {
     Settings wanted_;  // for the file
     Settings written_;
     std::filesystem::path file_;
+    ErrandsInOrder& writing_;
     double changed_s_{0.0};
 };
 

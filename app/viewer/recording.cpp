@@ -166,6 +166,7 @@ void ViewerRecording::start(const std::filesystem::path& file, ViewerState& stat
 std::string ViewerRecording::stop(ViewerState& state, const std::string& reason) {
     take_news(state);  // with what was typed last
     if (std::exchange(waiting_, {})) {
+        live_->discard();
         leave();
         return "Nothing was recorded: no frame came";
     }
@@ -310,6 +311,11 @@ void ViewerRecording::leave() {
 
 void ViewerRecording::finish(std::chrono::milliseconds for_sums) {
     std::string last;
+    if (waiting_) {
+        live_->discard();
+        last = waiting_->file.string() +
+               ": nothing was recorded, as no frame came: see whether its sender sends";
+    }
     if (live_ && recorder_) last = finish_both(*recorder_, *live_, for_sums).failure;
     if (!live_ && recorder_) last = recorder_->finish(for_sums).failure;
     if (last.empty() && finishing_.valid()) last = finishing_.get().failure;

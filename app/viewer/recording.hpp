@@ -41,6 +41,10 @@ class ViewerRecording {
     [[nodiscard]] bool active() const { return recorder_ != nullptr; }
     /// It is, or waits for the first frame of a video.
     [[nodiscard]] bool asked_for() const { return active() || waiting_; }
+    /// The file of one that waits; else empty.
+    [[nodiscard]] std::filesystem::path waits_with() const {
+        return waiting_ ? waiting_->file : std::filesystem::path{};
+    }
     [[nodiscard]] bool finishing() const { return finishing_.valid(); }
     [[nodiscard]] std::optional<std::string> take_finished(ViewerState& state);
 
@@ -63,7 +67,7 @@ class ViewerRecording {
     void take_news(ViewerState& state);
 
     /// At the end of the program; waits so long for sums of large files. Throws InputError when a
-    /// recording broke off.
+    /// recording broke off, or still waits.
     void finish(std::chrono::milliseconds for_sums = Recorder::kPatience);
 
     /// Of the thread that writes: silent while that waits for the disk.

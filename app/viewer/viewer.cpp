@@ -80,7 +80,8 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
       browsing_(errands),
       desktop_(errands),
       painting_(errands),
-      keeper_(options.in_file, options.settings, options.settings_file),
+      lasting_(errands),
+      keeper_(options.in_file, options.settings, options.settings_file, lasting_),
       start_(steady_clock::now()),
       strips_(std::make_unique<StripRing>()),
       ticks_(std::make_unique<TickRing>()),
@@ -154,7 +155,8 @@ void Viewer::close_without_display() {
     estimating_.end();
     explaining_.end(state_, camera_);
     keep_memory();
-    attempt([this] { keeper_.finish(lasting_settings()); });
+    keeper_.finish(lasting_settings());
+    attempt([this] { lasting_.finish(kPatienceAtAnEnd); });
     attempt([this] { screenshots_.finish(); });
     attempt([this] { painting_.finish(recording_, kPatienceAtAnEnd); });
     attempt([this] { clip_.finish(ClipEnd::at_once); });
@@ -183,7 +185,10 @@ void Viewer::finish() {
     now("saving the settings");
     explaining_.end(state_, camera_);
     keep_memory();
-    try_to([this] { keeper_.finish(lasting_settings()); });
+    keeper_.finish(lasting_settings());
+    try_to([this] {
+        lasting_.finish(ending_.asked() ? kPatienceAtAnEnd : std::chrono::milliseconds(10000));
+    });
     now("writing pictures");
     try_to([this] { screenshots_.finish(); });
     now("saving what was painted");
@@ -613,7 +618,8 @@ void Viewer::keep_settings() {
         state_.settings.width = size.x;
         state_.settings.height = size.y;
     }
-    attempt([this] { keeper_.look(lasting_settings(), now_s()); });
+    keeper_.look(lasting_settings(), now_s());
+    attempt([this] { lasting_.look(); });
     if (!state_.doubts.empty()) drop_changed(state_.doubts, state_.settings);
 }
 
@@ -622,7 +628,7 @@ void Viewer::take_word(bool agreed) {
     const std::vector<Doubt> doubts = std::exchange(state_.doubts, {});
     if (!agreed) return keeper_.forget(doubts);
     copy_doubted(doubts, options_.in_file, state_.settings);
-    attempt([&] { Consent().agree(doubts); });
+    lasting_.add([doubts] { Consent().agree(doubts); });
 }
 
 void Viewer::start_or_stop_recording() {

@@ -224,6 +224,7 @@ class Viewer {
     DesktopDialog desktop_;
     ViewerPanes panes_{};
     ViewerPainting painting_;
+    ErrandsInOrder lasting_;  // what is remembered
     SettingsKeeper keeper_;
     HapticSettings handed_{};
     DepthBlend shown_{};  // of the picture being made

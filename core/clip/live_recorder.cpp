@@ -75,6 +75,13 @@ void LiveRecorder::finish() {
     if (thread_.joinable()) thread_.join();
 }
 
+void LiveRecorder::discard() {
+    finish();
+    std::error_code gone;
+    for (const fs::path& file : {files_.depth, files_.colour})
+        if (!file.empty()) fs::remove(file, gone);
+}
+
 std::string LiveRecorder::failure() const {
     const std::lock_guard lock(mutex_);
     return failure_;

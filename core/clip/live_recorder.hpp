@@ -38,6 +38,8 @@ class LiveRecorder {
     void add(const LiveRecord& record);
     /// Writes what waits, and ends the files; no more is added.
     void finish();
+    /// The same, and the files go: nobody refers to them.
+    void discard();
 
     /// Of finished files, as far as it is known.
     [[nodiscard]] std::vector<FileContent> contents() const;

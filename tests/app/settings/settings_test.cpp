@@ -3,6 +3,7 @@
 #include <GLFW/glfw3.h>
 
 #include <filesystem>
+#include <future>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -171,17 +172,45 @@ TEST_CASE("only what a person changed in the window gets into the file", "[setti
     in_file.touch.shape.relief_px = 100.0;
     Settings started = in_file;
     started.touch.shape.relief_px = 300.0;  // the command line's
-    SettingsKeeper keeper(in_file, started, file);
+    Errands errands;
+    ErrandsInOrder writing(errands);
+    SettingsKeeper keeper(in_file, started, file, writing);
     Settings now = started;
     keeper.finish(now);
+    writing.finish(std::chrono::seconds(60));
     CHECK_FALSE(std::filesystem::exists(file));
     now.touch.friction = {0.9, 0.9};
     keeper.look(now, 1.0);
     CHECK_FALSE(std::filesystem::exists(file));
     keeper.look(now, 3.5);
+    writing.finish(std::chrono::seconds(60));
     const Settings saved = load_settings(file);
     CHECK_THAT(saved.touch.shape.relief_px, WithinAbs(100.0, 1e-12));
     CHECK_THAT(saved.touch.friction.static_coefficient, WithinAbs(0.9, 1e-12));
+}
+
+TEST_CASE("what is to last is written in order, and whoever asks for it waits for no disk",
+          "[settings]") {
+    Errands errands;
+    ErrandsInOrder writing(errands);
+    std::promise<void> disk;
+    std::vector<int> written;  // by one thread after the other
+    writing.add([&, answers = disk.get_future().share()] {
+        answers.wait();
+        written.push_back(1);
+    });
+    writing.add([&] {
+        written.push_back(2);
+        throw InputError("no room");
+    });
+    writing.add([&] { written.push_back(3); });
+    writing.look();
+    CHECK(writing.done_so_far().wait_for(std::chrono::seconds(0)) == std::future_status::timeout);
+    disk.set_value();
+    CHECK_THROWS_AS(writing.finish(std::chrono::seconds(60)), InputError);
+    writing.finish(std::chrono::seconds(60));
+    CHECK(written == std::vector{1, 2, 3});
+    CHECK(errands.come_home(std::chrono::seconds(60)));
 }
 
 TEST_CASE("no key does two things, and every job is on the help sheet", "[keys]") {

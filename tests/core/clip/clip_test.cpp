@@ -17,6 +17,7 @@
 
 #include "core/clip/clip_file.hpp"
 #include "core/clip/clip_recorder.hpp"
+#include "core/clip/live_recorder.hpp"
 #include "core/error.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/eventually.hpp"
@@ -102,6 +103,17 @@ std::vector<std::string> names(const TemporaryFolder& folder) {
 }
 
 }  // namespace
+
+TEST_CASE("a video of what is live that nobody refers to leaves nothing, and its name is free",
+          "[clip]") {
+    const TemporaryFolder folder;
+    for (int again = 0; again < 2; ++again) {
+        LiveRecorder recorder(live_files_beside(folder / "a.dibhr"));
+        CHECK(names_in(folder.path()) == std::vector<std::string>{"a.color.mkv", "a.depth.mkv"});
+        recorder.discard();
+        CHECK(names_in(folder.path()).empty());
+    }
+}
 
 TEST_CASE(
     "a clip shows each picture at its time, the last until the end, and begins with its index",
