@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "core/files/plain_text.hpp"
 #include "device/inverse3/dynamics.hpp"
 #include "device/inverse3/farewell.hpp"
 
@@ -241,8 +242,8 @@ void Conversation::take_message(const ServiceMessage& message, Time at) {
             exchange_.poses.publish(TimedPose{});
             return;
         }
-        take_nonsense(Stage::not_understood, "the Haply Inverse Service complains: " +
-                                                 std::string(message.complaint.view()));
+        take_nonsense(Stage::not_understood,
+                      "the Haply Inverse Service complains: " + one_line(message.complaint.view()));
         return;
     }
     // Where no version was told, its words tell it.
@@ -282,7 +283,7 @@ void Conversation::choose(const ServiceMessage& message) {
     board_.draft().other_preset = false;
     hearing_.begin();
     memory_.watch.begin();
-    board_.draft().id = arm_.view();
+    board_.draft().id = one_line(arm_.view());
 }
 
 /// Somebody else may hold another one: it counts as ours when it is plugged in anew, or named.
@@ -315,7 +316,7 @@ void Conversation::miss_arm(const ServiceMessage& message) {
     if (as_told) return;
     tell(Stage::no_device,
          any ? "the Haply Inverse Service has no Inverse3 that is " + options_.device +
-                   ", but has " + std::string(message.arms[0].id.view())
+                   ", but has " + one_line(message.arms[0].id.view())
              : sentence_for(Stage::no_device, board_.draft()),
          any);
 }
@@ -325,7 +326,7 @@ void Conversation::lose_arm(const ServiceMessage& message) {
     if (options_.device.empty()) {
         leave_others(message);
         if (message.arm_count > 0)
-            sentence += "; to touch with " + std::string(message.arms[0].id.view()) +
+            sentence += "; to touch with " + one_line(message.arms[0].id.view()) +
                         " instead, plug that one in anew";
     }
     memory_.watch.miss();
@@ -349,7 +350,7 @@ void Conversation::read_back(const ArmConfig& config) {
     Status& status = board_.draft();
     status.minverse = config.minverse;
     status.handedness = config.handedness;
-    status.preset = config.preset.view();
+    status.preset = one_line(config.preset.view());
     const bool is_ours =
         !newer_ || !introduced_ || config.preset.empty() || config.preset == options_.preset;
     if (is_ours) {
@@ -394,7 +395,7 @@ void Conversation::take_grip(const ServiceMessage& message, Time at) {
         down = static_cast<std::uint8_t>(down | grip.buttons);
         if (k > 0) continue;
         if (!shown) shown.emplace();
-        if (shown->id != grip.id.view()) shown->id = grip.id.view();
+        if (shown->id != grip.id.view()) shown->id = one_line(grip.id.view());
         shown->wired = grip.wired;
         shown->awake = grip.awake && grip.connected;
         shown->battery = grip.battery;

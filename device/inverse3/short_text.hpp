@@ -19,13 +19,10 @@ class ShortText {
     /// What does not fit is cut off.
     constexpr ShortText(std::string_view text) noexcept { assign(text); }
 
-    /// Whether all of it fits; what does not is cut off. Control characters become "?": a service
-    /// writes one line.
+    /// Whether all of it fits; what does not is cut off.
     constexpr bool assign(std::string_view text) noexcept {
         size_ = static_cast<std::uint8_t>(std::min(text.size(), N));
-        std::transform(text.begin(), text.begin() + size_, bytes_.begin(), [](char c) {
-            return static_cast<unsigned char>(c) < 0x20U || c == 0x7F ? '?' : c;
-        });
+        std::copy_n(text.begin(), size_, bytes_.begin());
         return text.size() <= N;
     }
     [[nodiscard]] constexpr std::string_view view() const noexcept {

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <utility>
 
+#include "core/files/plain_text.hpp"
 #include "device/inverse3/arm_watch.hpp"
 #include "device/inverse3/message.hpp"
 #include "device/inverse3/service_link.hpp"
@@ -44,7 +45,7 @@ SurveyedArm surveyed(const Arm& arm, const ConnectionOptions& options) {
     ArmWatch watch;
     watch.add(arm, {});
     SurveyedArm found;
-    found.id = arm.id.view();
+    found.id = one_line(arm.id.view());
     if (arm.config) {
         found.minverse = arm.config->minverse;
         found.handedness = arm.config->handedness;
@@ -54,12 +55,12 @@ SurveyedArm surveyed(const Arm& arm, const ConnectionOptions& options) {
     status.id = found.id;
     status.minverse = found.minverse;
     found.sentence = sentence_for(found.stage, status);
-    found.kept = ask_kept_settings(options, found.id);
+    found.kept = ask_kept_settings(options, std::string(arm.id.view()));
     return found;
 }
 
 GripStatus surveyed(const Grip& grip) {
-    return {std::string(grip.id.view()), grip.wired, grip.awake && grip.connected, grip.battery};
+    return {one_line(grip.id.view()), grip.wired, grip.awake && grip.connected, grip.battery};
 }
 
 void take(const ServiceMessage& message, const ConnectionOptions& options, Survey& survey) {

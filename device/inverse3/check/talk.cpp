@@ -5,6 +5,7 @@
 #include <span>
 #include <thread>
 
+#include "core/files/plain_text.hpp"
 #include "device/inverse3/farewell.hpp"
 #include "device/inverse3/service_version.hpp"
 #include "device/inverse3/simulated/name.hpp"
@@ -128,7 +129,7 @@ CheckTalk::Heard CheckTalk::exchange(const std::optional<Vec3>& force_newton,
     }
     const auto took = ask({.arm = DeviceId(id_), .force_newton = force_newton, .dialect = dialect});
     if (!message_.complaint.empty()) {
-        throw DeviceError("the service complains: " + std::string(message_.complaint.view()));
+        throw DeviceError("the service complains: " + one_line(message_.complaint.view()));
     }
     const Arm* const arm = message_.arm(DeviceId(id_));
     if (arm == nullptr) throw DeviceError("the Inverse3 " + id_ + " was unplugged");

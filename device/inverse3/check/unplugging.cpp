@@ -99,7 +99,7 @@ class Absence {
 std::string names_in(const ServiceMessage& message) {
     std::string names;
     for (std::size_t k = 0; k < message.arm_count; ++k)
-        names += (names.empty() ? "" : ", ") + std::string(message.arms[k].id.view());
+        names += (names.empty() ? "" : ", ") + one_line(message.arms[k].id.view());
     return names.empty() ? "nothing" : names;
 }
 

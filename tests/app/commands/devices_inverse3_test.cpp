@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/files/plain_text.hpp"
 #include "device/inverse3/simulated/service.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/support/catch.hpp"
@@ -60,6 +61,29 @@ const std::vector<Case>& unusable() {
 }
 
 }  // namespace
+
+TEST_CASE("nothing that the service says means anything to a terminal", "[inverse3][devices]") {
+    const std::string hostile =
+        GENERATE(as<std::string>{}, "\x1b[2J", "\x1b]0;x\a", "a\rb", "a\nfake: usable", "\x7f\b",
+                 "\xC2\x9b"
+                 "1m",
+                 "\xE2\x80\xAE"
+                 "x");
+    Scene scene;
+    scene.arms[0].id = hostile;
+    scene.arms[0].handedness = hostile;
+    scene.arms[0].preset = hostile;
+    scene.grips = {Grip{.id = hostile}};
+    Service service(scene);
+    const ProgramResult result = Home(service).run({"devices"});
+    CHECK(says(result.output, "Haply"));
+    for (const std::string& text : {result.output, result.errors}) {
+        CHECK_FALSE(says(text, "\nfake"));
+        for (const char c : text)
+            CHECK((static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t'));
+        CHECK(dibhr::utf8_text(text) == text);
+    }
+}
 
 TEST_CASE("an Inverse3 that can be used is told with its service and its grip",
           "[inverse3][devices]") {

@@ -3,12 +3,14 @@
 
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include "app/settings/file_memory.hpp"
@@ -89,6 +91,22 @@ void write_session(const fs::path& folder) {
     if (recorder.finish().failure.empty()) kept();
 }
 
+/// In real time, so that its log is flushed and grows on.
+void record(const fs::path& folder) {
+    test::MovingSurface surface;
+    test::Exploration hand(surface);
+    const auto ring = std::make_unique<TickRing>();
+    Recorder recorder(folder / "mine.dibhr", *ring, {});
+    kept();
+    recorder.parameters(hand.parameters);
+    auto due = std::chrono::steady_clock::now();
+    for (int k = 0; k < test::kCutTicks; ++k) {
+        ring->push(hand.next());
+        std::this_thread::sleep_until(due += std::chrono::milliseconds(1));
+    }
+    if (recorder.finish().failure.empty()) kept();
+}
+
 void write_study(const fs::path& folder) {
     StudyFile study(study_file_of(folder, "P07"), test::cut_identity());
     kept();
@@ -111,10 +129,15 @@ namespace dibhr::test {
 
 const std::map<std::string, std::function<void(const fs::path&)>>& cut_work() {
     static const std::map<std::string, std::function<void(const fs::path&)>> all{
-        {"settings", write_settings},     {"history", write_history},
-        {"maps", write_sidecar_and_maps}, {"material", write_material},
-        {"pictures", write_pictures},     {"session", write_session},
-        {"study", write_study},           {"cache", make_depth}};
+        {"settings", write_settings},
+        {"history", write_history},
+        {"maps", write_sidecar_and_maps},
+        {"material", write_material},
+        {"pictures", write_pictures},
+        {"session", write_session},
+        {"recording", record},
+        {"study", write_study},
+        {"cache", make_depth}};
     return all;
 }
 

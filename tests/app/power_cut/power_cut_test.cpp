@@ -110,14 +110,23 @@ void check_files_of(const std::string& what, int most) {
     check_whole_files(program, most);
 }
 
-void check_export(const std::vector<std::string>& arguments, int most) {
+/// The same each time.
+void put_session(const fs::path& disk) {
+    static const TemporaryFolder folder;
+    const fs::path file = folder / "mine.dibhr";
+    if (!fs::exists(file)) cut_work().at("session")(folder.path());
+    fs::copy_file(file, disk / "mine.dibhr");
+}
+
+void check_export(const std::vector<std::string>& arguments, int most,
+                  const PowerCut::Work& prepare = put_depth) {
     CAPTURE(arguments);
-    PowerCut program(PowerCut::program(arguments), put_depth);
+    PowerCut program(PowerCut::program(arguments), prepare);
     check_whole_files(program, most);
 }
 
-void check_session(int most) {
-    PowerCut program(writing("session"), nothing);
+void check_session(const std::string& what, int most) {
+    PowerCut program(writing(what), nothing);
     cut(program, most, [&](bool ended, int kept, Lost) {
         const fs::path file = program.disk() / "mine.dibhr";
         if (kept == 0) return;  // not yet begun
@@ -180,7 +189,7 @@ TEST_CASE("an export is there whole or not at all after a power cut", "[power]")
 }
 
 TEST_CASE("a session that has ended lasts through a power cut, and is sound before", "[power]") {
-    check_session(kFew);
+    check_session("session", kFew);
 }
 
 TEST_CASE("no answer of a person is lost by a power cut", "[power]") {
@@ -195,7 +204,10 @@ TEST_CASE("the power is cut at fifty moments of everything that is written", "[p
     for (const char* const what : {"settings", "history", "maps", "material", "pictures"})
         check_files_of(what, kMany);
     check_export({"surface", "@depth.png", "--out", "@made.ply"}, kMany);
-    check_session(kMany);
+    check_export({"export", "@mine.dibhr", "--csv", "@made.csv"}, kMany, put_session);
+    check_export({"report", "@mine.dibhr", "--out", "@made"}, kMany, put_session);
+    check_session("session", kMany);
+    check_session("recording", 10);
     check_study(kMany);
     check_cache(kMany);
 }

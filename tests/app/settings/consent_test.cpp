@@ -1,5 +1,6 @@
 // What settings, estimators and studies of others get only when a person here agrees.
 #include <algorithm>
+#include <chrono>
 #include <set>
 #include <string>
 #include <string_view>
@@ -165,11 +166,14 @@ TEST_CASE("what a person changes in the window is their word, and is not asked a
     Settings started = in_file;
     std::vector<Doubt> doubts = machine.consent.hold(started);
     REQUIRE(doubts.size() == 1);
-    SettingsKeeper keeper(in_file, started, file);
+    Errands errands;
+    ErrandsInOrder writing(errands);
+    SettingsKeeper keeper(in_file, started, file, writing);
     Settings now = started;
     now.max_force_newton = 7.0;
     now.falcon.force_in_front_only = false;
     keeper.finish(now);
+    writing.finish(std::chrono::seconds(60));
     Settings next = load_settings(file);
     CHECK_FALSE(next.stability);  // of the file, to be asked about again
     CHECK(records_of(machine.consent.hold(next)) ==
@@ -183,10 +187,13 @@ TEST_CASE("an option of the command line is a word for one run alone", "[consent
     const auto file = machine.folder / "settings.toml";
     Settings started = machine.file("");
     started.stability = false;
-    SettingsKeeper keeper({}, started, file);
+    Errands errands;
+    ErrandsInOrder writing(errands);
+    SettingsKeeper keeper({}, started, file, writing);
     Settings now = started;
     now.mute = true;
     keeper.finish(now);
+    writing.finish(std::chrono::seconds(60));
     CHECK_FALSE(std::filesystem::exists(consent_path()));
     CHECK(load_settings(file).stability);
 }
@@ -214,11 +221,15 @@ TEST_CASE("whoever keeps the usual values finds them in the file", "[consent]") 
         machine.file("[device]\nmax-force = 8.0\n[touch]\nstiffness = 0.4\n[sound]\nmute = true\n");
     Settings started = in_file;
     const std::vector<Doubt> doubts = machine.consent.hold(started);
-    SettingsKeeper keeper(in_file, started, file);
+    Errands errands;
+    ErrandsInOrder writing(errands);
+    SettingsKeeper keeper(in_file, started, file, writing);
     keeper.finish(started);
+    writing.finish(std::chrono::seconds(60));
     CHECK(load_settings(file).max_force_newton > 7.9);  // nobody has said anything
     keeper.forget(doubts);
     keeper.finish(started);
+    writing.finish(std::chrono::seconds(60));
     const Settings kept = load_settings(file);
     CHECK(same_settings(kept, started));
     CHECK(kept.mute);

@@ -36,7 +36,7 @@ constexpr std::array kStarts{
     "exec >/dev/null 2>&1; sleep $0 & wait",
     "timeout 60 sleep $0 & wait",
     "nice setsid sleep $0 & wait",
-    "sleep $0 & until grep -q sleep /proc/$!/cmdline; do :; done; kill -STOP $!; wait",
+    "sleep $0 & until grep -q sleep /proc/$!/comm; do :; done; kill -STOP $!; wait",
     "setsid -f sleep $0; sleep 60",
     "echo $0 | xargs sleep & wait",
     "find / -maxdepth 0 -exec sleep $0 ';' & wait",
