@@ -173,7 +173,7 @@ void Consent::add(const std::vector<std::string>& lines) const {
     if (all.size() == before) return;
     all.insert(std::string(kHead));  // "#" comes before all that is a key
     std::error_code failed;          // is told when the file is opened
-    fs::create_directories(record_.parent_path(), failed);
+    make_folders(record_.parent_path(), failed);
     OutputFile out(record_);
     for (const std::string& line : all) out.write(line + '\n');
     out.commit();

@@ -47,14 +47,19 @@ bool renamed_to_new(const fs::path& from, const fs::path& to) {
     return ::rename(from.c_str(), to.c_str()) == 0;
 }
 
-/// The program that writes a file of that name, "mine.csv.part1234-0"; 0: the name is another.
+/// The program that writes a file of that name, "mine.csv.part1234-0", or SQLite's beside it; 0:
+/// the name is another.
 pid_t writer_of(const std::string& name, const std::string& begin) {
     if (!name.starts_with(begin)) return 0;
     pid_t writer = 0;
     std::size_t digits = begin.size();
     for (; digits < name.size() && name[digits] >= '0' && name[digits] <= '9'; ++digits)
         writer = writer > kMostPid ? writer : 10 * writer + (name[digits] - '0');
-    return digits < name.size() && name[digits] == '-' ? writer : 0;
+    if (digits + 1 >= name.size() || name[digits] != '-') return 0;
+    const std::size_t end = name.find_first_not_of("0123456789", digits + 1);
+    const std::string rest = end == std::string::npos ? "" : name.substr(end);
+    const bool is_ours = rest.empty() || rest == "-wal" || rest == "-shm" || rest == "-journal";
+    return is_ours && end != digits + 1 ? writer : 0;
 }
 
 /// What programs that were killed while they wrote this file have left of it. Another machine's, or

@@ -197,7 +197,8 @@ double PassivityControl::most_rise_mm(double stiffness) const noexcept {
 
 void PassivityControl::fill_video_tank(double dt_s, double from_video_mj) noexcept {
     constexpr double kVideo_mw = 20.0;
-    video_mj_ = std::clamp(video_mj_ + kVideo_mw * dt_s - from_video_mj, 0.0, kVideoAtOnce_mj);
+    const double left_mj = video_mj_ + kVideo_mw * dt_s - from_video_mj;
+    video_mj_ = left_mj > 0.0 ? std::min(left_mj, kVideoAtOnce_mj) : 0.0;  // also no number
 }
 
 void PassivityControl::sent(Vec3 force_newton) noexcept {
@@ -216,7 +217,7 @@ void PassivityControl::pass(const Tick& tick) noexcept {
     rest_ = {};
     length_mm_ = owed_mj_ = 0.0;
     const double from_video = take_pull(tick, direction_of(tick.lag_mm));
-    follow_flow({.from_video_mw = from_video / tick.dt_s}, tick.dt_s);
+    follow_flow({.from_video_mw = tick.dt_s > 0.0 ? from_video / tick.dt_s : 0.0}, tick.dt_s);
 }
 
 void PassivityControl::follow_flow(const EnergyFlow& now, double dt_s) noexcept {

@@ -185,6 +185,15 @@ TEST_CASE("a cut of the video under a hand that hovers begins by the ramp, a slo
     CHECK(strongest_within(200, 500) > 0.8);  // 28 mm/s, felt as it comes: 2.8 mm, 1.1 of them lag
 }
 
+TEST_CASE("ticks that take no time, or no number of it, leave numbers in the flow of energy",
+          "[stability]") {
+    PassivityControl control;
+    for (const double dt_s : {0.0, std::nan(""), -1.0}) control.pass(dt_s);
+    control.pass(kTick_s);
+    CHECK(control.flow().from_video_mw == 0.0);
+    CHECK(std::isfinite(control.most_rise_mm(1.0)));
+}
+
 TEST_CASE("a controller that nothing moves, or that is not asked for, changes no bit",
           "[stability]") {
     const DepthImage image = test::flat(40, 30, 100.0);
