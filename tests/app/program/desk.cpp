@@ -161,6 +161,11 @@ void WindowProgram::wait_until(const std::function<bool(const Seen&)>& is_so) co
     FAIL((came ? "the program has ended" : "no picture shows it") << "; the last one: " << last);
 }
 
+void WindowProgram::hang() const {
+    (*board_)->hangs = true;
+    REQUIRE(eventually([this] { return (*board_)->is_hanging.load(); }, std::chrono::minutes(1)));
+}
+
 void WindowProgram::wait_for_picture() const {
     // The one that is being drawn may have looked for events already.
     const std::uint64_t wanted = seen().picture + 2;

@@ -61,8 +61,8 @@ class WindowProgram : public Process {
     void wait_for_surface() const;
     /// Events as Seat::act() has them, each of them seen in a picture before the next one.
     void act(const std::string& events) const;
-    /// The window's thread loops for ever from its next picture on.
-    void hang() const { (*board_)->hangs = true; }
+    /// The window's thread loops for ever, which it does when this returns.
+    void hang() const;
 
   private:
     WindowProgram(std::vector<std::string> arguments, std::vector<std::string> environment,

@@ -131,6 +131,7 @@ struct SeenBoard {
 
     /// While it is true the window's thread loops for ever after its next picture.
     std::atomic<bool> hangs{false};
+    std::atomic<bool> is_hanging{false};  ///< it does
 
   private:
     std::atomic<std::uint64_t> turn_{0};  // odd: being written

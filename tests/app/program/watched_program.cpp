@@ -142,7 +142,7 @@ PictureHook hook_of(const char* file) {
         seen.question_seen_s = last.question_seen_s;
         see_question(shown, seen);
         (*board)->write(last = seen);
-        while ((*board)->hangs) continue;
+        while ((*board)->hangs) (*board)->is_hanging = true;
     };
 }
 
