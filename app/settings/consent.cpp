@@ -1,6 +1,10 @@
 // The list of what protects the hand, and the record of what was agreed to: a line each.
 #include "app/settings/consent.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <iterator>
@@ -103,6 +107,23 @@ bool is_of(const Doubt& doubt, const Setting& setting) {
     return doubt.table == setting.table && doubt.name == setting.name;
 }
 
+/// Threads and programs that change a file of it take turns; without one where it cannot be locked.
+class FolderLock {
+  public:
+    explicit FolderLock(const fs::path& folder)
+        : folder_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+        if (folder_ >= 0) ::flock(folder_, LOCK_EX);
+    }
+    ~FolderLock() {
+        if (folder_ >= 0) ::close(folder_);
+    }
+    FolderLock(const FolderLock&) = delete;
+    FolderLock& operator=(const FolderLock&) = delete;
+
+  private:
+    int folder_;
+};
+
 }  // namespace
 
 fs::path consent_path() {
@@ -167,13 +188,14 @@ std::set<std::string> Consent::agreed() const {
 
 void Consent::add(const std::vector<std::string>& lines) const {
     constexpr std::string_view kHead = "# Agreed to on this machine. Delete a line to be asked.";
+    std::error_code failed;  // is told when the file is opened
+    make_folders(record_.parent_path(), failed);
+    const FolderLock alone(record_.parent_path());
     std::set<std::string> all = agreed();
     const std::size_t before = all.size();
     all.insert(lines.begin(), lines.end());
     if (all.size() == before) return;
     all.insert(std::string(kHead));  // "#" comes before all that is a key
-    std::error_code failed;          // is told when the file is opened
-    make_folders(record_.parent_path(), failed);
     OutputFile out(record_);
     for (const std::string& line : all) out.write(line + '\n');
     out.commit();

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.hpp"
+
 namespace dibhr {
 
 /// All who are on an errand, also those that nobody hears of any more: the end of the program must
@@ -109,8 +111,9 @@ class ErrandsInOrder {
     /// `work` holds all that it needs.
     template <typename Work>
     void add(Work work) {
-        std::packaged_task<void()> task([before = last_, work = std::move(work)] {
+        std::packaged_task<void()> task([before = last_, work = std::move(work)]() mutable {
             if (before.valid()) before.wait();
+            before = {};  // and with it what that one held
             work();
         });
         last_ = task.get_future().share();
@@ -131,10 +134,15 @@ class ErrandsInOrder {
         }
     }
 
-    /// The same, after waiting for it so long at most.
+    /// The same, after waiting for it. Throws InputError, too, where it takes longer than
+    /// `patience`.
     void finish(std::chrono::milliseconds patience) {
-        if (last_.valid()) last_.wait_for(patience);
+        const bool late = last_.valid() && last_.wait_for(patience) != std::future_status::ready;
         look();
+        if (late)
+            throw InputError(
+                "settings and what is remembered are not saved: see whether their disk still "
+                "answers");
     }
 
     /// When all that was added until now is done; not valid: nothing was. For a thread that waits.

@@ -101,6 +101,7 @@ SettingsKeeper::SettingsKeeper(Settings in_file, Settings started, std::filesyst
                                ErrandsInOrder& writing)
     : in_file_(std::move(in_file)),
       started_(std::move(started)),
+      agreed_(started_),
       wanted_(in_file_),
       written_(in_file_),
       file_(std::move(file)),
@@ -121,12 +122,14 @@ void SettingsKeeper::finish(const Settings& now) {
 }
 
 void SettingsKeeper::save(const Settings& now) {
-    if (same_settings(wanted_, written_)) return;
-    written_ = wanted_;
-    writing_.add([settings = wanted_, file = file_, before = started_, now] {
-        save_settings(settings, file);
-        Consent().agree_to_changes(before, now);
-    });
+    if (!same_settings(wanted_, written_)) {
+        written_ = wanted_;
+        writing_.add([settings = wanted_, file = file_] { save_settings(settings, file); });
+    }
+    // Also of a value that the file has.
+    if (same_settings(now, agreed_)) return;
+    agreed_ = now;
+    writing_.add([before = started_, now] { Consent().agree_to_changes(before, now); });
 }
 
 std::unique_ptr<Media> open_request(const OpenRequest& request) {

@@ -72,6 +72,7 @@ class SettingsKeeper {
 
     Settings in_file_;
     Settings started_;
+    Settings agreed_;  // so far, by changing them
     Settings wanted_;  // for the file
     Settings written_;
     std::filesystem::path file_;

@@ -618,8 +618,10 @@ void Viewer::keep_settings() {
         state_.settings.width = size.x;
         state_.settings.height = size.y;
     }
-    keeper_.look(lasting_settings(), now_s());
-    attempt([this] { lasting_.look(); });
+    attempt([this] {
+        keeper_.look(lasting_settings(), now_s());
+        lasting_.look();
+    });
     if (!state_.doubts.empty()) drop_changed(state_.doubts, state_.settings);
 }
 

@@ -242,7 +242,8 @@ void rename_arguments() noexcept {
     char* rest = nullptr;
     const auto begin = std::strtoull(field, &rest, 10);
     const auto end = std::strtoull(rest, nullptr, 10);
-    if (begin == 0 || end <= begin) return;
+    constexpr unsigned long long kMost = 1U << 21U;  // that a program is given
+    if (begin == 0 || end <= begin || end - begin > kMost) return;
     auto* const arguments = reinterpret_cast<char*>(begin);
     std::memset(arguments, 0, end - begin);
     std::memcpy(arguments, Guardian::kProcessName,

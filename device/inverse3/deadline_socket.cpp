@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <ctime>
+#include <utility>
 
 namespace dibhr::inverse3 {
 
@@ -87,7 +88,10 @@ std::size_t DeadlineSocket::write(std::span<const iovec> parts, std::error_code&
     for (const iovec& part : parts) all += part.iov_len;
     const bool closes = whole_ && !parts.empty() && parts.front().iov_len > 0 &&
                         *static_cast<const std::uint8_t*>(parts.front().iov_base) == kCloseFrame;
-    if (closes) say_last_words();
+    if (closes && !say_last_words()) {  // whoever guards the connection has to
+        error = std::make_error_code(std::errc::no_buffer_space);
+        return 0;
+    }
     msghdr message{};
     message.msg_iov = const_cast<iovec*>(parts.data());  // it is only read
     message.msg_iovlen = parts.size();
@@ -111,16 +115,16 @@ void DeadlineSocket::set_last_words(std::span<const std::uint8_t> frame) noexcep
     std::copy_n(frame.begin(), last_words_size_, last_words_.begin());
 }
 
-void DeadlineSocket::say_last_words() noexcept {
+bool DeadlineSocket::say_last_words() noexcept {
+    const std::size_t size = std::exchange(last_words_size_, 0);
+    if (descriptor_ < 0 || size == 0) return true;
     // Behind a part of a frame they would be taken for its rest.
-    if (descriptor_ >= 0 && whole_ && last_words_size_ > 0) {
-        (void)send(descriptor_, last_words_.data(), last_words_size_, MSG_NOSIGNAL | MSG_DONTWAIT);
-    }
-    last_words_size_ = 0;
+    return whole_ && send(descriptor_, last_words_.data(), size, MSG_NOSIGNAL | MSG_DONTWAIT) ==
+                         static_cast<ssize_t>(size);
 }
 
 void DeadlineSocket::close() noexcept {
-    say_last_words();
+    (void)say_last_words();
     if (descriptor_ >= 0) ::close(descriptor_);
     descriptor_ = -1;
     from_ = to_ = 0;

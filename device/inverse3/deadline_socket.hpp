@@ -49,7 +49,8 @@ class DeadlineSocket {
 
   private:
     [[nodiscard]] std::error_code wait_for(short events) const noexcept;
-    void say_last_words() noexcept;
+    /// False: they have not gone out whole.
+    [[nodiscard]] bool say_last_words() noexcept;
 
     int descriptor_{-1};
     Time deadline_{Time::max()};

@@ -39,15 +39,14 @@ bool is_child(const char* pid) {
 }
 
 /// Whoever has lost its parent is this program's child, whatever group or session it has left for.
-/// Whether there was any.
+/// Whether there was any that it may kill.
 bool kill_children() {
     bool any = false;
     DIR* const processes = ::opendir("/proc");
     while (const dirent* const process = processes != nullptr ? ::readdir(processes) : nullptr) {
         if (process->d_name[0] < '1' || process->d_name[0] > '9' || !is_child(process->d_name))
             continue;
-        any = true;
-        ::kill(std::atoi(process->d_name), SIGKILL);
+        if (::kill(std::atoi(process->d_name), SIGKILL) == 0) any = true;
     }
     if (processes != nullptr) ::closedir(processes);
     return any;

@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include "app/settings/consent.hpp"
@@ -180,6 +181,38 @@ TEST_CASE("what a person changes in the window is their word, and is not asked a
           std::vector<std::string>{"touch.stability false"});
     CHECK(next.max_force_newton > 6.9);
     CHECK_FALSE(next.falcon.force_in_front_only);
+}
+
+TEST_CASE("a value of the file that a person sets in the window is their word, too", "[consent]") {
+    const Machine machine;
+    const auto file = machine.folder / "settings.toml";
+    const Settings in_file = machine.file("[device]\nmax-force = 8.0\n");
+    Settings started = in_file;
+    REQUIRE(machine.consent.hold(started).size() == 1);
+    Errands errands;
+    ErrandsInOrder writing(errands);
+    SettingsKeeper keeper(in_file, started, file, writing);
+    Settings now = started;
+    now.max_force_newton = in_file.max_force_newton;
+    keeper.finish(now);
+    writing.finish(std::chrono::seconds(60));
+    Settings next = load_settings(file);
+    CHECK(machine.consent.hold(next).empty());
+}
+
+TEST_CASE("words that are given at once are all kept", "[consent]") {
+    const Machine machine;
+    constexpr int kEach = 20;
+    std::vector<std::thread> people;
+    for (int person = 0; person < 4; ++person)
+        people.emplace_back([person] {
+            for (int k = 0; k < kEach; ++k)
+                Consent().agree("run " + std::to_string(person) + " " + std::to_string(k));
+        });
+    for (std::thread& one : people) one.join();
+    for (int person = 0; person < 4; ++person)
+        for (int k = 0; k < kEach; ++k)
+            CHECK(Consent().knows("run " + std::to_string(person) + " " + std::to_string(k)));
 }
 
 TEST_CASE("an option of the command line is a word for one run alone", "[consent]") {

@@ -206,6 +206,7 @@ TEST_CASE("what is to last is written in order, and whoever asks for it waits fo
     writing.add([&] { written.push_back(3); });
     writing.look();
     CHECK(writing.done_so_far().wait_for(std::chrono::seconds(0)) == std::future_status::timeout);
+    CHECK_THROWS_AS(writing.finish(std::chrono::seconds(0)), InputError);  // it stands still
     disk.set_value();
     CHECK_THROWS_AS(writing.finish(std::chrono::seconds(60)), InputError);
     writing.finish(std::chrono::seconds(60));
