@@ -81,7 +81,7 @@ void TouchRenderer::reset() noexcept {
     for (const auto& algorithm : algorithms_) algorithm->reset();
     running_ = Algorithm::dibhr;
     goal_velocity_ = {};
-    video_motion_ = {};
+    video_motion_ = carried_motion_ = {};
     passivity_ = {};
     safety_ = {};
     last_ = {};
@@ -202,7 +202,7 @@ Vec3 TouchRenderer::rendered_force(const Steps& steps, const Coupling& coupling,
         return velocity - surface_velocity_.after(carried, input.dt_s, coupling.damping_cutoff_hz);
     };
     if (!device.moves()) {
-        video_motion_.begin(0.0);
+        video_motion_ = carried_motion_ = {};
         passivity_ = {};
         return coupling_force(last_.proxy, last_.goal, seen_from(last_.carried), coupling);
     }
@@ -212,23 +212,27 @@ Vec3 TouchRenderer::rendered_force(const Steps& steps, const Coupling& coupling,
     if (!proxy.contact || !goes_on || !(input.dt_s > 0.0)) {
         // A surface that is above the hand at once is felt from where the hand is.
         video_motion_.begin(proxy.contact ? depth_px : 0.0);
+        carried_motion_ = {};
         passivity_.pass(input.dt_s);
         return coupling_force(proxy, last_.goal, seen_from(last_.carried), coupling);
     }
-    const Vec3 felt_step(
-        last_.carried.x, last_.carried.y,
-        video_motion_.followed(steps.rise, input.dt_s,
-                               passivity_.most_rise_mm(coupling.stiffness_newton_per_mm) / mm));
-    if (video_motion_.lag_px() > depth_px) video_motion_.begin(depth_px);  // it pulls no hand down
+    const double most_px = passivity_.most_rise_mm(coupling.stiffness_newton_per_mm) / mm;
+    const auto felt_step = [&](VideoMotion& motion, double rise_px) {
+        const double rise = motion.followed(rise_px, input.dt_s, most_px);
+        if (motion.lag_px() > depth_px) motion.begin(depth_px);  // it pulls no hand down
+        return Vec3(last_.carried.x, last_.carried.y, rise);
+    };
+    const Vec3 video_step = felt_step(video_motion_, steps.rise);
     const Vec3 felt_from = last_.goal + Vec3(0.0, 0.0, video_motion_.lag_px());
-    const Vec3 felt_velocity = seen_from(steps.carries ? felt_step : Vec3(0.0));
+    // Of a cut's rise only the spring knows: the damper is that of a surface which stands still.
+    const Vec3 felt_velocity = seen_from(felt_step(carried_motion_, last_.carried.z));
     const Vec3 force = coupling_force(proxy, felt_from, felt_velocity, coupling);
     const PassivityControl::Tick tick{.dt_s = input.dt_s,
                                       .goal_step_mm = steps.goal * mm,
                                       .lag_mm = (proxy.position - felt_from) * mm,
                                       .stiffness_newton_per_mm = coupling.stiffness_newton_per_mm,
                                       .max_force_newton = limits.max_force_newton,
-                                      .video_step_mm = felt_step * mm,
+                                      .video_step_mm = video_step * mm,
                                       .slid_mm = steps.slid * mm};
     if (!safety_.rising(limits)) return force + passivity_.force_after(tick, device);
     passivity_.pass(tick);

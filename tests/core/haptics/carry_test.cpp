@@ -317,7 +317,7 @@ TEST_CASE("without carry, or without motion, nothing is carried: the same bits",
         Vec3 goal(25.0, 20.0, 200.0);
         double last = 0.0;
         for (int k = 0; k < 1500; ++k) {
-            goal += Vec3(dice.uniform(-1.0, 1.0), dice.uniform(-1.0, 1.0), dice.uniform(-2.0, 1.9));
+            goal += Vec3{dice.uniform(-1.0, 1.0), dice.uniform(-1.0, 1.0), dice.uniform(-2.0, 1.9)};
             const double blend = k % 33 / 33.0;
             const DepthSurface surface(named.image, named.image, blend, parameters.shape);
             const SurfaceMotion going{nullptr, last, blend, blend < last};
