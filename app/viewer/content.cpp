@@ -133,8 +133,11 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
     const bool live = media->description().live;
     const std::filesystem::path waits =
         live && request.again ? recording_.waits_with() : std::filesystem::path{};
-    if (live && recording_.asked_for())
-        tell(recording_.stop(state_, request.again ? "what is live changed its form" : ""));
+    if (live && recording_.asked_for()) {
+        const std::string ended =
+            recording_.stop(state_, request.again ? "what is live changed its form" : "");
+        if (waits.empty()) tell(ended);  // one that waits goes on to wait
+    }
     if (!request.chosen) keep_memory();
     replay_.end(state_);
     if (!request.chosen) forget_relief();

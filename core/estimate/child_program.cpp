@@ -159,7 +159,7 @@ ChildProgram::ChildProgram(std::vector<std::string> words, ChildManner manner) {
 
 ChildProgram::~ChildProgram() {
     ::close(life_);
-    if (!end_) ::waitpid(child_, nullptr, 0);
+    ::waitpid(child_, nullptr, 0);  // only here: until now its number is no other program's
     if (words_end_ >= 0) ::close(words_end_);
 }
 
@@ -183,10 +183,11 @@ std::string ChildProgram::written(std::chrono::milliseconds patience) {
 }
 
 std::optional<ChildEnd> ChildProgram::ended() {
-    int status = 0;
-    if (!end_ && ::waitpid(child_, &status, WNOHANG) == child_) {
-        const bool killed = WIFSIGNALED(status);
-        end_ = killed ? ChildEnd{0, WTERMSIG(status)} : ChildEnd{WEXITSTATUS(status), 0};
+    siginfo_t how{};
+    if (!end_ &&
+        ::waitid(P_PID, static_cast<id_t>(child_), &how, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+        how.si_pid == child_) {
+        end_ = how.si_code == CLD_EXITED ? ChildEnd{how.si_status, 0} : ChildEnd{0, how.si_status};
     }
     return end_;
 }
@@ -194,8 +195,11 @@ std::optional<ChildEnd> ChildProgram::ended() {
 void ChildProgram::end() {
     if (ended()) return;
     ::kill(child_, SIGTERM);
-    int status = 0;
-    if (::waitpid(child_, &status, 0) == child_) end_ = ChildEnd{0, SIGKILL};
+    siginfo_t how{};
+    while (::waitid(P_PID, static_cast<id_t>(child_), &how, WEXITED | WNOWAIT) != 0 &&
+           errno == EINTR) {
+    }
+    end_ = ChildEnd{0, SIGKILL};
 }
 
 }  // namespace dibhr

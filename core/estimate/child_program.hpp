@@ -47,7 +47,8 @@ class ChildProgram {
     /// Asks it to end; what is left after 0.4 s is killed. Waits for that.
     void end();
 
-    /// What SIGUSR1 makes kill it at once, with all that it started.
+    /// What SIGUSR1 makes kill it at once, with all that it started. The number is no other
+    /// program's as long as this lives.
     [[nodiscard]] pid_t keeper() const noexcept { return child_; }
 
   private:

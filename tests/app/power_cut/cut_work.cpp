@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/settings/consent.hpp"
 #include "app/settings/file_memory.hpp"
 #include "app/settings/material.hpp"
 #include "app/settings/recent_files.hpp"
@@ -50,6 +51,7 @@ void write_history(const fs::path& folder) {
     remember({folder / "a.mp4", folder / "b.mp4"}, folder / "state" / "recent");
     keep_memory(folder / "state" / "files", folder / "a.mp4", {.relief_px = 50.0, .at_s = 3.0});
     keep_choice(folder / "state" / "depth", folder / "a.mp4", {.near = NearLevels::dark});
+    Consent(folder / "state" / "agreed").agree("estimator --of {colour}");
     kept();
 }
 

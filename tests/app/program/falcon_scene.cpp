@@ -87,6 +87,16 @@ void FalconScene::check_left_without_force() const {
     CHECK(last_force - packets.rbegin() >= kLastPackets);
 }
 
+double FalconScene::seconds_to_zero(std::chrono::steady_clock::time_point moment) const {
+    const double from_s = std::chrono::duration<double>(moment.time_since_epoch()).count();
+    const auto packets = falcon::packets_after(falcon.packets(), from_s);
+    const auto last_force = std::find_if(packets.rbegin(), packets.rend(),
+                                         [](const auto& packet) { return packet.has_force(); });
+    const auto zero = last_force.base();
+    REQUIRE(zero != packets.end());
+    return zero->t_s - from_s;
+}
+
 std::string FalconScene::errors() const {
     return read_text(folder / "errors.txt");
 }

@@ -1,6 +1,7 @@
 // The real program in a window of its own, its surface touched with a simulated Falcon, recorded.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <string>
 #include <vector>
@@ -49,6 +50,10 @@ class FalconScene {
     /// Of a scene that keeps packets: the test fails unless the last five that the Falcon was sent,
     /// or more, had no force, and one before them had.
     void check_left_without_force() const;
+
+    /// Of a scene that keeps packets: how long after `moment` the first packet without force came,
+    /// after which none had any [s].
+    [[nodiscard]] double seconds_to_zero(std::chrono::steady_clock::time_point moment) const;
 
     /// What the program has said on stderr.
     [[nodiscard]] std::string errors() const;

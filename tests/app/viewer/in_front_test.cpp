@@ -4,10 +4,12 @@
 #include <GLFW/glfw3.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,25 +57,30 @@ class ScreenLock {
     Process process_;
 };
 
+/// Does what takes the window from the front; tells how long after its begin the force was gone.
+template <typename Act>
+void check_force_goes(const FalconScene& at, const std::string& what, const Act& act) {
+    const auto moment = std::chrono::steady_clock::now();
+    act();
+    at.viewer.wait_until([](const Seen& now) { return !now.in_front; });
+    at.falcon.wait_for_zeros(100.0);
+    WARN(what << ": zero force after " << at.seconds_to_zero(moment) << " s");
+}
+
 void check_force_goes_and_comes_back(const std::string& manager) {
     CAPTURE(manager);
     const ManagedDesk managed(manager);
-    FalconScene at({.records = false, .desk = managed.desk});
+    FalconScene at({.records = false, .keeps_packets = true, .desk = managed.desk});
     at.press_in();
     const std::string window = "$(xdotool search --class dibhr | tail -1)";
     REQUIRE(managed.performs("xdotool mousemove --window " + window + " 50 60"));
-    const auto is_without_force = [&] {
-        at.viewer.wait_until([](const Seen& now) { return !now.in_front; });
-        at.falcon.wait_for_zeros(100.0);
-    };
     const auto has_force_again = [&] {
         at.viewer.wait_until([](const Seen& now) { return now.in_front; });
         at.wait_for_force();
     };
     const auto goes_and_comes_back = [&](const std::string& goes, const std::string& back) {
         CAPTURE(goes);
-        REQUIRE(managed.performs(goes));
-        is_without_force();
+        check_force_goes(at, manager + ", " + goes, [&] { REQUIRE(managed.performs(goes)); });
         REQUIRE(managed.performs(back));
         static_cast<void>(managed.performs("wmctrl -i -a " + window));  // some do already
         has_force_again();
@@ -82,9 +89,9 @@ void check_force_goes_and_comes_back(const std::string& manager) {
     goes_and_comes_back("xdotool windowunmap " + window, "xdotool windowmap " + window);
     goes_and_comes_back("wmctrl -k on", "wmctrl -k off");
     goes_and_comes_back("wmctrl -s 1", "wmctrl -s 0");
-    ScreenLock lock(managed.desk);
-    is_without_force();
-    lock.open();
+    std::optional<ScreenLock> lock;
+    check_force_goes(at, manager + ", lock", [&] { lock.emplace(managed.desk); });
+    lock->open();
     has_force_again();
     at.desk.press("key q");
     CHECK(at.viewer.wait() == 0);
@@ -153,28 +160,25 @@ TEST_CASE("nor has it under Wayland on another workspace, put away, or under a l
         return;
     }
     const Compositor compositor;
-    FalconScene at({.records = false, .host = compositor.host()});
+    FalconScene at({.records = false, .host = compositor.host(), .keeps_packets = true});
     at.press_in();
-    const auto is_without_force = [&] {
-        at.viewer.wait_until([](const Seen& now) { return !now.in_front; });
-        at.falcon.wait_for_zeros(100.0);
-    };
     const auto has_force_again = [&] {
         at.viewer.wait_until([](const Seen& now) { return now.in_front; });
         at.wait_for_force();
     };
     const auto goes_and_comes_back = [&](const std::string& goes, const std::string& back) {
         CAPTURE(goes);
-        REQUIRE(compositor.performs(goes));
-        is_without_force();
+        check_force_goes(at, "sway, " + goes, [&] { REQUIRE(compositor.performs(goes)); });
         REQUIRE(compositor.performs(back));
         has_force_again();
     };
     goes_and_comes_back("swaymsg workspace 2", "swaymsg workspace 1");
     goes_and_comes_back("swaymsg move scratchpad", "swaymsg scratchpad show");
-    {
-        const Process lock({"swaylock"}, compositor.environment, compositor.folder / "lock.txt");
-        is_without_force();
-    }
+    std::optional<Process> lock;
+    check_force_goes(at, "sway, lock", [&] {
+        lock.emplace(std::vector<std::string>{"swaylock"}, compositor.environment,
+                     compositor.folder / "lock.txt");
+    });
+    lock.reset();
     has_force_again();
 }

@@ -11,7 +11,6 @@
 
 #include "tests/app/program/falcon_scene.hpp"
 #include "tests/app/program/stall.hpp"
-#include "tests/device/falcon/packet_file.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/text.hpp"
 
@@ -27,17 +26,6 @@ constexpr double kSpare = 3.0;
 
 double seconds_since(Clock::time_point moment) {
     return std::chrono::duration<double>(Clock::now() - moment).count();
-}
-
-/// How long after `moment` the first packet without force came, after which none had any [s].
-double seconds_to_zero(const FalconScene& at, Clock::time_point moment) {
-    const double from_s = std::chrono::duration<double>(moment.time_since_epoch()).count();
-    const auto packets = test::falcon::packets_after(at.falcon.packets(), from_s);
-    const auto last_force = std::find_if(packets.rbegin(), packets.rend(),
-                                         [](const auto& packet) { return packet.has_force(); });
-    const auto zero = last_force.base();
-    REQUIRE(zero != packets.end());
-    return zero->t_s - from_s;
 }
 
 struct WayOut {
@@ -84,8 +72,8 @@ TEST_CASE("each way out takes the force off in the time that is promised", "[way
     } else {
         at.falcon.wait_for_zeros(200.0);
     }
-    const double taken_s = seconds_to_zero(at, moment);
-    WARN(way.name << ": zero force after " << taken_s << " s");
+    const double taken_s = at.seconds_to_zero(moment);
+    WARN("viewer, " << way.name << ": zero force after " << taken_s << " s");
     CHECK(taken_s < kSpare * way.promised_s);
     stall.end();
 }

@@ -136,6 +136,7 @@ TEST_CASE("what an estimator leaves when it ends by itself ends with it, and it 
     const ChildEnd end = child.ended().value_or(ChildEnd{});
     CHECK(end.exit_code == way.code);
     CHECK(end.signal == way.signal);
+    CHECK(::kill(child.keeper(), 0) == 0);  // its number is no other program's
 }
 
 TEST_CASE("one that talks faster than anybody listens is listened to in pieces", "[estimate]") {

@@ -62,6 +62,11 @@ const std::vector<Fault>& faults() {
     return all;
 }
 
+void tell_time(const char* fault, Clock::time_point began) {
+    const std::chrono::duration<double> taken = Clock::now() - began;
+    WARN("Inverse3, " << fault << ": zero force after " << taken.count() << " s");
+}
+
 /// Forces that come back rise: none of the first is more than the ramp lets through.
 bool rises(const std::vector<simulated::Heard>& heard, Clock::time_point since) {
     const simulated::Heard* last = nullptr;
@@ -326,6 +331,7 @@ TEST_CASE("a position that stands still while the service reports a velocity giv
     });
     const auto began = Clock::now();
     CHECK(desk.tick_until([&] { return desk.felt_newton() == Vec3{0.0}; }, milliseconds(50)));
+    tell_time("pose that stands still", began);
     desk.tick_for(milliseconds(300));
     CHECK(desk.strongest_after(began, milliseconds(50)) == 0.0);
     CHECK(desk.stage() == Stage::not_understood);
@@ -352,6 +358,7 @@ TEST_CASE("whatever message ends the connection, the service is sent a zero befo
     });
     const auto began = Clock::now();
     CHECK(desk.tick_until([&] { return desk.felt_newton() == Vec3{0.0}; }, kGrace));
+    tell_time("message that ends the connection", began);
     CHECK(desk.tick_until([&] { return desk.stage() != Stage::ready; }));
     CHECK(desk.strongest_after(began, kGrace) == 0.0);
     CHECK(desk.service.not_understood() == 0);
