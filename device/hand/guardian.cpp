@@ -227,9 +227,10 @@ class Watch {
     bool sending_{false};
 };
 
-/// What `ps` shows of the arguments, of which `pkill -f` finds the program's name: the text of this
-/// process alone, where the kernel says that it is (proc_pid_stat(5), fields 48 and 49).
-void rename_arguments() noexcept {
+/// Where the kernel says that this program's arguments are (proc_pid_stat(5), fields 48 and 49), as
+/// `ps` shows them; empty: it does not. Asked before the fork: another thread may hold the lock of
+/// a library that stands before open().
+std::span<char> arguments_of_program() noexcept {
     std::array<char, 1024> text{};
     const int file = open("/proc/self/stat", O_RDONLY | O_CLOEXEC);
     const ssize_t length = file >= 0 ? read(file, text.data(), text.size() - 1) : 0;
@@ -238,21 +239,26 @@ void rename_arguments() noexcept {
     constexpr int kFromNameToBegin = 46;
     for (int k = 0; field != nullptr && k < kFromNameToBegin; ++k)
         field = std::strchr(field + 1, ' ');
-    if (field == nullptr) return;
+    if (field == nullptr) return {};
     char* rest = nullptr;
     const auto begin = std::strtoull(field, &rest, 10);
     const auto end = std::strtoull(rest, nullptr, 10);
     constexpr unsigned long long kMost = 1U << 21U;  // that a program is given
-    if (begin == 0 || end <= begin || end - begin > kMost) return;
-    auto* const arguments = reinterpret_cast<char*>(begin);
-    std::memset(arguments, 0, end - begin);
-    std::memcpy(arguments, Guardian::kProcessName,
-                std::min<std::size_t>(std::strlen(Guardian::kProcessName), end - begin - 1));
+    if (begin == 0 || end <= begin || end - begin > kMost) return {};
+    return {reinterpret_cast<char*>(begin), end - begin};
+}
+
+/// So that `pkill -f` with the program's name does not find it: the text of this process alone.
+void rename_arguments(std::span<char> arguments) noexcept {
+    if (arguments.empty()) return;
+    std::memset(arguments.data(), 0, arguments.size());
+    std::memcpy(arguments.data(), Guardian::kProcessName,
+                std::min(std::strlen(Guardian::kProcessName), arguments.size() - 1));
 }
 
 /// Out of the way of what ends the program: its terminal, its process group, a wish to end; and
 /// with nothing of the program's in its hands.
-void step_aside(int socket) noexcept {
+void step_aside(int socket, std::span<char> arguments) noexcept {
     (void)setsid();
     for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP, SIGPIPE}) {
         (void)std::signal(number, SIG_IGN);
@@ -263,7 +269,7 @@ void step_aside(int socket) noexcept {
     const auto kept = static_cast<unsigned>(socket);
     if (kept > 0) (void)close_range(0, kept - 1, 0);
     (void)close_range(kept + 1, ~0U, 0);
-    rename_arguments();
+    rename_arguments(arguments);
     (void)prctl(PR_SET_NAME, Guardian::kProcessName);
     const sched_param priority{sched_get_priority_max(SCHED_FIFO) - 1};
     (void)sched_setscheduler(0, SCHED_FIFO, &priority);  // where it is allowed
@@ -272,13 +278,14 @@ void step_aside(int socket) noexcept {
 /// Forked twice, so that the guardian is no child of the program, which would have to wait for it.
 /// 0, or why not: an errno.
 int fork_guardian(int programs_end, int socket, SharedPage& page) noexcept {
+    const std::span<char> arguments = arguments_of_program();
     const pid_t between = fork();
     if (between < 0) return errno;
     if (between == 0) {
         const pid_t guardian = fork();
         if (guardian != 0) _exit(guardian < 0 ? errno : 0);
         close(programs_end);  // first of all: it is how the program's end is noticed
-        step_aside(socket);
+        step_aside(socket, arguments);
         Watch(socket, page).run();
         _exit(0);
     }
