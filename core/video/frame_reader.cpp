@@ -220,9 +220,9 @@ DepthNoise FrameReader::noise_of(Media& media) {
     NoiseMeter meter;
     try {
         for (std::size_t k = 0; k < NoiseMeter::kEnough; ++k) {
-            const std::optional<RawFrame> raw = media.next();
+            std::optional<RawFrame> raw = media.next();
             if (!raw) break;
-            meter.add(raw->depth);
+            meter.add(std::move(raw->depth));
         }
     } catch (const InputError&) {
     }

@@ -21,6 +21,15 @@ constexpr CleaningSteps kQuietSteps{
     .remove_spikes = true, .fill_holes = true, .sharpen_silhouettes = true, .smooth_steps = true};
 constexpr double kReliefOfWords_px = 255.0;
 
+/// Scratch memory of pictures larger than 4K video is given back: it is several times the picture,
+/// and few such pictures follow each other.
+constexpr std::size_t kLarge = std::size_t{1} << 23;
+
+template <typename... Scratch>
+void give_back_large(std::size_t pixels, Scratch&... scratch) {
+    if (pixels > kLarge) ((scratch = Scratch{}), ...);
+}
+
 bool is_touchable(const DepthImage& image) {
     return image.columns >= 2 && image.rows >= 2;
 }
@@ -109,9 +118,12 @@ LoneDepth CleaningChain::alone(DepthImage image, const CleaningPlan& plan,
     spikes_.forget();
     if (touchable && plan.steps.remove_spikes) spikes_.remove(lone.depth);
     if (has_holes(lone.depth)) close_holes(lone, touchable && plan.steps.fill_holes, held);
+    const std::size_t pixels = lone.depth.levels.size();
+    give_back_large(pixels, spikes_, seen_, held_, small_holes_, large_holes_);
     if (touchable && plan.steps.sharpen_silhouettes) {
         const float noise = plan.noise.at(0.5F) * static_cast<float>(lone.depth.highest_level);
         silhouettes_.sharpen(lone.depth, plan.steps.colour_edges ? colour : nullptr, noise);
+        give_back_large(pixels, silhouettes_);
     }
     return lone;
 }

@@ -58,7 +58,7 @@ int squares_in(int pixels) {
 std::vector<HeldLevel> DepthMemory::take(const DepthImage& depth, double media_s) {
     if (levels_.size() != depth.levels.size()) {
         levels_.assign(depth.levels.size(), 0.0F);
-        seen_in_.assign(depth.levels.size(), 0);
+        seen_in_.clear();
     }
     while (!times_.empty() && !(media_s - times_.front() < kHold_s)) {
         times_.pop_front();
@@ -71,8 +71,8 @@ std::vector<HeldLevel> DepthMemory::take(const DepthImage& depth, double media_s
         whole_in_ = now;
         return {};
     }
-    if (const std::uint32_t whole_in = std::exchange(whole_in_, 0); whole_in != 0)
-        seen_in_.assign(depth.levels.size(), whole_in);
+    const std::uint32_t whole_in = std::exchange(whole_in_, 0);
+    if (whole_in != 0 || seen_in_.empty()) seen_in_.assign(depth.levels.size(), whole_in);
     std::vector<HeldLevel> held;
     for (std::size_t k = 0; k < depth.levels.size(); ++k) {
         if (const float level = depth.levels[k]; !std::isnan(level)) {

@@ -138,7 +138,7 @@ void NoiseMeter::add_tile(Tile& tile, const DepthImage& frame, int left, int top
     for (std::size_t k = 0; k < count; ++k) tile.shaken.add(less * (changes[k] - mean));
 }
 
-void NoiseMeter::add(const DepthImage& frame) {
+void NoiseMeter::add(DepthImage frame) {
     const bool first = last_.levels.empty();
     if (!first && (last_.rows != frame.rows || last_.columns != frame.columns ||
                    last_.highest_level != frame.highest_level))
@@ -150,9 +150,9 @@ void NoiseMeter::add(const DepthImage& frame) {
     for (int y = 0; y < rows; ++y)
         for (int x = 0; x < columns; ++x, ++tile)
             add_tile(*tile, frame, x * kTile_px, y * kTile_px);
-    before_last_ = std::move(last_);
-    last_ = frame;
     if (small_.size() < kEnough) small_.push_back({small_of(frame), {}, {}});
+    before_last_ = std::move(last_);
+    last_ = std::move(frame);
 }
 
 bool NoiseMeter::is_of_scale() const {

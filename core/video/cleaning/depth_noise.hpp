@@ -63,7 +63,7 @@ class NoiseMeter {
 
     /// The next frame of the recording, as recorded: NaN is no data. Of another size or highest
     /// level than the first one: passed over.
-    void add(const DepthImage& frame);
+    void add(DepthImage frame);
 
     /// Of one or two frames it is what they are rough by. Nothing measured (no data): no noise.
     [[nodiscard]] DepthNoise noise() const;

@@ -31,7 +31,8 @@ std::optional<RawFrame> RememberingMedia::read() {
     std::optional<RawFrame> frame = media_->next();
     if (!frame) return frame;
     always_whole_ = frame->always_whole;
-    if (!always_whole_) frame->held = memory_.take(frame->depth, frame->media_s);
+    const bool has_before = !media_->description().still;
+    if (has_before && !always_whole_) frame->held = memory_.take(frame->depth, frame->media_s);
     return frame;
 }
 

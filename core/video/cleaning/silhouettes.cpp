@@ -292,22 +292,28 @@ void SilhouetteSharpener::sharpen(DepthImage& image, const ColourImage* colour,
     votes_of_.assign(image.levels.size(), 0);
     votes_.clear();
     found_.clear();
-    for (int j = 0; j < image.rows; ++j) {
-        const int inside = std::min(2, image.columns);
-        look_along(scene, j, 0, inside, 0);
-        look_along(scene, j, inside, image.columns - 2, 1);
-        look_along(scene, j, std::max(inside, image.columns - 2), image.columns, 0);
-    }
-    for (const Found& found : found_) vote(found);
+    if (!find_ramps(scene)) return;
     for (Votes& votes : votes_) decide(votes);
     for (const Votes& votes : votes_)
         if (votes.side != Side::neither) image.levels[votes.pixel] = smoothed(image, votes);
 }
 
+bool SilhouetteSharpener::find_ramps(const Scene& scene) {
+    const DepthImage& image = scene.image;
+    const int inside = std::min(2, image.columns);
+    for (int j = 0; j < image.rows && !are_too_many(); ++j) {
+        look_along(scene, j, 0, inside, 0);
+        look_along(scene, j, inside, image.columns - 2, 1);
+        look_along(scene, j, std::max(inside, image.columns - 2), image.columns, 0);
+    }
+    for (std::size_t k = 0; k < found_.size() && !are_too_many(); ++k) vote(found_[k]);
+    return !are_too_many();
+}
+
 SilhouetteSharpener::Votes& SilhouetteSharpener::votes_of(std::size_t pixel) {
     std::uint32_t& number = votes_of_[pixel];
     if (number == 0) {
-        votes_.push_back({.pixel = pixel});
+        votes_.push_back({.pixel = static_cast<std::uint32_t>(pixel)});
         number = static_cast<std::uint32_t>(votes_.size());
     }
     return votes_[number - 1];
@@ -315,7 +321,7 @@ SilhouetteSharpener::Votes& SilhouetteSharpener::votes_of(std::size_t pixel) {
 
 /// Which side the pixel is on, and at which level.
 void SilhouetteSharpener::decide(Votes& votes) {
-    const std::uint32_t count = votes.lows + votes.highs;
+    const unsigned count = votes.lows + votes.highs;
     if (kBelieved * count * count < votes.steps) return;
     const bool high = votes.highs > votes.lows;
     votes.side = high ? Side::high : Side::low;
@@ -390,8 +396,10 @@ void SilhouetteSharpener::look_at(const Scene& scene, int column, int row) {
     }
     const int begin = ramp->low.end + 1;
     const int step = std::clamp(edge.value_or(half_way_up(line, *ramp)), begin, ramp->high.end);
-    found_.push_back({static_cast<std::ptrdiff_t>(own), line.stride, begin, step, ramp->high.end,
-                      ramp->low.at(0), ramp->low.slope, ramp->high.at(0), ramp->high.slope, 1});
+    found_.push_back({static_cast<std::int32_t>(own), static_cast<std::int32_t>(line.stride),
+                      static_cast<std::int16_t>(begin), static_cast<std::int16_t>(step),
+                      static_cast<std::int16_t>(ramp->high.end), 1, ramp->low.at(0),
+                      ramp->low.slope, ramp->high.at(0), ramp->high.slope});
     const Found& found = found_.back();
     if (found.end - found.begin < kWide_px) return;  // cheap to find again, and not always the same
     for (int k = found.begin; k < found.end; ++k)
@@ -402,13 +410,14 @@ void SilhouetteSharpener::vote(const Found& found) {
     const auto seen = static_cast<float>(found.seen);
     for (int k = found.begin; k < found.end; ++k) {
         Votes& votes = votes_of(found.pixel(k));
-        votes.steps += found.seen * static_cast<std::uint32_t>(found.end - found.begin + 1);
+        votes.steps =
+            static_cast<std::uint16_t>(votes.steps + found.seen * (found.end - found.begin + 1));
         const auto away = static_cast<float>(k);
         if (k >= found.step) {
-            votes.highs += found.seen;
+            votes.highs = static_cast<std::uint16_t>(votes.highs + found.seen);
             votes.high += seen * (found.high + found.high_slope * away);
         } else {
-            votes.lows += found.seen;
+            votes.lows = static_cast<std::uint16_t>(votes.lows + found.seen);
             votes.low += seen * (found.low + found.low_slope * away);
         }
     }

@@ -266,3 +266,16 @@ TEST_CASE("a picture of any size is sharpened without a fault", "[silhouettes]")
     CHECK(std::all_of(image.levels.begin(), image.levels.end(),
                       [](float level) { return level > -100.0F && level < 400.0F; }));
 }
+
+TEST_CASE("a picture of more ramps than outlines can have stays as it is", "[silhouettes][long]") {
+    const auto striped = [](int columns, int rows) {
+        return image_of(columns, rows, 255.0, [](int i, int) {
+            return 20.0 + 20.0 * std::min(i % 24 > 11 ? 23 - i % 24 : i % 24, 8);
+        });
+    };
+    const DepthImage few = striped(2048, 64);
+    CHECK_FALSE(same(sharpened(few), few));
+    const DepthImage many = striped(4096, 2048);
+    REQUIRE(many.levels.size() * 2 / 3 > SilhouetteSharpener::kMostRamps);
+    CHECK(same(sharpened(many), many));
+}
