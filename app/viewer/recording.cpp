@@ -172,6 +172,8 @@ std::string ViewerRecording::stop(ViewerState& state, const std::string& reason)
     }
     if (!recorder_) return {};
     finishing_file_ = state.recording->file;
+    if (!reason.empty())
+        print_warning(finishing_file_.string() + ": the recording ends here, as " + reason);
     if (live_) {
         finishing_ = std::async(std::launch::async,
                                 [recorder = std::move(recorder_), live = std::move(live_)] {

@@ -294,8 +294,17 @@ void SilhouetteSharpener::sharpen(DepthImage& image, const ColourImage* colour,
     found_.clear();
     if (!find_ramps(scene)) return;
     for (Votes& votes : votes_) decide(votes);
-    for (const Votes& votes : votes_)
-        if (votes.side != Side::neither) image.levels[votes.pixel] = smoothed(image, votes);
+    for (const Votes& votes : votes_) {
+        if (votes.side == Side::neither) continue;
+        float& level = image.levels[votes.pixel];
+        level = within(image, level, smoothed(image, votes));
+    }
+}
+
+/// A face that goes on as it was may leave what levels there are; recorded numbers have no bounds.
+float SilhouetteSharpener::within(const DepthImage& image, float recorded, float level) noexcept {
+    const auto highest = static_cast<float>(image.highest_level);
+    return std::clamp(level, std::min(0.0F, recorded), std::max(highest, recorded));
 }
 
 bool SilhouetteSharpener::find_ramps(const Scene& scene) {

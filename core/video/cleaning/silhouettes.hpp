@@ -67,6 +67,8 @@ class SilhouetteSharpener {
         return found_.size() > kMostRamps || votes_.size() > kMostRamps;
     }
     static void decide(Votes& votes);
+    [[nodiscard]] static float within(const DepthImage& image, float recorded,
+                                      float level) noexcept;
     [[nodiscard]] float smoothed(const DepthImage& image, const Votes& own) const;
 
     std::vector<std::uint32_t> votes_of_{};  ///< each pixel, counted from 1; 0: it is on no ramp

@@ -192,6 +192,8 @@ TEST_CASE("a live recording that another size of the pictures or Ctrl+C ends is 
                    "Finishing the recording, as what is live changed its form");
     wait_for_words(folder / "told.txt", "told: Recorded ");
     check_whole(folder, folder / "a.dibhr");
+    CHECK(contains(read_text(folder / "errors.txt"),
+                   "a.dibhr: the recording ends here, as what is live changed its form"));
 
     viewer.wait_until([](const Seen& now) { return now.surface && !now.records; });
     viewer.act("key ctrl+r");

@@ -256,7 +256,7 @@ TEST_CASE("the same picture gives the same bits, whatever came before", "[silhou
     CHECK(same(image, alone));
 }
 
-TEST_CASE("a picture of any size is sharpened without a fault", "[silhouettes]") {
+TEST_CASE("a picture of any size is sharpened, and stays within its levels", "[silhouettes]") {
     const int columns = GENERATE(1, 2, 3, 4, 5, 40);
     const int rows = GENERATE(1, 2, 5, 40);
     const ColourImage colour = painted(3, 2, [](int i, int) { return 80 * i; });
@@ -264,7 +264,25 @@ TEST_CASE("a picture of any size is sharpened without a fault", "[silhouettes]")
         image_of(columns, rows, 255.0, [](int i, int j) { return (i * 37 + j * 91) % 256; });
     SilhouetteSharpener().sharpen(image, &colour, 0.0F);
     CHECK(std::all_of(image.levels.begin(), image.levels.end(),
-                      [](float level) { return level > -100.0F && level < 400.0F; }));
+                      [](float level) { return level >= 0.0F && level <= 255.0F; }));
+}
+
+TEST_CASE(
+    "a face that falls towards an outline, or rises, goes on to the last level and no further",
+    "[silhouettes]") {
+    // The other face is 60 levels away; between them is a ramp of 12 pixels.
+    const bool falls = GENERATE(true, false);
+    DepthImage image = image_of(640, 16, 255.0, [](int i, int) {
+        return i < 320 ? 1.0 + 0.6 * (320 - i) : std::min(1.0 + 5.0 * (i - 320), 61.0);
+    });
+    if (!falls)
+        for (float& level : image.levels) level = 255.0F - level;
+    const DepthImage before = image;
+    SilhouetteSharpener().sharpen(image, nullptr, 0.0F);
+    CHECK_FALSE(same(image, before));
+    const auto [least, most] = std::minmax_element(image.levels.begin(), image.levels.end());
+    CHECK(*least >= 0.0F);
+    CHECK(*most <= 255.0F);
 }
 
 TEST_CASE("a picture of more ramps than outlines can have stays as it is", "[silhouettes][long]") {
