@@ -159,7 +159,9 @@ ChildProgram::ChildProgram(std::vector<std::string> words, ChildManner manner) {
 
 ChildProgram::~ChildProgram() {
     ::close(life_);
-    ::waitpid(child_, nullptr, 0);  // only here: until now its number is no other program's
+    // Only here: until now its number is no other program's.
+    while (::waitpid(child_, nullptr, 0) < 0 && errno == EINTR) {
+    }
     if (words_end_ >= 0) ::close(words_end_);
 }
 

@@ -224,7 +224,7 @@ Vec3 TouchRenderer::rendered_force(const Steps& steps, const Coupling& coupling,
     };
     const Vec3 video_step = felt_step(video_motion_, steps.rise);
     const Vec3 felt_from = last_.goal + Vec3(0.0, 0.0, video_motion_.lag_px());
-    // Of a cut's rise only the spring knows: the damper is that of a surface which stands still.
+    // The rise with which a contact begins reaches the spring alone: nothing carries there.
     const Vec3 felt_velocity = seen_from(felt_step(carried_motion_, last_.carried.z));
     const Vec3 force = coupling_force(proxy, felt_from, felt_velocity, coupling);
     const PassivityControl::Tick tick{.dt_s = input.dt_s,

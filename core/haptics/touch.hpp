@@ -131,7 +131,7 @@ class TouchRenderer {
     GoalVelocity goal_velocity_{};
     GoalVelocity surface_velocity_{};  ///< of what carries the proxy, through the same low-pass
     VideoMotion video_motion_{};
-    VideoMotion carried_motion_{};  ///< of it, what carries the proxy
+    VideoMotion carried_motion_{};  ///< the part of it that carries the proxy
     PassivityControl passivity_{};
     SafetyStage safety_{};
     Touch last_{};

@@ -228,8 +228,8 @@ class Watch {
 };
 
 /// Where the kernel says that this program's arguments are (proc_pid_stat(5), fields 48 and 49), as
-/// `ps` shows them; empty: it does not. Asked before the fork: another thread may hold the lock of
-/// a library that stands before open().
+/// `ps` shows them; empty: it does not. Read before the fork: a library that is interposed before
+/// libc's open() (umockdev's) may hold a lock in another thread at that moment.
 std::span<char> arguments_of_program() noexcept {
     std::array<char, 1024> text{};
     const int file = open("/proc/self/stat", O_RDONLY | O_CLOEXEC);

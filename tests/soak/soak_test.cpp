@@ -59,7 +59,8 @@ class RandomPerson {
         return events;
     }
 
-    /// From now on nothing is changed there: what a finger or a cleaning takes is no growth.
+    /// From now on the panels are left alone: memory that a fingertip or a cleaning needs is no
+    /// leak.
     void leave_panels() { at_panels_ = false; }
 
     std::string any_of(const std::vector<std::string>& words) {
@@ -225,7 +226,7 @@ TEST_CASE("a long session of everything at random leaves sound recordings, and n
     const Clock::time_point begin = Clock::now();
     while (Clock::now() < begin + duration || resident_mb.size() < kFewestRounds) {
         const bool counts = Clock::now() >= begin + warm_up;
-        if (counts && !is_long) person.leave_panels();  // of few rounds one change is a third
+        if (counts && !is_long) person.leave_panels();  // with few rounds one change is a third
         open_file(viewer, person.any_of({"1_rgb.mkv", "2_rgb.mkv"}));
         viewer.act(person.some(kActionsInRound / 2));
         open_file(viewer, "0_rgb.mp4");

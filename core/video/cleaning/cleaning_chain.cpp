@@ -21,9 +21,9 @@ constexpr CleaningSteps kQuietSteps{
     .remove_spikes = true, .fill_holes = true, .sharpen_silhouettes = true, .smooth_steps = true};
 constexpr double kReliefOfWords_px = 255.0;
 
-/// Scratch memory of pictures larger than 4K video is given back: it is several times the picture,
+/// Scratch memory of pictures larger than 4K video is freed: it takes several times the picture,
 /// and few such pictures follow each other.
-constexpr std::size_t kLarge = std::size_t{1} << 23;
+constexpr std::size_t kLarge = 9'000'000;
 
 template <typename... Scratch>
 void give_back_large(std::size_t pixels, Scratch&... scratch) {

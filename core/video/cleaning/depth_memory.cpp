@@ -59,6 +59,7 @@ std::vector<HeldLevel> DepthMemory::take(const DepthImage& depth, double media_s
     if (levels_.size() != depth.levels.size()) {
         levels_.assign(depth.levels.size(), 0.0F);
         seen_in_.clear();
+        whole_in_ = 0;
     }
     while (!times_.empty() && !(media_s - times_.front() < kHold_s)) {
         times_.pop_front();

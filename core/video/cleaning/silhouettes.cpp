@@ -310,7 +310,7 @@ float SilhouetteSharpener::within(const DepthImage& image, float recorded, float
 bool SilhouetteSharpener::find_ramps(const Scene& scene) {
     const DepthImage& image = scene.image;
     const int inside = std::min(2, image.columns);
-    for (int j = 0; j < image.rows && !are_too_many(); ++j) {
+    for (int j = 0; j < image.rows; ++j) {
         look_along(scene, j, 0, inside, 0);
         look_along(scene, j, inside, image.columns - 2, 1);
         look_along(scene, j, std::max(inside, image.columns - 2), image.columns, 0);
@@ -367,7 +367,7 @@ void SilhouetteSharpener::look_along(const Scene& scene, int row, int begin, int
     const DepthImage& image = scene.image;
     const float least = std::max(scene.limits.slope, 2.0F * scene.limits.noise);
     std::array<int, kChunk> steep{};
-    for (; begin < end; begin += kChunk) {
+    for (; begin < end && !are_too_many(); begin += kChunk) {
         const int count = std::min(kChunk, end - begin);
         const auto from = [&](int j) {
             return image.levels.data() + image.index(begin, std::clamp(j, 0, image.rows - 1));

@@ -14,12 +14,12 @@ struct ColourImage;
 /// Sensors, codecs, scaling and estimators blur an object's outline into a ramp from near to far,
 /// which is neither. A pixel on a ramp of up to 13 px goes to one side of it, as that side's
 /// surface goes on; a slope that goes on beyond (a cone, a sphere's side, a cheek) and a step that
-/// is crisp already stay as they are, and so does a picture of more ramps than outlines can have
-/// (kMostRamps), which would take memory without bound. The same input gives the same bits. Scratch
-/// memory is kept inside.
+/// is crisp already stay as they are, and so does a picture with more ramps, or pixels on
+/// ramps, than kMostRamps, which would take memory without bound. The same input gives the same
+/// bits. Scratch memory is kept inside.
 class SilhouetteSharpener {
   public:
-    static constexpr std::size_t kMostRamps = std::size_t{3} << 20;  ///< and pixels on ramps
+    static constexpr std::size_t kMostRamps = std::size_t{3} << 20;  ///< 38 % of 4K video
 
     /// `image`: levels, no NaN. `colour`: of the same view, of any size; null where there is none
     /// or it is not registered. The step is half way up the ramp, or where the colour has its one

@@ -60,6 +60,7 @@ class ScreenLock {
 /// Does what takes the window from the front; tells how long after its begin the force was gone.
 template <typename Act>
 void check_force_goes(const FalconScene& at, const std::string& what, const Act& act) {
+    at.wait_for_force();
     const auto moment = std::chrono::steady_clock::now();
     act();
     at.viewer.wait_until([](const Seen& now) { return !now.in_front; });

@@ -297,8 +297,8 @@ TEST_CASE(
 
 TEST_CASE("whatever one that talks without end says, no disk is filled", "[estimate][long]") {
     check_bounded(GENERATE_COPY(
-        kMillions + "'\n'", kMillions + "'\r'", kMillions + "' '", kMillions + "'\t'",
-        kMillions + "'\b'", kMillions + "'\033'", kMillions + "'\377'", kMillions + "'\302'",
+        kMillions + "'\\n'", kMillions + "'\\r'", kMillions + "' '", kMillions + "'\\t'",
+        kMillions + "'\\b'", kMillions + "'\\033'", kMillions + "'\\377'", kMillions + "'\\302'",
         kMillions + "'7' >&2", std::string("head -c 3000000 /dev/zero"),
         std::string("head -c 3000000 /dev/urandom >&2"), std::string("yes | head -c 3000000"),
         std::string("yes '1/2' | head -c 3000000"),

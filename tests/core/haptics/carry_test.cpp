@@ -375,7 +375,7 @@ void require_not_thrown(int ticks) {
     double farthest_px = 0.0;
     for (int k = 0; k < ticks; ++k) {
         if (k % 40 == 0) spoil();
-        goal += Vec3(dice.uniform(-1.0, 1.0), dice.uniform(-1.0, 1.0), dice.uniform(-3.0, 3.0));
+        goal += Vec3{dice.uniform(-1.0, 1.0), dice.uniform(-1.0, 1.0), dice.uniform(-3.0, 3.0)};
         goal = glm::clamp(goal, Vec3(-5.0, -5.0, -20.0), Vec3(54.0, 44.0, 260.0));
         const auto& from = surfaces[static_cast<std::size_t>(k / 500) % surfaces.size()].image;
         const auto& to = surfaces[static_cast<std::size_t>(k / 900) % surfaces.size()].image;

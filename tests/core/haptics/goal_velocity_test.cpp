@@ -197,7 +197,7 @@ TEST_CASE("with a cutoff of 0 the force is the spring's and the plain damper's, 
     Vec3 before{50.0, 20.0, 90.0};
     hand.update(before);
     for (int k = 0; k < 2000; ++k) {
-        const Vec3 goal = before + Vec3(dice.uniform(-1.0, 1.0), 0.0, dice.uniform(-1.0, 1.0));
+        const Vec3 goal = before + Vec3{dice.uniform(-1.0, 1.0), 0.0, dice.uniform(-1.0, 1.0)};
         const SafetyInput input{.dt_s = dice.uniform(0.0005, 0.003), .from_zero = k % 300 == 0};
         const Touch& touch = hand.update(goal, input);
         const Vec3 velocity = (goal - before) / input.dt_s;

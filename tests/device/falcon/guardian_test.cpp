@@ -173,6 +173,7 @@ TEST_CASE("a program whose guardian was killed lets go, and presses with another
                        PressingProcess::kPatience));
     const Packets later = pressing.after(killed_s);
     const auto zero = std::ranges::find_if_not(later, &LoggedPacket::has_force);
+    REQUIRE(zero != later.end());
     WARN("Falcon, guardian killed: zero force after " << zero->t_s - killed_s << " s");
     const double let_go_s = later.back().t_s;
     REQUIRE(eventually([&] { return pressing.forces_after(let_go_s) > 50; },
