@@ -170,9 +170,10 @@ void require_safe(Vec3 before, Vec3 sent, const Hand& hand, bool begins) {
     const double most_newton =
         limits.max_change_newton_per_ms * std::min(1e3 * input.dt_s, 3.0) + kRoundOff;
     const bool cut_or_held = length == 0.0 || glm::length(before) > limits.max_force_newton;
-    // It also begins anew where the surface rises into a hand like a cut of the video.
-    const double from_zero = glm::length(sent);
-    const double change = begins ? from_zero : std::min(glm::length(sent - before), from_zero);
+    // After a cut of the video the force begins anew, too: without a ramp, not at zero.
+    const bool has_ramp = limits.ramp_s > 0.0;
+    double change = glm::length(sent - (begins ? Vec3(0.0) : before));
+    if (!has_ramp) change = std::min(change, length);
     test::require_rule(cut_or_held || change <= most_newton,
                        "a force changes no faster than its limit");
 }

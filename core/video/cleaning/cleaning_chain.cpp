@@ -26,7 +26,7 @@ constexpr double kReliefOfWords_px = 255.0;
 constexpr std::size_t kLarge = 9'000'000;
 
 template <typename... Scratch>
-void give_back_large(std::size_t pixels, Scratch&... scratch) {
+void free_if_large(std::size_t pixels, Scratch&... scratch) {
     if (pixels > kLarge) ((scratch = Scratch{}), ...);
 }
 
@@ -119,11 +119,11 @@ LoneDepth CleaningChain::alone(DepthImage image, const CleaningPlan& plan,
     if (touchable && plan.steps.remove_spikes) spikes_.remove(lone.depth);
     if (has_holes(lone.depth)) close_holes(lone, touchable && plan.steps.fill_holes, held);
     const std::size_t pixels = lone.depth.levels.size();
-    give_back_large(pixels, spikes_, seen_, held_, small_holes_, large_holes_);
+    free_if_large(pixels, spikes_, seen_, held_, small_holes_, large_holes_);
     if (touchable && plan.steps.sharpen_silhouettes) {
         const float noise = plan.noise.at(0.5F) * static_cast<float>(lone.depth.highest_level);
         silhouettes_.sharpen(lone.depth, plan.steps.colour_edges ? colour : nullptr, noise);
-        give_back_large(pixels, silhouettes_);
+        free_if_large(pixels, silhouettes_);
     }
     return lone;
 }

@@ -57,7 +57,7 @@ class ScreenLock {
     Process process_;
 };
 
-/// Does what takes the window from the front; tells how long after its begin the force was gone.
+/// Does what takes the window from the front; reports how long after it began the force was gone.
 template <typename Act>
 void check_force_goes(const FalconScene& at, const std::string& what, const Act& act) {
     at.wait_for_force();
