@@ -181,6 +181,16 @@ TEST_CASE("wrong use ends with 2, a failure with 1, each in a line", "[depth]") 
     CHECK(contains(home.depth({"--list"}).output, "clip.mp4: 6 of 12 frames, "));
 }
 
+TEST_CASE("how an estimator ended is known where dibhr's own parent ignores its children's ends",
+          "[depth]") {
+    const Home home;
+    home.write_estimator("crash", "[ $n = 000007.png ] && exit 3");
+    const ProgramResult result =
+        run_dibhr(home.folder, {"depth", "clip.mp4", "--with", "./crash {frames} {output}"},
+                  {"/usr/bin/env", "--ignore-signal=CHLD"});
+    check_refused(result, 1, "ended with 3 at frame 7 of 12");
+}
+
 TEST_CASE("a picture that an estimator leaves broken is named, and made anew the next time",
           "[depth]") {
     const Home home;
