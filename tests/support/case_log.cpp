@@ -8,24 +8,9 @@
 #include <sstream>
 #include <string>
 
-#if __has_include(<catch2/catch_test_macros.hpp>)
-#include <catch2/catch_test_case_info.hpp>
-#include <catch2/reporters/catch_reporter_event_listener.hpp>
-#include <catch2/reporters/catch_reporter_registrars.hpp>
-using Listener = Catch::EventListenerBase;
+#include "tests/support/catch_listener.hpp"
 
-static std::string name_of(const Catch::TestCaseStats& stats) {
-    return stats.testInfo->name;
-}
-#else
-#define CATCH_CONFIG_EXTERNAL_INTERFACES
-#include <catch2/catch.hpp>
-using Listener = Catch::TestEventListenerBase;
-
-static std::string name_of(const Catch::TestCaseStats& stats) {
-    return stats.testInfo.name;
-}
-#endif
+namespace dibhr::test {
 
 namespace {
 
@@ -64,3 +49,5 @@ class CaseLog : public Listener {
 CATCH_REGISTER_LISTENER(CaseLog)
 
 }  // namespace
+
+}  // namespace dibhr::test

@@ -15,7 +15,8 @@ PROGRAM = os.environ["DIBHR_PROGRAM"]
 
 def run_dibhr(folder, *arguments):
     """The finished program, run in `folder`, which also has its settings."""
-    environment = dict(os.environ, XDG_CONFIG_HOME=str(folder), XDG_DATA_HOME=str(folder))
+    homes = {name: str(folder) for name in ("XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME")}
+    environment = os.environ | homes
     return subprocess.run(
         [PROGRAM, *map(str, arguments)], cwd=folder, env=environment, capture_output=True, text=True
     )

@@ -3,7 +3,6 @@
 #include "app/settings/material.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/text.hpp"
+#include "tests/support/variable.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -62,15 +62,10 @@ std::vector<std::string> without_times(const std::string& csv) {
 }
 
 /// Settings, and so a person's own materials, are kept in this folder for a while.
-class OwnSettings {
-  public:
-    OwnSettings() { ::setenv("XDG_CONFIG_HOME", folder_.path().c_str(), 1); }
-    ~OwnSettings() { ::unsetenv("XDG_CONFIG_HOME"); }
-    OwnSettings(const OwnSettings&) = delete;
-    OwnSettings& operator=(const OwnSettings&) = delete;
-
-  private:
-    TemporaryFolder folder_{};
+struct OwnSettings {
+    TemporaryFolder folder{};
+    Variable home{"XDG_CONFIG_HOME", folder.path().c_str()};
+};
 };
 
 }  // namespace

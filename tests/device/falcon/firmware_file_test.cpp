@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -19,6 +18,7 @@
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/text.hpp"
+#include "tests/support/variable.hpp"
 
 namespace {
 
@@ -31,17 +31,6 @@ using Bytes = std::vector<std::uint8_t>;
 /// A folder that holds the user's data, too.
 class Folder : public TemporaryFolder {
   public:
-    Folder() {
-        if (const char* before = std::getenv("XDG_DATA_HOME")) data_home_before_ = before;
-        ::setenv("XDG_DATA_HOME", (*this / "data").c_str(), 1);
-    }
-    ~Folder() {
-        if (data_home_before_) ::setenv("XDG_DATA_HOME", data_home_before_->c_str(), 1);
-        if (!data_home_before_) ::unsetenv("XDG_DATA_HOME");
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-
     [[nodiscard]] fs::path holding(std::string_view content,
                                    const char* name = "firmware.bin") const {
         std::ofstream(*this / name, std::ios::binary) << content;
@@ -52,7 +41,7 @@ class Folder : public TemporaryFolder {
     }
 
   private:
-    std::optional<std::string> data_home_before_{};
+    Variable data_home_{"XDG_DATA_HOME", (*this / "data").c_str()};
 };
 
 /// What a person is told when the file is refused; empty when it is not.

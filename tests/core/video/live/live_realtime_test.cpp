@@ -203,9 +203,10 @@ TEST_CASE("a sender that pauses is held, told and seen again by itself, whatever
         {"-f mpegts -listen 1 http://127.0.0.1:" + port, "http://127.0.0.1:" + port},
         {"-f mpegts 'udp://127.0.0.1:" + port + "?pkt_size=1316'", "udp://127.0.0.1:" + port},
         {"-f rtp_mpegts rtp://127.0.0.1:" + port, "rtp://127.0.0.1:" + port},
+        {"-f mpegts 'srt://127.0.0.1:" + port + "?mode=listener'", "srt://127.0.0.1:" + port},
         {"-f matroska '" + fifo + "'", "pipe:" + fifo},
         {"-f nut '" + fifo + "'", "-"}};
-    const Way& way = ways[GENERATE(range<std::size_t>(0, 6))];
+    const Way& way = ways[GENERATE(range<std::size_t>(0, 7))];
     CAPTURE(way.from);
     Ffmpeg sender(
         "-re -f lavfi -i testsrc2=s=96x64:r=30,format=gray,boxblur=4 -c:v libx264 -preset "
