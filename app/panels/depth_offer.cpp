@@ -16,21 +16,16 @@ void ask_for(ViewerState& state, DepthWish wish) {
     state.requests.depth = wish;
 }
 
+/// Each line has its place from the beginning, so that the button stays under the pointer.
 void draw_making(ViewerState& state, const DepthOffer& offer) {
     const EstimateProgress& now = *offer.progress;
-    if (now.step != EstimateStep::estimating || now.counted) {
-        ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImGui::GetColorU32(ImGuiCol_SliderGrab));
-        ImGui::ProgressBar(static_cast<float>(now.share()), {-1.0F, 0.0F},
-                           formatted("%.0f %%", 100.0 * now.share()).c_str());
-        ImGui::PopStyleColor();
-    }
+    const bool measured = now.step != EstimateStep::estimating || now.counted;
+    ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImGui::GetColorU32(ImGuiCol_SliderGrab));
+    ImGui::ProgressBar(measured ? static_cast<float>(now.share()) : 0.0F, {-1.0F, 0.0F},
+                       measured ? formatted("%.0f %%", 100.0 * now.share()).c_str() : "");
+    ImGui::PopStyleColor();
     ImGui::TextUnformatted(offer.ending ? "Ending" : capitalised(in_words(now)).c_str());
-    if (!now.said.empty()) {
-        ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-        const std::string said = one_line(now.said, 70);
-        ImGui::TextUnformatted(said.c_str());
-        ImGui::PopStyleColor();
-    }
+    ImGui::TextDisabled("%s", one_line(now.said, 70).c_str());
     ImGui::Spacing();
     ImGui::BeginDisabled(offer.ending);
     if (ImGui::Button("Cancel")) ask_for(state, DepthWish::cancel);

@@ -66,7 +66,6 @@ struct OwnSettings {
     TemporaryFolder folder{};
     Variable home{"XDG_CONFIG_HOME", folder.path().c_str()};
 };
-};
 
 }  // namespace
 

@@ -73,7 +73,7 @@ struct Home {
 
 constexpr const char* kMake = "mousemove 100 115 click 1";
 constexpr const char* kRun = "mousemove 100 184 click 1";
-constexpr const char* kCancel = "mousemove 66 132 click 1";
+constexpr const char* kCancel = "mousemove 66 149 click 1";
 
 }  // namespace
 
