@@ -229,8 +229,9 @@ std::vector<Row> read_session(const fs::path& file) {
                 opened,
                 "SELECT t, gx, gy, gz, px, py, pz, fx, fy, fz, cx, cy, cz, contact, buttons, cut, "
                 "video_s, surface, ready, stand_in, lets_go, "
-                "p.to_frame - p.from_frame < 2 AND abs(p.to_s - p.from_s - p.span_s) < 1e-9 "
-                "FROM tick LEFT JOIN pair p ON p.id = pair ORDER BY tick",
+                "p.to_frame - p.from_frame < 2 AND abs(p.to_s - p.from_s - p.span_s) < 1e-9, "
+                "s.stiffness_newton_per_mm FROM tick LEFT JOIN pair p ON p.id = pair "
+                "LEFT JOIN parameters s ON s.version = settings ORDER BY tick",
                 -1, &prepared, nullptr) == SQLITE_OK);
     const std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)> query(prepared, sqlite3_finalize);
     std::vector<Row> rows;
@@ -241,7 +242,8 @@ std::vector<Row> read_session(const fs::path& file) {
              (sqlite3_column_int(prepared, 14) & 1) != 0, sqlite3_column_int(prepared, 15),
              sqlite3_column_double(prepared, 16), sqlite3_column_int(prepared, 17) != 0,
              sqlite3_column_int(prepared, 18) != 0, sqlite3_column_int(prepared, 19) != 0,
-             sqlite3_column_int(prepared, 20) != 0, sqlite3_column_int(prepared, 21) != 0});
+             sqlite3_column_int(prepared, 20) != 0, sqlite3_column_int(prepared, 21) != 0,
+             sqlite3_column_double(prepared, 22)});
     }
     return rows;
 }

@@ -139,6 +139,7 @@ struct Row {
     bool stand_in{false};  ///< it is the mouse, in place of a Falcon
     bool lets_go{false};   ///< a proxy in contact begins anew, above the goal
     bool in_time{false};   ///< its two frames follow each other in the file, as far apart as there
+    double stiffness_newton_per_mm{0.0};  ///< as the device could stand it
 };
 
 [[nodiscard]] std::vector<Row> read_session(const std::filesystem::path& file);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <string>
@@ -16,18 +17,20 @@ namespace dibhr::test {
 namespace {
 
 using Rows = std::vector<Row>;
-using Words = std::vector<std::string>;
 
 /// Runs of rows of a force device in which the proxy followed from the first row on, as it does
 /// when the goals and the file are all there is: each begins in free space, or where the proxy
-/// began anew, and ends where a frame came late or was passed over.
+/// began anew, and ends where a frame came late or was passed over, or where the spring became
+/// another one, as that of a device that answers late does.
 std::vector<Rows> strokes(const Rows& rows) {
     std::vector<Rows> all(1);
     for (std::size_t k = 1; k < rows.size(); ++k) {
         const bool jumps = rows[k].video_s < rows[k - 1].video_s;
         const bool anew = rows[k].lets_go && rows[k - 1].contact;
         const bool as_in_file = rows[k].surface && !rows[k].stand_in && rows[k].in_time;
-        if (jumps || anew || !as_in_file) all.emplace_back();
+        const bool other_spring =
+            std::fabs(rows[k].stiffness_newton_per_mm - rows[k - 1].stiffness_newton_per_mm) > 0.0;
+        if (jumps || anew || other_spring || !as_in_file) all.emplace_back();
         const bool begins = anew || !rows[k].contact;
         if (as_in_file && (begins || !all.back().empty())) all.back().push_back(rows[k]);
     }
@@ -43,7 +46,7 @@ std::string exact(double value) {
 }
 
 /// The spring forces that `dibhr touch` gives for the goals of these rows.
-std::vector<Vec3> forces_of_touch(const Rows& rows, const Words& arguments) {
+std::vector<Vec3> forces_of_touch(const Rows& rows) {
     const TemporaryFolder folder;
     {
         std::ofstream goals(folder / "goals.csv");
@@ -53,10 +56,9 @@ std::vector<Vec3> forces_of_touch(const Rows& rows, const Words& arguments) {
                   << ',' << exact(row.goal.z) << '\n';
         }
     }
-    Words words{"touch",   "--video",  "--depth", sample_files().depth.string(),
-                "--goals", "goals.csv"};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    const ProgramResult result = run_dibhr(folder, words);
+    const ProgramResult result = run_dibhr(
+        folder, {"touch", "--video", "--depth", sample_files().depth.string(), "--goals",
+                 "goals.csv", "--stiffness", exact(rows.front().stiffness_newton_per_mm)});
     REQUIRE(result.exit_code == 0);
     std::vector<Vec3> forces;
     const std::vector<std::string> lines = split(result.output, '\n');
@@ -87,10 +89,10 @@ Stroked stroked(const Rows& rows) {
     return told;
 }
 
-double worst_touched_again(const Rows& rows, const Words& arguments) {
+double worst_touched_again(const Rows& rows) {
     double worst_newton = 0.0;
     for (const Rows& stroke : strokes(rows)) {
-        const std::vector<Vec3> again = forces_of_touch(stroke, arguments);
+        const std::vector<Vec3> again = forces_of_touch(stroke);
         REQUIRE(again.size() == stroke.size());
         for (std::size_t k = 0; k < again.size(); ++k)
             worst_newton = std::max(worst_newton, glm::distance(again[k], stroke[k].spring_newton));

@@ -17,10 +17,9 @@ struct Stroked {
 };
 [[nodiscard]] Stroked stroked(const std::vector<Row>& rows);
 
-/// By how much the spring forces of those strokes differ at most from those of `dibhr touch` [N];
-/// `arguments`: of it, too.
-[[nodiscard]] double worst_touched_again(const std::vector<Row>& rows,
-                                         const std::vector<std::string>& arguments = {});
+/// By how much the spring forces of those strokes differ at most from those of `dibhr touch` with
+/// the spring that the device could stand [N].
+[[nodiscard]] double worst_touched_again(const std::vector<Row>& rows);
 
 /// The longest force that was sent [N].
 [[nodiscard]] double strongest(const std::vector<Row>& rows);

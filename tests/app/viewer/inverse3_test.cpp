@@ -151,9 +151,8 @@ TEST_CASE(
     "[inverse3][window]") {
     // `touch` has no hand that could swing, nor a service of which it is felt that it is slow, as
     // it is on a busy machine. The sample plays slowly: few frames come late.
-    const Words soft{"--stiffness", "0.2"};
     Inverse3Scene at(
-        {"--device", "inverse3", "--stability", "off", "--speed", "0.25", soft[0], soft[1]});
+        {"--device", "inverse3", "--stability", "off", "--speed", "0.25", "--stiffness", "0.2"});
     const auto is_enough = [](const Stroked& so_far) {
         return so_far.contacts > 800 && so_far.held_back > 100;
     };
@@ -175,7 +174,7 @@ TEST_CASE(
     CHECK(age_ms(session, "half") <= age_ms(session, "most"));
     CHECK(age_ms(session, "most") <= age_ms(session, "worst"));
     CHECK(strongest(rows) <= SafetyLimits{}.max_force_newton + 1e-9);
-    CHECK_THAT(worst_touched_again(rows, soft), WithinAbs(0.0, 1e-12));
+    CHECK_THAT(worst_touched_again(rows), WithinAbs(0.0, 1e-12));
     require_same_bits(at.folder, session);
     // The last word to the service is that there is no force.
     const auto heard = at.service.heard();
