@@ -59,6 +59,17 @@ TEST_CASE("stiffness is held for the Falcon, and left to the mouse while none an
     CHECK_THAT(stiffness(), WithinAbs(0.25, 1e-12));
 }
 
+TEST_CASE("that a device which answers late is felt softer is said as the loop holds it",
+          "[falcon][settings]") {
+    ViewerState state;
+    state.settings.touch.coupling.stiffness_newton_per_mm = 0.5;
+    state.falcon.emplace().status.stage = falcon::Stage::ready;
+    state.haptic.hand.limits = DeviceLimits{.max_stiffness_newton_per_mm = 0.3};
+    CHECK_THAT(felt_coupling(state).stiffness_newton_per_mm, WithinAbs(0.5, 0.0));  // the mouse's
+    state.haptic.hand.which = static_cast<std::uint8_t>(Touching::falcon);
+    CHECK_THAT(felt_coupling(state).stiffness_newton_per_mm, WithinAbs(0.3, 1e-12));
+}
+
 TEST_CASE("only the force of a Falcon waits for the window, and only when it is wished",
           "[falcon][focus]") {
     ViewerState state;
