@@ -113,19 +113,18 @@ struct SeenBoard {
 
     /// The writer's.
     void write(const Seen& seen) {
-        const std::uint64_t turn = turn_.load(std::memory_order_relaxed);
-        turn_.store(turn + 1, std::memory_order_relaxed);
-        std::atomic_thread_fence(std::memory_order_release);
+        turn_.fetch_add(1, std::memory_order_acq_rel);
         std::memcpy(&seen_, &seen, sizeof seen);
-        turn_.store(turn + 2, std::memory_order_release);
+        turn_.fetch_add(1, std::memory_order_release);
     }
-    [[nodiscard]] Seen read() const {
+    [[nodiscard]] Seen read() {
         for (;;) {
             const std::uint64_t before = turn_.load(std::memory_order_acquire);
             Seen seen;
             std::memcpy(&seen, &seen_, sizeof seen);
-            std::atomic_thread_fence(std::memory_order_acquire);
-            if (before % 2 == 0 && turn_.load(std::memory_order_relaxed) == before) return seen;
+            // Adds nothing: a fence, which the thread sanitizer does not know.
+            if (turn_.fetch_add(0, std::memory_order_acq_rel) == before && before % 2 == 0)
+                return seen;
         }
     }
 
