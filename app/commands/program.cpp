@@ -68,7 +68,7 @@ int run_program(int argc, char** argv, const PictureHook& after_picture) {
     mallopt(M_ARENA_MAX, 1);
     // A closed pipe is an ordinary end, not a signal.
     std::signal(SIGPIPE, SIG_IGN);
-    // A parent may have ignored its children's ends: the kernel would then drop those of ours.
+    // Where a parent ignores it, and that is inherited, the kernel keeps no exit status of a child.
     std::signal(SIGCHLD, SIG_DFL);
     const PlainOutput plain(std::cout);
     std::cout.exceptions(std::ios::badbit);

@@ -140,8 +140,8 @@ Coupling asked_coupling(const ViewerState& state) {
 Coupling felt_coupling(const ViewerState& state) {
     const Coupling asked = asked_coupling(state);
     if (!may_touch(state)) return asked;
-    const auto& now = state.haptic.hand.limits;  // also as fast as the device answers
-    if (now && a_device_touches(state)) return held_coupling(asked, *now);
+    // The loop knows the device's delay, too.
+    if (a_device_touches(state)) return held_coupling(asked, limits_of_hand(state));
     return held_coupling(asked, at_scale(state.device.limits, scale_of_hand(state)));
 }
 

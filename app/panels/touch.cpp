@@ -35,8 +35,8 @@ void draw_held_coupling(const ViewerState& state) {
     const Coupling held = felt_coupling(state);
     if (!(held == asked_coupling(state))) {
         quiet_text(
-            formatted("Felt as %.2f N/mm and %.1f N s/m: at this scale of the workspace, and as "
-                      "fast as the device answers, it can give no more.",
+            formatted("Felt as %.2f N/mm and %.1f N s/m: the device can give no more at this scale "
+                      "of the workspace and with this delay.",
                       held.stiffness_newton_per_mm, held.damping_newton_s_per_m));
     }
 }

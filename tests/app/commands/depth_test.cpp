@@ -181,7 +181,7 @@ TEST_CASE("wrong use ends with 2, a failure with 1, each in a line", "[depth]") 
     CHECK(contains(home.depth({"--list"}).output, "clip.mp4: 6 of 12 frames, "));
 }
 
-TEST_CASE("how an estimator ended is known where dibhr's own parent ignores its children's ends",
+TEST_CASE("an estimator's exit code is reported where dibhr inherits an ignored SIGCHLD",
           "[depth]") {
     const Home home;
     home.write_estimator("crash", "[ $n = 000007.png ] && exit 3");

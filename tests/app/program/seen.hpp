@@ -122,7 +122,7 @@ struct SeenBoard {
             const std::uint64_t before = turn_.load(std::memory_order_acquire);
             Seen seen;
             std::memcpy(&seen, &seen_, sizeof seen);
-            // Adds nothing: a fence, which the thread sanitizer does not know.
+            // Adds 0 in place of a fence, which the thread sanitizer does not support.
             if (turn_.fetch_add(0, std::memory_order_acq_rel) == before && before % 2 == 0)
                 return seen;
         }

@@ -59,7 +59,7 @@ TEST_CASE("stiffness is held for the Falcon, and left to the mouse while none an
     CHECK_THAT(stiffness(), WithinAbs(0.25, 1e-12));
 }
 
-TEST_CASE("that a device which answers late is felt softer is said as the loop holds it",
+TEST_CASE("the stiffness shown for a device that answers late is the one that the loop applies",
           "[falcon][settings]") {
     ViewerState state;
     state.settings.touch.coupling.stiffness_newton_per_mm = 0.5;
