@@ -38,6 +38,11 @@ bool is_firm(const Row& row) {
     return glm::length(row.sent_newton) > 0.5;
 }
 
+/// However soft the spring of a Falcon is that answers late on a busy machine.
+bool is_pressed(const Row& row) {
+    return row.contact && glm::distance(row.goal, row.proxy) * kSlopePitch_mm > 1.0;
+}
+
 bool cut_for(SafetyCut reason, const Row& row) {
     return row.cut == static_cast<int>(reason);
 }
@@ -222,7 +227,7 @@ TEST_CASE("the force is off while another window has the keyboard, and rises aga
                                    [](const Row& row) { return cut_for(SafetyCut::none, row); });
     CHECK(std::count_if(lost, back, off) > 100);
     CHECK(std::all_of(lost, back, [](const Row& row) {
-        return glm::length(row.spring_newton) > 0.5 && !(glm::length(row.sent_newton) > 0.0);
+        return is_pressed(row) && !(glm::length(row.sent_newton) > 0.0);
     }));
     REQUIRE(back != rows.end());
     CHECK(falcon_touches(*back));
