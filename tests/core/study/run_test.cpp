@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -81,24 +82,49 @@ TEST_CASE("answers of another study or participant are not gone on from", "[stud
     CHECK_THROWS_AS(StudyRun(all_forms(), 4, run.answered()), InputError);
 }
 
-TEST_CASE("a question takes an answer there is, and none only where time runs", "[study]") {
+TEST_CASE("every question takes the answers there are, and none only where time runs", "[study]") {
     StudyRun run(all_forms(), 1);
     CHECK_FALSE(run.takes({.choice = 0}));  // nothing is asked yet
-    while (run.step() != StudyStep::question) run.go_on();
-    CHECK(run.takes({.choice = 2}));
-    CHECK_FALSE(run.takes({.choice = 3}));
-    CHECK_FALSE(run.takes({}));
-    CHECK_FALSE(run.takes({.number = 1.0}));
-    while (run.block().form != TrialForm::rating || run.step() != StudyStep::question) {
-        if (run.step() == StudyStep::question || run.step() == StudyStep::adjust)
-            run.accept(run.judged(answer_of({}, run), 0.0));
-        else
+    std::set<TrialForm> asked;
+    while (run.step() != StudyStep::finished) {
+        if (run.step() != StudyStep::question && run.step() != StudyStep::adjust) {
             run.go_on();
+            continue;
+        }
+        const Block& block = run.block();
+        CAPTURE(name_of(block.form));
+        asked.insert(block.form);
+        CHECK(run.takes({}) == (block.answer_s > 0.0));
+        const auto check_choices = [&run](int count) {
+            for (int choice = 0; choice < count; ++choice) CHECK(run.takes({.choice = choice}));
+            CHECK_FALSE(run.takes({.choice = count}));
+            CHECK_FALSE(run.takes({.number = 1.0}));
+        };
+        switch (block.form) {
+            case TrialForm::explore:
+                check_choices(static_cast<int>(block.question.answers.size()));
+                break;
+            case TrialForm::two_interval:
+                check_choices(2);
+                break;
+            case TrialForm::three_interval:
+                check_choices(3);
+                break;
+            case TrialForm::adjust:
+                CHECK(run.takes({.number = 0.6}));
+                CHECK_FALSE(run.takes({.number = 0.601}));
+                CHECK_FALSE(run.takes({.number = 0.099}));
+                CHECK_FALSE(run.takes({.choice = 0}));
+                break;
+            case TrialForm::rating:
+                CHECK(run.takes({.number = 7.0}));
+                CHECK_FALSE(run.takes({.number = 8.0}));
+                CHECK_FALSE(run.takes({.number = 2.5}));
+                CHECK_FALSE(run.takes({.choice = 0}));
+        }
+        run.accept(run.judged(answer_of({}, run), 0.0));
     }
-    CHECK(run.takes({}));
-    CHECK(run.takes({.number = 7.0}));
-    CHECK_FALSE(run.takes({.number = 8.0}));
-    CHECK_FALSE(run.takes({.number = 2.5}));
+    CHECK(asked.size() == kTrialForms.size());
 }
 
 TEST_CASE("an interval may be felt again where the page says so", "[study]") {
