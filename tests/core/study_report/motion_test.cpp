@@ -63,3 +63,40 @@ TEST_CASE("intervals without a rest between them, as the modelled hand has them,
     // Of a trial with fewer intervals a mark beyond them is none of its own.
     CHECK(measured({{0.0, "interval 1"}, {0.75, "interval 2"}}, 1).at(0).updates == 750);
 }
+
+TEST_CASE(
+    "of two intervals together times and counts add up, and means weigh by the time in contact",
+    "[study motion]") {
+    const IntervalMotion a{.updates = 10,
+                           .contact_updates = 4,
+                           .moves = 7,
+                           .duration_s = 2.0,
+                           .contact_s = 1.0,
+                           .sent_newton = 0.5,
+                           .sent_peak_newton = 3.0,
+                           .spring_newton = 1.5,
+                           .spring_peak_newton = 5.0,
+                           .path_mm = 11.0};
+    const IntervalMotion b{.updates = 20,
+                           .contact_updates = 15,
+                           .moves = 13,
+                           .duration_s = 4.0,
+                           .contact_s = 3.0,
+                           .sent_newton = 0.9,
+                           .sent_peak_newton = 2.0,
+                           .spring_newton = 2.5,
+                           .spring_peak_newton = 6.0,
+                           .path_mm = 17.0};
+    const bool swapped = GENERATE(false, true);
+    const IntervalMotion all = swapped ? joined(b, a) : joined(a, b);
+    CHECK(all.updates == 30);
+    CHECK(all.contact_updates == 19);
+    CHECK(all.moves == 20);
+    CHECK_THAT(all.duration_s, WithinAbs(6.0, 1e-12));
+    CHECK_THAT(all.contact_s, WithinAbs(4.0, 1e-12));
+    CHECK_THAT(all.sent_newton, WithinAbs(0.8, 1e-12));
+    CHECK_THAT(all.sent_peak_newton, WithinAbs(3.0, 0.0));
+    CHECK_THAT(all.spring_newton, WithinAbs(2.25, 1e-12));
+    CHECK_THAT(all.spring_peak_newton, WithinAbs(6.0, 0.0));
+    CHECK_THAT(all.path_mm, WithinAbs(28.0, 1e-12));
+}
