@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "app/commands/documentation.hpp"
@@ -65,6 +66,23 @@ std::optional<Action> pressed(const KeyTable& keys, const Key& key) {
 }
 
 }  // namespace
+
+TEST_CASE("no two settings are kept in one place, and none has the name of another one",
+          "[settings]") {
+    Settings settings;
+    std::set<const void*> places;
+    std::set<std::string> names;
+    for (const Setting& setting : list_of(settings)) {
+        const std::string name = std::string(setting.table) + "." + std::string(setting.name);
+        CAPTURE(name);
+        CHECK(names.insert(name).second);
+        CHECK(
+            places
+                .insert(std::visit([](auto* value) -> const void* { return value; }, setting.value))
+                .second);
+    }
+    CHECK(places.size() > 100);
+}
 
 TEST_CASE("settings come back exactly as they were saved", "[settings]") {
     const TemporaryFolder folder;
