@@ -87,8 +87,7 @@ std::vector<HeldLevel> DepthMemory::take(const DepthImage& depth, double media_s
 }
 
 void DepthMemory::forget() noexcept {
-    levels_.clear();
-    whole_in_ = 0;
+    levels_.clear();  // take() then begins anew
     times_.clear();
     oldest_ = 1;
 }
