@@ -87,7 +87,7 @@ std::vector<HeldLevel> DepthMemory::take(const DepthImage& depth, double media_s
 }
 
 void DepthMemory::forget() noexcept {
-    levels_.clear();  // take() then begins anew
+    levels_.clear();  // of another size than the next image: take() resets the rest
     times_.clear();
     oldest_ = 1;
 }

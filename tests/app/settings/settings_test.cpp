@@ -76,10 +76,9 @@ TEST_CASE("no two settings are kept in one place, and none has the name of anoth
         const std::string name = std::string(setting.table) + "." + std::string(setting.name);
         CAPTURE(name);
         CHECK(names.insert(name).second);
-        CHECK(
-            places
-                .insert(std::visit([](auto* value) -> const void* { return value; }, setting.value))
-                .second);
+        const void* const place =
+            std::visit([](auto* value) -> const void* { return value; }, setting.value);
+        CHECK(places.insert(place).second);
     }
     CHECK(places.size() > 100);
 }
