@@ -15,6 +15,7 @@
 #include "tests/core/session/exploration.hpp"
 #include "tests/core/session/session_folder.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/eventually.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -73,6 +74,10 @@ Cost cost_of(Exploration& hand, std::int64_t ticks) {
             push(*ring, hand.next());
             if (k == ticks / 2) before = resident_bytes();
         }
+        REQUIRE(eventually([&recorder, ticks] {
+            const RecorderStatus status = recorder.status();
+            return static_cast<std::int64_t>(status.rows + status.dropped) == ticks;
+        }));
         cost.grown_bytes = resident_bytes() - before;
         const auto seconds = thread_seconds("dibhr-recorder");
         REQUIRE(seconds.has_value());
