@@ -66,7 +66,7 @@ std::optional<std::string> ViewerClip::take_news(ViewerState& state) {
     const double length_s = begin_ ? seconds_between(*begin_, now) : 0.0;
     if (!recorder_->done()) {
         state.clip = ClipNews{file_, length_s, end_.has_value()};
-        tell_words(length_s);
+        tell_words();
         return {};
     }
     forget_words();
@@ -79,9 +79,8 @@ std::optional<std::string> ViewerClip::take_news(ViewerState& state) {
     }
 }
 
-void ViewerClip::tell_words(double length_s) {
-    constexpr double kPlays_s = 2.0;  // by then there is a second in the file
-    if (in_words_ || length_s < kPlays_s) return;
+void ViewerClip::tell_words() {
+    if (in_words_ || !recorder_->plays()) return;
     words_.clip(recorder_->written(), file_, name_ == ClipName::replaces);
     in_words_ = true;
 }

@@ -48,7 +48,7 @@ class ViewerClip {
 
   private:
     void wait_for(std::unique_ptr<ClipRecorder> over, ClipEnd how);
-    void tell_words(double length_s);
+    void tell_words();
     void forget_words();
 
     Errands& errands_;

@@ -71,7 +71,7 @@ void LastWords::tell(std::initializer_list<const char*> parts) const noexcept {
         line.add(file->c_str());
     }
     if (const Clip* const clip = kept_.load()) {
-        line.add("; the clip up to a second ago is in ");
+        line.add("; what was written of the clip is in ");
         line.add(clip->file.c_str());
     }
     line.write();

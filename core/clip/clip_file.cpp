@@ -72,6 +72,10 @@ void ClipFile::add(const ColourImage& picture, double shown_s) {
     last_ms_ = shown_ms;
 }
 
+bool ClipFile::plays() const noexcept {
+    return file_ && file_->plays();
+}
+
 fs::path ClipFile::finish(double end_s, ClipEnd how) {
     return telling_which_file([&] {
         if (!encoder_) throw InputError("no picture was drawn while the clip went on");

@@ -38,6 +38,8 @@ class ClipFile {
     /// The last picture is seen until `end_s`. Gives the name that the file has. Throws InputError.
     std::filesystem::path finish(double end_s, ClipEnd how);
 
+    /// Whether what is written so far plays.
+    [[nodiscard]] bool plays() const noexcept;
     /// Where it is written until then.
     [[nodiscard]] const std::filesystem::path& written() const noexcept {
         return written_.written();

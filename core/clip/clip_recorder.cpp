@@ -70,6 +70,11 @@ std::uint64_t ClipRecorder::encoded() const {
     return encoded_;
 }
 
+bool ClipRecorder::plays() const {
+    const std::scoped_lock lock(mutex_);
+    return plays_;
+}
+
 std::filesystem::path ClipRecorder::work() {
     give_way();
     std::optional<Clock::time_point> begin;
@@ -88,6 +93,7 @@ std::filesystem::path ClipRecorder::work() {
         file_.add(next.picture, seconds(next.at));
         lock.lock();
         ++encoded_;
+        plays_ = file_.plays();
     }
     const Clock::time_point end = begin ? end_ : Clock::time_point{};
     const ClipEnd how = how_;

@@ -41,7 +41,10 @@ class ClipRecorder {
     std::filesystem::path result() { return result_.get(); }
 
     [[nodiscard]] std::uint64_t encoded() const;
-    /// Where the clip is written until it is whole; plays up to a second before its last picture.
+    /// Whether what is written so far plays: on a busy machine the encoder lags seconds behind.
+    [[nodiscard]] bool plays() const;
+    /// Where the clip is written until it is whole; plays up to a second before the last picture
+    /// that was encoded.
     [[nodiscard]] const std::filesystem::path& written() const noexcept { return file_.written(); }
 
   private:
@@ -63,6 +66,7 @@ class ClipRecorder {
     Clock::time_point end_{};
     ClipEnd how_{ClipEnd::well};
     std::uint64_t encoded_{0};
+    bool plays_{false};
     std::future<std::filesystem::path> result_;  // last: its thread uses all of these
 };
 

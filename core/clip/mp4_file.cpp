@@ -56,9 +56,14 @@ Mp4File::Mp4File(const fs::path& file, const AVCodecParameters& coded, Mp4Index 
     if (result >= 0) result = avformat_write_header(format_.get(), &options);
     av_dict_free(&options);
     require_written(result);
+    head_bytes_ = avio_tell(format_->pb);
 }
 
 Mp4File::~Mp4File() = default;
+
+bool Mp4File::plays() const noexcept {
+    return avio_tell(format_->pb) > head_bytes_;
+}
 
 void Mp4File::write(AVPacket& packet) {
     write_held(packet.dts);

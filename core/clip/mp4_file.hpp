@@ -29,6 +29,9 @@ class Mp4File {
     /// The last one lasts until then. Throws InputError.
     void finish(std::int64_t end_ms);
 
+    /// Whether the file, as it is now, has pictures: those of its finished pieces.
+    [[nodiscard]] bool plays() const noexcept;
+
   private:
     struct Held;
 
@@ -36,6 +39,7 @@ class Mp4File {
 
     std::unique_ptr<AVFormatContext, void (*)(AVFormatContext*)> format_;
     std::unique_ptr<Held> held_;
+    std::int64_t head_bytes_{0};
 };
 
 /// A copy of a finished one, its index at the begin: the same pictures at the same times. Throws

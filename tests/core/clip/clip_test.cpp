@@ -218,6 +218,23 @@ TEST_CASE("what is written of a clip plays before it is finished", "[clip]") {
     CHECK_FALSE(times_s(folder, copy).empty());
 }
 
+TEST_CASE("a clip knows from when on what is written of it plays", "[clip]") {
+    const double apart_s = GENERATE(0.2, 0.7, 3.0);
+    const TemporaryFolder folder;
+    ClipFile clip(folder / "view.mp4", ClipName::replaces);
+    CHECK_FALSE(clip.plays());
+    unsigned seed = 0;
+    for (int k = 0; k < 12; ++k) {
+        clip.add(noisy(160, 90, ++seed), k * apart_s);
+        const fs::path copy = folder / "copy.mp4";
+        fs::copy_file(folder / names(folder).front(), copy, fs::copy_options::overwrite_existing);
+        CAPTURE(apart_s, k);
+        CHECK(clip.plays() == !times_s(folder, copy).empty());
+        fs::remove(copy);
+    }
+    CHECK(clip.plays());
+}
+
 TEST_CASE("of a clip that is given up, or has no picture, nothing remains", "[clip]") {
     const TemporaryFolder folder;
     const fs::path file = folder / "view.mp4";
