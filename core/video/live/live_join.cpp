@@ -15,6 +15,9 @@ constexpr std::size_t kStamps = 100;  ///< about three seconds
 constexpr double kOtherTime_s = 1.0;  ///< a clock that is so far off was set
 /// Clocks that agree so well are one clock: what is between them is the way, not the time.
 constexpr double kOneClock_s = 0.25;
+/// A picture that comes so much quicker than all before is one of those that piled up.
+constexpr double kPiledUp_s = 0.005;
+constexpr std::chrono::seconds kLongestPile{2};
 constexpr std::size_t kMostColours = 8;
 constexpr std::size_t kMostWaiting = 2;
 
@@ -23,6 +26,7 @@ constexpr std::size_t kMostWaiting = 2;
 void StampLine::add(double stamp_s, double arrived_s) {
     const double later_s = arrived_s - stamp_s;
     if (!later_.empty() && std::fabs(later_s - this->later_s()) > kOtherTime_s) later_.clear();
+    catches_up_ = later_.empty() || later_s < this->later_s() - kPiledUp_s;
     later_.push_back(later_s);
     if (later_.size() > kStamps) later_.pop_front();
 }
@@ -33,6 +37,7 @@ double StampLine::later_s() const {
 
 void LiveJoin::add_depth(LivePicture picture) {
     depth_line_.add(picture.stamp_s, seconds_of(picture.arrived));
+    if (!first_depth_) first_depth_ = picture.arrived;
     waiting_.push_back(std::move(picture));
     if (waiting_.size() > kMostWaiting) waiting_.pop_front();
 }
@@ -64,13 +69,22 @@ bool LiveJoin::may_go(const LivePicture& depth, Time now) const {
     return waited || (!colours_.empty() && colour_s(colours_.back()) >= depth.stamp_s - half_s);
 }
 
+/// While a connection is opened its pictures pile up. When those come tells nothing of the way, and
+/// the colour of the first ones may be gone.
+bool LiveJoin::begins(Time now) {
+    begun_ = begun_ || now - *first_depth_ > kLongestPile ||
+             !(depth_line_.catches_up() || colour_line_.catches_up());
+    return begun_;
+}
+
 std::optional<LivePair> LiveJoin::take(Time now) {
     std::optional<LivePicture> depth;
     while (!waiting_.empty() && may_go(waiting_.front(), now)) {
         depth = std::move(waiting_.front());
         waiting_.pop_front();
     }
-    const LivePicture* const colour = depth ? nearest_colour(depth->stamp_s) : nullptr;
+    if (!depth || !begins(now)) return std::nullopt;
+    const LivePicture* const colour = nearest_colour(depth->stamp_s);
     if (colour == nullptr) return std::nullopt;
     return LivePair{.depth = std::move(*depth), .colour = *colour};
 }

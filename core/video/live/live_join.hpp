@@ -28,9 +28,13 @@ class StampLine {
     /// On our clock, of a stamp; 0 before anything was added.
     [[nodiscard]] double later_s() const;
     [[nodiscard]] std::size_t count() const noexcept { return later_.size(); }
+    /// Whether the newest picture came quicker than all before, as those do that piled up. True of
+    /// the first one.
+    [[nodiscard]] bool catches_up() const noexcept { return catches_up_; }
 
   private:
     std::deque<double> later_{};
+    bool catches_up_{true};
 };
 
 /// Every depth picture goes with the colour that is nearest in time, and waits for it half the time
@@ -45,19 +49,23 @@ class LiveJoin {
     void set_interval(double interval_s) noexcept { interval_s_ = interval_s; }
 
     /// Of the depth pictures that need not wait any more the newest, with its colour; nothing
-    /// before the first colour.
+    /// before the first colour, and nothing while the pictures that piled up are worked off: two
+    /// seconds at most.
     [[nodiscard]] std::optional<LivePair> take(Time now);
     /// When one that waits goes without; nothing: none waits.
     [[nodiscard]] std::optional<Time> due() const;
 
   private:
     [[nodiscard]] double colour_s(const LivePicture& picture) const;
+    [[nodiscard]] bool begins(Time now);
     [[nodiscard]] bool may_go(const LivePicture& depth, Time now) const;
     [[nodiscard]] const LivePicture* nearest_colour(double depth_s) const;
 
     std::deque<LivePicture> waiting_{};  ///< depth, for its colour
     std::deque<LivePicture> colours_{};  ///< the newest
     StampLine depth_line_{}, colour_line_{};
+    std::optional<Time> first_depth_{};  ///< when it came
+    bool begun_{false};                  ///< no more is piled up
     double interval_s_{1.0 / 30.0};
 };
 

@@ -153,6 +153,42 @@ TEST_CASE("two streams are joined by their times, whatever their clocks say and 
     CHECK(joined >= 89);
 }
 
+TEST_CASE("pictures that piled up while a stream was opened are not joined by when they come",
+          "[live]") {
+    JoinBench bench;
+    bench.colour_zero_s = GENERATE(0.0, 500.0);
+    bench.depth_way_s = bench.colour_way_s;
+    const int piled_up = GENERATE(2, 10, 20);
+    const double decoding_s = GENERATE(0.001, 0.020);
+    const bool colour_first = GENERATE(true, false);
+    CAPTURE(bench.colour_zero_s, piled_up, decoding_s, colour_first);
+    const auto came_s = [&](int k, double opened_s) {
+        return std::max(k * kLiveInterval_s + bench.colour_way_s, opened_s + k * decoding_s);
+    };
+    const double opened_s = piled_up * kLiveInterval_s;
+    int next_depth = 0;
+    int next_colour = 0;
+    int joined = 0;
+    for (double time_s = 0.0; time_s < 4.0; time_s += 0.001) {
+        while (came_s(next_depth, opened_s) <= time_s) {
+            LivePicture depth = bench.depth(next_depth++);
+            depth.arrived = after_s(kBegin, time_s);
+            bench.join.add_depth(std::move(depth));
+        }
+        while (came_s(next_colour, colour_first ? 0.0 : opened_s + 0.100) <= time_s) {
+            LivePicture colour = bench.colour(next_colour++);
+            colour.arrived = after_s(kBegin, time_s);
+            bench.join.add_colour(std::move(colour));
+        }
+        const auto pair = bench.at(time_s);
+        if (!pair) continue;
+        ++joined;
+        CHECK(pair->depth.bits == pair->colour.bits);
+    }
+    CHECK(joined >= 90 - 2 * piled_up);
+    CHECK(joined >= 50);
+}
+
 TEST_CASE("a depth picture waits for its colour half an interval, and goes without", "[live]") {
     JoinBench bench;
     bench.join.add_depth(bench.depth(0));
