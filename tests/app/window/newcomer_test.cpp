@@ -26,6 +26,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kFrame_s = 0.05;
+constexpr double kNear_s = 1e-6;
 constexpr int kStill = 2000;  // bytes of a picture: more have changed when something happened
 constexpr double kRounding_s = 0.002;
 constexpr std::uint64_t kHeldTicks = 320;  // of a moment: more than held_moments() wants
@@ -59,6 +60,16 @@ class Newcomer {
     void wait_for_rows(std::uint64_t more) const {
         const std::uint64_t rows = seen().recorded_rows;
         wait_until([wanted = rows + more](const Seen& now) { return now.recorded_rows >= wanted; });
+    }
+    /// The video that stands still goes on to its next frame, and stands still there.
+    void step() const {
+        const double still_s = seen().media_s;
+        act("key period");
+        wait_until([still_s](const Seen& now) {
+            return now.touchable && now.media_s > still_s &&
+                   std::abs(now.drawn_s - now.media_s) < kNear_s;
+        });
+        wait_for_rows(kHeldTicks);
     }
     /// To their end, whatever they hold.
     void scroll_panels() const {
@@ -146,7 +157,6 @@ std::ptrdiff_t laps_of_a_part(const std::vector<Row>& rows) {
 
 /// From where it was paused, between two frames, to the next frame and to the one after it.
 bool shows_two_steps(const std::vector<double>& held) {
-    constexpr double kNear_s = 1e-6;
     const auto is_frame = [](double moment_s) {
         return std::abs(std::remainder(moment_s, kFrame_s)) < kNear_s;
     };
@@ -215,11 +225,10 @@ TEST_CASE(
     newcomer.wait_until([](const Seen& now) { return now.contact && now.records; });
     newcomer.drag(100);
     newcomer.act("key space");
+    newcomer.wait_until([](const Seen& now) { return !now.playing; });
     newcomer.wait_for_rows(kHeldTicks);
-    newcomer.act("key period");
-    newcomer.wait_for_rows(kHeldTicks);
-    newcomer.act("key period");
-    newcomer.wait_for_rows(kHeldTicks);
+    newcomer.step();
+    newcomer.step();
     newcomer.act("key Home key space key a");
     const double part_s = newcomer.seen().media_s;
     newcomer.wait_until([part_s](const Seen& now) { return now.media_s > part_s + 0.5; });
