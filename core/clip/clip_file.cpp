@@ -1,17 +1,13 @@
 // A clip while it is written, and what becomes of it.
 #include "core/clip/clip_file.hpp"
 
-extern "C" {
-#include <libavcodec/avcodec.h>
-}
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <exception>
-#include <new>
 #include <string>
 
+#include "core/av/track_encoder.hpp"
 #include "core/clip/mp4_file.hpp"
 #include "core/clip/picture_encoder.hpp"
 #include "core/error.hpp"
@@ -25,7 +21,7 @@ namespace fs = std::filesystem;
 namespace {
 
 std::int64_t clip_time(double seconds) {
-    return std::llround(seconds * kClipTimeBase);
+    return std::llround(seconds * kTrackUnitsPerSecond);
 }
 
 fs::path committed(OutputFile& file, const fs::path& target, ClipName name) {
@@ -54,12 +50,7 @@ auto ClipFile::telling_which_file(const Step& step) {
 
 void ClipFile::open(const ColourImage& first) {
     encoder_ = std::make_unique<PictureEncoder>(first.columns, first.rows);
-    AVCodecParameters* coded = avcodec_parameters_alloc();
-    if (coded == nullptr || avcodec_parameters_from_context(coded, &encoder_->codec()) < 0)
-        throw std::bad_alloc();
-    const std::unique_ptr<AVCodecParameters, void (*)(AVCodecParameters*)> freed(
-        coded, [](AVCodecParameters* parameters) { avcodec_parameters_free(&parameters); });
-    file_ = std::make_unique<Mp4File>(written_.written(), *coded, Mp4Index::in_pieces);
+    file_ = std::make_unique<Mp4File>(written_.written(), *encoder_->coded(), Mp4Index::in_pieces);
 }
 
 void ClipFile::add(const ColourImage& picture, double shown_s) {

@@ -5,11 +5,12 @@
 
 #include <exception>
 #include <fstream>
+#include <map>
 #include <optional>
 #include <system_error>
 #include <utility>
 
-#include "core/clip/live_file.hpp"
+#include "core/clip/live_track.hpp"
 #include "core/error.hpp"
 #include "core/video/libraries.hpp"
 
@@ -41,10 +42,8 @@ LiveFiles live_files_beside(const fs::path& session) {
 
 /// Opened with the first frame.
 struct LiveRecorder::Tracks {
-    std::optional<ExactEncoder> levels{};
-    std::optional<LiveFile> depth_file{};
-    std::optional<ExactEncoder> colours{};
-    std::optional<LiveFile> colour_file{};
+    std::optional<LiveTrack> depth{};
+    std::optional<LiveTrack> colour{};
 };
 
 LiveRecorder::LiveRecorder(LiveFiles files) : files_(std::move(files)) {
@@ -94,23 +93,16 @@ std::vector<FileContent> LiveRecorder::contents() const {
 
 void LiveRecorder::write(Tracks& tracks, const LiveRecord& record) const {
     const LiveLevels levels = levels_of(record);
-    if (!tracks.levels) {
-        tracks.levels.emplace(levels);
+    if (!tracks.depth) {
         const std::map<std::string, std::string> tags{{kNoiseTag, text_of(record.noise)},
                                                       {kBitsTag, std::to_string(levels.bits)}};
-        tracks.depth_file.emplace(files_.depth, tracks.levels->codec(), tags);
+        tracks.depth.emplace(files_.depth, levels, tags);
     }
-    tracks.levels->encode(levels, record.media_ms,
-                          [&](AVPacket& packet) { tracks.depth_file->write(packet); });
+    tracks.depth->add(levels, record.media_ms);
     const ColourImage colour = files_.colour.empty() ? ColourImage{} : colour_of(record);
     if (colour.rgb.empty()) return;
-    if (!tracks.colours) {
-        tracks.colours.emplace(colour);
-        tracks.colour_file.emplace(files_.colour, tracks.colours->codec(),
-                                   std::map<std::string, std::string>{});
-    }
-    tracks.colours->encode(colour, record.media_ms,
-                           [&](AVPacket& packet) { tracks.colour_file->write(packet); });
+    if (!tracks.colour) tracks.colour.emplace(files_.colour, colour);
+    tracks.colour->add(colour, record.media_ms);
 }
 
 void LiveRecorder::run() {
@@ -139,10 +131,10 @@ void LiveRecorder::run() {
     }
     lock.unlock();
     std::vector<FileContent> contents;
-    for (auto* const file : {&tracks.depth_file, &tracks.colour_file})
+    for (auto* const track : {&tracks.depth, &tracks.colour})
         try_to([&] {
-            if (!*file) return;
-            if (auto content = (*file)->finish()) contents.push_back(std::move(*content));
+            if (!*track) return;
+            if (auto content = (*track)->finish()) contents.push_back(std::move(*content));
         });
     lock.lock();
     contents_ = std::move(contents);

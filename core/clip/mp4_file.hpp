@@ -3,11 +3,8 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 
-struct AVCodecParameters;
-struct AVFormatContext;
-struct AVPacket;
+#include "core/av/track_file.hpp"
 
 namespace dibhr {
 
@@ -19,27 +16,22 @@ class Mp4File {
   public:
     /// Writes over the file. Throws InputError.
     Mp4File(const std::filesystem::path& file, const AVCodecParameters& coded, Mp4Index index);
-    ~Mp4File();
-    Mp4File(const Mp4File&) = delete;
-    Mp4File& operator=(const Mp4File&) = delete;
 
-    /// Takes the packet's content; its times are in 1/kClipTimeBase s. It lasts until the next one,
-    /// and is written then. Throws InputError, e.g. when the disk is full.
+    /// Takes the packet's content; its times are in 1/kTrackUnitsPerSecond s. It lasts until the
+    /// next one, and is written then. Throws InputError, e.g. when the disk is full.
     void write(AVPacket& packet);
     /// The last one lasts until then. Throws InputError.
     void finish(std::int64_t end_ms);
 
     /// Whether the file, as it is now, has pictures: those of its finished pieces.
-    [[nodiscard]] bool plays() const noexcept;
+    [[nodiscard]] bool plays() const noexcept { return file_.holds_packets(); }
 
   private:
-    struct Held;
-
     void write_held(std::int64_t until_ms);
 
-    std::unique_ptr<AVFormatContext, void (*)(AVFormatContext*)> format_;
-    std::unique_ptr<Held> held_;
-    std::int64_t head_bytes_{0};
+    TrackFile file_;
+    AvOwned<AVPacket> held_{new_packet()};
+    bool holds_packet_{false};
 };
 
 /// A copy of a finished one, its index at the begin: the same pictures at the same times. Throws

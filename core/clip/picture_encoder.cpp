@@ -13,8 +13,8 @@ extern "C" {
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <new>
 #include <string>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/video/frame_window.hpp"
@@ -37,28 +37,21 @@ int even(int pixels) {
 
 /// Colours as of HDTV, which players take where nothing is said.
 void say_colours(AVCodecContext& codec) {
-    codec.pix_fmt = AV_PIX_FMT_YUV420P;
     codec.color_range = AVCOL_RANGE_MPEG;
     codec.colorspace = AVCOL_SPC_BT709;
     codec.color_primaries = AVCOL_PRI_BT709;
     codec.color_trc = AVCOL_TRC_BT709;
 }
 
-/// On the thread that calls alone, a packet a picture: a hand is felt on the same machine. Null:
-/// this libav has no such encoder, or it takes no pictures of that size.
-AVCodecContext* opened(const char* name, int columns, int rows) {
+/// On the calling thread alone, a packet a picture: a hand is felt on the same machine. Null: this
+/// libav has no such encoder, or it takes no pictures of that size.
+AvOwned<AVCodecContext> opened(const char* name, int columns, int rows) {
     const AVCodec* const encoder = avcodec_find_encoder_by_name(name);
     if (encoder == nullptr) return nullptr;
-    AVCodecContext* codec = avcodec_alloc_context3(encoder);
-    if (codec == nullptr) throw std::bad_alloc();
-    codec->width = columns;
-    codec->height = rows;
-    codec->time_base = {1, kClipTimeBase};
+    AvOwned<AVCodecContext> codec = new_encoder(encoder, columns, rows, AV_PIX_FMT_YUV420P);
     codec->framerate = {kPicturesPerSecond, 1};
     codec->gop_size = kPicturesToKey;
     codec->max_b_frames = 0;
-    codec->thread_count = 1;
-    codec->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;  // as MP4 wants it
     say_colours(*codec);
     if (encoder->id == AV_CODEC_ID_MPEG4) {
         codec->flags |= AV_CODEC_FLAG_QSCALE;
@@ -68,8 +61,18 @@ AVCodecContext* opened(const char* name, int columns, int rows) {
     av_opt_set(codec->priv_data, "preset", "veryfast", 0);
     av_opt_set(codec->priv_data, "tune", "zerolatency", 0);
     av_opt_set_int(codec->priv_data, "crf", kH264Quality, 0);
-    if (avcodec_open2(codec, encoder, nullptr) < 0) avcodec_free_context(&codec);
+    if (avcodec_open2(codec.get(), encoder, nullptr) < 0) return nullptr;
     return codec;
+}
+
+TrackEncoder encoder_for(int columns, int rows) {
+    for (const char* const name : kEncoders)
+        if (AvOwned<AVCodecContext> codec = opened(name, even(columns), even(rows)))
+            return TrackEncoder(std::move(codec));
+    throw InputError("no clip can be made of " + std::to_string(columns) + " x " +
+                     std::to_string(rows) +
+                     " pixels: this libavcodec has neither an H.264 nor an MPEG-4 encoder for it; "
+                     "install the distribution's full libavcodec");
 }
 
 /// Where a picture lies in one of another size: the same shape, in the middle.
@@ -88,16 +91,6 @@ Place place_in(const AVFrame& frame, const AVFrame& picture) {
     return {(frame.width - columns) / 2 & ~1, (frame.height - rows) / 2 & ~1, columns, rows};
 }
 
-/// With room beyond its rows and after the last one: the scaler reads and writes whole vectors.
-void give_buffer(AVFrame& frame, AVPixelFormat format, int columns, int rows) {
-    if (frame.width == columns && frame.height == rows) return;
-    av_frame_unref(&frame);
-    frame.format = format;
-    frame.width = columns;
-    frame.height = rows;
-    if (av_frame_get_buffer(&frame, 0) < 0) throw std::bad_alloc();
-}
-
 void paint_black(AVFrame& frame) {
     std::array<std::ptrdiff_t, 4> strides{};
     std::copy_n(std::begin(frame.linesize), strides.size(), strides.begin());
@@ -111,40 +104,7 @@ InputError cannot_encode() {
 
 }  // namespace
 
-void PictureEncoder::Free::operator()(AVCodecContext* codec) const {
-    avcodec_free_context(&codec);
-}
-
-void PictureEncoder::Free::operator()(AVFrame* frame) const {
-    av_frame_free(&frame);
-}
-
-void PictureEncoder::Free::operator()(AVPacket* packet) const {
-    av_packet_free(&packet);
-}
-
-void PictureEncoder::Free::operator()(SwsContext* scaler) const {
-    sws_freeContext(scaler);
-}
-
-PictureEncoder::PictureEncoder(int columns, int rows)
-    : picture_(av_frame_alloc()),
-      scaled_(av_frame_alloc()),
-      frame_(av_frame_alloc()),
-      packet_(av_packet_alloc()) {
-    if (!picture_ || !scaled_ || !frame_ || !packet_) throw std::bad_alloc();
-    for (const char* const name : kEncoders)
-        if (codec_ == nullptr) codec_.reset(opened(name, even(columns), even(rows)));
-    if (codec_ == nullptr) {
-        throw InputError("no clip can be made of " + std::to_string(columns) + " x " +
-                         std::to_string(rows) +
-                         " pixels: this libavcodec has neither an H.264 nor an MPEG-4 encoder for "
-                         "it; install the distribution's full libavcodec");
-    }
-    give_buffer(*frame_, AV_PIX_FMT_YUV420P, codec_->width, codec_->height);
-}
-
-PictureEncoder::~PictureEncoder() = default;
+PictureEncoder::PictureEncoder(int columns, int rows) : encoder_(encoder_for(columns, rows)) {}
 
 /// The picture as it came, less its last row or column where their number is odd.
 const AVFrame& PictureEncoder::copied(const ColourImage& picture) {
@@ -169,10 +129,9 @@ const AVFrame& PictureEncoder::scaled(const AVFrame& from, int columns, int rows
     return frame;
 }
 
-/// Draws the picture into frame_.
+/// Draws the picture into the encoder's frame.
 void PictureEncoder::place(const ColourImage& picture) {
-    AVFrame& frame = *frame_;
-    if (av_frame_make_writable(&frame) < 0) throw std::bad_alloc();
+    AVFrame& frame = encoder_.frame();
     const AVFrame& from = copied(picture);
     const Place place = place_in(frame, from);
     const AVFrame& placed = scaled(from, place.columns, place.rows);
@@ -187,26 +146,15 @@ void PictureEncoder::place(const ColourImage& picture) {
     }
 }
 
-void PictureEncoder::encode(const ColourImage& picture, std::int64_t shown_ms, const Sink& sink) {
+void PictureEncoder::encode(const ColourImage& picture, std::int64_t shown_ms,
+                            const TrackEncoder::Sink& sink) {
     if (std::min(picture.columns, picture.rows) < 2) return;
     place(picture);
-    frame_->pts = shown_ms;
-    if (avcodec_send_frame(codec_.get(), frame_.get()) < 0) throw cannot_encode();
-    take_packets(sink);
+    if (encoder_.encode(shown_ms, sink) < 0) throw cannot_encode();
 }
 
-void PictureEncoder::drain(const Sink& sink) {
-    avcodec_send_frame(codec_.get(), nullptr);
-    take_packets(sink);
-}
-
-void PictureEncoder::take_packets(const Sink& sink) {
-    int got = 0;
-    while ((got = avcodec_receive_packet(codec_.get(), packet_.get())) == 0) {
-        sink(*packet_);
-        av_packet_unref(packet_.get());
-    }
-    if (got != AVERROR(EAGAIN) && got != AVERROR_EOF) throw cannot_encode();
+void PictureEncoder::drain(const TrackEncoder::Sink& sink) {
+    if (encoder_.flush(sink) < 0) throw cannot_encode();
 }
 
 }  // namespace dibhr

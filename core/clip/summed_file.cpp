@@ -17,7 +17,6 @@ extern "C" {
 #include <new>
 #include <utility>
 
-#include "core/clip/av_file.hpp"
 #include "core/files/output_file.hpp"
 
 namespace dibhr {
@@ -28,11 +27,6 @@ constexpr int kPieceBytes = 1 << 16;
 constexpr std::chrono::seconds kBetweenFlushes{1};  // what a power cut takes; as of a session's log
 
 }  // namespace
-
-void SummedFile::Free::operator()(AVIOContext* bytes) const noexcept {
-    av_freep(&bytes->buffer);
-    avio_context_free(&bytes);
-}
 
 SummedFile::SummedFile(std::filesystem::path file)
     : file_(std::move(file)),

@@ -4,12 +4,10 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <optional>
 
+#include "core/av/objects.hpp"
 #include "core/files/content_hash.hpp"
-
-struct AVIOContext;
 
 namespace dibhr {
 
@@ -34,10 +32,6 @@ class SummedFile {
     [[nodiscard]] std::optional<FileContent> content();
 
   private:
-    struct Free {
-        void operator()(AVIOContext* bytes) const noexcept;
-    };
-
     static int write(void* file, const std::uint8_t* bytes, int count) noexcept;
     static std::int64_t seek(void* file, std::int64_t to, int from) noexcept;
     bool flush_in_time();
@@ -52,7 +46,7 @@ class SummedFile {
     bool written_again_{false};
     std::chrono::steady_clock::time_point flushed_at_{std::chrono::steady_clock::now()};
     Sha256 sum_{};
-    std::unique_ptr<AVIOContext, Free> bytes_{};
+    AvOwned<AVIOContext> bytes_{};
 };
 
 }  // namespace dibhr
