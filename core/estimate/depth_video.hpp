@@ -3,13 +3,10 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <opencv2/core/mat.hpp>
 
-struct AVCodecContext;
-struct AVFormatContext;
-struct AVFrame;
-struct AVPacket;
+#include "core/av/track_encoder.hpp"
+#include "core/av/track_file.hpp"
 
 namespace dibhr {
 
@@ -23,9 +20,6 @@ class DepthVideo {
   public:
     /// Writes over the file. Throws InputError.
     DepthVideo(const std::filesystem::path& file, const DepthVideoShape& shape);
-    ~DepthVideo();
-    DepthVideo(const DepthVideo&) = delete;
-    DepthVideo& operator=(const DepthVideo&) = delete;
 
     /// CV_8UC1 or CV_16UC1. `shown_s` is later than that of the picture before, by a millisecond at
     /// least, and rounded to one. Throws InputError, e.g. when the disk is full.
@@ -34,19 +28,10 @@ class DepthVideo {
     void finish();
 
   private:
-    void take_packets();
+    void write(AVPacket& packet);
 
-    // As libav frees them.
-    struct Free {
-        void operator()(AVCodecContext* codec) const;
-        void operator()(AVFormatContext* format) const;
-        void operator()(AVFrame* frame) const;
-        void operator()(AVPacket* packet) const;
-    };
-    std::unique_ptr<AVFormatContext, Free> format_;
-    std::unique_ptr<AVCodecContext, Free> codec_;
-    std::unique_ptr<AVFrame, Free> frame_;
-    std::unique_ptr<AVPacket, Free> packet_;
+    TrackEncoder encoder_;
+    TrackFile file_;
     std::int64_t interval_ms_{1};
 };
 
