@@ -78,21 +78,12 @@ void require_plausible_frames(const std::filesystem::path& file, const AVCodecPa
 
 }  // namespace
 
-void VideoDecoder::Closer::operator()(AVCodecContext* context) const noexcept {
-    avcodec_free_context(&context);
-}
-
-void VideoDecoder::Closer::operator()(AVFrame* frame) const noexcept {
-    av_frame_free(&frame);
-}
-
-VideoDecoder::VideoDecoder(const std::filesystem::path& file, int track)
-    : packets_(file, track), frame_(av_frame_alloc()), kept_(av_frame_alloc()) {
+VideoDecoder::VideoDecoder(const std::filesystem::path& file, int track) : packets_(file, track) {
     const AVCodec* const codec =
         packets_.is_open() ? avcodec_find_decoder(packets_.stream()->codecpar->codec_id) : nullptr;
     if (codec != nullptr) require_plausible_frames(file, *packets_.stream()->codecpar);
     if (codec != nullptr) decoder_.reset(avcodec_alloc_context3(codec));
-    bool opened = decoder_ != nullptr && frame_ != nullptr && kept_ != nullptr;
+    bool opened = decoder_ != nullptr;
     if (opened) {
         opened = avcodec_parameters_to_context(decoder_.get(), packets_.stream()->codecpar) >= 0;
         decoder_->thread_count = 0;  // as many as there are cores

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
-#include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <set>
@@ -13,11 +12,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/av/objects.hpp"
 #include "core/video/formats/av_frame.hpp"
 #include "core/video/video_packets.hpp"
-
-struct AVCodecContext;
-struct AVFrame;
 
 namespace dibhr {
 
@@ -75,19 +72,14 @@ class VideoDecoder {
   private:
     static constexpr double kNever_s = -std::numeric_limits<double>::infinity();
 
-    struct Closer {
-        void operator()(AVCodecContext* context) const noexcept;
-        void operator()(AVFrame* frame) const noexcept;
-    };
-
     [[nodiscard]] bool may_skip(const AVPacket& packet) const noexcept;
     bool send(const AVPacket* packet);
     void tell_skipped(double until_s);
     [[nodiscard]] cv::Mat turned(cv::Mat picture) const;
 
     VideoPackets packets_;
-    std::unique_ptr<AVCodecContext, Closer> decoder_{};
-    std::unique_ptr<AVFrame, Closer> frame_, kept_;
+    AvOwned<AVCodecContext> decoder_{};
+    AvOwned<AVFrame> frame_{new_frame()}, kept_{new_frame()};
     FramePictures pictures_{};
     int quarter_turns_{0};  // clockwise
     bool drained_{false};

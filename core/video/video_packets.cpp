@@ -6,7 +6,6 @@ extern "C" {
 #include <libavformat/avformat.h>
 #include <libavutil/avutil.h>
 #include <libavutil/dict.h>
-#include <libavutil/opt.h>
 #include <libavutil/pixdesc.h>
 #include <libavutil/rational.h>
 }
@@ -14,9 +13,7 @@ extern "C" {
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <new>
 #include <string>
-#include <system_error>
 #include <utility>
 
 #include "core/video/formats/file_bytes.hpp"
@@ -26,8 +23,6 @@ namespace dibhr {
 namespace {
 
 constexpr int kMostPackets = 30000;  ///< looked through for the end: a quarter of an hour at 30 Hz
-
-using OpenedFile = std::unique_ptr<AVFormatContext, PacketsCloser>;
 
 bool is_video(const AVStream& stream) noexcept {
     return stream.codecpar->codec_type == AVMEDIA_TYPE_VIDEO &&
@@ -50,24 +45,20 @@ std::vector<AVStream*> video_streams(const AVFormatContext* context) {
 
 /// What it holds is told by pictures of each stream, none of which is beyond the bound.
 bool find_streams(AVFormatContext* context) {
-    std::vector<AVDictionary*> options(context->nb_streams, nullptr);
-    for (AVDictionary*& option : options) av_dict_set_int(&option, "max_pixels", kMostPixels, 0);
-    const int result = avformat_find_stream_info(context, options.data());
-    for (AVDictionary*& option : options) av_dict_free(&option);
-    return result >= 0;
+    AvOptions options(context->nb_streams);
+    options.set("max_pixels", std::to_string(kMostPixels));
+    return avformat_find_stream_info(context, options.data()) >= 0;
 }
 
 /// Null when it cannot be opened. Throws InputError when its pictures are beyond the bound.
-OpenedFile opened(const std::filesystem::path& file) {
-    // Absolute and with its protocol, so that a colon in a name is no other one.
-    std::error_code gone;
-    const std::string url = "file:" + std::filesystem::absolute(file, gone).string();
-    AVFormatContext* context = avformat_alloc_context();
-    if (context == nullptr) throw std::bad_alloc();
-    av_opt_set(context, "format_whitelist", kContainers, 0);
-    av_opt_set(context, "protocol_whitelist", "file", 0);
-    if (avformat_open_input(&context, url.c_str(), nullptr, nullptr) != 0) return nullptr;
-    OpenedFile opened(context);
+AvOwned<AVFormatContext> opened(const std::filesystem::path& file) {
+    AvOptions options;
+    options.set("format_whitelist", kContainers);
+    options.set("protocol_whitelist", "file");
+    AVFormatContext* context = nullptr;
+    if (avformat_open_input(&context, url_of(file).c_str(), nullptr, options.data()) != 0)
+        return nullptr;
+    AvOwned<AVFormatContext> opened(context);
     for (const AVStream* const stream : video_streams(context)) {
         const AVCodecParameters& claimed = *stream->codecpar;
         if (claimed.width > 0 && claimed.height > 0)
@@ -83,17 +74,7 @@ std::string tag_of(const AVStream& stream, const char* name) {
 
 }  // namespace
 
-void PacketsCloser::operator()(AVFormatContext* context) const noexcept {
-    avformat_close_input(&context);
-}
-
-void PacketsCloser::operator()(AVPacket* packet) const noexcept {
-    av_packet_free(&packet);
-}
-
-VideoPackets::VideoPackets(const std::filesystem::path& file, int track)
-    : context_(opened(file)), packet_(av_packet_alloc()) {
-    if (!packet_) return;
+VideoPackets::VideoPackets(const std::filesystem::path& file, int track) : context_(opened(file)) {
     const std::vector<AVStream*> streams = video_streams(context_.get());
     for (AVStream* const stream : streams) {
         if (track-- == 0) stream_ = stream;
@@ -226,7 +207,7 @@ std::optional<double> packets_end_s(const std::filesystem::path& file, int track
 }
 
 std::vector<VideoTrack> video_tracks(const std::filesystem::path& file) {
-    const OpenedFile context = opened(file);
+    const AvOwned<AVFormatContext> context = opened(file);
     std::vector<VideoTrack> tracks;
     for (const AVStream* const stream : video_streams(context.get())) {
         VideoTrack track;

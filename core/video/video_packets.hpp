@@ -3,22 +3,16 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-struct AVFormatContext;
-struct AVPacket;
+#include "core/av/objects.hpp"
+
 struct AVStream;
 
 namespace dibhr {
-
-struct PacketsCloser {
-    void operator()(AVFormatContext* context) const noexcept;
-    void operator()(AVPacket* packet) const noexcept;
-};
 
 class VideoPackets {
   public:
@@ -58,8 +52,8 @@ class VideoPackets {
     [[nodiscard]] double length_s() const noexcept;
     [[nodiscard]] std::int64_t start() const noexcept;
 
-    std::unique_ptr<AVFormatContext, PacketsCloser> context_;
-    std::unique_ptr<AVPacket, PacketsCloser> packet_;
+    AvOwned<AVFormatContext> context_;
+    AvOwned<AVPacket> packet_{new_packet()};
     AVStream* stream_{nullptr};                    // the context's
     bool alone_{false};                            // no other track of video has the same clock
     std::optional<std::int64_t> first_decoded_{};  // the stamp by which the first packet is decoded

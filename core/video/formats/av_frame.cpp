@@ -103,10 +103,6 @@ cv::Mat stretched_bytes(const cv::Mat& levels) {
 
 }  // namespace
 
-void FramePictures::Closer::operator()(SwsContext* scaler) const noexcept {
-    sws_freeContext(scaler);
-}
-
 std::string name_of_codec(int id) {
     const auto codec = static_cast<AVCodecID>(id);
     static constexpr std::array<std::pair<AVCodecID, std::string_view>, 9> kNames{

@@ -1,14 +1,13 @@
 // libav's decoded frames as OpenCV's pictures, with all the levels that they hold; inside the room.
 #pragma once
 
-#include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
 
-struct AVFrame;
+#include "core/av/objects.hpp"
+
 struct AVStream;
-struct SwsContext;
 
 namespace dibhr {
 
@@ -36,13 +35,9 @@ class FramePictures {
     [[nodiscard]] cv::Mat levels(const AVFrame& frame);
 
   private:
-    struct Closer {
-        void operator()(SwsContext* scaler) const noexcept;
-    };
-
     [[nodiscard]] cv::Mat converted(const AVFrame& frame, int pixel_format, int type);
 
-    std::unique_ptr<SwsContext, Closer> scaler_{};
+    AvOwned<SwsContext> scaler_{};
     std::optional<bool> limited_{};  // the range of the track's levels, told by the first picture
 };
 

@@ -4,7 +4,6 @@
 extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
-#include <libavutil/dict.h>
 #include <libavutil/error.h>
 #include <libavutil/frame.h>
 }
@@ -14,7 +13,6 @@ extern "C" {
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstdint>
@@ -55,24 +53,6 @@ void set_up_devices() {
         reinterpret_cast<void (*)()>(symbol_in_module("dibhr_devices", "dibhr_register_devices"))();
     });
 }
-
-std::string reason_of(int error) {
-    std::array<char, AV_ERROR_MAX_STRING_SIZE> words{};
-    av_strerror(error, words.data(), words.size());
-    return words.data();
-}
-
-struct Options {
-    AVDictionary* dictionary{nullptr};
-
-    Options() = default;
-    ~Options() { av_dict_free(&dictionary); }
-    Options(const Options&) = delete;
-    Options& operator=(const Options&) = delete;
-    void set(const std::string& key, const std::string& value) {
-        av_dict_set(&dictionary, key.c_str(), value.c_str(), 0);
-    }
-};
 
 /// It is no video. A pipe has what it has, and a server gives the same page again; what is sent to
 /// everybody may be met at a better moment.
@@ -118,23 +98,6 @@ struct LiveInput::Pipe {
     bool began{false};
 };
 
-void LiveInput::Closer::operator()(AVFormatContext* context) const noexcept {
-    avformat_close_input(&context);
-}
-void LiveInput::Closer::operator()(AVIOContext* bytes) const noexcept {
-    av_freep(&bytes->buffer);
-    avio_context_free(&bytes);
-}
-void LiveInput::Closer::operator()(AVCodecContext* decoder) const noexcept {
-    avcodec_free_context(&decoder);
-}
-void LiveInput::Closer::operator()(AVFrame* frame) const noexcept {
-    av_frame_free(&frame);
-}
-void LiveInput::Closer::operator()(AVPacket* packet) const noexcept {
-    av_packet_free(&packet);
-}
-
 int LiveInput::is_over(void* input) noexcept {
     const auto& self = *static_cast<const LiveInput*>(input);
     return self.wants_.leaving.load(std::memory_order_relaxed) || Clock::now() > self.latest_ ? 1
@@ -173,10 +136,7 @@ LiveInput::LiveInput(const LiveName& name, const std::string& shown, const LiveW
     : wants_(wants),
       heard_(heard),
       kind_(name.kind),
-      silent_(keeps_connection(name) ? kSilentConnected : kSilent),
-      frame_(av_frame_alloc()),
-      packet_(av_packet_alloc()) {
-    if (!frame_ || !packet_) throw std::bad_alloc();
+      silent_(keeps_connection(name) ? kSilentConnected : kSilent) {
     set_up_libraries();
     if (!name.format.empty()) set_up_devices();
     if (kind_ == LiveKind::pipe) pipe_ = std::make_unique<Pipe>(name.url, shown);
@@ -214,6 +174,9 @@ LiveInput::~LiveInput() = default;
 
 /// The depth of a camera has 16 bits where it has any.
 int LiveInput::open(const LiveName& name, bool as_depth) {
+    const AVInputFormat* const format =
+        name.format.empty() ? nullptr : av_find_input_format(name.format.c_str());
+    if (!name.format.empty() && format == nullptr) return AVERROR_DEMUXER_NOT_FOUND;
     AVFormatContext* context = avformat_alloc_context();
     if (context == nullptr) throw std::bad_alloc();
     context->interrupt_callback = {is_over, this};
@@ -228,19 +191,13 @@ int LiveInput::open(const LiveName& name, bool as_depth) {
         if (!bytes_) throw std::bad_alloc();
         context->pb = bytes_.get();
     }
-    Options options;
+    AvOptions options;
     for (const auto& [key, value] : name.options) options.set(key, value);
     if (!name.allowed.empty()) options.set("protocol_whitelist", name.allowed);
     if (kind_ == LiveKind::network) options.set("overrun_nonfatal", "1");
     if (as_depth) options.set("pixel_format", "gray16le");
-    const AVInputFormat* const format =
-        name.format.empty() ? nullptr : av_find_input_format(name.format.c_str());
-    if (!name.format.empty() && format == nullptr) {
-        avformat_free_context(context);
-        return AVERROR_DEMUXER_NOT_FOUND;
-    }
-    int result = avformat_open_input(&context, pipe_ ? nullptr : name.url.c_str(), format,
-                                     &options.dictionary);
+    int result =
+        avformat_open_input(&context, pipe_ ? nullptr : name.url.c_str(), format, options.data());
     if (result < 0) return is_over(this) != 0 ? AVERROR_EXIT : result;  // the context is freed
     context_.reset(context);
     // The packets that tell what it holds are pictures, too, and all others may refer to the first.

@@ -7,16 +7,12 @@
 #include <opencv2/core/mat.hpp>
 #include <string>
 
+#include "core/av/objects.hpp"
 #include "core/error.hpp"
 #include "core/video/formats/av_frame.hpp"
 #include "core/video/live/depth_camera.hpp"
 #include "core/video/live/live_name.hpp"
 
-struct AVCodecContext;
-struct AVFormatContext;
-struct AVFrame;
-struct AVIOContext;
-struct AVPacket;
 struct AVStream;
 
 namespace dibhr {
@@ -68,13 +64,6 @@ class LiveInput {
 
   private:
     struct Pipe;
-    struct Closer {
-        void operator()(AVFormatContext* context) const noexcept;
-        void operator()(AVIOContext* bytes) const noexcept;
-        void operator()(AVCodecContext* decoder) const noexcept;
-        void operator()(AVFrame* frame) const noexcept;
-        void operator()(AVPacket* packet) const noexcept;
-    };
 
     static int is_over(void* input) noexcept;
     static int read_pipe(void* input, std::uint8_t* bytes, int size) noexcept;
@@ -95,11 +84,11 @@ class LiveInput {
     CameraCalls calls_{};
     std::unique_ptr<DepthCamera> camera_{};  // then there is nothing of libav's
     std::unique_ptr<Pipe> pipe_{};
-    std::unique_ptr<AVIOContext, Closer> bytes_{};
-    std::unique_ptr<AVFormatContext, Closer> context_{};
-    std::unique_ptr<AVCodecContext, Closer> decoder_{};
-    std::unique_ptr<AVFrame, Closer> frame_;
-    std::unique_ptr<AVPacket, Closer> packet_;
+    AvOwned<AVIOContext> bytes_{};
+    AvOwned<AVFormatContext> context_{};
+    AvOwned<AVCodecContext> decoder_{};
+    AvOwned<AVFrame> frame_{new_frame()};
+    AvOwned<AVPacket> packet_{new_packet()};
     FramePictures pictures_{};
     AVStream* stream_{nullptr};   // the context's
     Clock::time_point latest_{};  // then nothing has come for too long
