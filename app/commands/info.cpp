@@ -89,8 +89,8 @@ void describe_session(const fs::path& file) {
     print_extent(session);
     if (const auto device = facts.find("device"); device != facts.end())
         device->second = device_text(device->second, hand);
-    print_and_drop({"device", "algorithm"}, facts);
-    for (const TouchNumber& number : touch_numbers()) print_and_drop({number.name}, facts);
+    print_and_drop({"device"}, facts);
+    visit_touch_entries([&facts](const auto& entry) { print_and_drop({entry.name}, facts); });
     print_and_drop({"bump", "material", "cleaning", "finger", "max-force", "stability"}, facts);
     for (const auto& [name, value] : facts) print_fact(name, value);
 }

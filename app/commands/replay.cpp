@@ -57,9 +57,10 @@ void refuse_meanings(const TouchRequest& touch) {
 Run make_run(const Session& session, const ReplayOptions& options,
              std::optional<Algorithm> algorithm) {
     Run run;
-    GivenParameters given = options.touch.given;
-    given.algorithm = algorithm;
-    run.change = [given](TouchParameters& parameters) { given.apply(parameters); };
+    run.change = [given = options.touch.given, algorithm](TouchParameters& parameters) {
+        if (algorithm) parameters.algorithm = *algorithm;
+        given.apply(parameters);
+    };
     run.name = algorithm ? name_of(*algorithm) : "";
     run.as_recorded = !options.touch.asks_for_another_surface();
     for (const SessionParameters& recorded : session.parameters()) {
@@ -99,9 +100,11 @@ SessionFramesOptions frames_options(const Session& session, const ReplayOptions&
     TouchParameters parameters;
     if (!session.parameters().empty()) parameters = session.parameters().front().touch;
     touch.given.apply(parameters);
+    TouchParameters asked_for;  // by the command line alone
+    for (const auto& [entry, on] : touch.given.switches) entry->in(asked_for) = on;
     const CleaningOptions asked = touch.cleaning(parameters);
     SessionFramesOptions frames{.any_media = options.any_media,
-                                .motion = touch.given.carry.value_or(false),
+                                .motion = asked_for.carry,
                                 .bump = touch.given.bump_file(),
                                 .bump_size_px = parameters.shape.bump_size_px,
                                 .maps = touch.feels_maps()};
@@ -225,9 +228,8 @@ int replay_all(const ReplayOptions& options) {
 int run_replay(CLI::App& app, const Arguments& arguments) {
     ReplayOptions options;
     add_session(app, options.session);
-    add_touch_options(app, options.touch);
     add_algorithms_option(app, options.algorithms);
-    add_carry_option(app, options.touch.given, "as recorded");
+    add_touch_options(app, options.touch, "as recorded");
     add_file(app, "--csv", options.csv, "Writes the rows of one run; - is standard output");
     app.add_flag("--any-media", options.any_media,
                  "Also over a video or bump map that has changed since");

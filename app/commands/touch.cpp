@@ -8,6 +8,8 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/commands/command_line.hpp"
@@ -130,6 +132,17 @@ void touch_all(const TouchOptions& options) {
     }
 }
 
+/// What is on and needs a video that moves, of which there is none.
+void warn_of_motion(const TouchOptions& options) {
+    const auto warn = [](std::string_view name) {
+        print_warning("--" + std::string(name) +
+                      " on changes nothing over a picture that stands still; give --video");
+    };
+    for (const TouchSwitch& entry : touch_switches())
+        if (entry.needs_motion && entry.of(options.parameters)) warn(entry.name);
+    if (options.touch.in_betweens == InBetweens::on) warn("in-betweens");
+}
+
 }  // namespace
 
 int run_touch(CLI::App& app, const Arguments& arguments) {
@@ -144,10 +157,8 @@ int run_touch(CLI::App& app, const Arguments& arguments) {
     add_file(app, "--color", options.colour,
              "Colour of the same view: by it is found what moves, and where silhouettes are",
              "FILE");
-    add_algorithm_option(app, options.touch.given);
-    add_carry_option(app, options.touch.given, "off");
-    add_in_betweens_option(app, options.touch);
     add_touch_options(app, options.touch);
+    add_in_betweens_option(app, options.touch);
     app.footer(
         "Examples:\n"
         "  dibhr touch --depth depth.png --goals goals.csv --out touched.csv\n"
@@ -155,11 +166,7 @@ int run_touch(CLI::App& app, const Arguments& arguments) {
         "  dibhr touch --depth depth.mp4 --video --color color.mp4 --carry on --goals goals.csv");
     if (!parse(app, arguments)) return 0;
     options.touch.given.apply(options.parameters);
-    if (options.parameters.carry && !options.video)
-        print_warning("--carry on changes nothing over a picture that stands still; give --video");
-    if (options.touch.in_betweens == InBetweens::on && !options.video)
-        print_warning(
-            "--in-betweens on changes nothing over a picture that stands still; give --video");
+    if (!options.video) warn_of_motion(options);
     print_warning(roughness_warning(options.touch.given, !options.touch.given.bump_file().empty()));
     touch_all(options);
     return 0;

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -83,8 +84,36 @@ Settings read_settings(const ViewOptions& options, ViewerParts& parts, ToldLog& 
     return {};
 }
 
+/// Settings as the command line gives them, for on top of the settings file.
+class GivenSettings {
+  public:
+    /// Keeps what it is called with, for that setting.
+    template <typename Value>
+    [[nodiscard]] auto of(Value Settings::*setting) {
+        return [this, setting](const Value& value) {
+            given_.push_back([setting, value](Settings& settings) { settings.*setting = value; });
+        };
+    }
+
+    void apply(Settings& settings) const {
+        for (const auto& give : given_) give(settings);
+    }
+
+  private:
+    std::vector<std::function<void(Settings&)>> given_{};
+};
+
+/// The whole command line.
+struct ViewCommand {
+    ViewOptions options{};
+    GivenSettings settings{};
+    std::optional<std::pair<int, int>> size{};  ///< of the window
+    fs::path log_file{};
+};
+
 /// How what is opened begins to play.
-void add_playing_options(CLI::App& app, ViewOptions& options) {
+void add_playing_options(CLI::App& app, ViewCommand& command) {
+    ViewOptions& options = command.options;
     add_number_option(app, "--start", 0.0, kLongestRun_s,
                       "Begins so many seconds after the start; beyond the end: with the last frame",
                       [&options](double seconds) { options.open.at_s = seconds; })
@@ -101,7 +130,7 @@ void add_playing_options(CLI::App& app, ViewOptions& options) {
                       options.looping)
         ->default_str("on");
     add_on_off_option(app, "--resume", "Goes on where the video was left the last time",
-                      options.resume)
+                      command.settings.of(&Settings::resume))
         ->default_str("off");
     app.add_flag("--pause", options.open.paused, "Stands still until it is told to play");
     app.add_flag("--full-screen", options.full_screen, "Fills the screen");
@@ -114,7 +143,8 @@ bool gives_relief(const TouchRequest& touch) {
 }
 
 /// A replay is what was recorded: there is nothing to record, and its surface is given.
-void require_replay_options(const ViewOptions& options, const TouchRequest& touch) {
+void require_replay_options(const ViewOptions& options) {
+    const TouchRequest& touch = options.touch;
     const bool wrong = !options.open.depth.empty() || !options.record.empty() ||
                        touch.asks_for_another_surface() || touch.depth != DepthStatement{};
     if (!wrong) return;
@@ -164,8 +194,14 @@ void take_sample_for_nothing(OpenRequest& open) {
     open.depth = sample.depth;
 }
 
-/// What the command line says of the relief and the pitch; raw depth has the paper's.
-void take_fitting(const TouchRequest& touch, Settings& settings) {
+/// What the command line says of damping and cleaning, and of the relief and the pitch: raw depth
+/// has the paper's.
+void take_surface(const TouchRequest& touch, Settings& settings) {
+    if (touch.given.gives_damping()) settings.damping_as_needed = false;
+    if (touch.preset) settings.cleaning.preset = *touch.preset;
+    if (touch.raw_depth) settings.cleaning.preset = CleaningPreset::raw;
+    if (touch.finger_mm) settings.finger_mm = *touch.finger_mm;
+    if (touch.in_betweens) settings.in_betweens = *touch.in_betweens;
     TouchParameters& parameters = settings.touch;
     const auto take = [&](bool& fits, bool as_auto, double& number) {
         const TouchNumber& row = number_of(number, parameters);
@@ -268,13 +304,7 @@ bool come_home(const Errands& errands, Ending& ending) {
     return errands.come_home(ending.asked() ? kPatienceAtSignal : kPatience);
 }
 
-}  // namespace
-
-int run_view(CLI::App& app, const Arguments& arguments, const PictureHook& after_picture) {
-    ViewOptions options;
-    options.after_picture = after_picture;
-    TouchRequest touch;
-    std::optional<std::pair<int, int>> size;
+void add_file_options(CLI::App& app, ViewOptions& options) {
     add_file(app, "COLOR", options.open.colour,
              "Colour video, image or folder of pictures, a camera or stream (v4l2:/dev/video0, "
              "udp://...), or a recorded session to replay; none: the built-in sample",
@@ -295,64 +325,74 @@ int run_view(CLI::App& app, const Arguments& arguments, const PictureHook& after
     app.add_flag_function(
         "--no-panels", [&options](std::int64_t) { options.pictures_of = PictureOf::relief; },
         "--screenshot and --clip show the relief alone");
-    add_number_option(app, "--seconds", 0.0, kLongestRun_s, "Leaves after so long",
-                      [&options](double seconds) { options.seconds = seconds; })
-        ->type_name("S");
-    add_playing_options(app, options);
-    app.add_flag("--stay", options.stays,
-                 "Shows in the window what cannot be opened, and stays: as a desktop starts it");
-    app.add_flag_function(
-        "--no-sync", [&options](std::int64_t) { options.sync = false; },
-        "Does not wait for the display");
-    add_size_option(app, size, "Size of the window");
-    std::optional<double> ui_scale;
+}
+
+/// What the window looks and sounds like, and where that is kept.
+void add_window_options(CLI::App& app, ViewCommand& command) {
+    GivenSettings& given = command.settings;
+    add_size_option(app, command.size, "Size of the window");
     add_number_option(app, "--ui-scale", kSmallestUi, kLargestUi,
                       "Size of text and panels, times an ordinary display's",
-                      [&ui_scale](double scale) { ui_scale = scale; })
+                      given.of(&Settings::ui_scale))
         ->type_name("X");
-    std::optional<Theme> theme;
-    add_words_option(app, "--theme", theme, "Colours of the window");
-    std::optional<NamePattern> screenshot_name;
+    add_words_option<Theme>(app, "--theme", "Colours of the window", given.of(&Settings::theme));
     app.add_option_function<std::string>(
            "--screenshot-name",
-           [&screenshot_name](const std::string& text) {
-               screenshot_name = NamePattern{text};
-               const std::string lacking = lacking_of(*screenshot_name);
+           [give = given.of(&Settings::screenshot_name)](const std::string& text) {
+               const NamePattern pattern{text};
+               const std::string lacking = lacking_of(pattern);
                if (!lacking.empty())
                    throw CLI::ValidationError("--screenshot-name", in_quotes(text) + " " + lacking);
+               give(pattern);
            },
            "How pictures and clips are called, without ending: %Y %m %d %H %M %S, {file}, "
            "{time} and {frame} of the video; a folder may stand before it")
         ->type_name("PATTERN")
         ->default_str(NamePattern{}.text);
-    add_file(app, "--settings", options.settings_file,
+    add_file(app, "--settings", command.options.settings_file,
              "Settings read and kept there, in place of ~/.config/dibhr/settings.toml (below "
              "XDG_CONFIG_HOME, where that is set); one that is not there yet begins as usual");
-    fs::path log_file;
-    add_file(app, "--log-file", log_file,
+    add_file(app, "--log-file", command.log_file,
              "Keeps there what is told, with its time, behind what the file has: notices, "
              "messages, errors, late ticks");
-    std::optional<OpenWith> open_with;
-    add_words_option(app, "--open-dialog", open_with,
-                     "What files are chosen in: auto (the desktop's dialog where there is a "
-                     "desktop), desktop, window (its own, with pairs and previews)");
-    bool mute = false;
-    app.add_flag("--mute", mute, "Touch makes no sound");
-    std::optional<bool> game_pad;
-    add_on_off_option(app, "--game-pad", "Game pads rumble with what is touched", game_pad)
+    add_words_option<OpenWith>(
+        app, "--open-dialog",
+        "What files are chosen in: auto (the desktop's dialog where there is a "
+        "desktop), desktop, window (its own, with pairs and previews)",
+        given.of(&Settings::open_with));
+    app.add_flag_function(
+        "--mute",
+        [give = given.of(&Settings::mute)](std::int64_t times) {
+            if (times > 0) give(true);
+        },
+        "Touch makes no sound");
+    add_on_off_option(app, "--game-pad", "Game pads rumble with what is touched",
+                      given.of(&Settings::game_pad))
         ->default_str("on");
+}
+
+void add_view_options(CLI::App& app, ViewCommand& command) {
+    ViewOptions& options = command.options;
+    add_file_options(app, options);
+    add_number_option(app, "--seconds", 0.0, kLongestRun_s, "Leaves after so long",
+                      [&options](double seconds) { options.seconds = seconds; })
+        ->type_name("S");
+    add_playing_options(app, command);
+    app.add_flag("--stay", options.stays,
+                 "Shows in the window what cannot be opened, and stays: as a desktop starts it");
+    app.add_flag_function(
+        "--no-sync", [&options](std::int64_t) { options.sync = false; },
+        "Does not wait for the display");
+    add_window_options(app, command);
     app.add_flag("--any-media", options.any_media,
                  "Replays a session also over files that have changed since");
-    add_algorithm_option(app, touch.given);
-    add_touch_options(app, touch);
-    add_carry_option(app, touch.given, "off");
-    add_in_betweens_option(app, touch);
-    std::optional<bool> stability;
+    add_touch_options(app, options.touch);
+    add_in_betweens_option(app, options.touch);
     add_on_off_option(
         app, "--stability",
         "on: damping as the device needs it, and no energy that rendering creates; off: for "
         "experiments that must not have it",
-        stability)
+        command.settings.of(&Settings::stability))
         ->default_str("on");
     app.footer(
         "Examples:\n"
@@ -366,8 +406,10 @@ int run_view(CLI::App& app, const Arguments& arguments, const PictureHook& after
         "  dibhr color.mp4 --start 12.5 --pause   one moment of it\n"
         "  dibhr mine.dibhr --algorithm pga       what was recorded, through another algorithm\n"
         "Keys: dibhr help keys");
-    if (!parse(app, arguments)) return 0;
-    options.start_given = app.get_option("--start")->count() > 0;
+}
+
+/// Throws UsageError for what does not go together.
+void check_options(ViewOptions& options) {
     const std::string colour = options.open.colour.string();
     std::error_code unknown;
     if (colour.find_first_of("./") == std::string::npos && !colour.empty() &&
@@ -379,48 +421,58 @@ int run_view(CLI::App& app, const Arguments& arguments, const PictureHook& after
         throw UsageError("--end " + short_text(*options.end_s) + " is not after --start " +
                          short_text(options.open.at_s) + ": give a later one");
     if (!options.clip.empty() && options.end_s && !options.looping) options.looping = false;
-    if (names_session(options.open.colour)) require_replay_options(options, touch);
+    if (names_session(options.open.colour)) require_replay_options(options);
+}
+
+/// The settings of the file with those of the command line on top.
+void take_settings(ViewCommand& command, ViewerParts& parts, ToldLog& log) {
+    ViewOptions& options = command.options;
+    options.in_file = options.settings = read_settings(options, parts, log);
+    Settings& settings = options.settings;
+    if (moves_hand(options.device)) options.doubts = Consent().hold(settings);
+    warn(in_words(options.doubts, options.settings_file), log);
+    take_parameters(options.touch, parts, settings, log);
+    command.settings.apply(settings);
+    options.size_given = command.size.has_value();
+    if (command.size) std::tie(settings.width, settings.height) = *command.size;
+    take_surface(options.touch, settings);
+    drop_changed(options.doubts, settings);  // by the command line
+}
+
+/// Opens what was named, and the window over it until it is closed.
+void run_window(ViewCommand& command, Ending& ending, Errands& errands, ToldLog& log) {
+    ViewOptions& options = command.options;
+    ViewerParts parts;
+    take_settings(command, parts, log);
+    options.open.request = options.touch.depth_request();
+    require_writable_outputs(options);
+    ending.words().doing("opening the files");
+    if (!names_session(options.open.colour)) take_sample_for_nothing(options.open);
+    if (!open_parts(options, parts, errands, ending, log)) return;
+    ending.words().doing("opening the window");
+    Viewer viewer(options, std::move(parts), ending, errands, log);
+    viewer.run();
+}
+
+}  // namespace
+
+int run_view(CLI::App& app, const Arguments& arguments, const PictureHook& after_picture) {
+    ViewCommand command;
+    ViewOptions& options = command.options;
+    options.after_picture = after_picture;
+    add_view_options(app, command);
+    if (!parse(app, arguments)) return 0;
+    options.start_given = app.get_option("--start")->count() > 0;
+    check_options(options);
     LastWords words;
     const CrashHandler crash(words, &Guardian::alarm);
     Ending ending(words);
     options.settings_file = whole_path(options.settings_file);
     Errands errands;
-    ToldLog log(log_file.empty() ? log_file : whole_path(log_file), errands);
+    ToldLog log(command.log_file.empty() ? fs::path() : whole_path(command.log_file), errands);
     log.keep("begin", std::string("dibhr ") + DIBHR_VERSION);
     try {
-        ViewerParts parts;
-        options.in_file = options.settings = read_settings(options, parts, log);
-        Settings& settings = options.settings;
-        if (moves_hand(options.device)) options.doubts = Consent().hold(settings);
-        warn(in_words(options.doubts, options.settings_file), log);
-        take_parameters(touch, parts, settings, log);
-        if (ui_scale) settings.ui_scale = *ui_scale;
-        if (theme) settings.theme = *theme;
-        if (open_with) settings.open_with = *open_with;
-        if (mute) settings.mute = true;
-        if (game_pad) settings.game_pad = *game_pad;
-        if (screenshot_name) settings.screenshot_name = *screenshot_name;
-        if (stability) settings.stability = *stability;
-        if (options.resume) settings.resume = *options.resume;
-        if (touch.given.gives_damping()) settings.damping_as_needed = false;
-        options.size_given = size.has_value();
-        if (size) std::tie(settings.width, settings.height) = *size;
-        if (touch.preset) settings.cleaning.preset = *touch.preset;
-        if (touch.raw_depth) settings.cleaning.preset = CleaningPreset::raw;
-        if (touch.finger_mm) settings.finger_mm = *touch.finger_mm;
-        if (touch.in_betweens) settings.in_betweens = *touch.in_betweens;
-        take_fitting(touch, settings);
-        drop_changed(options.doubts, settings);  // by the command line
-        options.touch = touch;
-        options.open.request = touch.depth_request();
-        require_writable_outputs(options);
-        words.doing("opening the files");
-        if (!names_session(options.open.colour)) take_sample_for_nothing(options.open);
-        if (open_parts(options, parts, errands, ending, log)) {
-            words.doing("opening the window");
-            Viewer viewer(options, std::move(parts), ending, errands, log);
-            viewer.run();
-        }
+        run_window(command, ending, errands, log);
     } catch (const Error& error) {
         log.keep("error", error.what());
         log.finish(kPatienceWithLog);

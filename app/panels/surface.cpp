@@ -18,7 +18,7 @@ void draw_shape(ViewerState& state) {
     TouchParameters usual;  // what fits is not to be put back
     if (settings.fit_relief) usual.shape.relief_px = before.shape.relief_px;
     if (settings.fit_pitch) usual.coupling.pixel_pitch_mm = before.coupling.pixel_pitch_mm;
-    draw_numbers(TouchTopic::shape, settings.touch, usual);
+    draw_parameters(TouchTopic::shape, settings.touch, usual);
     const TouchParameters& now = settings.touch;
     if (now.shape.relief_px != before.shape.relief_px) settings.fit_relief = false;
     if (now.coupling.pixel_pitch_mm != before.coupling.pixel_pitch_mm) settings.fit_pitch = false;

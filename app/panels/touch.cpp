@@ -46,7 +46,7 @@ void draw_stability(ViewerState& state) {
     Settings& settings = state.settings;
     const DeviceDynamics& hand = limits_of_hand(state).dynamics;
     if (state.replay || !hand.moves()) {  // the mouse's does not
-        draw_numbers(TouchTopic::damper, settings.touch);
+        draw_parameters(TouchTopic::damper, settings.touch);
         return;
     }
     flag_row("Stability control", settings.stability, true,
@@ -58,7 +58,7 @@ void draw_stability(ViewerState& state) {
     }
     const Coupling felt = felt_coupling(state);
     if (felt == held_coupling(settings.touch.coupling, limits_of_hand(state))) {
-        draw_numbers(TouchTopic::damper, settings.touch);
+        draw_parameters(TouchTopic::damper, settings.touch);
     } else {
         fact_row("Damping",
                  formatted("%.1f N s/m below %.0f Hz", felt.damping_newton_s_per_m,
@@ -193,19 +193,14 @@ void draw_touch_panel(ViewerState& state) {
     ImGui::PushID("touch");
     draw_origin(state);
     draw_materials(state);
-    choice_row(
-        "Algorithm", algorithm_words(), state.settings.touch.algorithm,
-        "How the proxy follows the goal (--algorithm); another one goes on from where it is");
-    draw_numbers(TouchTopic::spring, state.settings.touch);
+    draw_parameters(TouchTopic::algorithm, state.settings.touch);
+    draw_parameters(TouchTopic::spring, state.settings.touch);
     draw_held_coupling(state);
     draw_stability(state);
-    draw_numbers(TouchTopic::friction, state.settings.touch);
-    flag_row("Carried along", state.settings.touch.carry, Settings{}.touch.carry,
-             "What moves in the video takes along what touches it: friction and damping are of the "
-             "difference of the two speeds (--carry)");
+    draw_parameters(TouchTopic::friction, state.settings.touch);
     draw_motion_trouble(state);
     draw_bump(state);
-    draw_numbers(TouchTopic::texture, state.settings.touch);
+    draw_parameters(TouchTopic::texture, state.settings.touch);
     if (!state.bump && !state.replay) quiet_text("Roughness needs a bump map to be felt.");
     draw_sound(state);
     draw_game_pad(state);

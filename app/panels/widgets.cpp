@@ -12,6 +12,7 @@
 #include <numbers>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "app/panels/panels.hpp"
 #include "app/panels/typed_number.hpp"
@@ -148,11 +149,31 @@ std::string format_of(const TouchNumber& option, double end) {
     return option.unit.empty() ? digits : std::string(digits) + " " + std::string(option.unit);
 }
 
-void draw_number(const TouchNumber& option, TouchParameters& parameters, TouchParameters& usual) {
+/// "Size of a pixel under the hand (--pixel-pitch)"
+template <typename Entry>
+std::string help_of(const Entry& entry) {
+    return std::string(entry.help) + " (--" + std::string(entry.name) + ")";
+}
+
+void draw_entry(const TouchChoice& choice, TouchParameters& parameters, TouchParameters& usual) {
+    std::visit(
+        [&](auto* chosen) {
+            choice_row(std::string(choice.label).c_str(), words_of(*chosen), *chosen,
+                       help_of(choice).c_str(), *std::get<decltype(chosen)>(choice.in(usual)));
+        },
+        choice.in(parameters));
+}
+
+void draw_entry(const TouchSwitch& entry, TouchParameters& parameters, TouchParameters& usual) {
+    flag_row(std::string(entry.label).c_str(), entry.in(parameters), entry.in(usual),
+             help_of(entry).c_str());
+}
+
+void draw_entry(const TouchNumber& option, TouchParameters& parameters, TouchParameters& usual) {
     const double end = slider_end(option, option.standard());
     const std::string label(option.label);
     const std::string format = format_of(option, end);
-    const std::string help = std::string(option.help) + " (--" + std::string(option.name) + ")";
+    const std::string help = help_of(option);
     if (number_row({.label = label.c_str(),
                     .format = format.c_str(),
                     .lowest = option.lowest,
@@ -461,10 +482,10 @@ std::string clock_text(double seconds) {
                      milliseconds % 1000);
 }
 
-void draw_numbers(TouchTopic topic, TouchParameters& parameters, TouchParameters usual) {
-    for (const TouchNumber& option : touch_numbers()) {
-        if (option.topic == topic) draw_number(option, parameters, usual);
-    }
+void draw_parameters(TouchTopic topic, TouchParameters& parameters, TouchParameters usual) {
+    visit_touch_entries([&](const auto& entry) {
+        if (entry.topic == topic) draw_entry(entry, parameters, usual);
+    });
 }
 
 }  // namespace dibhr

@@ -95,7 +95,7 @@ bool button_or_drop(const char* label, bool enabled, const char* dropped, float 
 
 /// A row for each touch parameter of that topic, with its label, unit, range and help; the small
 /// arrow puts back what is `usual`.
-void draw_numbers(TouchTopic topic, TouchParameters& parameters, TouchParameters usual = {});
+void draw_parameters(TouchTopic topic, TouchParameters& parameters, TouchParameters usual = {});
 
 /// With so many digits after the point, and no sign where they are all 0.
 [[nodiscard]] std::string decimal(double value, int digits);

@@ -1,6 +1,8 @@
 // The compiled part of the Python package: its errors, the table of parameters, and the rest.
 #include "app/python/module.hpp"
 
+#include <pybind11/stl.h>
+
 #include <algorithm>
 #include <exception>
 #include <string>
@@ -36,24 +38,28 @@ void translate(std::exception_ptr thrown) {
 /// (name, label, unit, lowest, highest, default, help) of each.
 py::list table_of_numbers() {
     py::list table;
-    for (const TouchNumber& number : touch_numbers()) {
-        table.append(py::make_tuple(keyword_of(number), std::string(number.label),
+    for (const PlainNumber& number : plain_numbers()) {
+        table.append(py::make_tuple(keyword_of(number.name), std::string(number.label),
                                     std::string(number.unit), number.lowest, number.highest,
-                                    number.standard(), std::string(number.help)));
+                                    number.of({}), std::string(number.help)));
     }
     return table;
 }
 
-py::list names_of_algorithms() {
-    py::list names;
-    for (const Algorithm algorithm : all_algorithms()) names.append(name_of(algorithm));
-    return names;
+/// (name, words, default) of each.
+py::list table_of_choices() {
+    py::list table;
+    for (const TouchChoice& choice : touch_choices()) {
+        table.append(py::make_tuple(keyword_of(choice.name), choice.names(),
+                                    std::string(choice.standard())));
+    }
+    return table;
 }
 
 }  // namespace
 
-py::str keyword_of(const TouchNumber& number) {
-    std::string keyword(number.name);
+py::str keyword_of(std::string_view name) {
+    std::string keyword(name);
     std::replace(keyword.begin(), keyword.end(), '-', '_');
     return keyword;
 }
@@ -64,7 +70,7 @@ PYBIND11_MODULE(_dibhr, module) {
     py::register_exception_translator(&dibhr::translate);
     module.attr("VERSION") = DIBHR_VERSION;
     module.attr("NUMBERS") = dibhr::table_of_numbers();
-    module.attr("ALGORITHMS") = dibhr::names_of_algorithms();
+    module.attr("CHOICES") = dibhr::table_of_choices();
     dibhr::bind_touch(module);
     dibhr::bind_session(module);
 }

@@ -3,6 +3,8 @@
 
 #include <pybind11/pybind11.h>
 
+#include <string_view>
+
 #include "core/error.hpp"
 #include "core/haptics/parameters.hpp"
 
@@ -15,7 +17,7 @@ class BusyError : public Error {
 };
 
 /// "static-friction" is the keyword static_friction.
-[[nodiscard]] pybind11::str keyword_of(const TouchNumber& number);
+[[nodiscard]] pybind11::str keyword_of(std::string_view name);
 
 void bind_touch(pybind11::module_& module);
 void bind_session(pybind11::module_& module);

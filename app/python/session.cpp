@@ -108,9 +108,11 @@ py::list parameters_of(const Session& session) {
     py::list all;
     for (const SessionParameters& version : session.parameters()) {
         py::dict touch;
-        touch["algorithm"] = name_of(version.touch.algorithm);
-        for (const TouchNumber& number : touch_numbers()) {
-            touch[keyword_of(number)] = number.of(version.touch);
+        for (const TouchChoice& choice : touch_choices()) {
+            touch[keyword_of(choice.name)] = std::string(choice.of(version.touch));
+        }
+        for (const PlainNumber& number : plain_numbers()) {
+            touch[keyword_of(number.name)] = number.of(version.touch);
         }
         touch["max_force"] = version.limits.max_force_newton;
         all.append(py::dict(py::arg("version") = version.version,

@@ -143,9 +143,12 @@ class Renderer {
     /// All that is tuned, each in its range.
     void set(const py::dict& keywords) {
         const Use use(busy_);
-        parameters_.algorithm = algorithm_named(keywords["algorithm"].cast<std::string>()).value();
-        for (const TouchNumber& number : touch_numbers()) {
-            number.in(parameters_) = keywords[keyword_of(number)].cast<double>();
+        for (const TouchChoice& choice : touch_choices()) {
+            const auto word = keywords[keyword_of(choice.name)].cast<std::string>();
+            static_cast<void>(choice.choose(word, parameters_));
+        }
+        for (const PlainNumber& number : plain_numbers()) {
+            number.put(keywords[keyword_of(number.name)].cast<double>(), parameters_);
         }
         keep_in_range(parameters_);
         limits_.max_force_newton = keywords["max_force"].cast<double>();

@@ -1,4 +1,4 @@
-// Command line options that several commands share: made from the one table of numbers.
+// Command line options that several commands share: made from the one table of parameters.
 #include "app/settings/command_options.hpp"
 
 #include <CLI/CLI.hpp>
@@ -108,8 +108,8 @@ double parse_number(const std::string& option, const std::string& text, double l
 }
 
 /// The shape on the picture plane, and how large a pixel of it is.
-bool shapes_surface(const TouchNumber& number) {
-    return number.topic == TouchTopic::shape || number.topic == TouchTopic::texture;
+bool shapes_surface(TouchTopic topic) {
+    return topic == TouchTopic::shape || topic == TouchTopic::texture;
 }
 
 std::function<void(double)> taken(const TouchNumber& option, GivenParameters& given) {
@@ -146,6 +146,36 @@ void add_number_of_touch(CLI::App& app, const TouchNumber& option, GivenParamete
         add_fitted_option(app, option, given, *fits);
     else
         add_touch_option(app, option, std::string(option.help), taken(option, given));
+}
+
+void add_choice_of_touch(CLI::App& app, const TouchChoice& choice, GivenParameters& given,
+                         const char* otherwise) {
+    const std::string name = "--" + std::string(choice.name);
+    if (app.get_option_no_throw(name) != nullptr) return;  // it takes several of the words
+    add_choice_option(app, name, choice.names(),
+                      std::string(choice.help) + ": " + listed(choice.names()),
+                      [&choice, &given](const std::string& word) {
+                          given.words.emplace_back(&choice, word);
+                      })
+        ->type_name("NAME")
+        ->default_str(otherwise != nullptr ? otherwise : std::string(choice.standard()));
+}
+
+void add_switch_of_touch(CLI::App& app, const TouchSwitch& entry, GivenParameters& given,
+                         const char* otherwise) {
+    add_on_off_option(app, "--" + std::string(entry.name), std::string(entry.help),
+                      [&entry, &given](bool on) { given.switches.emplace_back(&entry, on); })
+        ->default_str(otherwise != nullptr ? otherwise : entry.standard() ? "on" : "off");
+}
+
+void add_entries_of_touch(CLI::App& app, GivenParameters& given, const char* otherwise,
+                          bool (*wanted)(TouchTopic)) {
+    for (const TouchChoice& choice : touch_choices())
+        if (wanted(choice.topic)) add_choice_of_touch(app, choice, given, otherwise);
+    for (const TouchSwitch& entry : touch_switches())
+        if (wanted(entry.topic)) add_switch_of_touch(app, entry, given, otherwise);
+    for (const TouchNumber& option : touch_numbers())
+        if (wanted(option.topic)) add_number_of_touch(app, option, given);
 }
 
 void add_surface_options(CLI::App& app, TouchRequest& request) {
@@ -258,8 +288,8 @@ void GivenParameters::apply_texture(TouchParameters& parameters) const {
 }
 
 void GivenParameters::apply(TouchParameters& parameters) const {
-    if (algorithm) parameters.algorithm = *algorithm;
-    if (carry) parameters.carry = *carry;
+    for (const auto& [choice, word] : words) static_cast<void>(choice->choose(word, parameters));
+    for (const auto& [entry, on] : switches) entry->in(parameters) = on;
     if (material) lay(*material, parameters);
     if (friction) parameters.friction = {*friction, *friction};
     for (const auto& [option, value] : numbers) option->in(parameters) = value;
@@ -353,13 +383,18 @@ CLI::Option* add_plot_format_option(CLI::App& app, std::vector<PlotFormat>& form
 }
 
 CLI::Option* add_on_off_option(CLI::App& app, const std::string& name, const std::string& help,
-                               std::optional<bool>& on) {
-    const auto take = [name, &on](const std::string& word) {
+                               const std::function<void(bool)>& take) {
+    const auto check = [name, take](const std::string& word) {
         if (word != "on" && word != "off")
             throw CLI::ValidationError(name, "'" + word + "' is neither on nor off");
-        on = word == "on";
+        take(word == "on");
     };
-    return app.add_option_function<std::string>(name, take, help)->type_name("on|off");
+    return app.add_option_function<std::string>(name, check, help)->type_name("on|off");
+}
+
+CLI::Option* add_on_off_option(CLI::App& app, const std::string& name, const std::string& help,
+                               std::optional<bool>& on) {
+    return add_on_off_option(app, name, help, [&on](bool is_on) { on = is_on; });
 }
 
 CLI::Option* add_choice_option(CLI::App& app, const std::string& name,
@@ -375,26 +410,11 @@ CLI::Option* add_choice_option(CLI::App& app, const std::string& name,
         ->default_str(names.front());
 }
 
-void add_algorithm_option(CLI::App& app, GivenParameters& given) {
-    app.add_option_function<std::string>(
-           "--algorithm",
-           [&given](const std::string& name) { given.algorithm = known_algorithm(name); },
-           "How the proxy follows the goal: " + names_of(all_algorithms()))
-        ->type_name("NAME")
-        ->default_str("dibhr");
-}
-
-void add_carry_option(CLI::App& app, GivenParameters& given, const std::string& otherwise) {
-    add_on_off_option(app, "--carry",
-                      "on: what moves in the video takes along the proxy that touches it",
-                      given.carry)
-        ->default_str(otherwise);
-}
-
 void add_in_betweens_option(CLI::App& app, TouchRequest& touch) {
-    add_words_option(app, "--in-betweens", touch.in_betweens,
-                     "on: between two frames what moves is on its way, instead of fading; auto: "
-                     "with --carry on");
+    add_words_option<InBetweens>(
+        app, "--in-betweens",
+        "on: between two frames what moves is on its way, instead of fading; auto: with --carry on",
+        [&touch](InBetweens moved) { touch.in_betweens = moved; });
 }
 
 void add_level_options(CLI::App& app, DepthStatement& depth) {
@@ -431,13 +451,11 @@ void add_depth_options(CLI::App& app, DepthStatement& depth) {
 }
 
 void add_shape_options(CLI::App& app, TouchRequest& request) {
-    for (const TouchNumber& option : touch_numbers()) {
-        if (shapes_surface(option)) add_number_of_touch(app, option, request.given);
-    }
+    add_entries_of_touch(app, request.given, nullptr, &shapes_surface);
     add_surface_options(app, request);
 }
 
-void add_touch_options(CLI::App& app, TouchRequest& request) {
+void add_touch_options(CLI::App& app, TouchRequest& request, const char* otherwise) {
     // The range is that of the coefficients it stands for.
     TouchParameters any;
     const TouchNumber& coefficient = number_of(any.friction.static_coefficient, any);
@@ -445,8 +463,7 @@ void add_touch_options(CLI::App& app, TouchRequest& request) {
                       "Both coefficients of friction; one given by itself wins",
                       [&request](double mu) { request.given.friction = mu; })
         ->type_name("MU");
-    for (const TouchNumber& option : touch_numbers())
-        add_number_of_touch(app, option, request.given);
+    add_entries_of_touch(app, request.given, otherwise, [](TouchTopic) { return true; });
     add_surface_options(app, request);
 }
 

@@ -30,13 +30,13 @@ class UsageError : public Error {
     using Error::Error;
 };
 
-/// The algorithm, the numbers and what is laid over the surface, as the command line gave them:
-/// they beat what a settings file or the program's defaults say.
+/// The table's entries and what is laid over the surface, as the command line gave them: they beat
+/// what a settings file or the program's defaults say.
 struct GivenParameters {
-    std::optional<Algorithm> algorithm{};
-    std::optional<bool> carry{};         ///< --carry
     std::optional<Material> material{};  ///< --material; numbers given by themselves win
     std::string bump{};                  ///< --bump IMAGE, instead of the material's; empty: none
+    std::vector<std::pair<const TouchChoice*, std::string>> words{};
+    std::vector<std::pair<const TouchSwitch*, bool>> switches{};
     std::vector<std::pair<const TouchNumber*, double>> numbers{};
     std::optional<double> friction{};  ///< both coefficients, unless one is given by itself
     bool fit_relief{false};            ///< --relief auto
@@ -99,7 +99,10 @@ CLI::Option* add_number_option(CLI::App& app, const std::string& name, double lo
                                double highest, const std::string& help,
                                const std::function<void(double)>& take);
 
-/// --NAME on|off. `on` must outlive the parsing of `app`.
+/// --NAME on|off, which is given to `take`.
+CLI::Option* add_on_off_option(CLI::App& app, const std::string& name, const std::string& help,
+                               const std::function<void(bool)>& take);
+/// The same into `on`, which must outlive the parsing of `app`.
 CLI::Option* add_on_off_option(CLI::App& app, const std::string& name, const std::string& help,
                                std::optional<bool>& on);
 
@@ -108,24 +111,17 @@ CLI::Option* add_choice_option(CLI::App& app, const std::string& name,
                                const std::vector<std::string>& names, const std::string& help,
                                const std::function<void(const std::string&)>& take);
 
-/// The same of an enumeration's own. `value` must outlive the parsing of `app`.
+/// The same of an enumeration's own.
 template <HasWords Enum>
-CLI::Option* add_words_option(CLI::App& app, const std::string& name, std::optional<Enum>& value,
-                              const std::string& help) {
+CLI::Option* add_words_option(CLI::App& app, const std::string& name, const std::string& help,
+                              const std::function<void(Enum)>& take) {
     return add_choice_option(app, name, all_names<Enum>(), help,
-                             [&value](const std::string& word) { value = named<Enum>(word); });
+                             [take](const std::string& word) { take(named<Enum>(word).value()); });
 }
 
 /// The option of an entry of touch_numbers(): its name, range and default.
 CLI::Option* add_touch_option(CLI::App& app, const TouchNumber& number, const std::string& help,
                               const std::function<void(double)>& take);
-
-/// --algorithm NAME. `given` must outlive the parsing of `app`.
-void add_algorithm_option(CLI::App& app, GivenParameters& given);
-
-/// --carry on|off; `otherwise` is what it is when it is not given. `given` must outlive the parsing
-/// of `app`.
-void add_carry_option(CLI::App& app, GivenParameters& given, const std::string& otherwise);
 
 /// --in-betweens auto|on|off. `touch` must outlive the parsing of `app`.
 void add_in_betweens_option(CLI::App& app, TouchRequest& touch);
@@ -146,11 +142,12 @@ void add_level_options(CLI::App& app, DepthStatement& depth);
 void add_depth_options(CLI::App& app, DepthStatement& depth);
 
 /// --material, --bump, --maps, --raw-depth, --cleaning, --finger, those of add_depth_options and
-/// the entries of touch_numbers() that shape a surface. `request` must outlive the parsing of
+/// the entries of the parameter table that shape a surface. `request` must outlive the parsing of
 /// `app`.
 void add_shape_options(CLI::App& app, TouchRequest& request);
 
-/// The same, --friction and the other entries of touch_numbers().
-void add_touch_options(CLI::App& app, TouchRequest& request);
+/// The same, --friction and the other entries of the table, but those whose option the command has
+/// already. `otherwise`: what words and switches are that are not given; null: their defaults.
+void add_touch_options(CLI::App& app, TouchRequest& request, const char* otherwise = nullptr);
 
 }  // namespace dibhr

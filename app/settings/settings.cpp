@@ -89,7 +89,7 @@ std::string take(const toml::node& node, const Setting& setting, int& value) {
 
 std::string take(const toml::node& node, const Setting&, Algorithm& value) {
     const auto word = node.value<std::string_view>().value_or("");
-    return take_word(algorithm_named(word), value, "is not the name of an algorithm");
+    return take_word(named<Algorithm>(word), value, "is not the name of an algorithm");
 }
 
 std::string take(const toml::node& node, const Setting&, CleaningPreset& value) {
@@ -463,14 +463,18 @@ std::vector<Setting> list_of(Settings& s) {
                               {"panels", "device", &s.panels.device},
                               {"panels", "session", &s.panels.session},
                               {"panels", "loop", &s.panels.loop},
-                              {"panels", "paint", &s.panels.paint},
-                              {"touch", "algorithm", &s.touch.algorithm},
-                              {"touch", "carry", &s.touch.carry},
-                              {"touch", "material", &s.material},
-                              {"touch", "stability", &s.stability},
-                              {"touch", "damping-as-needed", &s.damping_as_needed},
-                              {"touch", "fit-relief", &s.fit_relief},
-                              {"touch", "fit-pixel-pitch", &s.fit_pitch}};
+                              {"panels", "paint", &s.panels.paint}};
+    for (const TouchChoice& choice : touch_choices()) {
+        std::visit([&](auto* word) { list.push_back({"touch", choice.name, word}); },
+                   choice.in(s.touch));
+    }
+    for (const TouchSwitch& entry : touch_switches())
+        list.push_back({"touch", entry.name, &entry.in(s.touch)});
+    list.insert(list.end(), {{"touch", "material", &s.material},
+                             {"touch", "stability", &s.stability},
+                             {"touch", "damping-as-needed", &s.damping_as_needed},
+                             {"touch", "fit-relief", &s.fit_relief},
+                             {"touch", "fit-pixel-pitch", &s.fit_pitch}});
     for (const TouchNumber& number : touch_numbers()) {
         list.push_back({"touch", number.name, &number.in(s.touch), number.lowest, number.highest});
     }

@@ -114,13 +114,20 @@ struct Settings {
 /// Writes the file whole or not at all. Throws InputError.
 void save_settings(const Settings& settings, const std::filesystem::path& file);
 
+/// `type` has the alternatives of a variant, and more.
+template <typename Variant, typename... More>
+struct Widened;
+template <typename... Some, typename... More>
+struct Widened<std::variant<Some...>, More...> {
+    using type = std::variant<Some..., More...>;
+};
+
 /// One value of the settings file, and where it is held.
 struct Setting {
     std::string_view table;
     std::string_view name;
-    std::variant<bool*, int*, double*, std::string*, NamePattern*, Algorithm*, CleaningPreset*,
-                 ButtonAction*, ReliefPaint*, Theme*, OpenWith*, Dialect*, InBetweens*>
-        value;
+    Widened<TouchWordPlace, bool*, int*, double*, std::string*, NamePattern*, CleaningPreset*,
+            ButtonAction*, ReliefPaint*, Theme*, OpenWith*, Dialect*, InBetweens*>::type value;
     double lowest{0.0};  ///< of a number
     double highest{0.0};
 };

@@ -2,6 +2,8 @@
 #include "app/settings/study_values.hpp"
 
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "app/settings/material.hpp"
 #include "core/error.hpp"
@@ -61,12 +63,16 @@ TouchRequest request_of(const TouchValues& values) {
         else if (const TouchNumber* const known = touch_number(name))
             given.numbers.emplace_back(known, number);
     }
-    const auto word = [&values](const char* name) {
-        const auto found = values.words.find(name);
+    const auto word = [&values](std::string_view name) {
+        const auto found = values.words.find(std::string(name));
         return found == values.words.end() ? std::string() : found->second;
     };
-    given.algorithm = algorithm_named(word("algorithm"));
-    if (const auto carry = word("carry"); !carry.empty()) given.carry = carry == "on";
+    for (const TouchChoice& choice : touch_choices())
+        if (auto chosen = word(choice.name); !chosen.empty())
+            given.words.emplace_back(&choice, std::move(chosen));
+    for (const TouchSwitch& entry : touch_switches())
+        if (const auto on = word(entry.name); !on.empty())
+            given.switches.emplace_back(&entry, on == "on");
     if (const auto moves = word("in-betweens"); !moves.empty())
         request.in_betweens = named<InBetweens>(moves);
     if (const auto material = word("material"); !material.empty())

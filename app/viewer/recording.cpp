@@ -48,6 +48,18 @@ void add_inverse3_facts(const ViewerState& state, std::map<std::string, std::str
     }
 }
 
+std::string fact_of(double number) {
+    return number_text(number);
+}
+
+std::string fact_of(bool on) {
+    return on ? "on" : "off";
+}
+
+std::string fact_of(std::string_view word) {
+    return std::string(word);
+}
+
 /// What is kept with a recording: versions of program and libraries, files, parameters, device.
 std::map<std::string, std::string> session_facts(const ViewerState& state) {
     std::map<std::string, std::string> facts{
@@ -58,7 +70,6 @@ std::map<std::string, std::string> session_facts(const ViewerState& state) {
         {"device-workspace-mm", number_text(state.device.workspace_mm.x) + " x " +
                                     number_text(state.device.workspace_mm.y) + " x " +
                                     number_text(state.device.workspace_mm.z)},
-        {"algorithm", name_of(state.settings.touch.algorithm)},
         {"colour", public_name(state.media.colour_path)},
         {"depth", public_name(state.media.depth_path)},
         {"depth-columns", std::to_string(state.media.depth_columns)},
@@ -70,9 +81,9 @@ std::map<std::string, std::string> session_facts(const ViewerState& state) {
         {"damping-as-needed", state.settings.damping_as_needed ? "yes" : "no"},
     };
     facts.merge(library_versions());
-    for (const TouchNumber& number : touch_numbers()) {
-        facts.emplace(std::string(number.name), number_text(number.of(state.settings.touch)));
-    }
+    visit_touch_entries([&](const auto& entry) {
+        facts.emplace(std::string(entry.name), fact_of(entry.of(state.settings.touch)));
+    });
     facts.emplace("cleaning", name_of(cleaning_on(state.media, state.settings.cleaning).preset));
     facts.emplace("finger", number_text(finger_mm_on(state.media, state.settings.finger_mm)));
     facts.emplace("surface-version", std::to_string(kSurfaceVersion));

@@ -60,7 +60,6 @@ struct ViewOptions {
     std::optional<double> seconds{};           ///< leave after so long
     bool sync{true};                           ///< --no-sync: do not wait for the display
     std::optional<double> speed{};             ///< kSlowestSpeed .. kFastestSpeed
-    std::optional<bool> resume{};              ///< else as in the settings
     std::optional<bool> looping{};             ///< else a video begins again, a session stops
     std::optional<double> end_s{};             ///< where what is played ends, from its begin
     bool start_given{false};                   ///< by --start: nothing that is remembered

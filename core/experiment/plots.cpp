@@ -93,7 +93,7 @@ std::vector<Vec2> series_of(const std::vector<SweepPoint>& points, double depth_
 /// "DIBHR 0.53, PGA (proxy graph) 4.13, Neighborhood 7.45": Table 1, around the circle [deg].
 std::string printed_means() {
     std::string means;
-    for (const Word<Algorithm>& word : algorithm_words()) {
+    for (const Word<Algorithm>& word : words_of(Algorithm{})) {
         const auto paper = paper_result("circle", word.value);
         if (!paper) continue;
         means.append(means.empty() ? "" : ", ").append(word.label);
@@ -104,7 +104,7 @@ std::string printed_means() {
 
 /// The paper's Table 1.
 void draw_printed(Canvas& canvas, const Axes& axes, ValueSpan mu) {
-    for (const Word<Algorithm>& word : algorithm_words()) {
+    for (const Word<Algorithm>& word : words_of(Algorithm{})) {
         const auto paper = paper_result("circle", word.value);
         if (!paper) continue;
         const double mean_deg = paper->variation_mean_deg;

@@ -197,10 +197,11 @@ dibhr_touch as_c(const Touch& touch) noexcept {
 }
 
 /// The table's entry of this name; null, and the reason kept, if there is none.
-const TouchNumber* entry_named(const dibhr_handle* handle, const char* name) noexcept {
-    const TouchNumber* entry = touch_number(name);
-    if (entry == nullptr) failed(handle, DIBHR_UNKNOWN_NAME, "no parameter is called \"%s\"", name);
-    return entry;
+const PlainNumber* entry_named(const dibhr_handle* handle, const char* name) noexcept {
+    for (const PlainNumber& entry : plain_numbers())
+        if (entry.name == name) return &entry;
+    failed(handle, DIBHR_UNKNOWN_NAME, "no parameter is called \"%s\"", name);
+    return nullptr;
 }
 
 static_assert(static_cast<int>(PrimitiveKind::triangle) == DIBHR_TRIANGLE &&
@@ -299,39 +300,37 @@ dibhr_status dibhr_elevation(const dibhr_handle* handle, double x, double y, dou
 }
 
 size_t dibhr_parameter_count(void) {
-    return touch_numbers().size();
+    return plain_numbers().size();
 }
 
 dibhr_status dibhr_parameter_at(size_t index, dibhr_parameter* parameter) {
-    if (index >= touch_numbers().size() || parameter == nullptr) return DIBHR_BAD_ARGUMENT;
-    const TouchNumber& entry = touch_numbers()[index];  // its texts are literals: they end with a 0
-    TouchParameters defaults;
+    if (index >= plain_numbers().size() || parameter == nullptr) return DIBHR_BAD_ARGUMENT;
+    const PlainNumber& entry = plain_numbers()[index];  // its texts are literals: they end with a 0
     *parameter = {entry.name.data(), entry.unit.data(), entry.help.data(),
-                  entry.lowest,      entry.highest,     entry.in(defaults)};
+                  entry.lowest,      entry.highest,     entry.of({})};
     return DIBHR_OK;
 }
 
 dibhr_status dibhr_set(dibhr_handle* handle, const char* name, double value) {
     if (handle == nullptr) return DIBHR_BAD_ARGUMENT;
     if (name == nullptr) return null_given(handle, "the name");
-    const TouchNumber* entry = entry_named(handle, name);
+    const PlainNumber* entry = entry_named(handle, name);
     if (entry == nullptr) return DIBHR_UNKNOWN_NAME;
     if (!(value >= entry->lowest && value <= entry->highest)) {
         return failed(handle, DIBHR_OUT_OF_RANGE, "%s = %s: it lies in %s to %s %s", name,
                       Shown(value).text(), Shown(entry->lowest).text(),
                       Shown(entry->highest).text(), entry->unit.data());
     }
-    entry->in(handle->parameters) = value;
+    entry->put(value, handle->parameters);
     return DIBHR_OK;
 }
 
 dibhr_status dibhr_get(const dibhr_handle* handle, const char* name, double* value) {
     if (handle == nullptr) return DIBHR_BAD_ARGUMENT;
     if (name == nullptr || value == nullptr) return null_given(handle, "the name or the value");
-    const TouchNumber* entry = entry_named(handle, name);
+    const PlainNumber* entry = entry_named(handle, name);
     if (entry == nullptr) return DIBHR_UNKNOWN_NAME;
-    TouchParameters parameters = handle->parameters;
-    *value = entry->in(parameters);
+    *value = entry->of(handle->parameters);
     return DIBHR_OK;
 }
 
@@ -342,7 +341,7 @@ const char* dibhr_algorithm_at(size_t index) {
 dibhr_status dibhr_set_algorithm(dibhr_handle* handle, const char* name) {
     if (handle == nullptr) return DIBHR_BAD_ARGUMENT;
     if (name == nullptr) return null_given(handle, "the name");
-    const auto algorithm = algorithm_named(name);
+    const auto algorithm = named<Algorithm>(name);
     if (!algorithm)
         return failed(handle, DIBHR_UNKNOWN_NAME, "no algorithm is called \"%s\"", name);
     handle->parameters.algorithm = *algorithm;

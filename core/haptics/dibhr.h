@@ -87,7 +87,8 @@ dibhr_status dibhr_elevation(const dibhr_handle* handle, double x, double y, dou
 
 /* ---- Parameters ---- */
 
-/* One number people tune. The texts stay valid for as long as the program runs. */
+/* One number people tune, or one switch: 0 is off, 1 is on, and what lies between counts as on. The
+ * texts stay valid for as long as the program runs. */
 typedef struct dibhr_parameter {
     const char* name; /* "stiffness" */
     const char* unit; /* "N/mm"; "" for a ratio */

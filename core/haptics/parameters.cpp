@@ -1,10 +1,11 @@
-// The names of the proxy algorithms, and the table of the numbers people tune.
+// The names of the proxy algorithms, and the table of what people tune.
 #include "core/haptics/parameters.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 
 namespace dibhr {
 
@@ -65,13 +66,47 @@ constexpr std::array kTouchNumbers{
                 [](P& p) -> double& { return p.shape.bump_size_px; }, "whole surface"},
 };
 
+constexpr std::array kTouchSwitches{
+    TouchSwitch{"carry", "Carried along", "carry", TouchTopic::friction,
+                "What moves in the video takes along what touches it: friction and damping are of "
+                "the difference of the two speeds",
+                [](P& p) -> bool& { return p.carry; }, true},
+};
+
+constexpr std::array kTouchChoices{
+    TouchChoice{"algorithm", "Algorithm", "algorithm", "an algorithm", TouchTopic::algorithm,
+                "How the proxy follows the goal",
+                [](P& p) -> TouchWordPlace { return &p.algorithm; }, true},
+};
+
+constexpr bool is_plain(const TouchSwitch& entry) {
+    return !entry.needs_motion;
+}
+
+constexpr std::size_t kPlainSwitches =
+    static_cast<std::size_t>(std::count_if(kTouchSwitches.begin(), kTouchSwitches.end(), is_plain));
+
+constexpr auto kPlainNumbers = [] {
+    std::array<PlainNumber, kTouchNumbers.size() + kPlainSwitches> all{};
+    std::size_t count = 0;
+    for (const TouchNumber& number : kTouchNumbers) {
+        all[count++] = {number.name,   number.label,   number.unit, number.help,
+                        number.lowest, number.highest, &number,     nullptr};
+    }
+    for (const TouchSwitch& entry : kTouchSwitches) {
+        if (is_plain(entry))
+            all[count++] = {entry.name, entry.label, "", entry.help, 0.0, 1.0, nullptr, &entry};
+    }
+    return all;
+}();
+
 }  // namespace
 
 std::span<const Algorithm> all_algorithms() noexcept {
     return kAlgorithms;
 }
 
-std::span<const Word<Algorithm>> algorithm_words() noexcept {
+std::span<const Word<Algorithm>> words_of(Algorithm) noexcept {
     return kWords;
 }
 
@@ -79,12 +114,53 @@ const char* name_of(Algorithm algorithm) noexcept {
     return entry_of(kWords, algorithm).name;
 }
 
-std::optional<Algorithm> algorithm_named(std::string_view name) noexcept {
-    return value_named(kWords, name);
+std::string_view TouchChoice::of(TouchParameters parameters) const {
+    return std::visit([](const auto* value) { return std::string_view(name_of(*value)); },
+                      in(parameters));
+}
+
+bool TouchChoice::choose(std::string_view word, TouchParameters& parameters) const {
+    return std::visit(
+        [word](auto* value) {
+            const auto chosen = named<std::remove_pointer_t<decltype(value)>>(word);
+            if (chosen) *value = *chosen;
+            return chosen.has_value();
+        },
+        in(parameters));
+}
+
+std::vector<std::string> TouchChoice::names() const {
+    TouchParameters any;
+    return std::visit(
+        [](auto* value) { return all_names<std::remove_pointer_t<decltype(value)>>(); }, in(any));
 }
 
 std::span<const TouchNumber> touch_numbers() noexcept {
     return kTouchNumbers;
+}
+
+std::span<const TouchSwitch> touch_switches() noexcept {
+    return kTouchSwitches;
+}
+
+std::span<const TouchChoice> touch_choices() noexcept {
+    return kTouchChoices;
+}
+
+double PlainNumber::of(const TouchParameters& parameters) const {
+    if (number != nullptr) return number->of(parameters);
+    return on_off->of(parameters) ? 1.0 : 0.0;
+}
+
+void PlainNumber::put(double value, TouchParameters& parameters) const {
+    if (number != nullptr)
+        number->in(parameters) = value;
+    else
+        on_off->in(parameters) = value != 0.0;
+}
+
+std::span<const PlainNumber> plain_numbers() noexcept {
+    return kPlainNumbers;
 }
 
 const TouchNumber* touch_number(std::string_view name) noexcept {

@@ -1,12 +1,14 @@
 // What people tune while they touch: plain data, handed over whole to the next tick, and the one
-// table of its numbers, which drives the command line, the settings file, the panels, the session
-// file and every report. A new number is a member of TouchParameters, an entry in that table, and
-// the place that uses it.
+// table of it, which drives the command line, the settings file, the panels, the session file,
+// every report, studies, dibhr.h and Python. A new number, switch or choice is a member of
+// TouchParameters, an entry in that table, and the place that uses it.
 #pragma once
 
-#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <variant>
+#include <vector>
 
 #include "core/haptics/words.hpp"
 
@@ -17,14 +19,11 @@ enum class Algorithm { dibhr, pga, neighborhood, god_object };
 
 /// All of them, in the order of the enumeration.
 [[nodiscard]] std::span<const Algorithm> all_algorithms() noexcept;
-/// The same with what they are called.
-[[nodiscard]] std::span<const Word<Algorithm>> algorithm_words() noexcept;
+/// The same with what they are called: named<Algorithm>() finds one by its name.
+[[nodiscard]] std::span<const Word<Algorithm>> words_of(Algorithm) noexcept;
 
 /// "dibhr", "pga", "neighborhood" or "god-object": what `--algorithm` takes.
 [[nodiscard]] const char* name_of(Algorithm algorithm) noexcept;
-
-/// The algorithm of this name, or nothing.
-[[nodiscard]] std::optional<Algorithm> algorithm_named(std::string_view name) noexcept;
 
 /// The Falcon's 4 inches over the 720 columns of the paper's videos [mm].
 inline constexpr double kPaperPitch_mm = 101.6 / 720.0;
@@ -71,10 +70,11 @@ struct TouchParameters {
     bool operator==(const TouchParameters&) const = default;
 };
 
-/// Which numbers stand together on a panel.
-enum class TouchTopic { shape, spring, damper, friction, texture };
+/// Which parameters stand together on a panel.
+enum class TouchTopic { algorithm, shape, spring, damper, friction, texture };
 
-/// One number people tune. Its default is what TouchParameters{} holds.
+/// One number people tune. Its default is what TouchParameters{} holds, as that of a TouchSwitch
+/// and of a TouchChoice.
 struct TouchNumber {
     /// "static-friction": the option is --static-friction, the setting static-friction.
     std::string_view name;
@@ -92,8 +92,55 @@ struct TouchNumber {
     [[nodiscard]] double standard() const { return of({}); }
 };
 
+/// One thing people turn on and off. Name, label and column are as those of a TouchNumber.
+struct TouchSwitch {
+    std::string_view name;
+    std::string_view label;
+    std::string_view column;
+    TouchTopic topic;
+    std::string_view help;  ///< what it does while it is on
+    bool& (*in)(TouchParameters&);
+    bool needs_motion{false};  ///< of a video: where that is not known, it changes nothing
+
+    [[nodiscard]] bool of(TouchParameters parameters) const { return in(parameters); }
+    [[nodiscard]] bool standard() const { return of({}); }
+};
+
+/// Where a TouchChoice is held: a pointer for each enumeration in TouchParameters, all of which
+/// have words_of().
+using TouchWordPlace = std::variant<Algorithm*>;
+
+/// One of several words that people choose. Name, label and column are as those of a TouchNumber.
+struct TouchChoice {
+    std::string_view name;
+    std::string_view label;
+    std::string_view column;
+    std::string_view noun;  ///< "an algorithm": what one of the words stands for
+    TouchTopic topic;
+    std::string_view help;  ///< without the words
+    TouchWordPlace (*in)(TouchParameters&);
+    bool in_every_session{false};  ///< a session file without its column is damaged
+
+    [[nodiscard]] std::string_view of(TouchParameters parameters) const;
+    [[nodiscard]] std::string_view standard() const { return of({}); }
+    /// False: none of the words is that one, and the parameters stay as they were.
+    [[nodiscard]] bool choose(std::string_view word, TouchParameters& parameters) const;
+    [[nodiscard]] std::vector<std::string> names() const;
+};
+
 /// In the order of a session file's columns, where a new one goes to the end.
 [[nodiscard]] std::span<const TouchNumber> touch_numbers() noexcept;
+/// Likewise.
+[[nodiscard]] std::span<const TouchSwitch> touch_switches() noexcept;
+[[nodiscard]] std::span<const TouchChoice> touch_choices() noexcept;
+
+/// The whole table: visit(entry) with each TouchChoice, each TouchNumber and each TouchSwitch.
+template <typename Visit>
+void visit_touch_entries(const Visit& visit) {
+    for (const TouchChoice& choice : touch_choices()) visit(choice);
+    for (const TouchNumber& number : touch_numbers()) visit(number);
+    for (const TouchSwitch& entry : touch_switches()) visit(entry);
+}
 
 /// The one of this name ("static-friction"), or null.
 [[nodiscard]] const TouchNumber* touch_number(std::string_view name) noexcept;
@@ -101,6 +148,26 @@ struct TouchNumber {
 /// The one whose number is `member` of these parameters: number_of(p.friction.static_coefficient,
 /// p). There is one for every double in TouchParameters; else the first is given back.
 [[nodiscard]] const TouchNumber& number_of(const double& member, TouchParameters& parameters);
+
+/// A number, or a switch as one (0: off, 1: on), for interfaces that take numbers alone and know no
+/// motion of a video: dibhr.h and Python.
+struct PlainNumber {
+    std::string_view name;
+    std::string_view label;
+    std::string_view unit;
+    std::string_view help;
+    double lowest;
+    double highest;
+    const TouchNumber* number;
+    const TouchSwitch* on_off;  ///< where it is no number
+
+    [[nodiscard]] double of(const TouchParameters& parameters) const;
+    /// A switch is on unless `value` is 0.
+    void put(double value, TouchParameters& parameters) const;
+};
+
+/// The numbers, then the switches that need no motion.
+[[nodiscard]] std::span<const PlainNumber> plain_numbers() noexcept;
 
 /// Moves every number into its range and dynamic friction to at most static friction.
 void keep_in_range(TouchParameters& parameters);

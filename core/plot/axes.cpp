@@ -190,7 +190,7 @@ void Axes::draw_series(Canvas& canvas, std::span<const Vec2> values, const Strok
 }
 
 SeriesLook look_of(Algorithm algorithm) {
-    const char* const name = entry_of(algorithm_words(), algorithm).label;
+    const char* const name = entry_of(words_of(algorithm), algorithm).label;
     switch (algorithm) {
         case Algorithm::dibhr:
             return {name, {kBlue, 2.5, Dash::solid}, Marker::circle};

@@ -93,13 +93,15 @@ Json source_json(const Session& session, const SessionSource& source) {
 
 Json parameters_json(const Session& session, SessionParameters parameters) {
     Json json{{"version", parameters.version},
-              {"first_tick", session.count_of(parameters.first_tick)},
-              {"algorithm", name_of(parameters.touch.algorithm)}};
+              {"first_tick", session.count_of(parameters.first_tick)}};
+    for (const TouchChoice& choice : touch_choices())
+        json[std::string(choice.column)] = std::string(choice.of(parameters.touch));
     visit_numbers(parameters, [&json](std::string_view column, double number) {
         json[std::string(column)] = number;
     });
     json["force_enabled"] = parameters.force_enabled;
-    json["carry"] = parameters.touch.carry;
+    for (const TouchSwitch& entry : touch_switches())
+        json[std::string(entry.column)] = entry.of(parameters.touch);
     json["bump"] = media_json(parameters.bump);
     return json;
 }

@@ -99,16 +99,20 @@ std::string file_cell(const SessionMedia& media) {
 }
 
 /// "damping [N s/m]"
-std::string head_of(const TouchNumber& number) {
-    std::string head(number.label);
+std::string head_of(std::string_view label, std::string_view unit = {}) {
+    std::string head(label);
     head[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(head[0])));
-    return number.unit.empty() ? head : head + " [" + std::string(number.unit) + "]";
+    return unit.empty() ? head : head + " [" + std::string(unit) + "]";
 }
 
 Cells parameters_heads() {
-    Cells heads{"from [s]", "algorithm"};
-    for (const TouchNumber& number : touch_numbers()) heads.push_back(head_of(number));
-    heads.insert(heads.end(), {"bump map", "carried along", "force limit [N]", "force"});
+    Cells heads{"from [s]"};
+    for (const TouchChoice& choice : touch_choices()) heads.push_back(head_of(choice.label));
+    for (const TouchNumber& number : touch_numbers())
+        heads.push_back(head_of(number.label, number.unit));
+    heads.emplace_back("bump map");
+    for (const TouchSwitch& entry : touch_switches()) heads.push_back(head_of(entry.label));
+    heads.insert(heads.end(), {"force limit [N]", "force"});
     return heads;
 }
 
@@ -116,15 +120,18 @@ Cells parameters_row(const SessionReport& report, const SessionParameters& param
     const auto from = report.numbers.settings_from_s.find(parameters.version);
     Cells row{from == report.numbers.settings_from_s.end()
                   ? "not used"
-                  : number_text(from->second - report.session.begin_s(), 3),
-              html_text(name_of(parameters.touch.algorithm))};
+                  : number_text(from->second - report.session.begin_s(), 3)};
+    for (const TouchChoice& choice : touch_choices())
+        row.push_back(html_text(choice.of(parameters.touch)));
     for (const TouchNumber& number : touch_numbers()) {
         const double value = number.of(parameters.touch);
         const bool named = number.zero != nullptr && !(value > 0.0);
         row.push_back(named ? number.zero : tick_text(value));
     }
-    row.insert(row.end(), {file_cell(parameters.bump), parameters.touch.carry ? "yes" : "no",
-                           tick_text(parameters.limits.max_force_newton),
+    row.push_back(file_cell(parameters.bump));
+    for (const TouchSwitch& entry : touch_switches())
+        row.emplace_back(entry.of(parameters.touch) ? "yes" : "no");
+    row.insert(row.end(), {tick_text(parameters.limits.max_force_newton),
                            parameters.force_enabled ? "on" : "off"});
     return row;
 }

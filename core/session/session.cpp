@@ -47,6 +47,14 @@ void require_in_range(const TouchParameters& touch, const std::filesystem::path&
     }
 }
 
+/// Throws InputError for a word of a later version.
+void take_word(const std::string& word, const TouchChoice& choice, TouchParameters& touch,
+               const std::filesystem::path& file) {
+    if (choice.choose(word, touch)) return;
+    throw InputError(file.string() + ": was recorded with " + std::string(choice.noun) + ' ' +
+                     in_quotes(word) + " that is not known here; update dibhr");
+}
+
 /// Else what a device that was watched says of itself would be no number.
 void require_device(const DeviceDynamics& watched, const std::filesystem::path& file) {
     DeviceLimits device;
@@ -186,12 +194,24 @@ void Session::read_facts() {
 
 void Session::read_parameters() {
     const std::set<std::string> columns = columns_of(reader_, "parameters");
-    std::string question = "SELECT version, first_tick, algorithm, force_enabled, " +
-                           media_columns(reader_, "m") + ", ";
-    question += columns.contains("carry") ? "carry" : "0";
+    const auto has = [&columns](std::string_view column) {
+        return columns.contains(std::string(column));
+    };
+    std::string question =
+        "SELECT version, first_tick, force_enabled, " + media_columns(reader_, "m");
+    const auto add = [&question](std::string_view column) {
+        question += ", " + std::string(column);
+    };
+    const auto is_read = [&has](const TouchChoice& choice) {
+        return choice.in_every_session || has(choice.column);
+    };
+    for (const TouchChoice& choice : touch_choices())
+        if (is_read(choice)) add(choice.column);
+    for (const TouchSwitch& entry : touch_switches())
+        if (has(entry.column)) add(entry.column);
     SessionParameters standard;
     visit_numbers(standard, [&](std::string_view column, double) {
-        if (columns.contains(std::string(column))) question += ", " + std::string(column);
+        if (has(column)) add(column);
     });
     SessionReader::Query query(
         reader_,
@@ -199,17 +219,14 @@ void Session::read_parameters() {
     while (query.next()) {
         Row row(query);
         SessionParameters parameters;
-        row.take(parameters.version, parameters.first_tick);
-        const std::string name = row.text();
-        const auto algorithm = algorithm_named(name);
-        if (!algorithm) {
-            throw InputError(file().string() + ": was recorded with an algorithm " +
-                             in_quotes(name) + " that is not known here; update dibhr");
-        }
-        parameters.touch.algorithm = *algorithm;
-        row.take(parameters.force_enabled, parameters.bump, parameters.touch.carry);
+        row.take(parameters.version, parameters.first_tick, parameters.force_enabled,
+                 parameters.bump);
+        for (const TouchChoice& choice : touch_choices())
+            if (is_read(choice)) take_word(row.text(), choice, parameters.touch, file());
+        for (const TouchSwitch& entry : touch_switches())
+            if (has(entry.column)) row.take(entry.in(parameters.touch));
         visit_numbers(parameters, [&](std::string_view column, double& number) {
-            if (columns.contains(std::string(column))) number = row.real();
+            if (has(column)) number = row.real();
         });
         require_in_range(parameters.touch, file());
         require_device(parameters.limits.watched, file());

@@ -72,7 +72,8 @@ std::string insertion(const std::string& into, int columns) {
 }
 
 std::string insert_parameters() {
-    int columns = 6;  // version, first_tick, algorithm, force_enabled, bump, carry
+    int columns = 4;  // version, first_tick, force_enabled, bump
+    columns += static_cast<int>(touch_choices().size() + touch_switches().size());
     SessionParameters parameters;
     visit_numbers(parameters, [&columns](std::string_view, double) { ++columns; });
     return insertion("OR IGNORE INTO parameters", columns);
@@ -332,9 +333,12 @@ void SessionFile::add_parameters(SessionParameters parameters) {
     Statement insert(database_, insert_parameters());
     insert.cell(parameters.version);
     insert.cell(parameters.first_tick);
-    insert.cell(name_of(parameters.touch.algorithm));
+    for (const TouchChoice& choice : touch_choices()) insert.cell(choice.of(parameters.touch));
     visit_numbers(parameters, [&insert](std::string_view, double number) { insert.cell(number); });
-    insert.run(parameters.force_enabled, media_row(parameters.bump.file), parameters.touch.carry);
+    insert.cell(parameters.force_enabled);
+    insert.cell(media_row(parameters.bump.file));
+    for (const TouchSwitch& entry : touch_switches()) insert.cell(entry.of(parameters.touch));
+    insert.run();
 }
 
 void SessionFile::add_pair(const FramePair& frames, std::int64_t tick) {

@@ -43,12 +43,16 @@ std::string source_table() {
 
 std::string parameters_table() {
     std::string table =
-        "CREATE TABLE parameters(version INTEGER PRIMARY KEY, first_tick INTEGER, algorithm TEXT";
+        "CREATE TABLE parameters(version INTEGER PRIMARY KEY, first_tick INTEGER";
+    const auto add = [&table](std::string_view column, const char* type) {
+        table += ", " + std::string(column) + type;
+    };
+    for (const TouchChoice& choice : touch_choices()) add(choice.column, " TEXT");
     SessionParameters parameters;
-    visit_numbers(parameters, [&table](std::string_view column, double) {
-        table += ", " + std::string(column) + " REAL";
-    });
-    return table + ", force_enabled INTEGER, bump INTEGER, carry INTEGER);\n";
+    visit_numbers(parameters, [&add](std::string_view column, double) { add(column, " REAL"); });
+    table += ", force_enabled INTEGER, bump INTEGER";
+    for (const TouchSwitch& entry : touch_switches()) add(entry.column, " INTEGER");
+    return table + ");\n";
 }
 
 /// A column of the view `tick`: its type and the expression that gives it.

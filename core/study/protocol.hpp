@@ -22,8 +22,9 @@ namespace dibhr {
 struct TouchValues {
     /// "friction" (both coefficients), "finger" (mm) and the names of touch_numbers().
     std::map<std::string, double> numbers{};
-    /// "algorithm", "material", "cleaning", "bump" (a file, absolute), "media" (a name of
-    /// Protocol::media or "sample"), "carry", "in-betweens" and "stability" ("on", "off").
+    /// "material", "cleaning", "bump" (a file, absolute), "media" (a name of Protocol::media or
+    /// "sample"), the names of touch_choices(), and those of touch_switches(), "in-betweens" and
+    /// "stability" ("on", "off").
     std::map<std::string, std::string> words{};
 
     bool operator==(const TouchValues&) const = default;

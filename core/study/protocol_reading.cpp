@@ -47,6 +47,13 @@ std::vector<std::string> number_names() {
     return all;
 }
 
+std::vector<std::string> switch_names() {
+    std::vector<std::string> all;
+    for (const TouchSwitch& entry : touch_switches()) all.emplace_back(entry.name);
+    all.insert(all.end(), {"in-betweens", "stability"});
+    return all;
+}
+
 /// Fills in a protocol from its page.
 class ProtocolReading {
   public:
@@ -116,7 +123,8 @@ class ProtocolReading {
             if (const auto number = table.number(name, range.first, range.second))
                 values.numbers[name] = *number;
         }
-        take_word(table, "algorithm", names_of(algorithm_words()), values);
+        for (const TouchChoice& choice : touch_choices())
+            take_word(table, std::string(choice.name), choice.names(), values);
         take_word(table, "cleaning", names_.cleanings, values);
         std::vector<std::string> media;
         for (const StudyMedia& one : to_.media) media.push_back(one.name);
@@ -129,7 +137,7 @@ class ProtocolReading {
             values.words["bump"] = beside(*bump).string();
             require(names_.checks.bump, beside(*bump), table, "bump");
         }
-        for (const char* const name : {"carry", "in-betweens", "stability"})
+        for (const std::string& name : switch_names())
             if (table.node(name) != nullptr)
                 values.words[name] = table.yes(name, false) ? "on" : "off";
         require_friction(table, laid_over(base_, values));

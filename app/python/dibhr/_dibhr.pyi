@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 VERSION: str
 MAX_FORCE: float
-ALGORITHMS: list[str]
+CHOICES: list[tuple[str, list[str], str]]
 NUMBERS: list[tuple[str, str, str, float, float, float, str]]
 
 class Images:

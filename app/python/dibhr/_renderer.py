@@ -15,7 +15,8 @@ from ._values import InputError, finite_numbers, in_range
 
 
 class Parameter(NamedTuple):
-    """A number that people tune: an entry of the table that also makes the program's options."""
+    """A number that people tune, or a switch (0: off, else on): an entry of the table that also
+    makes the program's options."""
 
     name: str  #: the keyword: "static_friction", for the option --static-friction
     label: str  #: "Static friction"
@@ -26,9 +27,10 @@ class Parameter(NamedTuple):
     help: str
 
 
+_WORDS = {name: tuple(words) for name, words, _ in _dibhr.CHOICES}
 #: The algorithms by name.
-ALGORITHMS: tuple[str, ...] = tuple(_dibhr.ALGORITHMS)
-#: The table of the numbers that people tune.
+ALGORITHMS: tuple[str, ...] = _WORDS["algorithm"]
+#: The table of the numbers and switches that people tune.
 PARAMETERS: tuple[Parameter, ...] = tuple(Parameter._make(entry) for entry in _dibhr.NUMBERS)
 
 
@@ -71,13 +73,14 @@ class Renderer:
         *,
         algorithm: str = "dibhr",
         max_force: float = _dibhr.MAX_FORCE,
-        **numbers: float,
+        **others: float | str,
     ) -> None:
         self._core = _dibhr.Renderer()
         self._surface = surface
         self.surface = surface
         self._keywords: dict[str, Any] = {each.name: each.default for each in PARAMETERS}
-        self.set(algorithm=algorithm, max_force=max_force, **numbers)
+        self._keywords.update({name: default for name, _, default in _dibhr.CHOICES})
+        self.set(algorithm=algorithm, max_force=max_force, **others)
 
     def set(self, **parameters: Any) -> None:
         """Changes parameters, by keyword; the next update has them."""
@@ -86,15 +89,15 @@ class Renderer:
         ranges["max_force"] = (0.0, 1000.0)
         given: dict[str, Any] = {}
         for name, value in parameters.items():
-            if name == "algorithm":
-                if value not in ALGORITHMS:
-                    known = ", ".join(ALGORITHMS)
-                    raise InputError(f"algorithm: '{value}' is none of {known}")
+            if name in _WORDS:
+                if value not in _WORDS[name]:
+                    known = ", ".join(_WORDS[name])
+                    raise InputError(f"{name}: '{value}' is none of {known}")
                 given[name] = value
             elif name in ranges:
                 given[name] = in_range(name, value, *ranges[name])
             else:
-                known = ", ".join(["algorithm", *ranges])
+                known = ", ".join([*_WORDS, *ranges])
                 raise InputError(f"{name}: no such parameter; there are {known}")
         if "friction" in given:
             both = given.pop("friction")

@@ -85,7 +85,7 @@ TEST_CASE("a session replays bit for bit, cleaned or raw, with any algorithm and
     const std::string kind = GENERATE(as<std::string>{}, "dibhr", "raw", "pga", "neighborhood",
                                       "god-object", "bump", "filtered");
     CAPTURE(kind);
-    session.parameters.algorithm = algorithm_named(kind).value_or(Algorithm::dibhr);
+    session.parameters.algorithm = named<Algorithm>(kind).value_or(Algorithm::dibhr);
     if (kind == "raw") session.cleaning.preset = CleaningPreset::raw;
     if (kind == "god-object") session.parameters.coupling.damping_newton_s_per_m = 1.5;
     if (kind == "filtered") {

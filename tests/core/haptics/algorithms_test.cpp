@@ -24,12 +24,12 @@ Vec3 scribble(int k) {
 
 TEST_CASE("every algorithm has a name, and only its own", "[algorithms]") {
     for (const Algorithm algorithm : all_algorithms()) {
-        CHECK(algorithm_named(name_of(algorithm)) == algorithm);
+        CHECK(named<Algorithm>(name_of(algorithm)) == algorithm);
     }
     CHECK(all_algorithms().size() == 4);
     CHECK(std::string(name_of(Algorithm::god_object)) == "god-object");
-    CHECK_FALSE(algorithm_named("PGA"));
-    CHECK_FALSE(algorithm_named(""));
+    CHECK_FALSE(named<Algorithm>("PGA"));
+    CHECK_FALSE(named<Algorithm>(""));
 }
 
 TEST_CASE("on a plane without friction neighborhood and god-object rest at the goal's foot",

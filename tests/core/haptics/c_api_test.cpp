@@ -166,13 +166,13 @@ TEST_CASE("a video's frames follow each other: blended, pushed on, and the proxy
 TEST_CASE("every parameter of the table is set, read and kept in its range by its name",
           "[c_api]") {
     Handle hand;
-    CHECK(dibhr_parameter_count() == dibhr::touch_numbers().size());
+    CHECK(dibhr_parameter_count() == dibhr::plain_numbers().size());
     dibhr_parameter entry{};
     for (std::size_t k = 0; k < dibhr_parameter_count(); ++k) {
         REQUIRE(dibhr_parameter_at(k, &entry) == DIBHR_OK);
         CAPTURE(entry.name);
-        CHECK(entry.name == dibhr::touch_numbers()[k].name);
-        CHECK(entry.help == dibhr::touch_numbers()[k].help);
+        CHECK(entry.name == dibhr::plain_numbers()[k].name);
+        CHECK(entry.help == dibhr::plain_numbers()[k].help);
         double value = kNan;
         REQUIRE(dibhr_get(hand.c, entry.name, &value) == DIBHR_OK);
         CHECK(value == entry.initial);
@@ -185,6 +185,16 @@ TEST_CASE("every parameter of the table is set, read and kept in its range by it
         CHECK(value == entry.highest);
     }
     CHECK(dibhr_parameter_at(dibhr_parameter_count(), &entry) == DIBHR_BAD_ARGUMENT);
+    for (const dibhr::TouchNumber& number : dibhr::touch_numbers()) {
+        CAPTURE(number.name);
+        CHECK(dibhr_set(hand.c, number.name.data(), number.lowest) == DIBHR_OK);
+    }
+    for (const dibhr::TouchSwitch& known : dibhr::touch_switches()) {
+        CAPTURE(known.name);
+        // There is no motion that it could follow.
+        const dibhr_status wanted = known.needs_motion ? DIBHR_UNKNOWN_NAME : DIBHR_OK;
+        CHECK(dibhr_set(hand.c, known.name.data(), 1.0) == wanted);
+    }
     CHECK(dibhr_set(hand.c, "stifness", 1.0) == DIBHR_UNKNOWN_NAME);
     CHECK(hand.error() == "no parameter is called \"stifness\"");
     CHECK(dibhr_set_algorithm(hand.c, "rbf") == DIBHR_UNKNOWN_NAME);
