@@ -271,6 +271,14 @@ TEST_CASE(
         CAPTURE(number.name);
         CHECK(std::stod(next.fact(std::string(number.name))) == number.of(chosen.touch));
     }
+    for (const TouchSwitch& entry : touch_switches()) {
+        CAPTURE(entry.name);
+        CHECK(next.fact(std::string(entry.name)) == (entry.of(chosen.touch) ? "on" : "off"));
+    }
+    for (const TouchChoice& choice : touch_choices()) {
+        CAPTURE(choice.name);
+        CHECK(next.fact(std::string(choice.name)) == choice.of(chosen.touch));
+    }
 }
 
 TEST_CASE(

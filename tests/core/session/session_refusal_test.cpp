@@ -279,6 +279,14 @@ TEST_CASE("what others add to a session does not keep it from being read", "[ses
     CHECK(refusal_of(folder.file()) == "nothing");
 }
 
+TEST_CASE("a session that does not say by which algorithm it was felt is refused", "[session]") {
+    const SessionFolder folder;
+    record_ticks(folder.file(), 10);
+    REQUIRE(refusal_of(folder.file()) == "nothing");
+    run_sql(folder.file(), "ALTER TABLE parameters DROP COLUMN algorithm");
+    CHECK(contains(refusal_of(folder.file()), "algorithm"));
+}
+
 TEST_CASE("ticks with numbers that no recording reaches are refused", "[session]") {
     const SessionFolder folder;
     record_ticks(folder.file(), 10);
