@@ -11,8 +11,7 @@
 #include "app/settings/study_values.hpp"
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/haptics/touch.hpp"
-#include "core/loop/haptic_tick.hpp"
+#include "core/loop/tick_runner.hpp"
 #include "core/session/recorder.hpp"
 #include "core/study/protocol.hpp"
 #include "core/video/cleaning/surface_version.hpp"
@@ -54,16 +53,24 @@ class HandTicking {
                               .touch = parameters,
                               .limits = {},
                               .bump = {request.given.bump_file()}});
-        if (version > 1) renderer_.let_go();
+        if (version > 1) runner_.let_go();  // also of a proxy that touches nothing
         const std::shared_ptr<const BumpMap> bump = bumps_of(request, clip, parameters);
         const auto count = std::min(path.goals.size(), static_cast<std::size_t>(updates));
         for (std::size_t k = 0; k < count; ++k) {
-            const DepthBlend pair =
-                clip.blend_at(path.times_s.empty() ? seconds_of(k) : path.times_s[k]);
-            SafetyInput input{.dt_s = kUpdate_s, .from_zero = k == 0};
-            const Touch& touch = renderer_.update(pair.surface(parameters.shape, bump.get()),
-                                                  path.goals[k], parameters, input, SafetyLimits{});
-            push(touch, pair, version, k == 0);
+            const double t_s = path.times_s.empty() ? seconds_of(k) : path.times_s[k];
+            const TickInput input{.pair = clip.blend_at(t_s),
+                                  .bump = bump.get(),
+                                  .goal = path.goals[k],
+                                  .safety = {.dt_s = kUpdate_s, .from_zero = k == 0},
+                                  .lets_go = k == 0 && version > 1};
+            const Touch& touch = runner_.run(input, {parameters, SafetyLimits{}});
+            TickRecord row = runner_.record_of(input);
+            row.tick = ++tick_;
+            row.t_s = kUpdate_s * static_cast<double>(tick_);
+            row.settings = version;
+            row.frames.source.media = kMedia;
+            add_result(row, touch);
+            while (!ring_.push(row)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
     }
 
@@ -86,35 +93,9 @@ class HandTicking {
         return bump;
     }
 
-    void push(const Touch& touch, const DepthBlend& pair, std::uint64_t version, bool begins) {
-        ++tick_;
-        FramePair frames = frames_of(pair);
-        frames.source.media = kMedia;
-        const TickRecord row{.tick = tick_,
-                             .t_s = kUpdate_s * static_cast<double>(tick_),
-                             .dt_s = kUpdate_s,
-                             .settings = version,
-                             .frames = frames,
-                             .blend = pair.blend,
-                             .goal = touch.goal,
-                             .proxy = touch.proxy.position,
-                             .spring_newton = touch.spring_force_newton,
-                             .sent_newton = touch.sent_force_newton,
-                             .moves = touch.proxy.moves,
-                             .i = touch.proxy.active.i,
-                             .j = touch.proxy.active.j,
-                             .contact = touch.proxy.contact,
-                             .primitive = static_cast<std::uint8_t>(touch.proxy.active.kind),
-                             .cut = static_cast<std::uint8_t>(touch.cut),
-                             .from_zero = begins,
-                             .lets_go = begins && version > 1,
-                             .catching_up = touch.proxy.bound_met};
-        while (!ring_.push(row)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-
     TickRing& ring_;
     Recorder recorder_;
-    TouchRenderer renderer_{};
+    TickRunner runner_{};
     std::uint64_t version_{0};
     std::int64_t tick_{0};
 };

@@ -17,8 +17,8 @@
 #include "app/settings/command_options.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/touch.hpp"
+#include "core/loop/tick_runner.hpp"
 #include "core/video/depth_in_time.hpp"
-#include "core/video/motion/motion_track.hpp"
 #include "device/goal_stream.hpp"
 
 namespace dibhr {
@@ -46,7 +46,6 @@ class TouchRun {
           bump_(options.touch.given.read_bumps()) {
         const DepthImage& depth = *depth_.now().from->depth;
         stretch(bump_, depth.columns, depth.rows, parameters_.shape.bump_size_px);
-        input_.from_zero = true;
     }
 
     void compute(std::span<const TimedGoal> goals, std::vector<OutputRow>& rows) {
@@ -80,33 +79,24 @@ class TouchRun {
     }
 
     OutputRow update(const TimedGoal& goal) {
-        if (depth_.advance_to(goal.t_s)) input_.from_zero = true;
+        const bool started_again = depth_.advance_to(goal.t_s);
         // Recorded hands have equal time stamps: still an update, of the usual length.
         const double step_s = last_t_s_ ? goal.t_s - *last_t_s_ : 0.0;
-        input_.dt_s = step_s > 0.0 ? step_s : kUsualTick_s;
-        const DepthBlend pair = depth_.now();
-        const DepthSurface surface = pair.surface(parameters_.shape, bump_.get());
-        const SurfaceMotion motion = track_.go_on_to(pair, pair.from->motion.get(), input_.dt_s);
-
-        const auto start = std::chrono::steady_clock::now();
-        const Touch& touch =
-            renderer_.update(surface, goal.goal_in_grid, parameters_, input_, limits_, motion);
-        const auto end = std::chrono::steady_clock::now();
-
+        const TickInput input{.pair = depth_.now(),
+                              .bump = bump_.get(),
+                              .goal = goal.goal_in_grid,
+                              .safety = {.dt_s = step_s > 0.0 ? step_s : kUsualTick_s,
+                                         .from_zero = started_again || !last_t_s_}};
+        const Touch& touch = runner_.run(input, {parameters_, SafetyLimits{}});
         if (touch.proxy.bound_met) ++bounds_met_;
         last_t_s_ = goal.t_s;
-        input_.from_zero = false;
-        return {goal.t_s, touch,
-                std::chrono::duration_cast<std::chrono::nanoseconds>(end - start).count()};
+        return {goal.t_s, touch, std::chrono::nanoseconds(runner_.update_time()).count()};
     }
 
     TouchParameters parameters_;
     DepthInTime depth_;
     std::shared_ptr<const BumpMap> bump_;
-    TouchRenderer renderer_{};
-    MotionTrack track_{};
-    SafetyInput input_{};
-    SafetyLimits limits_{};
+    TickRunner runner_{};
     std::optional<double> last_t_s_{};
     std::size_t bounds_met_{0};
 };

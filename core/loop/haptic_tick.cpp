@@ -19,30 +19,6 @@ double seconds(std::chrono::steady_clock::duration span) {
 
 }  // namespace
 
-FramePair frames_of(const DepthBlend& pair) {
-    const Frame& from = *pair.from;
-    const Frame& to = *pair.to;
-    const CleaningSteps& steps = from.cleaning.steps;
-    return {{.media = from.media,
-             .fill_holes = steps.fill_holes,
-             .remove_spikes = steps.remove_spikes,
-             .smooth_steps = steps.smooth_steps,
-             .sharpen_silhouettes = steps.sharpen_silhouettes,
-             .colour_edges = steps.colour_edges,
-             .steady = steps.steady,
-             .smooth_noise = steps.smooth_noise,
-             .in_betweens = from.between != nullptr && &from != &to,
-             .motion = from.motion != nullptr && &from != &to,
-             .finger_px = from.cleaning.finger.radius_px,
-             .finger_relief_px = from.cleaning.finger.relief_px,
-             .maps = from.maps ? from.maps->version : 0},
-            from.index,
-            to.index,
-            from.media_s,
-            to.media_s,
-            to.time_s - from.time_s};
-}
-
 HapticTick::HapticTick(const HapticConnections& connections) : to_(connections) {
     state_.hand = to_.device.unread();
 }
@@ -59,7 +35,11 @@ void HapticTick::run(const TickTiming& timing, std::uint64_t late_ticks) noexcep
     const DepthBlend pair = frames.at(frames.clock.playback_s(timing.begin));
     state_.touchable = pair.makes_surface();
     const Touch before = state_.touch;
-    TickRecord row = state_.touchable ? touch_surface(pair, settings, timing) : touch_nothing();
+    TickRecord row{.dt_s = timing.dt_s, .surface = false};
+    if (state_.touchable)
+        row = touch_surface(pair, settings, timing);
+    else
+        send_zero_force();
     row.settings = settings.version;
     if (settings.recording) record(row, timing);
     // A goal that came from elsewhere went no way.
@@ -79,8 +59,8 @@ void HapticTick::notice_changes(const HapticSettings& settings,
     const bool recording_begins = settings.recording && !recording_;
     reset_ = recording_begins;
     if (recording_begins) {
-        renderer_.reset();
-        state_.touch = {};
+        runner_.reset();
+        state_.touch = runner_.touch();
     }
     const double pitch_mm = settings.parameters.coupling.pixel_pitch_mm;
     const double bump_size_px = settings.parameters.shape.bump_size_px;
@@ -98,18 +78,10 @@ void HapticTick::notice_changes(const HapticSettings& settings,
     discontinuity_ = frames.discontinuity;
 }
 
-TickRecord HapticTick::touch_nothing() noexcept {
-    track_.forget();
-    send_zero_force();
-    return {.surface = false};
-}
-
 void HapticTick::send_zero_force() noexcept {
     to_.device.send(Vec3{0.0});
-    renderer_.pause();
-    state_.touch.spring_force_newton = Vec3{0.0};
-    state_.touch.sent_force_newton = Vec3{0.0};
-    state_.touch.carried = Vec3{0.0};
+    runner_.pause();
+    state_.touch = runner_.touch();
     from_zero_ = true;
 }
 
@@ -118,7 +90,7 @@ TickRecord HapticTick::touch_surface(const DepthBlend& pair, const HapticSetting
     // What the hand can stand is known with its reading, and where the parameters are only then: it
     // gets the shape they had.
     const SurfaceShape& last_shape =
-        from_zero_ ? settings.parameters.shape : glide_.now().parameters.shape;
+        from_zero_ ? settings.parameters.shape : runner_.felt().parameters.shape;
     const HandReading hand =
         to_.device.read({timing.dt_s, pair.surface(last_shape, settings.bump.get()), pitch_mm_});
     const DeviceLimits limits_now = usable(hand.limits.value_or(to_.device.specification().limits));
@@ -126,37 +98,27 @@ TickRecord HapticTick::touch_surface(const DepthBlend& pair, const HapticSetting
     limits_ = limits_now;
     ParameterGlide::Values wanted{settings.parameters, held_limits(settings.limits, *limits_)};
     wanted.parameters.coupling = held_coupling(settings.parameters.coupling, *limits_);
-    const SafetyInput input{.dt_s = timing.dt_s,
-                            .force_enabled = settings.force_enabled,
-                            .device_ready = hand.ready && !taken_off(hand, settings),
-                            .device_force_newton = hand.own_force_newton,
-                            .from_zero = from_zero_ || hand.taken_over || other_limits,
-                            .standstill = standstill_};
-    const auto& [parameters, limits] = glide_.towards(wanted, timing.dt_s, input.from_zero);
-    state_.shape = parameters.shape;
-    const DepthSurface surface = pair.surface(state_.shape, settings.bump.get());
-    const bool lets_go = hand.lifted || hand.taken_over;
-    if (lets_go && state_.touch.proxy.contact) renderer_.let_go();
-    const SurfaceMotion motion = track_.go_on_to(pair, pair.from->motion.get(), timing.dt_s);
-    const auto begin = std::chrono::steady_clock::now();
-    state_.touch = renderer_.update(surface, hand.goal_in_grid, parameters, input, limits, motion);
-    const double update_us = microseconds(std::chrono::steady_clock::now() - begin);
+    const TickInput input{.pair = pair,
+                          .bump = settings.bump.get(),
+                          .goal = hand.goal_in_grid,
+                          .safety = {.dt_s = timing.dt_s,
+                                     .force_enabled = settings.force_enabled,
+                                     .device_ready = hand.ready && !taken_off(hand, settings),
+                                     .device_force_newton = hand.own_force_newton,
+                                     .from_zero = from_zero_ || hand.taken_over || other_limits,
+                                     .standstill = standstill_},
+                          .lets_go = hand.lifted || hand.taken_over};
+    state_.touch = runner_.run(input, wanted);
     to_.device.send(state_.touch.sent_force_newton);
-    from_zero_ = false;
+    state_.shape = runner_.felt().parameters.shape;
     state_.hand = hand;
-    return {.update_us = update_us,
-            .frames = frames_of(pair),
-            .blend = pair.blend,
-            .own_newton = hand.own_force_newton,
-            .buttons = hand.buttons,
-            .device_ready = input.device_ready,
-            .stand_in = hand.stand_in,
-            .from_zero = input.from_zero,
-            .lets_go = lets_go,
-            .goal_refused = !is_finite(hand.goal_in_grid),
-            .gliding = glide_.under_way(),
-            .standstill = standstill_,
-            .motion_unknown = parameters.carry && motion.field == nullptr};
+    from_zero_ = false;
+    TickRecord row = runner_.record_of(input);
+    row.update_us = microseconds(runner_.update_time());
+    row.buttons = hand.buttons;
+    row.stand_in = hand.stand_in;
+    row.motion_unknown = runner_.lacks_motion();
+    return row;
 }
 
 bool HapticTick::taken_off(const HandReading& hand, const HapticSettings& settings) noexcept {
@@ -167,24 +129,12 @@ bool HapticTick::taken_off(const HandReading& hand, const HapticSettings& settin
 }
 
 void HapticTick::record(TickRecord& row, const TickTiming& timing) noexcept {
-    const Touch& touch = state_.touch;
     row.tick = static_cast<std::int64_t>(state_.ticks);
     row.t_s = seconds(timing.begin - start_);
     row.zero_ns = std::chrono::nanoseconds(start_.time_since_epoch()).count();
-    row.dt_s = timing.dt_s;
     row.lateness_us = microseconds(timing.lateness);
     row.limits = limits_;
-    row.goal = touch.goal;
-    row.proxy = touch.proxy.position;
-    row.spring_newton = touch.spring_force_newton;
-    row.sent_newton = touch.sent_force_newton;
-    row.moves = touch.proxy.moves;
-    row.i = touch.proxy.active.i;
-    row.j = touch.proxy.active.j;
-    row.contact = row.surface && touch.proxy.contact;
-    row.primitive = static_cast<std::uint8_t>(touch.proxy.active.kind);
-    row.cut = static_cast<std::uint8_t>(touch.cut);
-    row.catching_up = state_.catching_up();
+    add_result(row, state_.touch);
     to_.ticks.push(row);
 }
 
@@ -202,7 +152,7 @@ void HapticTick::let_hear(const HapticSettings& settings) noexcept {
 void HapticTick::let_follow(const DepthBlend& pair, const HapticSettings& settings,
                             const TickRecord& row) noexcept {
     if (to_.walked == nullptr || !settings.followed) return;
-    const TouchParameters& parameters = glide_.now().parameters;
+    const TouchParameters& parameters = runner_.felt().parameters;
     WalkedTick walked{.tick = state_.ticks,
                       .updates = row.surface && !row.goal_refused,
                       .begins = reset_,
@@ -212,8 +162,8 @@ void HapticTick::let_follow(const DepthBlend& pair, const HapticSettings& settin
                       .goal = state_.touch.goal,
                       .friction = parameters.friction,
                       .blend = pair.blend,
-                      .motion = renderer_.motion(),
-                      .material = renderer_.material(),
+                      .motion = runner_.renderer().motion(),
+                      .material = runner_.renderer().material(),
                       .shape = parameters.shape,
                       .bump = settings.bump.get()};
     if (row.surface) {

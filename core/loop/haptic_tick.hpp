@@ -9,13 +9,13 @@
 #include <optional>
 #include <thread>
 
-#include "core/haptics/parameter_glide.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/safety.hpp"
 #include "core/haptics/touch.hpp"
 #include "core/loop/device.hpp"
 #include "core/loop/other_proxies.hpp"
 #include "core/loop/standstill.hpp"
+#include "core/loop/tick_runner.hpp"
 #include "core/loop/tick_strip.hpp"
 #include "core/realtime/spsc_ring.hpp"
 #include "core/realtime/tick_timer.hpp"
@@ -23,7 +23,6 @@
 #include "core/session/tick_record.hpp"
 #include "core/sound/sound_tick.hpp"
 #include "core/video/frame_window.hpp"
-#include "core/video/motion/motion_track.hpp"
 
 namespace dibhr {
 
@@ -85,9 +84,6 @@ struct HapticConnections {
     WalkedTickRing* walked{nullptr};  ///< for OtherProxies; null: nobody follows
 };
 
-/// The two frames as a session names them.
-[[nodiscard]] FramePair frames_of(const DepthBlend& pair);
-
 /// One tick of the loop, without a thread: nothing in it allocates, locks, waits or throws.
 /// Whatever the settings ask for, the device gets no more than it can stand.
 class HapticTick {
@@ -109,7 +105,6 @@ class HapticTick {
     /// Moves the proxy and sends the force; gives what they depended on, for record().
     [[nodiscard]] TickRecord touch_surface(const DepthBlend& pair, const HapticSettings& settings,
                                            const TickTiming& timing) noexcept;
-    [[nodiscard]] TickRecord touch_nothing() noexcept;
     /// The hand's button acts in this very tick, and until the window has switched the force off.
     [[nodiscard]] bool taken_off(const HandReading& hand, const HapticSettings& settings) noexcept;
     /// Adds what came of the tick.
@@ -121,10 +116,8 @@ class HapticTick {
     void count(const TickTiming& timing, double update_us) noexcept;
 
     HapticConnections to_;
-    TouchRenderer renderer_{};
-    MotionTrack track_{};
+    TickRunner runner_{};
     HapticState state_{};
-    ParameterGlide glide_{};
     double pitch_mm_{0.0};
     const BumpMap* bump_{nullptr};  // of the last tick, to be compared alone
     double bump_size_px_{0.0};

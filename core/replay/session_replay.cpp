@@ -2,7 +2,6 @@
 #include "core/replay/session_replay.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
@@ -17,15 +16,6 @@
 namespace dibhr {
 
 namespace {
-
-SafetyInput safety_input(const TickRecord& tick, const SessionParameters& parameters) noexcept {
-    return {.dt_s = tick.dt_s,
-            .force_enabled = parameters.force_enabled,
-            .device_ready = tick.device_ready,
-            .device_force_newton = tick.own_newton,
-            .from_zero = tick.from_zero,
-            .standstill = tick.standstill};
-}
 
 constexpr std::size_t kMostKept = std::size_t{1} << 20;
 constexpr int kNameWidth = 14;
@@ -53,19 +43,16 @@ bool SessionReplay::next() {
         take_parameters();
         take_frames();
     }
-    take_motion();
-    for (Run& run : runs_) update(run);
+    for (Run& run : runs_) run_tick(run);
     return true;
 }
 
 void SessionReplay::take_parameters() {
     if (parameters_ != nullptr && parameters_->version == tick_.settings) return;
     parameters_ = session_.parameters_of(tick_.settings);
-    if (parameters_ == nullptr) {
-        throw InputError(session_.file().string() + ": does not say with which parameters tick " +
-                         std::to_string(session_.count_of(tick_.tick)) +
-                         " was felt; it can be exported, but not replayed");
-    }
+    if (parameters_ == nullptr)
+        refuse_tick("does not say with which parameters tick ",
+                    " was felt; it can be exported, but not replayed");
     bump_ = frames_.bump(*parameters_);
     for (Run& run : runs_) {
         run.parameters = parameters_->touch;
@@ -76,20 +63,16 @@ void SessionReplay::take_parameters() {
 void SessionReplay::take_frames() {
     const FramePair& wanted = tick_.frames;
     if (touched_ && pair_ == wanted) return;
-    if (session_.source_of(wanted.source) == nullptr) {
-        throw InputError(session_.file().string() + ": does not say which video tick " +
-                         std::to_string(session_.count_of(tick_.tick)) +
-                         " touched; it can be exported, but not replayed");
-    }
+    if (session_.source_of(wanted.source) == nullptr)
+        refuse_tick("does not say which video tick ",
+                    " touched; it can be exported, but not replayed");
     // Mostly, the frame that was blended into is the next one to start from.
     const bool goes_on = touched_ && pair_.source == wanted.source && pair_.to_s == wanted.from_s;
     Frame from = goes_on ? touched_->to : frames_.frame(wanted.source, wanted.from_s);
     Frame to = wanted.to_s == wanted.from_s ? from : frames_.frame(wanted.source, wanted.to_s);
-    if (!DepthBlend{&from, &to}.makes_surface()) {
-        throw InputError(session_.file().string() + ": the frames at tick " +
-                         std::to_string(session_.count_of(tick_.tick)) +
-                         " make no surface; give back the video that was recorded");
-    }
+    if (!DepthBlend{&from, &to}.makes_surface())
+        refuse_tick("the frames at tick ",
+                    " make no surface; give back the video that was recorded");
     const bool carries = std::any_of(runs_.begin(), runs_.end(),
                                      [](const Run& run) { return run.parameters.carry; });
     frames_.connect(from, to, {wanted.source.motion || carries, wanted.source.in_betweens});
@@ -97,34 +80,31 @@ void SessionReplay::take_frames() {
     pair_ = wanted;
 }
 
-void SessionReplay::take_motion() {
-    if (!tick_.surface) return track_.forget();
-    const Frame& from = touched_->from;
-    const MotionField* const field = tick_.motion_unknown ? nullptr : from.motion.get();
-    moved_ = track_.go_on_to({&from, &touched_->to, tick_.blend}, field, tick_.dt_s);
+void SessionReplay::refuse_tick(const std::string& before, const std::string& after) const {
+    throw InputError(session_.file().string() + ": " + before +
+                     std::to_string(session_.count_of(tick_.tick)) + after);
 }
 
-void SessionReplay::update(Run& run) {
-    run.update_us = 0.0;
+void SessionReplay::run_tick(Run& run) {
     if (!tick_.surface) {
-        run.renderer.pause();
-        run.touch.spring_force_newton = Vec3(0.0);
-        run.touch.sent_force_newton = Vec3(0.0);
+        run.runner.pause();
+        run.touch = run.runner.touch();
         run.touch.proxy.contact = false;
         return;
     }
-    const auto& [parameters, limits] =
-        run.glide.towards({run.parameters, parameters_->limits}, tick_.dt_s, !tick_.gliding);
-    const DepthSurface surface = DepthBlend{&touched_->from, &touched_->to, tick_.blend}.surface(
-        parameters.shape, bump_.get());
-    const Vec3 goal = tick_.goal_refused ? Vec3(NAN) : tick_.goal;
-    if (tick_.lets_go && run.holds) run.renderer.let_go();
-    const auto begin = std::chrono::steady_clock::now();
-    run.touch = run.renderer.update(surface, goal, parameters, safety_input(tick_, *parameters_),
-                                    limits, moved_);
-    const auto end = std::chrono::steady_clock::now();
-    run.update_us = std::chrono::duration<double, std::micro>(end - begin).count();
-    run.holds = run.touch.proxy.contact;
+    const TickInput input{.pair = {&touched_->from, &touched_->to, tick_.blend},
+                          .bump = bump_.get(),
+                          .goal = tick_.goal_refused ? Vec3(NAN) : tick_.goal,
+                          .safety = {.dt_s = tick_.dt_s,
+                                     .force_enabled = parameters_->force_enabled,
+                                     .device_ready = tick_.device_ready,
+                                     .device_force_newton = tick_.own_newton,
+                                     .from_zero = tick_.from_zero,
+                                     .standstill = tick_.standstill},
+                          .lets_go = tick_.lets_go,
+                          .at_once = !tick_.gliding,
+                          .motion_unknown = tick_.motion_unknown};
+    run.touch = run.runner.run(input, {run.parameters, parameters_->limits});
 }
 
 bool same_bits(const Touch& touch, const TickRecord& recorded) noexcept {

@@ -2,6 +2,7 @@
 // run differs from the recording.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -11,14 +12,13 @@
 #include <string>
 #include <vector>
 
-#include "core/haptics/parameter_glide.hpp"
 #include "core/haptics/touch.hpp"
+#include "core/loop/tick_runner.hpp"
 #include "core/metrics/force_variation.hpp"
 #include "core/session/session.hpp"
 #include "core/session/tick_record.hpp"
 #include "core/video/frame_window.hpp"
 #include "core/video/motion/frame_motion.hpp"
-#include "core/video/motion/motion_track.hpp"
 
 namespace dibhr {
 
@@ -66,23 +66,23 @@ class SessionReplay {
         return touched_;
     }
     /// Time of the run's update; 0 without a surface.
-    [[nodiscard]] double update_us(std::size_t run) const { return runs_.at(run).update_us; }
+    [[nodiscard]] double update_us(std::size_t run) const {
+        return std::chrono::duration<double, std::micro>(runs_.at(run).runner.update_time())
+            .count();
+    }
 
   private:
     struct Run {
         ParameterChange change{};
         TouchParameters parameters{};
-        ParameterGlide glide{};
-        TouchRenderer renderer{};
-        Touch touch{};
-        bool holds{false};  ///< the proxy of the last tick with a surface was in contact
-        double update_us{0.0};
+        TickRunner runner{};
+        Touch touch{};  ///< the runner's; without a surface there is no contact
     };
 
     void take_parameters();
     void take_frames();
-    void take_motion();
-    void update(Run& run);
+    void run_tick(Run& run);
+    [[noreturn]] void refuse_tick(const std::string& before, const std::string& after) const;
 
     const Session& session_;
     RecordedFrames& frames_;
@@ -93,8 +93,6 @@ class SessionReplay {
     std::shared_ptr<const BumpMap> bump_{};
     FramePair pair_{};
     std::shared_ptr<const TouchedFrames> touched_{};  ///< of the pair
-    MotionTrack track_{};
-    SurfaceMotion moved_{};  ///< in the tick
 };
 
 /// Whether an update gave what was recorded, bit by bit.

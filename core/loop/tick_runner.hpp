@@ -1,0 +1,73 @@
+// The computation of one tick, which the loop, a replay, `dibhr touch` and a study's pilot share:
+// newest surface and parameters -> proxy -> spring force -> safe force.
+#pragma once
+
+#include <chrono>
+
+#include "core/haptics/parameter_glide.hpp"
+#include "core/haptics/safety.hpp"
+#include "core/haptics/surface.hpp"
+#include "core/haptics/touch.hpp"
+#include "core/haptics/vec.hpp"
+#include "core/session/tick_record.hpp"
+#include "core/video/frame_window.hpp"
+#include "core/video/motion/motion_track.hpp"
+
+namespace dibhr {
+
+/// What a tick's result depends on, besides the parameters and the ticks before it.
+struct TickInput {
+    DepthBlend pair{};             ///< two frames that make a surface
+    const BumpMap* bump{nullptr};  ///< laid over that surface; null: none
+    Vec3 goal{0.0};                ///< [px], grid space; not finite: refused
+    SafetyInput safety{};          ///< with the length of the tick
+    bool lets_go{false};           ///< the hand was lifted or replaced: a contact is let go first
+    /// The parameters do not glide. Nor do they where the force begins from zero.
+    bool at_once{false};
+    /// The motion between the two frames is left out: it was not known when they were recorded.
+    bool motion_unknown{false};
+};
+
+/// Runs ticks one after the other. No tick allocates, locks, waits or throws.
+class TickRunner {
+  public:
+    /// One tick; `target`: where the parameters are, or glide to.
+    const Touch& run(const TickInput& input, const ParameterGlide::Values& target) noexcept;
+
+    /// There is no surface, and zero force is sent: the next force begins from zero.
+    void pause() noexcept;
+    /// The proxy has not been anywhere yet. The next force must begin from zero.
+    void reset() noexcept;
+    /// The proxy, in contact or not, begins above the next goal.
+    void let_go() noexcept { renderer_.let_go(); }
+
+    /// Of the last tick; after pause() the same without forces.
+    [[nodiscard]] const Touch& touch() const noexcept { return touch_; }
+    /// The parameters and limits of the last tick, which may be on their way to the target.
+    [[nodiscard]] const ParameterGlide::Values& felt() const noexcept { return glide_.now(); }
+    /// The motion between the two frames was to carry the proxy, but was not known.
+    [[nodiscard]] bool lacks_motion() const noexcept { return lacks_motion_; }
+    /// What carried the proxy, and the material point under it.
+    [[nodiscard]] const TouchRenderer& renderer() const noexcept { return renderer_; }
+    /// How long the proxy and the force took; 0 after pause().
+    [[nodiscard]] std::chrono::steady_clock::duration update_time() const noexcept {
+        return update_time_;
+    }
+
+    /// What a session keeps of the last tick's input, but for its time, its settings and what the
+    /// loop alone adds.
+    [[nodiscard]] TickRecord record_of(const TickInput& input) const noexcept;
+
+  private:
+    TouchRenderer renderer_{};
+    MotionTrack track_{};
+    ParameterGlide glide_{};
+    Touch touch_{};
+    std::chrono::steady_clock::duration update_time_{};
+    bool lacks_motion_{false};
+};
+
+/// Adds what came of a tick to what a session keeps of its input.
+void add_result(TickRecord& row, const Touch& touch) noexcept;
+
+}  // namespace dibhr
