@@ -178,14 +178,14 @@ std::string library_changes(const Session& session) {
 }
 
 std::string difference_of(const Session& session, const Run& run) {
-    const RunComparison::Difference& first = *run.comparison.first_difference();
+    const auto& [recorded, touch] = *run.comparison.first_difference();
     std::ostringstream text;
     text << session.file().string() << ": " << run.name << " differs from the recording in "
          << run.comparison.differing() << " of " << session.rows() << " ticks, first in tick "
-         << session.count_of(first.tick) << " at " << first.t_s - session.begin_s() << " s: proxy "
-         << text_of(first.proxy) << " instead of " << text_of(first.recorded_proxy)
-         << ", force sent " << text_of(first.sent_newton) << " instead of "
-         << text_of(first.recorded_newton);
+         << session.count_of(recorded.tick) << " at " << recorded.t_s - session.begin_s()
+         << " s: proxy " << text_of(touch.proxy.position) << " instead of "
+         << text_of(recorded.proxy) << ", force sent " << text_of(touch.sent_force_newton)
+         << " instead of " << text_of(recorded.sent_newton);
     if (session.missing() > 0) {
         text << "; " << session.missing()
              << " ticks are missing in it, so that it cannot be "

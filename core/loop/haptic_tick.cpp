@@ -45,7 +45,7 @@ void HapticTick::run(const TickTiming& timing, std::uint64_t late_ticks) noexcep
     // A goal that came from elsewhere went no way.
     const double moved_s = row.from_zero || row.lets_go ? 0.0 : timing.dt_s;
     TickStrip strip =
-        strip_of(before, state_.touch, moved_s, microseconds(timing.lateness), pitch_mm_);
+        strip_of(before, state_.touch, moved_s, microseconds(timing.lateness), context_.pitch_mm);
     if (!row.surface) strip.penetration_mm = 0.0F;  // what was touched last is gone
     to_.strips.push(strip);
     let_hear(settings);
@@ -60,28 +60,21 @@ void HapticTick::notice_changes(const HapticSettings& settings,
     reset_ = recording_begins;
     if (recording_begins) {
         runner_.reset();
-        state_.touch = runner_.touch();
+        state_.touch = {};
     }
-    const double pitch_mm = settings.parameters.coupling.pixel_pitch_mm;
-    const double bump_size_px = settings.parameters.shape.bump_size_px;
-    const bool other_bumps = settings.bump.get() != bump_ || bump_size_px != bump_size_px_;
-    const TouchMaps* const maps = frames.count > 0 ? frames.frames[0].maps.get() : nullptr;
-    if (recording_begins || pitch_mm != pitch_mm_ || other_bumps || maps != maps_ ||
-        frames.discontinuity != discontinuity_) {
-        from_zero_ = true;
-    }
+    const ForceContext context{.pitch_mm = settings.parameters.coupling.pixel_pitch_mm,
+                               .bump = settings.bump.get(),
+                               .bump_size_px = settings.parameters.shape.bump_size_px,
+                               .maps = frames.count > 0 ? frames.frames[0].maps.get() : nullptr,
+                               .discontinuity = frames.discontinuity};
+    if (recording_begins || context != context_) from_zero_ = true;
+    context_ = context;
     recording_ = settings.recording;
-    pitch_mm_ = pitch_mm;
-    bump_ = settings.bump.get();
-    bump_size_px_ = bump_size_px;
-    maps_ = maps;
-    discontinuity_ = frames.discontinuity;
 }
 
 void HapticTick::send_zero_force() noexcept {
     to_.device.send(Vec3{0.0});
-    runner_.pause();
-    state_.touch = runner_.touch();
+    state_.touch = runner_.pause();
     from_zero_ = true;
 }
 
@@ -91,8 +84,8 @@ TickRecord HapticTick::touch_surface(const DepthBlend& pair, const HapticSetting
     // gets the shape they had.
     const SurfaceShape& last_shape =
         from_zero_ ? settings.parameters.shape : runner_.felt().parameters.shape;
-    const HandReading hand =
-        to_.device.read({timing.dt_s, pair.surface(last_shape, settings.bump.get()), pitch_mm_});
+    const HandReading hand = to_.device.read(
+        {timing.dt_s, pair.surface(last_shape, settings.bump.get()), context_.pitch_mm});
     const DeviceLimits limits_now = usable(hand.limits.value_or(to_.device.specification().limits));
     const bool other_limits = limits_ != limits_now;  // which hold at once: there is no way to them
     limits_ = limits_now;
@@ -143,7 +136,7 @@ void HapticTick::let_hear(const HapticSettings& settings) noexcept {
     const Touch& touch = state_.touch;
     const bool may_act = settings.limits.max_force_newton > 0.0 && touch.cut == SafetyCut::none;
     carried_px_ += touch.carried;
-    to_.sound->push({.proxy_mm = pitch_mm_ * (touch.proxy.position - carried_px_),
+    to_.sound->push({.proxy_mm = context_.pitch_mm * (touch.proxy.position - carried_px_),
                      .force_newton = glm::length(touch.sent_force_newton),
                      .contact = touch.proxy.contact,
                      .force_on = state_.touchable && may_act});
@@ -152,19 +145,16 @@ void HapticTick::let_hear(const HapticSettings& settings) noexcept {
 void HapticTick::let_follow(const DepthBlend& pair, const HapticSettings& settings,
                             const TickRecord& row) noexcept {
     if (to_.walked == nullptr || !settings.followed) return;
-    const TouchParameters& parameters = runner_.felt().parameters;
     WalkedTick walked{.tick = state_.ticks,
                       .updates = row.surface && !row.goal_refused,
                       .begins = reset_,
                       .lets_go = row.lets_go,
-                      .algorithm = parameters.algorithm,
+                      .parameters = runner_.felt().parameters,
                       .proxy = state_.touch.proxy,
                       .goal = state_.touch.goal,
-                      .friction = parameters.friction,
                       .blend = pair.blend,
                       .motion = runner_.renderer().motion(),
                       .material = runner_.renderer().material(),
-                      .shape = parameters.shape,
                       .bump = settings.bump.get()};
     if (row.surface) {
         walked.from = mark_of(*pair.from);

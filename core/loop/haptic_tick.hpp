@@ -98,9 +98,19 @@ class HapticTick {
     void send_zero_force() noexcept;
 
   private:
-    /// What lets the force begin from zero: another scale of the hand, other bumps or maps, a jump
-    /// in the video, and a recording, which begins as the program does so that it can be replayed.
-    /// Other settings glide.
+    /// Where one of these changes the force begins from zero. The pointers are compared alone.
+    struct ForceContext {
+        double pitch_mm{0.0};  ///< the scale of the hand
+        const BumpMap* bump{nullptr};
+        double bump_size_px{0.0};
+        const TouchMaps* maps{nullptr};
+        std::uint64_t discontinuity{~0ull};  ///< of the video
+
+        bool operator==(const ForceContext&) const = default;
+    };
+
+    /// The force begins from zero in another context, and where a recording begins: that begins as
+    /// the program does, so that it can be replayed. Other settings glide.
     void notice_changes(const HapticSettings& settings, const FrameWindow& frames) noexcept;
     /// Moves the proxy and sends the force; gives what they depended on, for record().
     [[nodiscard]] TickRecord touch_surface(const DepthBlend& pair, const HapticSettings& settings,
@@ -118,12 +128,8 @@ class HapticTick {
     HapticConnections to_;
     TickRunner runner_{};
     HapticState state_{};
-    double pitch_mm_{0.0};
-    const BumpMap* bump_{nullptr};  // of the last tick, to be compared alone
-    double bump_size_px_{0.0};
-    const TouchMaps* maps_{nullptr};  // likewise
-    Vec3 carried_px_{0.0};  // the proxy by what it touches, in all: nothing is heard of it
-    std::uint64_t discontinuity_{~0ull};
+    ForceContext context_{};  // of the last tick
+    Vec3 carried_px_{0.0};    // the proxy by what it touches, in all: nothing is heard of it
     std::optional<DeviceLimits> limits_{};  // what the hand of the last reading can stand
     bool from_zero_{true};
     bool force_off_pressed_{false};

@@ -67,13 +67,13 @@ std::optional<DepthSurface> OtherProxies::surface_of(const WalkedTick& tick) con
                                    [&tick](const auto& bump) { return bump.get() == tick.bump; });
     const bool knows_bump = tick.bump == nullptr || held != bumps_.end();
     if (from == nullptr || to == nullptr || !knows_bump) return std::nullopt;
-    return DepthBlend{from, to, tick.blend}.surface(tick.shape, tick.bump);
+    return DepthBlend{from, to, tick.blend}.surface(tick.parameters.shape, tick.bump);
 }
 
 void OtherProxies::take(const WalkedTick& tick) {
     if (tick.tick != awaited_) begun_ = false;
     awaited_ = tick.tick + 1;
-    running_ = tick.algorithm;
+    running_ = tick.parameters.algorithm;
     for (Walker& walker : walkers_)
         if (tick.begins || (tick.lets_go && walker.proxy.contact)) walker.walk->reset();
     if (!tick.updates) return;
@@ -81,10 +81,10 @@ void OtherProxies::take(const WalkedTick& tick) {
     begun_ = (begun_ || tick.begins) && surface.has_value();
     if (!surface) return;
     for (Walker& walker : walkers_) {
-        if (begun_ && walker.algorithm != tick.algorithm) {
-            walker.proxy = walker.walk->update(
-                *surface, tick.goal,
-                felt_friction(*surface, walker.proxy, tick.goal, tick.friction), tick.motion);
+        if (begun_ && walker.algorithm != running_) {
+            const Friction friction =
+                felt_friction(*surface, walker.proxy, tick.goal, tick.parameters.friction);
+            walker.proxy = walker.walk->update(*surface, tick.goal, friction, tick.motion);
         } else {
             walker.walk->resume(tick.proxy, surface->columns(), surface->rows(), tick.material);
             walker.proxy = tick.proxy;

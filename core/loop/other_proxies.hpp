@@ -39,15 +39,13 @@ struct WalkedTick {
     bool updates{false};  ///< there was a surface and a goal; else all proxies stay where they are
     bool begins{false};   ///< what was touched before is forgotten
     bool lets_go{false};  ///< a proxy in contact begins anew, above the goal
-    Algorithm algorithm{Algorithm::dibhr};  ///< that ran
-    Proxy proxy{};                          ///< its own
+    TouchParameters parameters{};
+    Proxy proxy{};  ///< of the algorithm that ran
     Vec3 goal{0.0};
-    Friction friction{};
     FrameMark from{}, to{};
     double blend{0.0};
-    SurfaceMotion motion{};    ///< what was to carry it; its field is a mark
-    MaterialPoint material{};  ///< under it, afterwards
-    SurfaceShape shape{};
+    SurfaceMotion motion{};        ///< what was to carry it; its field is a mark
+    MaterialPoint material{};      ///< under it, afterwards
     const BumpMap* bump{nullptr};  ///< a mark, too
 };
 

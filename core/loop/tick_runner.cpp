@@ -50,11 +50,12 @@ const Touch& TickRunner::run(const TickInput& input,
     return touch_;
 }
 
-void TickRunner::pause() noexcept {
+const Touch& TickRunner::pause() noexcept {
     renderer_.pause();
     track_.forget();
     touch_.spring_force_newton = touch_.sent_force_newton = touch_.carried = Vec3{0.0};
     update_time_ = {};
+    return touch_;
 }
 
 void TickRunner::reset() noexcept {

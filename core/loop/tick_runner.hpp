@@ -34,15 +34,14 @@ class TickRunner {
     /// One tick; `target`: where the parameters are, or glide to.
     const Touch& run(const TickInput& input, const ParameterGlide::Values& target) noexcept;
 
-    /// There is no surface, and zero force is sent: the next force begins from zero.
-    void pause() noexcept;
+    /// There is no surface, and zero force is sent: the next force begins from zero. Gives the last
+    /// touch without its forces.
+    const Touch& pause() noexcept;
     /// The proxy has not been anywhere yet. The next force must begin from zero.
     void reset() noexcept;
     /// The proxy, in contact or not, begins above the next goal.
     void let_go() noexcept { renderer_.let_go(); }
 
-    /// Of the last tick; after pause() the same without forces.
-    [[nodiscard]] const Touch& touch() const noexcept { return touch_; }
     /// The parameters and limits of the last tick, which may be on their way to the target.
     [[nodiscard]] const ParameterGlide::Values& felt() const noexcept { return glide_.now(); }
     /// The motion between the two frames was to carry the proxy, but was not known.

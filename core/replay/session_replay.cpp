@@ -87,8 +87,7 @@ void SessionReplay::refuse_tick(const std::string& before, const std::string& af
 
 void SessionReplay::run_tick(Run& run) {
     if (!tick_.surface) {
-        run.runner.pause();
-        run.touch = run.runner.touch();
+        run.touch = run.runner.pause();
         run.touch.proxy.contact = false;
         return;
     }
@@ -141,11 +140,7 @@ SampleStatistics Samples::statistics() const {
 void RunComparison::add(const TickRecord& recorded, const Touch& touch, double update_us) {
     if (!same_bits(touch, recorded)) {
         ++differing_;
-        if (!first_difference_) {
-            first_difference_ = {recorded.tick,           recorded.t_s,
-                                 touch.proxy.position,    recorded.proxy,
-                                 touch.sent_force_newton, recorded.sent_newton};
-        }
+        if (!first_difference_) first_difference_ = {recorded, touch};
     }
     ++ticks_;
     if (!recorded.surface) return;
@@ -161,8 +156,7 @@ void RunComparison::add(const TickRecord& recorded, const Touch& touch, double u
         astray_deg_.add(kDegPerRad * angle_between_rad(lag, recorded_lag));
     }
     if (contact && last_lag_) turn_deg_.add(kDegPerRad * angle_between_rad(*last_lag_, lag));
-    last_lag_.reset();
-    if (contact) last_lag_ = lag;
+    last_lag_ = contact ? std::optional(lag) : std::nullopt;
 }
 
 std::string RunComparison::table_row(const std::string& name) const {

@@ -121,10 +121,8 @@ class RunComparison {
 
     /// The update in which the run first gave other bits than recorded.
     struct Difference {
-        std::int64_t tick{0};
-        double t_s{0.0};
-        Vec3 proxy{0.0}, recorded_proxy{0.0};
-        Vec3 sent_newton{0.0}, recorded_newton{0.0};
+        TickRecord recorded{};
+        Touch touch{};
     };
     [[nodiscard]] const std::optional<Difference>& first_difference() const noexcept {
         return first_difference_;

@@ -137,7 +137,7 @@ Algorithm other_than(Algorithm algorithm) {
 }
 
 WalkedTick as_of_another(WalkedTick tick) {
-    tick.algorithm = other_than(tick.algorithm);
+    tick.parameters.algorithm = other_than(tick.parameters.algorithm);
     return tick;
 }
 
@@ -179,9 +179,9 @@ TEST_CASE("beside any algorithm, each other one's proxy is where it would be had
         CHECK(proxy_of(others, felt) == nullptr);
         for (const auto& run : runs) {
             const WalkedTick own = run->next();
-            if (own.algorithm == felt) continue;
-            const Proxy& beside = *proxy_of(others, own.algorithm);
-            CAPTURE(k, name_of(own.algorithm));
+            if (own.parameters.algorithm == felt) continue;
+            const Proxy& beside = *proxy_of(others, own.parameters.algorithm);
+            CAPTURE(k, name_of(own.parameters.algorithm));
             REQUIRE(beside == own.proxy);
             in_contact += own.proxy.contact ? 1 : 0;
             apart += own.proxy.position != tick.proxy.position ? 1 : 0;
@@ -278,7 +278,7 @@ TEST_CASE("another algorithm goes on from the proxy, and the one before it from 
         const WalkedTick before = unchanged.next();
         follower.follow(drag, tick);
         const auto others = follower.others.proxies();
-        CHECK(proxy_of(others, tick.algorithm) == nullptr);
+        CHECK(proxy_of(others, tick.parameters.algorithm) == nullptr);
         if (k >= 620) REQUIRE(*proxy_of(others, Algorithm::dibhr) == before.proxy);
     }
 }
