@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -32,6 +31,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/files/spelling.hpp"
 #include "core/haptics/words.hpp"
+#include "core/realtime/now.hpp"
 #include "core/study/protocol.hpp"
 #include "core/study/study_file.hpp"
 #include "core/study/study_run.hpp"
@@ -139,7 +139,6 @@ int number_of(const StudyOptions& options) {
 
 StudyIdentity identity_of(const StudyOptions& options, const Protocol& protocol,
                           const fs::path& file) {
-    const auto now = std::chrono::system_clock::now().time_since_epoch();
     return {.participant = options.participant,
             .number = number_of(options),
             .program = "dibhr " DIBHR_VERSION,
@@ -147,7 +146,7 @@ StudyIdentity identity_of(const StudyOptions& options, const Protocol& protocol,
             .protocol_text = protocol.text,
             .protocol_sha256 = protocol.sha256,
             .seed = protocol.seed,
-            .created_s = std::chrono::duration<double>(now).count(),
+            .created_s = utc_now_s(),
             .pilot = options.pilot};
 }
 

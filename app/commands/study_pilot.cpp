@@ -2,7 +2,6 @@
 #include "app/commands/study_pilot.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -14,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/files/spelling.hpp"
+#include "core/realtime/now.hpp"
 #include "core/study/simulated_participant.hpp"
 
 namespace dibhr {
@@ -21,11 +21,6 @@ namespace dibhr {
 namespace {
 
 constexpr std::string_view kHand = "hand";
-
-double utc_now_s() {
-    return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
-        .count();
-}
 
 }  // namespace
 

@@ -12,6 +12,7 @@
 #include "app/window/display_loss.hpp"
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/realtime/now.hpp"
 #include "core/video/media.hpp"
 #include "render/drawing_threads.hpp"
 
@@ -28,11 +29,6 @@ constexpr double kLongestPreparing_s = 30.0;
 
 double seconds(std::chrono::steady_clock::duration time) {
     return std::chrono::duration<double>(time).count();
-}
-
-double utc_now_s() {
-    return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
-        .count();
 }
 
 WindowSize size_of(const StudyWindowOptions& options) {

@@ -14,4 +14,10 @@ using Now = std::function<std::chrono::steady_clock::time_point()>;
     return std::chrono::duration<double>(time.time_since_epoch()).count();
 }
 
+/// The wall clock [s], since 1970.
+[[nodiscard]] inline double utc_now_s() {
+    return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
+        .count();
+}
+
 }  // namespace dibhr

@@ -41,11 +41,6 @@ std::int64_t nanoseconds(Clock::time_point time) {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch()).count();
 }
 
-double utc_s() {
-    return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
-        .count();
-}
-
 /// Wherever the program goes from here; as it is given where the working directory is gone.
 std::filesystem::path whole_path(const std::filesystem::path& file) {
     std::error_code gone;
@@ -225,7 +220,8 @@ struct Recorder::Implementation {
     void set_clock(std::int64_t t_ns) {
         const Clock::time_point moment = now();
         const std::int64_t passed_ns = nanoseconds(moment) - *zero_ns - t_ns;
-        session->add_clock(t_ns, utc_s() - static_cast<double>(passed_ns) / kNanosecondsPerSecond,
+        session->add_clock(t_ns,
+                           utc_now_s() - static_cast<double>(passed_ns) / kNanosecondsPerSecond,
                            ring.dropped() - dropped_before, high_water);
         clock_set = moment;
     }
