@@ -45,15 +45,6 @@ std::vector<std::string> split(const std::string& text, std::string_view at) {
     return parts;
 }
 
-std::string joined(const std::vector<std::string>& parts, std::string_view between) {
-    std::string text;
-    for (const std::string& part : parts) {
-        if (!text.empty()) text += between;
-        text += part;
-    }
-    return text;
-}
-
 std::string without_parentheses(std::string text) {
     std::size_t open = text.find(" (");
     while (open != std::string::npos) {
@@ -80,7 +71,7 @@ std::string troff(std::string text) {
 }
 
 void add_option(std::ostringstream& page, const DocumentedOption& option) {
-    const std::string shown = option.is_argument() ? option.argument : joined(option.names, ", ");
+    const std::string shown = option.is_argument() ? option.argument : listed(option.names);
     page << ".TP\n\\fB" << troff(shown) << "\\fR";
     if (!option.type.empty()) page << " \\fI" << troff(option.type) << "\\fR";
     page << '\n' << troff(option.help);
@@ -117,7 +108,7 @@ std::string names_of(const std::vector<DocumentedCommand>& commands) {
     names.reserve(commands.size() + 2);
     for (const DocumentedCommand& command : commands) names.push_back(command.name);
     names.insert(names.end(), {"help", "completion"});
-    return joined(names, " ");
+    return listed(names, " ");
 }
 
 /// In single quotes of a shell.
@@ -132,7 +123,7 @@ void add_bash_values(std::ostringstream& script, const DocumentedCommand& comman
         const std::vector<std::string> values = option.values();
         script << "        " << command.name << ':' << option.names.front() << ") ";
         if (!values.empty())
-            script << "COMPREPLY=($(compgen -W '" << joined(values, " ") << "' -- \"$cur\")); ";
+            script << "COMPREPLY=($(compgen -W '" << listed(values, " ") << "' -- \"$cur\")); ";
         script << "return ;;\n";
     }
 }
@@ -220,7 +211,7 @@ std::string zsh_completion(const std::vector<DocumentedCommand>& commands) {
             if (!option.type.empty()) {
                 form += ':' + zsh_text(option.type) + ':';
                 const std::vector<std::string> values = option.values();
-                if (!values.empty()) form += '(' + joined(values, " ") + ')';
+                if (!values.empty()) form += '(' + listed(values, " ") + ')';
                 if (option.takes_file()) form += "_files";
             }
             script << " \\\n                " << quoted(form);
@@ -267,7 +258,7 @@ std::string fish_completion(const std::vector<DocumentedCommand>& commands) {
                 script << " -r -F";
             } else if (!option.type.empty()) {
                 script << " -x";
-                if (!values.empty()) script << " -a '" << joined(values, " ") << "'";
+                if (!values.empty()) script << " -a '" << listed(values, " ") << "'";
             }
             script << '\n';
         }

@@ -16,6 +16,7 @@
 
 #include "app/desktop/file_dialog.hpp"
 #include "app/desktop/program.hpp"
+#include "core/files/plain_text.hpp"
 
 namespace dibhr {
 
@@ -26,12 +27,6 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kPoliteTime = std::chrono::milliseconds(50);  // after SIGTERM
 constexpr int kLook_ms = 5;
 
-std::string joined(const std::vector<std::string>& words) {
-    std::string line;
-    for (const std::string& word : words) line += (line.empty() ? "" : " ") + word;
-    return line;
-}
-
 /// qarma's, too.
 std::vector<std::string> zenity(const std::string& name, const FileQuestion& question) {
     std::vector<std::string> words{name,
@@ -41,7 +36,7 @@ std::vector<std::string> zenity(const std::string& name, const FileQuestion& que
                                    "--title=" + question.title,
                                    "--filename=" + question.folder.string() + "/"};
     for (const FileFilter& filter : question.filters)
-        words.push_back("--file-filter=" + filter.name + " | " + joined(filter.patterns));
+        words.push_back("--file-filter=" + filter.name + " | " + listed(filter.patterns, " "));
     return words;
 }
 
@@ -49,7 +44,7 @@ std::vector<std::string> kdialog(const FileQuestion& question) {
     std::string filters;
     for (const FileFilter& filter : question.filters) {
         if (!filters.empty()) filters += '\n';
-        filters += filter.name + " (" + joined(filter.patterns) + ")";
+        filters += filter.name + " (" + listed(filter.patterns, " ") + ")";
     }
     std::vector<std::string> words{"kdialog", "--title", question.title, "--multiple",
                                    "--separate-output"};

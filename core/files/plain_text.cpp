@@ -164,9 +164,9 @@ std::string percent_decoded(std::string_view text) {
     return decoded;
 }
 
-std::string listed(const std::vector<std::string>& words) {
+std::string listed(const std::vector<std::string>& words, std::string_view between) {
     std::string list;
-    for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
+    for (const std::string& word : words) list.append(list.empty() ? "" : between).append(word);
     return list;
 }
 

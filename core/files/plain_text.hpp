@@ -25,7 +25,8 @@ namespace dibhr {
 [[nodiscard]] std::string escaped_text(std::string_view text);
 
 /// "a, b, c".
-[[nodiscard]] std::string listed(const std::vector<std::string>& words);
+[[nodiscard]] std::string listed(const std::vector<std::string>& words,
+                                 std::string_view between = ", ");
 
 /// As utf8_text, and means nothing to a browser: for the text of an element or an attribute in
 /// double quotes.
