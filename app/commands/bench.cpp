@@ -20,6 +20,7 @@
 
 #include "app/commands/bench_updates.hpp"
 #include "app/commands/command_line.hpp"
+#include "app/commands/output.hpp"
 #include "core/experiment/experiment.hpp"
 #include "core/files/json.hpp"
 #include "core/files/output_file.hpp"

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "app/commands/output.hpp"
 #include "app/settings/assets_path.hpp"
 #include "core/experiment/experiment.hpp"
 #include "core/experiment/grounds.hpp"
@@ -259,10 +260,6 @@ UpdateCosts measure_updates() {
 Json json_of(const SampleStatistics& s, const std::string& unit) {
     return {{"median_" + unit, s.median}, {"mean_" + unit, s.mean},   {"p99_" + unit, s.p99},
             {"p999_" + unit, s.p999},     {"max_" + unit, s.highest}, {"samples", s.count}};
-}
-
-std::string size_text(int columns, int rows) {
-    return std::to_string(columns) + "x" + std::to_string(rows);
 }
 
 std::string table_of(const UpdateCosts& costs) {

@@ -72,7 +72,4 @@ void add_to_json(const UpdateCosts& costs, Json& json);
 /// The statistics with `unit` in their keys: "median_us".
 [[nodiscard]] Json json_of(const SampleStatistics& statistics, const std::string& unit);
 
-/// "720x486".
-[[nodiscard]] std::string size_text(int columns, int rows);
-
 }  // namespace dibhr

@@ -35,16 +35,13 @@ constexpr double kLongestPatience_s = 1e6;
 constexpr int kInterrupted = 130;  ///< as of a program that Ctrl+C ended
 
 struct DepthOptions {
-    fs::path colour{};
+    EstimateRequest request{};  ///< but for the command
     fs::path out{};
     std::string with{};  ///< a command, or the name of an estimator in the settings
     std::string name{};  ///< to keep the command under
-    double patience_s{EstimateRequest{}.patience_s};
-    bool again{false};
     bool view{false};
     bool lists{false};
     bool forgets{false};
-    DepthStatement meaning{};
 };
 
 bool is_command(const std::string& text) {
@@ -118,20 +115,20 @@ std::optional<DepthEstimate> watched(const EstimateRequest& request) {
     return made.get();
 }
 
-std::string size_text(std::uintmax_t bytes) {
+std::string megabytes_text(std::uintmax_t bytes) {
     return short_text(static_cast<double>(bytes) / 1e6, 3) + " MB";
 }
 
 std::string told(const KeptEstimate& kept) {
     const EstimateRecord& record = kept.record;
     if (record.command.empty())
-        return one_line(kept.folder.string()) + ": nothing of use, " + size_text(kept.bytes);
+        return one_line(kept.folder.string()) + ": nothing of use, " + megabytes_text(kept.bytes);
     const std::string all = std::to_string(record.colour.count());
     const std::string frames = record.depth.empty()
                                    ? std::to_string(kept.frames_there) + " of " + all + " frames"
                                    : all + (record.colour.count() == 1 ? " frame" : " frames");
-    return one_line(record.colour.file.string()) + ": " + frames + ", " + size_text(kept.bytes) +
-           ", by " + one_line(record.command);
+    return one_line(record.colour.file.string()) + ": " + frames + ", " +
+           megabytes_text(kept.bytes) + ", by " + one_line(record.command);
 }
 
 /// Of that colour, or all of an empty one.
@@ -151,7 +148,7 @@ int list_kept(const fs::path& colour) {
         std::cout << told(kept) << '\n';
         bytes += kept.bytes;
     }
-    std::cout << size_text(bytes) << " in " << one_line(depth_cache_path().string()) << '\n';
+    std::cout << megabytes_text(bytes) << " in " << one_line(depth_cache_path().string()) << '\n';
     return 0;
 }
 
@@ -164,13 +161,13 @@ int forget_kept(const fs::path& colour) {
             print_warning("another dibhr is making the depth of " +
                           kept.record.colour.file.string() + ": it stays");
     }
-    std::cout << size_text(bytes) << " removed\n";
+    std::cout << megabytes_text(bytes) << " removed\n";
     return 0;
 }
 
 void require_options(const DepthOptions& options) {
     const bool keeps = options.lists || options.forgets;
-    if (options.colour.empty() && !keeps)
+    if (options.request.colour.empty() && !keeps)
         throw UsageError("COLOR is required: the video to make depth for (see dibhr depth --help)");
     if (!options.name.empty() && !is_command(options.with))
         throw UsageError("--as names the command of --with: give that, too");
@@ -184,12 +181,9 @@ int open_viewer(const fs::path& colour, const fs::path& depth) {
 int make_depth(const DepthOptions& options) {
     const Estimator estimator =
         chosen_estimator(options, load_settings(settings_path()).estimators);
-    EstimateRequest request{.colour = options.colour,
-                            .command = estimator.command,
-                            .meaning = options.meaning,
-                            .cache = depth_cache_path(),
-                            .patience_s = options.patience_s,
-                            .again = options.again};
+    EstimateRequest request = options.request;
+    request.command = estimator.command;
+    request.cache = depth_cache_path();
     request.meaning.fill_in(estimator.meaning);
     if (is_command(options.with)) take_word(estimator.command);
     if (!options.name.empty()) {
@@ -205,9 +199,9 @@ int make_depth(const DepthOptions& options) {
         return kInterrupted;
     }
     const fs::path depth =
-        options.out.empty() ? made->depth : copy_depth(*made, options.colour, options.out);
+        options.out.empty() ? made->depth : copy_depth(*made, request.colour, options.out);
     std::cout << one_line(depth.string()) << '\n';
-    if (options.view) return open_viewer(options.colour, depth);
+    if (options.view) return open_viewer(request.colour, depth);
     return 0;
 }
 
@@ -215,7 +209,8 @@ int make_depth(const DepthOptions& options) {
 
 int run_depth(CLI::App& app, const Arguments& arguments) {
     DepthOptions options;
-    add_file(app, "COLOR", options.colour, "Colour video, picture or folder of pictures", "");
+    add_file(app, "COLOR", options.request.colour, "Colour video, picture or folder of pictures",
+             "");
     app.add_option("--with", options.with,
                    "The estimator: a command, started without a shell, with {input} (the file) or "
                    "{frames} (a folder of its frames, as PNG) and {output} (a folder to fill; "
@@ -229,15 +224,15 @@ int run_depth(CLI::App& app, const Arguments& arguments) {
              "as NAME_depth.mkv; beside the colour it is found with it",
              "FILE");
     app.add_flag("--view", options.view, "Opens both in the viewer");
-    app.add_flag("--again", options.again, "Makes it anew, whatever is kept");
+    app.add_flag("--again", options.request.again, "Makes it anew, whatever is kept");
     add_number_option(app, "--patience", 1.0, kLongestPatience_s,
                       "Ends an estimator that shows no sign of life for so many seconds",
-                      [&options](double seconds) { options.patience_s = seconds; })
+                      [&options](double seconds) { options.request.patience_s = seconds; })
         ->type_name("S")
         ->default_str("600");
     app.add_flag("--list", options.lists, "What is kept, of COLOR or all");
     app.add_flag("--forget", options.forgets, "Removes what is kept, of COLOR or all");
-    add_level_options(app, options.meaning);
+    add_level_options(app, options.request.meaning);
     app.footer(
         "The depth is kept by the content of the video and the command: the second time it is "
         "there "
@@ -261,8 +256,8 @@ int run_depth(CLI::App& app, const Arguments& arguments) {
         "  dibhr depth --list");
     if (!parse(app, arguments)) return 0;
     require_options(options);
-    if (options.lists) return list_kept(options.colour);
-    if (options.forgets) return forget_kept(options.colour);
+    if (options.lists) return list_kept(options.request.colour);
+    if (options.forgets) return forget_kept(options.request.colour);
     return make_depth(options);
 }
 

@@ -8,9 +8,11 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "app/commands/command_line.hpp"
+#include "app/commands/output.hpp"
 #include "app/settings/command_options.hpp"
 #include "app/settings/settings.hpp"
 #include "core/error.hpp"
@@ -32,12 +34,6 @@ void print_fact(std::string_view name, std::string_view value) {
     constexpr int kFactWidth = 17;
     std::cout << "  " << std::left << std::setw(kFactWidth) << one_line(name) << ' '
               << one_line(value) << '\n';
-}
-
-void print_media(std::string_view name, const SessionMedia& media) {
-    if (media.file.empty()) return;
-    print_fact(name,
-               media.file.string() + (media.sha256.empty() ? "" : ", SHA-256 " + media.sha256));
 }
 
 /// In this order, as far as they are there.
@@ -78,7 +74,9 @@ void describe_session(const fs::path& file) {
     SessionFacts facts = facts_of_hand(session.facts(), hand);
     std::set<fs::path> told;
     const auto tell = [&told](const char* what, const SessionMedia& media) {
-        if (told.insert(media.file).second) print_media(what, media);
+        if (media.file.empty() || !told.insert(media.file).second) return;
+        print_fact(what,
+                   media.file.string() + (media.sha256.empty() ? "" : ", SHA-256 " + media.sha256));
     };
     for (const SessionSource& source : session.sources()) {
         tell("colour", source.colour);
@@ -98,12 +96,8 @@ void describe_session(const fs::path& file) {
 void describe_partner(const fs::path& file) {
     std::string looked_for;
     const std::optional<fs::path> depth = find_depth_beside(file, looked_for);
-    if (depth) {
-        print_fact("depth", depth->string());
-    } else {
-        print_fact("depth",
-                   looked_for.empty() ? "none found" : "none found; looked for " + looked_for);
-    }
+    if (!looked_for.empty()) looked_for.insert(0, "; looked for ");
+    print_fact("depth", depth ? depth->string() : "none found" + looked_for);
 }
 
 std::string form_of(const MediaDescription& media) {
@@ -113,10 +107,6 @@ std::string form_of(const MediaDescription& media) {
                        : media.live ? "live video"
                                     : "video") +
            (codec.empty() ? "" : ", " + codec);
-}
-
-std::string size_text(int columns, int rows) {
-    return std::to_string(columns) + "x" + std::to_string(rows);
 }
 
 std::string levels_text(const MediaDescription& media) {
@@ -194,15 +184,13 @@ void describe_pictures(const fs::path& file, const DepthRequest& request) {
     if (is_colour && !has_depth) describe_partner(file);
 }
 
-template <typename Word>
-Json json_of(Word word) {
-    return name_of(word);
-}
-Json json_of(double number) {
-    return number;
-}
-Json json_of(const std::vector<double>& numbers) {
-    return numbers;
+/// A word, a number or numbers.
+template <typename Fact>
+Json json_of(const Fact& fact) {
+    if constexpr (std::is_enum_v<Fact>)
+        return name_of(fact);
+    else
+        return fact;
 }
 Json json_of(const DepthRange& range) {
     return {range.near, range.far};

@@ -49,6 +49,10 @@ std::string bounds_met_text(std::size_t bounds_met, std::size_t updates) {
            " updates ended before the proxy had caught up with its goal";
 }
 
+std::string size_text(int columns, int rows) {
+    return std::to_string(columns) + "x" + std::to_string(rows);
+}
+
 void refuse_overwriting(const std::filesystem::path& target,
                         const std::vector<std::filesystem::path>& inputs, const std::string& why) {
     for (const std::filesystem::path& input : inputs) {

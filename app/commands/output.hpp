@@ -32,6 +32,9 @@ void append_row(std::string& text, const OutputRow& row);
 /// "3 of 10 updates ended before the proxy had caught up with its goal"
 [[nodiscard]] std::string bounds_met_text(std::size_t bounds_met, std::size_t updates);
 
+/// "720x486".
+[[nodiscard]] std::string size_text(int columns, int rows);
+
 /// Throws InputError, with `why`, when the target is one of the `inputs`.
 void refuse_overwriting(const std::filesystem::path& target,
                         const std::vector<std::filesystem::path>& inputs, const std::string& why);

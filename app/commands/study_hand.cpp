@@ -40,21 +40,25 @@ TouchParameters parameters_of(const TouchRequest& request) {
 /// Ticks of a loop without a clock: one a millisecond.
 class HandTicking {
   public:
-    HandTicking(TickRing& ring, const std::filesystem::path& session, const SessionFacts& facts)
-        : ring_(ring), recorder_(session, ring, facts) {
+    HandTicking(const std::filesystem::path& session, const SessionFacts& facts)
+        : recorder_(session, *ring_, facts) {
         const SampleFiles files = sample_files();
         recorder_.media(kMedia, files.colour, files.depth);
     }
 
+    /// The next interval.
     void explore(const DepthClip& clip, const PathRun& path, int updates,
                  const TouchRequest& request, const TouchParameters& parameters) {
         const std::uint64_t version = ++version_;
+        recorder_.mark_at(kUpdate_s * static_cast<double>(tick_ + 1),
+                          "interval " + std::to_string(version));
         recorder_.parameters({.version = version,
                               .touch = parameters,
                               .limits = {},
                               .bump = {request.given.bump_file()}});
         if (version > 1) runner_.let_go();  // also of a proxy that touches nothing
-        const std::shared_ptr<const BumpMap> bump = bumps_of(request, clip, parameters);
+        std::shared_ptr<const BumpMap> bump = request.given.read_bumps();
+        stretch(bump, clip.columns(), clip.rows(), parameters.shape.bump_size_px);
         const auto count = std::min(path.goals.size(), static_cast<std::size_t>(updates));
         for (std::size_t k = 0; k < count; ++k) {
             const double t_s = path.times_s.empty() ? seconds_of(k) : path.times_s[k];
@@ -70,13 +74,8 @@ class HandTicking {
             row.settings = version;
             row.frames.source.media = kMedia;
             add_result(row, touch);
-            while (!ring_.push(row)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            while (!ring_->push(row)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
-    }
-
-    /// Where the next tick begins.
-    void mark(const std::string& tag) {
-        recorder_.mark_at(kUpdate_s * static_cast<double>(tick_ + 1), tag);
     }
 
     void finish() {
@@ -85,15 +84,7 @@ class HandTicking {
     }
 
   private:
-    static std::shared_ptr<const BumpMap> bumps_of(const TouchRequest& request,
-                                                   const DepthClip& clip,
-                                                   const TouchParameters& parameters) {
-        std::shared_ptr<const BumpMap> bump = request.given.read_bumps();
-        stretch(bump, clip.columns(), clip.rows(), parameters.shape.bump_size_px);
-        return bump;
-    }
-
-    TickRing& ring_;
+    const std::unique_ptr<TickRing> ring_{std::make_unique<TickRing>()};
     Recorder recorder_;
     TickRunner runner_{};
     std::uint64_t version_{0};
@@ -124,18 +115,15 @@ const StudyHand::Ground& StudyHand::ground_of(const StudyInterval& interval) {
 }
 
 void StudyHand::explore(const Trial& trial, const std::filesystem::path& session) {
-    const auto ring = std::make_unique<TickRing>();
     SessionFacts facts{{"program", "dibhr " DIBHR_VERSION},
                        {"device", "modelled hand"},
                        {"surface-version", std::to_string(kSurfaceVersion)}};
     facts.merge(library_versions());
-    HandTicking ticking(*ring, session, facts);
-    int number = 0;
+    HandTicking ticking(session, facts);
     for (const StudyInterval& interval : trial.intervals) {
         require_sample(interval);
         const Ground& ground = ground_of(interval);
         const TouchRequest request = request_of(interval.values);
-        ticking.mark("interval " + std::to_string(++number));
         ticking.explore(ground.sample.depth, ground.path, updates_, request,
                         parameters_of(request));
     }

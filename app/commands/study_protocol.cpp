@@ -9,6 +9,7 @@
 
 #include "core/files/plain_text.hpp"
 #include "core/psychophysics/staircase.hpp"
+#include "core/report/report_words.hpp"
 #include "core/study/study_run.hpp"
 
 namespace dibhr {
@@ -21,10 +22,6 @@ double minutes_of(const Block& block) {
     constexpr double kAnswer_s = 3.0;
     const double interval_s = block.interval_s > 0.0 ? block.interval_s : kInterval_s;
     return block.most_trials() * (block.intervals() * interval_s + kAnswer_s) / 60.0;
-}
-
-std::string counted(int count, const char* what) {
-    return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
 }
 
 std::string values_text(const TouchValues& values) {

@@ -1,13 +1,11 @@
 // `dibhr touch`: computes first and formats afterwards, block by block, so that the times are the
 // updates' own.
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,13 +46,19 @@ class TouchRun {
         stretch(bump_, depth.columns, depth.rows, parameters_.shape.bump_size_px);
     }
 
-    void compute(std::span<const TimedGoal> goals, std::vector<OutputRow>& rows) {
-        rows.clear();
-        for (const TimedGoal& goal : goals) rows.push_back(update(goal));
+    OutputRow update(const TimedGoal& goal) {
+        const bool started_again = depth_.advance_to(goal.t_s);
+        // Recorded hands have equal time stamps: still an update, of the usual length.
+        const double step_s = last_t_s_ ? goal.t_s - *last_t_s_ : 0.0;
+        const TickInput input{.pair = depth_.now(),
+                              .bump = bump_.get(),
+                              .goal = goal.goal_in_grid,
+                              .safety = {.dt_s = step_s > 0.0 ? step_s : kUsualTick_s,
+                                         .from_zero = started_again || !last_t_s_}};
+        const Touch& touch = runner_.run(input, {parameters_, SafetyLimits{}});
+        last_t_s_ = goal.t_s;
+        return {goal.t_s, touch, std::chrono::nanoseconds(runner_.update_time()).count()};
     }
-
-    /// Updates so far that ended before the proxy had caught up with its goal.
-    [[nodiscard]] std::size_t bounds_met() const noexcept { return bounds_met_; }
 
   private:
     static DepthInTime opened(const TouchOptions& options, TouchParameters& parameters) {
@@ -78,27 +82,11 @@ class TouchRun {
                 std::move(maps)};
     }
 
-    OutputRow update(const TimedGoal& goal) {
-        const bool started_again = depth_.advance_to(goal.t_s);
-        // Recorded hands have equal time stamps: still an update, of the usual length.
-        const double step_s = last_t_s_ ? goal.t_s - *last_t_s_ : 0.0;
-        const TickInput input{.pair = depth_.now(),
-                              .bump = bump_.get(),
-                              .goal = goal.goal_in_grid,
-                              .safety = {.dt_s = step_s > 0.0 ? step_s : kUsualTick_s,
-                                         .from_zero = started_again || !last_t_s_}};
-        const Touch& touch = runner_.run(input, {parameters_, SafetyLimits{}});
-        if (touch.proxy.bound_met) ++bounds_met_;
-        last_t_s_ = goal.t_s;
-        return {goal.t_s, touch, std::chrono::nanoseconds(runner_.update_time()).count()};
-    }
-
     TouchParameters parameters_;
     DepthInTime depth_;
     std::shared_ptr<const BumpMap> bump_;
     TickRunner runner_{};
     std::optional<double> last_t_s_{};
-    std::size_t bounds_met_{0};
 };
 
 void touch_all(const TouchOptions& options) {
@@ -110,16 +98,17 @@ void touch_all(const TouchOptions& options) {
     std::vector<OutputRow> rows;
     rows.reserve(kBlockRows);
     out.text() = kOutputHeader;
-    for (std::size_t done = 0; done < goals.size(); done += kBlockRows) {
-        const std::size_t count = std::min(kBlockRows, goals.size() - done);
-        run.compute(std::span(goals).subspan(done, count), rows);
-        for (const OutputRow& row : rows) append_row(out.text(), row);
+    std::size_t bounds_met = 0;
+    for (auto goal = goals.begin(); goal != goals.end(); rows.clear()) {
+        while (goal != goals.end() && rows.size() < kBlockRows) rows.push_back(run.update(*goal++));
+        for (const OutputRow& row : rows) {
+            append_row(out.text(), row);
+            if (row.touch.proxy.bound_met) ++bounds_met;
+        }
         out.rows_done();
     }
     out.commit();
-    if (run.bounds_met() > 0) {
-        print_error_line(bounds_met_text(run.bounds_met(), goals.size()));
-    }
+    if (bounds_met > 0) print_error_line(bounds_met_text(bounds_met, goals.size()));
 }
 
 /// What is on and needs a video that moves, of which there is none.
