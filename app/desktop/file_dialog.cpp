@@ -1,24 +1,20 @@
 // Whether there is a desktop, and which of its ways to ask is taken.
 #include "app/desktop/file_dialog.hpp"
 
-#include <cstdlib>
 #include <string_view>
 #include <system_error>
+
+#include "core/files/machine.hpp"
 
 namespace dibhr {
 
 namespace {
 
-std::string_view environment(const char* name) {
-    const char* const value = std::getenv(name);
-    return value != nullptr ? value : "";
-}
-
 /// Where sd_bus_open_user() looks for it.
 bool has_session_bus() {
-    const std::string_view address = environment("DBUS_SESSION_BUS_ADDRESS");
+    const std::string_view address = environment_variable("DBUS_SESSION_BUS_ADDRESS");
     if (!address.empty()) return address != "disabled:";
-    const std::string_view folder = environment("XDG_RUNTIME_DIR");
+    const std::string_view folder = environment_variable("XDG_RUNTIME_DIR");
     std::error_code unknown;
     return !folder.empty() &&
            std::filesystem::exists(std::filesystem::path(folder) / "bus", unknown);
@@ -26,7 +22,7 @@ bool has_session_bus() {
 
 /// The session bus then is that of the machine's own screen, where nobody may be.
 bool comes_from_afar() {
-    return !environment("SSH_CONNECTION").empty();
+    return !environment_variable("SSH_CONNECTION").empty();
 }
 
 }  // namespace

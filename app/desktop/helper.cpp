@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstddef>
-#include <cstdlib>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,6 +15,7 @@
 
 #include "app/desktop/file_dialog.hpp"
 #include "app/desktop/program.hpp"
+#include "core/files/machine.hpp"
 #include "core/files/plain_text.hpp"
 
 namespace dibhr {
@@ -58,9 +58,8 @@ std::vector<std::string> kdialog(const FileQuestion& question) {
 
 /// In the order in which they fit the desktop.
 std::vector<std::vector<std::string>> helpers_for(const FileQuestion& question) {
-    const char* const desktop = std::getenv("XDG_CURRENT_DESKTOP");
     const bool kde =
-        desktop != nullptr && std::string_view(desktop).find("KDE") != std::string_view::npos;
+        environment_variable("XDG_CURRENT_DESKTOP").find("KDE") != std::string_view::npos;
     std::vector<std::vector<std::string>> helpers{zenity("zenity", question),
                                                   zenity("qarma", question)};
     helpers.insert(kde ? helpers.begin() : helpers.end(), kdialog(question));

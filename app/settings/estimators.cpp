@@ -4,9 +4,9 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <sstream>
 
+#include "core/files/machine.hpp"
 #include "core/video/depth/sidecar.hpp"
 
 namespace dibhr {
@@ -36,10 +36,7 @@ std::string how_to_have_an_estimator() {
 }
 
 fs::path depth_cache_path() {
-    const char* const folder = std::getenv("XDG_CACHE_HOME");
-    if (folder != nullptr && *folder == '/') return fs::path(folder) / "dibhr" / "depth";
-    const char* const home = std::getenv("HOME");
-    return fs::path(home != nullptr ? home : "/") / ".cache" / "dibhr" / "depth";
+    return program_folder("XDG_CACHE_HOME", ".cache") / "depth";
 }
 
 }  // namespace dibhr

@@ -278,17 +278,11 @@ fs::path save_material(const Material& material) {
     fs::path map;
     if (!material.map.empty()) {
         map = material.name + material.map.extension().string();
-        if (!fs::equivalent(material.map, folder / map, failed)) {
-            const std::string bytes = bytes_of(material.map);
-            OutputFile copy(folder / map);
-            copy.write(bytes);
-            copy.commit();
-        }
+        if (!fs::equivalent(material.map, folder / map, failed))
+            write_file(folder / map, bytes_of(material.map));
     }
     fs::path file = folder / (material.name + kEnding);
-    OutputFile out(file);
-    out.write(toml_of(material, map));
-    out.commit();
+    write_file(file, toml_of(material, map));
     return file;
 }
 

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdlib>
 #include <fstream>
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/files/machine.hpp"
 #include "core/files/output_file.hpp"
 #include "core/video/live/live_name.hpp"
 
@@ -21,11 +21,6 @@ constexpr std::size_t kMostKept = 12;
 constexpr std::size_t kLongestLine = 16384;  // two paths and more
 constexpr const char* kOwnBytes = "\t\n";    // which end a path and a line here
 
-fs::path home() {
-    const char* const folder = std::getenv("HOME");
-    return folder != nullptr ? folder : "/";
-}
-
 fs::path whole(const fs::path& file) {
     return file.empty() || is_live(file) ? file : fs::absolute(file).lexically_normal();
 }
@@ -33,10 +28,7 @@ fs::path whole(const fs::path& file) {
 }  // namespace
 
 fs::path recent_files_path() {
-    const char* const folder = std::getenv("XDG_STATE_HOME");
-    const fs::path states =
-        folder != nullptr && *folder == '/' ? fs::path(folder) : home() / ".local" / "state";
-    return states / "dibhr" / "recent";
+    return program_folder("XDG_STATE_HOME", ".local/state") / "recent";
 }
 
 std::vector<RecentFile> read_recent_files(const fs::path& file) {
@@ -73,8 +65,8 @@ void remember(const RecentFile& opened, const fs::path& file) {
 }
 
 fs::path typed_path(const std::string& text) {
-    if (text == "~") return home();
-    return text.starts_with("~/") ? home() / text.substr(2) : fs::path(text);
+    if (text == "~") return home_folder();
+    return text.starts_with("~/") ? home_folder() / text.substr(2) : fs::path(text);
 }
 
 }  // namespace dibhr

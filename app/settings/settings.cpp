@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <map>
 #include <optional>
 #include <set>
@@ -21,6 +20,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/files/machine.hpp"
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/files/text_file.hpp"
@@ -392,10 +392,7 @@ void add_inverse3(std::vector<Setting>& list, Inverse3Settings& s) {
 }  // namespace
 
 fs::path settings_path() {
-    const char* folder = std::getenv("XDG_CONFIG_HOME");
-    if (folder != nullptr && *folder == '/') return fs::path(folder) / "dibhr" / "settings.toml";
-    const char* home = std::getenv("HOME");
-    return fs::path(home != nullptr ? home : "/") / ".config" / "dibhr" / "settings.toml";
+    return program_folder("XDG_CONFIG_HOME", ".config") / "settings.toml";
 }
 
 fs::path depth_choices_path() {
@@ -440,10 +437,9 @@ void save_settings(const Settings& settings, const fs::path& file) {
                          " cannot be written (" + failed.message() + "); make it writable");
     }
     try {
-        OutputFile out(file);
-        out.write("# dibhr writes this file; change it while it is not running.\nversion = " +
-                  std::to_string(kVersion) + "\n" + toml_text(settings));
-        out.commit();
+        write_file(file,
+                   "# dibhr writes this file; change it while it is not running.\nversion = " +
+                       std::to_string(kVersion) + "\n" + toml_text(settings));
     } catch (const InputError& error) {
         throw InputError(std::string("the settings are not kept: ") + error.what());
     }

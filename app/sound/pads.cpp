@@ -6,9 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <system_error>
+
+#include "core/files/machine.hpp"
 
 namespace dibhr {
 
@@ -20,11 +21,6 @@ constexpr Uint16 kDualSense = 0x0ce6;
 constexpr Uint16 kDualSenseEdge = 0x0df2;
 constexpr Uint32 kLasts_ms = 1000;  // it is told again long before
 constexpr double kSteps = 64.0;     // a pad need not hear of smaller changes
-
-bool is_set(const char* variable) {
-    const char* value = std::getenv(variable);
-    return value != nullptr && *value != '\0';
-}
 
 Uint16 motor(double strength) {
     return static_cast<Uint16>(std::lround(std::round(kSteps * strength) / kSteps * 65535.0));
@@ -45,11 +41,12 @@ void read_pads() {
 }  // namespace
 
 bool pads_would_copy_process() {
-    if (is_set("DBUS_SESSION_BUS_ADDRESS") || !is_set("DISPLAY")) return false;
+    if (!environment_variable("DBUS_SESSION_BUS_ADDRESS").empty() ||
+        environment_variable("DISPLAY").empty())
+        return false;
+    const std::filesystem::path folder = environment_variable("XDG_RUNTIME_DIR");
     std::error_code failed;
-    return !is_set("XDG_RUNTIME_DIR") ||
-           !std::filesystem::exists(std::filesystem::path(std::getenv("XDG_RUNTIME_DIR")) / "bus",
-                                    failed);
+    return folder.empty() || !std::filesystem::exists(folder / "bus", failed);
 }
 
 Pads::Pads(TouchSource& source) : source_(source) {

@@ -125,9 +125,7 @@ void EstimateFolder::keep(const EstimateRecord& record) const {
                     {"sha256", record.sha256},
                     {"levels", toml_of(record.levels)},
                     {"said", toml_of(record.said)}};
-    OutputFile out(path_ / kRecord);
-    out.write(json_text(json));
-    out.commit();
+    write_file(path_ / kRecord, json_text(json));
 }
 
 void EstimateFolder::empty() const {

@@ -175,12 +175,6 @@ cv::Mat levels_by(const LevelRule& rule, const cv::Mat& picture) {
     return whole;
 }
 
-void write_picture(const cv::Mat& levels, const fs::path& file) {
-    OutputFile out(file);
-    out.write(encoded_png(levels));
-    out.commit();
-}
-
 /// False when `stop` became true.
 bool write_video(PictureSource& source, const LevelRule& rule, const Survey& survey,
                  const ColourFrames& colour, const fs::path& file, const std::atomic<bool>& stop,
@@ -222,9 +216,9 @@ DepthWritten write_depth(const fs::path& output, const ColourFrames& colour, Dep
             const auto source = form.open();
             const fs::path file = target / (colour.still ? "depth.png" : "depth.mkv");
             if (colour.still)
-                write_picture(with_square_pixels(levels_by(rule, source->next()->picture),
-                                                 survey.pixel_aspect, PictureRole::depth),
-                              file);
+                write_file(file, encoded_png(with_square_pixels(
+                                     levels_by(rule, source->next()->picture), survey.pixel_aspect,
+                                     PictureRole::depth)));
             else if (!write_video(*source, rule, survey, colour, file, stop, tell))
                 return {};
             return {file, statement_of(rule)};

@@ -3,9 +3,8 @@
 
 #include <sys/utsname.h>
 
+#include <cstdlib>
 #include <fstream>
-#include <string>
-#include <string_view>
 
 namespace dibhr {
 
@@ -33,6 +32,22 @@ Machine this_machine() {
     if (uname(&kernel) == 0)
         machine.kernel = std::string(kernel.sysname) + " " + kernel.release + " " + kernel.machine;
     return machine;
+}
+
+std::string_view environment_variable(const char* name) {
+    const char* const value = std::getenv(name);
+    return value != nullptr ? value : "";
+}
+
+std::filesystem::path home_folder() {
+    const char* const folder = std::getenv("HOME");
+    return folder != nullptr ? folder : "/";
+}
+
+std::filesystem::path program_folder(const char* variable, const std::filesystem::path& usual) {
+    const std::string_view folder = environment_variable(variable);
+    return (folder.starts_with('/') ? std::filesystem::path(folder) : home_folder() / usual) /
+           "dibhr";
 }
 
 }  // namespace dibhr

@@ -1,7 +1,9 @@
-// The machine that a program runs on, in words.
+// The machine that a program runs on, in words, and what its user has set on it.
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace dibhr {
 
@@ -13,5 +15,16 @@ struct Machine {
 };
 
 [[nodiscard]] Machine this_machine();
+
+/// A variable of the environment; empty where it is not set.
+[[nodiscard]] std::string_view environment_variable(const char* name);
+
+/// The user's home folder; "/" where nobody says which it is.
+[[nodiscard]] std::filesystem::path home_folder();
+
+/// The program's own folder in the one that a variable of XDG names, of which whole paths alone
+/// count, else in `usual` of the home folder: ("XDG_CACHE_HOME", ".cache") is ~/.cache/dibhr.
+[[nodiscard]] std::filesystem::path program_folder(const char* variable,
+                                                   const std::filesystem::path& usual);
 
 }  // namespace dibhr

@@ -223,10 +223,20 @@ void OutputFile::fail(const char* what) const {
                      "); choose another file or make room for it");
 }
 
+void write_file(const fs::path& target, std::string_view bytes) {
+    OutputFile out(target);
+    out.write(bytes);
+    out.commit();
+}
+
 OutputFolder::OutputFolder(const fs::path& folder, std::vector<std::string> names)
     : folder_(folder), names_(std::move(names)) {
-    make_folder();
+    std::error_code failed;
+    made_ = make_folders(folder_, failed);
     try {
+        if (failed)
+            throw InputError(folder_.string() + " cannot take files (" + failed.message() +
+                             "): choose a folder you may write to");
         for (const std::string& name : names_) {
             std::error_code ignored;
             const fs::file_status status = fs::status(folder_ / name, ignored);
@@ -246,15 +256,6 @@ OutputFolder::OutputFolder(const fs::path& folder, std::vector<std::string> name
 OutputFolder::~OutputFolder() {
     files_.clear();
     remove_empty(made_);  // which files that were committed do not let happen
-}
-
-void OutputFolder::make_folder() {
-    std::error_code failed;
-    made_ = make_folders(folder_, failed);
-    if (!failed) return;
-    remove_empty(made_);
-    throw InputError(folder_.string() + " cannot take files (" + failed.message() +
-                     "): choose a folder you may write to");
 }
 
 void OutputFolder::add(const std::string& name, std::string_view bytes) {

@@ -66,6 +66,9 @@ class OutputFile {
     bool owned_{false};
 };
 
+/// Writes an OutputFile of these bytes and commits it. Throws as that does.
+void write_file(const std::filesystem::path& target, std::string_view bytes);
+
 /// Files of an earlier run are replaced at commit(). Without commit() nothing remains: the folder
 /// is as it was, or was never made. Other files stay. Everything that writes throws InputError:
 /// what, which file, what to do next.
@@ -83,8 +86,6 @@ class OutputFolder {
     void commit();
 
   private:
-    void make_folder();
-
     std::filesystem::path folder_;
     std::vector<std::string> names_;
     std::vector<std::filesystem::path> made_{};  ///< folders, the outermost first

@@ -27,7 +27,7 @@ std::size_t edits_between(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-std::string nearest_name(const std::string& word, const std::vector<std::string>& names) {
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& names) {
     constexpr std::size_t kLongest = 64;  // no name is
     if (word.size() > kLongest) return {};
     std::string nearest;
@@ -38,12 +38,7 @@ std::string nearest_name(const std::string& word, const std::vector<std::string>
         fewest = edits;
         nearest = name;
     }
-    return nearest;
-}
-
-std::string did_you_mean(const std::string& word, const std::vector<std::string>& names) {
-    const std::string name = nearest_name(word, names);
-    return name.empty() ? name : "; did you mean " + name + "?";
+    return nearest.empty() ? nearest : "; did you mean " + nearest + "?";
 }
 
 }  // namespace dibhr

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <string_view>
 
+#include "core/files/machine.hpp"
 #include "core/files/plain_text.hpp"
 
 namespace dibhr {
@@ -28,17 +28,12 @@ constexpr const char* sequence_of(Paint paint) {
     return kUsual;
 }
 
-std::string_view variable(const char* name) {
-    const char* const value = std::getenv(name);
-    return value == nullptr ? std::string_view{} : value;
-}
-
 }  // namespace
 
 bool shows_colours(int descriptor) {
-    const std::string_view terminal = variable("TERM");
-    return isatty(descriptor) == 1 && variable("NO_COLOR").empty() && !terminal.empty() &&
-           terminal != "dumb";
+    const std::string_view terminal = environment_variable("TERM");
+    return isatty(descriptor) == 1 && environment_variable("NO_COLOR").empty() &&
+           !terminal.empty() && terminal != "dumb";
 }
 
 std::string painted(std::string_view text, Paint paint, int descriptor) {

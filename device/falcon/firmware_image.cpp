@@ -7,7 +7,6 @@
 #include <charconv>
 #include <cstddef>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <optional>
@@ -16,6 +15,7 @@
 
 #include "core/error.hpp"
 #include "core/files/content_hash.hpp"
+#include "core/files/machine.hpp"
 #include "core/files/output_file.hpp"
 
 namespace dibhr::falcon {
@@ -289,11 +289,7 @@ FirmwareImage read_firmware(const std::filesystem::path& file) {
 }
 
 std::filesystem::path kept_firmware_path() {
-    constexpr const char* kName = "falcon-firmware.bin";
-    const char* folder = std::getenv("XDG_DATA_HOME");
-    if (folder != nullptr && *folder == '/') return fs::path(folder) / "dibhr" / kName;
-    const char* home = std::getenv("HOME");
-    return fs::path(home != nullptr ? home : "/") / ".local" / "share" / "dibhr" / kName;
+    return program_folder("XDG_DATA_HOME", ".local/share") / "falcon-firmware.bin";
 }
 
 FirmwareImage keep_firmware(const std::filesystem::path& file) {
@@ -305,9 +301,7 @@ FirmwareImage keep_firmware(const std::filesystem::path& file) {
         throw InputError("cannot make the folder " + kept.parent_path().string() +
                          " for the firmware (" + failed.message() + "): make it and try again");
     }
-    OutputFile copy(kept);
-    copy.write(as_text(image.bytes));
-    copy.commit();
+    write_file(kept, as_text(image.bytes));
     return image;
 }
 

@@ -39,10 +39,8 @@ void write_choice(const fs::path& file, const fs::path& media, const DepthStatem
         refuse("the folder " + shown(file.parent_path()) + " cannot be written (" +
                failed.message() + "); make it writable");
     try {
-        OutputFile out(file);
-        out.write("# Chosen in the window for " + shown(whole_path(media)) +
-                  ";\n# delete this file to forget it.\n" + toml_of(choice));
-        out.commit();
+        write_file(file, "# Chosen in the window for " + shown(whole_path(media)) +
+                             ";\n# delete this file to forget it.\n" + toml_of(choice));
     } catch (const InputError& error) {
         refuse(error.what());
     }

@@ -260,9 +260,7 @@ void write_sidecar(const fs::path& media, const DepthStatement& statement) {
     root.insert_or_assign("depth", parsed(toml_of(statement), "")["depth"]);
     std::ostringstream text;
     text << root << '\n';
-    OutputFile out(file);
-    out.write(text.str());
-    out.commit();
+    write_file(file, text.str());
 }
 
 std::string toml_of(const DepthStatement& said) {

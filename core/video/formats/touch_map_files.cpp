@@ -162,9 +162,7 @@ void write_limits(const TouchMaps& maps, const fs::path& file) {
              << "\nlowest = " << number_text(limits.lowest)
              << "\nhighest = " << number_text(limits.highest) << "\n";
     }
-    OutputFile out(file);
-    out.write(text.str());
-    out.commit();
+    write_file(file, text.str());
 }
 
 }  // namespace
@@ -214,9 +212,7 @@ void write_touch_maps(const TouchMaps& maps, const fs::path& depth) {
             continue;
         }
         writes = true;
-        OutputFile out(file);
-        out.write(png_of(map));
-        out.commit();
+        write_file(file, png_of(map));
     }
     if (writes)
         write_limits(maps, limits_file(depth));

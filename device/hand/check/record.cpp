@@ -115,9 +115,7 @@ void CheckRecord::write(const CheckFindings& findings) const {
     record["steps"] = steps_;
     findings.add_to(record);
     if (!legend_.is_null()) record["legend"] = legend_;
-    OutputFile out(file_);
-    out.write(json_text(record));
-    out.commit();
+    write_file(file_, json_text(record));
 }
 
 }  // namespace dibhr
