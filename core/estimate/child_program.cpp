@@ -8,7 +8,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -137,11 +136,9 @@ void give_way(pid_t who) noexcept {
 }
 
 ChildProgram::ChildProgram(std::vector<std::string> words, ChildManner manner) {
-    std::array<int, 2> output{}, life{};
-    if (::pipe2(output.data(), O_CLOEXEC) != 0)
-        throw InputError("the estimator cannot be started: too many files are open");
-    if (::pipe2(life.data(), O_CLOEXEC) != 0) {
-        for (const int end : output) ::close(end);
+    std::array<int, 2> output{-1, -1}, life{};
+    if (::pipe2(output.data(), O_CLOEXEC) != 0 || ::pipe2(life.data(), O_CLOEXEC) != 0) {
+        for (const int end : output) ::close(end);  // those that were made
         throw InputError("the estimator cannot be started: too many files are open");
     }
     const int failed = start(words, {.output = output[1], .life = life[0]}, manner, child_);

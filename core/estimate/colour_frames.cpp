@@ -2,7 +2,6 @@
 #include "core/estimate/colour_frames.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
@@ -10,7 +9,6 @@
 #include <system_error>
 
 #include "core/error.hpp"
-#include "core/video/libraries.hpp"
 #include "core/video/media.hpp"
 #include "core/video/modules/picture_codecs.hpp"
 #include "core/video/pictures.hpp"

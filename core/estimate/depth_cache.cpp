@@ -11,7 +11,6 @@
 #include <exception>
 #include <fstream>
 #include <iterator>
-#include <sstream>
 #include <system_error>
 #include <utility>
 

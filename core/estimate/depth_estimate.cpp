@@ -209,7 +209,7 @@ class Estimation {
   public:
     Estimation(const EstimateRequest& request, EstimateWatch& watch)
         : request_(request), watch_(watch), command_(request.command) {
-        if (request_.colour.empty() || (!names_pictures(request_.colour)))
+        if (request_.colour.empty() || !names_pictures(request_.colour))
             require_readable(request_.colour);
     }
 
@@ -228,7 +228,8 @@ class Estimation {
                           " is not as it was written, and is made anew");
         }
         if (!has_frames()) return std::nullopt;
-        if (!all_there() && !run()) return std::nullopt;
+        const bool all_there = command_.takes_frames() && done_.size() >= colour_.count();
+        if (!all_there && !run()) return std::nullopt;
         return written();
     }
 
@@ -251,10 +252,6 @@ class Estimation {
         fs::create_directories(folder_->output(), failed);
         folder_->keep({.colour = colour_, .command = command_.text()});
         return true;
-    }
-
-    [[nodiscard]] bool all_there() const {
-        return command_.takes_frames() && done_.size() >= colour_.count();
     }
 
     /// False when it was stopped.

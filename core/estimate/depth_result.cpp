@@ -5,11 +5,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <memory>
 #include <opencv2/core.hpp>
 #include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -36,7 +33,6 @@ struct Survey {
     double pixel_aspect{1.0};
     double lowest{std::numeric_limits<double>::infinity()};
     double highest{-std::numeric_limits<double>::infinity()};
-    bool has_holes{false};  ///< of real numbers: some are not finite
 };
 
 cv::Mat numbers_of(const cv::Mat& picture) {
@@ -52,10 +48,8 @@ cv::Mat finite_in(const cv::Mat& numbers) {
 void take_in(const TimedPicture& picture, Survey& survey) {
     const cv::Mat numbers = numbers_of(picture.picture);
     const cv::Mat finite = finite_in(numbers);
-    const int count = cv::countNonZero(finite);
     survey.times_s.push_back(picture.time_s);
-    survey.has_holes = survey.has_holes || count < static_cast<int>(numbers.total());
-    if (count == 0) return;
+    if (cv::countNonZero(finite) == 0) return;
     double lowest = 0.0;
     double highest = 0.0;
     cv::minMaxLoc(numbers, &lowest, &highest, nullptr, nullptr, finite);

@@ -1,6 +1,7 @@
 // Words for it, and the end of an estimator.
 #include "core/estimate/estimate_watch.hpp"
 
+#include <array>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -23,17 +24,10 @@ std::string clock_text(double seconds) {
 }  // namespace
 
 std::string in_words(const EstimateProgress& now) {
-    switch (now.step) {
-        case EstimateStep::looking:
-            return "looking at the video";
-        case EstimateStep::giving_frames:
-            return "reading its frames";
-        case EstimateStep::checking:
-            return "checking the depth";
-        case EstimateStep::estimating:
-            break;
-    }
-    std::string words = "estimating";
+    constexpr std::array kDoing{"looking at the video", "reading its frames", "estimating",
+                                "checking the depth"};
+    std::string words = kDoing.at(static_cast<std::size_t>(now.step));
+    if (now.step != EstimateStep::estimating) return words;
     if (now.counted && now.done < now.of)
         words += " frame " + std::to_string(now.done + 1) + " of " + std::to_string(now.of);
     if (now.left_s) return words + ", " + clock_text(*now.left_s) + " left";

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <cmath>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
@@ -85,7 +83,7 @@ std::vector<NumberInName> numbers_in(const fs::path& file) {
     std::vector<NumberInName> numbers;
     for (std::size_t at = 0; at < end;) {
         std::size_t to = at;
-        while (to < end && std::isdigit(static_cast<unsigned char>(name[to])) != 0) ++to;
+        while (to < end && is_decimal_digit(name[to])) ++to;
         if (to > at && to - at <= kMostDigits) {
             const std::string around = name.substr(0, at) + "#" + name.substr(to);
             numbers.push_back({std::stoul(name.substr(at, to - at)), file.parent_path() / around});

@@ -47,8 +47,6 @@ class DepthOutput {
     [[nodiscard]] const std::filesystem::path& file() const {
         return row_.empty() ? file_ : row_.begin()->second;
     }
-    /// Of a row; empty of a single file.
-    [[nodiscard]] const NumberedOutputs& row() const noexcept { return row_; }
 
   private:
     NumberedOutputs row_{};

@@ -2,10 +2,10 @@
 #include "core/estimate/spoken_progress.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <string_view>
 
 #include "core/files/plain_text.hpp"
+#include "core/video/media_names.hpp"
 
 namespace dibhr {
 
@@ -13,17 +13,13 @@ namespace {
 
 constexpr std::size_t kLongestLine = 4096;  ///< what is longer is no line
 
-bool is_digit(char c) {
-    return std::isdigit(static_cast<unsigned char>(c)) != 0;
-}
-
 /// The whole number that begins there; moves behind it. Nothing: none, or a larger one than any
 /// count of frames.
 std::optional<std::size_t> number_at(std::string_view line, std::size_t& at) {
     constexpr std::size_t kMostDigits = 9;
     const std::size_t begin = at;
     std::size_t number = 0;
-    while (at < line.size() && is_digit(line[at]))
+    while (at < line.size() && is_decimal_digit(line[at]))
         number = 10 * number + static_cast<std::size_t>(line[at++] - '0');
     if (at == begin || at - begin > kMostDigits) return std::nullopt;
     return number;
@@ -55,7 +51,7 @@ void SpokenProgress::note() {
     if (line.find_first_not_of(' ') == std::string::npos) return;
     last_ = line;
     for (std::size_t at = 0; at < line.size(); ++at) {
-        if (!is_digit(line[at])) continue;
+        if (!is_decimal_digit(line[at])) continue;
         const auto done = number_at(line, at);
         const std::size_t length = between_counts(std::string_view(line).substr(at));
         if (!done || length == 0) continue;
