@@ -92,10 +92,11 @@ void evaluate(AlgorithmRun& run, const PathRun& path) {
 }
 
 PathRun plane_path(const char* name, Vec3 (*goal_at)(const PathPlace&, int) noexcept, double mu,
-                   double depth_px, int updates) {
+                   double depth_px, int updates, int settling_updates) {
     PathRun path;
     path.name = name;
     path.source = kPlaneSource;
+    path.settling_updates = settling_updates;
     path.mu = mu;
     path.depth_px = depth_px;
     path.columns = kPaperColumns;
@@ -105,31 +106,10 @@ PathRun plane_path(const char* name, Vec3 (*goal_at)(const PathPlace&, int) noex
     path.reversal =
         reversal_updates(path.goals, std::vector<double>(path.goals.size(), depth_px), mu);
     path.exact_proxies = exact_plane_proxies(path.goals, kLevel, mu);
-    return path;
-}
-
-void finish_exact(PathRun& path) {
     const std::vector<char> contact(path.goals.size(), 1);
     path.exact_variation = force_variation(path.goals, path.exact_proxies, contact, path.reversal,
-                                           static_cast<std::size_t>(path.settling_updates));
-}
-
-double median_of(std::vector<double> values) {
-    return statistics_of(std::move(values)).median;
-}
-
-SweepPoint point_of(const PathRun& path, const AlgorithmRun& run) {
-    SweepPoint point;
-    point.path = path.name;
-    point.mu = path.mu;
-    point.depth_px = path.depth_px;
-    point.algorithm = run.algorithm;
-    point.variation = run.variation;
-    point.error = run.error.value_or(ExactError{});
-    point.median_us = run.time_us.median;
-    point.moves_per_update = run.moves_per_update;
-    point.bounds_met = run.bounds_met;
-    return point;
+                                           static_cast<std::size_t>(settling_updates));
+    return path;
 }
 
 bool same_cell(const SweepPoint& a, const SweepPoint& b) {
@@ -148,18 +128,14 @@ DepthClip paper_plane() {
 }
 
 PathRun linear_path(double mu, double depth_px, int updates) {
-    PathRun path = plane_path("linear", &linear_goal, mu, depth_px, updates);
-    finish_exact(path);
-    return path;
+    return plane_path("linear", &linear_goal, mu, depth_px, updates, 0);
 }
 
 PathRun circle_path(double mu, double depth_px, int updates) {
-    PathRun path = plane_path("circle", &circle_goal, mu, depth_px, updates);
     // The first revolution: until then the proxy spirals into its orbit.
-    path.settling_updates =
+    const int settling_updates =
         static_cast<int>(std::ceil(2.0 * std::numbers::pi * kRadius_px / kHandStep_px)) + 1;
-    finish_exact(path);
-    return path;
+    return plane_path("circle", &circle_goal, mu, depth_px, updates, settling_updates);
 }
 
 void survey_path(PathRun& path, const DepthClip& clip) {
@@ -206,7 +182,7 @@ void run_algorithms(PathRun& path, const DepthClip& clip, std::span<const Algori
         }
     }
     for (std::size_t a = 0; a < algorithms.size(); ++a) {
-        runs[a].whole_run_us = median_of(whole_us[a]);
+        runs[a].whole_run_us = statistics_of(std::move(whole_us[a])).median;
         evaluate(runs[a], path);
     }
     path.runs = std::move(runs);
@@ -236,7 +212,9 @@ std::vector<SweepPoint> run_sweep(const SweepRange& range, std::span<const Algor
             for (const double depth_px : range.depths_px) {
                 PathRun path = make_path(mu, depth_px, range.updates);
                 run_algorithms(path, plane, algorithms, Timing::quick);
-                for (const AlgorithmRun& run : path.runs) points.push_back(point_of(path, run));
+                for (const AlgorithmRun& run : path.runs) {
+                    points.push_back({path.name, path.mu, path.depth_px, run});
+                }
                 ++done;
                 if (progress) progress(static_cast<double>(done) / static_cast<double>(cells));
             }
@@ -250,11 +228,11 @@ std::vector<SweepPoint> not_rougher_than_dibhr(std::span<const SweepPoint> point
     constexpr double kRoundOff_deg = 1e-9;
     std::vector<SweepPoint> found;
     for (const SweepPoint& ours : points) {
-        if (ours.algorithm != Algorithm::dibhr) continue;
+        if (ours.run.algorithm != Algorithm::dibhr) continue;
         for (const SweepPoint& other : points) {
-            if (other.algorithm == Algorithm::dibhr || !same_cell(ours, other)) continue;
-            const double rougher_deg = other.variation.mean_without_reversals_deg -
-                                       ours.variation.mean_without_reversals_deg;
+            if (other.run.algorithm == Algorithm::dibhr || !same_cell(ours, other)) continue;
+            const double rougher_deg = other.run.variation.mean_without_reversals_deg -
+                                       ours.run.variation.mean_without_reversals_deg;
             if (rougher_deg <= kRoundOff_deg) found.push_back(other);
         }
     }

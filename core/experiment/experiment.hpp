@@ -43,20 +43,23 @@ struct ExactError {
     double mean_rad{0.0};
 };
 
-/// One algorithm's way along one path; one entry an update in each vector.
-struct AlgorithmRun {
+/// What came out of one algorithm's way along one path.
+struct RunFigures {
     Algorithm algorithm{Algorithm::dibhr};
-    std::vector<Vec3> proxies{};      ///< grid space
-    std::vector<double> update_us{};  ///< each includes one reading of the clock
-    std::vector<int> moves{};         ///< primitives visited
-    std::vector<char> contact{};      ///< 1: the proxy touched the surface
-    std::uint64_t bounds_met{0};      ///< updates that ended before the proxy had caught up
-
-    SampleStatistics time_us{};  ///< of update_us
-    double whole_run_us{0.0};    ///< an update's share of a run timed as a whole, no clock in it
+    std::uint64_t bounds_met{0};  ///< updates that ended before the proxy had caught up
+    SampleStatistics time_us{};   ///< of an update; each includes one reading of the clock
+    double whole_run_us{0.0};     ///< an update's share of a run timed as a whole, no clock in it
     double moves_per_update{0.0};
     VariationStatistics variation{};
     std::optional<ExactError> error{};  ///< where there is an exact answer
+};
+
+/// That way; one entry an update in each vector.
+struct AlgorithmRun : RunFigures {
+    std::vector<Vec3> proxies{};  ///< grid space
+    std::vector<double> update_us{};
+    std::vector<int> moves{};     ///< primitives visited
+    std::vector<char> contact{};  ///< 1: the proxy touched the surface
 };
 
 /// One path of the evaluation, its goals, and every algorithm's run over them.
@@ -81,12 +84,7 @@ struct SweepPoint {
     std::string path{};  ///< linear, circle
     double mu{0.0};
     double depth_px{0.0};
-    Algorithm algorithm{Algorithm::dibhr};
-    VariationStatistics variation{};
-    ExactError error{};
-    double median_us{0.0};
-    double moves_per_update{0.0};
-    std::uint64_t bounds_met{0};
+    RunFigures run{};
 };
 
 /// Told the share done, 0 to 1, now and then.

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <random>
 #include <utility>
@@ -22,21 +21,12 @@ constexpr double kHighest16Bit = 65535.0;
 constexpr float kFlat8Bit = 100.0F;
 constexpr int kFlat16Bit = 25700;  // 100 of 255
 constexpr double kFlat_px = 100.0;
+constexpr unsigned kSeed = 5;  // of bits that are the standard's: the same image everywhere
 
 /// Between two rows of VERTEXes: along one all algorithms have it easier than a hand makes it.
 constexpr double kOffRow_px = 0.37;
 
 using GoalAt = Vec3 (*)(const PathPlace&, int) noexcept;
-
-/// The generator's bits are the standard's: the same image everywhere.
-class Dice {
-  public:
-    /// From 0 to `count` - 1.
-    int below(unsigned count) { return static_cast<int>(bits_() % count); }
-
-  private:
-    std::mt19937 bits_{5};
-};
 
 DepthImage flat_image(int columns, int rows) {
     return image_of(columns, rows, kHighest8Bit, [](int, int) { return kFlat8Bit; });
@@ -96,10 +86,9 @@ Ground large_bit_flat() {
 }
 
 Ground near_flat() {
-    Dice dice;
-    return ground_of("near-flat",
-                     still(image_of(kPaperColumns, kPaperRows, kHighest16Bit,
-                                    [&](int, int) { return kFlat16Bit - 1 + dice.below(3); })));
+    std::mt19937 bits(kSeed);
+    const auto level = [&bits](int, int) { return kFlat16Bit - 1 + static_cast<int>(bits() % 3); };
+    return ground_of("near-flat", still(image_of(kPaperColumns, kPaperRows, kHighest16Bit, level)));
 }
 
 Ground bumpy() {
@@ -112,12 +101,12 @@ Ground bumpy() {
 
 Ground bump_mapped() {
     constexpr double kRoughness_px = 2.0;
-    Dice dice;
+    std::mt19937 bits(kSeed);
     BumpMap bump{kPaperColumns, kPaperRows, {}};
     bump.heights.resize(static_cast<std::size_t>(bump.columns) *
                         static_cast<std::size_t>(bump.rows));
     for (float& height : bump.heights) {
-        height = static_cast<float>(dice.below(256)) / static_cast<float>(kHighest8Bit);
+        height = static_cast<float>(bits() % 256) / static_cast<float>(kHighest8Bit);
     }
     stretch(bump, kPaperColumns, kPaperRows);
     return ground_of("bump map", still(flat_image(kPaperColumns, kPaperRows),

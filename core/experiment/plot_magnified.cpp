@@ -21,10 +21,6 @@ constexpr std::size_t kAround = 60;  // updates before and after: less than half
 constexpr double kWidest_px = 160.0;
 constexpr double kWidestWithCells_px = 64.0;
 
-Vec2 from_above(Vec3 p) {
-    return {p.x, p.y};
-}
-
 Axes axes_of(Box area, const MagnifiedPlace& place) {
     const double half = place.side_px / 2.0;
     return {area, Axis{{place.centre.x - half, place.centre.x + half}, "x [px]"},
@@ -54,12 +50,17 @@ void draw_cells(Canvas& canvas, const Axes& axes, const MagnifiedPlace& place, b
     }
 }
 
-std::vector<Vec2> way_of(const Axes& axes, std::span<const Vec3> points,
-                         const MagnifiedPlace& place) {
+UpdateSpan updates_around(const MagnifiedPlace& place, const PathRun& path) {
+    return {place.update > kAround ? place.update - kAround : 0,
+            std::min(path.goals.size(), place.update + kAround + 1)};
+}
+
+/// Seen from above.
+std::vector<Vec2> way_of(const Axes& axes, std::span<const Vec3> points, UpdateSpan updates) {
     std::vector<Vec2> way;
-    const std::size_t first = place.update > kAround ? place.update - kAround : 0;
-    const std::size_t end = std::min(points.size(), place.update + kAround + 1);
-    for (std::size_t k = first; k < end; ++k) way.push_back(axes.at(from_above(points[k])));
+    for (std::size_t k = updates.first; k < updates.end; ++k) {
+        way.push_back(axes.at(Vec2(points[k])));
+    }
     return way;
 }
 
@@ -90,9 +91,9 @@ void draw_way(Canvas& canvas, const std::vector<Vec2>& way, const SeriesLook& lo
 
 /// From the goal of one update to where each proxy was, and the disc friction lets it rest in.
 void draw_springs(Canvas& canvas, const Axes& axes, const PathRun& path, std::size_t update) {
-    const Vec2 goal = axes.at(from_above(path.goals[update]));
+    const Vec2 goal = axes.at(Vec2(path.goals[update]));
     for (auto run = path.runs.rbegin(); run != path.runs.rend(); ++run) {  // the first on top
-        canvas.line(goal, axes.at(from_above(run->proxies[update])),
+        canvas.line(goal, axes.at(Vec2(run->proxies[update])),
                     {look_of(run->algorithm).stroke.ink, 1.5, Dash::solid});
     }
     if (!path.exact_proxies.empty()) {
@@ -107,8 +108,8 @@ void draw_springs(Canvas& canvas, const Axes& axes, const PathRun& path, std::si
 double separation_px(const PathRun& path, std::size_t update) {
     double apart = 0.0;
     for (const AlgorithmRun& run : path.runs) {
-        apart += glm::distance(from_above(run.proxies[update]),
-                               from_above(path.runs.front().proxies[update]));
+        apart += glm::distance(Vec2(run.proxies[update]),
+                               Vec2(path.runs.front().proxies[update]));
     }
     return apart;
 }
@@ -128,11 +129,11 @@ double mean_step_px(const PathRun& path, UpdateSpan updates) {
 
 /// Centres the place on the goal and the proxies of its update, with room around them.
 void frame(const PathRun& path, MagnifiedPlace& place) {
-    Vec2 low = from_above(path.goals[place.update]);
+    Vec2 low = Vec2(path.goals[place.update]);
     Vec2 high = low;
     for (const AlgorithmRun& run : path.runs) {
-        low = glm::min(low, from_above(run.proxies[place.update]));
-        high = glm::max(high, from_above(run.proxies[place.update]));
+        low = glm::min(low, Vec2(run.proxies[place.update]));
+        high = glm::max(high, Vec2(run.proxies[place.update]));
     }
     place.centre = (low + high) / 2.0;
     const double extent = std::max(high.x - low.x, high.y - low.y);
@@ -154,15 +155,6 @@ bool is_long(const PathRun& path) {
     return path.exact_proxies.empty();
 }
 
-std::vector<Vec2> way_from_above(const Axes& axes, const std::vector<Vec3>& points,
-                                 UpdateSpan updates) {
-    std::vector<Vec2> way;
-    for (std::size_t k = updates.first; k < updates.end; ++k) {
-        way.push_back(axes.at(points[k].x, points[k].y));
-    }
-    return way;
-}
-
 std::string overview_words(const PathRun& path) {
     const UpdateSpan shown = shown_updates(path);
     const std::string seconds = tick_text(seconds_of(shown.end - shown.first)) + " s from above";
@@ -182,7 +174,7 @@ void draw_overview(Canvas& canvas, Box area, const PathRun& path, const Magnifie
         if (is_long(path) && run + 1 != path.runs.rend()) continue;
         Stroke stroke = look_of(run->algorithm).stroke;
         if (is_long(path)) stroke.width_px = 1.0;
-        canvas.polyline(way_from_above(axes, run->proxies, shown), stroke);
+        canvas.polyline(way_of(axes, run->proxies, shown), stroke);
     }
     const double half = place.side_px / 2.0;
     const Vec2 first = axes.at(place.centre - half);
@@ -232,10 +224,10 @@ MagnifiedPlace typical_place(const PathRun& path) {
 
 std::size_t updates_a_marker(const PathRun& path, const MagnifiedPlace& place) {
     constexpr double kMarkersAcross = 28.0;
-    const std::size_t end = std::min(path.goals.size(), place.update + kAround + 1);
+    const std::size_t end = updates_around(place, path).end;
     double gone = 0.0;
     for (std::size_t k = place.update + 1; k < end; ++k) {
-        gone += glm::distance(from_above(path.goals[k - 1]), from_above(path.goals[k]));
+        gone += glm::distance(Vec2(path.goals[k - 1]), Vec2(path.goals[k]));
     }
     const double apart = place.side_px / kMarkersAcross;
     const double steps = static_cast<double>(std::max<std::size_t>(end - place.update, 2) - 1);
@@ -251,11 +243,14 @@ void draw_magnified(Canvas& canvas, Box area, const PathRun& path, const Magnifi
     canvas.fill(area, kPlotGround);
     if (under != nullptr) canvas.picture(*under, box_of_image(axes, path), 0.55);
     if (place.side_px <= kWidestWithCells_px) draw_cells(canvas, axes, place, under != nullptr);
-    canvas.polyline(way_of(axes, path.exact_proxies, place), look_of_exact().stroke);
-    draw_way(canvas, way_of(axes, path.goals, place), look_of_goal(), step);
+    const UpdateSpan around = updates_around(place, path);
+    if (!path.exact_proxies.empty()) {
+        canvas.polyline(way_of(axes, path.exact_proxies, around), look_of_exact().stroke);
+    }
+    draw_way(canvas, way_of(axes, path.goals, around), look_of_goal(), step);
     draw_springs(canvas, axes, path, place.update);
     for (auto run = path.runs.rbegin(); run != path.runs.rend(); ++run) {
-        draw_way(canvas, way_of(axes, run->proxies, place), look_of(run->algorithm), step);
+        draw_way(canvas, way_of(axes, run->proxies, around), look_of(run->algorithm), step);
     }
     canvas.clip_to_whole();
     axes.draw_frame(canvas);

@@ -48,12 +48,14 @@ struct Quantity {
 
 constexpr std::array kQuantities{
     Quantity{"turn an update, mean [deg]",
-             [](const SweepPoint& p) { return p.variation.mean_deg; },
+             [](const SweepPoint& p) { return p.run.variation.mean_deg; },
              {0.1, 100.0},
              0.1,
              true},
     Quantity{"error of the force, mean [deg]",
-             [](const SweepPoint& p) { return glm::degrees(p.error.mean_rad); },
+             [](const SweepPoint& p) {
+                 return glm::degrees(p.run.error.value_or(ExactError{}).mean_rad);
+             },
              {2e-16, 100.0},
              1e-15,
              false},
@@ -82,8 +84,9 @@ std::vector<Vec2> series_of(const std::vector<SweepPoint>& points, double depth_
                             Algorithm algorithm, const Quantity& quantity) {
     std::vector<Vec2> series;
     for (const SweepPoint& point : points) {
-        if (point.path != "circle" || point.depth_px != depth_px || point.algorithm != algorithm)
-            continue;
+        const bool shown = point.path == "circle" && point.depth_px == depth_px &&
+                           point.run.algorithm == algorithm;
+        if (!shown) continue;
         series.emplace_back(point.mu, std::max(quantity.of(point), quantity.least));
     }
     std::sort(series.begin(), series.end(), [](Vec2 a, Vec2 b) { return a.x < b.x; });
@@ -128,7 +131,7 @@ void draw_algorithm(Canvas& canvas, const Axes& axes, const std::vector<Vec2>& s
 /// Drawn from the back: the first one listed, DIBHR, comes on top.
 std::vector<Algorithm> from_the_back(const std::vector<SweepPoint>& points) {
     std::set<Algorithm> all;
-    for (const SweepPoint& point : points) all.insert(point.algorithm);
+    for (const SweepPoint& point : points) all.insert(point.run.algorithm);
     return {all.rbegin(), all.rend()};
 }
 

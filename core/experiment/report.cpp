@@ -5,9 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <iomanip>
 #include <sstream>
-#include <utility>
 
 #include <glm/trigonometric.hpp>
 
@@ -19,8 +17,8 @@ namespace dibhr {
 
 namespace {
 
-constexpr int kNameWidth = 16;
-constexpr int kPaperWidth = 15;
+constexpr std::size_t kNameWidth = 16;
+constexpr std::size_t kPaperWidth = 15;
 
 /// Short for the large, telling for the small: 0, 3.1e-14, 0.0123, 12.3.
 std::string short_number(double value) {
@@ -38,16 +36,17 @@ std::string mean_and_sd(double mean_deg, double sd_deg) {
     return degrees_text(mean_deg) + " (" + degrees_text(sd_deg) + ")";
 }
 
-std::string right(const std::string& text, int width) {
-    const auto size = static_cast<int>(text.size());
-    return size >= width ? " " + text
-                         : std::string(static_cast<std::size_t>(width - size), ' ') + text;
+/// At least one.
+std::string blanks_beside(const std::string& text, std::size_t width) {
+    return std::string(text.size() < width ? width - text.size() : 1, ' ');
 }
 
-std::string left(const std::string& text, int width) {
-    const auto size = static_cast<int>(text.size());
-    return size >= width ? text + " "
-                         : text + std::string(static_cast<std::size_t>(width - size), ' ');
+std::string right(const std::string& text, std::size_t width) {
+    return blanks_beside(text, width) + text;
+}
+
+std::string left(const std::string& text, std::size_t width) {
+    return text + blanks_beside(text, width);
 }
 
 std::string name_cell(const AlgorithmRun& run) {
@@ -140,18 +139,19 @@ struct SweepSummary {
     std::uint64_t bounds_met{0};
 
     void add(const SweepPoint& point) {
-        least_deg = std::min(least_deg, point.variation.mean_without_reversals_deg);
-        most_deg = std::max(most_deg, point.variation.mean_without_reversals_deg);
-        most_px = std::max(most_px, point.error.max_px);
-        most_error_deg = std::max(most_error_deg, glm::degrees(point.error.max_rad));
-        bounds_met += point.bounds_met;
+        const ExactError error = point.run.error.value_or(ExactError{});
+        least_deg = std::min(least_deg, point.run.variation.mean_without_reversals_deg);
+        most_deg = std::max(most_deg, point.run.variation.mean_without_reversals_deg);
+        most_px = std::max(most_px, error.max_px);
+        most_error_deg = std::max(most_error_deg, glm::degrees(error.max_rad));
+        bounds_met += point.run.bounds_met;
     }
 };
 
 /// How many of `points` are of one path and algorithm.
 std::size_t count_of(const char* path, Algorithm algorithm, std::span<const SweepPoint> points) {
     const auto count = std::count_if(points.begin(), points.end(), [&](const SweepPoint& point) {
-        return point.path == path && point.algorithm == algorithm;
+        return point.path == path && point.run.algorithm == algorithm;
     });
     return static_cast<std::size_t>(count);
 }
@@ -160,7 +160,7 @@ std::string sweep_row(const char* path, Algorithm algorithm, std::span<const Swe
                       std::span<const SweepPoint> smooth) {
     SweepSummary summary;
     for (const SweepPoint& point : points) {
-        if (point.path == path && point.algorithm == algorithm) summary.add(point);
+        if (point.path == path && point.run.algorithm == algorithm) summary.add(point);
     }
     const std::size_t cells = count_of(path, algorithm, points);
     if (cells == 0) return {};
@@ -235,8 +235,6 @@ Json run_json(const PathRun& path, const AlgorithmRun& run) {
 }
 
 Json path_json(const PathRun& path) {
-    Json runs = Json::array();
-    for (const AlgorithmRun& run : path.runs) runs.push_back(run_json(path, run));
     return {{"path", path.name},
             {"source", path.source},
             {"mu", path.mu},
@@ -248,23 +246,25 @@ Json path_json(const PathRun& path) {
             {"reversal_updates", std::count(path.reversal.begin(), path.reversal.end(), char{1})},
             {"exact_variation_deg",
              path.exact_proxies.empty() ? Json() : variation_json(path.exact_variation)},
-            {"runs", std::move(runs)}};
+            {"runs", json_list(path.runs, [&path](const AlgorithmRun& run) {
+                 return run_json(path, run);
+             })}};
 }
 
 Json cell_json(const SweepPoint& point) {
     return {{"path", point.path},
             {"mu", point.mu},
             {"depth_px", point.depth_px},
-            {"algorithm", name_of(point.algorithm)}};
+            {"algorithm", name_of(point.run.algorithm)}};
 }
 
 Json point_json(const SweepPoint& point) {
     Json json = cell_json(point);
-    json["median_us"] = point.median_us;
-    json["moves_per_update"] = point.moves_per_update;
-    json["bounds_met"] = point.bounds_met;
-    json["variation_deg"] = variation_json(point.variation);
-    json["error"] = error_json(point.error);
+    json["median_us"] = point.run.time_us.median;
+    json["moves_per_update"] = point.run.moves_per_update;
+    json["bounds_met"] = point.run.bounds_met;
+    json["variation_deg"] = variation_json(point.run.variation);
+    json["error"] = error_json(point.run.error.value_or(ExactError{}));
     return json;
 }
 
@@ -314,22 +314,15 @@ std::optional<PaperResult> paper_result(std::string_view path, Algorithm algorit
 }
 
 std::string json_of(std::span<const PathRun> paths, double clock_us) {
-    Json list = Json::array();
-    for (const PathRun& path : paths) list.push_back(path_json(path));
-    return json_text({{"clock_us", clock_us}, {"paths", std::move(list)}});
+    return json_text({{"clock_us", clock_us}, {"paths", json_list(paths, path_json)}});
 }
 
 std::string sweep_json_of(std::span<const SweepPoint> points, int updates, double clock_us) {
-    Json list = Json::array();
-    Json smooth = Json::array();
-    for (const SweepPoint& point : points) list.push_back(point_json(point));
-    for (const SweepPoint& point : not_rougher_than_dibhr(points)) {
-        smooth.push_back(cell_json(point));
-    }
-    return json_text({{"clock_us", clock_us},
-                      {"updates", updates},
-                      {"points", std::move(list)},
-                      {"not_rougher_than_dibhr", std::move(smooth)}});
+    return json_text(
+        {{"clock_us", clock_us},
+         {"updates", updates},
+         {"points", json_list(points, point_json)},
+         {"not_rougher_than_dibhr", json_list(not_rougher_than_dibhr(points), cell_json)}});
 }
 
 }  // namespace dibhr

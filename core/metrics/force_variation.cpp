@@ -9,14 +9,6 @@
 
 namespace dibhr {
 
-namespace {
-
-Vec2 along_image(Vec3 v) noexcept {
-    return {v.x, v.y};
-}
-
-}  // namespace
-
 double angle_between_rad(Vec3 a, Vec3 b) noexcept {
     // Not the arc cosine, which rounds angles below 1e-8 away.
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
@@ -26,20 +18,20 @@ std::vector<char> reversal_updates(std::span<const Vec3> goals, std::span<const 
                                    double mu) {
     std::vector<char> reversal(goals.size(), 0);
     if (goals.empty()) return reversal;
-    Vec2 turn = along_image(goals[0]);
-    Vec2 heading{0.0};  // the last step that was one: a pause is no turn
+    Vec2 turn(goals[0]);  // along the image
+    Vec2 heading{0.0};    // the last step that was one: a pause is no turn
     bool reversing = true;
     reversal[0] = 1;
     for (std::size_t k = 1; k < goals.size(); ++k) {
-        const Vec2 step = along_image(goals[k] - goals[k - 1]);
+        const Vec2 step(goals[k] - goals[k - 1]);
         if (glm::dot(step, heading) < 0.0) {
-            turn = along_image(goals[k - 1]);
+            turn = Vec2(goals[k - 1]);
             reversing = true;
         }
         if (step != Vec2(0.0)) heading = step;
         reversal[k] = reversing ? 1 : 0;
         const double dragged_px = 2.0 * mu * std::max(depths_px[k], 0.0);
-        if (glm::length(along_image(goals[k]) - turn) >= dragged_px) reversing = false;
+        if (glm::length(Vec2(goals[k]) - turn) >= dragged_px) reversing = false;
     }
     return reversal;
 }

@@ -180,9 +180,10 @@ TEST_CASE("the sweep holds every path, friction, depth and algorithm once", "[sw
     const auto points = run_sweep(range, all_algorithms());
     CHECK(points.size() == 2 * 2 * 2 * all_algorithms().size());
     for (const SweepPoint& point : points) {
-        if (point.algorithm != Algorithm::dibhr) continue;
-        CHECK(point.error.max_px <= kExact);
-        CHECK(point.error.max_rad <= kExact);
+        if (point.run.algorithm != Algorithm::dibhr) continue;
+        REQUIRE(point.run.error.has_value());
+        CHECK(point.run.error->max_px <= kExact);
+        CHECK(point.run.error->max_rad <= kExact);
     }
 }
 
@@ -192,23 +193,23 @@ TEST_CASE("on the circle PGA and Neighborhood turn the force more than DIBHR", "
     const SweepRange range{{0.1, 0.4, 1.0}, {2.0, 20.0, 60.0}, 1000};
     std::vector<std::string> smooth;
     for (const SweepPoint& point : not_rougher_than_dibhr(run_sweep(range, algorithms))) {
-        if (point.path == "circle") smooth.emplace_back(name_of(point.algorithm));
+        if (point.path == "circle") smooth.emplace_back(name_of(point.run.algorithm));
     }
     CHECK(smooth.empty());
 }
 
 TEST_CASE("what is as smooth as DIBHR is found", "[sweep]") {
     SweepPoint ours{"circle", 0.4, 20.0};
-    ours.variation.mean_without_reversals_deg = 0.5;
+    ours.run.variation.mean_without_reversals_deg = 0.5;
     SweepPoint rough = ours;
-    rough.algorithm = Algorithm::pga;
-    rough.variation.mean_without_reversals_deg = 0.6;
+    rough.run.algorithm = Algorithm::pga;
+    rough.run.variation.mean_without_reversals_deg = 0.6;
     SweepPoint smooth = ours;
-    smooth.algorithm = Algorithm::neighborhood;
+    smooth.run.algorithm = Algorithm::neighborhood;
     SweepPoint elsewhere = smooth;
     elsewhere.mu = 0.5;
     const std::vector<SweepPoint> points{rough, smooth, elsewhere, ours};
     const auto found = not_rougher_than_dibhr(points);
     REQUIRE(found.size() == 1);
-    CHECK(found[0].algorithm == Algorithm::neighborhood);
+    CHECK(found[0].run.algorithm == Algorithm::neighborhood);
 }

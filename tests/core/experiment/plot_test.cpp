@@ -239,9 +239,9 @@ TEST_CASE("the sweep's picture shows each algorithm that was swept, and no point
             point.path = "circle";
             point.mu = mu;
             point.depth_px = depth;
-            point.algorithm = Algorithm::neighborhood;
-            point.variation.mean_deg = 20.0 / depth;
-            point.error.mean_rad = 0.1 / depth;
+            point.run.algorithm = Algorithm::neighborhood;
+            point.run.variation.mean_deg = 20.0 / depth;
+            point.run.error = ExactError{.mean_rad = 0.1 / depth};
             points.push_back(point);
         }
     }
