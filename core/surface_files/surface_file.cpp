@@ -9,18 +9,25 @@
 
 namespace dibhr {
 
+namespace {
+
+struct Form {
+    std::string_view name;
+    void (*write)(const FeltSurface&, OutputFile&);
+};
+
+/// In the order of SurfaceFormat.
+constexpr Form kForms[]{
+    {"pfm", write_pfm}, {"png", write_relief_png}, {"ply", write_ply}, {"stl", write_stl}};
+
+const Form& form_of(SurfaceFormat format) noexcept {
+    return kForms[static_cast<std::size_t>(format)];
+}
+
+}  // namespace
+
 std::string_view name_of(SurfaceFormat format) noexcept {
-    switch (format) {
-        case SurfaceFormat::pfm:
-            return "pfm";
-        case SurfaceFormat::png:
-            return "png";
-        case SurfaceFormat::ply:
-            return "ply";
-        case SurfaceFormat::stl:
-            break;
-    }
-    return "stl";
+    return form_of(format).name;
 }
 
 std::optional<SurfaceFormat> surface_format_of(const std::filesystem::path& file) {
@@ -61,16 +68,7 @@ void write_pfm(const FeltSurface& felt, OutputFile& file) {
 }
 
 void write_surface(const FeltSurface& felt, SurfaceFormat format, OutputFile& file) {
-    switch (format) {
-        case SurfaceFormat::pfm:
-            return write_pfm(felt, file);
-        case SurfaceFormat::png:
-            return write_relief_png(felt, file);
-        case SurfaceFormat::ply:
-            return write_ply(felt, file);
-        case SurfaceFormat::stl:
-            return write_stl(felt, file);
-    }
+    form_of(format).write(felt, file);
 }
 
 }  // namespace dibhr
