@@ -9,7 +9,7 @@
 #include "app/panels/device_state.hpp"
 #include "app/viewer/picture_time.hpp"
 #include "app/viewer/scene.hpp"
-#include "app/window/display_loss.hpp"
+#include "app/window/x_server.hpp"
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/realtime/now.hpp"

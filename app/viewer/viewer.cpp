@@ -12,7 +12,7 @@
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 #include "app/viewer/picture_time.hpp"
-#include "app/window/display_loss.hpp"
+#include "app/window/x_server.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/surface.hpp"
 #include "render/drawing_threads.hpp"

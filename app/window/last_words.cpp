@@ -39,11 +39,8 @@ class Line {
 }  // namespace
 
 void LastWords::recording(const std::filesystem::path& file) {
-    if (file.empty()) {
-        recording_.store(nullptr, std::memory_order_release);
-        return;
-    }
-    recording_.store(&files_.emplace_back(file.string()), std::memory_order_release);
+    recording_.store(file.empty() ? nullptr : &files_.emplace_back(file.string()),
+                     std::memory_order_release);
 }
 
 void LastWords::clip(const std::filesystem::path& part, const std::filesystem::path& file,

@@ -8,14 +8,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <thread>
 #include <utility>
 
 #include "app/settings/settings.hpp"
-#include "app/window/covered.hpp"
-#include "app/window/display_loss.hpp"
 #include "app/window/glfw_native.hpp"
+#include "app/window/x_server.hpp"
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 

@@ -1,4 +1,6 @@
-#include "app/window/covered.hpp"
+// Asks through Xlib, to which GLFW (3.3 and 3.4) leaves the end of the X server: Xlib would print a
+// line of its own and call exit().
+#include "app/window/x_server.hpp"
 
 #include <algorithm>
 #include <array>
@@ -52,6 +54,21 @@ bool is_covered(unsigned long x11_window, int width, int height) {
                               point[1] * height / 4, &x, &y, &topmost);
         return topmost == frame;
     });
+}
+
+void when_display_goes(const std::function<void()>& act) {
+    Display* const display = x11_display();
+    if (display == nullptr) return;
+    XSetIOErrorHandler([](Display*) { return 0; });  // which would print
+    const auto call = [](Display*, void* act_to_call) {
+        (*static_cast<const std::function<void()>*>(act_to_call))();
+    };
+    XSetIOErrorExitHandler(display, call, const_cast<std::function<void()>*>(&act));
+}
+
+int display_connection() {
+    Display* const display = x11_display();
+    return display == nullptr ? -1 : ConnectionNumber(display);
 }
 
 }  // namespace dibhr
