@@ -20,13 +20,6 @@ namespace {
 constexpr double kLookForPads_s = 0.5;
 constexpr double kTell_s = 0.01;
 
-/// That pads are to be served.
-struct PadsWanted {
-    bool on{false};
-
-    bool operator==(const PadsWanted&) const = default;
-};
-
 }  // namespace
 
 /// What the thread does, and all that it needs for it.
@@ -38,7 +31,7 @@ class PadOutput::Work {
     [[nodiscard]] PadNews news() const;
 
     std::shared_ptr<TouchSource> source;
-    Wishes<PadsWanted> wishes{};
+    Wishes<bool> wishes{};                    // that pads are served
     TripleBuffer<SoundMaterial> materials{};  // the window thread's and this one's
     std::atomic<bool> coils_move{false};
 
@@ -66,7 +59,7 @@ void PadOutput::Work::run() {
 
 void PadOutput::Work::wait_without() {
     say({.state = PadNews::State::no_session});
-    while (wishes.holds_for({.on = true}, kLookForPads_s)) continue;
+    while (wishes.holds_for(true, kLookForPads_s)) continue;
 }
 
 void PadOutput::Work::serve() {
@@ -86,7 +79,7 @@ void PadOutput::Work::serve() {
         pads.turn(rumble.after(step_s), coils_move);
         step_s = pads.empty() ? kLookForPads_s : kTell_s;
         not_looked_s += step_s;
-    } while (wishes.holds_for({.on = true}, step_s));
+    } while (wishes.holds_for(true, step_s));
 }
 
 void PadOutput::Work::say(PadNews news) {
@@ -120,7 +113,7 @@ void PadOutput::choose(const SoundMaterial& material, bool on, bool coils_move) 
         work_->materials.publish(material);
     }
     work_->coils_move = coils_move;
-    work_->wishes.wish({.on = on});
+    work_->wishes.wish(on);
 }
 
 PadNews PadOutput::news() const {

@@ -39,7 +39,7 @@ class Playing {
         // Not SDL_InitSubSystem, which looks for D-Bus, and may copy the whole process for that.
         if (SDL_AudioInit(nullptr) != 0) return;
         initialised_ = true;
-        if (wish.speaker) speaker_.emplace(heard.source->ticks, heard.by_speaker);
+        if (wish.speaker) speaker_.emplace(nullptr, heard.source->ticks, heard.by_speaker);
         if (const auto device = new_coils()) {
             coils_.emplace(device->c_str(), heard.source->ticks, heard.by_coils);
             refused_ = !coils_->plays();

@@ -22,37 +22,31 @@ constexpr int kCoilChannels = 6;
 
 }  // namespace
 
-SoundStream::SoundStream(const SoundRing& ticks, TripleBuffer<SoundChoice>& choices)
-    : ticks_(ticks), choices_(choices) {
-    open(nullptr, 1, SDL_AUDIO_ALLOW_FREQUENCY_CHANGE);
-}
-
-SoundStream::SoundStream(const char* device, const SoundRing& ticks,
+SoundStream::SoundStream(const char* coils, const SoundRing& ticks,
                          TripleBuffer<SoundChoice>& choices)
     : ticks_(ticks), choices_(choices) {
-    open(device, kCoilChannels, SDL_AUDIO_ALLOW_FREQUENCY_CHANGE | SDL_AUDIO_ALLOW_CHANNELS_CHANGE);
-}
-
-SoundStream::~SoundStream() {
-    if (device_ != 0) SDL_CloseAudioDevice(device_);
-}
-
-void SoundStream::open(const char* device, int channels, int allowed_changes) {
+    const bool is_pad = coils != nullptr;
     SDL_AudioSpec wanted{};
     wanted.freq = kRate_hz;
     wanted.format = AUDIO_F32SYS;
-    wanted.channels = static_cast<Uint8>(channels);
+    wanted.channels = static_cast<Uint8>(is_pad ? kCoilChannels : 1);
     wanted.samples = kBlock;
     wanted.callback = &SoundStream::fill;
     wanted.userdata = this;
     SDL_AudioSpec given{};
-    device_ = SDL_OpenAudioDevice(device, 0, &wanted, &given, allowed_changes);
+    device_ = SDL_OpenAudioDevice(
+        coils, 0, &wanted, &given,
+        SDL_AUDIO_ALLOW_FREQUENCY_CHANGE | (is_pad ? SDL_AUDIO_ALLOW_CHANNELS_CHANGE : 0));
     if (device_ == 0) return;
-    if (channels > 1 && given.channels < kFewestCoilChannels) return;  // it stays silent
+    if (is_pad && given.channels < kFewestCoilChannels) return;  // it stays silent
     channels_ = given.channels;
     mono_.resize(given.samples);
     sound_.emplace(given.freq);
     SDL_PauseAudioDevice(device_, 0);
+}
+
+SoundStream::~SoundStream() {
+    if (device_ != 0) SDL_CloseAudioDevice(device_);
 }
 
 bool SoundStream::plays() const {

@@ -16,10 +16,9 @@ namespace dibhr {
 /// outlive it.
 class SoundStream {
   public:
-    /// One channel, on the device that the machine plays sounds on.
-    SoundStream(const SoundRing& ticks, TripleBuffer<SoundChoice>& choices);
-    /// The voice coils of the pad whose sound device is called so: nothing on its front channels.
-    SoundStream(const char* device, const SoundRing& ticks, TripleBuffer<SoundChoice>& choices);
+    /// `coils`: the voice coils of the pad whose sound device is called so, and nothing on its
+    /// front channels; null: one channel, on the device that the machine plays sounds on.
+    SoundStream(const char* coils, const SoundRing& ticks, TripleBuffer<SoundChoice>& choices);
     ~SoundStream();
     SoundStream(const SoundStream&) = delete;
     SoundStream& operator=(const SoundStream&) = delete;
@@ -28,7 +27,6 @@ class SoundStream {
     [[nodiscard]] bool plays() const;
 
   private:
-    void open(const char* device, int channels, int allowed_changes);
     static void fill(void* self, std::uint8_t* bytes, int count);
 
     // SDL's audio thread's, once it plays.
