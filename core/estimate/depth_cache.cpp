@@ -84,10 +84,6 @@ void clear_away(const fs::path& place) {
     fs::remove_all(place, failed);
 }
 
-std::size_t frames_of(const fs::path& folder, const EstimateRecord& record) {
-    return record.depth.empty() ? row_so_far(folder / "output").size() : record.colour.count();
-}
-
 }  // namespace
 
 EstimateFolder::EstimateFolder(const fs::path& cache, const std::string& colour_sha256,
@@ -145,7 +141,8 @@ std::vector<KeptEstimate> kept_estimates(const fs::path& cache) {
         KeptEstimate kept{.folder = entry.path()};
         if (const auto record = record_in(kept.folder)) {
             kept.record = *record;
-            kept.frames_there = frames_of(kept.folder, kept.record);
+            kept.frames_there = record->depth.empty() ? row_so_far(kept.folder / "output").size()
+                                                      : record->colour.count();
         }
         kept.bytes = bytes_in(kept.folder);
         all.push_back(std::move(kept));

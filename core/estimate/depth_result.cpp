@@ -190,12 +190,6 @@ bool write_video(PictureSource& source, const LevelRule& rule, const Survey& sur
     return true;
 }
 
-DepthStatement statement_of(const LevelRule& rule) {
-    DepthStatement levels{.scale = rule.step};
-    if (rule.marks_holes) levels.no_data = std::vector<double>{0.0};
-    return levels;
-}
-
 }  // namespace
 
 DepthWritten write_depth(const fs::path& output, const ColourFrames& colour, DepthUnit unit,
@@ -215,7 +209,9 @@ DepthWritten write_depth(const fs::path& output, const ColourFrames& colour, Dep
                                      PictureRole::depth)));
             else if (!write_video(*source, rule, survey, colour, file, stop, tell))
                 return {};
-            return {file, statement_of(rule)};
+            DepthStatement levels{.scale = rule.step};
+            if (rule.marks_holes) levels.no_data = std::vector<double>{0.0};
+            return {file, levels};
         } catch (const InputError& error) {
             const std::string why = error.what();
             const bool own = why.starts_with("the ");

@@ -28,13 +28,13 @@ constexpr const char* sequence_of(Paint paint) {
     return kUsual;
 }
 
-}  // namespace
-
 bool shows_colours(int descriptor) {
     const std::string_view terminal = environment_variable("TERM");
     return isatty(descriptor) == 1 && environment_variable("NO_COLOR").empty() &&
            !terminal.empty() && terminal != "dumb";
 }
+
+}  // namespace
 
 std::string painted(std::string_view text, Paint paint, int descriptor) {
     std::string result(text);

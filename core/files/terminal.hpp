@@ -8,13 +8,10 @@
 
 namespace dibhr {
 
-/// Whether that descriptor is a terminal that shows colours, and nobody said NO_COLOR
-/// (no-color.org: any value but an empty one).
-[[nodiscard]] bool shows_colours(int descriptor);
-
 enum class Paint { heading, error, warning };
 
-/// For that descriptor; where it shows no colours, the text as it is.
+/// For that descriptor; where it shows no colours, or NO_COLOR is set (no-color.org: to any value
+/// but an empty one), the text as it is.
 [[nodiscard]] std::string painted(std::string_view text, Paint paint, int descriptor);
 
 /// While it lives, all that goes into the stream has lost its control characters, but line breaks,

@@ -27,10 +27,6 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-nanoseconds upper_end_of_bin(std::size_t k) noexcept {
-    return std::chrono::microseconds(std::int64_t{1} << k);
-}
-
 // libstdc++'s steady_clock is CLOCK_MONOTONIC, so its time points are the kernel's deadlines.
 void sleep_until(std::chrono::steady_clock::time_point deadline) noexcept {
     const auto since_epoch = deadline.time_since_epoch();
@@ -47,11 +43,6 @@ void sleep_until(std::chrono::steady_clock::time_point deadline) noexcept {
 constexpr int kPriority = 80;
 constexpr std::size_t kLongestThreadName = 15;       // the kernel's limit
 constexpr std::size_t kStackTouched_bytes = 131072;  // 128 KiB
-
-void name_thread(const char* thread_name) {
-    const std::string name = std::string(thread_name).substr(0, kLongestThreadName);
-    pthread_setname_np(pthread_self(), name.c_str());
-}
 
 // Threads made by this one must not inherit the priority: SCHED_RESET_ON_FORK.
 bool set_fifo(int priority) {
@@ -132,7 +123,7 @@ nanoseconds LatenessHistogram::quantile(double q) const noexcept {
     double seen = 0.0;
     for (std::size_t k = 0; k + 1 < kBins; ++k) {
         seen += static_cast<double>(bins_[k]);
-        if (seen >= wanted && seen > 0.0) return upper_end_of_bin(k);
+        if (seen >= wanted && seen > 0.0) return std::chrono::microseconds(std::int64_t{1} << k);
     }
     return worst_;  // the last bin has no upper end of its own
 }
@@ -171,7 +162,8 @@ TickTiming TickTimer::wait() noexcept {
 }
 
 RealtimeGrants become_realtime(const char* thread_name) {
-    name_thread(thread_name);
+    const std::string name = std::string(thread_name).substr(0, kLongestThreadName);
+    pthread_setname_np(pthread_self(), name.c_str());
     prctl(PR_SET_TIMERSLACK, 1UL);  // 1 ns instead of 50 us, should the priority be refused
     RealtimeGrants grants;
     grants.priority = ask_for_priority();
