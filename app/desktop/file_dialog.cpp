@@ -20,15 +20,12 @@ bool has_session_bus() {
            std::filesystem::exists(std::filesystem::path(folder) / "bus", unknown);
 }
 
-/// The session bus then is that of the machine's own screen, where nobody may be.
-bool comes_from_afar() {
-    return !environment_variable("SSH_CONNECTION").empty();
-}
-
 }  // namespace
 
 bool has_desktop() {
-    return has_session_bus() && !comes_from_afar();
+    // From afar the session bus is that of the machine's own screen, where nobody may be.
+    const bool from_afar = !environment_variable("SSH_CONNECTION").empty();
+    return has_session_bus() && !from_afar;
 }
 
 FileAnswer ask_desktop(const FileQuestion& question, const CallOff& off) {

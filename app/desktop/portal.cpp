@@ -41,12 +41,6 @@ struct LeaveMessage {
 using Bus = std::unique_ptr<sd_bus, LeaveBus>;
 using Message = std::unique_ptr<sd_bus_message, LeaveMessage>;
 
-Bus open_bus() {
-    sd_bus* bus = nullptr;
-    if (sd_bus_open_user(&bus) < 0) return nullptr;
-    return Bus(bus);
-}
-
 /// From now on, at least 0.
 int milliseconds_to(SteadyClock::time_point time) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(time - SteadyClock::now());
@@ -265,8 +259,9 @@ bool hear_answer(sd_bus* bus, const FileQuestion& question, const CallOff& off,
 }  // namespace
 
 FileAnswer ask_portal(const FileQuestion& question, const CallOff& off, const DialogTimes& times) {
-    const Bus bus = open_bus();
-    if (!bus) return {};
+    sd_bus* opened = nullptr;
+    if (sd_bus_open_user(&opened) < 0) return {};
+    const Bus bus(opened);
     const auto begin = SteadyClock::now();
     PortalQuestion asked;
     if (hear_answer(bus.get(), question, off, times, asked))
