@@ -93,8 +93,7 @@ PadNews PadOutput::Work::news() const {
 }
 
 bool PadNews::has_coils() const {
-    return std::any_of(found.begin(), found.end(),
-                       [](const FoundPad& pad) { return pad.has_coils; });
+    return std::ranges::any_of(found, &FoundPad::has_coils);
 }
 
 PadOutput::PadOutput(const std::shared_ptr<TouchSource>& source)

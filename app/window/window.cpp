@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "app/settings/settings.hpp"
-#include "app/window/glfw_native.hpp"
 #include "app/window/x_server.hpp"
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
@@ -204,8 +203,7 @@ float Window::scale(double asked) const {
 }
 
 unsigned long Window::x11_window() const {
-    const auto window = glfw_native<unsigned long(GLFWwindow*)>("glfwGetX11Window");
-    return window == nullptr ? 0 : window(window_);
+    return x11_window_of(window_);
 }
 
 void Window::set_title(const std::string& title) {

@@ -39,6 +39,11 @@ Window frame_of(Display* display, Window window, Window root) {
 
 }  // namespace
 
+unsigned long x11_window_of(GLFWwindow* window) {
+    const auto window_of = glfw_native<Window(GLFWwindow*)>("glfwGetX11Window");
+    return window_of == nullptr ? 0 : window_of(window);
+}
+
 bool is_covered(unsigned long x11_window, int width, int height) {
     Display* const display = x11_display();
     if (display == nullptr) return false;

@@ -4,7 +4,12 @@
 
 #include <functional>
 
+struct GLFWwindow;
+
 namespace dibhr {
+
+/// The window as the X server knows it; 0 under another display server.
+[[nodiscard]] unsigned long x11_window_of(GLFWwindow* window);
 
 /// Whether another window lies over all of it: so a screen lock hides it, which takes no keyboard
 /// away and unmaps nothing. Asks at the middle of a mapped window of that size [px] and of its
