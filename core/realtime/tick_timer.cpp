@@ -141,9 +141,7 @@ TickTiming TickSchedule::begin_tick(TimePoint begin) noexcept {
     timing.lateness = std::max(nanoseconds(begin - deadline_), nanoseconds(0));
     timing.late = timing.lateness >= period_;
     if (timing.late) {
-        const auto missed = timing.lateness / period_;
-        deadline_ += missed * period_;
-        skipped_ += static_cast<std::uint64_t>(missed);
+        deadline_ += timing.lateness / period_ * period_;
         ++late_ticks_;
     }
     last_begin_ = begin;

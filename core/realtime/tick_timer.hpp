@@ -13,19 +13,17 @@ namespace dibhr {
 /// Lateness of ticks: how long after its deadline each began. Fixed memory.
 class LatenessHistogram {
   public:
-    static constexpr std::size_t kBins = 32;  ///< bin k: [2^(k-1), 2^k) microseconds; bin 0: < 1 us
-
     /// A negative lateness counts as none.
     void add(std::chrono::nanoseconds lateness) noexcept;
     [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
-    /// k < kBins; the last bin also holds everything later.
-    [[nodiscard]] std::uint64_t in_bin(std::size_t k) const noexcept { return bins_[k]; }
     [[nodiscard]] std::chrono::nanoseconds worst() const noexcept { return worst_; }
     /// The upper end of the bin that holds quantile q in [0, 1]; zero while nothing was added.
     [[nodiscard]] std::chrono::nanoseconds quantile(double q) const noexcept;
 
   private:
-    std::array<std::uint64_t, kBins> bins_{};
+    static constexpr std::size_t kBins = 32;  // bin k: [2^(k-1), 2^k) microseconds; bin 0: < 1 us
+
+    std::array<std::uint64_t, kBins> bins_{};  // the last one also holds everything later
     std::uint64_t count_{0};
     std::chrono::nanoseconds worst_{0};
 };
@@ -55,8 +53,6 @@ class TickSchedule {
 
     [[nodiscard]] std::uint64_t ticks() const noexcept { return ticks_; }
     [[nodiscard]] std::uint64_t late_ticks() const noexcept { return late_ticks_; }
-    /// Deadlines that passed without a tick of their own.
-    [[nodiscard]] std::uint64_t skipped() const noexcept { return skipped_; }
     [[nodiscard]] const LatenessHistogram& lateness() const noexcept { return histogram_; }
 
   private:
@@ -65,12 +61,11 @@ class TickSchedule {
     TimePoint last_begin_{};
     std::uint64_t ticks_{0};
     std::uint64_t late_ticks_{0};
-    std::uint64_t skipped_{0};
     LatenessHistogram histogram_{};
 };
 
 /// Sleeps to absolute deadlines (clock_nanosleep on CLOCK_MONOTONIC). Deadlines that pass during a
-/// late tick are counted, not made up for.
+/// late tick are not made up for.
 class TickTimer {
   public:
     explicit TickTimer(std::chrono::nanoseconds period = std::chrono::milliseconds(1)) noexcept;
