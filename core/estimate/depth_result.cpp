@@ -204,9 +204,9 @@ DepthWritten write_depth(const fs::path& output, const ColourFrames& colour, Dep
             const auto source = form.open();
             const fs::path file = target / (colour.still ? "depth.png" : "depth.mkv");
             if (colour.still)
-                write_file(file, encoded_png(with_square_pixels(
-                                     levels_by(rule, source->next()->picture), survey.pixel_aspect,
-                                     PictureRole::depth)));
+                write_file(
+                    file, encoded_png(with_square_pixels(levels_by(rule, source->next()->picture),
+                                                         survey.pixel_aspect, PictureRole::depth)));
             else if (!write_video(*source, rule, survey, colour, file, stop, tell))
                 return {};
             DepthStatement levels{.scale = rule.step};

@@ -66,18 +66,9 @@ std::vector<Vec2> way_of(const Axes& axes, std::span<const Vec3> points, UpdateS
 
 /// Those drawn first are larger, so that markers on one another all show.
 double marker_px(Marker marker) {
-    switch (marker) {
-        case Marker::square:
-            return 17.0;
-        case Marker::diamond:
-            return 13.0;
-        case Marker::triangle:
-            return 11.0;
-        case Marker::circle:
-        case Marker::none:
-            break;
-    }
-    return 8.0;
+    if (marker == Marker::square) return 17.0;
+    if (marker == Marker::diamond) return 13.0;
+    return marker == Marker::triangle ? 11.0 : 8.0;
 }
 
 void draw_way(Canvas& canvas, const std::vector<Vec2>& way, const SeriesLook& look,
@@ -108,8 +99,7 @@ void draw_springs(Canvas& canvas, const Axes& axes, const PathRun& path, std::si
 double separation_px(const PathRun& path, std::size_t update) {
     double apart = 0.0;
     for (const AlgorithmRun& run : path.runs) {
-        apart += glm::distance(Vec2(run.proxies[update]),
-                               Vec2(path.runs.front().proxies[update]));
+        apart += glm::distance(Vec2(run.proxies[update]), Vec2(path.runs.front().proxies[update]));
     }
     return apart;
 }

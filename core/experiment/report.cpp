@@ -246,9 +246,8 @@ Json path_json(const PathRun& path) {
             {"reversal_updates", std::count(path.reversal.begin(), path.reversal.end(), char{1})},
             {"exact_variation_deg",
              path.exact_proxies.empty() ? Json() : variation_json(path.exact_variation)},
-            {"runs", json_list(path.runs, [&path](const AlgorithmRun& run) {
-                 return run_json(path, run);
-             })}};
+            {"runs", json_list(path.runs,
+                               [&path](const AlgorithmRun& run) { return run_json(path, run); })}};
 }
 
 Json cell_json(const SweepPoint& point) {

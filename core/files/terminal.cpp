@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <string_view>
 
 #include "core/files/machine.hpp"
@@ -17,15 +18,8 @@ namespace {
 constexpr const char* kUsual = "\x1b[0m";
 
 constexpr const char* sequence_of(Paint paint) {
-    switch (paint) {
-        case Paint::heading:
-            return "\x1b[1m";
-        case Paint::error:
-            return "\x1b[1;31m";
-        case Paint::warning:
-            return "\x1b[1;33m";
-    }
-    return kUsual;
+    constexpr std::array kSequences{"\x1b[1m", "\x1b[1;31m", "\x1b[1;33m"};
+    return kSequences[static_cast<std::size_t>(paint)];
 }
 
 bool shows_colours(int descriptor) {
