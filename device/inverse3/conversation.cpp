@@ -2,12 +2,10 @@
 #include "device/inverse3/conversation.hpp"
 
 #include <algorithm>
-#include <span>
 #include <utility>
 
 #include "core/files/plain_text.hpp"
 #include "device/inverse3/dynamics.hpp"
-#include "device/inverse3/farewell.hpp"
 
 namespace dibhr::inverse3 {
 
@@ -176,8 +174,8 @@ void Conversation::say(const Order& order) {
 void Conversation::guard(const Order& order) {
     tell_guardian();
     if (guarded_in_ == order.dialect) return;
-    const Farewell last = farewell(order.arm, order.dialect);
-    link_.set_last_words(std::span(last.bytes).first(last.size));
+    const Farewell last = link_.set_last_words(memory_.writer.write(
+        {.arm = order.arm, .force_newton = Vec3{0.0}, .dialect = order.dialect}));
     if (Guardian::alarmed()) return;
     guardian_.watch(link_.descriptor(), last);
     guarded_in_ = order.dialect;

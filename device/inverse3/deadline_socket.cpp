@@ -74,9 +74,7 @@ std::size_t DeadlineSocket::read(std::span<std::uint8_t> into, std::error_code& 
             return 0;
         }
     }
-    const std::size_t fits = std::min(into.size(), to_ - from_);
-    if (fits == 0) return 0;
-    const std::size_t taken = bounds_.take({came_.data() + from_, fits});
+    const std::size_t taken = std::min(into.size(), to_ - from_);
     std::copy_n(came_.data() + from_, taken, into.data());
     from_ += taken;
     return taken;
@@ -129,7 +127,6 @@ void DeadlineSocket::close() noexcept {
     descriptor_ = -1;
     from_ = to_ = 0;
     whole_ = true;
-    bounds_ = {};
 }
 
 bool DeadlineSocket::wait_readable(const Wake* wake, Time until) const noexcept {

@@ -11,7 +11,6 @@
 #include <system_error>
 
 #include "device/hand/wake.hpp"
-#include "device/inverse3/frame_bounds.hpp"
 
 namespace dibhr::inverse3 {
 
@@ -30,8 +29,7 @@ class DeadlineSocket {
 
     /// To 127.0.0.1; small messages leave at once.
     [[nodiscard]] std::error_code connect(std::uint16_t port) noexcept;
-    /// At least one byte and at most to the end of the frame; 0 with an empty code: the other end
-    /// has closed.
+    /// At least one byte; 0 with an empty code: the other end has closed.
     [[nodiscard]] std::size_t read(std::span<std::uint8_t> into, std::error_code& error) noexcept;
     /// The parts one behind the other, in one call of the system: whoever dies leaves no half of
     /// them behind, unless there is no room.
@@ -54,7 +52,6 @@ class DeadlineSocket {
 
     int descriptor_{-1};
     Time deadline_{Time::max()};
-    FrameBounds bounds_{};
     std::array<std::uint8_t, 16384> came_{};  // and was not taken yet ...
     std::size_t from_{0};                     // ... from here
     std::size_t to_{0};                       // to here

@@ -1,5 +1,5 @@
-// WebSocket and HTTP by Boost.Beast over a socket with deadlines. Beast takes long to compile: this
-// file alone includes it.
+// WebSocket and HTTP by Boost.Beast over a socket with deadlines: every frame is made and taken
+// apart here. Beast takes long to compile: this file alone includes it.
 #include "device/inverse3/service_link.hpp"
 
 #include <boost/asio/buffer.hpp>
@@ -15,8 +15,10 @@
 
 #include <array>
 #include <exception>
+#include <limits>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "device/inverse3/deadline_socket.hpp"
 
@@ -42,10 +44,16 @@ class SocketLayer {
 
     [[nodiscard]] executor_type get_executor() noexcept { return context_->get_executor(); }
     [[nodiscard]] DeadlineSocket& socket() noexcept { return *socket_; }
+    /// The most bytes of one read, however much room there is: those that Beast lacks, so that
+    /// nothing is read ahead.
+    void set_longest_read(std::size_t bytes) noexcept { longest_read_ = bytes; }
+    /// From now on what is written goes there and not to the socket; null: to the socket.
+    void write_into(std::vector<std::uint8_t>* frame) noexcept { frame_ = frame; }
 
     template <typename Buffers>
     std::size_t read_some(const Buffers& buffers, error_code& error) {
-        const boost::asio::mutable_buffer first = first_of(buffers);
+        const boost::asio::mutable_buffer first =
+            boost::asio::buffer(first_of(buffers), longest_read_);
         if (first.size() == 0) {
             error = {};
             return 0;
@@ -74,8 +82,11 @@ class SocketLayer {
             const boost::asio::const_buffer buffer(*it);
             parts[count++] = {const_cast<void*>(buffer.data()), buffer.size()};
         }
+        const auto written = std::span(parts).first(count);
+        error = {};
+        if (frame_ != nullptr) return add_to_frame(written);
         std::error_code failure;
-        const std::size_t gone = socket_->write(std::span(parts).first(count), failure);
+        const std::size_t gone = socket_->write(written, failure);
         error = as_boost(failure);
         return gone;
     }
@@ -100,8 +111,33 @@ class SocketLayer {
         return {};
     }
 
+    std::size_t add_to_frame(std::span<const iovec> parts) {
+        const std::size_t before = frame_->size();
+        for (const iovec& part : parts) {
+            const auto* const begin = static_cast<const std::uint8_t*>(part.iov_base);
+            frame_->insert(frame_->end(), begin, begin + part.iov_len);
+        }
+        return frame_->size() - before;
+    }
+
     boost::asio::io_context* context_;
     std::unique_ptr<DeadlineSocket> socket_{std::make_unique<DeadlineSocket>()};
+    std::size_t longest_read_{std::numeric_limits<std::size_t>::max()};
+    std::vector<std::uint8_t>* frame_{nullptr};
+};
+
+/// While it lives, what is written to the layer is kept in `frame`.
+class KeptWrites {
+  public:
+    KeptWrites(SocketLayer& layer, std::vector<std::uint8_t>& frame) noexcept : layer_(layer) {
+        layer_.write_into(&frame);
+    }
+    ~KeptWrites() { layer_.write_into(nullptr); }
+    KeptWrites(const KeptWrites&) = delete;
+    KeptWrites& operator=(const KeptWrites&) = delete;
+
+  private:
+    SocketLayer& layer_;
 };
 
 /// Beast calls these by their names when a WebSocket ends.
@@ -137,6 +173,8 @@ struct ServiceLink::Stream {
 
 ServiceLink::ServiceLink(std::uint16_t port, Time deadline) : stream_(std::make_unique<Stream>()) {
     connect(stream_->socket.next_layer(), port, deadline);
+    // The inventory may follow the head of the answer at once.
+    stream_->socket.next_layer().set_longest_read(1);
     stream_->socket.read_message_max(kLongestMessage_bytes);
     error_code refusal;
     stream_->socket.handshake("localhost:" + std::to_string(port), "/", refusal);
@@ -157,7 +195,11 @@ std::string_view ServiceLink::read(Time deadline) {
     stream_->socket.next_layer().socket().set_deadline(deadline);
     stream_->message.clear();
     error_code failure;
-    stream_->socket.read(stream_->message, failure);
+    do {
+        // A head byte by byte, as only Beast knows how long it is; then the rest of its frame.
+        stream_->socket.next_layer().set_longest_read(stream_->socket.read_size_hint(1));
+        stream_->socket.read_some(stream_->message, 0, failure);
+    } while (!failure && !stream_->socket.is_message_done());
     if (failure) {
         const bool long_one = failure == websocket::error::message_too_big ||
                               failure == websocket::error::buffer_overflow;
@@ -175,8 +217,18 @@ int ServiceLink::descriptor() const noexcept {
     return stream_->socket.next_layer().socket().descriptor();
 }
 
-void ServiceLink::set_last_words(std::span<const std::uint8_t> frame) noexcept {
+Farewell ServiceLink::set_last_words(std::string_view text) {
+    std::vector<std::uint8_t> frame;
+    if (!text.empty()) {
+        const KeptWrites kept(stream_->socket.next_layer(), frame);
+        error_code failure;
+        stream_->socket.write(boost::asio::buffer(text.data(), text.size()), failure);
+        if (failure) throw LinkError(Why::lost, failure.message());
+    }
     stream_->socket.next_layer().socket().set_last_words(frame);
+    Farewell last;
+    last.say(frame);
+    return last;
 }
 
 bool ServiceLink::close(Time deadline) noexcept {

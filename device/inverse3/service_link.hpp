@@ -4,11 +4,11 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <string>
 #include <string_view>
 
 #include "core/error.hpp"
+#include "device/hand/guardian.hpp"
 #include "device/hand/wake.hpp"
 
 namespace dibhr::inverse3 {
@@ -54,8 +54,9 @@ class ServiceLink {
     [[nodiscard]] bool wait(const Wake* wake, Time until) const noexcept;
     /// The socket, for the guardian.
     [[nodiscard]] int descriptor() const noexcept;
-    /// A whole frame that the service is sent before the link ends, whoever ends it and however.
-    void set_last_words(std::span<const std::uint8_t> frame) noexcept;
+    /// A message that the service is sent before the link ends, whoever ends it and however; empty:
+    /// none. As a whole frame it is also given back, for the guardian.
+    Farewell set_last_words(std::string_view text);
     /// Says goodbye and waits for the answer; false: there was none.
     bool close(Time deadline) noexcept;
 

@@ -2,11 +2,9 @@
 #include "device/inverse3/check/talk.hpp"
 
 #include <algorithm>
-#include <span>
 #include <thread>
 
 #include "core/files/plain_text.hpp"
-#include "device/inverse3/farewell.hpp"
 #include "device/inverse3/service_version.hpp"
 #include "device/inverse3/simulated/name.hpp"
 #include "device/inverse3/survey.hpp"
@@ -97,7 +95,7 @@ void CheckTalk::introduce() {
 void CheckTalk::break_off() noexcept {
     if (guarded_in_) guardian_.dismiss();
     guarded_in_.reset();
-    if (link_) link_->set_last_words({});
+    if (link_) (void)link_->set_last_words({});
     link_.reset();
 }
 
@@ -188,11 +186,11 @@ bool CheckTalk::keep_silent(std::chrono::milliseconds span, const std::function<
     return goes_on();
 }
 
-void CheckTalk::guard(ForceDialect dialect) noexcept {
+void CheckTalk::guard(ForceDialect dialect) {
     guardian_.beat();
     if (guarded_in_ == dialect) return;
-    const Farewell last = farewell(DeviceId(id_), dialect);
-    link_->set_last_words(std::span(last.bytes).first(last.size));
+    const Farewell last = link_->set_last_words(writer_.write(
+        {.arm = DeviceId(id_), .force_newton = Vec3{0.0}, .dialect = dialect}));
     guardian_.watch(link_->descriptor(), last);
     guarded_in_ = dialect;
 }

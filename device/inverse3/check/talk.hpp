@@ -87,7 +87,7 @@ class CheckTalk {
     void introduce();
     void begin_again();
     [[nodiscard]] bool hears(Clock::time_point until);
-    void guard(ForceDialect dialect) noexcept;
+    void guard(ForceDialect dialect);
 
     const ConnectionOptions& options_;
     Guardian guardian_{"Inverse3"};  // first: forked before there is a connection

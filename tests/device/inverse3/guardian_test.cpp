@@ -10,9 +10,11 @@
 #include <cstddef>
 #include <iterator>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "device/inverse3/farewell.hpp"
+#include "device/inverse3/order.hpp"
+#include "device/inverse3/service_link.hpp"
 #include "device/inverse3/simulated/service.hpp"
 #include "tests/device/pressing_process.hpp"
 #include "tests/support/catch.hpp"
@@ -187,8 +189,13 @@ TEST_CASE("the guardian's farewell is a frame that a service understands, for an
           "[guardian]") {
     const std::string name =
         GENERATE("049D", "61548", "a \"name\" with \\ and \n in it, of 48 letters..");
+    simulated::Service service;
+    ServiceLink link(service.port(), ServiceLink::Time::clock::now() + PressingProcess::kPatience);
     for (const ForceDialect dialect : {ForceDialect::vector, ForceDialect::values}) {
-        const Farewell last = farewell(DeviceId(name), dialect);
+        OrderWriter writer;
+        const std::string_view zero =
+            writer.write({.arm = DeviceId(name), .force_newton = Vec3{0.0}, .dialect = dialect});
+        const Farewell last = link.set_last_words(zero);
         REQUIRE(last.size > 6);
         CHECK(last.over == Farewell::Over::stream);
         CHECK(last.bytes[0] == 0x81);
@@ -204,8 +211,7 @@ TEST_CASE("the guardian's farewell is a frame that a service understands, for an
         for (std::size_t k = 0; k < length; ++k) {
             text += static_cast<char>(last.bytes[head + 4 + k] ^ last.bytes[head + k % 4]);
         }
-        OrderWriter writer;
-        CHECK(text ==
-              writer.write({.arm = DeviceId(name), .force_newton = Vec3{0.0}, .dialect = dialect}));
+        CHECK(text == zero);
+        CHECK(service.exchanges() == 0);
     }
 }

@@ -1,11 +1,21 @@
 // The connection to the service, over real sockets.
 #include "device/inverse3/service_link.hpp"
 
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
 #include <chrono>
 #include <string>
+#include <string_view>
+#include <thread>
+#include <utility>
 #include <vector>
 
-#include "device/inverse3/frame_bounds.hpp"
 #include "device/inverse3/message.hpp"
 #include "device/inverse3/simulated/frames.hpp"
 #include "device/inverse3/simulated/service.hpp"
@@ -45,39 +55,97 @@ Why why(Call&& call) {
     return Why::lost;
 }
 
-std::vector<std::size_t> pieces(std::string bytes, std::size_t at_a_time) {
-    FrameBounds bounds;
-    (void)bounds.take({reinterpret_cast<const std::uint8_t*>("HTTP\r\n\r\n"), 8});
-    std::vector<std::size_t> ends;
-    std::size_t at = 0;
-    while (at < bytes.size()) {
-        const std::size_t here = std::min(at_a_time, bytes.size() - at);
-        at += bounds.take({reinterpret_cast<const std::uint8_t*>(bytes.data()) + at, here});
-        ends.push_back(at);
+/// Shakes hands with one client and sends it these bytes, so many at a time.
+class Sender {
+  public:
+    Sender(std::string bytes, std::size_t at_a_time)
+        : listener_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+        sockaddr_in address{};
+        address.sin_family = AF_INET;
+        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        socklen_t size = sizeof address;
+        auto* const any = reinterpret_cast<sockaddr*>(&address);
+        REQUIRE(bind(listener_, any, size) == 0);
+        REQUIRE(::listen(listener_, 1) == 0);
+        REQUIRE(getsockname(listener_, any, &size) == 0);
+        port_ = ntohs(address.sin_port);
+        thread_ =
+            std::thread([this, sent = std::move(bytes), at_a_time] { serve(sent, at_a_time); });
     }
-    return ends;
-}
+    ~Sender() {
+        thread_.join();
+        if (client_ >= 0) ::close(client_);
+        ::close(listener_);
+    }
+    Sender(const Sender&) = delete;
+    Sender& operator=(const Sender&) = delete;
+
+    [[nodiscard]] std::uint16_t port() const noexcept { return port_; }
+
+  private:
+    static bool wait(int descriptor) {
+        pollfd watched{descriptor, POLLIN, 0};
+        return poll(&watched, 1, 5000) > 0;
+    }
+    void send_all(std::string_view bytes) const {
+        (void)send(client_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    }
+    void serve(const std::string& bytes, std::size_t at_a_time) {
+        if (!wait(listener_)) return;
+        client_ = accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC);
+        const int yes = 1;
+        (void)setsockopt(client_, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+        std::string head;
+        while (head.find("\r\n\r\n") == std::string::npos) {
+            std::array<char, 4096> piece{};
+            const ssize_t got = wait(client_) ? recv(client_, piece.data(), piece.size(), 0) : 0;
+            if (got <= 0) return;
+            head.append(piece.data(), static_cast<std::size_t>(got));
+        }
+        const std::string name = "Sec-WebSocket-Key: ";
+        const std::size_t key = head.find(name) + name.size();
+        send_all(
+            "HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+            "Sec-WebSocket-Accept: " +
+            simulated::accept_of(head.substr(key, head.find("\r\n", key) - key)) + "\r\n\r\n");
+        for (std::size_t at = 0; at < bytes.size(); at += at_a_time) {
+            send_all(std::string_view(bytes).substr(at, at_a_time));
+        }
+    }
+
+    int listener_;
+    int client_{-1};
+    std::uint16_t port_{0};
+    std::thread thread_{};
+};
 
 }  // namespace
 
-TEST_CASE("bytes are cut at the end of every frame, whatever its length, however they come",
+TEST_CASE("what follows a message stays unread, whatever their lengths, however their bytes come",
           "[inverse3_link]") {
-    const std::string one = simulated::frame("{}");
-    const std::string two = simulated::frame(std::string(300, 'x'));
-    const std::string three = simulated::frame("");
-    const std::string four = simulated::frame(std::string(70'000, 'y'));
-    const std::string all = one + two + three + four + one;
-    CHECK(pieces(all, all.size()) ==
-          std::vector<std::size_t>{one.size(), one.size() + two.size(),
-                                   one.size() + two.size() + three.size(), all.size() - one.size(),
-                                   all.size()});
-    for (const std::size_t at_a_time : {1U, 2U, 3U, 7U, 64U}) {
-        CAPTURE(at_a_time);
-        const auto ends = pieces(all, at_a_time);
-        for (const std::size_t end : {one.size(), one.size() + two.size(), all.size()}) {
-            CHECK(std::find(ends.begin(), ends.end(), end) != ends.end());
-        }
+    const auto at_a_time = GENERATE(as<std::size_t>{}, 1, 2, 3, 7, 64, 1'000'000);
+    CAPTURE(at_a_time);
+    std::vector<std::string> messages{"{}", std::string(300, 'x'), ""};
+    for (const std::size_t length : {125U, 126U, 1535U, 1536U, 3000U})
+        messages.emplace_back(length, 'y');
+    if (at_a_time >= 64) messages.emplace_back(70'000, 'z');
+    std::string bytes;
+    for (const std::string& message : messages) bytes += simulated::frame(message);
+    bytes += simulated::frame("in ", {simulated::Opcode::text, false}) +
+             simulated::frame("", {simulated::Opcode::rest, false}) +
+             simulated::frame("still there?", {simulated::Opcode::ping}) +
+             simulated::frame("fragments", {simulated::Opcode::rest, true});
+    messages.emplace_back("in fragments");
+    bytes += simulated::frame("last");
+    messages.emplace_back("last");
+
+    const Sender sender(bytes, at_a_time);
+    ServiceLink link(sender.port(), in(milliseconds(1000)));
+    for (const std::string& message : messages) {
+        REQUIRE(link.wait(nullptr, in(milliseconds(2000))));
+        CHECK(link.read(in(milliseconds(2000))) == message);
     }
+    CHECK_FALSE(link.wait(nullptr, in(milliseconds(0))));
 }
 
 TEST_CASE("the answer to a key is the one of RFC 6455", "[inverse3_link]") {
