@@ -17,7 +17,7 @@ struct CheckDesk final : CheckQuestions {
 
     CheckedFalcon& falcon;
     const CheckOptions& options;
-    Findings findings{};
+    CheckFindings findings{kOpenQuestions, "falcon"};
     std::optional<double> counts_per_newton_metre{};  ///< once it was measured
 
   private:

@@ -87,7 +87,6 @@ std::string check_one(CheckDesk& desk, milliseconds time, Json& part) {
 
 constexpr std::array kCounts{500, 1000, 2000, 4095};  // from weak to strong
 constexpr int kFullScale = 4095;
-constexpr double kStandardGravity = 9.80665;  // m/s2
 constexpr double kHeaviest_g = 10000.0;
 
 struct Reading {

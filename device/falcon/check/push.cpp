@@ -18,7 +18,7 @@ constexpr double kMostMotion_m = 0.030;
 constexpr std::chrono::seconds kLongestHold{3};
 constexpr int kLastPackets = 5;                  // ../README.md, Safety numbers
 constexpr std::chrono::milliseconds kPeriod{1};  // the haptic loop's
-constexpr double kGrams_per_newton = 1000.0 / 9.80665;
+constexpr double kGrams_per_newton = 1000.0 / kStandardGravity;
 
 // The least and the most that sources say of the torque scale (../README.md, Motors).
 constexpr double kLowestScale = 3600.0;
@@ -27,6 +27,17 @@ constexpr double kHighestScale = 10000.0;
 std::optional<Jacobian> jacobian_of(Vec3 encoder_counts, const Geometry& geometry) {
     const auto place = place_of(encoder_counts, geometry);
     return place ? jacobian_at(*place, geometry) : std::nullopt;
+}
+
+void send_last_packets(CheckedFalcon& falcon) noexcept {
+    for (int k = 0; k < kLastPackets; ++k) {
+        try {
+            (void)falcon.exchange(no_force(Led::blue));
+        } catch (const DeviceError& lost) {
+            // The exception that leads here, or the next exchange, tells it.
+            continue;
+        }
+    }
 }
 
 }  // namespace
@@ -102,41 +113,10 @@ const char* sentence_of(PushEnd end) noexcept {
     return kSentences[static_cast<std::size_t>(end)];
 }
 
-Push::Push(CheckDesk& desk, const Counts& motor) : desk_(desk), motor_(motor) {
-    desk_.guide.force_begins();
-    acting_ = true;
-}
-
-Push::~Push() {
-    release();
-}
-
-void Push::release() noexcept {
-    if (!acting_) return;
-    acting_ = false;
-    for (int k = 0; k < kLastPackets; ++k) {
-        try {
-            (void)desk_.falcon.exchange(no_force(Led::blue));
-        } catch (const DeviceError& lost) {
-            // The exception that leads here, or the next exchange, tells it.
-            continue;
-        }
-    }
-    desk_.guide.force_ended();
-}
-
-PushEnd Push::perform_wish() {
-    switch (desk_.guide.wish()) {
-        case CheckGuide::Wish::quit:
-            release();
-            throw PersonQuits{};
-        case CheckGuide::Wish::let_go:
-            return PushEnd::let_go;
-        case CheckGuide::Wish::none:
-            break;
-    }
-    return PushEnd::held;
-}
+Push::Push(CheckDesk& desk, const Counts& motor)
+    : CheckPush(desk.guide, [&desk] { send_last_packets(desk.falcon); }),
+      desk_(desk),
+      motor_(motor) {}
 
 PushEnd Push::exchange(double part) {
     Command command{.motor = motor_, .led = Led::green, .homing = true};
@@ -154,8 +134,7 @@ PushEnd Push::exchange(double part) {
 }
 
 PushEnd Push::step(double part) {
-    PushEnd end = perform_wish();
-    if (end == PushEnd::held) end = exchange(part);
+    const PushEnd end = goes_on() ? exchange(part) : PushEnd::let_go;
     if (end != PushEnd::held) release();
     return end;
 }
@@ -203,15 +182,9 @@ PushEnd Push::fall() {
 }
 
 PushEnd Push::be_silent(std::chrono::milliseconds time, Reply& reply) {
-    constexpr std::chrono::milliseconds kLook{5};
-    const auto end_of_silence = Clock::now() + time;
-    PushEnd end = PushEnd::held;
-    for (auto now = Clock::now(); end == PushEnd::held && now < end_of_silence;
-         now = Clock::now()) {
-        desk_.falcon.be_silent(std::min(end_of_silence, now + kLook));
-        end = perform_wish();
-    }
-    if (end == PushEnd::held) end = exchange(0.0);
+    const bool lasted =
+        CheckPush::be_silent(time, [this](Time until) { desk_.falcon.be_silent(until); });
+    const PushEnd end = lasted ? exchange(0.0) : PushEnd::let_go;
     reply = reply_;
     release();
     return end;

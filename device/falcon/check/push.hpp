@@ -10,6 +10,7 @@
 #include "device/falcon/check/desk.hpp"
 #include "device/falcon/kinematics.hpp"
 #include "device/falcon/packet.hpp"
+#include "device/hand/check/push.hpp"
 
 namespace dibhr::falcon {
 
@@ -57,13 +58,9 @@ enum class PushEnd : std::size_t {
 
 /// A force on the grip of a homed Falcon, from its rise to its release. Released at once, with five
 /// packets without force, when any of it ends otherwise than held, and when this goes out of scope.
-class Push {
+class Push : public CheckPush {
   public:
-    /// The person must have agreed.
     Push(CheckDesk& desk, const Counts& motor);
-    ~Push();
-    Push(const Push&) = delete;
-    Push& operator=(const Push&) = delete;
 
     // These throw PersonQuits and UsbError.
 
@@ -83,19 +80,16 @@ class Push {
   private:
     using Clock = std::chrono::steady_clock;
 
-    [[nodiscard]] PushEnd perform_wish();
     /// One packet with this part of the force. Anything but held has released it.
     PushEnd step(double part);
     PushEnd ramp(double from, double to);
     [[nodiscard]] PushEnd exchange(double part);
-    void release() noexcept;
 
     CheckDesk& desk_;
     Counts motor_;
     std::optional<Vec3> start_m_{};  // where the grip was at the first reply
     Reply reply_{};
     CountsSample held_{};
-    bool acting_{false};
 };
 
 }  // namespace dibhr::falcon

@@ -1,14 +1,12 @@
 // Step 3: how many replies a second, and how long one takes, with and without the event character
 // (../README.md, Reply rate).
-#include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstddef>
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "device/falcon/check/desk.hpp"
+#include "device/hand/check/numbers.hpp"
 
 namespace dibhr::falcon {
 
@@ -31,16 +29,13 @@ constexpr double kNoticeable_ms = 0.2;
 
 struct Rate {
     double replies_per_s{0.0};
-    double median_ms{0.0};
-    double p99_ms{0.0};
-};
+    Sample round_trips_ms{};
 
-double quantile(std::vector<double>& values, double part) {
-    if (values.empty()) return 0.0;
-    const auto at = static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), values.begin() + at, values.end());
-    return values[static_cast<std::size_t>(at)];
-}
+    [[nodiscard]] double median_ms() const { return round_trips_ms.quantile(0.5); }
+    [[nodiscard]] std::string in_words() const {
+        return rate_in_words(replies_per_s, round_trips_ms);
+    }
+};
 
 Rate measure(CheckDesk& desk, const Setting& setting, Json& measured) {
     FtdiPort& port = desk.falcon.port();
@@ -49,7 +44,7 @@ Rate measure(CheckDesk& desk, const Setting& setting, Json& measured) {
     port.ask(kReadLatencyTimer, latency_ms);
     desk.falcon.use_event_character(setting.event_character);
 
-    std::vector<double> round_trips_ms;
+    Rate rate;
     int missing = 0;
     const auto begin = CheckedFalcon::Clock::now();
     const auto end = begin + desk.options.times.rate;
@@ -58,21 +53,21 @@ Rate measure(CheckDesk& desk, const Setting& setting, Json& measured) {
         const auto heard = desk.falcon.exchange(no_force(Led::red));
         missing += heard ? 0 : 1;
         if (!heard) continue;
-        round_trips_ms.push_back(
+        rate.round_trips_ms.add(
             std::chrono::duration<double, std::milli>(heard->round_trip).count());
     }
     const std::chrono::duration<double> took = CheckedFalcon::Clock::now() - begin;
     const LinkCounts counts = desk.falcon.counts();
-    const Rate rate{static_cast<double>(round_trips_ms.size()) / took.count(),
-                    quantile(round_trips_ms, 0.5), quantile(round_trips_ms, 0.99)};
+    const Sample& round_trips_ms = rate.round_trips_ms;
+    rate.replies_per_s = static_cast<double>(round_trips_ms.count()) / took.count();
     measured[setting.name] = {{"seconds", took.count()},
                               {"latency_timer_ms_read_back", latency_ms[0]},
                               {"event_character", setting.event_character},
-                              {"replies", round_trips_ms.size()},
+                              {"replies", round_trips_ms.count()},
                               {"replies_per_s", rate.replies_per_s},
-                              {"round_trip_ms_p50", rate.median_ms},
-                              {"round_trip_ms_p99", rate.p99_ms},
-                              {"round_trip_ms_max", quantile(round_trips_ms, 1.0)},
+                              {"round_trip_ms_p50", rate.median_ms()},
+                              {"round_trip_ms_p99", round_trips_ms.quantile(0.99)},
+                              {"round_trip_ms_max", round_trips_ms.most()},
                               {"no_reply_within_20_ms", missing},
                               {"commands_resent", counts.resent},
                               {"line_errors", counts.line_errors},
@@ -80,30 +75,24 @@ Rate measure(CheckDesk& desk, const Setting& setting, Json& measured) {
     return rate;
 }
 
-std::string in_words(const Rate& rate) {
-    return number_text(rate.replies_per_s, 0) + " a second (half within " +
-           number_text(rate.median_ms, 2) + " ms, 99 % within " + number_text(rate.p99_ms, 2) +
-           " ms)";
-}
-
 }  // namespace
 
 void check_rate(CheckDesk& desk, Json& measured) {
     const Rate plain = measure(desk, kPlain, measured);
-    desk.guide.say("without the event character: " + in_words(plain));
+    desk.guide.say("without the event character: " + plain.in_words());
     const Rate event = measure(desk, kEvent, measured);
-    desk.guide.say("with the event character: " + in_words(event));
+    desk.guide.say("with the event character: " + event.in_words());
     const Rate alone = measure(desk, kEventAlone, measured);
     desk.falcon.port().request(kLatencyRunTime);
 
-    const bool works = alone.replies_per_s > 0.0 && alone.median_ms < kAtOnce_ms;
-    const bool helps = works && event.median_ms < plain.median_ms + kNoticeable_ms;
+    const bool works = alone.replies_per_s > 0.0 && alone.median_ms() < kAtOnce_ms;
+    const bool helps = works && event.median_ms() < plain.median_ms() + kNoticeable_ms;
     desk.findings.settle(OpenQuestion::reply_rate,
-                         in_words(plain) + "; with the event character " + in_words(event));
+                         plain.in_words() + "; with the event character " + event.in_words());
     desk.findings.settle(
         OpenQuestion::event_character,
         std::string(works ? "the chip sends at once" : "the chip still waits for its timer") +
-            ": with a latency of 16 ms " + in_words(alone));
+            ": with a latency of 16 ms " + alone.in_words());
     desk.findings.set("event-character", helps ? "true" : "false");
     desk.falcon.use_event_character(helps);
 }

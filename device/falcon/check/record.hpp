@@ -1,16 +1,15 @@
 // What the check of a Falcon is to find of the questions that ../README.md leaves open.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
-#include <utility>
 
 #include "core/files/json.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/vec.hpp"
-#include "device/falcon/usb.hpp"
 #include "device/hand/check/record.hpp"
 
 namespace dibhr::falcon {
@@ -38,20 +37,23 @@ enum class OpenQuestion : std::size_t {
     power_lost
 };
 
-inline constexpr std::size_t kOpenQuestions =
-    static_cast<std::size_t>(OpenQuestion::power_lost) + 1;
-
-/// What was found of them, and lines for the [falcon] table of the settings file.
-class Findings final : public CheckFindings {
-  public:
-    Findings();
-    /// Once more: the last answer counts.
-    void settle(OpenQuestion question, std::string found) {
-        CheckFindings::settle(static_cast<std::size_t>(question), std::move(found));
-    }
-};
-
-/// "falcon-check-SERIAL-DATE.json".
-[[nodiscard]] CheckedDevice checked_device(const AttachedFalcon& falcon);
+inline constexpr std::array<CheckQuestion, 15> kOpenQuestions{{
+    {"identity", "What it says it is"},
+    {"upload-speed", "Firmware at 142 857 and 140 351 baud"},
+    {"stray-bytes", "Stray bytes before the hello's and the A's answer"},
+    {"loading-again", "Loading again without a power cycle"},
+    {"last-byte", "Byte 14 of a reply"},
+    {"reply-rate", "Replies a second"},
+    {"event-character", "The event character >"},
+    {"homing-bit", "The homing bit cleared"},
+    {"end-stops", "Counts at the end stops"},
+    {"angle-at-zero", "Thigh angle at count 0"},
+    {"after-last-packet", "The force after the last packet"},
+    {"torque-scale", "Motor counts a newton metre"},
+    {"buttons", "Button bits"},
+    {"usb-unplugged", "USB unplugged, power on"},
+    {"power-lost", "Power off, USB on"},
+}};
+static_assert(kOpenQuestions.size() == static_cast<std::size_t>(OpenQuestion::power_lost) + 1);
 
 }  // namespace dibhr::falcon

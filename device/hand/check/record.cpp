@@ -57,10 +57,6 @@ std::string fit_for_a_file_name(const std::string& serial) {
 
 }  // namespace
 
-void CheckFindings::settle(std::size_t question, std::string found) {
-    found_.at(question) = std::move(found);
-}
-
 std::string CheckFindings::summary() const {
     std::string text = "What was found\n";
     for (std::size_t k = 0; k < found_.size(); ++k) {

@@ -25,8 +25,12 @@ class CheckFindings {
     CheckFindings(std::span<const CheckQuestion> questions, const char* table)
         : questions_(questions), table_(table), found_(questions.size()) {}
 
-    /// By its place among the questions; once more: the last answer counts.
-    void settle(std::size_t question, std::string found);
+    /// `question`: of an enumeration in the order of the questions; once more: the last answer
+    /// counts.
+    template <typename Question>
+    void settle(Question question, std::string found) {
+        found_.at(static_cast<std::size_t>(question)) = std::move(found);
+    }
     /// A line for the table of the settings file: `value` as TOML has it.
     void set(const std::string& name, const std::string& value) { settings_[name] = value; }
 

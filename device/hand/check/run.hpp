@@ -1,6 +1,7 @@
 // Leads through the steps of a check, and keeps the record.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -33,8 +34,7 @@ class CheckRun {
              std::size_t steps, std::function<void()> let_go);
 
     /// Introduces and runs it, unless the check is over or `why_not` says why it makes no sense;
-    /// the record is written after it. `run` may throw StepSkipped, ForceLetGo, PersonQuits and
-    /// DeviceError.
+    /// the record is written after it.
     void step(const CheckStep& step, const std::function<std::string()>& why_not,
               const std::function<void(Json&)>& run);
 
@@ -57,5 +57,30 @@ class CheckRun {
     std::string fault_{};
     bool over_{false};
 };
+
+/// A step of a device's check, and what it does.
+template <typename Desk>
+struct StepAt {
+    CheckStep told;
+    void (*run)(Desk& desk, Json& measured);
+    bool needs_answers{true};  ///< makes no sense while the device gives none
+};
+
+/// All of them in turn, and then what was found. `desk`: a CheckQuestions with `findings`;
+/// `let_go`: as of CheckRun; `why_silent`: why the device gives no answers; empty: it does.
+template <typename Desk, std::size_t N>
+CheckResult run_steps(const std::array<StepAt<Desk>, N>& steps, Desk& desk, CheckRecord& record,
+                      const std::function<void()>& let_go,
+                      const std::function<std::string()>& why_silent) {
+    CheckRun run(desk, record, desk.findings, N, let_go);
+    for (const StepAt<Desk>& step : steps) {
+        run.step(
+            step.told, [&] { return step.needs_answers ? why_silent() : std::string{}; },
+            [&](Json& measured) { step.run(desk, measured); });
+    }
+    let_go();
+    desk.guide.say(desk.findings.summary() + "The record: " + record.file().string());
+    return {record.file(), run.fault()};
+}
 
 }  // namespace dibhr

@@ -2,7 +2,7 @@
 #include "device/inverse3/check/check.hpp"
 
 #include <array>
-#include <cstddef>
+#include <string>
 
 #include "device/hand/check/run.hpp"
 #include "device/inverse3/check/desk.hpp"
@@ -11,10 +11,7 @@ namespace dibhr::inverse3 {
 
 namespace {
 
-struct Step {
-    CheckStep told;
-    void (*run)(CheckDesk& desk, Json& measured);
-};
+using Step = StepAt<CheckDesk>;
 
 constexpr std::array kSteps{
     Step{{"service", "What the service says",
@@ -84,15 +81,8 @@ CheckResult run_check(const CheckOptions& options, CheckGuide& guide) {
         guide.say("This is dibhr's own simulated service: nothing here is measured on a device.");
     }
     if (const std::string fault = talk.unguarded(); !fault.empty()) guide.say(fault);
-    CheckRun run(desk, record, desk.findings, kSteps.size(), [&] { talk.let_go(); });
-    for (const Step& step : kSteps) {
-        run.step(
-            step.told, [] { return std::string{}; },
-            [&](Json& measured) { step.run(desk, measured); });
-    }
-    talk.let_go();
-    guide.say(desk.findings.summary() + "The record: " + record.file().string());
-    return {record.file(), run.fault()};
+    return run_steps(
+        kSteps, desk, record, [&] { talk.let_go(); }, [] { return std::string{}; });
 }
 
 }  // namespace dibhr::inverse3

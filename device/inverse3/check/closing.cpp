@@ -3,7 +3,6 @@
 
 #include "core/files/plain_text.hpp"
 #include "device/inverse3/check/desk.hpp"
-#include "device/inverse3/check/numbers.hpp"
 #include "device/inverse3/check/push.hpp"
 
 namespace dibhr::inverse3 {
@@ -58,7 +57,7 @@ void check_closing(CheckDesk& desk, Json& measured) {
     if (felt_s)
         words += "; felt for " + number_text(*felt_s, 1) + " s, of which " +
                  number_text(pushed.count() / 1000.0, 1) + " s before it ended";
-    desk.settle(OpenQuestion::closed, words);
+    desk.findings.settle(OpenQuestion::closed, words);
 }
 
 }  // namespace dibhr::inverse3

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "core/files/json.hpp"
+#include "core/haptics/vec.hpp"
 #include "device/hand/check/questions.hpp"
 #include "device/hand/check/record.hpp"
 #include "device/inverse3/check/check.hpp"
@@ -44,6 +44,13 @@ inline constexpr std::array<CheckQuestion, 11> kQuestions{{
     {"unplugged", "The entry of an unplugged device"},
 }};
 
+inline constexpr double kMetre_mm = 1000.0;
+
+/// {"x": .., "y": .., "z": ..}: along the axes of the service's frame.
+[[nodiscard]] inline Json along_axes(Vec3 values) {
+    return {{"x", values.x}, {"y", values.y}, {"z", values.z}};
+}
+
 /// While the person thinks, the device is asked for its pose alone.
 struct CheckDesk final : CheckQuestions {
     CheckDesk(CheckGuide& person, CheckTalk& checked, const CheckOptions& chosen)
@@ -54,9 +61,6 @@ struct CheckDesk final : CheckQuestions {
     CheckFindings findings{kQuestions, "inverse3"};
     std::optional<ForceDialect> dialect{};  ///< once it was found out
 
-    void settle(OpenQuestion question, std::string found) {
-        findings.settle(static_cast<std::size_t>(question), std::move(found));
-    }
     /// As it was found out, or else as the settings have it, or by the version.
     [[nodiscard]] ForceDialect likely_dialect() const noexcept {
         const ForceDialect by_version = talk.newer() ? ForceDialect::vector : ForceDialect::values;

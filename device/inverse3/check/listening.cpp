@@ -4,8 +4,8 @@
 #include <thread>
 
 #include "core/files/plain_text.hpp"
+#include "device/hand/check/numbers.hpp"
 #include "device/inverse3/check/desk.hpp"
-#include "device/inverse3/check/numbers.hpp"
 #include "device/inverse3/survey.hpp"
 
 namespace dibhr::inverse3 {
@@ -73,12 +73,12 @@ void check_service(CheckDesk& desk, Json& measured) {
         desk.guide.say("The service was asked for the preset \"" + preset +
                        "\", and tells: " + word(measured["preset"]) + ".");
     }
-    desk.settle(OpenQuestion::service,
-                (survey.version.empty() ? "version not told" : survey.version) + ", " +
-                    std::to_string(survey.arms.size()) + " device(s), " +
-                    std::to_string(survey.grips.size()) + " grip(s), inventory " +
-                    (talk.inventory_unasked() ? "sent at once" : "sent when asked for") +
-                    ", preset " + word(measured["preset"]));
+    desk.findings.settle(OpenQuestion::service,
+                         (survey.version.empty() ? "version not told" : survey.version) + ", " +
+                             std::to_string(survey.arms.size()) + " device(s), " +
+                             std::to_string(survey.grips.size()) + " grip(s), inventory " +
+                             (talk.inventory_unasked() ? "sent at once" : "sent when asked for") +
+                             ", preset " + word(measured["preset"]));
 }
 
 void check_rate(CheckDesk& desk, Json& measured) {
@@ -94,20 +94,17 @@ void check_rate(CheckDesk& desk, Json& measured) {
     }
     const std::chrono::duration<double> took = CheckTalk::Clock::now() - begin;
     const double a_second = static_cast<double>(round_trips_ms.count()) / took.count();
-    const double half_ms = round_trips_ms.quantile(0.5);
-    const double most_ms = round_trips_ms.quantile(0.99);
     measured = {{"exchanges", round_trips_ms.count()},
                 {"exchanges_per_s", a_second},
-                {"round_trip_ms_p50", half_ms},
+                {"round_trip_ms_p50", round_trips_ms.quantile(0.5)},
                 {"round_trip_ms_p95", round_trips_ms.quantile(0.95)},
-                {"round_trip_ms_p99", most_ms},
+                {"round_trip_ms_p99", round_trips_ms.quantile(0.99)},
                 {"round_trip_ms_max", round_trips_ms.most()},
                 {"round_trip_histogram", histogram.as_json()}};
-    const std::string words = number_text(a_second, 0) + " a second (half within " +
-                              number_text(half_ms, 2) + " ms, 99 % within " +
-                              number_text(most_ms, 2) + " ms), without force and without pauses";
+    const std::string words =
+        rate_in_words(a_second, round_trips_ms) + ", without force and without pauses";
     desk.guide.say(words);
-    desk.settle(OpenQuestion::rate, words);
+    desk.findings.settle(OpenQuestion::rate, words);
 }
 
 }  // namespace dibhr::inverse3

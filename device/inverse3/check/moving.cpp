@@ -6,8 +6,8 @@
 #include <string>
 
 #include "core/files/plain_text.hpp"
+#include "device/hand/check/numbers.hpp"
 #include "device/inverse3/check/desk.hpp"
-#include "device/inverse3/check/numbers.hpp"
 
 namespace dibhr::inverse3 {
 
@@ -112,13 +112,14 @@ void check_moving(CheckDesk& desk, Json& measured) {
         return;
     }
     const Vec3 size_mm = positions.highest_mm - positions.lowest_mm;
-    desk.settle(OpenQuestion::device_rate,
-                number_text(positions.new_per_s(), 0) + " while it moved");
-    desk.settle(OpenQuestion::step, number_text(positions.step_mm(), 4) +
-                                        " mm (95 % of the steps along an axis are longer)");
-    desk.settle(OpenQuestion::workspace,
-                number_text(size_mm.x, 0) + " x " + number_text(size_mm.y, 0) + " x " +
-                    number_text(size_mm.z, 0) + " mm (x, y, z) were reached");
+    desk.findings.settle(OpenQuestion::device_rate,
+                         number_text(positions.new_per_s(), 0) + " while it moved");
+    desk.findings.settle(
+        OpenQuestion::step,
+        number_text(positions.step_mm(), 4) + " mm (95 % of the steps along an axis are longer)");
+    desk.findings.settle(OpenQuestion::workspace,
+                         number_text(size_mm.x, 0) + " x " + number_text(size_mm.y, 0) + " x " +
+                             number_text(size_mm.z, 0) + " mm (x, y, z) were reached");
 }
 
 }  // namespace dibhr::inverse3

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "core/files/plain_text.hpp"
-#include "device/inverse3/check/numbers.hpp"
 
 namespace dibhr::inverse3 {
 
@@ -22,14 +21,7 @@ bool tells_weak_force(const Arm& state) {
            glm::length(*state.force_newton) >= kToldBack * glm::length(kWeak_newton);
 }
 
-Push::Push(CheckDesk& desk) : desk_(desk) {
-    desk_.guide.force_begins();
-}
-
-Push::~Push() {
-    desk_.talk.let_go();
-    desk_.guide.force_ended();
-}
+Push::Push(CheckDesk& desk) : CheckPush(desk.guide, [&desk] { desk.talk.let_go(); }), desk_(desk) {}
 
 void Push::hold(Vec3 force_newton, ForceDialect dialect, CheckTimes::Span hold) {
     using Seconds = std::chrono::duration<double>;
@@ -50,13 +42,8 @@ void Push::hold(Vec3 force_newton, ForceDialect dialect, CheckTimes::Span hold) 
 }
 
 void Push::be_silent(CheckTimes::Span span) {
-    if (!desk_.talk.keep_silent(span, [this] { return goes_on(); })) throw ForceLetGo{};
-}
-
-bool Push::goes_on() {
-    const CheckGuide::Wish wish = desk_.guide.wish();
-    if (wish == CheckGuide::Wish::quit) throw PersonQuits{};
-    return wish == CheckGuide::Wish::none;
+    const auto wait = [this](Time until) { desk_.talk.keep_silent(until); };
+    if (!CheckPush::be_silent(span, wait)) throw ForceLetGo{};
 }
 
 void Push::add_to(Json& part) const {

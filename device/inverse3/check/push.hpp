@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "device/hand/check/push.hpp"
 #include "device/inverse3/check/desk.hpp"
 
 namespace dibhr::inverse3 {
@@ -13,14 +14,10 @@ inline constexpr Vec3 kWeak_newton{-0.5, 0.0, 0.0};  // to the left
 /// The state tells a force of at least 5 % of the weak one: filters may take most of it away.
 [[nodiscard]] bool tells_weak_force(const Arm& state);
 
-/// While it lives a force acts; at its end it does not, whatever happened. The person must have
-/// agreed.
-class Push {
+/// While it lives a force acts; at its end it does not, whatever happened.
+class Push : public CheckPush {
   public:
     explicit Push(CheckDesk& desk);
-    ~Push();
-    Push(const Push&) = delete;
-    Push& operator=(const Push&) = delete;
 
     // These throw ForceLetGo, PersonQuits and DeviceError.
 
@@ -37,8 +34,6 @@ class Push {
     void add_to(Json& part) const;
 
   private:
-    [[nodiscard]] bool goes_on();
-
     CheckDesk& desk_;
     Vec3 sent_newton_{0.0};
     std::optional<Arm> first_{};

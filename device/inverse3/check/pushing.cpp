@@ -6,14 +6,12 @@
 
 #include "core/files/plain_text.hpp"
 #include "device/inverse3/check/desk.hpp"
-#include "device/inverse3/check/numbers.hpp"
 #include "device/inverse3/check/push.hpp"
 
 namespace dibhr::inverse3 {
 
 namespace {
 
-constexpr double kGravity = 9.80665;
 constexpr double kHeaviest_g = 2000.0;
 constexpr std::array kOnTheScale_newton{1.0, 2.0, 3.0, 4.0};  // the last is the viewer's own limit
 
@@ -73,7 +71,7 @@ void choose_dialect(CheckDesk& desk, const std::array<Spelled, 2>& spelled) {
     }
     if (any_felt) desk.findings.set("dialect", '"' + std::string(name_of(*desk.dialect)) + '"');
     if (!any_felt && desk.dialect) words += "; so no line for the settings file follows";
-    desk.settle(OpenQuestion::dialect, words);
+    desk.findings.settle(OpenQuestion::dialect, words);
 }
 
 /// Whether a force that was pushed with is still told after a silence.
@@ -123,7 +121,8 @@ void check_dialect(CheckDesk& desk, Json& measured) {
     in_use.after = desk.talk.exchange(std::nullopt, desk.likely_dialect()).arm.in_use;
     measured["in_use"] = {
         {"before", in_use.before}, {"during", in_use.during}, {"after", in_use.after}};
-    if (desk.dialect) desk.settle(OpenQuestion::in_use, in_use.in_words());  // a force acted
+    if (desk.dialect)
+        desk.findings.settle(OpenQuestion::in_use, in_use.in_words());  // a force acted
 }
 
 void check_silence(CheckDesk& desk, Json& measured) {
@@ -140,8 +139,9 @@ void check_silence(CheckDesk& desk, Json& measured) {
         }
     }
     end.add_to(measured);
-    desk.settle(OpenQuestion::silence,
-                end.in_words() + ", as told to a message without force, which may itself end it");
+    desk.findings.settle(
+        OpenQuestion::silence,
+        end.in_words() + ", as told to a message without force, which may itself end it");
 }
 
 void check_force(CheckDesk& desk, Json& measured) {
@@ -159,7 +159,7 @@ void check_force(CheckDesk& desk, Json& measured) {
             "Grams that the scale showed while the force acted, at its end (Enter alone: not read)",
             0.0, kHeaviest_g);
         if (!grams) continue;
-        const double felt_newton = *grams * kGravity / 1000.0;
+        const double felt_newton = *grams * kStandardGravity / 1000.0;
         const double share = felt_newton / wanted_newton;
         part["grams"] = *grams;
         part["newton"] = felt_newton;
@@ -167,7 +167,7 @@ void check_force(CheckDesk& desk, Json& measured) {
         if (let_go) continue;
         words += (words.empty() ? "" : ", ") + number_text(felt_newton, 2) + " N of " +
                  number_text(wanted_newton, 0) + " (" + number_text(100.0 * share, 0) + " %)";
-        desk.settle(OpenQuestion::force, words);
+        desk.findings.settle(OpenQuestion::force, words);
     }
 }
 

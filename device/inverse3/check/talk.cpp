@@ -17,7 +17,6 @@ constexpr std::chrono::milliseconds kAnswerTakes{1000};
 constexpr std::chrono::milliseconds kInventoryTakes{500};
 constexpr std::chrono::milliseconds kVersionTakes{300};
 constexpr std::chrono::milliseconds kBeatsEvery{10};  // the guardian is told; it waits for 50 ms
-constexpr std::chrono::milliseconds kLooksEvery{5};   // whether the person lets go
 
 /// Text that is no JSON stays text.
 Json as_told(std::string_view text) {
@@ -175,22 +174,17 @@ bool CheckTalk::hears(Clock::time_point until) {
     return true;
 }
 
-bool CheckTalk::keep_silent(std::chrono::milliseconds span, const std::function<bool()>& goes_on) {
-    const auto end = Clock::now() + span;
-    for (auto now = Clock::now(); now < end; now = Clock::now()) {
-        guardian_.beat();
-        if (!goes_on()) return false;
-        std::this_thread::sleep_until(std::min(end, now + kLooksEvery));
-    }
+void CheckTalk::keep_silent(Clock::time_point until) {
     guardian_.beat();
-    return goes_on();
+    std::this_thread::sleep_until(until);
+    guardian_.beat();
 }
 
 void CheckTalk::guard(ForceDialect dialect) {
     guardian_.beat();
     if (guarded_in_ == dialect) return;
-    const Farewell last = link_->set_last_words(writer_.write(
-        {.arm = DeviceId(id_), .force_newton = Vec3{0.0}, .dialect = dialect}));
+    const Farewell last = link_->set_last_words(
+        writer_.write({.arm = DeviceId(id_), .force_newton = Vec3{0.0}, .dialect = dialect}));
     guardian_.watch(link_->descriptor(), last);
     guarded_in_ = dialect;
 }

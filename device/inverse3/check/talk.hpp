@@ -2,7 +2,6 @@
 #pragma once
 
 #include <chrono>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -41,10 +40,8 @@ class CheckTalk {
     /// Three zero forces in both dialects, that of the last force first; over a new connection
     /// where there is none. No error is told.
     void let_go() noexcept;
-    /// Without a word to the service, which the guardian knows of; `goes_on` is asked every 5 ms.
-    /// Whether it was silent for the whole time.
-    [[nodiscard]] bool keep_silent(std::chrono::milliseconds span,
-                                   const std::function<bool()>& goes_on);
+    /// Without a word to the service, which the guardian knows of; no longer than 40 ms at a time.
+    void keep_silent(Clock::time_point until);
     /// Ends the connection as a program's death would, but for the guardian's last word: no zero,
     /// no goodbye. The next message makes a new one.
     void break_off() noexcept;

@@ -136,7 +136,7 @@ void check_unplugged(CheckDesk& desk, Json& measured) {
     }
     absence.add_to(measured);
     measured["at_the_end"] = names_in(desk.talk.message());
-    desk.settle(
+    desk.findings.settle(
         OpenQuestion::unplugged,
         absence.in_words(desk.options.times.frozen) +
             (absence.is_back ? "" : "; not back, there is " + names_in(desk.talk.message())));

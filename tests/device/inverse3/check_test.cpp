@@ -10,7 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/files/json.hpp"
-#include "device/inverse3/check/numbers.hpp"
+#include "device/hand/check/numbers.hpp"
 #include "tests/device/inverse3/service_desk.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"

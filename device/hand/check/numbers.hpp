@@ -2,17 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "core/files/json.hpp"
-#include "core/haptics/vec.hpp"
 
-namespace dibhr::inverse3 {
-
-inline constexpr double kMetre_mm = 1000.0;
-
-/// {"x": .., "y": .., "z": ..}: along the axes of the service's frame.
-[[nodiscard]] Json along_axes(Vec3 values);
+namespace dibhr {
 
 /// Values that are not negative, of which every second is left out whenever they become too many:
 /// however long it lasts, those that stay are spread over all of it.
@@ -47,4 +42,7 @@ class Histogram {
     std::vector<std::size_t> counts_{};
 };
 
-}  // namespace dibhr::inverse3
+/// "998 a second (half within 0.41 ms, 99 % within 0.93 ms)".
+[[nodiscard]] std::string rate_in_words(double per_s, const Sample& took_ms);
+
+}  // namespace dibhr

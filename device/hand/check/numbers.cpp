@@ -1,11 +1,13 @@
 // Many measured values in few numbers.
-#include "device/inverse3/check/numbers.hpp"
+#include "device/hand/check/numbers.hpp"
 
 #include <algorithm>
 #include <array>
 #include <iterator>
 
-namespace dibhr::inverse3 {
+#include "core/files/plain_text.hpp"
+
+namespace dibhr {
 
 namespace {
 
@@ -14,10 +16,6 @@ constexpr std::array kUpTo_ms{0.01, 0.02, 0.05, 0.1,  0.2,   0.5,   1.0,   2.0,
                               5.0,  10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0};
 
 }  // namespace
-
-Json along_axes(Vec3 values) {
-    return {{"x", values.x}, {"y", values.y}, {"z", values.z}};
-}
 
 void Sample::add(double value) {
     most_ = std::max(most_, value);
@@ -62,4 +60,10 @@ Json Histogram::as_json() const {
     return bins;
 }
 
-}  // namespace dibhr::inverse3
+std::string rate_in_words(double per_s, const Sample& took_ms) {
+    return number_text(per_s, 0) + " a second (half within " +
+           number_text(took_ms.quantile(0.5), 2) + " ms, 99 % within " +
+           number_text(took_ms.quantile(0.99), 2) + " ms)";
+}
+
+}  // namespace dibhr
