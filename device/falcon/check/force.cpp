@@ -155,7 +155,9 @@ std::optional<Reading> weigh(CheckDesk& desk, int counts, Json& part) {
             part["scale_g"] = *grams;
             part["force_newton"] = reading.force_newton;
             part["force_for_one_count_per_newton_metre_newton"] = *unit;
-            part["counts_per_newton_metre"] = *unit / reading.force_newton;
+            // A scale that shows nothing tells of no scale.
+            if (reading.force_newton > 0.0)
+                part["counts_per_newton_metre"] = *unit / reading.force_newton;
             return reading;
         }
         if (desk.word("Enter = the same force again, n = the next one, s = skip, q = quit") ==

@@ -159,6 +159,27 @@ TEST_CASE("all its force is for a person who types yes", "[check]") {
     CHECK(holds(check.found("torque-scale"), "up to 2000 counts"));
 }
 
+TEST_CASE("a scale that shows nothing leaves the torque scale open", "[check]") {
+    const bool always = GENERATE(true, false);  // else under the weakest force alone
+    CAPTURE(always);
+    Checked check;
+    check.only("Force on a kitchen scale");
+    const auto usual = check.person.instead;
+    int asked = 0;
+    check.person.instead = [&](const std::string& question) -> std::optional<std::string> {
+        const bool reads = holds(question, "What did the scale show");
+        if (reads && (++asked == 1 || always)) return "0";
+        return usual(question);
+    };
+    CHECK(check.run().fault.empty());
+    CHECK(asked == 4);
+    CHECK_THAT(check.number("$.steps[6].measured.\"500_counts\".scale_g"), WithinAbs(0.0, 1e-12));
+    CHECK_FALSE(
+        holds(check.value("$.steps[6].measured.\"500_counts\""), "\"counts_per_newton_metre\""));
+    CHECK(check.found("torque-scale").empty() == always);
+    CHECK(check.setting("counts-per-newton-metre").empty() == always);
+}
+
 TEST_CASE("without homing there is no force", "[check]") {
     Checked check;
     check.only("Force on a kitchen scale");
