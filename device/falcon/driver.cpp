@@ -73,7 +73,8 @@ void Driver::live(const std::stop_token& stop) {
 
 void Driver::wait_to_look_again(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
-    news_.wait_for(lock, stop, pause_, [this] { return new_firmware_; });
+    // Once: where no Falcon is attached, nobody takes it for a long time.
+    if (news_.wait_for(lock, stop, pause_, [this] { return new_firmware_; })) new_firmware_ = false;
 }
 
 void Driver::look(const UsbContext& usb, const std::stop_token& stop) {

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -12,6 +13,7 @@
 
 #include "device/falcon/usb.hpp"
 #include "tests/device/falcon/falcon_in_loop.hpp"
+#include "tests/device/time/simulated_time.hpp"
 #include "tests/support/catch.hpp"
 
 namespace {
@@ -150,6 +152,19 @@ TEST_CASE("a Falcon without firmware says which file is wanted, and takes it at 
     CHECK(alone.comes_to(Stage::homing));
     CHECK_THAT(alone.driver.status().loaded, Catch::Matchers::WithinAbs(1.0, 1e-12));
     CHECK(alone.driver.status().load_try == 1);
+}
+
+TEST_CASE("with firmware at hand and no Falcon the thread waits as long between two looks",
+          "[driver]") {
+    UsbBench bus;
+    Alone alone;
+    REQUIRE(eventually([&] { return holds(alone.driver.status().sentence, "no Falcon"); }));
+    alone.driver.use_firmware(any_firmware());
+    const std::uint64_t before = dibhr::test::waits_so_far_of("dibhr falcon");
+    dibhr::test::let_pass(milliseconds(2250));
+    CHECK(dibhr::test::waits_so_far_of("dibhr falcon") - before >= 4);  // of 0.5 s each
+    bus.plug();
+    CHECK(alone.comes_to(Stage::homing));
 }
 
 TEST_CASE("an image that is no firmware is never sent, and the reason is told", "[driver]") {
