@@ -1,7 +1,9 @@
 // Where a step of the check has the person, the Falcon, and what is found.
 #pragma once
 
+#include <chrono>
 #include <optional>
+#include <thread>
 
 #include "device/falcon/check/check.hpp"
 #include "device/falcon/check/falcon.hpp"
@@ -21,7 +23,14 @@ struct CheckDesk final : CheckQuestions {
     std::optional<double> counts_per_newton_metre{};  ///< once it was measured
 
   private:
-    void keep_talking() override;
+    void keep_talking() override {
+        constexpr std::chrono::milliseconds kPause{10};
+        if (falcon.answering()) {
+            (void)falcon.exchange(no_force(Led::blue), kPause);
+        } else {
+            std::this_thread::sleep_for(kPause);
+        }
+    }
 };
 
 // The steps, each in the file of its name (check_silence with check_force). They add what they

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "core/files/json.hpp"
 #include "core/files/plain_text.hpp"
@@ -14,9 +15,21 @@
 
 namespace dibhr::falcon {
 
-[[nodiscard]] Json as_json(Vec3 values);
+[[nodiscard]] inline Json as_json(Vec3 values) {
+    return Json::array({values.x, values.y, values.z});
+}
+
 /// "0A 44 2C 0D".
-[[nodiscard]] std::string hexadecimal(std::span<const std::uint8_t> bytes);
+[[nodiscard]] inline std::string hexadecimal(std::span<const std::uint8_t> bytes) {
+    constexpr std::string_view kDigits = "0123456789ABCDEF";
+    std::string text;
+    for (const std::uint8_t byte : bytes) {
+        if (!text.empty()) text += ' ';
+        text += kDigits[byte >> 4U];
+        text += kDigits[byte & 15U];
+    }
+    return text;
+}
 
 /// In the order of the steps that answer them.
 enum class OpenQuestion : std::size_t {

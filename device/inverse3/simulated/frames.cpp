@@ -4,6 +4,8 @@
 #include <array>
 #include <bit>
 
+#include "core/files/plain_text.hpp"
+
 namespace dibhr::inverse3::simulated {
 
 namespace {
@@ -57,24 +59,6 @@ std::string sha1(std::string text) {
     return bytes;
 }
 
-std::string base64(std::string_view bytes) {
-    constexpr std::string_view kDigits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (std::size_t at = 0; at < bytes.size(); at += 3) {
-        std::uint32_t three = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const bool there = at + k < bytes.size();
-            three = three << 8U | (there ? static_cast<std::uint8_t>(bytes[at + k]) : 0U);
-        }
-        for (std::size_t k = 0; k < 4; ++k) {
-            const bool there = at + k <= bytes.size();
-            text += there ? kDigits[three >> (18 - 6 * k) & 63U] : '=';
-        }
-    }
-    return text;
-}
-
 std::string big_endian(std::uint64_t number, int bytes) {
     std::string text;
     for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8) {
@@ -86,7 +70,7 @@ std::string big_endian(std::uint64_t number, int bytes) {
 }  // namespace
 
 std::string accept_of(std::string_view key) {
-    return base64(sha1(std::string(key) + "258EAFA5-E914-47DA-95CA-C5AB0DC85B11"));
+    return base64_text(sha1(std::string(key) + "258EAFA5-E914-47DA-95CA-C5AB0DC85B11"));
 }
 
 std::string frame(std::string_view payload, FrameForm form) {
