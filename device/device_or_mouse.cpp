@@ -1,19 +1,23 @@
-// A force device that the mouse stands in for while it is not ready.
+// Force devices that the mouse stands in for while none is ready.
 #include "device/device_or_mouse.hpp"
 
+#include <algorithm>
 #include <cassert>
+#include <cstdint>
 #include <utility>
 
 namespace dibhr {
 
-DeviceOrMouse::DeviceOrMouse(std::unique_ptr<falcon::FalconDevice> falcon,
-                             std::unique_ptr<inverse3::Inverse3Device> inverse3)
-    : falcon_(std::move(falcon)), inverse3_(std::move(inverse3)) {
-    assert(falcon_ || inverse3_);
+DeviceOrMouse::DeviceOrMouse(Devices devices)
+    : devices_(std::move(devices)), readings_(devices_.size()) {
+    assert(std::any_of(devices_.begin(), devices_.end(),
+                       [](const auto& one) { return one != nullptr; }));
 }
 
 const DeviceSpecification& DeviceOrMouse::specification() const noexcept {
-    return falcon_ ? falcon_->specification() : inverse3_->specification();
+    return (*std::find_if(devices_.begin(), devices_.end(),
+                          [](const auto& one) { return one != nullptr; }))
+        ->specification();
 }
 
 HandReading DeviceOrMouse::unread() const noexcept {
@@ -22,27 +26,27 @@ HandReading DeviceOrMouse::unread() const noexcept {
 
 HandReading DeviceOrMouse::read(const HandContext& context) noexcept {
     // Each is read in every tick, so that it is up to date when its turn comes.
-    const HandReading of_falcon = falcon_ ? falcon_->read(context) : HandReading{};
-    const HandReading of_inverse3 = inverse3_ ? inverse3_->read(context) : HandReading{};
-    const bool changed = std::exchange(touching_, next_hand()) != touching_;
-    HandReading reading = touching_ == Touching::falcon     ? of_falcon
-                          : touching_ == Touching::inverse3 ? of_inverse3
-                                                            : of_mouse(mouse_.read(context));
+    for (std::size_t k = 0; k < devices_.size(); ++k) {
+        if (devices_[k]) readings_[k] = devices_[k]->read(context);
+    }
+    const std::size_t before = std::exchange(touching_, next_hand());
+    HandReading reading =
+        touching_ == kMouse ? of_mouse(mouse_.read(context)) : readings_[touching_ - 1];
     reading.which = static_cast<std::uint8_t>(touching_);
-    reading.taken_over = reading.taken_over || changed;
+    reading.taken_over = reading.taken_over || touching_ != before;
     return reading;
 }
 
-bool DeviceOrMouse::in_hand(Touching hand) const noexcept {
-    if (hand == Touching::falcon) return falcon_ && falcon_->in_hand();
-    return hand == Touching::inverse3 && inverse3_ && inverse3_->in_hand();
+bool DeviceOrMouse::in_hand(std::size_t which) const noexcept {
+    return which != kMouse && devices_[which - 1] && devices_[which - 1]->in_hand();
 }
 
 /// Whoever touches goes on while it can.
-Touching DeviceOrMouse::next_hand() const noexcept {
+std::size_t DeviceOrMouse::next_hand() const noexcept {
     if (in_hand(touching_)) return touching_;
-    if (in_hand(Touching::falcon)) return Touching::falcon;
-    return in_hand(Touching::inverse3) ? Touching::inverse3 : Touching::mouse;
+    std::size_t which = 1;
+    while (which <= devices_.size() && !in_hand(which)) ++which;
+    return which <= devices_.size() ? which : kMouse;
 }
 
 HandReading DeviceOrMouse::of_mouse(HandReading reading) const noexcept {
@@ -52,12 +56,13 @@ HandReading DeviceOrMouse::of_mouse(HandReading reading) const noexcept {
 }
 
 void DeviceOrMouse::send(Vec3 force_newton) noexcept {
-    const auto for_hand = [&](Touching hand) {
-        return touching_ == hand ? force_newton : Vec3{0.0};
+    const auto for_hand = [&](std::size_t which) {
+        return touching_ == which ? force_newton : Vec3{0.0};
     };
-    if (falcon_) falcon_->send(for_hand(Touching::falcon));
-    if (inverse3_) inverse3_->send(for_hand(Touching::inverse3));
-    mouse_.send(for_hand(Touching::mouse));
+    for (std::size_t k = 0; k < devices_.size(); ++k) {
+        if (devices_[k]) devices_[k]->send(for_hand(k + 1));
+    }
+    mouse_.send(for_hand(kMouse));
 }
 
 }  // namespace dibhr

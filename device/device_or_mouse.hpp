@@ -1,11 +1,11 @@
-// A force device that the mouse stands in for while it is not ready; of several the one that is.
+// Force devices that the mouse stands in for while none is ready.
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <vector>
 
-#include "core/loop/device.hpp"
-#include "device/falcon/falcon_device.hpp"
-#include "device/inverse3/inverse3_device.hpp"
+#include "device/force_device.hpp"
 #include "device/mouse_hand.hpp"
 
 namespace dibhr {
@@ -18,30 +18,31 @@ enum class Touching : std::uint8_t { mouse, falcon, inverse3 };
 /// the force begins from zero (HandReading::taken_over).
 class DeviceOrMouse : public Device {
   public:
-    /// Those that are looked for; at least one of them.
-    DeviceOrMouse(std::unique_ptr<falcon::FalconDevice> falcon,
-                  std::unique_ptr<inverse3::Inverse3Device> inverse3);
+    using Devices = std::vector<std::unique_ptr<ForceDevice>>;
 
-    /// Of the Falcon, where one is looked for.
+    /// In the order of force_device_kinds(), null where none is looked for; at least one is.
+    explicit DeviceOrMouse(Devices devices);
+
+    /// Of the first device that is looked for.
     [[nodiscard]] const DeviceSpecification& specification() const noexcept override;
     [[nodiscard]] HandReading unread() const noexcept override;
     HandReading read(const HandContext& context) noexcept override;
     void send(Vec3 force_newton) noexcept override;
 
-    /// Null: it is not looked for.
-    [[nodiscard]] falcon::FalconDevice* falcon() noexcept { return falcon_.get(); }
-    [[nodiscard]] inverse3::Inverse3Device* inverse3() noexcept { return inverse3_.get(); }
+    [[nodiscard]] const Devices& devices() const noexcept { return devices_; }
     [[nodiscard]] MouseHand& mouse() noexcept { return mouse_; }
 
   private:
-    [[nodiscard]] HandReading of_mouse(HandReading reading) const noexcept;
-    [[nodiscard]] bool in_hand(Touching hand) const noexcept;
-    [[nodiscard]] Touching next_hand() const noexcept;
+    static constexpr std::size_t kMouse = 0;  // HandReading::which; a device's is its place, from 1
 
-    std::unique_ptr<falcon::FalconDevice> falcon_;
-    std::unique_ptr<inverse3::Inverse3Device> inverse3_;
+    [[nodiscard]] HandReading of_mouse(HandReading reading) const noexcept;
+    [[nodiscard]] bool in_hand(std::size_t which) const noexcept;
+    [[nodiscard]] std::size_t next_hand() const noexcept;
+
+    Devices devices_;
     MouseHand mouse_{};
-    Touching touching_{Touching::mouse};
+    std::vector<HandReading> readings_;  // of this tick, one a device
+    std::size_t touching_{kMouse};
 };
 
 }  // namespace dibhr

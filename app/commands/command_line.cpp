@@ -273,12 +273,11 @@ CLI::Option* add_device_option(CLI::App& app, std::string& device) {
             "--device",
             [&device](const std::string& name) {
                 if (!names_device(name))
-                    throw CLI::ValidationError(
-                        "--device", "'" + name + "' is none of " + std::string(kDeviceNames));
+                    throw CLI::ValidationError("--device",
+                                               "'" + name + "' is none of " + device_names());
                 device = name;
             },
-            "auto (a Falcon or an Inverse3, and the mouse until one is there), falcon, "
-            "falcon:SERIAL, inverse3, inverse3:ID, mouse or goals:FILE")
+            device_names(meaning_of_auto()))
         ->type_name("DEVICE")
         ->default_str("auto");
 }

@@ -164,8 +164,7 @@ void lead_person(const StudyOptions& options, StudyRun& run, StudyFile& file) {
     }
     if (options.mute) wished.settings.mute = true;
     HandDevice hand =
-        make_hand_device(options.device, {{wished.settings.falcon.connection, options.firmware},
-                                          connection_of(wished.settings.inverse3)});
+        make_hand_device(options.device, {device_settings(wished.settings), options.firmware});
     StudyWindow window(wished, run, file, std::move(hand), ending);
     window.lead();
 }

@@ -290,8 +290,7 @@ bool open_parts(const ViewOptions& options, ViewerParts& parts, Errands& errands
         print_error_line(parts.trouble);
     }
     parts.hand =
-        make_hand_device(options.device, {{options.settings.falcon.connection, options.firmware},
-                                          connection_of(options.settings.inverse3)});
+        make_hand_device(options.device, {device_settings(options.settings), options.firmware});
     return true;
 }
 

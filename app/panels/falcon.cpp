@@ -193,7 +193,7 @@ void draw_workspace(ViewerState& state) {
     ImGui::SameLine();
     if (ImGui::Button("Centre the hand")) ++state.centred;
     explain("Takes back what the clutch has shifted", state.keys, Action::centre_workspace);
-    draw_device_numbers(falcon_numbers(), FalconTopic::workspace, state.settings.falcon);
+    draw_device_rows(state.settings.falcon, "Workspace");
 }
 
 /// Where a person names the firmware file.
@@ -209,21 +209,9 @@ void draw_firmware_field(ViewerState& state) {
 }
 
 void draw_connection(ViewerState& state) {
-    falcon::ConnectionOptions& connection = state.settings.falcon.connection;
-    const falcon::ConnectionOptions standard;
     fact_row("Firmware", state.falcon->firmware.empty() ? "none kept" : state.falcon->firmware);
     if (state.falcon->status.stage != falcon::Stage::no_firmware) draw_firmware_field(state);
-    flag_row("Event character", connection.event_character, standard.event_character,
-             "The USB chip passes a reply on at its last byte instead of a millisecond later; not "
-             "tried on a real Falcon yet");
-    flag_row("Slower firmware loading", connection.slower_upload, standard.slower_upload,
-             "140 351 baud instead of 142 857; both are reported to work");
-    std::array<char, 64> serial{};
-    connection.serial.copy(serial.data(), serial.size() - 1);
-    if (text_field("##serial", "Serial: the first one found", serial,
-                   "Which Falcon, when several are attached", false)) {
-        connection.serial = serial.data();
-    }
+    draw_device_rows(state.settings.falcon, "Connection");
     quiet_text("These are used from the next start of the program.");
 }
 
@@ -257,13 +245,12 @@ void draw_falcon_state(ViewerState& state) {
 void draw_falcon_settings(ViewerState& state) {
     FalconSettings& settings = state.settings.falcon;
     if (part("Workspace")) draw_workspace(state);
-    if (part("Buttons")) draw_grip_buttons(kFalconGrip, settings.buttons);
+    if (part("Buttons")) draw_device_rows(settings, "Buttons");
     if (part("Calibration")) {
         quiet_text(
             "Sources differ on these; the defaults are libnifalcon's. Each change lets the "
             "force rise again from zero.");
-        draw_device_numbers(falcon_numbers(), FalconTopic::motors, settings);
-        draw_device_numbers(falcon_numbers(), FalconTopic::geometry, settings);
+        draw_device_rows(settings, "Calibration");
     }
     if (part("Connection")) draw_connection(state);
 }

@@ -1,6 +1,5 @@
 // The Inverse3 in the Device panel: what it does and what it needs next; then its workspace,
 // buttons and service.
-#include <array>
 #include <string>
 
 #include "app/panels/device_rows.hpp"
@@ -92,7 +91,7 @@ void draw_workspace(ViewerState& state) {
     ImGui::SameLine();
     if (ImGui::Button("Centre the hand")) ++state.centred;
     explain("Takes back what the clutch has shifted", state.keys, Action::centre_workspace);
-    draw_device_numbers(inverse3_numbers(), Inverse3Topic::workspace, settings);
+    draw_device_rows(settings, "Inverse3 workspace");
 }
 
 /// Of all programs: dibhr shows it.
@@ -103,27 +102,6 @@ void draw_kept(const std::vector<inverse3::KeptSetting>& kept) {
             "As it was when the device came. The service keeps it for all programs; dibhr does not "
             "change it");
     }
-}
-
-void draw_service(Inverse3Settings& settings) {
-    choice_row("Forces spelled", kDialectWords, settings.dialect,
-               "Sources differ on how the service wants a force. By its version is tried first, "
-               "and the other one when no force is told back");
-    std::array<char, 64> device{};
-    settings.device.copy(device.data(), device.size() - 1);
-    if (text_field("##inverse3-device", "Name: the first one found", device,
-                   "Which Inverse3, when several are attached: its name, left or right", false)) {
-        settings.device = device.data();
-    }
-    std::array<char, 32> preset{};
-    settings.preset.copy(preset.data(), preset.size() - 1);
-    if (text_field("##inverse3-preset", "Preset: defaults", preset,
-                   "Mount, axes and origin: defaults, arm_front, led_front, "
-                   "arm_front_centered, led_front_centered; the centre above belongs to it",
-                   false)) {
-        settings.preset = preset.data();
-    }
-    quiet_text("These are used from the next start of the program.");
 }
 
 }  // namespace
@@ -141,10 +119,11 @@ void draw_inverse3_state(ViewerState& state) {
 void draw_inverse3_settings(ViewerState& state) {
     Inverse3Settings& settings = state.settings.inverse3;
     if (part("Inverse3 workspace")) draw_workspace(state);
-    if (part("Inverse3 buttons")) draw_grip_buttons(kInverse3Grip, settings.buttons);
+    if (part("Inverse3 buttons")) draw_device_rows(settings, "Inverse3 buttons");
     if (!part("Inverse3 service")) return;
     draw_kept(state.inverse3->kept);
-    draw_service(settings);
+    draw_device_rows(settings, "Inverse3 service");
+    quiet_text("These are used from the next start of the program.");
 }
 
 }  // namespace dibhr

@@ -1,4 +1,4 @@
-// The list of what protects the hand, and the record of what was agreed to: a line each.
+// What protects the hand less than usual, and the record of what was agreed to: a line each.
 #include "app/settings/consent.hpp"
 
 #include <fcntl.h>
@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <optional>
 #include <sstream>
@@ -22,49 +21,6 @@ namespace dibhr {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// Which values of a setting protect less than the usual one.
-enum class Less { higher, lower, other };
-
-struct Protection {
-    std::string_view table, name;
-    Less less;
-    std::string_view what;
-};
-
-// The measures of the Falcon's mechanism turn a force into torques and counts into millimetres:
-// with others a newton is another one, and so is the stiffness.
-constexpr std::array kProtections{
-    Protection{"device", "max-force", Less::higher, "Max force [N]"},
-    Protection{"touch", "stability", Less::other, "Stability control"},
-    Protection{"touch", "damping-as-needed", Less::other, "Damping as the hand needs"},
-    Protection{"falcon", "force-in-front-only", Less::other,
-               "Force only while the window is in front"},
-    Protection{"falcon", "button-minus", Less::other, "Falcon's minus button"},
-    Protection{"inverse3", "button-b", Less::other, "Inverse3's button B"},
-    Protection{"falcon", "boundary-stiffness", Less::lower, "Falcon's boundary [N/mm]"},
-    Protection{"falcon", "radius", Less::higher, "Falcon's boundary, radius [mm]"},
-    Protection{"falcon", "centre-z", Less::other, "Falcon's boundary, centre [mm]"},
-    Protection{"falcon", "counts-per-newton-metre", Less::higher, "Falcon's torque scale"},
-    Protection{"falcon", "gear", Less::other, "Falcon's gear"},
-    Protection{"falcon", "angle-at-zero", Less::other, "Falcon's angle at 0 [deg]"},
-    Protection{"falcon", "thigh", Less::other, "Falcon's thigh [m]"},
-    Protection{"falcon", "shin", Less::other, "Falcon's shin [m]"},
-    Protection{"falcon", "shin-end-d", Less::other, "Falcon's shin end d [m]"},
-    Protection{"falcon", "shin-end-e", Less::other, "Falcon's shin end e [m]"},
-    Protection{"falcon", "platform-radius", Less::other, "Falcon's platform c [m]"},
-    Protection{"falcon", "base-radius", Less::other, "Falcon's base r [m]"},
-    Protection{"falcon", "platform-shift", Less::other, "Falcon's platform f [m]"},
-    Protection{"falcon", "base-shift", Less::other, "Falcon's base s [m]"}};
-
-template <typename Place>  // a Setting or a Doubt
-const Protection* protection_of(const Place& place) {
-    const auto* const found =
-        std::find_if(kProtections.begin(), kProtections.end(), [&place](const Protection& one) {
-            return one.table == place.table && one.name == place.name;
-        });
-    return found == kProtections.end() ? nullptr : &*found;
-}
 
 bool protects_less(Less less, double value, double than) {
     return less == Less::higher ? value > than : value < than;
@@ -137,11 +93,11 @@ std::vector<Doubt> Consent::hold(Settings& settings) const {
     const std::vector<Setting> safe = list_of(usual);
     std::vector<Doubt> doubts;
     for (std::size_t k = 0; k < asked.size(); ++k) {
-        const Protection* const known = protection_of(asked[k]);
-        if (known == nullptr || !protects_less(known->less, asked[k], safe[k]) ||
+        const auto& known = asked[k].protection;
+        if (!known || !protects_less(known->less, asked[k], safe[k]) ||
             was_agreed(lines, asked[k], known->less))
             continue;
-        doubts.push_back({known->table, known->name, known->what, value_in_words(safe[k]),
+        doubts.push_back({asked[k].table, asked[k].name, known->what, value_in_words(safe[k]),
                           value_in_words(asked[k]), key_of(asked[k]) + text_of(asked[k])});
         assign(asked[k], safe[k]);
     }

@@ -1,6 +1,7 @@
 // The table of what a grip's buttons can do.
 #include "app/settings/grip_buttons.hpp"
 
+#include <array>
 #include <cstddef>
 
 namespace dibhr {
@@ -32,14 +33,6 @@ const char* name_of(ButtonAction action) noexcept {
 
 std::optional<ButtonAction> button_action_named(std::string_view name) noexcept {
     return value_named(kButtonJobs, name);
-}
-
-std::uint8_t buttons_for(ButtonAction action, const ButtonActions& actions) noexcept {
-    std::uint8_t bits = 0;
-    for (std::size_t k = 0; k < actions.size(); ++k) {
-        if (actions[k] == action) bits = static_cast<std::uint8_t>(bits | 1U << k);
-    }
-    return bits;
 }
 
 std::vector<Action> TakenPresses::take(const ButtonPresses& presses, const ButtonActions& actions) {

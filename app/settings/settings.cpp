@@ -26,6 +26,7 @@
 #include "core/files/text_file.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/video/depth/sidecar.hpp"
+#include "device/force_devices.hpp"
 
 namespace dibhr {
 
@@ -113,6 +114,20 @@ std::string take(const toml::node& node, const Setting&, Enum& value) {
 std::string take(const toml::node& node, const Setting&, ButtonAction& value) {
     const auto word = node.value<std::string_view>().value_or("");
     return take_word(button_action_named(word), value, "is not what a button can do");
+}
+
+std::string take_at(const toml::node& node, const Setting&, const DeviceWord& word) {
+    const std::vector<std::string> names(word.names.begin(), word.names.end());
+    const auto found =
+        std::find(names.begin(), names.end(), node.value<std::string>().value_or(""));
+    if (found == names.end()) return "is none of " + listed(names);
+    *word = static_cast<std::uint8_t>(found - names.begin());
+    return {};
+}
+
+template <typename T>
+std::string take_at(const toml::node& node, const Setting& setting, T* value) {
+    return take(node, setting, *value);
 }
 
 /// "Space", ["F8", "Ctrl+R"], or "" for none; nothing: it is not that.
@@ -210,7 +225,7 @@ class Reading {
             const toml::node* node = root_[setting.table][setting.name].node();
             if (node == nullptr) continue;
             const std::string lacking = std::visit(
-                [&](auto* value) { return take(*node, setting, *value); }, setting.value);
+                [&](const auto& value) { return take_at(*node, setting, value); }, setting.value);
             if (!lacking.empty()) warn(*node, setting.table, setting.name, lacking);
         }
         tell_unknown();
@@ -301,6 +316,15 @@ std::string toml_text(Enum value) {
     return '"' + std::string(name_of(value)) + '"';
 }
 
+std::string toml_text_at(const DeviceWord& word) {
+    return '"' + std::string(word.names[*word]) + '"';
+}
+
+template <typename T>
+std::string toml_text_at(const T* value) {
+    return toml_text(*value);
+}
+
 /// "" for none, one key as it is, more as a list.
 std::string toml_text(const OwnKeys& own) {
     std::string text = own.action + " = ";
@@ -359,36 +383,6 @@ toml::table parsed(const fs::path& file) {
     }
 }
 
-void add_buttons(std::vector<Setting>& list, std::string_view table, const GripButtons& grip,
-                 ButtonActions& actions) {
-    for (std::size_t k = 0; k < actions.size(); ++k) {
-        list.push_back({table, grip[k].setting, &actions[k]});
-    }
-}
-
-void add_falcon(std::vector<Setting>& list, FalconSettings& s) {
-    list.insert(list.end(), {{"falcon", "serial", &s.connection.serial},
-                             {"falcon", "event-character", &s.connection.event_character},
-                             {"falcon", "slower-upload", &s.connection.slower_upload},
-                             {"falcon", "force-in-front-only", &s.force_in_front_only}});
-    for (const FalconNumber& number : falcon_numbers()) {
-        list.push_back({"falcon", number.name, &number.in(s), number.lowest, number.highest});
-    }
-    add_buttons(list, "falcon", kFalconGrip, s.buttons);
-}
-
-void add_inverse3(std::vector<Setting>& list, Inverse3Settings& s) {
-    list.insert(list.end(), {{"inverse3", "device", &s.device},
-                             {"inverse3", "port", &s.port, kLowestPort, kHighestPort},
-                             {"inverse3", "older-port", &s.older_port, kLowestPort, kHighestPort},
-                             {"inverse3", "dialect", &s.dialect},
-                             {"inverse3", "preset", &s.preset}});
-    for (const Inverse3Number& number : inverse3_numbers()) {
-        list.push_back({"inverse3", number.name, &number.in(s), number.lowest, number.highest});
-    }
-    add_buttons(list, "inverse3", kInverse3Grip, s.buttons);
-}
-
 }  // namespace
 
 fs::path settings_path() {
@@ -445,6 +439,14 @@ void save_settings(const Settings& settings, const fs::path& file) {
     }
 }
 
+std::vector<DeviceSettings*> device_settings(Settings& settings) {
+    return {&settings.falcon, &settings.inverse3};
+}
+
+std::vector<const DeviceSettings*> device_settings(const Settings& settings) {
+    return {&settings.falcon, &settings.inverse3};
+}
+
 std::vector<Setting> list_of(Settings& s) {
     std::vector<Setting> list{{"window", "width", &s.width, kSmallestWindow, kLargestWindow},
                               {"window", "height", &s.height, kSmallestWindow, kLargestWindow},
@@ -466,21 +468,38 @@ std::vector<Setting> list_of(Settings& s) {
     }
     for (const TouchSwitch& entry : touch_switches())
         list.push_back({"touch", entry.name, &entry.in(s.touch)});
-    list.insert(list.end(), {{"touch", "material", &s.material},
-                             {"touch", "stability", &s.stability},
-                             {"touch", "damping-as-needed", &s.damping_as_needed},
-                             {"touch", "fit-relief", &s.fit_relief},
-                             {"touch", "fit-pixel-pitch", &s.fit_pitch}});
+    list.insert(list.end(),
+                {{"touch", "material", &s.material},
+                 {.table = "touch",
+                  .name = "stability",
+                  .value = &s.stability,
+                  .protection = Protection{Less::other, "Stability control"}},
+                 {.table = "touch",
+                  .name = "damping-as-needed",
+                  .value = &s.damping_as_needed,
+                  .protection = Protection{Less::other, "Damping as the hand needs"}},
+                 {"touch", "fit-relief", &s.fit_relief},
+                 {"touch", "fit-pixel-pitch", &s.fit_pitch}});
     for (const TouchNumber& number : touch_numbers()) {
         list.push_back({"touch", number.name, &number.in(s.touch), number.lowest, number.highest});
     }
-    list.push_back(
-        {"device", "max-force", &s.max_force_newton, 0.0, DeviceLimits{}.max_force_newton});
+    list.push_back({"device", "max-force", &s.max_force_newton, 0.0,
+                    DeviceLimits{}.max_force_newton, Protection{Less::higher, "Max force [N]"}});
     list.insert(list.end(), {{"sound", "volume", &s.sound_volume, 0.0, 1.0},
                              {"sound", "mute", &s.mute},
                              {"sound", "game-pad", &s.game_pad}});
-    add_falcon(list, s.falcon);
-    add_inverse3(list, s.inverse3);
+    const auto kinds = force_device_kinds();
+    const std::vector<DeviceSettings*> devices = device_settings(s);
+    for (std::size_t k = 0; k < devices.size(); ++k) {
+        for (const DeviceRow& row : devices[k]->rows()) {
+            std::visit(
+                [&](const auto& value) {
+                    list.push_back(
+                        {kinds[k]->name, row.name, value, row.lowest, row.highest, row.protection});
+                },
+                row.value);
+        }
+    }
     list.insert(list.end(), {{"cleaning", "preset", &s.cleaning.preset},
                              {"cleaning", "finger", &s.finger_mm, 0.0, kThickestFinger_mm},
                              {"cleaning", "in-betweens", &s.in_betweens}});
@@ -507,16 +526,18 @@ std::vector<Setting> list_of(Settings& s) {
 }
 
 bool same(const Setting& a, const Setting& b) {
-    return std::visit([&](auto* value) { return *value == *std::get<decltype(value)>(b.value); },
-                      a.value);
+    return std::visit(
+        [&]<typename Place>(const Place& value) { return *value == *std::get<Place>(b.value); },
+        a.value);
 }
 
 void assign(const Setting& to, const Setting& from) {
-    std::visit([&](auto* value) { *value = *std::get<decltype(value)>(from.value); }, to.value);
+    std::visit([&]<typename Place>(const Place& value) { *value = *std::get<Place>(from.value); },
+               to.value);
 }
 
 std::string text_of(const Setting& setting) {
-    return std::visit([](const auto* value) { return toml_text(*value); }, setting.value);
+    return std::visit([](const auto& value) { return toml_text_at(value); }, setting.value);
 }
 
 Settings changes_kept(Settings in_file, Settings started, Settings now) {

@@ -3,14 +3,14 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
 #include "app/settings/estimators.hpp"
-#include "app/settings/falcon_settings.hpp"
-#include "app/settings/inverse3_settings.hpp"
+#include "app/settings/grip_buttons.hpp"
 #include "app/settings/keys.hpp"
 #include "app/settings/name_pattern.hpp"
 #include "app/settings/open_with.hpp"
@@ -21,9 +21,14 @@
 #include "core/video/cleaning/cleaning_options.hpp"
 #include "core/video/media.hpp"
 #include "core/video/motion/motion_wanted.hpp"
+#include "device/falcon/settings.hpp"
+#include "device/inverse3/settings.hpp"
 #include "render/scene_view.hpp"
 
 namespace dibhr {
+
+using falcon::FalconSettings;
+using inverse3::Inverse3Settings;
 
 /// Least width and height of a window; on the command line, in the settings and by hand.
 inline constexpr int kSmallestWindow = 160;
@@ -93,6 +98,10 @@ struct Settings {
     std::vector<Estimator> estimators{};  ///< as written, in that order
 };
 
+/// Of every force device, in the order of force_device_kinds().
+[[nodiscard]] std::vector<DeviceSettings*> device_settings(Settings& settings);
+[[nodiscard]] std::vector<const DeviceSettings*> device_settings(const Settings& settings);
+
 /// $XDG_CONFIG_HOME/dibhr/settings.toml, or ~/.config/dibhr/settings.toml.
 [[nodiscard]] std::filesystem::path settings_path();
 
@@ -127,9 +136,10 @@ struct Setting {
     std::string_view table;
     std::string_view name;
     Widened<TouchWordPlace, bool*, int*, double*, std::string*, NamePattern*, CleaningPreset*,
-            ButtonAction*, ReliefPaint*, Theme*, OpenWith*, Dialect*, InBetweens*>::type value;
+            ButtonAction*, ReliefPaint*, Theme*, OpenWith*, DeviceWord, InBetweens*>::type value;
     double lowest{0.0};  ///< of a number
     double highest{0.0};
+    std::optional<Protection> protection{};  ///< that it is of the hand
 };
 
 /// All of them but the keys, in the order of the file; to read or change what `settings` holds.

@@ -7,11 +7,12 @@
 
 namespace dibhr {
 
-ViewerFalcon::ViewerFalcon(const HandDevice& hand, ViewerState& state) : device_(hand.falcon) {
+ViewerFalcon::ViewerFalcon(const HandDevice& hand, ViewerState& state)
+    : device_(hand.find<falcon::FalconDevice>()) {
     if (device_ == nullptr) return;
     FalconNews& news = state.falcon.emplace();
-    news.firmware = hand.firmware;
-    news.firmware_trouble = hand.firmware_trouble;
+    news.firmware = device_->firmware();
+    news.firmware_trouble = device_->firmware_trouble();
     hand_over(state);
 }
 

@@ -9,7 +9,7 @@
 #include "app/panels/viewer_state.hpp"
 #include "app/settings/keys.hpp"
 #include "app/viewer/stage_news.hpp"
-#include "device/falcon/status.hpp"
+#include "device/falcon/falcon_device.hpp"
 #include "device/hand_device.hpp"
 
 namespace dibhr {

@@ -15,7 +15,7 @@ inverse3::Tuning tuning_in(const ViewerState& state) {
 }  // namespace
 
 ViewerInverse3::ViewerInverse3(const HandDevice& hand, ViewerState& state)
-    : device_(hand.inverse3) {
+    : device_(hand.find<inverse3::Inverse3Device>()) {
     if (device_ == nullptr) return;
     state.inverse3.emplace();
     hand_over(state);

@@ -12,7 +12,7 @@
 #include "app/viewer/stage_news.hpp"
 #include "device/hand/pose_ages.hpp"
 #include "device/hand_device.hpp"
-#include "device/inverse3/status.hpp"
+#include "device/inverse3/inverse3_device.hpp"
 
 namespace dibhr {
 

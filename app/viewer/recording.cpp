@@ -14,6 +14,9 @@
 #include "core/video/libraries.hpp"
 #include "core/video/live/live_name.hpp"
 #include "device/device_or_mouse.hpp"
+#include "device/falcon/falcon_device.hpp"
+#include "device/force_devices.hpp"
+#include "device/inverse3/inverse3_device.hpp"
 
 namespace dibhr {
 
@@ -32,20 +35,13 @@ std::string device_name(const ViewerState& state) {
     return inverse3_touches ? "Haply " + name_of(state.inverse3->status) : state.device.name;
 }
 
-/// What is known of an Inverse3 only when it has been found.
-std::map<std::string, std::string> found_facts(const inverse3::Status& status) {
-    return {{"inverse3-id", status.id},
-            {"inverse3-service", status.version},
-            {"inverse3-preset-read", status.preset},
-            {"inverse3-dialect", status.dialect ? name_of(*status.dialect) : ""}};
-}
-
-void add_inverse3_facts(const ViewerState& state, std::map<std::string, std::string>& facts) {
-    Inverse3Settings settings = state.settings.inverse3;
-    facts.merge(found_facts(state.inverse3->status));
-    for (const Inverse3Number& number : inverse3_numbers()) {
-        facts.emplace("inverse3-" + std::string(number.name), number_text(number.in(settings)));
-    }
+/// What is known of a device, and its numbers, under its own name.
+template <typename OwnSettings>
+void add_facts(std::map<std::string, std::string>& facts, const std::string& device,
+               const DeviceState& state, OwnSettings settings) {
+    for (const auto& [name, value] : state.facts) facts.emplace(device + "-" + name, value);
+    for (const auto& [name, value] : number_facts(settings))
+        facts.emplace(device + "-" + name, value);
 }
 
 std::string fact_of(double number) {
@@ -87,14 +83,10 @@ std::map<std::string, std::string> session_facts(const ViewerState& state) {
     facts.emplace("cleaning", name_of(cleaning_on(state.media, state.settings.cleaning).preset));
     facts.emplace("finger", number_text(finger_mm_on(state.media, state.settings.finger_mm)));
     facts.emplace("surface-version", std::to_string(kSurfaceVersion));
-    if (state.falcon) {
-        FalconSettings falcon = state.settings.falcon;
-        facts.emplace("falcon-serial", state.falcon->status.serial);
-        for (const FalconNumber& number : falcon_numbers()) {
-            facts.emplace("falcon-" + std::string(number.name), number_text(number.in(falcon)));
-        }
-    }
-    if (state.inverse3) add_inverse3_facts(state, facts);
+    if (state.falcon)
+        add_facts(facts, "falcon", state_of(state.falcon->status), state.settings.falcon);
+    if (state.inverse3)
+        add_facts(facts, "inverse3", state_of(state.inverse3->status), state.settings.inverse3);
     return facts;
 }
 
@@ -291,8 +283,8 @@ void ViewerRecording::take_news(ViewerState& state) {
     const std::string id = state.inverse3 ? state.inverse3->status.id : std::string{};
     if (!id.empty() && id != inverse3_id_) {
         inverse3_id_ = id;
-        for (const auto& [key, value] : found_facts(state.inverse3->status))
-            recorder_->set_fact(key, value);
+        for (const auto& [name, value] : state_of(state.inverse3->status).facts)
+            recorder_->set_fact("inverse3-" + name, value);
     }
     tell_ages(state);
     state.recording->status = recorder_->status();

@@ -45,8 +45,27 @@ DeviceSpecification specification_of(const ConnectionOptions& options) {
     return specification;
 }
 
-FalconDevice::FalconDevice(ConnectionOptions options, FirmwareImage firmware)
+DeviceState state_of(const Status& status) {
+    const Stage stage = status.stage;
+    const bool ready = stage == Stage::ready;
+    return {.stage = static_cast<int>(stage),
+            .sentence = status.sentence,
+            .trouble = status.trouble,
+            .absent = stage == Stage::looking,
+            .needs_person = stage != Stage::looking && !ready,
+            .may_be_ready = ready || stage == Stage::homing,
+            .ready = ready,
+            .unguarded = status.unguarded,
+            .presses = status.presses,
+            .pressed_at = status.pressed_at,
+            .facts = {{"serial", status.serial}}};
+}
+
+FalconDevice::FalconDevice(ConnectionOptions options, FirmwareImage firmware,
+                           std::string firmware_trouble)
     : specification_(specification_of(options)),
+      firmware_(firmware.name),
+      firmware_trouble_(std::move(firmware_trouble)),
       driver_(std::move(options), std::move(firmware), exchange_) {}
 
 HandReading FalconDevice::read(const HandContext& context) noexcept {

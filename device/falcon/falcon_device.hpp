@@ -3,15 +3,16 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <utility>
 
-#include "core/loop/device.hpp"
 #include "core/realtime/triple_buffer.hpp"
 #include "device/falcon/driver.hpp"
 #include "device/falcon/exchange.hpp"
 #include "device/falcon/firmware_image.hpp"
 #include "device/falcon/kinematics.hpp"
 #include "device/falcon/status.hpp"
+#include "device/force_device.hpp"
 #include "device/hand/workspace.hpp"
 
 namespace dibhr::falcon {
@@ -19,13 +20,18 @@ namespace dibhr::falcon {
 /// What a Falcon can do, whether or not one is attached.
 [[nodiscard]] DeviceSpecification specification_of(const ConnectionOptions& options = {});
 
+/// What every device is asked for. Its facts: "serial".
+[[nodiscard]] DeviceState state_of(const Status& status);
+
 /// Looks for the Falcon from construction on, and again whenever it is lost: opens it, asks whether
 /// firmware is there, loads it, waits for homing, and then exchanges one command and one reply a
 /// tick. Everything but read() and send() happens on the USB thread. Its end is five packets
 /// without force and a closed port.
-class FalconDevice final : public Device {
+class FalconDevice final : public ForceDevice {
   public:
-    explicit FalconDevice(ConnectionOptions options, FirmwareImage firmware = {});
+    /// `firmware_trouble`: why the kept firmware cannot be used.
+    explicit FalconDevice(ConnectionOptions options, FirmwareImage firmware = {},
+                          std::string firmware_trouble = {});
 
     [[nodiscard]] const DeviceSpecification& specification() const noexcept override {
         return specification_;
@@ -44,14 +50,18 @@ class FalconDevice final : public Device {
 
     // The haptic thread's, of the last read():
 
-    /// Homed and linked: this hand touches, though it may be clutched, or its last reply too old.
-    [[nodiscard]] bool in_hand() const noexcept { return epoch_ != kNoEpoch; }
+    /// Homed and linked.
+    [[nodiscard]] bool in_hand() const noexcept override { return epoch_ != kNoEpoch; }
     /// Which reply it used, 1 .. since the start; 0 while there is none.
     [[nodiscard]] std::uint64_t reply_number() const noexcept { return reply_number_; }
 
     /// The window thread's end.
     [[nodiscard]] TripleBuffer<Tuning>& tuning() noexcept { return tuning_; }
     [[nodiscard]] Status status() const { return driver_.status(); }
+    [[nodiscard]] DeviceState state() const override { return state_of(driver_.status()); }
+    /// Name of what it was given at the start, for when it needs it; empty: nothing.
+    [[nodiscard]] const std::string& firmware() const noexcept { return firmware_; }
+    [[nodiscard]] const std::string& firmware_trouble() const noexcept { return firmware_trouble_; }
     /// Used at the next need of one.
     void use_firmware(FirmwareImage image) { driver_.use_firmware(std::move(image)); }
 
@@ -63,6 +73,8 @@ class FalconDevice final : public Device {
     [[nodiscard]] Counts motors_for(Vec3 force_newton) const noexcept;
 
     DeviceSpecification specification_;
+    const std::string firmware_;
+    const std::string firmware_trouble_;
     TripleBuffer<Tuning> tuning_{};
     Exchange exchange_{};
 

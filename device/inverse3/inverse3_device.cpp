@@ -48,6 +48,26 @@ DeviceSpecification specification_of(const ConnectionOptions& options) {
     return specification;
 }
 
+DeviceState state_of(const Status& status) {
+    const Stage stage = status.stage;
+    const bool absent = stage == Stage::looking || stage == Stage::no_device;
+    const bool ready = stage == Stage::ready;
+    return {.stage = static_cast<int>(stage),
+            .sentence = status.sentence,
+            .trouble = status.trouble,
+            .absent = absent,
+            .needs_person = !absent && !ready,
+            .may_be_ready = !status.id.empty(),
+            .ready = ready,
+            .unguarded = status.unguarded,
+            .presses = status.presses,
+            .pressed_at = status.pressed_at,
+            .facts = {{"dialect", status.dialect ? name_of(*status.dialect) : ""},
+                      {"id", status.id},
+                      {"preset-read", status.preset},
+                      {"service", status.version}}};
+}
+
 Inverse3Device::Inverse3Device(ConnectionOptions options)
     : specification_(specification_of(options)), driver_(std::move(options), exchange_) {}
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/loop/device.hpp"
 #include "core/realtime/triple_buffer.hpp"
+#include "device/force_device.hpp"
 #include "device/hand/pose_ages.hpp"
 #include "device/hand/workspace.hpp"
 #include "device/inverse3/driver.hpp"
@@ -18,10 +18,13 @@ namespace dibhr::inverse3 {
 /// What an Inverse3 can do, whether or not one is attached; how it moves is assumed.
 [[nodiscard]] DeviceSpecification specification_of(const ConnectionOptions& options = {});
 
+/// What every device is asked for. Its facts: "dialect", "id", "preset-read", "service".
+[[nodiscard]] DeviceState state_of(const Status& status);
+
 /// Looks for the service from construction on, and again whenever it is lost; chooses a device, and
 /// then exchanges one message and one state after the other. Everything but read() and send()
 /// happens on the network thread. Its end is a zero force and a closed connection.
-class Inverse3Device final : public Device {
+class Inverse3Device final : public ForceDevice {
   public:
     explicit Inverse3Device(ConnectionOptions options);
 
@@ -42,8 +45,8 @@ class Inverse3Device final : public Device {
 
     // The haptic thread's, of the last read():
 
-    /// Ready and linked: this hand touches, though it may be clutched, or its pose too old.
-    [[nodiscard]] bool in_hand() const noexcept { return epoch_ != kNoEpoch; }
+    /// Ready and linked.
+    [[nodiscard]] bool in_hand() const noexcept override { return epoch_ != kNoEpoch; }
     /// How old the pose was.
     [[nodiscard]] std::chrono::nanoseconds pose_age() const noexcept { return pose_age_; }
 
@@ -54,6 +57,7 @@ class Inverse3Device final : public Device {
     /// second behind.
     [[nodiscard]] const PoseAges& pose_ages() noexcept { return told_ages_.front(); }
     [[nodiscard]] Status status() const { return driver_.status(); }
+    [[nodiscard]] DeviceState state() const override { return state_of(driver_.status()); }
 
   private:
     [[nodiscard]] bool take_tuning() noexcept;

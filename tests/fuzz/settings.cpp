@@ -18,9 +18,9 @@ namespace {
 void require_in_range(Settings settings) {
     for (const Setting& setting : list_of(settings)) {
         std::visit(
-            [&setting](const auto* value) {
-                if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(*value)>> &&
-                              !std::is_same_v<std::remove_cvref_t<decltype(*value)>, bool>) {
+            [&setting](const auto& value) {
+                using Value = std::remove_cvref_t<decltype(*value)>;
+                if constexpr (std::is_same_v<Value, int> || std::is_same_v<Value, double>) {
                     test::require_rule(*value >= setting.lowest && *value <= setting.highest,
                                        std::string(setting.name) + " is in its range");
                 }

@@ -151,6 +151,32 @@ TEST_CASE("the viewer that insists on an Inverse3 ends with one line when there 
     CHECK(says(other.errors, "C0FFEE, but 049D"));
 }
 
+TEST_CASE("the check is of an Inverse3 that is attached, whether or not it can be used",
+          "[inverse3][devices]") {
+    const Case& one = GENERATE(from_range(unusable()));
+    Scene scene;
+    one.change(scene);
+    Service service(scene);
+    const ProgramResult result = Home(service).run({"devices", "--check"});
+    INFO(one.what << ": " << result.errors);
+    CHECK(result.exit_code == 1);
+    CHECK(says(result.errors, one.says));
+    CHECK(says(result.errors, one.next_step));
+    CHECK(service.heard().empty());
+}
+
+TEST_CASE("a file that is no firmware is refused before the check of an Inverse3, too",
+          "[inverse3][devices]") {
+    Service service;
+    const Home home(service);
+    write_text(home.folder() / "text.bin", "this is no firmware");
+    const ProgramResult result = home.run({"devices", "--check", "--firmware", "text.bin"});
+    CHECK(result.exit_code == 1);
+    CHECK(result.output.empty());
+    CHECK(says(result.errors, "nvent_firmware.bin"));
+    CHECK(service.connections() == 0);
+}
+
 TEST_CASE(
     "where no Falcon is attached the check is of the Inverse3; with nobody there it asks for "
     "no force",

@@ -130,9 +130,13 @@ TEST_CASE("who agreed to a limit agreed to lower ones, and is asked about higher
 TEST_CASE("everything that turns a force into what the Falcon's motors do is asked about",
           "[consent]") {
     Settings all;
-    for (const FalconNumber& number : falcon_numbers())
-        if (number.topic == FalconTopic::geometry)
-            number.in(all.falcon) = number.lowest + 0.37 * (number.highest - number.lowest);
+    for (const DeviceRow& row : all.falcon.rows()) {
+        double* const* const number = std::get_if<double*>(&row.value);
+        const bool of_motors =
+            row.name == "counts-per-newton-metre" || row.name == "full-scale-counts";
+        if (number != nullptr && row.topic == "Calibration" && !of_motors)
+            **number = row.lowest + 0.37 * (row.highest - row.lowest);
+    }
     for (ButtonActions* const actions : {&all.falcon.buttons, &all.inverse3.buttons})
         std::replace(actions->begin(), actions->end(), ButtonAction::force_off, ButtonAction::none);
     const Settings usual;

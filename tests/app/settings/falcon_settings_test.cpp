@@ -4,11 +4,13 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <variant>
 #include <vector>
 
-#include "app/settings/falcon_settings.hpp"
+#include "app/settings/grip_buttons.hpp"
 #include "app/settings/settings.hpp"
 #include "device/falcon/packet.hpp"
+#include "device/force_devices.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -18,15 +20,23 @@ using falcon::Button;
 
 namespace {
 
-double value_of(const FalconNumber& number, FalconSettings settings) {
-    return number.in(settings);
+/// The rows of its numbers.
+std::vector<DeviceRow> numbers_of(FalconSettings& settings) {
+    std::vector<DeviceRow> rows = settings.rows();
+    std::erase_if(rows,
+                  [](const DeviceRow& row) { return !std::holds_alternative<double*>(row.value); });
+    return rows;
+}
+
+double& value_of(const DeviceRow& number) {
+    return *std::get<double*>(number.value);
 }
 
 std::uint8_t bit(Button button) {
     return static_cast<std::uint8_t>(button);
 }
 
-std::string line_of(const FalconNumber& number, double value) {
+std::string line_of(const DeviceRow& number, double value) {
     std::ostringstream line;
     line << "[falcon]\n" << number.name << " = " << std::fixed << value << "\n";
     return line.str();
@@ -49,8 +59,8 @@ TEST_CASE("what is kept about the Falcon comes back exactly, whatever its serial
     settings.falcon.buttons = {ButtonAction::none, ButtonAction::clutch, ButtonAction::clutch,
                                ButtonAction::take_screenshot};
     settings.falcon.force_in_front_only = false;
-    for (const FalconNumber& number : falcon_numbers()) {
-        number.in(settings.falcon) = number.lowest + 0.123456789 * (number.highest - number.lowest);
+    for (const DeviceRow& number : numbers_of(settings.falcon)) {
+        value_of(number) = number.lowest + 0.123456789 * (number.highest - number.lowest);
     }
     save_settings(settings, folder / "settings.toml");
     std::vector<std::string> warnings;
@@ -59,24 +69,27 @@ TEST_CASE("what is kept about the Falcon comes back exactly, whatever its serial
     CHECK(same_settings(back, settings));
     CHECK(back.falcon.connection.serial == settings.falcon.connection.serial);
     CHECK_FALSE(same_settings(back, Settings{}));
+    CHECK(device_settings(back).size() == force_device_kinds().size());
 }
 
 TEST_CASE("each number of the Falcon has its own name, a help, and a default inside its range",
           "[falcon][settings]") {
     std::set<std::string> names;
-    for (const FalconNumber& number : falcon_numbers()) {
+    FalconSettings usual;
+    for (const DeviceRow& number : numbers_of(usual)) {
         CAPTURE(number.name);
         CHECK(names.emplace(number.name).second);
         CHECK(std::string(number.help).size() > 10);
-        CHECK(value_of(number, {}) >= number.lowest);
-        CHECK(value_of(number, {}) <= number.highest);
+        CHECK(value_of(number) >= number.lowest);
+        CHECK(value_of(number) <= number.highest);
     }
     CHECK(names.size() == 10 + 2 + 7);  // Geometry, Motors, WorkspaceOptions
 }
 
 TEST_CASE("a number of the Falcon out of its range keeps its default and is told with its line",
           "[falcon][settings]") {
-    for (const FalconNumber& number : falcon_numbers()) {
+    FalconSettings usual;
+    for (const DeviceRow& number : numbers_of(usual)) {
         const double span = number.highest - number.lowest;
         for (const double wrong : {number.lowest - 0.5 * span, number.highest + 0.5 * span}) {
             CAPTURE(number.name, wrong);

@@ -77,7 +77,7 @@ TEST_CASE("no two settings are kept in one place, and none has the name of anoth
         CAPTURE(name);
         CHECK(names.insert(name).second);
         const void* const place =
-            std::visit([](auto* value) -> const void* { return value; }, setting.value);
+            std::visit([](const auto& value) -> const void* { return &*value; }, setting.value);
         CHECK(places.insert(place).second);
     }
     CHECK(places.size() > 100);

@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "device/inverse3/inverse3_device.hpp"
 #include "device/inverse3/simulated/service.hpp"
 #include "tests/device/falcon/falcon_in_loop.hpp"
 #include "tests/support/catch.hpp"
@@ -19,11 +20,22 @@ using namespace dibhr::falcon;
 using dibhr::Vec3;
 using std::chrono::milliseconds;
 
+/// In the order of force_device_kinds().
+dibhr::DeviceOrMouse::Devices looked_for(
+    std::unique_ptr<FalconDevice> falcon,
+    std::unique_ptr<dibhr::inverse3::Inverse3Device> inverse3 = nullptr) {
+    dibhr::DeviceOrMouse::Devices both;
+    both.push_back(std::move(falcon));
+    both.push_back(std::move(inverse3));
+    return both;
+}
+
 /// Of devices only a Falcon is looked for.
 struct FalconOrMouse : dibhr::DeviceOrMouse {
     FalconOrMouse(ConnectionOptions options, FirmwareImage firmware)
-        : DeviceOrMouse(std::make_unique<FalconDevice>(std::move(options), std::move(firmware)),
-                        nullptr) {}
+        : DeviceOrMouse(
+              looked_for(std::make_unique<FalconDevice>(std::move(options), std::move(firmware)))) {
+    }
 };
 using TickingHand = TickingDevice<FalconOrMouse>;
 
@@ -89,7 +101,7 @@ TEST_CASE("a reading says what its own hand can stand: the mouse's, or the Falco
     TickingHand loop(ConnectionOptions{}, FirmwareImage{});
     Tuning tuning;
     tuning.workspace.scale = 4.0;
-    loop.device.falcon()->tuning().publish(tuning);
+    dynamic_cast<FalconDevice&>(*loop.device.devices()[0]).tuning().publish(tuning);
     loop.tick();
     CHECK(loop.reading.limits == loop.device.mouse().specification().limits);
     start_firmware(unit);
@@ -129,8 +141,8 @@ TEST_CASE("of a Falcon and an Inverse3 the first that is ready touches, and the 
     options.port = service.port();
     options.older_port = service.older_port();
     TickingDevice<dibhr::DeviceOrMouse> loop(
-        std::make_unique<FalconDevice>(ConnectionOptions{}, any_firmware()),
-        std::make_unique<dibhr::inverse3::Inverse3Device>(options));
+        looked_for(std::make_unique<FalconDevice>(ConnectionOptions{}, any_firmware()),
+                   std::make_unique<dibhr::inverse3::Inverse3Device>(options)));
     using dibhr::Touching;
     const auto touching = [&] { return static_cast<Touching>(loop.reading.which); };
     loop.force_newton = {0.0, 0.0, 1.0};
@@ -139,7 +151,7 @@ TEST_CASE("of a Falcon and an Inverse3 the first that is ready touches, and the 
     start_firmware(unit);
     home(unit);
     bus.plug(unit);
-    REQUIRE(loop.tick_until([&] { return loop.device.falcon()->in_hand(); }));
+    REQUIRE(loop.tick_until([&] { return loop.device.devices()[0]->in_hand(); }));
     loop.tick_for(milliseconds(100));
     CHECK(touching() == Touching::inverse3);
     CHECK(log_of(unit).with_force == 0);
@@ -158,7 +170,7 @@ TEST_CASE("of a Falcon and an Inverse3 the first that is ready touches, and the 
     // It comes again: the Falcon keeps the hand, and the Inverse3 rests at zero.
     service.with([](simulated::Scene& scene) { scene.arms = {simulated::Arm{}}; });
     service.forget_heard();
-    REQUIRE(loop.tick_until([&] { return loop.device.inverse3()->in_hand(); }));
+    REQUIRE(loop.tick_until([&] { return loop.device.devices()[1]->in_hand(); }));
     loop.tick_for(milliseconds(200));
     CHECK(touching() == Touching::falcon);
     for (const simulated::Heard& one : service.heard()) {

@@ -1,0 +1,154 @@
+// The Falcon among the force devices: how it is named, made, surveyed and checked.
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "device/falcon/check/check.hpp"
+#include "device/falcon/falcon_device.hpp"
+#include "device/falcon/firmware_image.hpp"
+#include "device/falcon/settings.hpp"
+#include "device/falcon/survey.hpp"
+#include "device/force_device.hpp"
+
+namespace dibhr::falcon {
+
+namespace {
+
+const FalconSettings& own(const DeviceSettings& settings) {
+    return static_cast<const FalconSettings&>(settings);
+}
+
+/// Firmware for a Falcon that has none.
+struct FirmwareAtHand {
+    FirmwareImage image{};
+    std::string trouble{};  ///< why the kept file cannot be used
+};
+
+/// `given`, checked and kept for the next time, or the kept one. Throws InputError when `given` is
+/// no firmware.
+FirmwareAtHand firmware_at_hand(const std::filesystem::path& given = {}) {
+    if (!given.empty()) return {keep_firmware(given), {}};
+    try {
+        return {kept_firmware(), {}};
+    } catch (const InputError& error) {
+        return {{}, error.what()};
+    }
+}
+
+ConnectionOptions connection_of(const DeviceSettings& settings, const DeviceGiven& given) {
+    ConnectionOptions connection = own(settings).connection;
+    if (!given.which.empty()) connection.serial = given.which;
+    return connection;
+}
+
+std::unique_ptr<ForceDevice> make(const DeviceSettings& settings, const DeviceGiven& given) {
+    FirmwareAtHand firmware = firmware_at_hand(given.file);
+    return std::make_unique<FalconDevice>(connection_of(settings, given), std::move(firmware.image),
+                                          std::move(firmware.trouble));
+}
+
+/// What it needs after that, firmware or homing, is guided in the window.
+std::string why_none_to_open(const DeviceSettings& settings, const DeviceGiven& given) {
+    const std::string serial = connection_of(settings, given).serial;
+    const std::vector<AttachedFalcon> attached = attached_falcons();
+    if (attached.empty()) {
+        return "no Novint Falcon is attached: plug in its USB cable and its power adapter, or use "
+               "--device mouse";
+    }
+    if (serial.empty() && attached.size() > 1) {
+        return std::to_string(attached.size()) + " Novint Falcons are attached (" +
+               serials_of(attached) +
+               "): choose one with --device falcon:SERIAL or in the settings";
+    }
+    const auto meant = choose(attached, serial);
+    return meant ? why_it_cannot_be_opened(*meant)
+                 : why_none(attached, serial) + " with --device falcon:SERIAL";
+}
+
+std::string name_of(const AttachedFalcon& falcon) {
+    return "Novint Falcon " + (falcon.serial.empty() ? "(serial unknown)" : falcon.serial);
+}
+
+std::string state_of(const SurveyedFalcon& falcon, const FirmwareAtHand& firmware) {
+    const bool wants_file = falcon.stage == Stage::no_firmware && firmware.image.empty();
+    return (falcon.usable() ? "usable, " : "not usable yet, ") + falcon.sentence +
+           (wants_file ? "; then: dibhr devices --firmware FILE" : "");
+}
+
+/// Where the USB cannot be looked at, the mouse can still be used.
+DevicesFound survey(const DeviceSettings& settings, const TellLine& tell) {
+    try {
+        if (attached_falcons().empty()) {
+            tell("Novint Falcon: none attached");
+            return {};
+        }
+    } catch (const DeviceError& error) {
+        tell(std::string("Novint Falcon: not known whether one is attached, ") + error.what());
+        return {};
+    }
+    const FirmwareAtHand firmware = firmware_at_hand();
+    if (!firmware.trouble.empty()) tell("kept firmware: " + firmware.trouble);
+    ConnectionOptions options = own(settings).connection;
+    options.serial.clear();  // all of them
+    const std::vector<SurveyedFalcon> falcons = survey_falcons(options, firmware.image);
+    for (const SurveyedFalcon& one : falcons) {
+        tell(name_of(one.attached) + " at USB bus " + std::to_string(one.attached.bus) +
+             " address " + std::to_string(one.attached.address) + ": " + state_of(one, firmware));
+    }
+    const bool usable = std::any_of(falcons.begin(), falcons.end(),
+                                    [](const SurveyedFalcon& one) { return one.usable(); });
+    // One that was unplugged in the meantime is none.
+    if (usable || falcons.empty()) return {.usable = usable};
+    const std::string more = falcons.size() > 1 ? "; the others are told above" : "";
+    return {.refusal = name_of(falcons.front().attached) + " is " +
+                       state_of(falcons.front(), firmware) + more};
+}
+
+bool glance(const DeviceSettings& /*settings*/, const TellLine& tell) {
+    try {
+        if (attached_falcons().empty()) return false;
+        tell("a Novint Falcon is attached; dibhr devices says whether it can be used");
+    } catch (const DeviceError& error) {
+        tell(std::string("it is not known whether a Novint Falcon is attached: ") + error.what());
+    }
+    return true;
+}
+
+CheckResult check(const DeviceSettings& settings, const CheckPaper& paper, const TellLine& tell,
+                  CheckGuide& guide) {
+    FirmwareAtHand firmware = firmware_at_hand();
+    if (!firmware.trouble.empty()) tell("kept firmware: " + firmware.trouble);
+    return run_check({.serial = own(settings).connection.serial,
+                      .firmware = std::move(firmware.image),
+                      .geometry = own(settings).geometry,
+                      .record = paper.record,
+                      .facts = paper.facts},
+                     guide);
+}
+
+}  // namespace
+
+extern const ForceDeviceKind kKind{
+    .name = "falcon",
+    .title = "Novint Falcon",
+    .article = "a Falcon",
+    .which = "SERIAL",
+    .known = "",
+    .check_needs_consent = true,
+    .make_settings = []() -> std::unique_ptr<DeviceSettings> {
+        return std::make_unique<FalconSettings>();
+    },
+    .make = make,
+    .keep_file = [](const std::filesystem::path& file) { (void)keep_firmware(file); },
+    .why_none = why_none_to_open,
+    .attached = [](const DeviceSettings& /*settings*/) { return !attached_falcons().empty(); },
+    .survey = survey,
+    .glance = glance,
+    .check = check,
+    .simulate = nullptr,
+};
+
+}  // namespace dibhr::falcon

@@ -1,0 +1,126 @@
+// The table of what is kept about the Falcon, and what the device makes of it.
+#include "device/falcon/settings.hpp"
+
+#include "device/falcon/falcon_device.hpp"
+
+namespace dibhr::falcon {
+
+// The constants of the mechanism: libnifalcon's set, see README.md; the helps give Martin &
+// Hillier's where it differs. The ranges keep a mechanism that can be built. Its measures turn a
+// force into torques and counts into millimetres: with others a newton is another one, and so is
+// the stiffness.
+std::vector<DeviceRow> FalconSettings::rows() {
+    constexpr const char* kWorkspace = "Workspace";
+    constexpr const char* kCalibration = "Calibration";
+    constexpr const char* kConnection = "Connection";
+    constexpr double kMillimetres = 1000.0;  // in a metre
+    std::vector<DeviceRow> rows{
+        {"serial", kConnection, "Serial: the first one found",
+         "Which Falcon, when several are attached", &connection.serial, 0.0, 63.0},
+        {"event-character", kConnection, "Event character",
+         "The USB chip passes a reply on at its last byte instead of a millisecond later; not "
+         "tried on a real Falcon yet",
+         &connection.event_character},
+        {"slower-upload", kConnection, "Slower firmware loading",
+         "140 351 baud instead of 142 857; both are reported to work", &connection.slower_upload},
+        {.name = "force-in-front-only",
+         .topic = "",
+         .label = "Force only while the window is in front",
+         .help = "No force while people work in another window",
+         .value = &force_in_front_only,
+         .protection = Protection{Less::other, "Force only while the window is in front"}},
+        {"scale", kWorkspace, "Scale",
+         "Image millimetres a hand millimetre. A larger image is softer under the hand: more than "
+         "1 N a hand millimetre is never felt",
+         &workspace.scale, 0.1, 10.0, "x %.2f"},
+        {"offset-x", kWorkspace, "Offset right",
+         "Where in the image the hand's centre is, from the image's middle", &workspace.offset_mm.x,
+         -200.0, 200.0, "%.1f mm"},
+        {"offset-y", kWorkspace, "Offset up",
+         "Where in the image the hand's centre is, from the image's middle", &workspace.offset_mm.y,
+         -200.0, 200.0, "%.1f mm"},
+        {"offset-z", kWorkspace, "Offset out",
+         "How far above the middle of the relief the hand's centre is", &workspace.offset_mm.z,
+         -200.0, 200.0, "%.1f mm"},
+        {"centre-z", kWorkspace, "Centre",
+         "Of the usable volume, out of the base. Demos use 110 to 125 mm; the grip is fully in at "
+         "about 75 and fully out at 170 mm",
+         &workspace.centre_z_mm, 90.0, 150.0, "%.0f mm", 1.0,
+         Protection{Less::other, "Falcon's boundary, centre [mm]"}},
+        {"radius", kWorkspace, "Radius",
+         "Of the usable volume; beyond it a soft boundary pushes back. CHAI3D: 40 mm for full "
+         "quality",
+         &workspace.radius_mm, 10.0, 55.0, "%.0f mm", 1.0,
+         Protection{Less::higher, "Falcon's boundary, radius [mm]"}},
+        {"boundary-stiffness", kWorkspace, "Boundary",
+         "How hard the boundary of the usable volume is; 0: none",
+         &workspace.boundary_newton_per_mm, 0.0, 0.5, "%.2f N/mm", 1.0,
+         Protection{Less::lower, "Falcon's boundary [N/mm]"}},
+        // No source is above 10000, so a higher scale is a mistake in the making.
+        {"counts-per-newton-metre", kCalibration, "Torque scale",
+         "Motor counts a newton metre at the thigh. Nobody has measured it: 10000 is "
+         "libnifalcon's, 6616 Martin & Hillier's, about 3600 fits Novint's driver. Weigh the force "
+         "with a scale and set it here",
+         &motors.counts_per_newton_metre, 1000.0, 10000.0, "%.0f / N m", 1.0,
+         Protection{Less::higher, "Falcon's torque scale"}},
+        {"full-scale-counts", kCalibration, "Full scale",
+         "Most counts that a motor is sent; Novint's driver ends at 4095",
+         &motors.full_scale_counts, 0.0, 4095.0, "%.0f"},
+        {"gear", kCalibration, "Gear",
+         "Motor turns a turn of the thigh. libnifalcon: 110 / 14.25; Martin & Hillier: 7.62",
+         &geometry.gear, 4.0, 12.0, "%.3f", 1.0, Protection{Less::other, "Falcon's gear"}},
+        {"angle-at-zero", kCalibration, "Angle at 0",
+         "Of the thigh, at encoder count 0. libnifalcon: 35; Martin & Hillier: 50, of which a user "
+         "measured 40",
+         &geometry.angle_at_zero_deg, 0.0, 70.0, "%.1f deg", 1.0,
+         Protection{Less::other, "Falcon's angle at 0 [deg]"}},
+        {"thigh", kCalibration, "Thigh (a)", "Length of the thigh; both sources 60 mm",
+         &geometry.thigh_m, 0.04, 0.09, "%.2f mm", kMillimetres,
+         Protection{Less::other, "Falcon's thigh [m]"}},
+        {"shin", kCalibration, "Shin (b)",
+         "Length of the shin's parallelogram; both sources 102.5 mm", &geometry.shin_m, 0.07, 0.15,
+         "%.2f mm", kMillimetres, Protection{Less::other, "Falcon's shin [m]"}},
+        {"shin-end-d", kCalibration, "Shin end (d)",
+         "Joint at one end of the shin. libnifalcon: 11.25; Martin & Hillier: 11.5",
+         &geometry.shin_end_d_m, 0.0, 0.03, "%.2f mm", kMillimetres,
+         Protection{Less::other, "Falcon's shin end d [m]"}},
+        {"shin-end-e", kCalibration, "Shin end (e)",
+         "Joint at the other end. libnifalcon: 11.25; Martin & Hillier: 11.5",
+         &geometry.shin_end_e_m, 0.0, 0.03, "%.2f mm", kMillimetres,
+         Protection{Less::other, "Falcon's shin end e [m]"}},
+        {"platform-radius", kCalibration, "Platform (c)",
+         "Of the joints on the grip's platform. libnifalcon: 14.43; Martin & Hillier: 15.7",
+         &geometry.platform_radius_m, 0.0, 0.03, "%.2f mm", kMillimetres,
+         Protection{Less::other, "Falcon's platform c [m]"}},
+        {"base-radius", kCalibration, "Base (r)",
+         "Of the joints on the base. libnifalcon: 40.0; Martin & Hillier: 36.6",
+         &geometry.base_radius_m, 0.02, 0.06, "%.2f mm", kMillimetres,
+         Protection{Less::other, "Falcon's base r [m]"}},
+        {"platform-shift", kCalibration, "Platform (f)",
+         "Tangential; only f - s counts. libnifalcon: -25.0; Martin & Hillier: 26.2",
+         &geometry.platform_shift_m, -0.04, 0.04, "%.2f mm", kMillimetres,
+         Protection{Less::other, "Falcon's platform f [m]"}},
+        {"base-shift", kCalibration, "Base (s)",
+         "Tangential. libnifalcon: -23.09; Martin & Hillier: 27.2", &geometry.base_shift_m, -0.04,
+         0.04, "%.2f mm", kMillimetres, Protection{Less::other, "Falcon's base s [m]"}},
+    };
+    add_buttons(rows, kGrip, "Buttons");
+    return rows;
+}
+
+DeviceLimits FalconSettings::limits() const {
+    return at_scale(specification_of(connection).limits, workspace.scale);
+}
+
+Tuning tuning_of(const FalconSettings& settings, std::uint32_t centred) noexcept {
+    Tuning tuning;
+    tuning.geometry = settings.geometry;
+    tuning.motors = settings.motors;
+    tuning.workspace = settings.workspace;
+    tuning.clutch_buttons = buttons_for(ButtonAction::clutch, settings.buttons);
+    tuning.force_off_buttons = buttons_for(ButtonAction::force_off, settings.buttons);
+    tuning.centred = centred;
+    return tuning;
+}
+
+}  // namespace dibhr::falcon

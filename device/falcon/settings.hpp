@@ -1,0 +1,37 @@
+// What is kept about the Falcon: the constants that sources disagree on, its workspace, its
+// buttons.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "device/falcon/status.hpp"
+#include "device/hand/device_settings.hpp"
+
+namespace dibhr::falcon {
+
+/// In the order of Status::presses.
+inline constexpr GripButtons kGrip{
+    {{"button-plus", "Plus (right)", ButtonAction::record},
+     {"button-forward", "Forward (top)", ButtonAction::play_or_pause},
+     {"button-centre", "Centre (logo)", ButtonAction::clutch},
+     {"button-minus", "Minus (left)", ButtonAction::force_off,
+      Protection{Less::other, "Falcon's minus button"}}}};
+
+struct FalconSettings final : DeviceSettings {
+    FalconSettings() : DeviceSettings(kGrip) {}
+
+    ConnectionOptions connection{};  ///< used from the next start of the program
+    Geometry geometry{};
+    Motors motors{};
+    WorkspaceOptions workspace{};
+    bool force_in_front_only{true};  ///< no force while people work in another window
+
+    [[nodiscard]] std::vector<DeviceRow> rows() override;
+    [[nodiscard]] DeviceLimits limits() const override;
+};
+
+/// The numbers and the clutch as the device takes them; `centred` is counted by the viewer.
+[[nodiscard]] Tuning tuning_of(const FalconSettings& settings, std::uint32_t centred) noexcept;
+
+}  // namespace dibhr::falcon

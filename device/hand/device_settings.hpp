@@ -1,0 +1,90 @@
+// What people choose about a force device, a row a value: name, range, meaning, and where it is
+// held. The settings file and the panel are made of the rows.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/haptics/safety.hpp"
+#include "core/haptics/words.hpp"
+#include "device/hand/grip_buttons.hpp"
+
+namespace dibhr {
+
+/// A text of every word of an enumeration, in its order: Word::name or Word::label.
+template <HasWords Enum, auto text>
+[[nodiscard]] constexpr auto word_texts() noexcept {
+    std::array<const char*, words_of(Enum{}).size()> texts{};
+    for (std::size_t k = 0; k < texts.size(); ++k) texts[k] = words_of(Enum{})[k].*text;
+    return texts;
+}
+template <HasWords Enum, auto text>
+inline constexpr auto kWordTexts = word_texts<Enum, text>();
+
+/// A value of an enumeration of one byte, which is the place of its word, too.
+struct DeviceWord {
+    std::uint8_t* value;
+    std::span<const char* const> names;   ///< in the settings file
+    std::span<const char* const> labels;  ///< on the panel
+
+    /// The value outlives it. Its table of words has_all_in_order().
+    template <HasWords Enum>
+    explicit DeviceWord(Enum& held) noexcept
+        : value(reinterpret_cast<std::uint8_t*>(&held)),
+          names(kWordTexts<Enum, &Word<Enum>::name>),
+          labels(kWordTexts<Enum, &Word<Enum>::label>) {
+        static_assert(sizeof(Enum) == 1);
+    }
+    [[nodiscard]] std::uint8_t& operator*() const noexcept { return *value; }
+};
+
+struct DeviceRow {
+    std::string_view name;   ///< in the settings file: "thigh"
+    std::string_view topic;  ///< a heading of the panel; empty: not among its rows
+    const char* label;       ///< on the panel; of a text: what the empty field says
+    const char* help;        ///< meaning, and where the default comes from
+    std::variant<bool*, int*, double*, std::string*, ButtonAction*, DeviceWord> value;
+    double lowest{0.0};      ///< of a number, as stored; every value of the range is safe
+    double highest{0.0};     ///< likewise; of a text: the most bytes that can be typed
+    const char* format{""};  ///< printf format of a number on the panel, with the unit
+    double shown{1.0};       ///< panel units in a stored one: 1000 for metres shown as millimetres
+    std::optional<Protection> protection{};
+};
+
+/// Of one kind of device; what a new object holds are the defaults.
+struct DeviceSettings {
+    explicit DeviceSettings(const GripButtons& grip) : buttons(standard_actions(grip)) {}
+    DeviceSettings(const DeviceSettings&) = default;
+    DeviceSettings& operator=(const DeviceSettings&) = default;
+    virtual ~DeviceSettings() = default;
+
+    ButtonActions buttons;
+
+    /// All values, in the order of the settings file.
+    [[nodiscard]] virtual std::vector<DeviceRow> rows() = 0;
+    /// What the hand can stand at the scale that is chosen, whether or not a device is there.
+    [[nodiscard]] virtual DeviceLimits limits() const = 0;
+
+  protected:
+    /// The rows of the grip's buttons, behind the others.
+    void add_buttons(std::vector<DeviceRow>& rows, const GripButtons& grip,
+                     std::string_view topic) {
+        for (std::size_t k = 0; k < buttons.size(); ++k) {
+            rows.push_back({.name = grip[k].setting,
+                            .topic = topic,
+                            .label = grip[k].label,
+                            .help = "What this button of the grip does",
+                            .value = &buttons[k],
+                            .protection = grip[k].protection});
+        }
+    }
+};
+
+}  // namespace dibhr

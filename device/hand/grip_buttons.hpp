@@ -1,0 +1,62 @@
+// What the buttons of a device's grip can do, whichever device it is.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "device/hand/buttons.hpp"
+
+namespace dibhr {
+
+/// Which values of a setting protect a hand less than the usual one: a person has to agree to them.
+enum class Less : std::uint8_t { higher, lower, other };
+struct Protection {
+    Less less;
+    const char* what;  ///< for people: "Falcon's gear"
+};
+
+/// What a button of the grip can do.
+enum class ButtonAction {
+    none,
+    clutch,
+    record,
+    play_or_pause,
+    force_off,
+    toggle_force,
+    centre_workspace,
+    go_to_start,
+    take_screenshot
+};
+
+/// One button of the grip.
+struct GripButton {
+    std::string_view setting;  ///< in the settings file
+    const char* label;         ///< in the panel
+    ButtonAction standard;
+    std::optional<Protection> protection{};
+};
+
+/// Of every button what it does, bit 0 first.
+using ButtonActions = std::array<ButtonAction, kGripButtonCount>;
+using GripButtons = std::array<GripButton, kGripButtonCount>;
+
+[[nodiscard]] constexpr ButtonActions standard_actions(const GripButtons& grip) noexcept {
+    ButtonActions actions{};
+    for (std::size_t k = 0; k < actions.size(); ++k) actions[k] = grip[k].standard;
+    return actions;
+}
+
+/// Bits of the buttons that have this job.
+[[nodiscard]] constexpr std::uint8_t buttons_for(ButtonAction action,
+                                                 const ButtonActions& actions) noexcept {
+    std::uint8_t bits = 0;
+    for (std::size_t k = 0; k < actions.size(); ++k) {
+        if (actions[k] == action) bits = static_cast<std::uint8_t>(bits | 1U << k);
+    }
+    return bits;
+}
+
+}  // namespace dibhr

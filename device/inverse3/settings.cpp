@@ -1,0 +1,90 @@
+// The table of what is kept about the Inverse3, and what the device makes of it.
+#include "device/inverse3/settings.hpp"
+
+#include <string_view>
+
+#include "device/inverse3/frame.hpp"
+#include "device/inverse3/inverse3_device.hpp"
+
+namespace dibhr::inverse3 {
+
+// README.md, Conversation, has where the centre comes from.
+std::vector<DeviceRow> Inverse3Settings::rows() {
+    constexpr const char* kWorkspace = "Inverse3 workspace";
+    constexpr const char* kService = "Inverse3 service";
+    constexpr double kLowestPort = 1.0;
+    constexpr double kHighestPort = 65535.0;
+    std::vector<DeviceRow> rows{
+        {"device", kService, "Name: the first one found",
+         "Which Inverse3, when several are attached: its name, left or right", &device, 0.0, 63.0},
+        {"port", "", "Port", "Of the service's WebSocket", &port, kLowestPort, kHighestPort},
+        {"older-port", "", "Older port", "Where older services have HTTP", &older_port, kLowestPort,
+         kHighestPort},
+        {"dialect", kService, "Forces spelled",
+         "Sources differ on how the service wants a force. By its version is tried first, and the "
+         "other one when no force is told back",
+         DeviceWord(dialect)},
+        {"preset", kService, "Preset: defaults",
+         "Mount, axes and origin: defaults, arm_front, led_front, arm_front_centered, "
+         "led_front_centered; the centre above belongs to it",
+         &preset, 0.0, 31.0},
+        {"scale", kWorkspace, "Scale",
+         "Image millimetres a hand millimetre. A larger image is softer under the hand: more than "
+         "1 N a hand millimetre is never felt",
+         &tuning.workspace.scale, 0.1, 10.0, "x %.2f"},
+        {"box", kWorkspace, "Comfortable box",
+         "Edge of the box that your hand moves in without effort; the image is fitted to it",
+         &box_mm, kSmallestBox_mm, kLargestBox_mm, "%.0f mm"},
+        {"tilt", kWorkspace, "Tilt",
+         "How far the image leans back under your hand: 0 upright before you, 90 flat on the table",
+         &tuning.tilt_deg, 0.0, 90.0, "%.0f deg"},
+        {"centre-x", kWorkspace, "Centre right", "Of the comfortable box, from the device's origin",
+         &tuning.centre_mm.x, -250.0, 250.0, "%.0f mm"},
+        {"centre-y", kWorkspace, "Centre forward",
+         "Of the comfortable box, from the device's origin; 0 for the presets that have their "
+         "origin in the middle",
+         &tuning.centre_mm.y, -300.0, 200.0, "%.0f mm"},
+        {"centre-z", kWorkspace, "Centre up",
+         "Of the comfortable box, from the device's origin; 0 for the presets that have their "
+         "origin in the middle",
+         &tuning.centre_mm.z, -250.0, 400.0, "%.0f mm"},
+        {"offset-x", kWorkspace, "Offset right",
+         "Where in the image the box's centre is, from the image's middle",
+         &tuning.workspace.offset_mm.x, -200.0, 200.0, "%.1f mm"},
+        {"offset-y", kWorkspace, "Offset up",
+         "Where in the image the box's centre is, from the image's middle",
+         &tuning.workspace.offset_mm.y, -200.0, 200.0, "%.1f mm"},
+        {"offset-z", kWorkspace, "Offset out",
+         "How far above the middle of the relief the box's centre is",
+         &tuning.workspace.offset_mm.z, -200.0, 200.0, "%.1f mm"},
+    };
+    add_buttons(rows, kGrip, "Inverse3 buttons");
+    return rows;
+}
+
+DeviceLimits Inverse3Settings::limits() const {
+    return at_scale(specification_of().limits, tuning.workspace.scale);
+}
+
+ConnectionOptions connection_of(const Inverse3Settings& settings) {
+    ConnectionOptions connection;
+    connection.device = settings.device;
+    connection.port = static_cast<std::uint16_t>(settings.port);
+    connection.older_port = static_cast<std::uint16_t>(settings.older_port);
+    if (settings.dialect == Dialect::vector) connection.dialect = ForceDialect::vector;
+    if (settings.dialect == Dialect::values) connection.dialect = ForceDialect::values;
+    if (!settings.preset.empty()) connection.preset = std::string_view(settings.preset);
+    return connection;
+}
+
+Tuning tuning_of(const Inverse3Settings& settings, double max_force_newton,
+                 std::uint32_t centred) noexcept {
+    Tuning tuning = settings.tuning;
+    tuning.max_force_newton = max_force_newton;
+    tuning.clutch_buttons = buttons_for(ButtonAction::clutch, settings.buttons);
+    tuning.force_off_buttons = buttons_for(ButtonAction::force_off, settings.buttons);
+    tuning.centred = centred;
+    return tuning;
+}
+
+}  // namespace dibhr::inverse3

@@ -1,0 +1,57 @@
+// What is kept about the Inverse3: how its service is spoken to, its workspace, its buttons.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/haptics/words.hpp"
+#include "device/hand/device_settings.hpp"
+#include "device/inverse3/status.hpp"
+
+namespace dibhr::inverse3 {
+
+/// How a force is spelled to the service.
+enum class Dialect : std::uint8_t { automatic, vector, values };
+
+inline constexpr std::array<Word<Dialect>, 3> kDialectWords{
+    {{Dialect::automatic, "auto", "By its version"},
+     {Dialect::vector, "vector", "vector (3.5)"},
+     {Dialect::values, "values", "values"}}};
+static_assert(has_all_in_order(kDialectWords, Dialect::values));
+
+[[nodiscard]] constexpr const auto& words_of(Dialect) noexcept {
+    return kDialectWords;
+}
+
+/// In the order of Status::presses.
+inline constexpr GripButtons kGrip{
+    {{"button-a", "A, or the only one", ButtonAction::clutch},
+     {"button-b", "B", ButtonAction::force_off, Protection{Less::other, "Inverse3's button B"}},
+     {"button-c", "C", ButtonAction::record},
+     {"button-home", "Home", ButtonAction::play_or_pause}}};
+
+struct Inverse3Settings final : DeviceSettings {
+    Inverse3Settings() : DeviceSettings(kGrip) {}
+
+    std::string device{};  ///< a name, "left" or "right"; empty: the first
+    int port{10001};
+    int older_port{10000};
+    Dialect dialect{Dialect::automatic};
+    std::string preset{};  ///< of mount, axes and origin; empty: "defaults"
+    Tuning tuning{};       ///< but for buttons, limit and centring, which come from elsewhere
+    double box_mm{120.0};  ///< edge of the box that a hand comfortably moves in
+
+    [[nodiscard]] std::vector<DeviceRow> rows() override;
+    [[nodiscard]] DeviceLimits limits() const override;
+};
+
+/// Used from the next start of the program.
+[[nodiscard]] ConnectionOptions connection_of(const Inverse3Settings& settings);
+
+/// The numbers, buttons and limit as the device takes them; `centred` is counted by the viewer.
+[[nodiscard]] Tuning tuning_of(const Inverse3Settings& settings, double max_force_newton,
+                               std::uint32_t centred) noexcept;
+
+}  // namespace dibhr::inverse3

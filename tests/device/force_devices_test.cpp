@@ -1,0 +1,157 @@
+// What every force device gives as data.
+#include "device/force_devices.hpp"
+
+#include <cstddef>
+#include <set>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "device/device_or_mouse.hpp"
+#include "device/falcon/falcon_device.hpp"
+#include "device/hand_device.hpp"
+#include "device/inverse3/inverse3_device.hpp"
+#include "tests/support/catch.hpp"
+
+namespace {
+
+using namespace dibhr;
+
+// What a value has to be, so that the file and the panel can be made of its row.
+
+void check_value(const DeviceRow& row, const double* value) {
+    CHECK(*value >= row.lowest);
+    CHECK(*value <= row.highest);
+    CHECK((row.topic.empty() || *row.format == '%' || std::string_view(row.format) == "x %.2f"));
+    CHECK(row.shown > 0.0);
+}
+void check_value(const DeviceRow& row, const int* value) {
+    const double number = *value;
+    CHECK(number >= row.lowest);
+    CHECK(number <= row.highest);
+}
+void check_value(const DeviceRow& row, const std::string* value) {
+    CHECK(static_cast<double>(value->size()) <= row.highest);
+    CHECK(row.highest < 128.0);
+}
+void check_value(const DeviceRow&, const DeviceWord& word) {
+    CHECK(*word < word.names.size());
+    CHECK(word.names.size() == word.labels.size());
+}
+template <typename Other>
+void check_value(const DeviceRow&, const Other*) {}
+
+}  // namespace
+
+TEST_CASE("every force device has a name of its own, and does all that the program asks for",
+          "[force_device]") {
+    std::set<std::string> names{"auto", "mouse"};
+    for (const ForceDeviceKind* const kind : force_device_kinds()) {
+        CAPTURE(kind->name);
+        CHECK(names.insert(kind->name).second);
+        for (const char* const text : {kind->title, kind->article, kind->which})
+            CHECK_FALSE(std::string(text).empty());
+        const bool all = kind->make_settings != nullptr && kind->make != nullptr &&
+                         kind->why_none != nullptr && kind->attached != nullptr &&
+                         kind->survey != nullptr && kind->glance != nullptr &&
+                         kind->check != nullptr;
+        CHECK(all);
+    }
+}
+
+TEST_CASE(
+    "every value of a force device has a name of its own, a meaning, and a usual value that "
+    "can be",
+    "[force_device]") {
+    for (const ForceDeviceKind* const kind : force_device_kinds()) {
+        const auto settings = kind->make_settings();
+        std::set<std::string_view> names;
+        std::size_t buttons = 0;
+        for (const DeviceRow& row : settings->rows()) {
+            CAPTURE(kind->name, row.name);
+            CHECK(names.insert(row.name).second);
+            CHECK_FALSE(std::string(row.label).empty());
+            CHECK(std::string(row.help).size() > 10);
+            std::visit([&](const auto& value) { check_value(row, value); }, row.value);
+            buttons += std::holds_alternative<ButtonAction*>(row.value) ? 1 : 0;
+        }
+        CHECK(buttons == kGripButtonCount);
+        CHECK(settings->limits() == usable(settings->limits()));
+        CHECK(settings->limits().max_force_newton > 0.0);
+        CHECK(number_facts(*settings).size() > 3);
+    }
+}
+
+TEST_CASE("one button takes the force off and one holds the point, and agreeing protects the first",
+          "[force_device]") {
+    for (const ForceDeviceKind* const kind : force_device_kinds()) {
+        CAPTURE(kind->name);
+        const auto settings = kind->make_settings();
+        CHECK(buttons_for(ButtonAction::clutch, settings->buttons) != 0);
+        CHECK(buttons_for(ButtonAction::force_off, settings->buttons) != 0);
+        for (const DeviceRow& row : settings->rows()) {
+            const auto* const button = std::get_if<ButtonAction*>(&row.value);
+            if (button == nullptr) continue;
+            CHECK(row.protection.has_value() == (**button == ButtonAction::force_off));
+        }
+    }
+}
+
+TEST_CASE("sessions number the devices as they always have", "[force_device]") {
+    const auto kinds = force_device_kinds();
+    REQUIRE(kinds.size() >= 2);
+    CHECK(std::string(kinds[static_cast<std::size_t>(Touching::falcon) - 1]->name) == "falcon");
+    CHECK(std::string(kinds[static_cast<std::size_t>(Touching::inverse3) - 1]->name) == "inverse3");
+}
+
+TEST_CASE("a device is named by its kind, or as one of it", "[force_device]") {
+    for (const char* const name :
+         {"auto", "mouse", "falcon", "falcon:A1", "inverse3", "inverse3:left", "goals:a.csv"}) {
+        CAPTURE(name);
+        CHECK(names_device(name));
+    }
+    for (const char* const name :
+         {"", "falcon:", "inverse3:", "goals:", "falcons", "inverse", "auto:A1", "mouse:1"}) {
+        CAPTURE(name);
+        CHECK_FALSE(names_device(name));
+    }
+    CHECK(device_names() ==
+          "auto, falcon, falcon:SERIAL, inverse3, inverse3:ID, mouse or goals:FILE");
+    CHECK(meaning_of_auto() == " (a Falcon or an Inverse3, and the mouse until one is there)");
+}
+
+TEST_CASE("a device is absent, needs its person, or is ready, at each of its stages",
+          "[force_device]") {
+    const auto check = [](const DeviceState& state) {
+        CAPTURE(state.stage);
+        const int kinds_of_state =
+            (state.absent ? 1 : 0) + (state.needs_person ? 1 : 0) + (state.ready ? 1 : 0);
+        CHECK(kinds_of_state == 1);
+        CHECK((state.may_be_ready || !state.ready));
+        CHECK(state.sentence == "a sentence");
+        CHECK(state.trouble);
+        CHECK(state.presses[2] == 7U);
+    };
+    for (int k = 0; k <= static_cast<int>(falcon::Stage::ready); ++k) {
+        falcon::Status status;
+        status.stage = static_cast<falcon::Stage>(k);
+        status.sentence = "a sentence";
+        status.trouble = true;
+        status.presses[2] = 7U;
+        status.serial = "A1";
+        check(state_of(status));
+        CHECK(state_of(status).stage == k);
+        CHECK(state_of(status).facts == DeviceFacts{{"serial", "A1"}});
+    }
+    for (int k = 0; k <= static_cast<int>(inverse3::Stage::ready); ++k) {
+        inverse3::Status status;
+        status.stage = static_cast<inverse3::Stage>(k);
+        status.sentence = "a sentence";
+        status.trouble = true;
+        status.presses[2] = 7U;
+        status.id = "049D";
+        check(state_of(status));
+        CHECK(state_of(status).stage == k);
+        CHECK(state_of(status).facts[1] == DeviceFacts::value_type{"id", "049D"});
+    }
+}
