@@ -9,6 +9,7 @@
 #include "core/files/csv_table.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/session/session.hpp"
+#include "core/sqlite/database.hpp"
 
 namespace dibhr {
 
@@ -16,17 +17,17 @@ namespace {
 
 constexpr std::int64_t kRowsPerStep = 10000;  // of the progress bar
 
-void append_cell(std::string& text, const SessionReader::Query& ticks, int column) {
-    switch (ticks.kind(column)) {
-        case SessionReader::Kind::nothing:
+void append_cell(std::string& text, const Statement& ticks, int column) {
+    switch (ticks.type(column)) {
+        case Statement::Type::null:
             break;
-        case SessionReader::Kind::integer:
+        case Statement::Type::integer:
             text += std::to_string(ticks.integer(column));
             break;
-        case SessionReader::Kind::real:
+        case Statement::Type::real:
             append_number(text, ticks.real(column));
             break;
-        case SessionReader::Kind::text:
+        case Statement::Type::text:
             text += csv_cell(ticks.text(column));
             break;
     }
@@ -48,7 +49,7 @@ int run_export(CLI::App& app, const Arguments& arguments) {
     const Session session(file);
     session.check();
     print_warning(session.warning());
-    SessionReader::Query ticks(session.reader(), "SELECT * FROM tick ORDER BY tick");
+    Statement ticks = session.reader().rows("SELECT * FROM tick ORDER BY tick");
     RowFile rows(csv, {file}, "is the session that is read; give --csv another name");
     ProgressBar bar("Exporting");
     const auto add_row = [&](auto append) {

@@ -16,6 +16,7 @@
 
 #include "app/python/module.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/sqlite/database.hpp"
 
 namespace py = pybind11;
 
@@ -32,8 +33,8 @@ void store(char* to, Value value) noexcept {
 }
 
 /// NULL becomes not a number, or -1.
-void write_cell(char* to, char kind, const SessionReader::Query& row, int column) {
-    const bool nothing = row.kind(column) == SessionReader::Kind::nothing;
+void write_cell(char* to, char kind, const Statement& row, int column) {
+    const bool nothing = !row.has(column);
     if (kind == 'f') {
         store(to, nothing ? std::numeric_limits<double>::quiet_NaN() : row.real(column));
     } else if (kind == 'i') {
@@ -61,7 +62,7 @@ std::string ticks_between(double begin_s, double end_s) {
 std::int64_t count_ticks(const Session& session, double begin_s, double end_s) {
     // A connection of its own each time: threads may share the session.
     const SessionReader reader(session.file());
-    SessionReader::Query query(reader, "SELECT count(*)" + ticks_between(begin_s, end_s));
+    Statement query = reader.rows("SELECT count(*)" + ticks_between(begin_s, end_s));
     return query.next() ? query.integer(0) : 0;
 }
 
@@ -77,8 +78,8 @@ std::int64_t read_ticks(const Session& session, double begin_s, double end_s,
     const auto most = rows.size();
     const py::gil_scoped_release others_run;
     const SessionReader reader(session.file());
-    SessionReader::Query query(
-        reader, "SELECT " + names + ticks_between(begin_s, end_s) + " ORDER BY tick");
+    Statement query =
+        reader.rows("SELECT " + names + ticks_between(begin_s, end_s) + " ORDER BY tick");
     std::int64_t done = 0;
     for (; done < most && query.next(); ++done, row += row_bytes) {
         int column = 0;

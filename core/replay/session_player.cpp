@@ -75,9 +75,9 @@ class SessionMoments {
 
     /// When the tick before this one was.
     [[nodiscard]] double time_before(std::int64_t tick) const {
-        SessionReader::Query query(opened_.session.reader(), "SELECT t FROM tick WHERE tick < " +
-                                                                 std::to_string(tick) +
-                                                                 " ORDER BY tick DESC LIMIT 1");
+        auto query =
+            opened_.session.reader().rows("SELECT t FROM tick WHERE tick < " +
+                                          std::to_string(tick) + " ORDER BY tick DESC LIMIT 1");
         return query.next() ? query.real(0) : opened_.session.begin_s();
     }
 
@@ -117,8 +117,7 @@ std::unique_ptr<ContactBand> read_band(const std::filesystem::path& file, double
     const double pieces_per_s =
         static_cast<double>(ContactBand::kPieces) / std::max(end_s - begin_s, 1e-3);
     const SessionReader reader(file);
-    SessionReader::Query query(reader,
-                               "SELECT t, contact, stand_in FROM tick WHERE surface ORDER BY tick");
+    auto query = reader.rows("SELECT t, contact, stand_in FROM tick WHERE surface ORDER BY tick");
     while (!leaving && query.next()) {
         ++band->hand.all;
         band->hand.stand_in += query.integer(2);

@@ -21,7 +21,7 @@ namespace {
 /// A file of before a fact has no column for it: it then was what it is by default.
 std::set<std::string> columns_of(const SessionReader& reader, const std::string& table) {
     std::set<std::string> columns;
-    SessionReader::Query query(reader, "SELECT name FROM pragma_table_info('" + table + "')");
+    Statement query = reader.rows("SELECT name FROM pragma_table_info('" + table + "')");
     while (query.next()) columns.insert(query.text(0));
     return columns;
 }
@@ -67,7 +67,7 @@ void require_device(const DeviceDynamics& watched, const std::filesystem::path& 
 /// Takes the columns of a row one after the other.
 class Row {
   public:
-    explicit Row(const SessionReader::Query& query) : query_(query) {}
+    explicit Row(const Statement& query) : query_(query) {}
 
     template <typename... Values>
     void take(Values&... values) {
@@ -97,7 +97,7 @@ class Row {
         take(media.bytes, media.sha256, media.head_bytes);
     }
 
-    const SessionReader::Query& query_;
+    const Statement& query_;
     int column_{0};
 };
 
@@ -183,7 +183,7 @@ const SessionSource* Session::source_of(const FrameSource& source) const noexcep
 }
 
 void Session::read_facts() {
-    SessionReader::Query query(reader_, "SELECT key, value FROM session");
+    Statement query = reader_.rows("SELECT key, value FROM session");
     while (query.next()) {
         const std::string key = query.text(0);
         std::string value = query.text(1);
@@ -213,8 +213,7 @@ void Session::read_parameters() {
     visit_numbers(standard, [&](std::string_view column, double) {
         if (has(column)) add(column);
     });
-    SessionReader::Query query(
-        reader_,
+    Statement query = reader_.rows(
         question + " FROM parameters LEFT JOIN media m ON m.id = bump ORDER BY first_tick");
     while (query.next()) {
         Row row(query);
@@ -237,9 +236,9 @@ void Session::read_parameters() {
 
 void Session::read_sources() {
     const bool has_meaning = columns_of(reader_, "source").contains("depth_meaning");
-    SessionReader::Query query(
-        reader_, "SELECT " + source_columns(reader_) + ", " + media_columns(reader_, "c") + ", " +
-                     media_columns(reader_, "d") + ", first_tick, " +
+    Statement query =
+        reader_.rows("SELECT " + source_columns(reader_) + ", " + media_columns(reader_, "c") +
+                     ", " + media_columns(reader_, "d") + ", first_tick, " +
                      std::string(has_meaning ? "depth_meaning" : "''") +
                      " FROM source s LEFT JOIN media c ON c.id = s.colour "
                      "LEFT JOIN media d ON d.id = s.depth ORDER BY first_tick");
@@ -256,9 +255,9 @@ std::vector<SessionMap> Session::maps_of(std::uint32_t version) const {
     constexpr std::size_t kMost_bytes = std::size_t{1} << 28;
     std::vector<SessionMap> maps;
     if (columns_of(reader_, "touch_map").empty()) return maps;  // of before there were maps
-    SessionReader::Query query(reader_,
-                               "SELECT kind, lowest, highest, png FROM touch_map WHERE version = " +
-                                   std::to_string(version) + " ORDER BY kind, part");
+    Statement query =
+        reader_.rows("SELECT kind, lowest, highest, png FROM touch_map WHERE version = " +
+                     std::to_string(version) + " ORDER BY kind, part");
     std::size_t bytes = 0;
     while (query.next()) {
         std::string kind = query.text(0);
@@ -277,7 +276,7 @@ std::vector<SessionMap> Session::maps_of(std::uint32_t version) const {
 }
 
 void Session::read_marks() {
-    SessionReader::Query query(reader_, "SELECT t, tag, text FROM mark ORDER BY t, id");
+    Statement query = reader_.rows("SELECT t, tag, text FROM mark ORDER BY t, id");
     while (query.next()) {
         SessionMark& mark = marks_.emplace_back();
         Row(query).take(mark.t_s, mark.tag, mark.text);
@@ -297,8 +296,7 @@ void Session::keep(std::size_t bytes) {
 
 void Session::read_extent() {
     // Not count(*): that is one step, which no bound of the reader ends.
-    SessionReader::Query count(
-        reader_,
+    Statement count = reader_.rows(
         "SELECT ifnull(sum(1), 0), ifnull(min(tick), 0), ifnull(max(tick), -1) FROM tick_data");
     if (!count.next()) return;
     rows_ = count.integer(0);
@@ -316,8 +314,8 @@ void Session::read_extent() {
 }
 
 double Session::time_from(std::int64_t tick) const {
-    SessionReader::Query query(reader_, "SELECT t FROM tick WHERE tick >= " + std::to_string(tick) +
-                                            " ORDER BY tick LIMIT 1");
+    Statement query = reader_.rows("SELECT t FROM tick WHERE tick >= " + std::to_string(tick) +
+                                   " ORDER BY tick LIMIT 1");
     return query.next() ? query.real(0) : 0.0;
 }
 
@@ -337,22 +335,22 @@ std::int64_t Session::tick_at(double t_s) const {
 }
 
 HandTicks hand_ticks(const SessionReader& reader) {
-    SessionReader::Query query(reader, "SELECT count(*), sum(stand_in) FROM tick WHERE surface");
+    Statement query = reader.rows("SELECT count(*), sum(stand_in) FROM tick WHERE surface");
     if (!query.next()) return {};
     return {query.integer(0), query.integer(1)};
 }
 
 std::int64_t late_ticks(const SessionReader& reader) {
-    SessionReader::Query query(
-        reader, "SELECT sum(lateness_us >= " + number_text(kLate_us, 1) + ") FROM tick");
+    Statement query =
+        reader.rows("SELECT sum(lateness_us >= " + number_text(kLate_us, 1) + ") FROM tick");
     return query.next() ? query.integer(0) : 0;
 }
 
 Session::Ticks::Ticks(const Session& session)
-    : query_(session.reader_, ticks_from(session.reader_, session.first_tick_)) {}
+    : query_(session.reader_.rows(ticks_from(session.reader_, session.first_tick_))) {}
 
 Session::Ticks::Ticks(const Session& session, double from_s)
-    : query_(session.reader_, ticks_from(session.reader_, session.tick_at(from_s))) {}
+    : query_(session.reader_.rows(ticks_from(session.reader_, session.tick_at(from_s)))) {}
 
 bool Session::Ticks::next(TickRecord& tick) {
     if (!query_.next()) return false;

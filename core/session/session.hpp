@@ -10,6 +10,7 @@
 
 #include "core/session/session_reader.hpp"
 #include "core/session/tick_record.hpp"
+#include "core/sqlite/database.hpp"
 
 namespace dibhr {
 
@@ -110,7 +111,7 @@ class Session::Ticks {
     [[nodiscard]] bool next(TickRecord& tick);
 
   private:
-    SessionReader::Query query_;
+    Statement query_;
 };
 
 }  // namespace dibhr

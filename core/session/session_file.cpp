@@ -115,6 +115,20 @@ std::int64_t state_of(const TickRecord& record) {
            bit(record.standstill, at::kStandstill) | bit(record.motion_unknown, at::kMotionUnknown);
 }
 
+/// A time in nanoseconds, of which its unit has `nanoseconds`, where the same bits come of them.
+std::optional<std::int64_t> whole_nanoseconds(double value, double nanoseconds) noexcept {
+    constexpr double kMost = 9e15;  // beyond, a real has no whole nanoseconds
+    const double count = std::round(value * nanoseconds);
+    const auto whole = std::abs(count) < kMost ? static_cast<std::int64_t>(count) : 0;
+    if (!same_bits(static_cast<double>(whole) / nanoseconds, value)) return std::nullopt;
+    return whole;
+}
+
+void bind_time(Statement& row, double value, double nanoseconds) noexcept {
+    const auto whole = whole_nanoseconds(value, nanoseconds);
+    whole ? row.bind(*whole) : row.bind_real(value);
+}
+
 /// The pixel of a place; a place beyond all pictures has none.
 std::optional<std::int64_t> pixel_of(double place_px) noexcept {
     constexpr double kMost = 1e9;
@@ -179,20 +193,20 @@ void SessionFile::add(const TickRecord& record) {
     if (version_ != record.settings || limits_ != record.limits) use_settings(record);
     if (record.surface && pair_ != record.frames) add_pair(record.frames, record.tick);
     Statement& row = insert_tick_;
-    row.cell(record.tick);
+    row.bind(record.tick);
     add_times(record);
-    row.cell(std::isfinite(record.update_us)
+    row.bind(std::isfinite(record.update_us)
                  ? std::llround(record.update_us * kNanosecondsPerMicrosecond)
                  : -1);
-    row.cell(state_of(record));
-    row.cell(record.surface ? std::optional(pairs_) : std::nullopt);
-    row.cell(record.blend);
-    row.cell(parameters_row_);
-    row.cell(record.moves);
-    row.integer_unless(record.i, pixel_of(record.proxy.x));
-    row.integer_unless(record.j, pixel_of(record.proxy.y));
-    for (int axis = 0; axis < 3; ++axis) row.cell(record.goal[axis]);
-    for (int axis = 0; axis < 3; ++axis) row.real_unless(record.proxy[axis], record.goal[axis]);
+    row.bind(state_of(record));
+    row.bind(record.surface ? std::optional(pairs_) : std::nullopt);
+    row.bind(record.blend);
+    row.bind(parameters_row_);
+    row.bind(record.moves);
+    row.bind_unless(record.i, pixel_of(record.proxy.x));
+    row.bind_unless(record.j, pixel_of(record.proxy.y));
+    for (int axis = 0; axis < 3; ++axis) row.bind(record.goal[axis]);
+    for (int axis = 0; axis < 3; ++axis) row.bind_unless(record.proxy[axis], record.goal[axis]);
     add_forces(record);
     row.run();
 }
@@ -201,14 +215,14 @@ void SessionFile::add(const TickRecord& record) {
 void SessionFile::add_times(const TickRecord& record) {
     const auto t_ns = whole_nanoseconds(record.t_s, kNanosecondsPerSecond);
     const bool goes_on = t_ns && last_t_ns_ && last_tick_ == record.tick - 1;
-    insert_tick_.time(record.t_s, kNanosecondsPerSecond);
+    bind_time(insert_tick_, record.t_s, kNanosecondsPerSecond);
     if (goes_on &&
         same_bits(static_cast<double>(*t_ns - *last_t_ns_) / kNanosecondsPerSecond, record.dt_s)) {
-        insert_tick_.cell(std::nullopt);
+        insert_tick_.bind(std::nullopt);
     } else {
-        insert_tick_.time(record.dt_s, kNanosecondsPerSecond);
+        bind_time(insert_tick_, record.dt_s, kNanosecondsPerSecond);
     }
-    insert_tick_.time(record.lateness_us, kNanosecondsPerMicrosecond);
+    bind_time(insert_tick_, record.lateness_us, kNanosecondsPerMicrosecond);
     last_tick_ = record.tick;
     last_t_ns_ = t_ns;
 }
@@ -221,7 +235,7 @@ void SessionFile::add_forces(const TickRecord& record) {
     for (int axis = 0; axis < 3; ++axis) {
         const double follows =
             newton_per_px_.value_or(std::nan("")) * (record.proxy[axis] - record.goal[axis]);
-        row.real_unless(record.spring_newton[axis], follows);
+        row.bind_unless(record.spring_newton[axis], follows);
     }
     const auto follows = [&](int axis) { return record.cut == 0 ? wanted[axis] : 0.0; };
     const double shortening = record.sent_newton.z / wanted.z;
@@ -229,13 +243,13 @@ void SessionFile::add_forces(const TickRecord& record) {
         const double sent = record.sent_newton[axis];
         const auto off = off_direction(sent, wanted[axis], shortening);
         if (off || same_bits(sent, follows(axis))) {
-            row.cell(same_bits(sent, follows(axis)) ? std::nullopt : off);
+            row.bind(same_bits(sent, follows(axis)) ? std::nullopt : off);
         } else {
-            row.plain_real(sent);
+            row.bind_real(sent);
         }
     }
-    row.real_unless(record.sent_newton.z, follows(2));
-    for (int axis = 0; axis < 3; ++axis) row.real_unless(record.own_newton[axis], 0.0);
+    row.bind_unless(record.sent_newton.z, follows(2));
+    for (int axis = 0; axis < 3; ++axis) row.bind_unless(record.own_newton[axis], 0.0);
 }
 
 void SessionFile::commit() {
@@ -274,12 +288,12 @@ void SessionFile::add_maps(std::uint32_t version, const std::vector<SessionMap>&
     for (const SessionMap& map : maps) {
         const std::string_view png = map.png;
         for (std::size_t at = 0, part = 0; at < png.size(); at += kMostMapBytes, ++part) {
-            insert.cell(version);
-            insert.cell(map.kind);
-            insert.cell(part);
-            insert.cell(map.lowest);
-            insert.cell(map.highest);
-            insert.bytes(png.substr(at, kMostMapBytes));
+            insert.bind(version);
+            insert.bind(map.kind);
+            insert.bind(part);
+            insert.bind(map.lowest);
+            insert.bind(map.highest);
+            insert.bind_bytes(png.substr(at, kMostMapBytes));
             insert.run();
         }
     }
@@ -331,13 +345,13 @@ void SessionFile::use_settings(const TickRecord& record) {
 
 void SessionFile::add_parameters(SessionParameters parameters) {
     Statement insert(database_, insert_parameters());
-    insert.cell(parameters.version);
-    insert.cell(parameters.first_tick);
-    for (const TouchChoice& choice : touch_choices()) insert.cell(choice.of(parameters.touch));
-    visit_numbers(parameters, [&insert](std::string_view, double number) { insert.cell(number); });
-    insert.cell(parameters.force_enabled);
-    insert.cell(media_row(parameters.bump.file));
-    for (const TouchSwitch& entry : touch_switches()) insert.cell(entry.of(parameters.touch));
+    insert.bind(parameters.version);
+    insert.bind(parameters.first_tick);
+    for (const TouchChoice& choice : touch_choices()) insert.bind(choice.of(parameters.touch));
+    visit_numbers(parameters, [&insert](std::string_view, double number) { insert.bind(number); });
+    insert.bind(parameters.force_enabled);
+    insert.bind(media_row(parameters.bump.file));
+    for (const TouchSwitch& entry : touch_switches()) insert.bind(entry.of(parameters.touch));
     insert.run();
 }
 
@@ -359,11 +373,11 @@ std::int64_t SessionFile::source_row(const FrameSource& source, std::int64_t tic
     int columns = 6;  // id, first_tick, media, colour, depth, depth_meaning
     visit_cleaning(source, [&columns](std::string_view, const auto&) { ++columns; });
     Statement insert(database_, insertion("INTO source", columns));
-    for (const std::int64_t number : {id, tick, std::int64_t{source.media}}) insert.cell(number);
-    insert.cell(colour);
-    insert.cell(depth);
-    insert.cell(files.depth_meaning);
-    visit_cleaning(source, [&insert](std::string_view, const auto& fact) { insert.cell(fact); });
+    for (const std::int64_t number : {id, tick, std::int64_t{source.media}}) insert.bind(number);
+    insert.bind(colour);
+    insert.bind(depth);
+    insert.bind(files.depth_meaning);
+    visit_cleaning(source, [&insert](std::string_view, const auto& fact) { insert.bind(fact); });
     insert.run();
     return id;
 }

@@ -10,9 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/session/database.hpp"
+#include "core/session/log_keeper.hpp"
 #include "core/session/session_schema.hpp"
 #include "core/session/tick_record.hpp"
+#include "core/sqlite/database.hpp"
 
 namespace dibhr {
 

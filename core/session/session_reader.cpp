@@ -1,11 +1,10 @@
 // Opens a session file read-only.
 #include "core/session/session_reader.hpp"
 
-#include <sqlite3.h>
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <fstream>
 #include <string_view>
 #include <system_error>
@@ -17,9 +16,6 @@
 namespace dibhr {
 namespace {
 
-// The recorder may hold the file for a moment.
-constexpr int kPatience_ms = 2000;
-
 constexpr int kLongestValue_bytes = 1 << 20;  ///< longer than anybody would write
 
 /// SQLite's words, which may quote what the file holds.
@@ -30,30 +26,13 @@ std::string brief(std::string_view words) {
 
 }  // namespace
 
-SessionReader::SessionReader(const std::filesystem::path& file) : file_(file) {
-    std::error_code failed;
-    if (!std::filesystem::exists(file, failed)) {
-        throw InputError(file.string() + ": no such file; check its name");
-    }
-    if (!std::filesystem::is_regular_file(file, failed)) refuse("no ordinary file");
-    read_head();
-    // Opened as immutable, SQLite makes no files beside it, and reads none.
-    const bool complete = log_ != Log::needed;
-    const std::string uri = "file:" + percent_encoded(std::filesystem::absolute(file).string()) +
-                            "?mode=ro" + (complete ? "&immutable=1" : "");
-    sqlite3* opened = nullptr;
-    const int result =
-        sqlite3_open_v2(uri.c_str(), &opened, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
-    database_.reset(opened);
-    if (result != SQLITE_OK) refuse();
-    sqlite3_busy_timeout(opened, kPatience_ms);
-    bounds_.hold(opened, kLongestValue_bytes);
+SessionReader::SessionReader(const std::filesystem::path& file)
+    : file_(file),
+      log_(log_by_head()),
+      database_(file, {.complete = log_ != Log::needed, .longest_bytes = kLongestValue_bytes},
+                [this](const DatabaseError& error) { refuse(error); }) {
     check_kind();
     check_tables();
-}
-
-void SessionReader::allow_work() const {
-    bounds_.allow(work_worth(file_));
 }
 
 /// What is read are the tables of a recording and the view that dibhr makes of them: no other that
@@ -64,31 +43,33 @@ void SessionReader::check_tables() const {
         names.append(names.empty() ? "('" : ", '").append(name).append("'");
     }
     // A view has no pages of its own, nor has a table that a module makes up; a hidden column may
-    // be computed.
-    Query tables(*this,
-                 "SELECT sum(rootpage > 0) FROM sqlite_master WHERE type = 'table' AND "
-                 "name IN " +
-                     names + ")");
-    Query hidden(*this,
-                 "SELECT sum(x.hidden) FROM sqlite_master m, pragma_table_xinfo(m.name) x "
-                 "WHERE m.name IN " +
-                     names + ")");
-    Query view(*this, "SELECT sql FROM sqlite_master WHERE type = 'view' AND name = 'tick'");
-    // Recordings of before there were touch maps have no such table.
-    Query maps(
-        *this,
-        "SELECT count(*) FROM sqlite_master WHERE name = 'touch_map' AND NOT (type = 'table' "
-        "AND rootpage > 0)");
-    const auto count = static_cast<std::int64_t>(session_tables().size());
-    if (!maps.next() || maps.integer(0) != 0 || !tables.next() || tables.integer(0) != count ||
-        !hidden.next() || hidden.integer(0) != 0 || !view.next() || view.text(0) != tick_view()) {
+    // be computed. Recordings of before there were touch maps have no such table.
+    const bool plain =
+        database_.number(
+            "SELECT count(*) FROM sqlite_master WHERE name = 'touch_map' AND NOT "
+            "(type = 'table' AND rootpage > 0)") == 0 &&
+        database_.number(
+            "SELECT sum(rootpage > 0) FROM sqlite_master WHERE type = 'table' AND "
+            "name IN " +
+            names + ")") == static_cast<std::int64_t>(session_tables().size()) &&
+        database_.number(
+            "SELECT sum(x.hidden) FROM sqlite_master m, pragma_table_xinfo(m.name) x "
+            "WHERE m.name IN " +
+            names + ")") == 0;
+    Statement view = rows("SELECT sql FROM sqlite_master WHERE type = 'view' AND name = 'tick'");
+    if (!plain || !view.next() || view.text(0) != tick_view()) {
         refuse("its tables are not those of a recording");
     }
 }
 
 /// The head of a file that was closed says how long it is, which is refused when it is shorter, and
 /// whether a log belongs to it.
-void SessionReader::read_head() {
+SessionReader::Log SessionReader::log_by_head() const {
+    std::error_code failed;
+    if (!std::filesystem::exists(file_, failed)) {
+        throw InputError(file_.string() + ": no such file; check its name");
+    }
+    if (!std::filesystem::is_regular_file(file_, failed)) refuse("no ordinary file");
     // SQLite's file format, section 1.3: the magic string; at 16 the size of a page, 1 for 65536;
     // at 18 and 19 a 2 each for a write-ahead log; at 28 the number of pages, valid if the numbers
     // at 24 and 92 are the same. All big-endian.
@@ -98,7 +79,6 @@ void SessionReader::read_head() {
     stream.read(reinterpret_cast<char*>(head.data()), head.size());
     if (!stream.is_open()) throw InputError(file_.string() + ": cannot be read; make it readable");
     // Asked after the head was read: a recording that ends meanwhile has no log any more.
-    std::error_code failed;
     const bool logged = std::filesystem::exists(file_.string() + "-wal", failed);
     // SQLite would take the log of an empty file for one that was left behind, and delete it.
     if (stream.gcount() == 0 && logged) {
@@ -114,23 +94,19 @@ void SessionReader::read_head() {
         return value;
     };
     const bool by_log = head[18] == 2 && head[19] == 2;
-    log_ = !by_log ? (logged ? Log::foreign : Log::none) : logged ? Log::needed : Log::absent;
-    if (log_ == Log::needed) return;  // which may hold what the file lacks
+    if (by_log && logged) return Log::needed;  // which may hold what the file lacks
+    const Log log = by_log ? Log::absent : logged ? Log::foreign : Log::none;
     const std::uint64_t page = number(16, 2) == 1 ? 65536 : number(16, 2);
     const std::uint64_t promised = page * number(28, 4);
     const std::uint64_t there = std::filesystem::file_size(file_, failed);
-    if (failed || number(24, 4) != number(92, 4) || there >= promised) return;
+    if (failed || number(24, 4) != number(92, 4) || there >= promised) return log;
     throw InputError(file_.string() + ": is cut short (" + std::to_string(there) + " of " +
                      std::to_string(promised) + " bytes); copy it again");
 }
 
 void SessionReader::check_kind() const {
-    const auto number = [this](const char* question) {
-        Query query(*this, question);
-        return query.next() ? query.integer(0) : 0;
-    };
-    const std::int64_t application = number("PRAGMA application_id");
-    if (application == 0 && number("SELECT count(*) FROM sqlite_master") == 0) {
+    const std::int64_t application = database_.number("PRAGMA application_id");
+    if (application == 0 && database_.number("SELECT count(*) FROM sqlite_master") == 0) {
         std::error_code failed;
         const std::string log = file_.filename().string() + "-wal";
         if (log_ == Log::absent) {
@@ -149,7 +125,7 @@ void SessionReader::check_kind() const {
     if (application != kSessionApplicationId) {
         refuse("another program's database");
     }
-    const std::int64_t version = number("PRAGMA user_version");
+    const std::int64_t version = database_.number("PRAGMA user_version");
     if (version == kSessionSchemaVersion) return;
     const bool newer = version > kSessionSchemaVersion;
     throw InputError(file_.string() + ": was recorded by " + (newer ? "a newer" : "an older") +
@@ -159,18 +135,18 @@ void SessionReader::check_kind() const {
 }
 
 void SessionReader::check() const {
-    Query query(*this, "PRAGMA quick_check(1)");
-    const std::string words = query.next() ? query.text(0) : "";
+    Statement checked = rows("PRAGMA quick_check(1)");
+    const std::string words = checked.next() ? checked.text(0) : "";
     if (words != "ok") refuse_damaged(words.substr(words.rfind('\n') + 1));
 }
 
-void SessionReader::refuse() const {
-    const int code = sqlite3_errcode(database_.get());
-    const std::string words = sqlite3_errmsg(database_.get());
-    if (code == SQLITE_CORRUPT) refuse_damaged(words);
-    if (code == SQLITE_INTERRUPT) refuse("reading it would not end");
-    if (code == SQLITE_TOOBIG) refuse("it holds a value of more than a megabyte");
-    if (code == SQLITE_CANTOPEN) {
+void SessionReader::refuse(const DatabaseError& error) const {
+    using Cause = DatabaseError::Cause;
+    const std::string words = error.what();
+    if (error.cause() == Cause::damaged) refuse_damaged(words);
+    if (error.cause() == Cause::endless) refuse("reading it would not end");
+    if (error.cause() == Cause::too_long) refuse("it holds a value of more than a megabyte");
+    if (error.cause() == Cause::cannot_open) {
         throw InputError(file_.string() +
                          ": its recording was broken off, and its log cannot be opened; copy both, "
                          "the file and " +
@@ -187,44 +163,6 @@ void SessionReader::refuse(const std::string& reason) const {
 void SessionReader::refuse_damaged(const std::string& words) const {
     throw InputError(file_.string() + ": is damaged (" + brief(words) +
                      "); copy it again, or save what is left with sqlite3's .recover");
-}
-
-SessionReader::Query::Query(const SessionReader& reader, const std::string& sql) : reader_(reader) {
-    reader.allow_work();
-    sqlite3_stmt* prepared = nullptr;
-    if (sqlite3_prepare_v2(reader.database_.get(), sql.c_str(), -1, &prepared, nullptr) !=
-        SQLITE_OK) {
-        reader.refuse();
-    }
-    statement_.reset(prepared);
-}
-
-bool SessionReader::Query::next() {
-    const int result = sqlite3_step(statement_.get());
-    if (result == SQLITE_ROW) return true;
-    if (result != SQLITE_DONE) reader_.refuse();
-    return false;
-}
-
-SessionReader::Kind SessionReader::Query::kind(int column) const noexcept {
-    switch (sqlite3_column_type(statement_.get(), column)) {
-        case SQLITE_INTEGER:
-            return Kind::integer;
-        case SQLITE_FLOAT:
-            return Kind::real;
-        case SQLITE_NULL:
-            return Kind::nothing;
-        default:
-            return Kind::text;
-    }
-}
-
-int SessionReader::Query::columns() const noexcept {
-    return sqlite3_column_count(statement_.get());
-}
-
-std::string SessionReader::Query::name(int column) const {
-    return sqlite3_column_name(statement_.get(), column);
 }
 
 }  // namespace dibhr

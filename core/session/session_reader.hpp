@@ -1,13 +1,11 @@
-// A session file open for reading, which stays as it is: SQLite with owners and errors in plain
-// words.
+// A session file open for reading, which stays as it is; errors in plain words.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
-#include "core/files/sqlite_bounds.hpp"
-#include "core/session/database.hpp"
+#include "core/sqlite/database.hpp"
 
 namespace dibhr {
 
@@ -17,7 +15,7 @@ class SessionReader {
     /// Throws InputError for a file that is missing, cut short, damaged, no session of this
     /// version, or made to keep a reader busy.
     explicit SessionReader(const std::filesystem::path& file);
-    SessionReader(const SessionReader&) = delete;  // its database knows it by its address
+    SessionReader(const SessionReader&) = delete;  // its database refuses in its name
     SessionReader& operator=(const SessionReader&) = delete;
 
     [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
@@ -32,42 +30,23 @@ class SessionReader {
     /// Looks through the whole file. Throws InputError when it is damaged.
     void check() const;
 
-    class Query;
-    enum class Kind { nothing, integer, real, text };
+    /// A question's rows; must not outlive this reader. Throws InputError when the file holds no
+    /// such tables or columns, and while the rows are read when it is damaged.
+    [[nodiscard]] Statement rows(std::string_view sql) const { return {database_, sql}; }
 
   private:
-    void read_head();
+    /// Of a file that may be opened.
+    [[nodiscard]] Log log_by_head() const;
     void check_kind() const;
     void check_tables() const;
-    /// For one question: as many steps as all that the file can hold are worth.
-    void allow_work() const;
-    /// Foreign, or damaged: by what SQLite said last.
-    [[noreturn]] void refuse() const;
+    /// Foreign, or damaged.
+    [[noreturn]] void refuse(const DatabaseError& error) const;
     [[noreturn]] void refuse(const std::string& reason) const;
     [[noreturn]] void refuse_damaged(const std::string& words) const;
 
     std::filesystem::path file_;
-    Log log_{Log::none};
-    /// So that nothing of the file decides what is done with it, or for how long.
-    mutable SqliteBounds bounds_{};
-    SqliteDatabase database_{};
-};
-
-/// The rows of a question, one after the other; must not outlive its reader.
-class SessionReader::Query : public SqliteRow {
-  public:
-    /// Throws InputError when the file holds no such tables or columns.
-    Query(const SessionReader& reader, const std::string& sql);
-
-    /// False after the last row. Throws InputError for a damaged file.
-    [[nodiscard]] bool next();
-    [[nodiscard]] Kind kind(int column) const noexcept;
-
-    [[nodiscard]] int columns() const noexcept;
-    [[nodiscard]] std::string name(int column) const;
-
-  private:
-    const SessionReader& reader_;
+    Log log_;
+    Database database_;
 };
 
 }  // namespace dibhr

@@ -19,7 +19,7 @@
 #include "core/files/json.hpp"
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/session/database.hpp"
+#include "core/sqlite/database.hpp"
 #include "core/study/toml_page.hpp"
 
 namespace dibhr {
@@ -71,21 +71,14 @@ constexpr const char* kExplainEarly =
     throw InputError(one_line(file.string() + ": " + what));
 }
 
-/// SQLite's words about the file, and what to do.
-[[noreturn]] void refuse_database(const fs::path& file, const std::string& words) {
-    if (words.find("locked") != std::string::npos)
-        refuse(file, "is being run by another program: end that first");
-    refuse(file, "cannot be used (" + words + "): make room, or take a copy that is whole");
-}
-
-/// What `work` gives; what SQLite says against it is said of the file.
-template <typename Work>
-auto of_file(const fs::path& file, const Work& work) {
-    try {
-        return work();
-    } catch (const DatabaseError& error) {
-        refuse_database(file, error.what());
-    }
+/// SQLite's words about the file of that name, and what to do.
+Database::Refusal refusal_of(const fs::path& file) {
+    return [file](const DatabaseError& error) {
+        const std::string words = error.what();
+        if (words.find("locked") != std::string::npos)
+            refuse(file, "is being run by another program: end that first");
+        refuse(file, "cannot be used (" + words + "): make room, or take a copy that is whole");
+    };
 }
 
 /// A file that holds nothing is an empty database.
@@ -130,17 +123,17 @@ std::vector<std::pair<const char*, std::string>> facts_of(const StudyIdentity& i
             {"units", "s, and those of dibhr's options"}};
 }
 
-std::string fact(Database& database, const std::string& key) {
-    Rows rows(database, "SELECT value FROM study WHERE key = '" + key + "'");
+std::string fact(const Database& database, const std::string& key) {
+    Statement rows(database, "SELECT value FROM study WHERE key = '" + key + "'");
     return rows.next() ? rows.text(0) : std::string();
 }
 
-double number_fact(Database& database, const std::string& key) {
+double number_fact(const Database& database, const std::string& key) {
     return number_of_text(fact(database, key)).value_or(0.0);
 }
 
 /// What is checked when a study is begun is checked when it is read: the file may be anybody's.
-StudyIdentity identity_in(Database& database, const fs::path& file) {
+StudyIdentity identity_in(const Database& database, const fs::path& file) {
     const double number = number_fact(database, "number");
     if (!(number >= 1.0 && number <= kMostNumber))
         refuse(file, "is damaged or made by hand: the participant's number is not one from 1 to " +
@@ -163,10 +156,10 @@ StudyIdentity identity_in(Database& database, const fs::path& file) {
     return identity;
 }
 
-std::vector<StudyInterval> intervals_in(Database& database, int trial, const fs::path& file) {
+std::vector<StudyInterval> intervals_in(const Database& database, int trial, const fs::path& file) {
     std::vector<StudyInterval> intervals;
-    Rows rows(database, "SELECT condition, value, \"values\" FROM interval WHERE trial = " +
-                            std::to_string(trial) + " ORDER BY interval");
+    Statement rows(database, "SELECT condition, value, \"values\" FROM interval WHERE trial = " +
+                                 std::to_string(trial) + " ORDER BY interval");
     while (rows.next()) {
         StudyInterval interval{.condition = rows.text(0), .values = values_in(rows.text(2), file)};
         if (rows.has(1)) interval.value = rows.real(1);
@@ -175,16 +168,16 @@ std::vector<StudyInterval> intervals_in(Database& database, int trial, const fs:
     return intervals;
 }
 
-std::int64_t version_of(Database& database) {
+std::int64_t version_of(const Database& database) {
     return database.number("PRAGMA user_version");
 }
 
-std::vector<AnsweredTrial> answered_in(Database& database, const fs::path& file) {
+std::vector<AnsweredTrial> answered_in(const Database& database, const fs::path& file) {
     std::vector<AnsweredTrial> all;
-    Rows rows(database,
-              std::string("SELECT trial, block, position, practice, form, item, repetition, "
-                          "target, track, level, choice, number, right, reaction_s, utc_s, ") +
-                  (version_of(database) < 2 ? "NULL" : "early") + " FROM trial ORDER BY trial");
+    Statement rows(
+        database, std::string("SELECT trial, block, position, practice, form, item, repetition, "
+                              "target, track, level, choice, number, right, reaction_s, utc_s, ") +
+                      (version_of(database) < 2 ? "NULL" : "early") + " FROM trial ORDER BY trial");
     const auto whole = [&rows](int column) { return static_cast<int>(rows.integer(column)); };
     while (rows.next()) {
         if (rows.integer(0) != static_cast<std::int64_t>(all.size()))
@@ -213,13 +206,21 @@ std::vector<AnsweredTrial> answered_in(Database& database, const fs::path& file)
     return all;
 }
 
-void require_kind(Database& database, const fs::path& file) {
+void require_kind(const Database& database, const fs::path& file) {
     if (database.number("PRAGMA application_id") != kStudyApplicationId)
         refuse(file, "is no study of dibhr: name a file that dibhr study run made");
     const std::int64_t version = version_of(database);
     if (version < 1 || version > kStudySchemaVersion)
         refuse(file, "is a study of another version (" + std::to_string(version) + "; this is " +
                          std::to_string(kStudySchemaVersion) + "): use the program that made it");
+}
+
+/// To be read: what is checked when a study is begun is checked here, too.
+Database opened_study(const fs::path& file) {
+    Database database(file, refusal_of(file));
+    database.distrust(kLongestSession_bytes);
+    require_kind(database, file);
+    return database;
 }
 
 std::string bytes_of(const fs::path& file) {
@@ -231,24 +232,15 @@ std::string bytes_of(const fs::path& file) {
     return bytes.str();
 }
 
-void bind(Statement& row, const std::optional<double>& value) {
-    if (value)
-        row.plain_real(*value);
-    else
-        row.cell(std::optional<std::int64_t>());
-}
-
 /// Whose a session is and of which trial: the facts that a recording of a person's own has, too.
-void sign_session(const fs::path& session, const StudyIdentity& identity, int trial,
+void sign_session(Database database, const StudyIdentity& identity, int trial,
                   const fs::path& study) {
     const std::string title =
         page_of(identity.protocol_text, study)["title"].value_or(std::string());
-    Database database(session);
     database.distrust(kLongestSession_bytes);
     Statement row(database, "INSERT OR REPLACE INTO session VALUES (?, ?)");
-    row.run(std::string_view("participant"), std::string_view(identity.participant));
-    const std::string note = title + ", trial " + std::to_string(trial + 1);
-    row.run(std::string_view("note"), std::string_view(note));
+    row.run("participant", identity.participant);
+    row.run("note", title + ", trial " + std::to_string(trial + 1));
 }
 
 void remove_quietly(const fs::path& session) {
@@ -312,7 +304,7 @@ struct StudyFile::Implementation {
     StudyIdentity identity{};
     std::vector<AnsweredTrial> answered{};
 
-    explicit Implementation(const fs::path& path) : file(path), database(path) {}
+    explicit Implementation(const fs::path& path) : file(path), database(path, refusal_of(path)) {}
 
     /// Held from here until the program ends, however it does. A pilot can be run again: only a
     /// person's answers wait for the disk.
@@ -330,8 +322,7 @@ struct StudyFile::Implementation {
             "; PRAGMA user_version = " + std::to_string(kStudySchemaVersion) + ";" + kTables +
             kExplainEarly);
         Statement row(database, "INSERT INTO study VALUES (?, ?)");
-        for (const auto& [key, value] : facts_of(wanted))
-            row.run(std::string_view(key), std::string_view(value));
+        for (const auto& [key, value] : facts_of(wanted)) row.run(key, value);
         database.execute("COMMIT");
         identity = wanted;
     }
@@ -366,36 +357,36 @@ struct StudyFile::Implementation {
     void insert(const AnsweredTrial& one, const fs::path& session) {
         const Trial& trial = one.trial;
         Statement row(database, "INSERT INTO trial VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
-        row.cell(trial.number);
-        row.cell(trial.block);
-        row.cell(trial.position);
-        row.cell(trial.practice ? 1 : 0);
-        row.cell(std::string_view(name_of(trial.form)));
-        row.cell(trial.item);
-        row.cell(trial.repetition);
-        row.cell(trial.target);
-        row.cell(trial.track);
-        bind(row, trial.level);
-        row.cell(one.answer.choice);
-        bind(row, one.answer.number);
-        row.cell(one.right ? std::optional<std::int64_t>(*one.right ? 1 : 0) : std::nullopt);
-        row.plain_real(one.answer.reaction_s);
-        row.plain_real(one.utc_s);
-        row.run(std::optional<std::int64_t>(one.answer.early));
+        row.bind(trial.number);
+        row.bind(trial.block);
+        row.bind(trial.position);
+        row.bind(trial.practice);
+        row.bind(name_of(trial.form));
+        row.bind(trial.item);
+        row.bind(trial.repetition);
+        row.bind(trial.target);
+        row.bind(trial.track);
+        row.bind_real(trial.level);
+        row.bind(one.answer.choice);
+        row.bind_real(one.answer.number);
+        row.bind(one.right);
+        row.bind_real(one.answer.reaction_s);
+        row.bind_real(one.utc_s);
+        row.run(one.answer.early);
         Statement interval(database, "INSERT INTO interval VALUES (?,?,?,?,?)");
         int number = 0;
         for (const StudyInterval& felt : trial.intervals) {
-            interval.cell(trial.number);
-            interval.cell(number++);
-            interval.cell(std::string_view(felt.condition));
-            bind(interval, felt.value);
-            interval.run(std::string_view(json_text(felt.values)));
+            interval.bind(trial.number);
+            interval.bind(number++);
+            interval.bind(felt.condition);
+            interval.bind_real(felt.value);
+            interval.run(json_text(felt.values));
         }
         if (session.empty()) return;
         const std::string bytes = bytes_of(session);
         Statement blob(database, "INSERT INTO session VALUES (?,?)");
-        blob.cell(trial.number);
-        blob.bytes(bytes);
+        blob.bind(trial.number);
+        blob.bind_bytes(bytes);
         blob.run();
     }
 };
@@ -403,14 +394,12 @@ struct StudyFile::Implementation {
 StudyFile::StudyFile(const fs::path& file, const StudyIdentity& identity) {
     require_label(identity.participant);
     make_if_missing(file);
-    of_file(file, [&] {
-        implementation_ = std::make_unique<Implementation>(file);
-        implementation_->hold(!identity.pilot.empty());
-        if (implementation_->database.number("SELECT count(*) FROM sqlite_master") == 0)
-            implementation_->begin(identity);
-        else
-            implementation_->go_on(identity);
-    });
+    implementation_ = std::make_unique<Implementation>(file);
+    implementation_->hold(!identity.pilot.empty());
+    if (implementation_->database.number("SELECT count(*) FROM sqlite_master") == 0)
+        implementation_->begin(identity);
+    else
+        implementation_->go_on(identity);
 }
 
 StudyFile::~StudyFile() = default;
@@ -429,23 +418,19 @@ const std::vector<AnsweredTrial>& StudyFile::answered() const noexcept {
 
 void StudyFile::add(const AnsweredTrial& answered, const fs::path& session) {
     Database& database = implementation_->database;
-    of_file(file(), [&] {
-        database.execute("BEGIN IMMEDIATE");
-        try {
-            implementation_->insert(answered, session);
-            database.execute("COMMIT");
-        } catch (...) {
-            database.execute("ROLLBACK");
-            throw;
-        }
-    });
+    database.execute("BEGIN IMMEDIATE");
+    try {
+        implementation_->insert(answered, session);
+        database.execute("COMMIT");
+    } catch (...) {
+        database.execute("ROLLBACK");
+        throw;
+    }
     if (!session.empty()) remove_quietly(session);
 }
 
 void StudyFile::finish() {
-    of_file(file(), [&] {
-        implementation_->database.execute("INSERT OR REPLACE INTO study VALUES ('finished', '1')");
-    });
+    implementation_->database.execute("INSERT OR REPLACE INTO study VALUES ('finished', '1')");
 }
 
 fs::path StudyFile::fresh_session() const {
@@ -457,20 +442,16 @@ fs::path StudyFile::fresh_session() const {
 StudyRecord read_study(const fs::path& file) {
     std::error_code failed;
     if (!fs::is_regular_file(file, failed)) refuse(file, "no such file; check its name");
-    return of_file(file, [&] {
-        Database database(file);
-        database.distrust(kLongestSession_bytes);
-        require_kind(database, file);
-        StudyRecord record{.file = file,
-                           .identity = identity_in(database, file),
-                           .finished = fact(database, "finished") == "1",
-                           .answered = answered_in(database, file)};
-        Rows rows(database,
-                  "SELECT trial.trial, length(session.file) FROM trial LEFT JOIN session USING "
-                  "(trial) ORDER BY trial.trial");
-        while (rows.next()) record.session_bytes.push_back(rows.integer(1));
-        return record;
-    });
+    const Database database = opened_study(file);
+    StudyRecord record{.file = file,
+                       .identity = identity_in(database, file),
+                       .finished = fact(database, "finished") == "1",
+                       .answered = answered_in(database, file)};
+    Statement rows(database,
+                   "SELECT trial.trial, length(session.file) FROM trial LEFT JOIN session USING "
+                   "(trial) ORDER BY trial.trial");
+    while (rows.next()) record.session_bytes.push_back(rows.integer(1));
+    return record;
 }
 
 std::string session_name(const StudyRecord& study, int trial) {
@@ -482,18 +463,17 @@ std::string session_name(const StudyRecord& study, int trial) {
 
 bool write_study_session(const fs::path& study, int trial, const fs::path& session) {
     StudyIdentity identity;
-    const std::string bytes = of_file(study, [&] {
-        Database database(study);
-        database.distrust(kLongestSession_bytes);
-        require_kind(database, study);
+    std::string bytes;
+    {
+        const Database database = opened_study(study);
         identity = identity_in(database, study);
-        Rows rows(database, "SELECT file FROM session WHERE trial = " + std::to_string(trial));
-        return rows.next() ? rows.bytes(0) : std::string();
-    });
+        Statement rows(database, "SELECT file FROM session WHERE trial = " + std::to_string(trial));
+        if (rows.next()) bytes = rows.bytes(0);
+    }
     if (bytes.empty()) return false;
     OutputFile out(session);
     out.write(bytes);
-    of_file(session, [&] { sign_session(out.written(), identity, trial, study); });
+    sign_session(Database(out.written(), refusal_of(session)), identity, trial, study);
     out.commit();
     return true;
 }

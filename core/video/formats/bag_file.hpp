@@ -5,16 +5,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/files/sqlite_bounds.hpp"
-
-struct sqlite3;
-struct sqlite3_blob;
-struct sqlite3_stmt;
+#include "core/sqlite/database.hpp"
 
 namespace dibhr {
 
@@ -39,35 +34,22 @@ class BagFile {
     BagFile(const BagFile&) = delete;
     BagFile& operator=(const BagFile&) = delete;
 
-    [[nodiscard]] std::vector<Topic> topics();
+    [[nodiscard]] std::vector<Topic> topics() const;
 
     /// In the order of recording, at most `most`.
-    [[nodiscard]] std::vector<BagMessage> messages(std::int64_t topic, std::size_t most);
+    [[nodiscard]] std::vector<BagMessage> messages(std::int64_t topic, std::size_t most) const;
 
     /// The first `most` bytes of a message, or all of it.
     [[nodiscard]] std::vector<std::uint8_t> data(
         std::int64_t row, std::size_t most = std::numeric_limits<std::size_t>::max());
 
   private:
-    struct Closer {
-        void operator()(sqlite3* database) const noexcept;
-        void operator()(sqlite3_stmt* statement) const noexcept;
-        void operator()(sqlite3_blob* blob) const noexcept;
-    };
-    using Statement = std::unique_ptr<sqlite3_stmt, Closer>;
-
-    void open();
-    void check_tables();
-    [[nodiscard]] Statement prepared(const char* sql);
-    [[nodiscard]] bool next(sqlite3_stmt* statement) const;
-    [[noreturn]] void refuse() const;  ///< in SQLite's words
+    void check_tables() const;
     [[noreturn]] void refuse(std::string_view why) const;
 
     std::filesystem::path file_;
-    std::uint64_t most_steps_{0};  ///< that one question may take
-    SqliteBounds bounds_{};
-    std::unique_ptr<sqlite3, Closer> database_{};
-    std::unique_ptr<sqlite3_blob, Closer> blob_{};
+    Database database_;
+    BlobReader message_;
 };
 
 }  // namespace dibhr

@@ -254,8 +254,7 @@ TEST_CASE("a question that would not end is ended by the bound of its work", "[s
     const SessionFolder folder;
     record_ticks(folder.file(), 10);
     const SessionReader reader(folder.file());
-    SessionReader::Query endless(
-        reader,
+    Statement endless = reader.rows(
         "WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c) SELECT sum(x) "
         "FROM c");
     std::string refusal;
@@ -265,7 +264,7 @@ TEST_CASE("a question that would not end is ended by the bound of its work", "[s
         refusal = error.what();
     }
     CHECK(contains(refusal, "reading it would not end"));
-    SessionReader::Query next(reader, "SELECT count(*) FROM tick");
+    Statement next = reader.rows("SELECT count(*) FROM tick");
     REQUIRE(next.next());
     CHECK(next.integer(0) == 10);
 }

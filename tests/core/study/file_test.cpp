@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/session/database.hpp"
+#include "core/sqlite/database.hpp"
 #include "core/study/study_file.hpp"
 #include "tests/core/study/pages.hpp"
 #include "tests/support/catch.hpp"
@@ -50,7 +50,7 @@ AnsweredTrial some_trial(int number) {
 
 std::map<std::string, std::string> facts_in(const std::filesystem::path& session) {
     Database database(session);
-    Rows rows(database, "SELECT key, value FROM session");
+    Statement rows(database, "SELECT key, value FROM session");
     std::map<std::string, std::string> facts;
     while (rows.next()) facts[rows.text(0)] = rows.text(1);
     return facts;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/session/database.hpp"
+#include "core/sqlite/database.hpp"
 #include "tests/core/study_report/made_study.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/some_of.hpp"
