@@ -2,17 +2,15 @@
 #include "core/replay/frames.hpp"
 
 #include <algorithm>
-#include <array>
 #include <exception>
-#include <fstream>
 #include <optional>
-#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/files/content_hash.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/sqlite/database.hpp"
 #include "core/video/cleaning/surface_version.hpp"
 #include "core/video/depth/sidecar.hpp"
 #include "core/video/formats/touch_map_files.hpp"
@@ -61,14 +59,7 @@ constexpr std::size_t kLeastKept = 16;
 bool names_session(const std::filesystem::path& file) {
     if (file.extension() == ".dibhr") return true;
     if (file.extension() == ".db3") return false;  // a ROS 2 bag: SQLite's, too
-    std::error_code unknown;
-    if (!std::filesystem::is_regular_file(file, unknown)) return false;
-    constexpr std::string_view kMagic = "SQLite format 3";  // SQLite's file format, section 1.3
-    std::array<char, kMagic.size()> head{};
-    std::ifstream stream(file, std::ios::binary);
-    stream.read(head.data(), head.size());
-    return stream.gcount() == static_cast<std::streamsize>(head.size()) &&
-           std::string_view(head.data(), head.size()) == kMagic;
+    return is_database(file);
 }
 
 SessionMediaFinder::SessionMediaFinder(fs::path session, bool any_content)

@@ -13,7 +13,6 @@
 #include <ctime>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "core/error.hpp"
@@ -45,13 +44,6 @@ const std::filesystem::path& made(const std::filesystem::path& file) {
     }
     throw InputError(file.string() + ": the session cannot be recorded there (" +
                      std::strerror(errno) + "); choose a folder that can be written to");
-}
-
-void remove_traces(const std::filesystem::path& file) {
-    std::error_code ignored;
-    for (const char* ending : {"", "-wal", "-shm", "-journal"}) {
-        std::filesystem::remove(file.string() + ending, ignored);
-    }
 }
 
 /// A new session file with its tables, in write-ahead mode: readers do not stop the recording.
@@ -126,7 +118,7 @@ std::optional<std::int64_t> whole_nanoseconds(double value, double nanoseconds) 
 
 void bind_time(Statement& row, double value, double nanoseconds) noexcept {
     const auto whole = whole_nanoseconds(value, nanoseconds);
-    whole ? row.bind(*whole) : row.bind_real(value);
+    whole ? row.bind(*whole) : row.bind(SqlReal{value});
 }
 
 /// The pixel of a place; a place beyond all pictures has none.
@@ -170,7 +162,7 @@ SessionFile::SessionFile(const std::filesystem::path& file, const SessionFacts& 
     merge_log();  // a copy without the log is still a session that says what it is
     keeper_ = std::make_unique<LogKeeper>(file);
 } catch (const DatabaseError& error) {
-    remove_traces(file);
+    remove_database(file);
     throw InputError(file.string() + ": the session cannot be recorded there (" + error.what() +
                      "); choose another disk");
 }
@@ -198,11 +190,8 @@ void SessionFile::add(const TickRecord& record) {
     row.bind(std::isfinite(record.update_us)
                  ? std::llround(record.update_us * kNanosecondsPerMicrosecond)
                  : -1);
-    row.bind(state_of(record));
-    row.bind(record.surface ? std::optional(pairs_) : std::nullopt);
-    row.bind(record.blend);
-    row.bind(parameters_row_);
-    row.bind(record.moves);
+    row.bind(state_of(record), record.surface ? std::optional(pairs_) : std::nullopt, record.blend,
+             parameters_row_, record.moves);
     row.bind_unless(record.i, pixel_of(record.proxy.x));
     row.bind_unless(record.j, pixel_of(record.proxy.y));
     for (int axis = 0; axis < 3; ++axis) row.bind(record.goal[axis]);
@@ -245,7 +234,7 @@ void SessionFile::add_forces(const TickRecord& record) {
         if (off || same_bits(sent, follows(axis))) {
             row.bind(same_bits(sent, follows(axis)) ? std::nullopt : off);
         } else {
-            row.bind_real(sent);
+            row.bind(SqlReal{sent});
         }
     }
     row.bind_unless(record.sent_newton.z, follows(2));
@@ -288,13 +277,8 @@ void SessionFile::add_maps(std::uint32_t version, const std::vector<SessionMap>&
     for (const SessionMap& map : maps) {
         const std::string_view png = map.png;
         for (std::size_t at = 0, part = 0; at < png.size(); at += kMostMapBytes, ++part) {
-            insert.bind(version);
-            insert.bind(map.kind);
-            insert.bind(part);
-            insert.bind(map.lowest);
-            insert.bind(map.highest);
-            insert.bind_bytes(png.substr(at, kMostMapBytes));
-            insert.run();
+            insert.run(version, map.kind, part, map.lowest, map.highest,
+                       SqlBytes{png.substr(at, kMostMapBytes)});
         }
     }
 }
@@ -304,14 +288,14 @@ void SessionFile::set_fact(const std::string& key, const std::string& value) {
 }
 
 void SessionFile::add_mark(const SessionMark& mark) {
-    Statement insert(database_, "INSERT INTO mark(t, tag, text) VALUES (?, ?, ?)");
-    insert.run(mark.t_s, mark.tag, mark.text);
+    Statement(database_, "INSERT INTO mark(t, tag, text) VALUES (?, ?, ?)")
+        .run(mark.t_s, mark.tag, mark.text);
 }
 
 void SessionFile::add_clock(std::int64_t t_ns, double utc_s, std::uint64_t dropped,
                             std::uint64_t high_water) {
-    Statement insert(database_, "INSERT OR REPLACE INTO clock VALUES (?, ?, ?, ?)");
-    insert.run(t_ns, utc_s, dropped, high_water);
+    Statement(database_, "INSERT OR REPLACE INTO clock VALUES (?, ?, ?, ?)")
+        .run(t_ns, utc_s, dropped, high_water);
 }
 
 /// The parameters that the tick's force follows from: as they were told, held to its device.
@@ -345,12 +329,10 @@ void SessionFile::use_settings(const TickRecord& record) {
 
 void SessionFile::add_parameters(SessionParameters parameters) {
     Statement insert(database_, insert_parameters());
-    insert.bind(parameters.version);
-    insert.bind(parameters.first_tick);
+    insert.bind(parameters.version, parameters.first_tick);
     for (const TouchChoice& choice : touch_choices()) insert.bind(choice.of(parameters.touch));
     visit_numbers(parameters, [&insert](std::string_view, double number) { insert.bind(number); });
-    insert.bind(parameters.force_enabled);
-    insert.bind(media_row(parameters.bump.file));
+    insert.bind(parameters.force_enabled, media_row(parameters.bump.file));
     for (const TouchSwitch& entry : touch_switches()) insert.bind(entry.of(parameters.touch));
     insert.run();
 }
@@ -373,10 +355,7 @@ std::int64_t SessionFile::source_row(const FrameSource& source, std::int64_t tic
     int columns = 6;  // id, first_tick, media, colour, depth, depth_meaning
     visit_cleaning(source, [&columns](std::string_view, const auto&) { ++columns; });
     Statement insert(database_, insertion("INTO source", columns));
-    for (const std::int64_t number : {id, tick, std::int64_t{source.media}}) insert.bind(number);
-    insert.bind(colour);
-    insert.bind(depth);
-    insert.bind(files.depth_meaning);
+    insert.bind(id, tick, source.media, colour, depth, files.depth_meaning);
     visit_cleaning(source, [&insert](std::string_view, const auto& fact) { insert.bind(fact); });
     insert.run();
     return id;
@@ -387,8 +366,7 @@ std::optional<std::int64_t> SessionFile::media_row(const std::filesystem::path& 
     const auto found = media_rows_.find(file);
     if (found != media_rows_.end()) return found->second;
     const auto id = static_cast<std::int64_t>(media_rows_.size()) + 1;
-    Statement insert(database_, "INSERT INTO media(id, file) VALUES (?, ?)");
-    insert.run(id, file.string());
+    Statement(database_, "INSERT INTO media(id, file) VALUES (?, ?)").run(id, file.string());
     media_rows_.emplace(file, id);
     if (grows)
         growing_files_.push_back(file);
@@ -402,9 +380,8 @@ std::vector<std::filesystem::path> SessionFile::take_new_files() {
 }
 
 void SessionFile::set_content(const SessionMedia& content) {
-    Statement update(database_,
-                     "UPDATE media SET bytes = ?, sha256 = ?, head_bytes = ? WHERE file = ?");
-    update.run(content.bytes, content.sha256, content.head_bytes, content.file.string());
+    Statement(database_, "UPDATE media SET bytes = ?, sha256 = ?, head_bytes = ? WHERE file = ?")
+        .run(content.bytes, content.sha256, content.head_bytes, content.file.string());
 }
 
 void SessionFile::merge_log() {
@@ -427,13 +404,7 @@ void SessionFile::try_to(const char* sql) noexcept {
 }
 
 std::uint64_t SessionFile::bytes() const {
-    std::uint64_t total = 0;
-    for (const char* ending : {"", "-wal"}) {
-        std::error_code error;
-        const auto size = std::filesystem::file_size(path_.string() + ending, error);
-        if (!error) total += size;
-    }
-    return total;
+    return database_bytes(path_);
 }
 
 std::uint64_t SessionFile::bytes_recorded() {

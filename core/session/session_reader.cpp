@@ -1,7 +1,6 @@
 // Opens a session file read-only.
 #include "core/session/session_reader.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -49,8 +48,7 @@ void SessionReader::check_tables() const {
             "SELECT count(*) FROM sqlite_master WHERE name = 'touch_map' AND NOT "
             "(type = 'table' AND rootpage > 0)") == 0 &&
         database_.number(
-            "SELECT sum(rootpage > 0) FROM sqlite_master WHERE type = 'table' AND "
-            "name IN " +
+            "SELECT sum(rootpage > 0) FROM sqlite_master WHERE type = 'table' AND name IN " +
             names + ")") == static_cast<std::int64_t>(session_tables().size()) &&
         database_.number(
             "SELECT sum(x.hidden) FROM sqlite_master m, pragma_table_xinfo(m.name) x "
@@ -70,10 +68,9 @@ SessionReader::Log SessionReader::log_by_head() const {
         throw InputError(file_.string() + ": no such file; check its name");
     }
     if (!std::filesystem::is_regular_file(file_, failed)) refuse("no ordinary file");
-    // SQLite's file format, section 1.3: the magic string; at 16 the size of a page, 1 for 65536;
-    // at 18 and 19 a 2 each for a write-ahead log; at 28 the number of pages, valid if the numbers
-    // at 24 and 92 are the same. All big-endian.
-    constexpr std::string_view kMagic = "SQLite format 3";
+    // SQLite's file format, section 1.3: at 16 the size of a page, 1 for 65536; at 18 and 19 a 2
+    // each for a write-ahead log; at 28 the number of pages, valid if the numbers at 24 and 92 are
+    // the same. All big-endian.
     std::array<unsigned char, 100> head{};
     std::ifstream stream(file_, std::ios::binary);
     stream.read(reinterpret_cast<char*>(head.data()), head.size());
@@ -87,7 +84,7 @@ SessionReader::Log SessionReader::log_by_head() const {
                          "it was recorded");
     }
     if (stream.gcount() == 0) refuse("it is empty");
-    if (!std::equal(kMagic.begin(), kMagic.end(), head.begin())) refuse("no SQLite file");
+    if (!is_database(file_)) refuse("no SQLite file");
     const auto number = [&head](std::size_t at, std::size_t bytes) {
         std::uint64_t value = 0;
         for (std::size_t k = at; k < at + bytes; ++k) value = value << 8U | head[k];
@@ -111,9 +108,8 @@ void SessionReader::check_kind() const {
         const std::string log = file_.filename().string() + "-wal";
         if (log_ == Log::absent) {
             throw InputError(file_.string() +
-                             ": its recording was broken off, and all of it is "
-                             "in " +
-                             log + ", which is not here; copy both files");
+                             ": its recording was broken off, and all of it is in " + log +
+                             ", which is not here; copy both files");
         }
         if (std::filesystem::exists(file_.string() + "-wal", failed)) {
             throw InputError(file_.string() +

@@ -6,9 +6,11 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <limits>
 #include <system_error>
 #include <utility>
@@ -61,13 +63,7 @@ std::string read_only_uri(const std::filesystem::path& file, bool complete) {
 std::uint64_t work_worth(const std::filesystem::path& file) {
     constexpr std::uint64_t kStepsAnyway = 20'000'000;
     constexpr std::uint64_t kStepsPerByte = 100;  // ten times what a session's longest row takes
-    std::uint64_t bytes = 0;
-    for (const char* const ending : {"", "-wal"}) {
-        std::error_code failed;
-        const std::uint64_t there = std::filesystem::file_size(file.string() + ending, failed);
-        if (!failed) bytes += there;
-    }
-    return kStepsAnyway + kStepsPerByte * bytes;
+    return kStepsAnyway + kStepsPerByte * database_bytes(file);
 }
 
 int is_work_over(void* looks_left) noexcept {
@@ -98,6 +94,31 @@ DatabaseError::Cause cause_of(int code) noexcept {
 }
 
 }  // namespace
+
+bool is_database(const std::filesystem::path& file) {
+    constexpr std::string_view kMagic = "SQLite format 3";  // SQLite's file format, section 1.3
+    std::error_code unknown;
+    if (!std::filesystem::is_regular_file(file, unknown)) return false;
+    std::array<char, kMagic.size()> head{};
+    std::ifstream(file, std::ios::binary).read(head.data(), head.size());
+    return std::string_view(head.data(), head.size()) == kMagic;
+}
+
+std::uint64_t database_bytes(const std::filesystem::path& file) {
+    std::uint64_t total = 0;
+    for (const char* const ending : {"", "-wal"}) {
+        std::error_code failed;
+        const std::uint64_t bytes = std::filesystem::file_size(file.string() + ending, failed);
+        if (!failed) total += bytes;
+    }
+    return total;
+}
+
+void remove_database(const std::filesystem::path& file) {
+    std::error_code ignored;
+    for (const char* const ending : {"", "-wal", "-shm", "-journal"})
+        std::filesystem::remove(file.string() + ending, ignored);
+}
 
 void SqliteCloser::operator()(sqlite3* database) const noexcept {
     sqlite3_close_v2(database);
@@ -134,7 +155,7 @@ void Database::open(const std::string& name, int flags, int patience_ms) {
 }
 
 void Database::distrust(int longest_bytes) {
-    looks_left_ = std::make_unique<std::uint64_t>(0);
+    if (!looks_left_) looks_left_ = std::make_unique<std::uint64_t>(0);
     sqlite3* const database = handle_.get();
     sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
     sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
@@ -209,7 +230,7 @@ void Statement::bind(double value) noexcept {
     if (are_same(static_cast<double>(whole), value)) {
         bind_integer(whole);
     } else {
-        bind_real(value);
+        bind(SqlReal{value});
     }
 }
 
@@ -217,16 +238,16 @@ void Statement::bind(const std::optional<std::int64_t>& value) noexcept {
     value ? bind_integer(*value) : bind_null();
 }
 
-void Statement::bind_real(const std::optional<double>& value) noexcept {
-    if (value)
-        sqlite3_bind_double(handle_.get(), ++bound_, storable(*value));
+void Statement::bind(const SqlReal& real) noexcept {
+    if (real.value)
+        sqlite3_bind_double(handle_.get(), ++bound_, storable(*real.value));
     else
         bind_null();
 }
 
-void Statement::bind_bytes(std::string_view bytes) noexcept {
-    sqlite3_bind_blob(handle_.get(), ++bound_, bytes.data(), static_cast<int>(bytes.size()),
-                      SQLITE_TRANSIENT);
+void Statement::bind(const SqlBytes& bytes) noexcept {
+    sqlite3_bind_blob(handle_.get(), ++bound_, bytes.value.data(),
+                      static_cast<int>(bytes.value.size()), SQLITE_TRANSIENT);
 }
 
 void Statement::bind_unless(double value, double follows) noexcept {

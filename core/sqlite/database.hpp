@@ -40,6 +40,13 @@ class DatabaseError : public std::runtime_error {
     Cause cause_;
 };
 
+/// Whether a file begins as a database does; false for one that is none or cannot be read.
+[[nodiscard]] bool is_database(const std::filesystem::path& file);
+/// On the disk, with its log; what is not there counts nothing.
+[[nodiscard]] std::uint64_t database_bytes(const std::filesystem::path& file);
+/// The file and all that SQLite puts beside it, as far as it is there and can be removed.
+void remove_database(const std::filesystem::path& file);
+
 /// Owners' way to let go of what SQLite opened.
 struct SqliteCloser {
     void operator()(sqlite3* database) const noexcept;
@@ -111,6 +118,17 @@ class Database {
     SqliteHandle<sqlite3> handle_{};
 };
 
+/// A value that is stored as a real, also a whole number, where an integer means something else;
+/// nothing: NULL.
+struct SqlReal {
+    std::optional<double> value{};
+};
+
+/// What is no text.
+struct SqlBytes {
+    std::string_view value{};
+};
+
 /// A prepared statement; must not outlive its database, which stays in its place. What fails is
 /// refused as Database says. Values are bound one after the other, each in the shortest form that
 /// gives the same bits again: columns without a type keep them as they are.
@@ -129,10 +147,13 @@ class Statement {
     void bind(double value) noexcept;
     /// Nothing: NULL.
     void bind(const std::optional<std::int64_t>& value) noexcept;
-    /// Also a whole number as a real, where an integer means something else; nothing: NULL.
-    void bind_real(const std::optional<double>& value) noexcept;
-    /// What is no text.
-    void bind_bytes(std::string_view bytes) noexcept;
+    void bind(const SqlReal& real) noexcept;
+    void bind(const SqlBytes& bytes) noexcept;
+    template <typename First, typename Second, typename... More>
+    void bind(const First& first, const Second& second, const More&... more) {
+        bind(first);
+        bind(second, more...);
+    }
     /// NULL where it equals what a reader takes instead.
     void bind_unless(double value, double follows) noexcept;
     void bind_unless(std::int64_t value, std::optional<std::int64_t> follows) noexcept;

@@ -243,12 +243,6 @@ void sign_session(Database database, const StudyIdentity& identity, int trial,
     row.run("note", title + ", trial " + std::to_string(trial + 1));
 }
 
-void remove_quietly(const fs::path& session) {
-    std::error_code ignored;
-    for (const char* const ending : {"", "-wal", "-shm", "-journal"})
-        fs::remove(session.string() + ending, ignored);
-}
-
 }  // namespace
 
 void require_label(const std::string& label) {
@@ -357,37 +351,18 @@ struct StudyFile::Implementation {
     void insert(const AnsweredTrial& one, const fs::path& session) {
         const Trial& trial = one.trial;
         Statement row(database, "INSERT INTO trial VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
-        row.bind(trial.number);
-        row.bind(trial.block);
-        row.bind(trial.position);
-        row.bind(trial.practice);
-        row.bind(name_of(trial.form));
-        row.bind(trial.item);
-        row.bind(trial.repetition);
-        row.bind(trial.target);
-        row.bind(trial.track);
-        row.bind_real(trial.level);
-        row.bind(one.answer.choice);
-        row.bind_real(one.answer.number);
-        row.bind(one.right);
-        row.bind_real(one.answer.reaction_s);
-        row.bind_real(one.utc_s);
-        row.run(one.answer.early);
+        row.run(trial.number, trial.block, trial.position, trial.practice, name_of(trial.form),
+                trial.item, trial.repetition, trial.target, trial.track, SqlReal{trial.level},
+                one.answer.choice, SqlReal{one.answer.number}, one.right,
+                SqlReal{one.answer.reaction_s}, SqlReal{one.utc_s}, one.answer.early);
         Statement interval(database, "INSERT INTO interval VALUES (?,?,?,?,?)");
         int number = 0;
-        for (const StudyInterval& felt : trial.intervals) {
-            interval.bind(trial.number);
-            interval.bind(number++);
-            interval.bind(felt.condition);
-            interval.bind_real(felt.value);
-            interval.run(json_text(felt.values));
-        }
+        for (const StudyInterval& felt : trial.intervals)
+            interval.run(trial.number, number++, felt.condition, SqlReal{felt.value},
+                         json_text(felt.values));
         if (session.empty()) return;
         const std::string bytes = bytes_of(session);
-        Statement blob(database, "INSERT INTO session VALUES (?,?)");
-        blob.bind(trial.number);
-        blob.bind_bytes(bytes);
-        blob.run();
+        Statement(database, "INSERT INTO session VALUES (?,?)").run(trial.number, SqlBytes{bytes});
     }
 };
 
@@ -426,7 +401,7 @@ void StudyFile::add(const AnsweredTrial& answered, const fs::path& session) {
         database.execute("ROLLBACK");
         throw;
     }
-    if (!session.empty()) remove_quietly(session);
+    if (!session.empty()) remove_database(session);
 }
 
 void StudyFile::finish() {
@@ -435,7 +410,7 @@ void StudyFile::finish() {
 
 fs::path StudyFile::fresh_session() const {
     fs::path session = file().string() + ".trial.dibhr";
-    remove_quietly(session);
+    remove_database(session);
     return session;
 }
 

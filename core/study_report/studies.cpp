@@ -6,11 +6,11 @@
 #include <fstream>
 #include <map>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/sqlite/database.hpp"
 
 namespace dibhr {
 
@@ -48,13 +48,8 @@ void require_trials_of(const Protocol& protocol, const StudyRecord& record) {
 
 /// A text or a picture is told from a study that is damaged.
 void require_study_file(const std::filesystem::path& file) {
-    constexpr std::string_view kBegins = "SQLite format 3";
-    std::ifstream in(file, std::ios::binary);
-    std::string begins(kBegins.size(), ' ');
-    const bool holds_something = in.read(begins.data(), 1).good();
-    if (!holds_something) return;  // read_study says what is wrong
-    in.read(begins.data() + 1, static_cast<std::streamsize>(begins.size()) - 1);
-    if (begins != kBegins)
+    const bool holds_something = std::ifstream(file).get() != std::ifstream::traits_type::eof();
+    if (holds_something && !is_database(file))  // else read_study says what is wrong
         throw InputError(file.string() +
                          ": is no study file: name one that dibhr study run made "
                          "(*.dibhr-study), or a folder of them");

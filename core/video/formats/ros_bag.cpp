@@ -2,20 +2,18 @@
 #include "core/video/formats/ros_bag.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/sqlite/database.hpp"
 #include "core/video/formats/bag_file.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/ros_messages.hpp"
@@ -306,12 +304,7 @@ bool is_ros_bag(const fs::path& place) {
         const std::vector<fs::path> entries = entries_of(place);
         return std::any_of(entries.begin(), entries.end(), is_bag_name);
     }
-    constexpr std::string_view kMagic = "SQLite format 3";  // SQLite's file format, section 1.3
-    std::error_code failed;
-    if (!fs::is_regular_file(place, failed)) return false;
-    std::array<char, kMagic.size()> head{};
-    std::ifstream(place, std::ios::binary).read(head.data(), head.size());
-    return std::string_view(head.data(), head.size()) == kMagic;
+    return is_database(place);
 }
 
 bool ros_bag_holds(const fs::path& place, PictureRole role) {
