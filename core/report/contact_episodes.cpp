@@ -22,19 +22,10 @@ void add_force(ForceSummary& sum, const Vec3& newton, double held_s) {
 }
 
 void add_primitive(PrimitiveShares& sum, std::uint8_t primitive, double held_s) {
-    switch (static_cast<PrimitiveKind>(primitive)) {
-        case PrimitiveKind::triangle:
-            sum.triangle += held_s;
-            break;
-        case PrimitiveKind::edge:
-            sum.edge += held_s;
-            break;
-        case PrimitiveKind::vertex:
-            sum.vertex += held_s;
-            break;
-        case PrimitiveKind::none:
-            break;
-    }
+    const auto kind = static_cast<PrimitiveKind>(primitive);
+    if (kind == PrimitiveKind::triangle) sum.triangle += held_s;
+    if (kind == PrimitiveKind::edge) sum.edge += held_s;
+    if (kind == PrimitiveKind::vertex) sum.vertex += held_s;
 }
 
 constexpr double kLongestWindow_s = 3.0 * kSpeedWindow_s;  // longer: something is missing

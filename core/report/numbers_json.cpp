@@ -1,11 +1,15 @@
-// The report's numbers for scripts: JSON with names that stay, units in them.
+// The report's numbers, value by value, and all of them for scripts: JSON with names that stay,
+// units in them.
 #include "core/report/session_report.hpp"
 
+#include <cctype>
 #include <cstddef>
 #include <string_view>
 
 #include "core/files/json.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/plot/axes.hpp"
+#include "core/report/fields.hpp"
 #include "core/report/report_words.hpp"
 
 namespace dibhr {
@@ -13,10 +17,6 @@ namespace dibhr {
 namespace {
 
 constexpr int kReportVersion = 1;  // changes when a name changes its meaning or goes
-
-Json force_json(const ForceSummary& force) {
-    return {{"mean_newton", force.mean_newton}, {"peak_newton", force.peak_newton}};
-}
 
 Json values_json(const Distribution& values) {
     constexpr int kBars = 50;
@@ -49,27 +49,9 @@ Json ticks_json(const TickCounts& ticks) {
 }
 
 Json episodes_json(const SessionReport& report) {
-    const double begin_s = report.session.begin_s();
     Json list = Json::array();
-    for (const Episode& e : report.numbers.episodes) {
-        list.push_back({{"number", list.size() + 1},
-                        {"begin_s", e.begin_s - begin_s},
-                        {"end_s", e.end_s - begin_s},
-                        {"length_s", e.length_s()},
-                        {"contact_s", e.contact_s},
-                        {"video_begin_s", e.video_begin_s},
-                        {"video_end_s", e.video_end_s},
-                        {"media", e.media},
-                        {"sent", force_json(e.sent)},
-                        {"spring", force_json(e.spring)},
-                        {"path_mm", e.path_mm},
-                        {"mean_speed_mm_per_s", e.mean_speed_mm_per_s()},
-                        {"centre_x_px", e.centre_px.x},
-                        {"centre_y_px", e.centre_px.y},
-                        {"triangle_share", e.shares.triangle},
-                        {"edge_share", e.shares.edge},
-                        {"vertex_share", e.shares.vertex}});
-    }
+    for (std::size_t k = 0; k < report.numbers.episodes.size(); ++k)
+        list.push_back(episode_fields(report, k).json);
     return list;
 }
 
@@ -91,21 +73,6 @@ Json source_json(const Session& session, const SessionSource& source) {
     return json;
 }
 
-Json parameters_json(const Session& session, SessionParameters parameters) {
-    Json json{{"version", parameters.version},
-              {"first_tick", session.count_of(parameters.first_tick)}};
-    for (const TouchChoice& choice : touch_choices())
-        json[std::string(choice.column)] = std::string(choice.of(parameters.touch));
-    visit_numbers(parameters, [&json](std::string_view column, double number) {
-        json[std::string(column)] = number;
-    });
-    json["force_enabled"] = parameters.force_enabled;
-    for (const TouchSwitch& entry : touch_switches())
-        json[std::string(entry.column)] = entry.of(parameters.touch);
-    json["bump"] = media_json(parameters.bump);
-    return json;
-}
-
 Json map_json(const HeatMapFacts& map) {
     return {{"picture", map.picture},
             {"media", map.source.source.media},
@@ -123,17 +90,103 @@ Json texts_json(const SessionFacts& facts) {
     return object;
 }
 
+/// "damping [N s/m]"
+std::string head_of(std::string_view label, std::string_view unit = {}) {
+    std::string head(label);
+    head[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(head[0])));
+    return unit.empty() ? head : head + " [" + std::string(unit) + "]";
+}
+
+/// A file's name; the whole path where a pointer rests on it.
+std::string file_cell(const SessionMedia& media) {
+    if (media.file.empty()) return "none";
+    return "<span title=\"" + html_text(media.file.string()) + "\">" +
+           html_text(media.file.filename().string()) + "</span>";
+}
+
 }  // namespace
+
+Fields episode_fields(const SessionReport& report, std::size_t k) {
+    const Episode& e = report.numbers.episodes[k];
+    const double begin_s = report.session.begin_s();
+    const auto percent = [](double share) { return number_text(100.0 * share, 0); };
+    Fields row;
+    row.plain("number", k + 1, "No.");
+    row.fixed("begin_s", e.begin_s - begin_s, 3, "start [s]");
+    row.add("end_s", e.end_s - begin_s);
+    row.add("length_s", e.length_s());
+    row.add("contact_s", e.contact_s);
+    row.fixed("video_begin_s", e.video_begin_s, 3, "video [s]");
+    row.add("video_end_s", e.video_end_s);
+    row.add("media", e.media);
+    row.show("length [s]", number_text(e.length_s(), 3));
+    row.fixed({"/sent/mean_newton", ""}, e.sent.mean_newton, 3, "sent, mean [N]");
+    row.fixed({"/sent/peak_newton", ""}, e.sent.peak_newton, 3, "sent, peak [N]");
+    row.fixed({"/spring/mean_newton", ""}, e.spring.mean_newton, 3, "spring, mean [N]");
+    row.fixed({"/spring/peak_newton", ""}, e.spring.peak_newton, 3, "spring, peak [N]");
+    row.fixed("path_mm", e.path_mm, 1, "path [mm]");
+    row.fixed("mean_speed_mm_per_s", e.mean_speed_mm_per_s(), 1, "speed [mm/s]");
+    row.add("centre_x_px", e.centre_px.x);
+    row.add("centre_y_px", e.centre_px.y);
+    row.show("place [px]",
+             number_text(e.centre_px.x, 0) + ",&nbsp;" + number_text(e.centre_px.y, 0));
+    row.add("triangle_share", e.shares.triangle);
+    row.add("edge_share", e.shares.edge);
+    row.add("vertex_share", e.shares.vertex);
+    row.show("triangle / edge / vertex [%]", percent(e.shares.triangle) + " / " +
+                                                 percent(e.shares.edge) + " / " +
+                                                 percent(e.shares.vertex));
+    return row;
+}
+
+Fields mark_fields(const SessionReport& report, const SessionMark& mark) {
+    Fields row;
+    row.fixed("t_s", mark.t_s - report.session.begin_s(), 3, "time [s]");
+    row.add("tag", mark.tag);
+    row.show("tag", text_cell(mark.tag));
+    row.add("text", mark.text);
+    row.show("text", text_cell(mark.text));
+    return row;
+}
+
+Fields parameters_fields(const SessionReport& report, SessionParameters parameters) {
+    const auto& used_from_s = report.numbers.settings_from_s;
+    const auto from = used_from_s.find(parameters.version);
+    Fields row;
+    row.show("from [s]", from == used_from_s.end()
+                             ? "not used"
+                             : number_text(from->second - report.session.begin_s(), 3));
+    row.add("version", parameters.version);
+    row.add("first_tick", report.session.count_of(parameters.first_tick));
+    for (const TouchChoice& choice : touch_choices()) {
+        const std::string word(choice.of(parameters.touch));
+        row.add(std::string(choice.column), word);
+        row.show(head_of(choice.label), html_text(word));
+    }
+    visit_numbers(parameters, [&row](std::string_view column, double number) {
+        row.add(std::string(column), number);
+    });
+    for (const TouchNumber& number : touch_numbers()) {
+        const double value = number.of(parameters.touch);
+        const bool named = number.zero != nullptr && !(value > 0.0);
+        row.show(head_of(number.label, number.unit), named ? number.zero : tick_text(value));
+    }
+    row.add("force_enabled", parameters.force_enabled);
+    row.show("bump map", file_cell(parameters.bump));
+    for (const TouchSwitch& entry : touch_switches()) {
+        row.add(std::string(entry.column), entry.of(parameters.touch));
+        row.show(head_of(entry.label), entry.of(parameters.touch) ? "yes" : "no");
+    }
+    row.add("bump", media_json(parameters.bump));
+    row.show("force limit [N]", tick_text(parameters.limits.max_force_newton));
+    row.show("force", parameters.force_enabled ? "on" : "off");
+    return row;
+}
 
 std::string json_of(const SessionReport& report) {
     const Session& session = report.session;
     const SessionNumbers& numbers = report.numbers;
     const double way_mm = path_mm(numbers);
-    const auto mark_json = [&](const SessionMark& mark) -> Json {
-        return {{"t_s", mark.t_s - session.begin_s()},
-                {"tag", utf8_text(mark.tag)},
-                {"text", utf8_text(mark.text)}};
-    };
     SessionFacts meanings;
     for (const Definition& each : definitions()) meanings[each.name] = each.meaning;
     return json_text(
@@ -162,10 +215,12 @@ std::string json_of(const SessionReport& report) {
          {"heat_maps", json_list(report.maps, map_json)},
          {"parameters",
           json_list(session.parameters(),
-                    [&](const SessionParameters& p) { return parameters_json(session, p); })},
+                    [&](const SessionParameters& p) { return parameters_fields(report, p).json; })},
          {"sources", json_list(session.sources(),
                                [&](const SessionSource& s) { return source_json(session, s); })},
-         {"marks", json_list(session.marks(), mark_json)},
+         {"marks",
+          json_list(session.marks(),
+                    [&](const SessionMark& mark) { return mark_fields(report, mark).json; })},
          {"facts", texts_json(facts_of_hand(session.facts(), hand_of(numbers.ticks)))},
          {"definitions", texts_json(meanings)}});
 }

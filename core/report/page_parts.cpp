@@ -63,8 +63,16 @@ std::string picture_file(const std::string& name, PlotFormat format) {
     return name + "." + std::string(name_of(format));
 }
 
-Figure add_figure(OutputFolder& files, std::span<const PlotFormat> formats, const std::string& name,
-                  const std::string& title, const std::string& caption, const Canvas& plot) {
+std::vector<std::string> report_files(std::vector<std::string> others,
+                                      const std::vector<std::string>& pictures) {
+    for (const std::string& picture : pictures)
+        for (const PlotFormat format : kPlotFormats)
+            others.push_back(picture_file(picture, format));
+    return others;
+}
+
+void FigureMaker::add(const std::string& name, const std::string& title, const std::string& caption,
+                      const Canvas& plot) const {
     const ColourImage picture = plot.finished();
     auto png = png_of(picture);
     std::string names;
@@ -73,7 +81,7 @@ Figure add_figure(OutputFolder& files, std::span<const PlotFormat> formats, cons
         files.add(file, format == PlotFormat::png ? png : plot.encoded(format));
         names += (names.empty() ? "" : ", ") + file;
     }
-    return {name, names, title, caption, picture.columns, picture.rows, std::move(png)};
+    figures.push_back({name, names, title, caption, picture.columns, picture.rows, std::move(png)});
 }
 
 std::string page_head(const std::string& title, const std::string& program) {
@@ -81,7 +89,27 @@ std::string page_head(const std::string& title, const std::string& program) {
            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
            "<meta name=\"generator\" content=\"" +
            html_text(program) + "\">\n<title>" + html_text(title) + "</title>\n<style>" +
-           std::string(kStyle) + "</style>\n</head>\n";
+           std::string(kStyle) + "</style>\n</head>\n<body>\n<header>\n";
+}
+
+std::string page_foot(const std::string& program, const std::string& beside) {
+    return "</main>\n<footer class=\"quiet\">\n<p>Made by " + html_text(program) +
+           ". The numbers are in report.json beside this page, " + beside +
+           ".</p>\n</footer>\n</body>\n</html>\n";
+}
+
+std::string definitions_html(const std::vector<Definition>& definitions) {
+    std::string list = "<dl>\n";
+    for (const auto& [name, meaning] : definitions)
+        list += "<dt>" + html_text(name) + "</dt><dd>" + html_text(meaning) + "</dd>\n";
+    return list + "</dl>\n";
+}
+
+std::string list_html(const std::vector<std::string>& sentences) {
+    std::string list = "<ul>\n";
+    for (const std::string& sentence : sentences)
+        list += "<li class=\"text\">" + html_text(sentence) + "</li>\n";
+    return list + "</ul>\n";
 }
 
 std::string figure_html(const Figure& figure) {

@@ -23,13 +23,36 @@ struct Figure {
 /// "heat-map.svg"
 [[nodiscard]] std::string picture_file(const std::string& name, PlotFormat format);
 
-/// Adds the plot's files to the folder. Throws InputError when one cannot be written.
-[[nodiscard]] Figure add_figure(OutputFolder& files, std::span<const PlotFormat> formats,
-                                const std::string& name, const std::string& title,
-                                const std::string& caption, const Canvas& plot);
+/// All that a report of these pictures may have in its folder, in every format; `others`: the rest.
+[[nodiscard]] std::vector<std::string> report_files(std::vector<std::string> others,
+                                                    const std::vector<std::string>& pictures);
 
-/// A page from its first line to the end of its head. `title` and `program` are plain text.
+/// A report's figures in the making.
+struct FigureMaker {
+    OutputFolder& files;
+    std::span<const PlotFormat> formats;
+    std::vector<Figure>& figures;
+
+    /// Adds the plot's files to the folder. Throws InputError when one cannot be written.
+    void add(const std::string& name, const std::string& title, const std::string& caption,
+             const Canvas& plot) const;
+};
+
+/// A page up to its header. `title` and `program` (which made it) are plain text.
 [[nodiscard]] std::string page_head(const std::string& title, const std::string& program);
+/// From the end of its main part on; `beside` ends the sentence on what is beside the page.
+[[nodiscard]] std::string page_foot(const std::string& program, const std::string& beside);
+
+/// A word or a method, and what it means.
+struct Definition {
+    std::string name{};
+    std::string meaning{};
+};
+
+[[nodiscard]] std::string definitions_html(const std::vector<Definition>& definitions);
+
+/// A list of sentences in plain text.
+[[nodiscard]] std::string list_html(const std::vector<std::string>& sentences);
 
 /// With its caption and the names of its files.
 [[nodiscard]] std::string figure_html(const Figure& figure);

@@ -108,19 +108,6 @@ Box picture_box(const HeatMapGround& ground) {
             kTop_px + std::max(1.0, std::round(size * ground.rows))};
 }
 
-/// 1, 2 and 5 times the powers of ten on the scale.
-std::vector<double> scale_ticks(HeatScale scale) {
-    std::vector<double> ticks;
-    for (double power = std::pow(10.0, std::floor(std::log10(scale.least_s)));
-         power <= scale.most_s; power *= 10.0) {
-        for (const double factor : {1.0, 2.0, 5.0}) {
-            const double tick = factor * power;
-            if (tick >= scale.least_s && tick <= scale.most_s) ticks.push_back(tick);
-        }
-    }
-    return ticks;
-}
-
 void draw_colour_bar(Canvas& canvas, Box box, HeatScale scale) {
     ColourImage colours{1, static_cast<int>(box.height()), {}};
     for (int k = 0; k < colours.rows; ++k) {
@@ -130,7 +117,7 @@ void draw_colour_bar(Canvas& canvas, Box box, HeatScale scale) {
     canvas.picture(colours, box, 1.0);
     const Stroke frame{kQuietInk, 1.0, Dash::solid};
     canvas.outline(box, frame);
-    for (const double tick : scale_ticks(scale)) {
+    for (const double tick : close_ticks({scale.least_s, scale.most_s})) {
         const double y = box.bottom - scale.share(tick) * box.height();
         canvas.line({box.right, y}, {box.right + 5.0, y}, frame);
         canvas.text({box.right + 10.0, y + kNumberCap_px / 2.0}, tick_text(tick) + " s",
@@ -195,6 +182,18 @@ Ink heat_ink(double share) {
     const Ink to = kStops[first + 1];
     return {between(from.red, to.red, part), between(from.green, to.green, part),
             between(from.blue, to.blue, part)};
+}
+
+std::vector<double> close_ticks(ValueSpan span) {
+    std::vector<double> ticks;
+    for (double power = std::pow(10.0, std::floor(std::log10(span.low))); power <= span.high;
+         power *= 10.0) {
+        for (const double factor : {1.0, 2.0, 5.0}) {
+            const double tick = factor * power;
+            if (tick >= span.low && tick <= span.high) ticks.push_back(tick);
+        }
+    }
+    return ticks;
 }
 
 double heat_map_sigma_px(int columns) {

@@ -2,15 +2,15 @@
 #include "core/report/session_report.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <numeric>
 #include <set>
+#include <span>
 #include <string_view>
 #include <vector>
 
 #include "core/files/plain_text.hpp"
-#include "core/plot/axes.hpp"
+#include "core/report/fields.hpp"
 #include "core/report/page_parts.hpp"
 #include "core/report/report_words.hpp"
 
@@ -28,19 +28,14 @@ std::string figures_html(const SessionReport& report) {
     return pair.empty() ? whole : whole + "<div class=\"pair\">\n" + pair + "</div>\n";
 }
 
-std::string remarks_html(const SessionReport& report) {
-    std::string items;
-    for (const std::string& remark : remarks_of(report)) {
-        items += "<li class=\"text\">" + html_text(remark) + "</li>\n";
-    }
-    if (items.empty()) return {};
-    return "<section>\n<h2>Worth knowing</h2>\n<ul>\n" + items + "</ul>\n</section>\n";
+std::string remarks_section(const SessionReport& report) {
+    const std::vector<std::string> remarks = remarks_of(report);
+    return remarks.empty() ? "" : section("Worth knowing", list_html(remarks));
 }
 
-std::string opening_html(const SessionReport& report) {
+std::string opening_html(const SessionReport& report, const std::string& title) {
     const Session& session = report.session;
-    std::string text =
-        "<h1>What was touched: " + html_text(session.file().filename().string()) + "</h1>\n";
+    std::string text = "<h1>" + html_text(title) + "</h1>\n";
     std::string when = wall_time_text(report.numbers.begin_utc_s);
     if (!when.empty()) when = "Recorded from " + when;
     if (const std::string who = session.fact("participant"); !who.empty()) {
@@ -70,75 +65,8 @@ std::vector<std::size_t> shown_episodes(const std::vector<Episode>& episodes) {
     return shown;
 }
 
-std::string shares_text(const PrimitiveShares& shares) {
-    const auto percent = [](double share) { return number_text(100.0 * share, 0); };
-    return percent(shares.triangle) + " / " + percent(shares.edge) + " / " + percent(shares.vertex);
-}
-
-Cells episode_row(const SessionReport& report, std::size_t k) {
-    const Episode& e = report.numbers.episodes[k];
-    return {std::to_string(k + 1),
-            number_text(e.begin_s - report.session.begin_s(), 3),
-            number_text(e.video_begin_s, 3),
-            number_text(e.length_s(), 3),
-            number_text(e.sent.mean_newton, 3),
-            number_text(e.sent.peak_newton, 3),
-            number_text(e.spring.mean_newton, 3),
-            number_text(e.spring.peak_newton, 3),
-            number_text(e.path_mm, 1),
-            number_text(e.mean_speed_mm_per_s(), 1),
-            number_text(e.centre_px.x, 0) + ",&nbsp;" + number_text(e.centre_px.y, 0),
-            shares_text(e.shares)};
-}
-
-/// A file's name; the whole path where a pointer rests on it.
-std::string file_cell(const SessionMedia& media) {
-    if (media.file.empty()) return "none";
-    return "<span title=\"" + html_text(media.file.string()) + "\">" +
-           html_text(media.file.filename().string()) + "</span>";
-}
-
-/// "damping [N s/m]"
-std::string head_of(std::string_view label, std::string_view unit = {}) {
-    std::string head(label);
-    head[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(head[0])));
-    return unit.empty() ? head : head + " [" + std::string(unit) + "]";
-}
-
-Cells parameters_heads() {
-    Cells heads{"from [s]"};
-    for (const TouchChoice& choice : touch_choices()) heads.push_back(head_of(choice.label));
-    for (const TouchNumber& number : touch_numbers())
-        heads.push_back(head_of(number.label, number.unit));
-    heads.emplace_back("bump map");
-    for (const TouchSwitch& entry : touch_switches()) heads.push_back(head_of(entry.label));
-    heads.insert(heads.end(), {"force limit [N]", "force"});
-    return heads;
-}
-
-Cells parameters_row(const SessionReport& report, const SessionParameters& parameters) {
-    const auto from = report.numbers.settings_from_s.find(parameters.version);
-    Cells row{from == report.numbers.settings_from_s.end()
-                  ? "not used"
-                  : number_text(from->second - report.session.begin_s(), 3)};
-    for (const TouchChoice& choice : touch_choices())
-        row.push_back(html_text(choice.of(parameters.touch)));
-    for (const TouchNumber& number : touch_numbers()) {
-        const double value = number.of(parameters.touch);
-        const bool named = number.zero != nullptr && !(value > 0.0);
-        row.push_back(named ? number.zero : tick_text(value));
-    }
-    row.push_back(file_cell(parameters.bump));
-    for (const TouchSwitch& entry : touch_switches())
-        row.emplace_back(entry.of(parameters.touch) ? "yes" : "no");
-    row.insert(row.end(), {tick_text(parameters.limits.max_force_newton),
-                           parameters.force_enabled ? "on" : "off"});
-    return row;
-}
-
 Cells media_row(const std::string& what, const SessionMedia& media) {
-    return {what, "<span class=\"text\">" + html_text(media.file.string()) + "</span>",
-            std::to_string(media.bytes),
+    return {what, text_cell(media.file.string()), std::to_string(media.bytes),
             media.sha256.empty() ? "not known: the recording ended before"
                                  : "<code>" + html_text(media.sha256) + "</code>"};
 }
@@ -160,46 +88,42 @@ std::string cleaning_text(const FrameSource& source) {
     return text.empty() ? "as it is in the file" : text;
 }
 
+/// The first items, as many as are shown.
+template <typename Item>
+std::span<const Item> first_of(const std::vector<Item>& items) {
+    return std::span(items).first(std::min(items.size(), kMostRows));
+}
+
 /// Empty for a session without contact.
 std::string episodes_section(const SessionReport& report) {
     const std::vector<Episode>& episodes = report.numbers.episodes;
     if (episodes.empty()) return {};
-    std::vector<Cells> rows;
-    for (const std::size_t k : shown_episodes(episodes)) rows.push_back(episode_row(report, k));
+    const std::vector<std::size_t> shown = shown_episodes(episodes);
     std::string body;
-    if (rows.size() < episodes.size()) {
-        body = "<p>The " + std::to_string(rows.size()) + " longest of " +
+    if (shown.size() < episodes.size()) {
+        body = "<p>The " + std::to_string(shown.size()) + " longest of " +
                std::to_string(episodes.size()) + "; all are in report.json.</p>\n";
     }
-    return section(
-        "Contacts",
-        body + table_of({"No.", "start [s]", "video [s]", "length [s]", "sent, mean [N]",
-                         "sent, peak [N]", "spring, mean [N]", "spring, peak [N]", "path [mm]",
-                         "speed [mm/s]", "place [px]", "triangle / edge / vertex [%]"},
-                        rows));
+    return section("Contacts", body + table_of(shown, [&](std::size_t k) {
+                                   return episode_fields(report, k);
+                               }));
 }
 
 /// Empty for a session without marks.
 std::string marks_section(const SessionReport& report) {
-    if (report.session.marks().empty()) return {};
-    std::vector<Cells> rows;
-    for (const SessionMark& mark : report.session.marks()) {
-        if (rows.size() == kMostRows) break;
-        rows.push_back({number_text(mark.t_s - report.session.begin_s(), 3),
-                        "<span class=\"text\">" + html_text(mark.tag) + "</span>",
-                        "<span class=\"text\">" + html_text(mark.text) + "</span>"});
-    }
-    return section("Marks", table_of({"time [s]", "tag", "text"}, rows));
+    const auto marks = first_of(report.session.marks());
+    if (marks.empty()) return {};
+    return section("Marks", table_of(marks, [&](const SessionMark& mark) {
+                       return mark_fields(report, mark);
+                   }));
 }
 
 std::string parameters_section(const SessionReport& report) {
-    std::vector<Cells> rows;
-    for (const SessionParameters& parameters : report.session.parameters()) {
-        if (rows.size() == kMostRows) break;
-        rows.push_back(parameters_row(report, parameters));
-    }
-    return section("Parameters", rows.empty() ? "<p>None were recorded.</p>\n"
-                                              : table_of(parameters_heads(), rows));
+    const auto versions = first_of(report.session.parameters());
+    if (versions.empty()) return section("Parameters", "<p>None were recorded.</p>\n");
+    return section("Parameters", table_of(versions, [&](const SessionParameters& parameters) {
+                       return parameters_fields(report, parameters);
+                   }));
 }
 
 std::string files_section(const SessionReport& report) {
@@ -232,31 +156,21 @@ std::string facts_section(const SessionReport& report) {
     for (const auto& [key, value] : facts_of_hand(report.session.facts(), hand)) {
         if (key == "note" || key == "participant") continue;
         const std::string text = key == "device" ? device_text(value, hand) : value;
-        rows.push_back({html_text(key), "<span class=\"text\">" + html_text(text) + "</span>"});
+        rows.push_back({html_text(key), text_cell(text)});
     }
     return section("Session", table_of({"fact", "value"}, rows));
-}
-
-std::string definitions_section() {
-    std::string list = "<dl>\n";
-    for (const Definition& each : definitions()) {
-        list += "<dt>" + html_text(each.name) + "</dt><dd>" + html_text(each.meaning) + "</dd>\n";
-    }
-    return section("What the numbers mean", list + "</dl>\n");
 }
 
 }  // namespace
 
 std::string page_of(const SessionReport& report) {
-    return page_head("What was touched: " + report.session.file().filename().string(),
-                     report.program) +
-           "<body>\n<header>\n" + opening_html(report) + "</header>\n<main>\n" +
-           remarks_html(report) + figures_html(report) + episodes_section(report) +
+    const std::string title = "What was touched: " + report.session.file().filename().string();
+    return page_head(title, report.program) + opening_html(report, title) + "</header>\n<main>\n" +
+           remarks_section(report) + figures_html(report) + episodes_section(report) +
            marks_section(report) + parameters_section(report) + files_section(report) +
-           facts_section(report) + definitions_section() +
-           "</main>\n<footer class=\"quiet\">\n<p>Made by " + html_text(report.program) +
-           ". The numbers are in report.json beside this page, the pictures in the files named "
-           "under them.</p>\n</footer>\n</body>\n</html>\n";
+           facts_section(report) +
+           section("What the numbers mean", definitions_html(definitions())) +
+           page_foot(report.program, "the pictures in the files named under them");
 }
 
 }  // namespace dibhr

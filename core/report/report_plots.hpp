@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/haptics/parameters.hpp"
+#include "core/plot/axes.hpp"
 #include "core/plot/canvas.hpp"
 #include "core/report/session_numbers.hpp"
 #include "core/session/tick_record.hpp"
@@ -27,6 +28,9 @@ struct HeatMapGround {
 /// A heat map's colour for a share in [0, 1], from pale to dark. Lightness falls all along, so that
 /// the order survives colour blindness and a black-and-white print.
 [[nodiscard]] Ink heat_ink(double share);
+
+/// 1, 2 and 5 times powers of ten inside the span, both ends positive, ascending: for few decades.
+[[nodiscard]] std::vector<double> close_ticks(ValueSpan span);
 
 /// Contact time per pixel, spread by the Gaussian, over the picture, with scales in seconds and
 /// millimetres. The longest of the episodes are numbered as in `episodes`; those of other media are

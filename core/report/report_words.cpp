@@ -94,8 +94,7 @@ std::vector<std::string> remarks_of(const SessionReport& report) {
     };
     if (report.session.fact("complete") == "0") {
         remarks.emplace_back(
-            "The recording was broken off, or still goes on: this is what was "
-            "written so far.");
+            "The recording was broken off, or still goes on: this is what was written so far.");
     }
     say(ticks.missing, " between the first and the last were not recorded.");
     say(ticks.without_surface, " had no surface to touch.");
@@ -122,24 +121,20 @@ std::vector<std::string> remarks_of(const SessionReport& report) {
 std::vector<Definition> definitions() {
     return {
         {"Time",
-         "Seconds since the first recorded tick. A tick stands for the time until the "
-         "next one, " +
+         "Seconds since the first recorded tick. A tick stands for the time until the next one, " +
              milliseconds(kLongestTick_s) + " at most."},
         {"Contact",
          "A tick whose proxy (the point kept on the surface) touches it. Their share is "
          "of all recorded ticks, also of those without a surface."},
         {"Episode",
-         "Begins with the first tick in contact and ends with the last. Gaps shorter "
-         "than " +
+         "Begins with the first tick in contact and ends with the last. Gaps shorter than " +
              milliseconds(kJoinedGap_s) +
              " are joined. It also ends when the hand lets go or another video comes. "
              "Its length includes joined gaps, its contact time does not."},
         {"Force sent",
          "Length of the force that went to the device, after the safety stage [N]. "
          "Means are over the time in contact, peaks over single ticks."},
-        {"Spring force",
-         "Length of the force between hand and proxy before the safety stage "
-         "[N]."},
+        {"Spring force", "Length of the force between hand and proxy before the safety stage [N]."},
         {"Path",
          "Sum of the proxy's steps from tick to tick in contact, in three dimensions, "
          "pixels times the pixel pitch [mm]; a surface that moves under a resting hand "
@@ -161,8 +156,7 @@ std::vector<Definition> definitions() {
          "In long sessions a point of a line stands for several ticks: lowest and "
          "highest of them are drawn, so that no peak is lost."},
         {"Median, 95 %",
-         "By time in contact: half, and 95 %, of it was below. To 0.001 N and 0.1 "
-         "mm/s."},
+         "By time in contact: half, and 95 %, of it was below. To 0.001 N and 0.1 mm/s."},
         {"Late", "A tick that began a whole period (1 ms) or more after its deadline."},
     };
 }

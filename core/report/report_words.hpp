@@ -16,11 +16,6 @@ namespace dibhr {
 /// What a reader must know before relying on the numbers, one sentence each; none when all is well.
 [[nodiscard]] std::vector<std::string> remarks_of(const SessionReport& report);
 
-struct Definition {
-    std::string name{};
-    std::string meaning{};
-};
-
 [[nodiscard]] std::vector<Definition> definitions();
 
 /// "2026-03-01 14:05:09 UTC"; empty when the time is not known.

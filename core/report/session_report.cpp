@@ -32,24 +32,14 @@ std::vector<std::string> all_names() {
     for (std::size_t number = 1; number <= kMostMaps; ++number) {
         pictures.push_back(map_name(number));
     }
-    std::vector<std::string> names{"report.html", "report.json"};
-    for (const std::string& picture : pictures) {
-        for (const PlotFormat format : kPlotFormats) names.push_back(picture_file(picture, format));
-    }
-    return names;
+    return report_files({"report.html", "report.json"}, pictures);
 }
 
-/// A report in the making: what it says, where its files go, and what was asked for.
+/// A report in the making: what it says, its pictures, and what was asked for.
 struct Making {
     SessionReport& report;
-    OutputFolder& files;
+    FigureMaker figures;
     const ReportRequest& request;
-
-    void add_figure(const std::string& name, const std::string& title, const std::string& caption,
-                    const Canvas& plot) const {
-        report.figures.push_back(
-            dibhr::add_figure(files, request.plot_formats, name, title, caption, plot));
-    }
 };
 
 /// A fact that is a whole number of pixels; 0 for any other.
@@ -142,8 +132,8 @@ void draw_map(const Making& making, const TouchedPlaces& places, std::uint32_t m
                                   " at " + number_text(map.frame_s, 2) + " s"
                             : "plain ground") +
         ", " + number_text(map.contact_s, 1) + " s in contact";
-    making.add_figure(name, "Heat map of where the surface was touched", map_caption(map),
-                      plot_heat_map(places, ground, report.numbers.episodes, media, under));
+    making.figures.add(name, "Heat map of where the surface was touched", map_caption(map),
+                       plot_heat_map(places, ground, report.numbers.episodes, media, under));
     report.maps.push_back(std::move(map));
 }
 
@@ -175,35 +165,34 @@ PlotWords plot_words(const SessionReport& report) {
 void draw_plots(const Making& making) {
     const SessionReport& report = making.report;
     const SessionNumbers& numbers = report.numbers;
+    const FigureMaker& figures = making.figures;
     const PlotWords words = plot_words(report);
     const std::string range =
         shows_means(numbers.time_line) ? " Pale: the range of the values; dark: the mean." : "";
-    making.add_figure(
-        "force-over-time", "Force over time",
-        "Spring force and force sent to the hand; below, when there was contact and which "
-        "moment of the video was touched. Dashed lines are marks." +
-            range,
-        plot_force_over_time(numbers, words));
+    figures.add("force-over-time", "Force over time",
+                "Spring force and force sent to the hand; below, when there was contact and which "
+                "moment of the video was touched. Dashed lines are marks." +
+                    range,
+                plot_force_over_time(numbers, words));
     const bool speeds = numbers.proxy_mm_per_s.total_s() > 0.0;
     if (speeds) {
-        making.add_figure(
-            "speed-over-time", "Speed over time",
-            "Speed of the hand and of the point on the surface, while in contact." + range,
-            plot_speed_over_time(numbers, words));
+        figures.add("speed-over-time", "Speed over time",
+                    "Speed of the hand and of the point on the surface, while in contact." + range,
+                    plot_speed_over_time(numbers, words));
     }
     if (numbers.sent_newton.total_s() > 0.0) {
-        making.add_figure("force-histogram", "Histogram of the force sent",
-                          "For how long which force was sent while in contact.",
-                          plot_force_histogram(numbers, words));
+        figures.add("force-histogram", "Histogram of the force sent",
+                    "For how long which force was sent while in contact.",
+                    plot_force_histogram(numbers, words));
     }
     if (numbers.episodes.empty()) return;
-    making.add_figure("contact-histogram", "Histogram of the contacts' lengths",
-                      "How many contacts lasted how long (logarithmic).",
-                      plot_contact_histogram(numbers, words));
+    figures.add("contact-histogram", "Histogram of the contacts' lengths",
+                "How many contacts lasted how long (logarithmic).",
+                plot_contact_histogram(numbers, words));
     if (speeds) {
-        making.add_figure("speed-histogram", "Histogram of the speed",
-                          "For how long the point on the surface had which speed.",
-                          plot_speed_histogram(numbers, words));
+        figures.add("speed-histogram", "Histogram of the speed",
+                    "For how long the point on the surface had which speed.",
+                    plot_speed_histogram(numbers, words));
     }
 }
 
@@ -217,7 +206,7 @@ void write_session_report(const Session& session, const ReportRequest& request) 
     OutputFolder files(request.folder, all_names());
     session.check();
     SessionReport report{session, numbers_of(session, request.progress), {}, {}, request.program};
-    const Making making{report, files, request};
+    const Making making{report, {files, request.plot_formats, report.figures}, request};
     draw_maps(making);
     draw_plots(making);
     files.add("report.json", json_of(report));

@@ -1,6 +1,7 @@
 // A session as a report: pictures, one page that opens anywhere, and the numbers for scripts.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -45,6 +46,13 @@ struct SessionReport {
     std::string program{};               ///< that made the report, with its version
     std::vector<std::string> remarks{};  ///< on the pictures, in plain sentences
 };
+
+struct Fields;
+// What the page and the JSON say of one thing: the contact number `k`, from 0; a mark; a version of
+// the parameters.
+[[nodiscard]] Fields episode_fields(const SessionReport& report, std::size_t k);
+[[nodiscard]] Fields mark_fields(const SessionReport& report, const SessionMark& mark);
+[[nodiscard]] Fields parameters_fields(const SessionReport& report, SessionParameters parameters);
 
 struct ReportRequest {
     std::filesystem::path folder{};

@@ -15,33 +15,89 @@ namespace dibhr {
 
 namespace {
 
+/// One participant's, in a block.
+using Answers = std::vector<const AnsweredTrial*>;
+
+/// Those that `is_one` picks, counted as hits where `is_hit`.
+template <typename IsOne, typename IsHit>
+Count count_of(const Answers& own, const IsOne& is_one, const IsHit& is_hit) {
+    Count count;
+    for (const AnsweredTrial* const one : own) {
+        if (!is_one(*one)) continue;
+        ++count.trials;
+        count.hits += is_hit(*one) ? 1 : 0;
+    }
+    return count;
+}
+
+Count sum_of(const std::vector<Count>& counts) {
+    Count all;
+    for (const Count& one : counts) {
+        all.hits += one.hits;
+        all.trials += one.trials;
+    }
+    return all;
+}
+
 /// The answers of a block, participant by participant.
 struct BlockAnswers {
     const Study& study;
     std::size_t block{0};
-    std::vector<std::vector<const AnsweredTrial*>> by_participant{};
+    std::vector<Answers> by_participant{};
 
     [[nodiscard]] const Block& rule() const { return study.protocol.blocks[block]; }
 
-    /// Of each participant those that `is_one` picks, counted as hits where `is_hit`.
+    /// As count_of(), of each participant.
     template <typename IsOne, typename IsHit>
     [[nodiscard]] std::vector<Count> counts(const IsOne& is_one, const IsHit& is_hit) const {
         std::vector<Count> counts;
-        for (const auto& answers : by_participant) {
-            Count count;
-            for (const AnsweredTrial* const one : answers) {
-                if (!is_one(*one)) continue;
-                ++count.trials;
-                count.hits += is_hit(*one) ? 1 : 0;
-            }
-            counts.push_back(count);
-        }
+        for (const Answers& own : by_participant) counts.push_back(count_of(own, is_one, is_hit));
         return counts;
+    }
+
+    /// Of all trials.
+    template <typename IsHit>
+    [[nodiscard]] Count count(const IsHit& is_hit) const {
+        return sum_of(counts([](const AnsweredTrial&) { return true; }, is_hit));
     }
 };
 
 bool has_answer(const AnsweredTrial& one) {
     return one.answer.choice >= 0 || one.answer.number.has_value();
+}
+
+bool says_first(const AnsweredTrial& one) {
+    return one.answer.choice == 0;
+}
+
+/// Picks one item's trials.
+struct OfItem {
+    std::size_t item{0};
+
+    bool operator()(const AnsweredTrial& one) const {
+        return static_cast<std::size_t>(one.trial.item) == item;
+    }
+};
+
+/// Of them those in which there was nothing to notice.
+auto of_nothing(std::size_t item) {
+    return
+        [item](const AnsweredTrial& one) { return OfItem{item}(one) && *one.trial.level == 0.0; };
+}
+
+/// Of them those with a choice.
+auto with_choice(std::size_t item) {
+    return [item](const AnsweredTrial& one) { return OfItem{item}(one) && one.answer.choice >= 0; };
+}
+
+/// Share right of who notices nothing, of two or three intervals.
+double chance_of(TrialForm form) {
+    return form == TrialForm::two_interval ? 0.5 : 1.0 / 3.0;
+}
+
+Sensitivity sensitivity_of(TrialForm form, Count right) {
+    return form == TrialForm::two_interval ? two_interval_sensitivity(right)
+                                           : oddity_sensitivity(right);
 }
 
 BlockAnswers answers_in(const Study& study, std::size_t block) {
@@ -74,11 +130,9 @@ ShareFinding share_finding(std::string name, std::vector<Count> counts,
     ShareFinding found{
         .name = std::move(name), .by_participant = std::move(counts), .chance = chance};
     std::vector<double> shares;
-    for (const Count& count : found.by_participant) {
-        found.all.hits += count.hits;
-        found.all.trials += count.trials;
+    for (const Count& count : found.by_participant)
         if (count.trials > 0) shares.push_back(count.share());
-    }
+    found.all = sum_of(found.by_participant);
     found.interval = exact_interval(found.all);
     found.across = mean_of(shares);
     const bool alike = shares.size() > 1 && std::isinf(found.across.interval.low);
@@ -114,35 +168,24 @@ void add_plain_choices(const BlockAnswers& answers, BlockFindings& found) {
     const Block& block = answers.rule();
     const Protocol& protocol = answers.study.protocol;
     for (std::size_t item = 0; item < block.items.size(); ++item) {
-        const auto is_one = [item](const AnsweredTrial& one) {
-            return static_cast<std::size_t>(one.trial.item) == item && one.answer.choice >= 0;
-        };
-        const auto hit = [](const AnsweredTrial& one) {
-            return one.answer.choice == one.trial.target;
-        };
-        if (block.form == TrialForm::three_interval) {
-            ShareFinding share = share_finding("found: " + item_name(protocol, block, item),
-                                               answers.counts(is_one, hit), 1.0 / 3.0);
-            share.d_prime = oddity_sensitivity(share.all);
-            found.shares.push_back(std::move(share));
-            continue;
-        }
+        const bool oddity = block.form == TrialForm::three_interval;
         const StudyItem& pair = block.items[item];
-        if (pair.reference == pair.comparison) {
+        if (!oddity && pair.reference == pair.comparison) {
             found.remarks.push_back("Both intervals of " + item_name(protocol, block, item) +
                                     " are alike: which was chosen says nothing.");
             continue;
         }
         // The reference is named first, as on the page: "dibhr rather than pga".
-        const auto reference_chosen = [](const AnsweredTrial& one) {
-            return one.answer.choice != one.trial.target;
+        const std::string name = oddity
+                                     ? "found: " + item_name(protocol, block, item)
+                                     : condition_name(protocol, pair.reference) + " rather than " +
+                                           condition_name(protocol, pair.comparison);
+        const auto hit = [oddity](const AnsweredTrial& one) {
+            return (one.answer.choice == one.trial.target) == oddity;
         };
-        ShareFinding share =
-            share_finding(condition_name(protocol, pair.reference) + " rather than " +
-                              condition_name(protocol, pair.comparison),
-                          answers.counts(is_one, reference_chosen), 0.5);
-        share.d_prime = two_interval_sensitivity(share.all);
-        found.shares.push_back(std::move(share));
+        ShareFinding& share = found.shares.emplace_back(
+            share_finding(name, answers.counts(with_choice(item), hit), chance_of(block.form)));
+        share.d_prime = sensitivity_of(block.form, share.all);
     }
 }
 
@@ -155,48 +198,29 @@ std::string level_name(const Variation& vary, double level) {
 void add_levels(const BlockAnswers& answers, BlockFindings& found) {
     const Block& block = answers.rule();
     const bool yes_no = block.form == TrialForm::explore;
-    const double chance = block.form == TrialForm::two_interval ? 0.5 : 1.0 / 3.0;
     for (std::size_t item = 0; item < block.items.size(); ++item) {
-        const auto of_item = [item](const AnsweredTrial& one) {
-            return static_cast<std::size_t>(one.trial.item) == item;
-        };
-        std::optional<Count> false_alarms;
-        if (yes_no) {
-            const auto caught = answers.counts(
-                [&](const AnsweredTrial& one) { return of_item(one) && *one.trial.level == 0.0; },
-                [](const AnsweredTrial& one) { return one.answer.choice == 0; });
-            Count all;
-            for (const Count& one : caught) {
-                all.hits += one.hits;
-                all.trials += one.trials;
-            }
-            if (all.trials > 0) false_alarms = all;
-        }
+        const Count false_alarms = sum_of(answers.counts(of_nothing(item), says_first));
         for (const double level : block.variation.levels) {
             const auto at_level = [&](const AnsweredTrial& one) {
-                return of_item(one) && one.trial.level == level && (yes_no || one.right);
+                return OfItem{item}(one) && one.trial.level == level && (yes_no || one.right);
             };
             const auto hit = [yes_no](const AnsweredTrial& one) {
-                return yes_no ? one.answer.choice == 0 : *one.right;
+                return yes_no ? says_first(one) : *one.right;
             };
             const std::vector<Count> counts = answers.counts(at_level, hit);
-            if (std::all_of(counts.begin(), counts.end(),
-                            [](const Count& one) { return one.trials == 0; }))
-                continue;
+            if (with_trials(counts) == 0) continue;
             const std::string of = block.items.size() > 1
                                        ? ", " + item_name(answers.study.protocol, block, item)
                                        : std::string();
             ShareFinding share = share_finding(
                 (yes_no ? block.question.answers.front() + ": " : std::string("right: ")) +
                     level_name(block.variation, level) + of,
-                counts, yes_no ? std::nullopt : std::optional(chance));
+                counts, yes_no ? std::nullopt : std::optional(chance_of(block.form)));
             share.level = level;
-            if (block.form == TrialForm::two_interval)
-                share.d_prime = two_interval_sensitivity(share.all);
-            else if (block.form == TrialForm::three_interval)
-                share.d_prime = oddity_sensitivity(share.all);
-            else if (false_alarms && level > 0.0)
-                share.d_prime = yes_no_sensitivity(share.all, *false_alarms).sensitivity;
+            if (!yes_no)
+                share.d_prime = sensitivity_of(block.form, share.all);
+            else if (false_alarms.trials > 0 && level > 0.0)
+                share.d_prime = yes_no_sensitivity(share.all, false_alarms).sensitivity;
             found.shares.push_back(std::move(share));
         }
     }
@@ -204,16 +228,9 @@ void add_levels(const BlockAnswers& answers, BlockFindings& found) {
 
 /// What a participant guesses right: given by the form, or of yes and no by the trials in which
 /// there was nothing.
-double guess_rate(const Block& block, const std::vector<const AnsweredTrial*>& own,
-                  std::size_t item) {
-    if (block.form == TrialForm::two_interval) return 0.5;
-    if (block.form == TrialForm::three_interval) return 1.0 / 3.0;
-    Count caught;
-    for (const AnsweredTrial* const one : own) {
-        if (static_cast<std::size_t>(one->trial.item) != item || *one->trial.level != 0.0) continue;
-        ++caught.trials;
-        caught.hits += one->answer.choice == 0 ? 1 : 0;
-    }
+double guess_rate(const Block& block, const Answers& own, std::size_t item) {
+    if (block.form != TrialForm::explore) return chance_of(block.form);
+    const Count caught = count_of(own, of_nothing(item), says_first);
     constexpr double kMostGuessed = 0.9;
     return caught.trials > 0 ? std::min(caught.share(), kMostGuessed) : 0.0;
 }
@@ -226,12 +243,10 @@ bool has_difference(const Block& block, const AnsweredTrial& one) {
 }
 
 /// Right (or yes) at each size of the difference. A time that was over is a trial without a hit.
-LevelCounts counts_by_size(const Block& block, const std::vector<const AnsweredTrial*>& own,
-                           std::size_t item) {
+LevelCounts counts_by_size(const Block& block, const Answers& own, std::size_t item) {
     LevelCounts counts;
     for (const AnsweredTrial* const one : own) {
-        if (static_cast<std::size_t>(one->trial.item) != item || !has_difference(block, *one))
-            continue;
+        if (!OfItem{item}(*one) || !has_difference(block, *one)) continue;
         add_answer(counts, std::abs(*one->trial.level), one->right.value_or(false));
     }
     std::sort(counts.begin(), counts.end(),
@@ -240,14 +255,13 @@ LevelCounts counts_by_size(const Block& block, const std::vector<const AnsweredT
 }
 
 /// Over a participant's tracks, of the last six reversals of each.
-double mean_of_reversals(const Block& block, const std::vector<const AnsweredTrial*>& own,
-                         std::size_t item) {
+double mean_of_reversals(const Block& block, const Answers& own, std::size_t item) {
     constexpr int kReversals = 6;
     std::vector<double> means;
     for (int track = 0; track < block.variation.tracks; ++track) {
         Staircase staircase(*block.variation.staircase);
         for (const AnsweredTrial* const one : own)
-            if (static_cast<std::size_t>(one->trial.item) == item && one->trial.track == track)
+            if (OfItem{item}(*one) && one->trial.track == track)
                 staircase.answer(one->right.value_or(false));
         const double mean = reversal_mean(staircase.trials(), kReversals);
         if (std::isfinite(mean)) means.push_back(mean);
@@ -334,17 +348,13 @@ ThresholdFinding threshold_of(const BlockAnswers& answers, std::size_t item,
 void remark_on_levels(const BlockAnswers& answers, BlockFindings& found) {
     const Block& block = answers.rule();
     const bool yes_no = block.form == TrialForm::explore;
-    int of_nothing = 0;
-    int below = 0;
-    for (const auto& own : answers.by_participant) {
-        for (const AnsweredTrial* const one : own) {
-            of_nothing += *one->trial.level == 0.0 ? 1 : 0;
-            below += *one->trial.level < 0.0 ? 1 : 0;
-        }
-    }
-    if (!yes_no && of_nothing > 0) {
-        found.not_counted = of_nothing;
-        found.remarks.push_back(std::to_string(of_nothing) + " of the " +
+    const int nothing =
+        answers.count([](const AnsweredTrial& one) { return *one.trial.level == 0.0; }).hits;
+    const int below =
+        answers.count([](const AnsweredTrial& one) { return *one.trial.level < 0.0; }).hits;
+    if (!yes_no && nothing > 0) {
+        found.not_counted = nothing;
+        found.remarks.push_back(std::to_string(nothing) + " of the " +
                                 std::to_string(found.trials) +
                                 " trials had no difference (level 0): nothing in them is right or "
                                 "wrong, and they are in no share and no threshold.");
@@ -354,7 +364,7 @@ void remark_on_levels(const BlockAnswers& answers, BlockFindings& found) {
             std::to_string(below) + " of the " + std::to_string(found.trials) +
             " trials had less of it than the reference (a level below 0): their shares of yes are "
             "told, but they are in no threshold, guess rate or d'.");
-    if (yes_no && of_nothing == 0)
+    if (yes_no && nothing == 0)
         found.remarks.emplace_back(
             "No trial had nothing to notice (level 0), so that the guess rate is taken as 0: of "
             "people who say yes for nothing the threshold comes out too low.");
@@ -380,11 +390,11 @@ void remark_on_answers(const BlockAnswers& answers, BlockFindings& found) {
                                 "one all the same.");
 }
 
-/// Each participant's mean of what `value` gives for the trials that `is_one` picks, and all of
-/// the values.
+/// Each participant's mean of what `value` gives for the trials that `is_one` picks; `tested`:
+/// against 0.
 template <typename IsOne, typename Value>
 ValueFinding value_finding(const BlockAnswers& answers, std::string name, const IsOne& is_one,
-                           const Value& value) {
+                           const Value& value, bool tested = false) {
     ValueFinding found{.name = std::move(name)};
     std::vector<double> all;
     for (const auto& own : answers.by_participant) {
@@ -399,32 +409,22 @@ ValueFinding value_finding(const BlockAnswers& answers, std::string name, const 
     if (each.size() == 1) each = all;
     found.mean = mean_of(each);
     found.median = median_of(each);
+    if (tested && std::isfinite(found.mean.interval.low)) found.test = one_sample_t_test(each);
     return found;
 }
 
 void add_adjustments(const BlockAnswers& answers, BlockFindings& found) {
     const Block& block = answers.rule();
     for (std::size_t item = 0; item < block.items.size(); ++item) {
-        const auto of_item = [item](const AnsweredTrial& one) {
-            return static_cast<std::size_t>(one.trial.item) == item;
+        const Variation& vary = block.variation;
+        const auto off = [&vary](const AnsweredTrial& one) {
+            return *one.answer.number - vary.reference;
         };
-        const auto off = [&block](const AnsweredTrial& one) {
-            return *one.answer.number - block.variation.reference;
-        };
-        ValueFinding values = value_finding(answers,
-                                            item_name(answers.study.protocol, block, item) + ", " +
-                                                block.variation.parameter + " less " +
-                                                short_text(block.variation.reference, 4),
-                                            of_item, off);
-        std::vector<double> each = known(values.by_participant);
-        if (each.size() == 1) {
-            each.clear();
-            for (const auto& own : answers.by_participant)
-                for (const AnsweredTrial* const one : own)
-                    if (of_item(*one) && has_answer(*one)) each.push_back(off(*one));
-        }
-        if (std::isfinite(values.mean.interval.low)) values.test = one_sample_t_test(each);
-        found.values.push_back(std::move(values));
+        found.values.push_back(value_finding(answers,
+                                             item_name(answers.study.protocol, block, item) + ", " +
+                                                 vary.parameter + " less " +
+                                                 short_text(vary.reference, 4),
+                                             OfItem{item}, off, true));
     }
 }
 
@@ -464,12 +464,9 @@ void compare_conditions(BlockFindings& found) {
 void add_ratings(const BlockAnswers& answers, BlockFindings& found) {
     const Block& block = answers.rule();
     for (std::size_t item = 0; item < block.items.size(); ++item) {
-        found.values.push_back(value_finding(
-            answers, item_name(answers.study.protocol, block, item),
-            [item](const AnsweredTrial& one) {
-                return static_cast<std::size_t>(one.trial.item) == item;
-            },
-            [](const AnsweredTrial& one) { return *one.answer.number; }));
+        found.values.push_back(
+            value_finding(answers, item_name(answers.study.protocol, block, item), OfItem{item},
+                          [](const AnsweredTrial& one) { return *one.answer.number; }));
     }
     compare_conditions(found);
 }
@@ -479,23 +476,20 @@ void add_answers(const BlockAnswers& answers, BlockFindings& found) {
     const Block& block = answers.rule();
     for (std::size_t item = 0; item < block.items.size(); ++item) {
         const std::string of = item_name(answers.study.protocol, block, item);
-        const auto of_item = [item](const AnsweredTrial& one) {
-            return static_cast<std::size_t>(one.trial.item) == item && one.answer.choice >= 0;
-        };
         // Of two answers the second one is what is left.
         const std::size_t count = block.question.answers.size();
         for (std::size_t answer = 0; answer < (count == 2 ? 1 : count); ++answer) {
             found.shares.push_back(share_finding(
                 block.question.answers[answer] + ": " + of,
-                answers.counts(of_item,
+                answers.counts(with_choice(item),
                                [answer](const AnsweredTrial& one) {
                                    return static_cast<std::size_t>(one.answer.choice) == answer;
                                }),
                 std::nullopt));
         }
-        found.values.push_back(value_finding(answers, of, of_item, [](const AnsweredTrial& one) {
-            return one.answer.choice == 0 ? 1.0 : 0.0;
-        }));
+        found.values.push_back(
+            value_finding(answers, of, with_choice(item),
+                          [](const AnsweredTrial& one) { return says_first(one) ? 1.0 : 0.0; }));
     }
     compare_conditions(found);
     found.compared = "share of " + in_quotes(block.question.answers.front());
@@ -519,13 +513,9 @@ BlockFindings block_findings(const Study& study, std::size_t block,
                              const AnalysisSettings& settings) {
     const BlockAnswers answers = answers_in(study, block);
     const Block& rule = answers.rule();
-    BlockFindings found{.block = block};
-    for (const auto& own : answers.by_participant) {
-        for (const AnsweredTrial* const one : own) {
-            ++found.trials;
-            found.unanswered += has_answer(*one) ? 0 : 1;
-        }
-    }
+    const Count answered = answers.count(has_answer);
+    BlockFindings found{
+        .block = block, .trials = answered.trials, .unanswered = answered.trials - answered.hits};
     if (found.trials == 0) return found;
     const bool adaptive = rule.variation.staircase.has_value();
     const bool leveled = adaptive || !rule.variation.levels.empty();
@@ -581,14 +571,10 @@ std::string item_name(const Protocol& protocol, const Block& block, std::size_t 
 }
 
 TestResult chance_test(const std::vector<Count>& by_participant, double chance, bool by_ranks) {
-    Count all;
+    const Count all = sum_of(by_participant);
     std::vector<double> differences;
-    for (const Count& count : by_participant) {
-        if (count.trials == 0) continue;
-        all.hits += count.hits;
-        all.trials += count.trials;
-        differences.push_back(count.share() - chance);
-    }
+    for (const Count& count : by_participant)
+        if (count.trials > 0) differences.push_back(count.share() - chance);
     if (by_ranks) return signed_rank_test(differences);
     return {.test = "binomial, mid-p, of all trials",
             .count = static_cast<int>(differences.size()),

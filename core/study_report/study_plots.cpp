@@ -9,6 +9,7 @@
 
 #include "core/files/plain_text.hpp"
 #include "core/plot/axes.hpp"
+#include "core/report/report_plots.hpp"
 
 namespace dibhr {
 
@@ -89,18 +90,6 @@ std::vector<Vec2> curve_of(const PsychometricFunction& function, ValueSpan span)
         if (x > 0.0 || function.curve != Curve::weibull) line.emplace_back(x, function.share(x));
     }
     return line;
-}
-
-/// 1, 2 and 5 times powers of ten inside the span: a staircase seldom goes through two decades.
-std::vector<double> steps_of_decades(ValueSpan span) {
-    std::vector<double> steps;
-    for (double decade = std::pow(10.0, std::floor(std::log10(span.low))); decade <= span.high;
-         decade *= 10.0) {
-        for (const double factor : {1.0, 2.0, 5.0})
-            if (factor * decade >= span.low && factor * decade <= span.high)
-                steps.push_back(factor * decade);
-    }
-    return steps;
 }
 
 /// On one line, cut short where it is wider than that.
@@ -275,7 +264,7 @@ Canvas plot_tracks(const Study& study, std::size_t block, std::size_t item,
     Canvas canvas(kColumns, kRows, kPaper);
     draw_fitting_title(canvas, title, subtitle);
     Axis y{span, "difference in " + vary.parameter, logarithmic};
-    if (logarithmic) y.ticks = steps_of_decades(span);
+    if (logarithmic) y.ticks = close_ticks(span);  // a staircase seldom goes through two decades
     const Axes axes(kArea, {{0.0, static_cast<double>(longest) + 1.0}, "trial of the staircase"},
                     y);
     axes.draw_ground(canvas);

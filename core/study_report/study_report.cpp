@@ -28,51 +28,45 @@ std::string item_picture(std::size_t block, const std::string& what, std::size_t
     return item == 0 ? name : name + "-" + std::to_string(item + 1);
 }
 
-std::vector<std::string> all_pictures() {
-    std::vector<std::string> names{"motion-force", "motion-turning"};
+std::vector<std::string> all_files() {
+    std::vector<std::string> pictures{"motion-force", "motion-turning"};
     for (std::size_t block = 0; block < kMostBlocks; ++block) {
-        names.push_back(block_picture(block, "shares"));
-        names.push_back(block_picture(block, "values"));
+        pictures.push_back(block_picture(block, "shares"));
+        pictures.push_back(block_picture(block, "values"));
         for (std::size_t item = 0; item < kMostItems; ++item) {
-            names.push_back(item_picture(block, "threshold", item));
-            names.push_back(item_picture(block, "staircases", item));
+            pictures.push_back(item_picture(block, "threshold", item));
+            pictures.push_back(item_picture(block, "staircases", item));
         }
     }
-    return names;
+    return report_files({"report.html", "report.json", "trials.csv", "intervals.csv"}, pictures);
 }
 
-std::vector<std::string> all_files() {
-    std::vector<std::string> names{"report.html", "report.json", "trials.csv", "intervals.csv"};
-    for (const std::string& picture : all_pictures())
-        for (const PlotFormat format : kPlotFormats) names.push_back(picture_file(picture, format));
-    return names;
-}
-
-/// The report, and where its pictures go.
+/// The report, and its pictures.
 struct Drawing {
-    StudyReport& report;
-    OutputFolder& files;
-    const StudyReportRequest& request;
+    const StudyReport& report;
+    FigureMaker figures;
 
-    void add(const std::string& name, const std::string& title, const std::string& caption,
-             const Canvas& plot) const {
-        report.figures.push_back(
-            add_figure(files, request.plot_formats, name, title, caption, plot));
+    [[nodiscard]] const Block& block(const BlockFindings& found) const {
+        return report.study.protocol.blocks[found.block];
     }
     [[nodiscard]] std::string subtitle(const BlockFindings& found) const {
         return one_line(report.study.protocol.title, 40) + ", " +
                counted(static_cast<std::int64_t>(report.study.participants.size()), "participant") +
                ", " + counted(found.trials, "trial");
     }
+    /// Rows by the block's question.
+    [[nodiscard]] RowsPlot rows(const BlockFindings& found) const {
+        const std::string& question = block(found).question.text;
+        return {.title = question.empty() ? block(found).name : question,
+                .subtitle = subtitle(found)};
+    }
 };
 
 void draw_shares(const Drawing& drawing, const BlockFindings& found) {
     if (found.shares.empty()) return;
-    const Block& block = drawing.report.study.protocol.blocks[found.block];
-    RowsPlot plot{.title = block.question.text.empty() ? block.name : block.question.text,
-                  .subtitle = drawing.subtitle(found),
-                  .axis = "share of answers [%]",
-                  .span = Interval{0.0, 100.0}};
+    RowsPlot plot = drawing.rows(found);
+    plot.axis = "share of answers [%]";
+    plot.span = Interval{0.0, 100.0};
     if (found.shares.front().chance) {
         plot.line = 100.0 * *found.shares.front().chance;
         plot.line_name = "chance";
@@ -85,24 +79,22 @@ void draw_shares(const Drawing& drawing, const BlockFindings& found) {
             for (const Count& one : share.by_participant) row.each.push_back(100.0 * one.share());
         plot.rows.push_back(std::move(row));
     }
-    drawing.add(block_picture(found.block, "shares"), plot.title,
-                "Shares of all answers with their exact 95 % intervals; pale: each participant.",
-                plot_rows(plot));
+    drawing.figures.add(
+        block_picture(found.block, "shares"), plot.title,
+        "Shares of all answers with their exact 95 % intervals; pale: each participant.",
+        plot_rows(plot));
 }
 
 void draw_values(const Drawing& drawing, const BlockFindings& found) {
     if (found.values.empty()) return;
-    const Block& block = drawing.report.study.protocol.blocks[found.block];
-    const bool rated = block.form == TrialForm::rating;
-    RowsPlot plot{
-        .title = block.question.text.empty() ? block.name : block.question.text,
-        .subtitle = drawing.subtitle(found),
-        .axis =
-            rated ? "rating" : "set equal, less the reference (" + block.variation.parameter + ")"};
-    if (rated) {
+    const Block& block = drawing.block(found);
+    RowsPlot plot = drawing.rows(found);
+    if (block.form == TrialForm::rating) {
+        plot.axis = "rating";
         plot.span = Interval{static_cast<double>(block.question.lowest),
                              static_cast<double>(block.question.highest)};
     } else {
+        plot.axis = "set equal, less the reference (" + block.variation.parameter + ")";
         plot.line = 0.0;
         plot.line_name = "equal";
     }
@@ -111,61 +103,57 @@ void draw_values(const Drawing& drawing, const BlockFindings& found) {
         if (value.by_participant.size() > 1) row.each = value.by_participant;
         plot.rows.push_back(std::move(row));
     }
-    drawing.add(block_picture(found.block, "values"), plot.title,
-                "Means with their 95 % intervals; pale: each participant's mean.", plot_rows(plot));
+    drawing.figures.add(block_picture(found.block, "values"), plot.title,
+                        "Means with their 95 % intervals; pale: each participant's mean.",
+                        plot_rows(plot));
 }
 
 void draw_thresholds(const Drawing& drawing, const BlockFindings& found) {
-    const Study& study = drawing.report.study;
     for (const ThresholdFinding& finding : found.thresholds) {
         if (finding.item >= kMostItems) break;
         const std::string subtitle = drawing.subtitle(found);
         if (!finding.fits.empty()) {
             const std::string title = "Psychometric function: " + finding.name;
-            drawing.add(item_picture(found.block, "threshold", finding.item), title,
-                        "Share of right answers (of yes) over the difference: circles are answers "
-                        "at levels near to each other, the larger the more, with exact 95 % "
-                        "intervals; the bar is the threshold's 95 % interval.",
-                        plot_threshold(finding, title, subtitle));
+            drawing.figures.add(
+                item_picture(found.block, "threshold", finding.item), title,
+                "Share of right answers (of yes) over the difference: circles are answers at "
+                "levels near to each other, the larger the more, with exact 95 % intervals; the "
+                "bar is the threshold's 95 % interval.",
+                plot_threshold(finding, title, subtitle));
         }
-        if (!study.protocol.blocks[found.block].variation.staircase || finding.all.empty())
-            continue;
+        if (!drawing.block(found).variation.staircase || finding.all.empty()) continue;
         const std::string title = "Staircases: " + finding.name;
-        drawing.add(item_picture(found.block, "staircases", finding.item), title,
-                    "Each line is a staircase of one participant.",
-                    plot_tracks(study, found.block, finding.item, title, subtitle));
+        drawing.figures.add(
+            item_picture(found.block, "staircases", finding.item), title,
+            "Each line is a staircase of one participant.",
+            plot_tracks(drawing.report.study, found.block, finding.item, title, subtitle));
     }
 }
 
 void draw_motion(const Drawing& drawing) {
     const StudyReport& report = drawing.report;
     if (report.motion.empty()) return;
-    const auto rows_of = [&report](Estimate MotionFinding::*quantity) {
-        std::vector<PlotRow> rows;
+    const std::string subtitle =
+        one_line(report.study.protocol.title, 40) + ", " +
+        counted(static_cast<std::int64_t>(report.intervals.size()), "interval") + " recorded";
+    const auto draw = [&](const char* name, const char* title, const char* what, const char* axis,
+                          Estimate MotionFinding::*quantity) {
+        RowsPlot plot{.title = title, .subtitle = subtitle, .axis = axis};
         for (const MotionFinding& found : report.motion) {
             const Estimate& of = found.*quantity;
             PlotRow row{.name = found.condition, .value = of.value, .interval = of.interval};
             if (!std::isfinite(of.interval.low)) row.interval = {of.value, of.value};
-            rows.push_back(std::move(row));
+            plot.rows.push_back(std::move(row));
         }
-        return rows;
+        drawing.figures.add(name, title,
+                            std::string(what) + ", by condition; 95 % intervals over participants.",
+                            plot_rows(plot));
     };
-    const std::string subtitle =
-        one_line(report.study.protocol.title, 40) + ", " +
-        counted(static_cast<std::int64_t>(report.intervals.size()), "interval") + " recorded";
-    drawing.add("motion-force", "Force while touching",
-                "Mean force sent while in contact, by condition; 95 % intervals over participants.",
-                plot_rows({.title = "Force while touching",
-                           .subtitle = subtitle,
-                           .axis = "mean force sent [N]",
-                           .rows = rows_of(&MotionFinding::sent_newton)}));
-    drawing.add("motion-turning", "How the force turned",
-                "Mean turning of the force from update to update, by condition; 95 % intervals "
-                "over participants.",
-                plot_rows({.title = "How the force turned",
-                           .subtitle = subtitle,
-                           .axis = "turning of the force [deg an update]",
-                           .rows = rows_of(&MotionFinding::turning_deg)}));
+    draw("motion-force", "Force while touching", "Mean force sent while in contact",
+         "mean force sent [N]", &MotionFinding::sent_newton);
+    draw("motion-turning", "How the force turned",
+         "Mean turning of the force from update to update", "turning of the force [deg an update]",
+         &MotionFinding::turning_deg);
 }
 
 }  // namespace
@@ -188,7 +176,7 @@ void write_study_report(const std::vector<std::filesystem::path>& files,
         if (progress) progress(0.5 + 0.5 * share);
     });
     report.motion = motion_findings(report.intervals);
-    const Drawing drawing{report, folder, request};
+    const Drawing drawing{report, {folder, request.plot_formats, report.figures}};
     for (const BlockFindings& found : report.blocks) {
         draw_shares(drawing, found);
         draw_values(drawing, found);

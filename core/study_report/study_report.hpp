@@ -41,7 +41,8 @@ void write_study_report(const std::vector<std::filesystem::path>& files,
 /// reference,comparison,repetition,target,track,parameter,level,choice,chosen,answer,right,
 /// reaction_s,utc_s,early`. Trials and positions count from 1, as intervals do in `target` and
 /// `choice`; what there is not is empty. `chosen`: the condition that was chosen, or the answer's
-/// name; `answer`: a rating, or the value an adjustment ended with; `early`: see StudyAnswer.
+/// name; `answer`: a rating, or the value an adjustment ended with; `early`: see StudyAnswer. Empty
+/// without a trial.
 [[nodiscard]] std::string trials_csv(const Study& study);
 
 /// A row is an interval that was recorded: `participant,trial,interval,condition,practice,

@@ -14,10 +14,6 @@ namespace dibhr {
 
 namespace {
 
-std::string end_text(double end) {
-    return std::isfinite(end) ? short_text(end, 3) : "not bounded";
-}
-
 /// A threshold or an end of its interval: where it lies beside the levels, that is all it says.
 std::string threshold_text(const ThresholdFinding& finding, double value) {
     if (std::isnan(value)) return "not known";
@@ -129,8 +125,7 @@ std::string few_trials_text(const ThresholdFinding& finding) {
     if (fewest->fit.trials >= kFewestTrialsOfThreshold) return {};
     return " An interval of " + std::to_string(fewest->fit.trials) +
            " trials covers the threshold less often than in 95 % of studies (of 12 trials in some "
-           "85 "
-           "to 95 %): it takes " +
+           "85 to 95 %): it takes " +
            std::to_string(kFewestTrialsOfThreshold) + " at the least.";
 }
 
@@ -208,6 +203,10 @@ std::string pilots_text(const Study& study) {
 
 }  // namespace
 
+std::string end_text(double end) {
+    return std::isfinite(end) ? short_text(end, 3) : "not bounded";
+}
+
 std::string estimate_text(double value, const Interval& interval, double confidence) {
     if (std::isinf(interval.low) && std::isinf(interval.high))
         return end_text(value) + " (no interval)";
@@ -282,8 +281,7 @@ std::vector<std::string> limits_of(const StudyReport& report) {
     std::vector<std::string> limits;
     if (study.has_pilots())
         limits.emplace_back(
-            "Answers of a simulated participant are among these: they say nothing "
-            "about people.");
+            "Answers of a simulated participant are among these: they say nothing about people.");
     const auto count = study.participants.size();
     if (static_cast<int>(count) < kFewestForRanks)
         limits.push_back("With " + counted(static_cast<std::int64_t>(count), "participant") +
@@ -309,7 +307,7 @@ std::vector<std::string> limits_of(const StudyReport& report) {
     return limits;
 }
 
-std::vector<StudyMethod> methods_of(const StudyReport& report) {
+std::vector<Definition> methods_of(const StudyReport& report) {
     bool shares = false;
     bool chance = false;
     bool thresholds = false;
@@ -322,7 +320,7 @@ std::vector<StudyMethod> methods_of(const StudyReport& report) {
         pairs = pairs || !block.pairs.empty();
         for (const ShareFinding& share : block.shares) chance = chance || share.test.has_value();
     }
-    std::vector<StudyMethod> methods;
+    std::vector<Definition> methods;
     if (shares)
         methods.push_back(
             {"interval of a share",

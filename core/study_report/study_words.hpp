@@ -8,7 +8,10 @@
 
 namespace dibhr {
 
-/// "0.42 (95 % interval 0.31 to 0.55)"; "not bounded" for an end without bound.
+/// An end of an interval: "0.31", "not bounded".
+[[nodiscard]] std::string end_text(double end);
+
+/// "0.42 (95 % interval 0.31 to 0.55)".
 [[nodiscard]] std::string estimate_text(double value, const Interval& interval,
                                         double confidence = kConfidence);
 
@@ -25,12 +28,7 @@ namespace dibhr {
 /// What limits all of it: pilots, few participants, unfinished studies, many tests.
 [[nodiscard]] std::vector<std::string> limits_of(const StudyReport& report);
 
-struct StudyMethod {
-    std::string name{};
-    std::string meaning{};
-};
-
 /// How the numbers were computed, with sources; only what the report has.
-[[nodiscard]] std::vector<StudyMethod> methods_of(const StudyReport& report);
+[[nodiscard]] std::vector<Definition> methods_of(const StudyReport& report);
 
 }  // namespace dibhr

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -18,29 +17,20 @@
 
 namespace dibhr {
 
-/// A text of every word of an enumeration, in its order: Word::name or Word::label.
-template <HasWords Enum, auto text>
-[[nodiscard]] constexpr auto word_texts() noexcept {
-    std::array<const char*, words_of(Enum{}).size()> texts{};
-    for (std::size_t k = 0; k < texts.size(); ++k) texts[k] = words_of(Enum{})[k].*text;
-    return texts;
-}
-template <HasWords Enum, auto text>
-inline constexpr auto kWordTexts = word_texts<Enum, text>();
-
 /// A value of an enumeration of one byte, which is the place of its word, too.
 struct DeviceWord {
     std::uint8_t* value;
-    std::span<const char* const> names;   ///< in the settings file
-    std::span<const char* const> labels;  ///< on the panel
+    std::vector<const char*> names{};   ///< in the settings file
+    std::vector<const char*> labels{};  ///< on the panel
 
     /// The value outlives it. Its table of words has_all_in_order().
     template <HasWords Enum>
-    explicit DeviceWord(Enum& held) noexcept
-        : value(reinterpret_cast<std::uint8_t*>(&held)),
-          names(kWordTexts<Enum, &Word<Enum>::name>),
-          labels(kWordTexts<Enum, &Word<Enum>::label>) {
+    explicit DeviceWord(Enum& held) : value(reinterpret_cast<std::uint8_t*>(&held)) {
         static_assert(sizeof(Enum) == 1);
+        for (const Word<Enum>& word : words_of(held)) {
+            names.push_back(word.name);
+            labels.push_back(word.label);
+        }
     }
     [[nodiscard]] std::uint8_t& operator*() const noexcept { return *value; }
 };

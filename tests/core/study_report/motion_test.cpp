@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "core/session/session.hpp"
+#include "core/study_report/study_fields.hpp"
 #include "core/study_report/study_motion.hpp"
+#include "core/study_report/study_report.hpp"
 #include "tests/core/report/made_session.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -99,4 +101,36 @@ TEST_CASE(
     CHECK_THAT(all.spring_newton, WithinAbs(2.25, 1e-12));
     CHECK_THAT(all.spring_peak_newton, WithinAbs(6.0, 0.0));
     CHECK_THAT(all.path_mm, WithinAbs(28.0, 1e-12));
+}
+
+TEST_CASE("what was done and felt is in the CSV and in the JSON, each number at its place",
+          "[study motion]") {
+    const IntervalMotion motion{.updates = 10,
+                                .contact_updates = 4,
+                                .moves = 7,
+                                .duration_s = 2.0,
+                                .contact_s = 1.0,
+                                .sent_newton = 0.5,
+                                .sent_peak_newton = 3.0,
+                                .spring_newton = 1.5,
+                                .spring_peak_newton = 5.0,
+                                .path_mm = 11.0,
+                                .turning = {.mean_deg = 0.25, .sd_deg = 0.75, .pairs = 9}};
+    Study study;
+    study.participants.push_back({.identity = {.participant = "P1"}});
+    const std::string head =
+        "participant,trial,interval,condition,practice,duration_s,contact_s,updates,"
+        "contact_updates,moves,sent_newton,sent_peak_newton,spring_newton,spring_peak_newton,"
+        "path_mm,speed_mm_per_s,turning_mean_deg,turning_sd_deg,turning_pairs,value\n";
+    CHECK(intervals_csv(study, {}) == head);
+    CHECK(intervals_csv(study, {{.trial = 2, .interval = 1, .condition = "a", .motion = motion}}) ==
+          head + "P1,3,2,a,0,2,1,10,4,7,0.5,3,1.5,5,11,11,0.25,0.75,9,\n");
+    const std::string json =
+        json_line(fields_of(MotionFinding{.condition = "a", .all = motion, .intervals = 1}).json);
+    CHECK(json.starts_with(
+        R"({"condition":"a","intervals":1,"duration_s":2.0,"contact_s":1.0,"updates":10,)"
+        R"("contact_updates":4,"moves_per_update":0.7,)"
+        R"("force_sent_newton":{"mean":0.5,"peak":3.0},)"
+        R"("force_spring_newton":{"mean":1.5,"peak":5.0},"path_mm":11.0,"speed_mm_per_s":11.0,)"
+        R"("variation_deg":{"mean":0.25,"sd":0.75,"pairs":9},"participants_mean":{)"));
 }
