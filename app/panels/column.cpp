@@ -16,7 +16,7 @@ constexpr float kMostOfWindow = 0.45F;  // a small window keeps room for the rel
 
 float panel_column_width(const ViewerState& state) {
     if (!state.settings.panels_visible) return 0.0F;
-    return std::floor(std::min(kColumnWidth * state.scale, kMostOfWindow * state.window_width));
+    return std::floor(std::min(kColumnWidth * state.ui.scale, kMostOfWindow * state.ui.window_width));
 }
 
 void draw_panel_column(ViewerState& state, Player& player, SessionPlayer* replay) {

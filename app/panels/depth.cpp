@@ -19,7 +19,7 @@ constexpr double kMostScale = 10.0;
 
 /// Asks for other words than the panel's.
 void say(const DepthStatement& said, ViewerState& state) {
-    if (!(said == state.opened.request.panel)) state.requests.meaning = said;
+    if (!(said == state.media.opened.request.panel)) state.requests.meaning = said;
 }
 
 std::string with_origin(const std::string& text, Origin origin) {
@@ -29,7 +29,7 @@ std::string with_origin(const std::string& text, Origin origin) {
 /// The command line's word beats the panel's: its row only tells it.
 template <typename Fact>
 bool is_given(std::optional<Fact> DepthStatement::*fact, const ViewerState& state) {
-    return (state.opened.request.command_line.*fact).has_value();
+    return (state.media.opened.request.command_line.*fact).has_value();
 }
 
 /// A list that begins with what was found out; the first entry takes a person's word back.
@@ -37,7 +37,7 @@ template <typename Values, typename Value>
 void word_row(const char* label, const char* help, const Values& values, const Known<Value>& known,
               std::optional<Value> DepthStatement::*fact, ViewerState& state) {
     const bool given = is_given(fact, state);
-    const std::optional<Value>& panel = state.opened.request.panel.*fact;
+    const std::optional<Value>& panel = state.media.opened.request.panel.*fact;
     const bool is_stated = !given && panel.has_value();
     std::array<std::string, Values().size() + 1> names;
     std::array<const char*, Values().size() + 1> shown{};
@@ -53,7 +53,7 @@ void word_row(const char* label, const char* help, const Values& values, const K
     const bool changed = index_row(label, shown, chosen, help, 0);
     ImGui::EndDisabled();
     if (!changed) return;
-    DepthStatement said = state.opened.request.panel;
+    DepthStatement said = state.media.opened.request.panel;
     said.*fact =
         chosen == 0 ? std::nullopt : std::optional(values[static_cast<std::size_t>(chosen) - 1]);
     say(said, state);
@@ -75,11 +75,11 @@ void typed_row(const TypedRow& row, const Read& read, std::optional<Fact> DepthS
     const bool done = text_row(row.label, row.known, text, help.c_str());
     ImGui::EndDisabled();
     if (!done) return;
-    DepthStatement said = state.opened.request.panel;
+    DepthStatement said = state.media.opened.request.panel;
     const std::string typed = text.data();
     said.*fact = typed.empty() ? std::nullopt : read(typed);
     if (!typed.empty() && !(said.*fact)) {
-        state.message = capitalised(in_quotes(typed) + " is not understood: " + row.help);
+        state.ui.message = capitalised(in_quotes(typed) + " is not understood: " + row.help);
         return;
     }
     say(said, state);
@@ -109,7 +109,7 @@ std::string text_of(double number) {
 template <typename Fact>
 void show_word(std::optional<Fact> DepthStatement::*fact, const ViewerState& state,
                std::span<char> field) {
-    const std::optional<Fact>& panel = state.opened.request.panel.*fact;
+    const std::optional<Fact>& panel = state.media.opened.request.panel.*fact;
     const std::string text = panel && !is_given(fact, state) ? text_of(*panel) : "";
     const std::size_t shown = std::min(text.size(), field.size() - 1);
     std::copy_n(text.begin(), shown, field.begin());
@@ -127,11 +127,11 @@ std::string camera_text(const Known<std::optional<Intrinsics>>& camera) {
 
 /// Where the colour lies over the depth, to be dragged until they fit.
 void registration_rows(ViewerState& state) {
-    TextFields& fields = state.fields;
+    TextFields& fields = state.ui.fields;
     auto& [right, down] = fields.colour_shift_px;
     auto& [scale] = fields.colour_size;
     const auto fact = &DepthStatement::registration;
-    const bool changed = state.opened.request.panel.registration.has_value();
+    const bool changed = state.media.opened.request.panel.registration.has_value();
     ImGui::BeginDisabled(is_given(fact, state));
     const Dragged shift = dragged_row(
         {"Colour shift", "%.1f px", -kMostShift_px, kMostShift_px, 0.25F,
@@ -144,7 +144,7 @@ void registration_rows(ViewerState& state) {
         fields.colour_size);
     ImGui::EndDisabled();
     if (shift == Dragged::nothing && size == Dragged::nothing) return;
-    DepthStatement said = state.opened.request.panel;
+    DepthStatement said = state.media.opened.request.panel;
     said.registration.reset();
     if (shift != Dragged::put_back && size != Dragged::put_back)
         said.registration = Registration{right, down, scale};
@@ -181,9 +181,9 @@ void draw_depth_rows(ViewerState& state) {
         return;
     }
     ImGui::PushID("depth");
-    ImGui::BeginDisabled(state.opening);  // with the last word
+    ImGui::BeginDisabled(state.media.opening);  // with the last word
     const DepthMeaning& known = *state.media.meaning;
-    TextFields& fields = state.fields;
+    TextFields& fields = state.ui.fields;
     word_row("Near is", "Which levels are near (--near)", kNearLevels, known.near,
              &DepthStatement::near, state);
     word_row("Unit", "What a level times its scale is (--depth-unit)", kDepthUnits, known.unit,
@@ -220,7 +220,7 @@ void draw_depth_rows(ViewerState& state) {
 }
 
 void show_depth_words(ViewerState& state) {
-    TextFields& fields = state.fields;
+    TextFields& fields = state.ui.fields;
     show_word(&DepthStatement::scale, state, fields.depth_scale);
     show_word(&DepthStatement::range, state, fields.depth_range);
     show_word(&DepthStatement::no_data, state, fields.no_data);

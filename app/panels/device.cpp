@@ -3,9 +3,10 @@
 #include <glm/geometric.hpp>
 #include <string>
 
-#include "app/panels/device_state.hpp"
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
+#include "app/touching/device_state.hpp"
+#include "app/touching/force_law.hpp"
 
 namespace dibhr {
 
@@ -17,18 +18,18 @@ std::string point_text(const Vec3& p) {
 }
 
 const char* no_pose_text(const ViewerState& state) {
-    return state.falcon && state.falcon->status.stage == falcon::Stage::ready
+    return state.touch.falcon && state.touch.falcon->status.stage == falcon::Stage::ready
                ? "no pose: pull the grip in, or see Calibration"
                : "no fresh pose: no force";
 }
 
 std::string state_text(const ViewerState& state) {
-    const HapticState& haptic = state.haptic;
+    const HapticState& haptic = state.touch.haptic;
     if (!haptic.touchable) return "waiting for a surface";
-    if (waits_for_front(state)) return "not in front: no force";
-    if (clutched(state)) return "held by the clutch: no force";
+    if (waits_for_front(state.settings, state.touch)) return "not in front: no force";
+    if (clutched(state.settings, state.touch)) return "held by the clutch: no force";
     if (!haptic.hand.ready)
-        return without_pose(state) ? no_pose_text(state) : "not ready: no force";
+        return a_device_touches(state.touch) ? no_pose_text(state) : "not ready: no force";
     return haptic.touch.proxy.contact ? "in contact" : "free";
 }
 
@@ -41,12 +42,12 @@ struct ForceSwitch {
 
 ForceSwitch force_switch(const ViewerState& state) {
     const std::string key = state.keys.in_brackets(Action::toggle_force);
-    if (!state.force_enabled) {
+    if (!state.touch.force_enabled) {
         return {"Force is OFF###force",
                 {0.46F, 0.22F, 0.16F, 1.0F},
                 "Put the force on again; it rises slowly" + key};
     }
-    if (waits_for_front(state)) {
+    if (waits_for_front(state.settings, state.touch)) {
         return {"Force waits###force",
                 {0.44F, 0.35F, 0.12F, 1.0F},
                 "It rises again when this window is in front. Take it off" + key};
@@ -64,39 +65,39 @@ void draw_force_switch(ViewerState& state, float width) {
     ImGui::PushStyleColor(ImGuiCol_Button, ground);
     ImGui::PushStyleColor(ImGuiCol_ButtonHovered, raised);
     ImGui::PushStyleColor(ImGuiCol_ButtonActive, raised);
-    if (ImGui::Button(shown.text, {width, 0.0F})) state.force_enabled = !state.force_enabled;
+    if (ImGui::Button(shown.text, {width, 0.0F})) state.touch.force_enabled = !state.touch.force_enabled;
     ImGui::PopStyleColor(4);
     explain(shown.help.c_str());
 }
 
 void draw_device_panel(ViewerState& state) {
-    if (!section(state, "Device", state.settings.panels.device, &state.show_device)) return;
+    if (!section(state, "Device", state.settings.panels.device, &state.touch.needs_person)) return;
     ImGui::PushID("device");
-    const bool has_falcon = falcon_in_sight(state);
-    const bool has_inverse3 = inverse3_in_sight(state);
-    const bool looks = state.falcon || state.inverse3;
+    const bool has_falcon = falcon_in_sight(state.touch);
+    const bool has_inverse3 = inverse3_in_sight(state.touch);
+    const bool looks = state.touch.falcon || state.touch.inverse3;
     if (has_falcon) draw_falcon_state(state);
     if (has_inverse3) draw_inverse3_state(state);
     if (!has_falcon && !has_inverse3) {
-        fact_row("Device", looks ? "mouse" : state.device.name);
+        fact_row("Device", looks ? "mouse" : state.touch.device.name);
         if (looks) quiet_text("A force device takes over as soon as it is plugged in.");
     }
     fact_row("State", state_text(state));
     draw_force_switch(state, -1.0F);
     if (has_falcon || has_inverse3) {
         flag_row("Force only while the window is in front",
-                 state.settings.falcon.force_in_front_only, FalconSettings{}.force_in_front_only,
+                 state.settings.force_in_front_only, Settings{}.force_in_front_only,
                  "No force while the keyboard goes to another window, or this one is an icon: the "
                  "hand is safe while nobody looks. Switch it off when one person touches and "
                  "another works in another window, in an experiment say");
     }
     const SafetyLimits standard;
-    number_row({"Max force", "%.1f N", 0.0, state.device.limits.max_force_newton,
+    number_row({"Max force", "%.1f N", 0.0, state.touch.device.limits.max_force_newton,
                 standard.max_force_newton, "No more than this is ever sent"},
                state.settings.max_force_newton);
     state.settings.max_force_newton =
-        std::clamp(state.settings.max_force_newton, 0.0, state.device.limits.max_force_newton);
-    const Touch& touch = state.haptic.touch;
+        std::clamp(state.settings.max_force_newton, 0.0, state.touch.device.limits.max_force_newton);
+    const Touch& touch = state.touch.haptic.touch;
     fact_row("Goal", point_text(touch.goal), "Where the hand is: column, row and elevation");
     fact_row("Proxy", point_text(touch.proxy.position),
              "The point that stays on the surface; the spring pulls the hand to it");

@@ -9,7 +9,7 @@
 namespace dibhr {
 
 void draw_doubts(ViewerState& state) {
-    if (state.doubts.empty() || state.replay || state.dialog.shown || !state.message.empty())
+    if (state.ui.doubts.empty() || state.touch.replay || state.ui.dialog.shown || !state.ui.message.empty())
         return;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float room = display.x - panel_column_width(state);
@@ -27,7 +27,7 @@ void draw_doubts(ViewerState& state) {
         ImGui::TableSetupColumn("usual", ImGuiTableColumnFlags_WidthFixed);
         ImGui::TableSetupColumn("in the file", ImGuiTableColumnFlags_WidthFixed);
         ImGui::TableHeadersRow();
-        for (const Doubt& doubt : state.doubts) {
+        for (const Doubt& doubt : state.ui.doubts) {
             for (const std::string& text : {std::string(doubt.what), doubt.usual, doubt.asked}) {
                 ImGui::TableNextColumn();
                 ImGui::TextWrapped("%s", text.c_str());

@@ -40,7 +40,7 @@ constexpr int kWidestNet = 90;  // of a wider one the lines would cover the reli
 class Blackboard {
   public:
     Blackboard(const ViewerState& state, const glm::dmat4& clip_from_grid)
-        : screen_(state, clip_from_grid), scale_(state.scale) {}
+        : screen_(state, clip_from_grid), scale_(state.ui.scale) {}
 
     void line(Vec3 from, Vec3 to, ImU32 colour, float thick = 1.0F) const {
         const auto a = screen_.at(from);
@@ -215,7 +215,7 @@ void draw_on_relief(const Blackboard& board, const DepthSurface& surface,
 
 /// What to read: of the last step that was taken.
 std::string words_of(const ViewerState& state) {
-    const ExplainedNews& news = *state.explained;
+    const ExplainedNews& news = *state.ui.explained;
     if (news.taken > 0) return text_of(news.update.steps[news.taken - 1]);
     const KeyTable& keys = state.keys;
     const std::string on = keys.name_for(Action::step_forward);
@@ -245,10 +245,10 @@ std::string title_of(const ExplainedNews& news, float room) {
 }
 
 void draw_card(ViewerState& state) {
-    const ExplainedNews& news = *state.explained;
+    const ExplainedNews& news = *state.ui.explained;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float room = display.x - panel_column_width(state);
-    const float margin = 12.0F * state.scale;
+    const float margin = 12.0F * state.ui.scale;
     const float width = std::min(room - 2.0F * margin, 46.0F * ImGui::GetFontSize());
     ImGui::SetNextWindowPos({0.5F * room, display.y - bottom_bar_height(state) - margin},
                             ImGuiCond_Always, {0.5F, 1.0F});
@@ -287,8 +287,8 @@ void draw_card(ViewerState& state) {
 
 void draw_explanation(ViewerState& state, const DepthSurface& surface,
                       const glm::dmat4& clip_from_grid) {
-    if (!state.explained || state.explained->waits) return;
-    draw_on_relief(Blackboard(state, clip_from_grid), surface, *state.explained);
+    if (!state.ui.explained || state.ui.explained->waits) return;
+    draw_on_relief(Blackboard(state, clip_from_grid), surface, *state.ui.explained);
     draw_card(state);
 }
 

@@ -8,9 +8,9 @@
 #include <string>
 
 #include "app/panels/device_rows.hpp"
-#include "app/panels/device_state.hpp"
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
+#include "app/touching/device_state.hpp"
 
 namespace dibhr {
 
@@ -115,7 +115,7 @@ void draw_axis(const char* name, bool homed, int counts) {
 
 /// How to home it, as a moving picture with words, and which axes are homed.
 void draw_homing_guide(const ViewerState& state) {
-    const falcon::Reply& reply = state.falcon->status.reply;
+    const falcon::Reply& reply = state.touch.falcon->status.reply;
     const Movement movement = movement_at(ImGui::GetTime());
     const ImVec2 low = ImGui::GetCursorScreenPos();
     const ImVec2 size{ImGui::GetContentRegionAvail().x, kHeight * ImGui::GetTextLineHeight()};
@@ -147,8 +147,8 @@ Light light_of(const ViewerState& state) {
     const ImVec4 red{0.90F, 0.30F, 0.27F, 1.0F};
     const ImVec4 blue{0.36F, 0.56F, 0.95F, 1.0F};
     const ImVec4 green{0.36F, 0.78F, 0.45F, 1.0F};
-    if (state.falcon->status.stage == Stage::homing) return {red, "red: to be homed"};
-    const bool force = glm::length(state.haptic.touch.sent_force_newton) > 0.0;
+    if (state.touch.falcon->status.stage == Stage::homing) return {red, "red: to be homed"};
+    const bool force = glm::length(state.touch.haptic.touch.sent_force_newton) > 0.0;
     return force ? Light{green, "green: force"} : Light{blue, "blue: ready"};
 }
 
@@ -171,7 +171,7 @@ void draw_progress(const falcon::Status& status) {
 }
 
 void draw_exchange(const ViewerState& state) {
-    const falcon::Status& status = state.falcon->status;
+    const falcon::Status& status = state.touch.falcon->status;
     draw_light(state);
     fact_row("Replies", formatted("%.0f per second", status.replies_per_s));
     if (status.resent + status.line_errors + status.bytes_discarded > 0) {
@@ -191,7 +191,7 @@ void draw_workspace(ViewerState& state) {
     }
     explain("The scale at which the hand reaches the whole image");
     ImGui::SameLine();
-    if (ImGui::Button("Centre the hand")) ++state.centred;
+    if (ImGui::Button("Centre the hand")) ++state.touch.centred;
     explain("Takes back what the clutch has shifted", state.keys, Action::centre_workspace);
     draw_device_rows(state.settings.falcon, "Workspace");
 }
@@ -199,18 +199,18 @@ void draw_workspace(ViewerState& state) {
 /// Where a person names the firmware file.
 void draw_firmware_field(ViewerState& state) {
     const bool entered = text_field(
-        "##firmware", "Firmware file (.bin)", state.fields.firmware,
+        "##firmware", "Firmware file (.bin)", state.ui.fields.firmware,
         "Path of the firmware; Enter takes it. It is checked first, and kept for the next time");
-    const bool named = state.fields.firmware[0] != '\0';
+    const bool named = state.ui.fields.firmware[0] != '\0';
     const bool pressed = button_or_drop("Load", named, "the file");
     if ((entered || pressed) && named) {
-        state.requests.firmware = typed_path(state.fields.firmware.data());
+        state.requests.firmware = typed_path(state.ui.fields.firmware.data());
     }
 }
 
 void draw_connection(ViewerState& state) {
-    fact_row("Firmware", state.falcon->firmware.empty() ? "none kept" : state.falcon->firmware);
-    if (state.falcon->status.stage != falcon::Stage::no_firmware) draw_firmware_field(state);
+    fact_row("Firmware", state.touch.falcon->firmware.empty() ? "none kept" : state.touch.falcon->firmware);
+    if (state.touch.falcon->status.stage != falcon::Stage::no_firmware) draw_firmware_field(state);
     draw_device_rows(state.settings.falcon, "Connection");
     quiet_text("These are used from the next start of the program.");
 }
@@ -218,7 +218,7 @@ void draw_connection(ViewerState& state) {
 }  // namespace
 
 void draw_falcon_state(ViewerState& state) {
-    const falcon::Status& status = state.falcon->status;
+    const falcon::Status& status = state.touch.falcon->status;
     fact_row("Falcon", name_text(status));
     if (!status.sentence.empty()) {
         const std::string sentence = capitalised(status.sentence);
@@ -232,14 +232,14 @@ void draw_falcon_state(ViewerState& state) {
     }
     if (!status.unguarded.empty()) trouble_text(capitalised(status.unguarded));
     if (status.stage == Stage::no_firmware) {
-        const std::string& trouble = state.falcon->firmware_trouble;
+        const std::string& trouble = state.touch.falcon->firmware_trouble;
         if (!trouble.empty()) trouble_text(capitalised(trouble));
         draw_firmware_field(state);
     }
     if (status.stage == Stage::loading) draw_progress(status);
     if (status.stage == Stage::homing) draw_homing_guide(state);
     if (status.stage == Stage::homing || status.stage == Stage::ready) draw_exchange(state);
-    fact_row("Touches", touching_text(state));
+    fact_row("Touches", touching_text(state.touch));
 }
 
 void draw_falcon_settings(ViewerState& state) {

@@ -3,9 +3,9 @@
 #include <string>
 
 #include "app/panels/device_rows.hpp"
-#include "app/panels/device_state.hpp"
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
+#include "app/touching/device_state.hpp"
 #include "device/inverse3/frame.hpp"
 
 namespace dibhr {
@@ -89,7 +89,7 @@ void draw_workspace(ViewerState& state) {
     }
     explain("The scale at which the comfortable box reaches the whole image");
     ImGui::SameLine();
-    if (ImGui::Button("Centre the hand")) ++state.centred;
+    if (ImGui::Button("Centre the hand")) ++state.touch.centred;
     explain("Takes back what the clutch has shifted", state.keys, Action::centre_workspace);
     draw_device_rows(settings, "Inverse3 workspace");
 }
@@ -107,13 +107,13 @@ void draw_kept(const std::vector<inverse3::KeptSetting>& kept) {
 }  // namespace
 
 void draw_inverse3_state(ViewerState& state) {
-    const Status& status = state.inverse3->status;
+    const Status& status = state.touch.inverse3->status;
     fact_row(status.minverse ? "Minverse" : "Inverse3", name_text(status));
     draw_sentence(status);
     if (!status.unguarded.empty()) trouble_text(capitalised(status.unguarded));
     if (!status.version.empty()) fact_row("Service", status.version);
-    if (status.stage == Stage::ready) draw_exchange(*state.inverse3);
-    fact_row("Touches", touching_text(state));
+    if (status.stage == Stage::ready) draw_exchange(*state.touch.inverse3);
+    fact_row("Touches", touching_text(state.touch));
 }
 
 void draw_inverse3_settings(ViewerState& state) {
@@ -121,7 +121,7 @@ void draw_inverse3_settings(ViewerState& state) {
     if (part("Inverse3 workspace")) draw_workspace(state);
     if (part("Inverse3 buttons")) draw_device_rows(settings, "Inverse3 buttons");
     if (!part("Inverse3 service")) return;
-    draw_kept(state.inverse3->kept);
+    draw_kept(state.touch.inverse3->kept);
     draw_device_rows(settings, "Inverse3 service");
     quiet_text("These are used from the next start of the program.");
 }

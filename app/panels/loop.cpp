@@ -9,7 +9,7 @@ namespace dibhr {
 void draw_loop_panel(ViewerState& state) {
     if (!section(state, "Loop", state.settings.panels.loop)) return;
     ImGui::PushID("loop");
-    const HapticState& haptic = state.haptic;
+    const HapticState& haptic = state.touch.haptic;
     const LoopSecond& second = haptic.second;
     draw_strip_charts(state);
     fact_row("Rate", formatted("%.1f per second", second.rate_hz),
@@ -30,13 +30,13 @@ void draw_loop_panel(ViewerState& state) {
             std::to_string(haptic.bounds_met) + " of " + std::to_string(haptic.ticks) + " ticks",
             "Those that ended before the proxy had followed a jump to its end");
     }
-    fact_row("Decoding", formatted("%.1f ms a frame", state.playback.decode_ms),
+    fact_row("Decoding", formatted("%.1f ms a frame", state.media.playback.decode_ms),
              "Reading and cleaning a frame of the video");
-    fact_row("Pictures", formatted("%.0f per second", state.pictures_per_s),
+    fact_row("Pictures", formatted("%.0f per second", state.ui.pictures_per_s),
              "How often this window is drawn");
-    fact_row("Priority", state.grants ? state.grants->priority.answer : "asking",
+    fact_row("Priority", state.touch.grants ? state.touch.grants->priority.answer : "asking",
              "Whether the system lets the haptic loop go before other programs");
-    fact_row("Memory lock", state.grants ? state.grants->memory_lock.answer : "asking",
+    fact_row("Memory lock", state.touch.grants ? state.touch.grants->memory_lock.answer : "asking",
              "Whether the system keeps the program's memory from being moved to the disk");
     ImGui::PopID();
 }

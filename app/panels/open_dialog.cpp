@@ -56,7 +56,7 @@ void go_to(ViewerState& state, const fs::path& folder) {
 void open(ViewerState& state, const FolderEntry& entry) {
     if (entry.kind == FileKind::folder) return go_to(state, entry.file);
     state.requests.open = request_for(entry);
-    state.dialog.shown = false;
+    state.ui.dialog.shown = false;
 }
 
 bool is_path(const std::string& typed) {
@@ -102,7 +102,7 @@ const FolderEntry* chosen_of(const OpenDialog& dialog) {
 
 /// The chosen row; else what was typed, or the first row that it leaves.
 void enter(ViewerState& state) {
-    OpenDialog& dialog = state.dialog;
+    OpenDialog& dialog = state.ui.dialog;
     const std::string typed = dialog.typed.data();
     const FolderEntry* chosen = chosen_of(dialog);
     if (typed.empty()) {
@@ -124,7 +124,7 @@ int complete(ImGuiInputTextCallbackData* data) {
         state.requests.completion = typed;
         return 0;
     }
-    const Completion done = std::exchange(state.dialog.completion, {});
+    const Completion done = std::exchange(state.ui.dialog.completion, {});
     const bool fits = static_cast<int>(done.whole.size()) < data->BufSize;
     if (done.typed != typed || done.whole == typed || !fits) return 0;
     data->DeleteChars(0, data->BufTextLen);
@@ -134,7 +134,7 @@ int complete(ImGuiInputTextCallbackData* data) {
 
 /// The folder's parents, each a button.
 void draw_path(ViewerState& state) {
-    const fs::path& path = state.dialog.folder.path;
+    const fs::path& path = state.ui.dialog.folder.path;
     fs::path part;
     std::vector<fs::path> parts;
     for (const fs::path& name : path) parts.push_back(part /= name);
@@ -159,7 +159,7 @@ void draw_path(ViewerState& state) {
 }
 
 void draw_line(ViewerState& state) {
-    OpenDialog& dialog = state.dialog;
+    OpenDialog& dialog = state.ui.dialog;
     if (dialog.asks_for_keyboard > 0) {
         ImGui::SetWindowFocus();
         ImGui::SetKeyboardFocusHere();
@@ -189,7 +189,7 @@ void move_choice(OpenDialog& dialog) {
 }
 
 void draw_row(ViewerState& state, const FolderEntry& entry, bool wide) {
-    OpenDialog& dialog = state.dialog;
+    OpenDialog& dialog = state.ui.dialog;
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::PushID(entry.file.c_str());
@@ -229,13 +229,13 @@ void draw_rows(ViewerState& state, ImVec2 size) {
     }
     ImGui::TableSetupScrollFreeze(0, 1);
     ImGui::TableHeadersRow();
-    scroll_to_chosen(state.dialog, size.y);
+    scroll_to_chosen(state.ui.dialog, size.y);
     ImGui::PushStyleColor(ImGuiCol_Header, ImGui::GetStyleColorVec4(ImGuiCol_SliderGrab));
     ImGuiListClipper clipper;
-    clipper.Begin(static_cast<int>(state.dialog.rows.entries.size()));
+    clipper.Begin(static_cast<int>(state.ui.dialog.rows.entries.size()));
     while (clipper.Step()) {
         for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row)
-            draw_row(state, entry_in(state.dialog, static_cast<std::size_t>(row)), wide);
+            draw_row(state, entry_in(state.ui.dialog, static_cast<std::size_t>(row)), wide);
     }
     ImGui::PopStyleColor();
     ImGui::EndTable();
@@ -245,18 +245,18 @@ void draw_places(ViewerState& state, ImVec2 size) {
     ImGui::BeginChild("places", size);
     const auto place = [&state](const std::string& label, const fs::path& folder) {
         ImGui::PushID(folder.c_str());
-        if (name_selectable(label, folder == state.dialog.folder.path)) go_to(state, folder);
+        if (name_selectable(label, folder == state.ui.dialog.folder.path)) go_to(state, folder);
         ImGui::PopID();
         explain(folder.c_str());
     };
     place("Home", typed_path("~"));
     std::error_code unknown;
     place("Current folder", fs::current_path(unknown));
-    if (!state.dialog.sample_folder.empty()) place("Sample", state.dialog.sample_folder);
+    if (!state.ui.dialog.sample_folder.empty()) place("Sample", state.ui.dialog.sample_folder);
     ImGui::Spacing();
-    if (!state.recent.empty()) ImGui::TextDisabled("Recent");
+    if (!state.media.recent.empty()) ImGui::TextDisabled("Recent");
     std::vector<fs::path> listed;
-    for (const RecentFile& file : state.recent) {
+    for (const RecentFile& file : state.media.recent) {
         const fs::path folder = file.colour.parent_path();
         if (std::find(listed.begin(), listed.end(), folder) != listed.end()) continue;
         listed.push_back(folder);
@@ -266,7 +266,7 @@ void draw_places(ViewerState& state, ImVec2 size) {
 }
 
 void draw_preview(const ViewerState& state, const FolderEntry* chosen, ImVec2 size) {
-    const OpenDialog& dialog = state.dialog;
+    const OpenDialog& dialog = state.ui.dialog;
     ImGui::BeginChild("preview", size);
     if (chosen != nullptr) {
         const Preview& preview = dialog.preview;
@@ -291,7 +291,7 @@ void draw_preview(const ViewerState& state, const FolderEntry* chosen, ImVec2 si
 }
 
 void draw_buttons(ViewerState& state, const FolderEntry* chosen) {
-    OpenDialog& dialog = state.dialog;
+    OpenDialog& dialog = state.ui.dialog;
     ImGui::Checkbox("All files", &dialog.all_files);
     constexpr float kAllInARow_em = 36.0F;  // else it is on the Video panel, beside the last files
     if (ImGui::GetContentRegionAvail().x > kAllInARow_em * ImGui::GetFontSize()) {
@@ -311,7 +311,7 @@ void draw_buttons(ViewerState& state, const FolderEntry* chosen) {
 
 /// What the folder holds, or why that is not known.
 void draw_contents(ViewerState& state, ImVec2 size) {
-    const OpenDialog& dialog = state.dialog;
+    const OpenDialog& dialog = state.ui.dialog;
     if (dialog.folder.trouble.empty() && !dialog.reads) return draw_rows(state, size);
     ImGui::BeginChild("words", size);
     if (dialog.reads) {
@@ -339,7 +339,7 @@ void draw_middle(ViewerState& state, const FolderEntry* chosen, float width) {
 }  // namespace
 
 void draw_open_dialog(ViewerState& state) {
-    OpenDialog& dialog = state.dialog;
+    OpenDialog& dialog = state.ui.dialog;
     dialog.in_front = false;
     if (!dialog.shown) return;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
@@ -348,7 +348,7 @@ void draw_open_dialog(ViewerState& state) {
                       std::min(0.86F * display.y, kHighest_em * em)};
     ImGui::SetNextWindowPos({display.x * 0.5F, display.y * 0.5F}, ImGuiCond_Always, {0.5F, 0.5F});
     ImGui::SetNextWindowSize(size);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, std::max(1.0F, state.scale));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, std::max(1.0F, state.ui.scale));
     ImGui::Begin("Open a recording or a session", &dialog.shown,
                  ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoSavedSettings);

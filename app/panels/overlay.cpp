@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "app/panels/device_state.hpp"
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 #include "app/settings/keys.hpp"
+#include "app/touching/force_law.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/plot/axes.hpp"
 #include "render/relief_paint.hpp"
@@ -75,10 +75,10 @@ float draw_banner(const ViewerState& state, const std::string& text) {
 
 /// What is missing to touch: of a device, or of what is live. Empty: nothing.
 std::string banner_of(const ViewerState& state) {
-    if (const std::string banner = device_banner(state); !banner.empty())
+    if (const std::string banner = device_banner(state.settings, state.touch); !banner.empty())
         return capitalised(banner);
-    const bool lost = state.playback.live && !state.playback.live->signal && !state.replay;
-    return lost ? in_words(*state.playback.live) : std::string();
+    const bool lost = state.media.playback.live && !state.media.playback.live->signal && !state.touch.replay;
+    return lost ? in_words(*state.media.playback.live) : std::string();
 }
 
 void centred_label(const ViewerState& state, const std::string& text, float lines_above_bar,
@@ -86,7 +86,7 @@ void centred_label(const ViewerState& state, const std::string& text, float line
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float line = ImGui::GetFrameHeight();
     const float width = display.x - panel_column_width(state);
-    const float widest = width - 24.0F * state.scale;
+    const float widest = width - 24.0F * state.ui.scale;
     const ImVec2 size = label_size(text, widest);
     const float below = label_size({}).y;  // as one line is: more of them grow upwards
     label(text,
@@ -114,24 +114,24 @@ std::string replay_text(const ReplayNews& replay) {
 
 /// Where playing is, in time and in frames or ticks.
 std::string place_text(const ViewerState& state) {
-    if (state.replay) {
-        const SessionPlayback& at = state.replay->playback;
+    if (state.touch.replay) {
+        const SessionPlayback& at = state.touch.replay->playback;
         return clock_text(at.now_s - at.begin_s) + " of " + clock_text(at.end_s - at.begin_s) +
-               ", tick " + std::to_string(state.replay->tick_count);
+               ", tick " + std::to_string(state.touch.replay->tick_count);
     }
-    const PlaybackStatus& at = state.playback;
+    const PlaybackStatus& at = state.media.playback;
     if (at.live) return "live, " + in_words(*at.live);
     return clock_text(at.media_s) + " of " + clock_text(at.duration_s) + ", frame " +
            std::to_string(at.frame + 1);
 }
 
 std::string touch_text(const ViewerState& state) {
-    const HapticState& haptic = state.haptic;
-    if (!state.replay && !state.force_enabled) return "Force off";
-    if (waits_for_front(state)) return "Force off: not in front";
-    if (!haptic.touchable) return state.replay ? "No surface" : "No surface yet";
-    if (clutched(state)) return "Held by the clutch";
-    if (state.playback.live && state.playback.live->force_off && !state.replay)
+    const HapticState& haptic = state.touch.haptic;
+    if (!state.touch.replay && !state.touch.force_enabled) return "Force off";
+    if (waits_for_front(state.settings, state.touch)) return "Force off: not in front";
+    if (!haptic.touchable) return state.touch.replay ? "No surface" : "No surface yet";
+    if (clutched(state.settings, state.touch)) return "Held by the clutch";
+    if (state.media.playback.live && state.media.playback.live->force_off && !state.touch.replay)
         return "No force: no signal";
     if (haptic.touch.cut != SafetyCut::none)
         return std::string("No force: ") + name_of(haptic.touch.cut);
@@ -147,26 +147,26 @@ std::string touch_text(const ViewerState& state) {
 std::vector<std::string> statistics_of(const ViewerState& state) {
     std::vector<std::string> lines;
     const MediaDescription& media = state.media;
-    const PlaybackStatus& playback = state.playback;
+    const PlaybackStatus& playback = state.media.playback;
     lines.push_back(formatted("Relief %d x %d, colour %d x %d", media.depth_columns,
                               media.depth_rows, media.colour_columns, media.colour_rows));
-    lines.push_back(formatted("Pictures %.0f per second", state.pictures_per_s));
-    if (!state.replay && !media.still) {
+    lines.push_back(formatted("Pictures %.0f per second", state.ui.pictures_per_s));
+    if (!state.touch.replay && !media.still) {
         lines.back() +=
             formatted(", video %.0f of %.0f", playback.shown_per_s, playback.frames_per_s);
         lines.push_back(formatted("Decoding %.1f ms a frame", playback.decode_ms));
     }
-    if (state.replay || !media.still) lines.push_back("At " + place_text(state));
-    if (!state.replay) {
-        const LoopSecond& second = state.haptic.second;
+    if (state.touch.replay || !media.still) lines.push_back("At " + place_text(state));
+    if (!state.touch.replay) {
+        const LoopSecond& second = state.touch.haptic.second;
         lines.push_back(formatted("Ticks %.1f per second, late %s of %s", second.rate_hz,
-                                  std::to_string(state.haptic.late_ticks).c_str(),
-                                  std::to_string(state.haptic.ticks).c_str()));
+                                  std::to_string(state.touch.haptic.late_ticks).c_str(),
+                                  std::to_string(state.touch.haptic.ticks).c_str()));
         lines.push_back(formatted("Worst tick %.3f ms late", second.worst_lateness_ms));
         lines.push_back(formatted("Update %.2f us, worst %.1f us, %.1f moves", second.update_us,
                                   second.worst_update_us, second.moves));
     }
-    const Touch& touch = state.haptic.touch;
+    const Touch& touch = state.touch.haptic.touch;
     const double pitch_mm = state.settings.touch.coupling.pixel_pitch_mm;
     if (touch.proxy.contact) {
         lines.push_back(formatted("Penetration %.2f mm, %s (%d, %d)",
@@ -185,7 +185,7 @@ std::string statistics_text(const ViewerState& state) {
 
 /// What the pointer is on; where that is no line, in two.
 std::string pointer_text(const ViewerState& state, float widest) {
-    const PixelShown& pixel = *state.under_pointer;
+    const PixelShown& pixel = *state.ui.under_pointer;
     std::string text = formatted("Pixel %d, %d", pixel.column, pixel.row);
     if (const std::string depth = depth_text(state, pixel); !depth.empty()) text += "   " + depth;
     const std::string elevation = "stands " + elevation_text(state, pixel);
@@ -206,12 +206,12 @@ std::vector<AlgorithmLine> side_by_side(const ViewerState& state) {
         const Ink ink = look.stroke.ink;
         return AlgorithmLine{IM_COL32(ink.red, ink.green, ink.blue, 255), look.name + what};
     };
-    const char* const shown = state.replay ? "   shown" : "   felt";
+    const char* const shown = state.touch.replay ? "   shown" : "   felt";
     std::vector<AlgorithmLine> lines{line_of(state.settings.touch.algorithm, shown)};
     const double pitch_mm = state.settings.touch.coupling.pixel_pitch_mm;
-    for (const AlgorithmProxy& other : state.others) {
+    for (const AlgorithmProxy& other : state.touch.others) {
         const double apart_px =
-            glm::distance(other.proxy.position, state.haptic.touch.proxy.position);
+            glm::distance(other.proxy.position, state.touch.haptic.touch.proxy.position);
         lines.push_back(line_of(other.algorithm, formatted("   %.2f mm off", apart_px * pitch_mm)));
     }
     return lines;
@@ -325,21 +325,21 @@ void draw_upper_left(const ViewerState& state, float margin, float right) {
         }
         low.y += label(text, low, 1.0F, widest) + 0.3F * ImGui::GetFrameHeight();
     };
-    if (state.replay) add(replay_text(*state.replay));
+    if (state.touch.replay) add(replay_text(*state.touch.replay));
     add(touch_text(state));
     if (const std::string banner = banner_of(state); !banner.empty())
         low.y = draw_banner(state, banner) + 0.3F * ImGui::GetFrameHeight();
-    if (state.recording) {
+    if (state.touch.recording) {
         red_dot_label(*ImGui::GetBackgroundDrawList(),
-                      "Recording   " + clock_text(state.recording->time_s), low);
+                      "Recording   " + clock_text(state.touch.recording->time_s), low);
         low.y += 1.3F * ImGui::GetFrameHeight();
     }
-    if (!state.others.empty() && state.haptic.touchable && !state.explained)
+    if (!state.touch.others.empty() && state.touch.haptic.touchable && !state.ui.explained)
         low.y += draw_algorithms(side_by_side(state), low) + 0.3F * ImGui::GetFrameHeight();
-    if (state.statistics) add(statistics_text(state));
-    if (state.ruler && !state.explained) add(ruler_text(state));
-    if (state.under_pointer && !state.explained) add(pointer_text(state, widest));
-    if (state.catching_up) add("Catching up");
+    if (state.ui.statistics) add(statistics_text(state));
+    if (state.ui.ruler && !state.ui.explained) add(ruler_text(state));
+    if (state.ui.under_pointer && !state.ui.explained) add(pointer_text(state, widest));
+    if (state.touch.catching_up) add("Catching up");
 }
 
 struct Explained {
@@ -445,7 +445,7 @@ void draw_sheet_column(const ViewerState& state, std::span<const SheetGroup> gro
     const float between = 0.25F * ImGui::GetFontSize();
     const ImVec4 quiet = ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled);
     for (const SheetGroup& group : groups) {
-        ImGui::PushFont(state.fonts.heading);
+        ImGui::PushFont(state.ui.fonts.heading);
         place.y += sheet_text(group.title, place, widths.column()) + between;
         ImGui::PopFont();
         for (const auto& [what, help] : group.rows) {
@@ -478,21 +478,21 @@ void draw_way_to_keys(const ViewerState& state, float margin) {
 }
 
 std::string clip_text(const ViewerState& state) {
-    if (state.clip->finishing) return "Finishing the clip";
+    if (state.ui.clip->finishing) return "Finishing the clip";
     const std::string key = state.keys.name_for(Action::take_clip);
-    return "Clip   " + clock_text(state.clip->time_s) +
+    return "Clip   " + clock_text(state.ui.clip->time_s) +
            (key.empty() ? "" : "   " + key + " ends it");
 }
 
 }  // namespace
 
 void draw_overlay(const ViewerState& state, double now_s) {
-    const float margin = 12.0F * state.scale;
+    const float margin = 12.0F * state.ui.scale;
     draw_way_to_keys(state, margin);
     draw_upper_left(state, margin, draw_legend(state, margin));
-    if (now_s < state.notice_until_s) {
-        const double left_s = state.notice_until_s - now_s;
-        const std::string text = state.notice_of_place ? place_text(state) : state.notice;
+    if (now_s < state.ui.notice_until_s) {
+        const double left_s = state.ui.notice_until_s - now_s;
+        const std::string text = state.ui.notice_of_place ? place_text(state) : state.ui.notice;
         centred_label(state, text, 1.5F, static_cast<float>(std::min(1.0, left_s)));
     }
 }
@@ -503,8 +503,8 @@ void draw_over_pictures(const ViewerState& state, const std::function<void()>& d
         (*static_cast<const std::function<void()>*>(command->UserCallbackData))();
     };
     list.AddCallback(call, const_cast<std::function<void()>*>(&drawn));  // NOLINT: its signature
-    if (!state.clip) return;
-    const float margin = 12.0F * state.scale;
+    if (!state.ui.clip) return;
+    const float margin = 12.0F * state.ui.scale;
     const float above_bar = ImGui::GetIO().DisplaySize.y - bottom_bar_height(state);
     constexpr float kLinesAboveBar = 4.4F;  // hints and notices are below
     const ImVec2 low{margin, above_bar - kLinesAboveBar * ImGui::GetFrameHeight()};
@@ -519,14 +519,14 @@ void draw_hint(const ViewerState& state, Hint hint, float alpha) {
         {"Turn the wheel while you press: deeper, or less deep.", "Wheel: press deeper."}};
     const auto& [whole, brief] = kHints[static_cast<int>(hint)];
     const float room = ImGui::GetIO().DisplaySize.x - panel_column_width(state);
-    const bool fits = ImGui::CalcTextSize(whole).x + 40.0F * state.scale < room;
+    const bool fits = ImGui::CalcTextSize(whole).x + 40.0F * state.ui.scale < room;
     centred_label(state, fits ? whole : brief, 0.0F, alpha);
 }
 
 void draw_nothing_open(ViewerState& state) {
-    const bool is_open = state.replay || !state.media.depth_path.empty();
-    if (is_open || state.opening || state.dialog.shown || !state.message.empty() ||
-        state.depth_offer)
+    const bool is_open = state.touch.replay || !state.media.depth_path.empty();
+    if (is_open || state.media.opening || state.ui.dialog.shown || !state.ui.message.empty() ||
+        state.ui.depth_offer)
         return;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({0.5F * (display.x - panel_column_width(state)), 0.42F * display.y},
@@ -544,7 +544,7 @@ void draw_nothing_open(ViewerState& state) {
 }
 
 void draw_message_box(ViewerState& state) {
-    if (state.message.empty()) return;
+    if (state.ui.message.empty()) return;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({display.x * 0.5F, display.y * 0.4F}, ImGuiCond_Always, {0.5F, 0.5F});
     ImGui::SetNextWindowSize({ImGui::GetFontSize() * 32.0F, 0.0F});
@@ -552,16 +552,16 @@ void draw_message_box(ViewerState& state) {
     ImGui::Begin("That did not work", &open,
                  ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoSavedSettings);
-    ImGui::TextWrapped("%s", state.message.c_str());
+    ImGui::TextWrapped("%s", state.ui.message.c_str());
     ImGui::Spacing();
     if (ImGui::Button(("Close" + state.keys.in_brackets(Action::close_topmost)).c_str()))
         open = false;
     ImGui::End();
-    if (!open) state.message.clear();
+    if (!open) state.ui.message.clear();
 }
 
 void draw_help_sheet(ViewerState& state) {
-    if (!state.help_open) return;
+    if (!state.ui.help_open) return;
     const ImGuiStyle& style = ImGui::GetStyle();
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const std::vector<SheetGroup> sheet = sheet_of(state.keys);
@@ -579,7 +579,7 @@ void draw_help_sheet(ViewerState& state) {
     const float wide = widths.column() + (beside ? between + widths.column() : 0.0F);
     ImGui::SetNextWindowPos({display.x * 0.5F, display.y * 0.5F}, ImGuiCond_Always, {0.5F, 0.5F});
     ImGui::SetNextWindowSize({wide + around, 0.0F});
-    ImGui::Begin("Keys and mouse", &state.help_open,
+    ImGui::Begin("Keys and mouse", &state.ui.help_open,
                  ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoSavedSettings);
     const ImVec2 begin = ImGui::GetCursorPos();

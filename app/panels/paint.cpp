@@ -15,15 +15,15 @@ constexpr ImU32 kRing = IM_COL32(255, 255, 255, 235);
 constexpr ImU32 kRingEdge = IM_COL32(0, 0, 0, 190);
 
 void draw_material_row(ViewerState& state) {
-    std::vector<std::string> all = state.materials.shipped;
-    all.insert(all.end(), state.materials.own.begin(), state.materials.own.end());
+    std::vector<std::string> all = state.ui.materials.shipped;
+    all.insert(all.end(), state.ui.materials.own.begin(), state.ui.materials.own.end());
     std::vector<std::string> spoken;
     spoken.reserve(all.size());
     for (const std::string& name : all) spoken.push_back(spoken_name(name));
     std::vector<const char*> names;
     names.reserve(all.size());
     for (const std::string& name : spoken) names.push_back(name.c_str());
-    Brush& brush = state.brush;
+    Brush& brush = state.ui.brush;
     int chosen = static_cast<int>(std::find(all.begin(), all.end(), brush.material) - all.begin());
     if (index_row("Made of", names, chosen,
                   "Its stiffness and friction, and its bumps as height where the brush goes", 0))
@@ -32,7 +32,7 @@ void draw_material_row(ViewerState& state) {
 
 /// What is laid where the brush goes.
 void draw_value_row(ViewerState& state) {
-    Brush& brush = state.brush;
+    Brush& brush = state.ui.brush;
     const Brush standard;
     const auto row = [](const char* label, const char* format, TouchMapKind kind, double usual,
                         const char* help, double& value) {
@@ -72,23 +72,23 @@ void draw_undo_buttons(ViewerState& state) {
         return pressed;
     };
     const KeyTable& keys = state.keys;
-    if (button("Undo", state.brush.can_undo,
+    if (button("Undo", state.ui.brush.can_undo,
                "Takes back what was painted last" + keys.in_brackets(Action::undo)))
         state.requests.action = Action::undo;
     ImGui::SameLine();
-    if (button("Redo", state.brush.can_redo, "Paints it again" + keys.in_brackets(Action::redo)))
+    if (button("Redo", state.ui.brush.can_redo, "Paints it again" + keys.in_brackets(Action::redo)))
         state.requests.action = Action::redo;
     ImGui::SameLine();
-    if (button("Remove all", state.brush.has_paint, "All that is painted on this recording"))
+    if (button("Remove all", state.ui.brush.has_paint, "All that is painted on this recording"))
         state.requests.remove_paint = true;
 }
 
 }  // namespace
 
 void draw_paint_panel(ViewerState& state) {
-    const bool comes = state.show_paint;
-    if (!section(state, "Paint", state.settings.panels.paint, &state.show_paint)) return;
-    Brush& brush = state.brush;
+    const bool comes = state.ui.show_paint;
+    if (!section(state, "Paint", state.settings.panels.paint, &state.ui.show_paint)) return;
+    Brush& brush = state.ui.brush;
     if (!brush.refusal.empty()) return quiet_text(brush.refusal);
     ImGui::PushID("paint");
     bool on = brush.on;
@@ -127,8 +127,8 @@ void draw_paint_panel(ViewerState& state) {
 }
 
 void draw_brush(const ViewerState& state, const glm::dmat4& clip_from_grid) {
-    const std::vector<Vec3>& ring = state.brush.ring;
-    if (!state.brush.on || state.explained || ring.empty()) return;
+    const std::vector<Vec3>& ring = state.ui.brush.ring;
+    if (!state.ui.brush.on || state.ui.explained || ring.empty()) return;
     const ReliefScreen screen(state, clip_from_grid);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     list.PushClipRect(screen.low(), screen.high());
@@ -136,7 +136,7 @@ void draw_brush(const ViewerState& state, const glm::dmat4& clip_from_grid) {
         for (std::size_t k = 0; k < ring.size(); ++k) {
             const auto a = screen.at(ring[k]);
             const auto b = screen.at(ring[(k + 1) % ring.size()]);
-            if (a && b) list.AddLine(*a, *b, colour, thick * state.scale);
+            if (a && b) list.AddLine(*a, *b, colour, thick * state.ui.scale);
         }
     }
     list.PopClipRect();

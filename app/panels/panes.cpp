@@ -22,12 +22,12 @@ struct PaneRect {
 
 /// Both of the picture's shape, in the middle above the relief.
 std::array<PaneRect, 2> pane_rects(const ViewerState& state) {
-    const float gap = std::round(kPaneGap * state.scale);
-    const float room = state.window_width - panel_column_width(state);
+    const float gap = std::round(kPaneGap * state.ui.scale);
+    const float room = state.ui.window_width - panel_column_width(state);
     const float shape = static_cast<float>(std::max(state.media.depth_columns, 1)) /
                         static_cast<float>(std::max(state.media.depth_rows, 1));
     const float most_width = std::max(0.5F * (room - 3.0F * gap), 1.0F);
-    const float height = std::min(most_width / shape, kMostOfHeight * state.window_height);
+    const float height = std::min(most_width / shape, kMostOfHeight * state.ui.window_height);
     const ImVec2 size{std::floor(height * shape), std::floor(height)};
     const float left = std::floor(0.5F * (room - gap) - size.x);
     return {PaneRect{{left, gap}, size}, PaneRect{{left + size.x + gap, gap}, size}};
@@ -48,19 +48,19 @@ void draw_pane(const ViewerState& state, const PaneRect& pane, std::uintptr_t te
     const ImVec2 high{pane.low.x + pane.size.x, pane.low.y + pane.size.y};
     list.PushClipRect(pane.low, high);
     if (texture != 0) list.AddImage(texture_id<ImTextureID>(texture), pane.low, high);
-    const float radius = std::round(4.0F * state.scale);
-    if (state.under_pointer) {
-        const PixelShown& pixel = *state.under_pointer;
+    const float radius = std::round(4.0F * state.ui.scale);
+    if (state.ui.under_pointer) {
+        const PixelShown& pixel = *state.ui.under_pointer;
         const ImVec2 at = place_of(state, pane, pixel.column, pixel.row);
-        list.AddCircle(at, 1.8F * radius, kRoundMark, 24, 3.0F * state.scale);
-        list.AddCircle(at, 1.8F * radius, kPointerMark, 24, 1.2F * state.scale);
+        list.AddCircle(at, 1.8F * radius, kRoundMark, 24, 3.0F * state.ui.scale);
+        list.AddCircle(at, 1.8F * radius, kPointerMark, 24, 1.2F * state.ui.scale);
     }
-    if (state.haptic.touchable) {
-        const Vec3& proxy = state.haptic.touch.proxy.position;
+    if (state.touch.haptic.touchable) {
+        const Vec3& proxy = state.touch.haptic.touch.proxy.position;
         const ImVec2 at = place_of(state, pane, proxy.x, proxy.y);
-        list.AddCircleFilled(at, radius + 2.0F * state.scale, kRoundMark, 20);
-        list.AddCircleFilled(at, radius + 1.0F * state.scale, kPointerMark, 20);
-        list.AddCircleFilled(at, radius - 0.5F * state.scale, kProxyDot, 20);
+        list.AddCircleFilled(at, radius + 2.0F * state.ui.scale, kRoundMark, 20);
+        list.AddCircleFilled(at, radius + 1.0F * state.ui.scale, kPointerMark, 20);
+        list.AddCircleFilled(at, radius - 0.5F * state.ui.scale, kProxyDot, 20);
     }
     const ImVec2 pad = ImGui::GetStyle().FramePadding;
     const ImVec2 text = ImGui::CalcTextSize(name);
@@ -75,7 +75,7 @@ void draw_pane(const ViewerState& state, const PaneRect& pane, std::uintptr_t te
 }  // namespace
 
 bool shows_panes(const ViewerState& state) {
-    return state.settings.panes && !state.explained && state.media.depth_columns > 0;
+    return state.settings.panes && !state.ui.explained && state.media.depth_columns > 0;
 }
 
 float panes_height(const ViewerState& state) {
@@ -103,12 +103,12 @@ std::optional<Vec3> place_on_panes(const ViewerState& state, glm::dvec2 position
 
 void draw_panes(const ViewerState& state) {
     if (!shows_panes(state)) return;
-    const float room = state.window_width - panel_column_width(state);
+    const float room = state.ui.window_width - panel_column_width(state);
     ImGui::GetBackgroundDrawList()->AddRectFilled({0.0F, 0.0F}, {room, panes_height(state)},
                                                   ImGui::GetColorU32(ImGuiCol_WindowBg));
     const std::array<PaneRect, 2> panes = pane_rects(state);
-    draw_pane(state, panes[0], state.panes.colour, "Colour");
-    draw_pane(state, panes[1], state.panes.depth,
+    draw_pane(state, panes[0], state.ui.panes.colour, "Colour");
+    draw_pane(state, panes[1], state.ui.panes.depth,
               entry_of(kReliefPaintWords, depth_paint(state)).label);
 }
 

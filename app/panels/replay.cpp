@@ -27,8 +27,8 @@ void draw_about(const ReplayNews& replay) {
 }
 
 void draw_moment(const ViewerState& state) {
-    const ReplayNews& replay = *state.replay;
-    const Touch& touch = state.haptic.touch;
+    const ReplayNews& replay = *state.touch.replay;
+    const Touch& touch = state.touch.haptic.touch;
     fact_row("Tick", std::to_string(replay.tick_count));
     fact_row("Video", replay.tick.surface ? clock_text(replay.tick.video_s) + ", frame " +
                                                 std::to_string(replay.tick.frames.from_frame + 1)
@@ -64,7 +64,7 @@ void draw_replay_panel(ViewerState& state, SessionPlayer& replay) {
     bool open = true;  // what a replay is for
     section(state, "Replay", open);
     ImGui::PushID("replay");
-    const ReplayNews& news = *state.replay;
+    const ReplayNews& news = *state.touch.replay;
     draw_about(news);
     if (ImGui::Button("Touch this video", {half_width(), 0.0F})) state.requests.leave_replay = true;
     explain("Leaves the replay: the hand touches the video it was recorded over");

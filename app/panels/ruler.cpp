@@ -32,7 +32,7 @@ std::string depth_between(const ViewerState& state, const PixelShown& a, const P
 }  // namespace
 
 std::string ruler_text(const ViewerState& state) {
-    const std::vector<PixelShown>& ends = state.ruler->ends;
+    const std::vector<PixelShown>& ends = state.ui.ruler->ends;
     if (ends.empty()) return "Ruler   click two points (N ends it)";
     if (ends.size() == 1) return "Ruler   click the other point";
     const double apart_px = glm::distance(end_place(ends[0]), end_place(ends[1]));
@@ -43,24 +43,24 @@ std::string ruler_text(const ViewerState& state) {
 }
 
 void draw_ruler(const ViewerState& state, const glm::dmat4& clip_from_grid) {
-    if (!state.ruler || state.explained) return;
+    if (!state.ui.ruler || state.ui.explained) return;
     const ReliefScreen screen(state, clip_from_grid);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     std::vector<ImVec2> seen;
-    for (const PixelShown& end : state.ruler->ends) {
+    for (const PixelShown& end : state.ui.ruler->ends) {
         const auto at = screen.at(end_place(end));
         if (!at) return;
         seen.push_back(*at);
     }
     list.PushClipRect(screen.low(), screen.high());
-    const float thick = 1.5F * state.scale;
+    const float thick = 1.5F * state.ui.scale;
     if (seen.size() == 2) {
-        list.AddLine(seen[0], seen[1], kRulerEdge, thick + 2.0F * state.scale);
+        list.AddLine(seen[0], seen[1], kRulerEdge, thick + 2.0F * state.ui.scale);
         list.AddLine(seen[0], seen[1], kRulerLine, thick);
     }
     for (const ImVec2 at : seen) {
-        list.AddCircleFilled(at, 5.0F * state.scale, kRulerEdge, 20);
-        list.AddCircleFilled(at, 4.0F * state.scale, kRulerLine, 20);
+        list.AddCircleFilled(at, 5.0F * state.ui.scale, kRulerEdge, 20);
+        list.AddCircleFilled(at, 4.0F * state.ui.scale, kRulerLine, 20);
     }
     list.PopClipRect();
 }

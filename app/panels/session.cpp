@@ -26,7 +26,7 @@ void push_recording_colours() {
 }
 
 void draw_switch(ViewerState& state) {
-    const bool on = state.recording.has_value();
+    const bool on = state.touch.recording.has_value();
     if (on) push_recording_colours();
     if (ImGui::Button(on ? "Stop recording###record" : "Record###record", {half_width(), 0.0F})) {
         state.requests.toggle_recording = true;
@@ -47,7 +47,7 @@ void draw_progress(const RecordingNews& recording) {
     fact_row("Lost", status.dropped == 0 ? "no tick" : std::to_string(status.dropped) + " ticks");
 }
 
-void draw_about(TextFields& fields) {
+void draw_about(SessionFields& fields) {
     const char* help = "Kept with the session; may be typed before or during the recording";
     text_field("##participant", "Participant", fields.participant, help, false);
     text_field("##note", "Note", fields.note, help, false);
@@ -59,14 +59,14 @@ void draw_marks(ViewerState& state) {
     const std::string key = state.keys.name_for(Action::mark);
     const std::string or_key = key.empty() ? "" : ", or " + key + " while nothing is typed";
     const bool entered =
-        text_field("##tag", "Tag of the next mark", state.fields.tag,
+        text_field("##tag", "Tag of the next mark", state.touch.session_fields.tag,
                    ("Enter" + or_key + ", marks the moment with it").c_str(), true,
                    ImGui::GetContentRegionAvail().x - button - style.ItemSpacing.x);
     ImGui::SameLine();
     if (ImGui::Button("Mark") || entered)
         state.requests.marks.push_back(std::chrono::steady_clock::now());
     explain("Marks this moment", state.keys, Action::mark);
-    const std::vector<SessionMark>& marks = state.recording->marks;
+    const std::vector<SessionMark>& marks = state.touch.recording->marks;
     const std::size_t first = marks.size() - std::min(marks.size(), kMarksShown);
     for (std::size_t k = marks.size(); k > first; --k) {
         fact_row(clock_text(marks[k - 1].t_s).c_str(), marks[k - 1].tag);
@@ -76,9 +76,9 @@ void draw_marks(ViewerState& state) {
 }  // namespace
 
 void draw_clip_button(ViewerState& state) {
-    const bool on = state.clip && !state.clip->finishing;
+    const bool on = state.ui.clip && !state.ui.clip->finishing;
     if (on) push_recording_colours();
-    ImGui::BeginDisabled(state.clip && state.clip->finishing);
+    ImGui::BeginDisabled(state.ui.clip && state.ui.clip->finishing);
     if (ImGui::Button(on ? "End the clip###clip" : "Save a clip###clip", {-1.0F, 0.0F}))
         state.requests.toggle_clip = true;
     ImGui::EndDisabled();
@@ -95,24 +95,24 @@ void draw_clip_button(ViewerState& state) {
 }
 
 void draw_session_panel(ViewerState& state) {
-    if (!section(state, "Session", state.settings.panels.session, &state.show_session)) return;
+    if (!section(state, "Session", state.settings.panels.session, &state.ui.show_session)) return;
     ImGui::PushID("session");
     draw_switch(state);
     ImGui::SameLine();
     draw_clip_button(state);
-    if (!state.recording_trouble.empty()) trouble_text(capitalised(state.recording_trouble));
-    if (state.recording) {
-        draw_progress(*state.recording);
-    } else if (!state.recorded_file.empty()) {
-        file_row("Recorded", state.recorded_file);
+    if (!state.touch.recording_trouble.empty()) trouble_text(capitalised(state.touch.recording_trouble));
+    if (state.touch.recording) {
+        draw_progress(*state.touch.recording);
+    } else if (!state.touch.recorded_file.empty()) {
+        file_row("Recorded", state.touch.recorded_file);
         if (ImGui::Button("Replay it", {half_width(), 0.0F})) {
-            state.requests.open = OpenRequest{.colour = state.recorded_file};
+            state.requests.open = OpenRequest{.colour = state.touch.recorded_file};
         }
         ImGui::SameLine();
-        report_button(state, state.recorded_file);
+        report_button(state, state.touch.recorded_file);
     }
-    draw_about(state.fields);
-    if (state.recording) draw_marks(state);
+    draw_about(state.touch.session_fields);
+    if (state.touch.recording) draw_marks(state);
     ImGui::PopID();
 }
 

@@ -176,9 +176,9 @@ void draw_chart(const StripKind& kind, const StripHistory& strips, float scale, 
 
 /// In the upper right corner of the first chart.
 void draw_buttons(ViewerState& state, ImVec2 corner) {
-    const float gap = 2.0F * state.scale;
+    const float gap = 2.0F * state.ui.scale;
     const char* const choose = "Charts";
-    const char* const hold = state.held_strips ? "Go on" : "Pause";
+    const char* const hold = state.ui.held_strips ? "Go on" : "Pause";
     const auto width = [](const char* words) {
         return ImGui::CalcTextSize(words).x + 2.0F * ImGui::GetStyle().FramePadding.x;
     };
@@ -186,10 +186,10 @@ void draw_buttons(ViewerState& state, ImVec2 corner) {
     ImGui::SetCursorScreenPos(
         {corner.x - width(choose) - width(hold) - 2.0F * gap, corner.y + gap});
     if (ImGui::SmallButton(hold)) {
-        if (state.held_strips) {
-            state.held_strips.reset();
+        if (state.ui.held_strips) {
+            state.ui.held_strips.reset();
         } else {
-            state.held_strips = state.strips;
+            state.ui.held_strips = state.touch.strips;
         }
     }
     explain("The charts stand still; the hand touches on");
@@ -210,22 +210,22 @@ void draw_buttons(ViewerState& state, ImVec2 corner) {
 
 void draw_strip_charts(ViewerState& state) {
     ImGui::PushID("charts");
-    const StripHistory& strips = state.held_strips ? *state.held_strips : state.strips;
+    const StripHistory& strips = state.ui.held_strips ? *state.ui.held_strips : state.touch.strips;
     ChartsShown& shown = state.settings.charts;
     const auto is_shown = [&shown](const StripKind& kind) { return shown.*kind.shown; };
     if (std::none_of(kKinds.begin(), kKinds.end(), is_shown)) shown.force = true;
     const ImVec2 low = ImGui::GetCursorScreenPos();
-    const ImVec2 high{low.x + ImGui::GetContentRegionAvail().x, state.strips_end_y};
+    const ImVec2 high{low.x + ImGui::GetContentRegionAvail().x, state.ui.strips_end_y};
     std::optional<std::size_t> age;
     if (ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(low, high))
         age =
-            ChartFrame{{low.x + gutter(), low.y}, {high.x - 4.0F * state.scale, high.y}, {}}.age_at(
+            ChartFrame{{low.x + gutter(), low.y}, {high.x - 4.0F * state.ui.scale, high.y}, {}}.age_at(
                 ImGui::GetMousePos().x);
     const auto last = std::find_if(kKinds.rbegin(), kKinds.rend(), is_shown);
     for (const StripKind& kind : kKinds) {
-        if (is_shown(kind)) draw_chart(kind, strips, state.scale, &kind == &*last, age);
+        if (is_shown(kind)) draw_chart(kind, strips, state.ui.scale, &kind == &*last, age);
     }
-    state.strips_end_y = ImGui::GetCursorScreenPos().y;
+    state.ui.strips_end_y = ImGui::GetCursorScreenPos().y;
     draw_buttons(state, {high.x, low.y});
     ImGui::PopID();
 }

@@ -22,7 +22,7 @@ void draw_shape(ViewerState& state) {
     const TouchParameters& now = settings.touch;
     if (now.shape.relief_px != before.shape.relief_px) settings.fit_relief = false;
     if (now.coupling.pixel_pitch_mm != before.coupling.pixel_pitch_mm) settings.fit_pitch = false;
-    if (state.replay) return;
+    if (state.touch.replay) return;
     flag_row("Relief as fits the picture", settings.fit_relief, true,
              "From the farthest to the nearest a third of the picture's width (--relief auto)");
     flag_row("Pitch as fits the picture", settings.fit_pitch, true,
@@ -31,11 +31,11 @@ void draw_shape(ViewerState& state) {
 
 /// The pixel under the hand, in the depth's own words and as it stands.
 void draw_under_hand(const ViewerState& state) {
-    if (!state.under_hand) {
+    if (!state.ui.under_hand) {
         fact_row("Under the hand", "beside the picture");
         return;
     }
-    const PixelShown& here = *state.under_hand;
+    const PixelShown& here = *state.ui.under_hand;
     fact_row("Under the hand", formatted("pixel %d, %d", here.column, here.row));
     fact_row("Stands", elevation_text(state, here), "How high, over the farthest depth");
     if (here.unseen || state.media.meaning)
@@ -50,7 +50,7 @@ void draw_text_size(ViewerState& state) {
         if (ImGui::Button(words)) scale = wanted;
         explain(help);
     };
-    const double now = static_cast<double>(state.scale);
+    const double now = static_cast<double>(state.ui.scale);
     choose("Smaller text", std::max(now / kStep, kSmallestUi), "Of all panels; as --ui-scale");
     ImGui::SameLine();
     choose("Larger text", std::min(now * kStep, kLargestUi), "Of all panels; as --ui-scale");

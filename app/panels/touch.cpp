@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <string>
 
-#include "app/panels/device_state.hpp"
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
+#include "app/touching/force_law.hpp"
 
 namespace dibhr {
 
@@ -20,8 +20,8 @@ void draw_motion_trouble(const ViewerState& state) {
 
 /// In a replay: whose parameters these are, and the way back to those of the recording.
 void draw_origin(ViewerState& state) {
-    if (!state.replay) return;
-    if (!state.replay->computes) {
+    if (!state.touch.replay) return;
+    if (!state.touch.replay->computes) {
         quiet_text("As recorded. Change something: the forces are computed again.");
         return;
     }
@@ -32,8 +32,8 @@ void draw_origin(ViewerState& state) {
 
 /// Says so when the device cannot be as stiff, or damp as much, as it was asked for.
 void draw_held_coupling(const ViewerState& state) {
-    const Coupling held = felt_coupling(state);
-    if (!(held == asked_coupling(state))) {
+    const Coupling held = felt_coupling(state.settings, state.touch);
+    if (!(held == asked_coupling(state.settings, state.touch))) {
         quiet_text(
             formatted("Felt as %.2f N/mm and %.1f N s/m: the device can give no more at this scale "
                       "of the workspace and with this delay.",
@@ -44,8 +44,8 @@ void draw_held_coupling(const ViewerState& state) {
 /// Damping as the hand needs it, or a person's own; what is watched, and how it goes.
 void draw_stability(ViewerState& state) {
     Settings& settings = state.settings;
-    const DeviceDynamics& hand = limits_of_hand(state).dynamics;
-    if (state.replay || !hand.moves()) {  // the mouse's does not
+    const DeviceDynamics& hand = limits_of_hand(state.touch).dynamics;
+    if (state.touch.replay || !hand.moves()) {  // the mouse's does not
         draw_parameters(TouchTopic::damper, settings.touch);
         return;
     }
@@ -56,8 +56,8 @@ void draw_stability(ViewerState& state) {
         flag_row("Damping as the hand needs", settings.damping_as_needed, true,
                  "As much as the device's delay asks for at this stiffness; else your own");
     }
-    const Coupling felt = felt_coupling(state);
-    if (felt == held_coupling(settings.touch.coupling, limits_of_hand(state))) {
+    const Coupling felt = felt_coupling(state.settings, state.touch);
+    if (felt == held_coupling(settings.touch.coupling, limits_of_hand(state.touch))) {
         draw_parameters(TouchTopic::damper, settings.touch);
     } else {
         fact_row("Damping",
@@ -69,7 +69,7 @@ void draw_stability(ViewerState& state) {
     fact_row("Stability margin", formatted("%+.1f N s/m", margin),
              "By how much the hand is damped more than the spring drives it; below 0 it swings");
     if (margin < 0.0) trouble_text("A light or free grip swings: damp more, or be less stiff.");
-    const EnergyFlow& energy = state.haptic.touch.energy;
+    const EnergyFlow& energy = state.touch.haptic.touch.energy;
     fact_row("Energy",
              formatted("video %.1f, created %.1f mW", energy.from_video_mw, energy.created_mw),
              "What the moving video does to the hand, and what rendering adds by itself");
@@ -90,7 +90,7 @@ void draw_material(ViewerState& state, const std::string& name, const char* help
         ImGui::SameLine(0.0F, style.ItemInnerSpacing.x);
         if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
     }
-    const bool chosen = state.material.name == name;
+    const bool chosen = state.touch.material.name == name;
     ImGui::PushStyleColor(
         ImGuiCol_Button, ImGui::GetStyleColorVec4(chosen ? ImGuiCol_SliderGrab : ImGuiCol_FrameBg));
     if (ImGui::Button(label.c_str()))
@@ -101,44 +101,44 @@ void draw_material(ViewerState& state, const std::string& name, const char* help
 
 /// What the surface is made of, and a person's own made from it.
 void draw_materials(ViewerState& state) {
-    if (state.replay) return;
+    if (state.touch.replay) return;
     ImGui::PushID("materials");
     draw_material(state, {},
                   "Only what the depth shows: no bump map, the usual friction and spring");
-    for (const std::string& name : state.materials.shipped)
+    for (const std::string& name : state.ui.materials.shipped)
         draw_material(state, name, "Bump map, friction, stiffness and damping in one (--material)");
-    for (const std::string& name : state.materials.own)
+    for (const std::string& name : state.ui.materials.own)
         draw_material(state, name, own_materials_folder().c_str());
     const bool changed =
-        state.bump_file != state.material.map || !is_made_of(state.material, state.settings.touch);
+        state.touch.bump_file != state.touch.material.map || !is_made_of(state.touch.material, state.settings.touch);
     if (changed) {
         const bool done =
-            text_field("##keep", "Changed: keep as a material called ...", state.fields.material,
+            text_field("##keep", "Changed: keep as a material called ...", state.ui.fields.material,
                        "Enter keeps what is felt now under that name");
-        if (done && state.fields.material.front() != '\0')
-            state.requests.keep_material = state.fields.material.data();
+        if (done && state.ui.fields.material.front() != '\0')
+            state.requests.keep_material = state.ui.fields.material.data();
     }
     ImGui::PopID();
 }
 
 void draw_bump(ViewerState& state) {
-    if (state.replay) {
-        if (state.bump) fact_row("Bump map", state.bump_file.filename().string());
+    if (state.touch.replay) {
+        if (state.touch.bump) fact_row("Bump map", state.touch.bump_file.filename().string());
         return;
     }
-    if (text_field("##bump", "Bump map: a grey picture, or drop it here", state.fields.bump,
+    if (text_field("##bump", "Bump map: a grey picture, or drop it here", state.ui.fields.bump,
                    "Path of a picture laid over the surface as fine relief; Enter takes it")) {
-        state.requests.bump = typed_path(state.fields.bump.data());
+        state.requests.bump = typed_path(state.ui.fields.bump.data());
     }
-    if (!state.bump) return;
-    fact_row("Bump map", state.bump_file.filename().string());
+    if (!state.touch.bump) return;
+    fact_row("Bump map", state.touch.bump_file.filename().string());
     if (ImGui::Button("Remove the bump map")) state.requests.bump = std::filesystem::path{};
 }
 
 /// Its volume, and whether it is heard at all.
 void draw_sound(ViewerState& state) {
-    if (state.replay) return;  // it is not touched
-    if (state.sound == SoundOutput::State::no_device) {
+    if (state.touch.replay) return;  // it is not touched
+    if (state.touch.sound == SoundOutput::State::no_device) {
         fact_row("Sound", "No sound device");
         return;
     }
@@ -177,13 +177,13 @@ std::string pads_in_words(const PadNews& pads, bool coils_move) {
 }
 
 void draw_game_pad(ViewerState& state) {
-    if (state.replay) return;
+    if (state.touch.replay) return;
     Settings& settings = state.settings;
     flag_row("Game pad", settings.game_pad, Settings{}.game_pad,
              "It rumbles with what is touched, also while muted; it does not move the hand "
              "(--game-pad)");
-    if (state.pads.state != PadNews::State::off)
-        beside_flag(pads_in_words(state.pads, state.moves_coils));
+    if (state.touch.pads.state != PadNews::State::off)
+        beside_flag(pads_in_words(state.touch.pads, state.touch.moves_coils));
 }
 
 }  // namespace
@@ -201,7 +201,7 @@ void draw_touch_panel(ViewerState& state) {
     draw_motion_trouble(state);
     draw_bump(state);
     draw_parameters(TouchTopic::texture, state.settings.touch);
-    if (!state.bump && !state.replay) quiet_text("Roughness needs a bump map to be felt.");
+    if (!state.touch.bump && !state.touch.replay) quiet_text("Roughness needs a bump map to be felt.");
     draw_sound(state);
     draw_game_pad(state);
     const std::string others = "Where the proxies of the other algorithms are, for the same goal" +

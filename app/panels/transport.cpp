@@ -197,7 +197,7 @@ void draw_live(const LiveStatus& live, bool playing, float right_of_words) {
 }
 
 void draw_playback(const ViewerState& state, Player& player, float right_of_line) {
-    const PlaybackStatus& playback = state.playback;
+    const PlaybackStatus& playback = state.media.playback;
     play_button(playback.playing, player, state.keys);
     ImGui::SameLine();
     if (playback.live) return draw_live(*playback.live, playback.playing, right_of_line);
@@ -246,7 +246,7 @@ void draw_transport_bar(ViewerState& state, Player& player) {
 
 void draw_replay_bar(ViewerState& state, SessionPlayer& replay) {
     begin_bottom_bar(state, "Replay");
-    const SessionPlayback& playback = state.replay->playback;
+    const SessionPlayback& playback = state.touch.replay->playback;
     play_and_step_buttons(playback.playing, replay, state.keys, "tick", 0.0F);
     const std::string again =
         "Start again at the end" + state.keys.in_brackets(Action::toggle_loop);
@@ -254,8 +254,8 @@ void draw_replay_bar(ViewerState& state, SessionPlayer& replay) {
         replay.set_looping(!playback.looping);
     }
     ImGui::SameLine();
-    const TimeLineContents line = line_of(*state.replay);
-    const std::string video = "video " + clock_text(state.replay->tick.video_s);
+    const TimeLineContents line = line_of(*state.touch.replay);
+    const std::string video = "video " + clock_text(state.touch.replay->tick.video_s);
     const auto wanted_s =
         draw_line_and_time(line, video, ImGui::CalcTextSize(video.c_str()).x, 0.0F);
     if (wanted_s) replay.seek(playback.begin_s + *wanted_s);
@@ -290,7 +290,7 @@ void draw_force_switch_alone(ViewerState& state) {
 
 float bottom_bar_height(const ViewerState& state) {
     const ImGuiStyle& style = ImGui::GetStyle();
-    const bool has_line = !state.replay && state.media.meaning;
+    const bool has_line = !state.touch.replay && state.media.meaning;
     const float line = has_line ? ImGui::GetTextLineHeight() + style.ItemSpacing.y : 0.0F;
     return ImGui::GetFrameHeight() + line + 2.0F * style.WindowPadding.y;
 }

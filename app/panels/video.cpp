@@ -28,8 +28,8 @@ void draw_recent(ViewerState& state) {
     if (ImGui::Button(kRecent)) ImGui::OpenPopup("recent");
     explain("Files that were opened before");
     if (!ImGui::BeginPopup("recent")) return;
-    if (state.recent.empty()) quiet_text("No file was opened yet.");
-    for (const RecentFile& file : state.recent) {
+    if (state.media.recent.empty()) quiet_text("No file was opened yet.");
+    for (const RecentFile& file : state.media.recent) {
         std::error_code unknown;
         const bool there = is_live(file.colour) || std::filesystem::exists(file.colour, unknown);
         const std::string depth =
@@ -53,21 +53,21 @@ void draw_recent(ViewerState& state) {
 
 void draw_open(ViewerState& state) {
     const bool from_colour = text_field(
-        "##colour", "Colour file, or session", state.fields.colour,
+        "##colour", "Colour file, or session", state.ui.fields.colour,
         ("Path of a colour video or picture, or of a recorded session, or what is live, as "
          "v4l2:/dev/video0 or udp://...; Open without one shows what there is" +
          state.keys.in_brackets(Action::open_file))
             .c_str());
     const bool from_depth =
-        text_field("##depth", "Depth file: found beside it", state.fields.depth,
+        text_field("##depth", "Depth file: found beside it", state.ui.fields.depth,
                    "Empty: the file called like the colour file, with depth in place of color");
-    const bool named = state.fields.colour[0] != '\0';
-    const bool pressed = button_or_drop(state.opening ? "Opening" : "Open", !state.opening, "files",
+    const bool named = state.ui.fields.colour[0] != '\0';
+    const bool pressed = button_or_drop(state.media.opening ? "Opening" : "Open", !state.media.opening, "files",
                                         button_width(kRecent));
     if (pressed && !named) state.requests.action = Action::open_file;
     if ((from_colour || from_depth || pressed) && named) {
-        state.requests.open = OpenRequest{typed_path(state.fields.colour.data()),
-                                          typed_path(state.fields.depth.data())};
+        state.requests.open = OpenRequest{typed_path(state.ui.fields.colour.data()),
+                                          typed_path(state.ui.fields.depth.data())};
     }
     draw_recent(state);
 }
@@ -109,7 +109,7 @@ void draw_frame(const PlaybackStatus& playback) {
 }
 
 void draw_playback(const ViewerState& state, Player& player) {
-    const PlaybackStatus& playback = state.playback;
+    const PlaybackStatus& playback = state.media.playback;
     play_and_step_buttons(playback.playing, player, state.keys, "frame");
     bool looping = playback.looping;
     if (ImGui::Checkbox("Loop", &looping)) player.set_looping(looping);
@@ -121,7 +121,7 @@ void draw_playback(const ViewerState& state, Player& player) {
 
 /// What comes as it happens.
 void draw_live(const ViewerState& state, Player& player) {
-    const PlaybackStatus& playback = state.playback;
+    const PlaybackStatus& playback = state.media.playback;
     const LiveStatus& live = *playback.live;
     play_button(playback.playing, player, state.keys);
     ImGui::SameLine();
@@ -156,9 +156,9 @@ void draw_cleaning(ViewerState& state) {
                    .c_str(),
                CleaningPreset::automatic);
     const bool by_sidecar = cleaning_on(state.media, cleaning).preset != cleaning.preset;
-    if (!state.replay && !state.playback.cleaning.empty()) {
-        quiet_text((by_sidecar ? "By the sidecar: " + state.playback.cleaning
-                               : capitalised(state.playback.cleaning)));
+    if (!state.touch.replay && !state.media.playback.cleaning.empty()) {
+        quiet_text((by_sidecar ? "By the sidecar: " + state.media.playback.cleaning
+                               : capitalised(state.media.playback.cleaning)));
         explain("What is done, and how much the depth was found to shake, from near to far");
     }
     const double said_mm = finger_mm_on(state.media, 0.0);
@@ -170,7 +170,7 @@ void draw_cleaning(ViewerState& state) {
                state.settings.finger_mm);
     if (!part("Cleaning steps")) return;
     const bool own = cleaning.preset == CleaningPreset::own;
-    CleaningSteps steps = own ? cleaning.own : state.playback.steps;
+    CleaningSteps steps = own ? cleaning.own : state.media.playback.steps;
     const CleaningSteps standard = own ? kSensorSteps : steps;
     bool changed = false;
     const auto row = [&changed](const char* label, bool& step, bool usual, const char* help) {
@@ -205,8 +205,8 @@ void draw_video_panel(ViewerState& state, Player* player) {
     ImGui::PushID("video");
     draw_open(state);
     draw_files(state.media);
-    const bool plays = state.opening || !state.media.depth_path.empty();
-    if (player != nullptr && state.playback.live)
+    const bool plays = state.media.opening || !state.media.depth_path.empty();
+    if (player != nullptr && state.media.playback.live)
         draw_live(state, *player);
     else if (player != nullptr && plays && !state.media.still)
         draw_playback(state, *player);
@@ -214,7 +214,7 @@ void draw_video_panel(ViewerState& state, Player* player) {
     ImGui::BeginDisabled(player == nullptr);  // a replay shows what was touched
     draw_cleaning(state);
     ImGui::EndDisabled();
-    if (player != nullptr && !state.playback.failure.empty()) quiet_text(state.playback.failure);
+    if (player != nullptr && !state.media.playback.failure.empty()) quiet_text(state.media.playback.failure);
     ImGui::PopID();
 }
 

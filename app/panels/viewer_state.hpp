@@ -4,11 +4,9 @@
 
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,65 +15,16 @@
 #include "app/settings/folder.hpp"
 #include "app/settings/keys.hpp"
 #include "app/settings/material.hpp"
-#include "app/settings/recent_files.hpp"
 #include "app/settings/settings.hpp"
-#include "app/sound/pad_output.hpp"
-#include "app/sound/sound_output.hpp"
+#include "app/touching/media_state.hpp"
+#include "app/touching/touch_state.hpp"
 #include "app/window/gui.hpp"
 #include "core/estimate/estimate_watch.hpp"
 #include "core/haptics/explanation.hpp"
-#include "core/loop/device.hpp"
-#include "core/loop/haptic_tick.hpp"
-#include "core/loop/other_proxies.hpp"
-#include "core/replay/session_player.hpp"
-#include "core/session/recorder.hpp"
-#include "core/video/media.hpp"
-#include "core/video/player.hpp"
-#include "device/falcon/status.hpp"
-#include "device/hand/pose_ages.hpp"
-#include "device/inverse3/kept_settings.hpp"
-#include "device/inverse3/status.hpp"
+#include "core/haptics/words.hpp"
+#include "core/video/depth/depth_meaning.hpp"
 
 namespace dibhr {
-
-/// What the strip charts can show, and what of the last seconds they do show.
-enum class Strip { force, penetration, speed, energy, lateness };
-inline constexpr std::size_t kStrips = 5;
-
-/// The last ticks, one value of each kind a tick.
-struct StripHistory {
-    static constexpr std::size_t kTicks = 4000;
-
-    std::array<std::array<float, kTicks>, kStrips> values{};
-    std::size_t next{0};  ///< the oldest value, overwritten by the next one
-    double given_millijoule{0.0};
-
-    void add(const TickStrip& strip) {
-        if (std::isfinite(strip.given_millijoule))
-            given_millijoule += static_cast<double>(strip.given_millijoule);
-        const std::array<float, kStrips> now{
-            strip.force_newton, strip.penetration_mm, strip.speed_mm_per_s,
-            static_cast<float>(given_millijoule), strip.lateness_us};
-        for (std::size_t k = 0; k < kStrips; ++k) values[k][next] = now[k];
-        next = (next + 1) % kTicks;
-    }
-    /// `age` ticks before the last one.
-    [[nodiscard]] float before(Strip strip, std::size_t age) const {
-        return values[static_cast<std::size_t>(strip)][(next + kTicks - 1 - age) % kTicks];
-    }
-};
-
-/// Files a person wants to see; an empty depth is found beside the colour file.
-struct OpenRequest {
-    std::filesystem::path colour{};
-    std::filesystem::path depth{};
-    bool in_any_order{false};  ///< dropped together: which is which is found out
-    DepthRequest request{usual_depth_request()};
-    bool chosen{false};  ///< other words on the panel, to be kept once they have opened it
-    double at_s{0.0};    ///< where to go on [s]
-    bool paused{false};  ///< and to stand still there
-    bool again{false};   ///< what is live has changed: it is tried until it comes
-};
 
 /// A row of the Open dialog, opened: depth alone finds its colour.
 [[nodiscard]] inline OpenRequest request_for(const FolderEntry& entry) {
@@ -86,23 +35,17 @@ struct OpenRequest {
 
 /// Text fields of the panels.
 struct TextFields {
-    static constexpr std::size_t kLength = 1024;
-    using Field = std::array<char, kLength>;
-
-    Field colour{};
-    Field depth{};
-    Field bump{};
-    Field material{};  ///< the name to keep one under
-    Field firmware{};
-    Field depth_scale{};                      ///< "0.001"
-    Field depth_range{};                      ///< "480:4210"
-    Field no_data{};                          ///< "0,65535"
-    Field intrinsics{};                       ///< "525,525,319.5,239.5" or "60deg"
+    TextField colour{};
+    TextField depth{};
+    TextField bump{};
+    TextField material{};  ///< the name to keep one under
+    TextField firmware{};
+    TextField depth_scale{};                  ///< "0.001"
+    TextField depth_range{};                  ///< "480:4210"
+    TextField no_data{};                      ///< "0,65535"
+    TextField intrinsics{};                   ///< "525,525,319.5,239.5" or "60deg"
     std::array<double, 2> colour_shift_px{};  ///< right and down, in depth pixels
     std::array<double, 1> colour_size{1.0};   ///< times
-    Field participant{};                      ///< kept with a recording
-    Field note{};
-    Field tag{};  ///< of the next mark
 };
 
 /// A recording before it is opened.
@@ -143,7 +86,7 @@ struct OpenDialog {
     int reading{0};  ///< another number with every change of `folder`
     Rows rows{};
     std::filesystem::path chosen{};  ///< an entry of the folder; empty: none
-    TextFields::Field typed{};       ///< narrows the entries, or is a path
+    TextField typed{};               ///< narrows the entries, or is a path
     Completion completion{};         ///< of what is typed, when it is known
     bool all_files{false};           ///< also those that cannot be opened
     Preview preview{};
@@ -172,7 +115,7 @@ struct Requests {
     std::optional<std::string> material{};        ///< as material_called() takes it
     std::string keep_material{};  ///< what is felt, under that name; empty: not asked
     std::optional<std::filesystem::path> firmware{};
-    std::optional<bool> agreed{};      ///< a person's word on ViewerState::doubts
+    std::optional<bool> agreed{};      ///< a person's word on UiState::doubts
     std::optional<DepthWish> depth{};  ///< of a video of colour alone
     bool remove_paint{false};
     bool reset_view{false};
@@ -191,14 +134,6 @@ struct Requests {
     bool toggle_clip_of_relief{false};
     bool full_screen{false};
     bool quit{false};
-};
-
-/// What the window shows of a recording that is going on.
-struct RecordingNews {
-    RecorderStatus status{};
-    std::filesystem::path file{};
-    double time_s{0.0};                ///< since it began
-    std::vector<SessionMark> marks{};  ///< times since it began
 };
 
 /// What a picture or a clip of the window is of.
@@ -227,19 +162,6 @@ struct DepthOffer {
     std::optional<EstimateProgress> progress{};  ///< nothing: it is not being made
     bool ending{false};                          ///< it was cancelled, and is on its way
     std::filesystem::path depth{};  ///< made, while something else was opened; empty: not yet
-};
-
-/// What the window shows of a replay.
-struct ReplayNews {
-    std::filesystem::path file{};
-    std::string participant{}, note{}, started{}, device{};
-    std::vector<SessionMark> marks{};  ///< times as the ticks'
-    SessionPlayback playback{};
-    TickRecord tick{};                     ///< as recorded
-    std::int64_t tick_count{0};            ///< its number as people count: from 0
-    bool computes{false};                  ///< other parameters were chosen
-    bool computed{false};                  ///< what is shown was computed through them
-    const ContactBand* contacts{nullptr};  ///< null: not yet summed up
 };
 
 /// A pixel of the depth that is drawn, and what it holds.
@@ -296,74 +218,24 @@ struct ExplainedNews {
     bool waits{false};     ///< for the replay's next tick: nothing is known of it yet
 };
 
-/// What the window shows of the Falcon.
-struct FalconNews {
-    falcon::Status status{};
-    bool asked{false};               ///< the status is the device's answer; before, anything may be
-    bool was_ready{false};           ///< in this run: when it is not now, it was lost
-    std::string firmware{};          ///< name of what is loaded when it needs it; empty: nothing
-    std::string firmware_trouble{};  ///< why the kept firmware cannot be used
-};
-
-/// What the window shows of the Inverse3.
-struct Inverse3News {
-    inverse3::Status status{};
-    PoseAges ages{};         ///< since the start of the program
-    PoseAges recent_ages{};  ///< of about the last second
-    std::vector<inverse3::KeptSetting> kept{};
-    bool asked{false};      ///< the status is the device's answer; before, anything may be
-    bool was_ready{false};  ///< in this run: when it is not now, it was lost
-};
-
-struct ViewerState {
-    Settings settings{};  ///< live: panels write here, the next tick and picture use it
-    KeyTable keys{};      ///< with those of the settings
-    bool force_enabled{true};
-    std::uint32_t centred{0};  ///< counts the wishes to forget the clutch's shift
-    std::shared_ptr<const BumpMap> bump{};
-    std::filesystem::path bump_file{};
-    Material material{};          ///< chosen last; numbers and bump map may have been changed since
+/// The window's own.
+struct UiState {
     std::vector<Doubt> doubts{};  ///< of the settings file; a person is asked
-
-    // Shown only.
-    MaterialNames materials{};  ///< to choose from
-    std::vector<RecentFile> recent{};
-    DeviceSpecification device{};
-    MediaDescription media{};
-    OpenRequest opened{};  ///< how it was opened
-    PlaybackStatus playback{};
-    HapticState haptic{};
-    std::vector<AlgorithmProxy> others{};  ///< for the same goal; empty: not asked for, or unknown
+    MaterialNames materials{};    ///< to choose from
     std::optional<PixelShown> under_hand{};     ///< nothing: the hand is beside the picture
     std::optional<PixelShown> under_pointer{};  ///< nothing: it presses, or is beside the relief
     PanesShown panes{};
     std::optional<Ruler> ruler{};  ///< nothing: it is off
     Brush brush{};
-    bool statistics{false};   ///< are shown over the relief
-    bool catching_up{false};  ///< the proxy is, or was a moment ago: long enough to be read
-    std::optional<FalconNews> falcon{};      ///< nothing: no Falcon is looked for
-    std::optional<Inverse3News> inverse3{};  ///< nothing: no Inverse3 is looked for
-    std::optional<RealtimeGrants> grants{};
-    std::optional<RecordingNews> recording{};
-    std::string recording_trouble{};          ///< why the last recording broke off
-    std::filesystem::path recorded_file{};    ///< the last one; empty: none yet
-    std::optional<ClipNews> clip{};           ///< nothing: no clip is made
-    std::optional<ReplayNews> replay{};       ///< nothing: a hand touches
-    std::optional<DepthOffer> depth_offer{};  ///< nothing: no video lacks depth
     std::optional<ExplainedNews> explained{};
-    StripHistory strips{};
+    bool statistics{false};                     ///< are shown over the relief
+    std::optional<ClipNews> clip{};             ///< nothing: no clip is made
+    std::optional<DepthOffer> depth_offer{};    ///< nothing: no video lacks depth
     std::optional<StripHistory> held_strips{};  ///< the charts stand still
     float strips_end_y{0.0F};                   ///< where they ended in the last picture [px]
-    SoundOutput::State sound{SoundOutput::State::quiet};
-    bool moves_coils{false};  ///< of a game pad
-    PadNews pads{};
     double pictures_per_s{0.0};
-    bool in_front{true};  ///< the window; false: people work in another one
-    bool opening{false};
-    bool as_recorded{false};  ///< the depth, while its key is held
-    bool touched{false};      ///< there has been a contact: the first hint has done its work
+    bool touched{false};  ///< there has been a contact: the first hint has done its work
 
-    bool show_device{false};   ///< a device needs its person: the Device panel comes into sight
     bool show_paint{false};    ///< the brush was taken by key: the Paint panel comes into sight
     bool show_session{false};  ///< recording began by key: the Session panel comes into sight
     bool help_open{false};
@@ -373,15 +245,23 @@ struct ViewerState {
     double notice_until_s{0.0};
     OpenDialog dialog{};
     TextFields fields{};
-    Requests requests{};
     Fonts fonts{};
     float scale{1.0F};         ///< screen pixels of a layout pixel
     float window_width{1.0F};  ///< [px]
     float window_height{1.0F};
+};
 
-    /// What is seen is what is felt: a changed one is on its way.
+struct ViewerState {
+    Settings settings{};  ///< live: panels write here, the next tick and picture use it
+    KeyTable keys{};      ///< with those of the settings
+    TouchState touch{};
+    MediaState media{};
+    UiState ui{};
+    Requests requests{};
+
+    /// As TouchState::shape().
     [[nodiscard]] const SurfaceShape& shape() const noexcept {
-        return haptic.touchable ? haptic.shape : settings.touch.shape;
+        return touch.shape(settings.touch);
     }
 };
 

@@ -193,7 +193,7 @@ bool section(const ViewerState& state, const char* title, bool& open, bool* want
     open = open || asked;
     ImGui::Spacing();
     ImGui::SetNextItemOpen(open, ImGuiCond_Always);
-    ImGui::PushFont(state.fonts.heading);
+    ImGui::PushFont(state.ui.fonts.heading);
     open = ImGui::CollapsingHeader(title);
     ImGui::PopFont();
     if (asked) ImGui::SetScrollHereY(0.0F);

@@ -488,6 +488,12 @@ std::vector<Setting> list_of(Settings& s) {
     list.insert(list.end(), {{"sound", "volume", &s.sound_volume, 0.0, 1.0},
                              {"sound", "mute", &s.mute},
                              {"sound", "game-pad", &s.game_pad}});
+    // In this table since the Falcon was the only force device.
+    list.push_back(
+        {.table = "falcon",
+         .name = "force-in-front-only",
+         .value = &s.force_in_front_only,
+         .protection = Protection{Less::other, "Force only while the window is in front"}});
     const auto kinds = force_device_kinds();
     const std::vector<DeviceSettings*> devices = device_settings(s);
     for (std::size_t k = 0; k < devices.size(); ++k) {

@@ -89,6 +89,7 @@ struct Settings {
     bool fit_relief{true};  ///< to the media, whenever one is opened
     bool fit_pitch{true};
     double max_force_newton{SafetyLimits{}.max_force_newton};  ///< 0 .. 8
+    bool force_in_front_only{true};  ///< of every device: none while people work in another window
     double sound_volume{SoundChoice{}.volume};                 ///< 0 .. 1
     bool mute{false};                                          ///< no sound of touch
     bool game_pad{true};                                       ///< rumbles, when there is one

@@ -3,11 +3,11 @@
 
 #include <utility>
 
-#include "app/panels/device_state.hpp"
 #include "app/settings/assets_path.hpp"
 #include "app/settings/command_options.hpp"
 #include "app/settings/material.hpp"
 #include "app/settings/study_values.hpp"
+#include "app/touching/force_law.hpp"
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/cleaning/fingertip.hpp"
@@ -35,7 +35,9 @@ StudySurface::StudySurface(HandDevice hand, const Settings& settings, const Stud
     : ties_(ties),
       own_(settings),
       hand_(std::move(hand)),
-      state_{.settings = settings, .keys = KeyTable(settings.keys), .force_enabled = false},
+      state_{.settings = settings,
+             .keys = KeyTable(settings.keys),
+             .touch = {.force_enabled = false}},
       falcon_(hand_, state_),
       inverse3_(hand_, state_),
       strips_(std::make_unique<StripRing>()),
@@ -44,8 +46,8 @@ StudySurface::StudySurface(HandDevice hand, const Settings& settings, const Stud
     free_buttons(own_.falcon.buttons);
     free_buttons(own_.inverse3.buttons);
     state_.settings = own_;
-    state_.device = hand_.device->specification();
-    state_.haptic.hand = hand_.device->unread();
+    state_.touch.device = hand_.device->specification();
+    state_.touch.haptic.hand = hand_.device->unread();
 }
 
 void StudySurface::begin_trial(const std::filesystem::path& session) {
@@ -62,10 +64,10 @@ void StudySurface::wear(const TouchValues& values) {
     settings.finger_mm = request.finger_mm.value_or(0.0);
     settings.in_betweens = request.in_betweens.value_or(InBetweens::automatic);
     request.given.apply(settings.touch);
-    state_.material = request.given.material.value_or(Material{});
-    settings.material = state_.material.name;
-    state_.bump_file = request.given.bump_file();
-    state_.bump = request.given.read_bumps();
+    state_.touch.material = request.given.material.value_or(Material{});
+    settings.material = state_.touch.material.name;
+    state_.touch.bump_file = request.given.bump_file();
+    state_.touch.bump = request.given.read_bumps();
 }
 
 void StudySurface::open(const Protocol& protocol, const std::string& media) {
@@ -73,7 +75,7 @@ void StudySurface::open(const Protocol& protocol, const std::string& media) {
     for (const StudyMedia& one : protocol.media)
         if (one.name == media && media != kSampleMedia) files = {one.colour, one.depth};
     std::unique_ptr<Media> opened = open_media(files.colour, files.depth, usual_depth_request());
-    state_.media = opened->description();
+    state_.media.describe(opened->description());
     number_ = recording_.opened(state_.media);
     player_.play_media(std::move(opened), number_);
     media_ = media;
@@ -95,7 +97,7 @@ void StudySurface::show(const Protocol& protocol, const StudyInterval& interval)
 
 /// What a recording says of itself needs the media; and the loop must have seen the last one's end.
 void StudySurface::record_if_possible() {
-    const bool seen = !handed_.recording && state_.haptic.ticks > handed_at_ + 1;
+    const bool seen = !handed_.recording && state_.touch.haptic.ticks > handed_at_ + 1;
     if (!session_.empty() && loop_ && seen) recording_.start(std::exchange(session_, {}), state_);
 }
 
@@ -105,12 +107,12 @@ bool StudySurface::is_there() const {
 
 void StudySurface::begin_interval(int number) {
     recording_.mark("interval " + std::to_string(number));
-    state_.force_enabled = true;
+    state_.touch.force_enabled = true;
 }
 
 void StudySurface::rest() {
-    rests_ = rests_ || state_.force_enabled;
-    state_.force_enabled = false;
+    rests_ = rests_ || state_.touch.force_enabled;
+    state_.touch.force_enabled = false;
 }
 
 void StudySurface::turn(const std::string& parameter, double value) {
@@ -128,39 +130,39 @@ void StudySurface::end_trial() {
     rest();
     hand_over();  // while it is recorded
     static_cast<void>(recording_.stop(state_));
-    if (!state_.recording_trouble.empty()) throw InputError(state_.recording_trouble);
+    if (!state_.touch.recording_trouble.empty()) throw InputError(state_.touch.recording_trouble);
 }
 
 void StudySurface::take_news(bool window_in_front) {
-    state_.in_front = window_in_front;
-    state_.playback = player_.status();
-    if (loop_) state_.haptic = haptic_state_.front();
+    state_.touch.in_front = window_in_front;
+    state_.media.playback = player_.status();
+    if (loop_) state_.touch.haptic = haptic_state_.front();
     static_cast<void>(falcon_.take_news(state_));
     static_cast<void>(inverse3_.take_news(state_));
-    if (!state_.grants && loop_) state_.grants = loop_->grants();
+    if (!state_.touch.grants && loop_) state_.touch.grants = loop_->grants();
     record_if_possible();
     recording_.take_news(state_);
-    if (!state_.recording_trouble.empty()) throw InputError(state_.recording_trouble);
-    if (!state_.playback.failure.empty()) throw InputError(state_.playback.failure);
+    if (!state_.touch.recording_trouble.empty()) throw InputError(state_.touch.recording_trouble);
+    if (!state_.media.playback.failure.empty()) throw InputError(state_.media.playback.failure);
     for (TickStrip strip; strips_->pop(strip);) continue;
     const FrameWindow& frames = player_.picture().front();
     shown_ = frames.at(frames.clock.playback_s(std::chrono::steady_clock::now()));
 }
 
 void StudySurface::hand_over() {
-    sound_.choose({state_.material.sound, state_.settings.sound_volume},
+    sound_.choose({state_.touch.material.sound, state_.settings.sound_volume},
                   {.speaker = !state_.settings.mute, .coils = false});
-    stretch(state_.bump, state_.media.depth_columns, state_.media.depth_rows,
+    stretch(state_.touch.bump, state_.media.depth_columns, state_.media.depth_rows,
             state_.settings.touch.shape.bump_size_px);
-    HapticSettings asked = asked_settings(state_);
+    HapticSettings asked = asked_settings(state_.settings, state_.touch);
     const bool same = handed_.version > 0 && same_touch(handed_, asked) &&
                       !falcon_.tuning_changed(state_) && !inverse3_.tuning_changed(state_);
     asked.recording = recording_.active();
     if (!same || handed_.recording != asked.recording) {
         asked.version = handed_.version + (same ? 0 : 1);
         handed_ = asked;
-        handed_at_ = state_.haptic.ticks;
-        recording_.hand_over(handed_, state_.bump_file);
+        handed_at_ = state_.touch.haptic.ticks;
+        recording_.hand_over(handed_, state_.touch.bump_file);
         haptic_settings_.publish(handed_);
     }
     // The next tick has no force.
@@ -188,19 +190,19 @@ std::vector<StudySurface::ButtonPress> StudySurface::take_presses() {
         }
         taken = now;
     };
-    if (state_.falcon) take(state_.falcon->status, own_.falcon.buttons, Grip::falcon);
-    if (state_.inverse3) take(state_.inverse3->status, own_.inverse3.buttons, Grip::inverse3);
+    if (state_.touch.falcon) take(state_.touch.falcon->status, own_.falcon.buttons, Grip::falcon);
+    if (state_.touch.inverse3) take(state_.touch.inverse3->status, own_.inverse3.buttons, Grip::inverse3);
     return pressed;
 }
 
 void StudySurface::point(const Camera::Ray& ray, const PointerUse& use) {
     if (hand_.mouse == nullptr || !shown_.makes_surface()) return;
-    const DepthSurface surface = shown_.surface(state_.shape(), state_.bump.get());
+    const DepthSurface surface = shown_.surface(state_.shape(), state_.touch.bump.get());
     hand_.mouse->target().publish(pointer_.target(ray, surface, use));
 }
 
 bool StudySurface::by_mouse() const noexcept {
-    return hand_.mouse != nullptr && (!hand_.looks_for_device() || state_.haptic.hand.stand_in);
+    return hand_.mouse != nullptr && (!hand_.looks_for_device() || state_.touch.haptic.hand.stand_in);
 }
 
 void StudySurface::stop() noexcept {

@@ -66,7 +66,7 @@ class StudySurface {
     /// Those since the last call.
     [[nodiscard]] std::vector<ButtonPress> take_presses();
     [[nodiscard]] bool is_down(int button) const noexcept {
-        return (state_.haptic.hand.buttons >> button & 1) != 0;
+        return (state_.touch.haptic.hand.buttons >> button & 1) != 0;
     }
     /// Where the mouse points, for the virtual hand; does nothing where there is none.
     void point(const Camera::Ray& ray, const PointerUse& use);

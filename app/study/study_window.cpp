@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/panels/device_state.hpp"
+#include "app/touching/force_law.hpp"
 #include "app/viewer/picture_time.hpp"
 #include "app/viewer/scene.hpp"
 #include "app/window/x_server.hpp"
@@ -448,7 +448,7 @@ void StudyWindow::draw(const WindowInput& input) {
     if (felt() && !view_.waits) point(camera_.ray_under(pointer.position_px, size), use);
     draw_relief();
     beat();
-    view_.device_words = device_banner(surface_.state());
+    view_.device_words = device_banner(surface_.state().settings, surface_.state().touch);
     view_.by_mouse = surface_.by_mouse();
     gui_.begin(input.keys);
     const auto press = draw_study(run_, view_);

@@ -20,7 +20,7 @@ constexpr int kMostPreview_px = 640;
 
 /// The file that is shown: of a pair the one that was named.
 fs::path shown_file(const ViewerState& state) {
-    if (state.replay) return state.replay->file;
+    if (state.touch.replay) return state.touch.replay->file;
     return state.media.colour_path.empty() ? state.media.depth_path : state.media.colour_path;
 }
 
@@ -41,12 +41,12 @@ Browsing::Browsing(Errands& errands)
       neighbours_(errands) {}
 
 void Browsing::toggle(ViewerState& state) {
-    if (state.dialog.shown) {
-        state.dialog.shown = false;
+    if (state.ui.dialog.shown) {
+        state.ui.dialog.shown = false;
         return;
     }
     show(first_folder(state), state);
-    state.dialog.chosen = whole_path(shown_file(state));
+    state.ui.dialog.chosen = whole_path(shown_file(state));
 }
 
 fs::path Browsing::first_folder(const ViewerState& state) const {
@@ -57,7 +57,7 @@ fs::path Browsing::first_folder(const ViewerState& state) const {
 }
 
 void Browsing::show(const fs::path& folder, ViewerState& state) {
-    OpenDialog& dialog = state.dialog;
+    OpenDialog& dialog = state.ui.dialog;
     dialog.shown = true;
     dialog.sample_folder = sample_folder_;
     dialog.move = 0;
@@ -86,13 +86,13 @@ bool Browsing::go_by(int entries, const ViewerState& state) {
 std::optional<std::string> Browsing::advance(ViewerState& state) {
     advance_folder(state);
     advance_typed(state);
-    advance_preview(state.dialog);
+    advance_preview(state.ui.dialog);
     if (const auto folder = neighbours_.take()) return step(*folder, state);
     return std::nullopt;
 }
 
 void Browsing::advance_folder(ViewerState& state) {
-    OpenDialog& dialog = state.dialog;
+    OpenDialog& dialog = state.ui.dialog;
     if (state.requests.folder) go_to(*std::exchange(state.requests.folder, {}), dialog);
     if (auto folder = folder_.take(); folder && !next_folder_) {
         dialog.folder = std::move(*folder);
@@ -107,7 +107,7 @@ void Browsing::advance_folder(ViewerState& state) {
 }
 
 void Browsing::advance_typed(ViewerState& state) {
-    OpenDialog& dialog = state.dialog;
+    OpenDialog& dialog = state.ui.dialog;
     const fs::path folder = dialog.folder.path;
     if (const auto typed = std::exchange(state.requests.completion, {})) {
         completion_.start_anew([typed = *typed, folder] {

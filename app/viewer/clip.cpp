@@ -60,12 +60,12 @@ void ViewerClip::add(ColourImage picture, Clock::time_point now) {
 }
 
 std::optional<std::string> ViewerClip::take_news(ViewerState& state) {
-    state.clip.reset();
+    state.ui.clip.reset();
     if (!recorder_) return {};
     const Clock::time_point now = end_.value_or(Clock::now());
     const double length_s = begin_ ? seconds_between(*begin_, now) : 0.0;
     if (!recorder_->done()) {
-        state.clip = ClipNews{file_, length_s, end_.has_value()};
+        state.ui.clip = ClipNews{file_, length_s, end_.has_value()};
         tell_words();
         return {};
     }

@@ -58,7 +58,7 @@ std::optional<PixelShown> pixel_at(Vec3 place, const ViewerState& state, const D
     const int i = static_cast<int>(std::lround(place.x));
     const int j = static_cast<int>(std::lround(place.y));
     if (i < 0 || j < 0 || i >= depth.columns || j >= depth.rows) return {};
-    const DepthSurface surface = shown.drawn_surface(state.shape(), state.bump.get());
+    const DepthSurface surface = shown.drawn_surface(state.shape(), state.touch.bump.get());
     const auto& unseen = shown.shown().nearest().unseen;
     return PixelShown{i, j, depth.at(i, j) / depth.highest_level, surface.elevation_at(i, j),
                       unseen && (*unseen)[depth.index(i, j)] != 0};
@@ -78,11 +78,11 @@ void Viewer::take_opened() {
         } else if (opened->lacks_depth && estimating_.offer(opened->request.colour, state_)) {
             show_depth_words(state_);
         } else if (!opened->failure.empty() && !opened->request.again) {
-            state_.message = opened->failure;
+            state_.ui.message = opened->failure;
             show_depth_words(state_);  // those that are in force
         }
     }
-    state_.opening = opening_.under_way();
+    state_.media.opening = opening_.under_way();
 }
 
 void Viewer::take_dropped(const std::vector<std::filesystem::path>& files) {
@@ -92,7 +92,7 @@ void Viewer::take_dropped(const std::vector<std::filesystem::path>& files) {
     if (over_panels && files.size() == 1 && named_picture(files.front())) {
         state_.requests.bump = files.front();
     } else if (!take_files(files, state_)) {
-        state_.message =
+        state_.ui.message =
             "Drop one colour file, a colour and a depth file together, a folder, a session, a "
             "material, or onto the panels a picture as bump map.";
     }
@@ -102,7 +102,7 @@ Answer Viewer::open_by_dialog() {
     const OpenWith with = state_.settings.open_with;
     const bool of_desktop =
         with == OpenWith::desktop || (with == OpenWith::automatic && has_desktop());
-    if (!desktop_.open() && (!of_desktop || state_.dialog.shown)) {
+    if (!desktop_.open() && (!of_desktop || state_.ui.dialog.shown)) {
         browsing_.toggle(state_);
         return {};
     }
@@ -113,16 +113,16 @@ Answer Viewer::open_by_dialog() {
 /// Says for as long as it is open why nothing happens here.
 void Viewer::take_desktop_answer() {
     const auto answer = desktop_.take();
-    const bool told = state_.notice.starts_with(kDesktopAsks) && now_s() < state_.notice_until_s;
-    if (desktop_.open() && (told || now_s() >= state_.notice_until_s)) tell(desktop_words(state_));
-    if (!desktop_.open() && told) state_.notice_until_s = now_s();
+    const bool told = state_.ui.notice.starts_with(kDesktopAsks) && now_s() < state_.ui.notice_until_s;
+    if (desktop_.open() && (told || now_s() >= state_.ui.notice_until_s)) tell(desktop_words(state_));
+    if (!desktop_.open() && told) state_.ui.notice_until_s = now_s();
     if (!answer) return;
     if (answer->of == FileAnswer::Of::nobody) {
         if (state_.settings.open_with == OpenWith::desktop)
             tell("The desktop shows no dialog: this is the window's own");
-        if (!state_.dialog.shown) browsing_.toggle(state_);
+        if (!state_.ui.dialog.shown) browsing_.toggle(state_);
     } else if (answer->of == FileAnswer::Of::chosen && !take_files(answer->files, state_)) {
-        state_.message = "Choose one file, or a colour and a depth file together.";
+        state_.ui.message = "Choose one file, or a colour and a depth file together.";
     }
 }
 
@@ -142,11 +142,11 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
     replay_.end(state_);
     if (!request.chosen) forget_relief();
     const MediaDescription before = state_.media;
-    state_.media = media->description();
-    state_.opened = request;
-    state_.opened.request.panel = state_.media.panel;
-    state_.opened.request.live = media->live();
-    state_.opened.again = false;
+    state_.media.describe(media->description());
+    state_.media.opened = request;
+    state_.media.opened.request.panel = state_.media.panel;
+    state_.media.opened.request.live = media->live();
+    state_.media.opened.again = false;
     show_depth_words(state_);
     trace_.clear();
     if (request.chosen) keep_panel(depth_file(before));
@@ -164,7 +164,7 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
     if (!options_.touch.feels_maps())
         maps = {nullptr, "Nothing is painted with --maps off: start dibhr without it"};
     if (options_.touch.feels_maps() && !maps.refusal.empty())
-        state_.message = maps.refusal + "\n\nIt is touched without touch maps.";
+        state_.ui.message = maps.refusal + "\n\nIt is touched without touch maps.";
     if (state_.media.live)
         maps = {nullptr, "Nothing is painted on what is live: it has no place for it"};
     media_number_ = recording_.opened(state_.media);
@@ -253,9 +253,9 @@ void Viewer::replay_session(std::unique_ptr<OpenedSession> session) {
 void Viewer::keep_recent(const RecentFile& opened) {
     const SampleFiles sample = sample_files();
     const std::filesystem::path history = recent_files_path();
-    state_.recent = read_recent_files(history);
+    state_.media.recent = read_recent_files(history);
     if (opened == RecentFile{sample.colour, sample.depth}) return;
-    state_.recent = with_first(opened, state_.recent);
+    state_.media.recent = with_first(opened, state_.media.recent);
     lasting_.add([opened, history] {
         try {
             remember(opened, history);
@@ -272,7 +272,7 @@ void Viewer::show_title(const std::filesystem::path& file) {
 /// What the panel says stays with the file that it made the depth.
 void Viewer::keep_panel(const std::filesystem::path& depth_before) {
     lasting_.add([folder = depth_choices_path(), depth_before, depth = depth_file(state_.media),
-                  panel = state_.opened.request.panel] {
+                  panel = state_.media.opened.request.panel] {
         if (depth != depth_before) keep_choice(folder, depth_before, {});
         keep_choice(folder, depth, panel);
     });
@@ -281,24 +281,24 @@ void Viewer::keep_panel(const std::filesystem::path& depth_before) {
 /// The same files, with what the panel says of the depth and nothing that it said before, at the
 /// same moment.
 void Viewer::open_again(const DepthStatement& panel) {
-    OpenRequest request = state_.opened;
+    OpenRequest request = state_.media.opened;
     request.request.find_out = true;
     request.request.panel = panel;
     request.request.kept_in.clear();
     request.chosen = true;
-    request.at_s = state_.playback.media_s;
-    request.paused = !state_.playback.playing;
+    request.at_s = state_.media.playback.media_s;
+    request.paused = !state_.media.playback.playing;
     open(request);
 }
 
 /// What sends now sends another form: all that was known of it is found out anew.
 void Viewer::follow_live() {
-    const auto& live = state_.playback.live;
-    if (live && !state_.replay) log_.keep_change("live", signal_in_words(*live));
-    if (state_.replay || !live || !live->other_form || live->opened != media_number_ ||
+    const auto& live = state_.media.playback.live;
+    if (live && !state_.touch.replay) log_.keep_change("live", signal_in_words(*live));
+    if (state_.touch.replay || !live || !live->other_form || live->opened != media_number_ ||
         opening_.under_way())
         return;
-    OpenRequest request = state_.opened;
+    OpenRequest request = state_.media.opened;
     request.request.live = nullptr;
     request.again = true;
     open(request);
@@ -323,7 +323,7 @@ std::string Viewer::save_sidecar() {
     if (cleaning.preset != CleaningPreset::automatic)
         all.cleaning = CleaningChoice{cleaning.preset, cleaning.own};
     all.finger_mm = finger_mm_on(state_.media, state_.settings.finger_mm);
-    DepthRequest& request = state_.opened.request;
+    DepthRequest& request = state_.media.opened.request;
     write_sidecar(file, all);
     request.panel = {};  // the sidecar says it now
     hear({{Origin::command_line, request.command_line}, {Origin::sidecar, all}},
@@ -341,7 +341,7 @@ Settings Viewer::lasting_settings() const {
         settings.touch.shape.relief_px = relief_before_->relief_px;
     }
     if (settings.fit_relief) settings.touch.shape.relief_px = before.shape.relief_px;
-    const Material& material = state_.material;
+    const Material& material = state_.touch.material;
     if (material.bumps && has_texture(material, settings.touch)) {  // as its file has it
         settings.touch.shape.roughness_px = before.shape.roughness_px;
         settings.touch.shape.bump_size_px = before.shape.bump_size_px;
@@ -352,11 +352,11 @@ Settings Viewer::lasting_settings() const {
 
 void Viewer::fit_to_media() {
     Settings& settings = state_.settings;
-    const bool keeps_texture = has_texture(state_.material, settings.touch);
+    const bool keeps_texture = has_texture(state_.touch.material, settings.touch);
     const Fit fit = fit_of(state_.media);
     if (settings.fit_relief) settings.touch.shape.relief_px = fit.relief_px;
     if (settings.fit_pitch) settings.touch.coupling.pixel_pitch_mm = fit.pixel_pitch_mm;
-    if (keeps_texture) lay_texture(state_.material, settings.touch);  // a pixel is of another size
+    if (keeps_texture) lay_texture(state_.touch.material, settings.touch);  // a pixel is of another size
     keep_in_range(settings.touch);
 }
 
@@ -368,36 +368,36 @@ void Viewer::frame_relief() {
 
 void Viewer::load_bump(const std::filesystem::path& file) {
     attempt([&] {
-        state_.bump = file.empty() ? nullptr : std::make_shared<const BumpMap>(read_bump_map(file));
-        state_.bump_file = file;
-        if (state_.bump) make_felt(state_.settings.touch);
+        state_.touch.bump = file.empty() ? nullptr : std::make_shared<const BumpMap>(read_bump_map(file));
+        state_.touch.bump_file = file;
+        if (state_.touch.bump) make_felt(state_.settings.touch);
     });
 }
 
 void Viewer::take_material(const std::string& name) {
-    if (state_.replay) {
+    if (state_.touch.replay) {
         tell("A replay is felt as it was recorded: touch its video to choose a material");
         return;
     }
     attempt([&] {
         Material material = material_called(name);
         lay(material, state_.settings.touch);
-        state_.bump = material.bumps;
-        state_.bump_file = material.map;
+        state_.touch.bump = material.bumps;
+        state_.touch.bump_file = material.map;
         state_.settings.material = material.name.empty() ? std::string{} : name;
-        state_.material = std::move(material);
+        state_.touch.material = std::move(material);
     });
 }
 
 void Viewer::keep_material(const std::string& name) {
     attempt([&] {
-        Material material = material_of(state_.settings.touch, state_.bump_file, state_.bump,
+        Material material = material_of(state_.settings.touch, state_.touch.bump_file, state_.touch.bump,
                                         state_.media.depth_columns);
         material.name = name;
-        material.sound = state_.material.sound;
+        material.sound = state_.touch.material.sound;
         tell("Kept as " + save_material(material).string());
-        state_.materials = material_names();
-        state_.fields.material = {};
+        state_.ui.materials = material_names();
+        state_.ui.fields.material = {};
         take_material(name);
     });
 }
@@ -426,18 +426,18 @@ void Viewer::start_loop() {
 void Viewer::draw_scene(glm::ivec2 viewport) {
     camera_.set_projection(state_.settings.straight_view ? Camera::Projection::straight
                                                          : Camera::Projection::perspective);
-    state_.under_hand = pixel_at(state_.haptic.touch.goal, state_, shown_);
-    state_.under_pointer.reset();
-    if (pointed_at_) state_.under_pointer = pixel_at(*pointed_at_, state_, shown_);
-    if (state_.ruler) {
-        state_.ruler->ends.clear();
-        for (const Vec3& place : state_.ruler->places)
+    state_.ui.under_hand = pixel_at(state_.touch.haptic.touch.goal, state_, shown_);
+    state_.ui.under_pointer.reset();
+    if (pointed_at_) state_.ui.under_pointer = pixel_at(*pointed_at_, state_, shown_);
+    if (state_.ui.ruler) {
+        state_.ui.ruler->ends.clear();
+        for (const Vec3& place : state_.ui.ruler->places)
             if (const auto end = pixel_at(place, state_, shown_))
-                state_.ruler->ends.push_back(*end);
+                state_.ui.ruler->ends.push_back(*end);
     }
     SceneContent content = scene_content(state_, shown_);
-    if (!state_.replay) content.maps = painting_.drawn();
-    if (state_.brush.on) {
+    if (!state_.touch.replay) content.maps = painting_.drawn();
+    if (state_.ui.brush.on) {
         content.look.paint = ReliefPaint::video;
         content.colour = painting_.tinted(content.colour, state_);
         content.markers.visible = false;  // the hand does not touch, it paints
@@ -449,7 +449,7 @@ void Viewer::draw_scene(glm::ivec2 viewport) {
 void Viewer::leave_trace(TouchMarkers& markers) {
     if (!state_.settings.look.trace || !shown_.makes_surface()) return;
     if (markers.visible && markers.contact) trace_.add(markers.proxy, now_s());
-    const DepthSurface surface = shown_.drawn_surface(state_.shape(), state_.bump.get());
+    const DepthSurface surface = shown_.drawn_surface(state_.shape(), state_.touch.bump.get());
     markers.trace = trace_.points(surface, now_s());
 }
 

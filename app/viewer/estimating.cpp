@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 const fs::path& file_shown(const ViewerState& state) {
-    return state.replay ? state.replay->file : state.media.colour_path;
+    return state.touch.replay ? state.touch.replay->file : state.media.colour_path;
 }
 
 EstimateMade make(const EstimateRequest& request, EstimateWatch& watch) {
@@ -35,17 +35,17 @@ bool ViewerEstimating::offer(const fs::path& colour, ViewerState& state) {
                          "There is no depth in it or beside it. Open it together with its "
                          "depth file, or let an estimator make it."};
     for (const Estimator& one : state.settings.estimators) offer.estimators.push_back(one.name);
-    state.depth_offer = std::move(offer);
+    state.ui.depth_offer = std::move(offer);
     return true;
 }
 
 void ViewerEstimating::something_opened(ViewerState& state) const {
-    if (!making_.under_way() && state.depth_offer && state.depth_offer->depth.empty())
-        state.depth_offer.reset();
+    if (!making_.under_way() && state.ui.depth_offer && state.ui.depth_offer->depth.empty())
+        state.ui.depth_offer.reset();
 }
 
 void ViewerEstimating::start(const Estimator& estimator, ViewerState& state) {
-    DepthOffer& offer = *state.depth_offer;
+    DepthOffer& offer = *state.ui.depth_offer;
     const EstimateRequest request{.colour = offer.colour,
                                   .command = estimator.command,
                                   .meaning = estimator.meaning,
@@ -61,8 +61,8 @@ void ViewerEstimating::start(const Estimator& estimator, ViewerState& state) {
 }
 
 std::optional<OpenRequest> ViewerEstimating::perform(DepthWish wish, ViewerState& state) {
-    if (!state.depth_offer) return {};
-    const auto chosen = static_cast<std::size_t>(state.depth_offer->chosen);
+    if (!state.ui.depth_offer) return {};
+    const auto chosen = static_cast<std::size_t>(state.ui.depth_offer->chosen);
     const auto& estimators = state.settings.estimators;
     const bool runs = wish == DepthWish::make || wish == DepthWish::agree;
     if (runs && chosen >= estimators.size()) return {};
@@ -71,7 +71,7 @@ std::optional<OpenRequest> ViewerEstimating::perform(DepthWish wish, ViewerState
             if (Consent().knows(estimators[chosen].command))
                 start(estimators[chosen], state);
             else
-                state.depth_offer->asks = escaped_text(estimators[chosen].command);
+                state.ui.depth_offer->asks = escaped_text(estimators[chosen].command);
             return {};
         case DepthWish::agree:
             start(estimators[chosen], state);
@@ -79,26 +79,26 @@ std::optional<OpenRequest> ViewerEstimating::perform(DepthWish wish, ViewerState
             return {};
         case DepthWish::cancel:
             if (watch_) watch_->stop();
-            state.depth_offer->ending = true;
+            state.ui.depth_offer->ending = true;
             return {};
         case DepthWish::open:
             return opened(state);
         case DepthWish::close:
-            state.depth_offer.reset();
+            state.ui.depth_offer.reset();
             return {};
     }
     return {};
 }
 
 std::optional<OpenRequest> ViewerEstimating::opened(ViewerState& state) {
-    OpenRequest request{state.depth_offer->colour, state.depth_offer->depth};
-    state.depth_offer.reset();
+    OpenRequest request{state.ui.depth_offer->colour, state.ui.depth_offer->depth};
+    state.ui.depth_offer.reset();
     return request;
 }
 
 std::optional<OpenRequest> ViewerEstimating::take_news(ViewerState& state) {
-    if (!state.depth_offer || !watch_) return {};
-    DepthOffer& offer = *state.depth_offer;
+    if (!state.ui.depth_offer || !watch_) return {};
+    DepthOffer& offer = *state.ui.depth_offer;
     if (making_.under_way()) offer.progress = watch_->progress();
     const auto made = making_.take();
     if (!made) return {};

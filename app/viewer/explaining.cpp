@@ -25,16 +25,16 @@ bool is_at_its_end(const SessionPlayer& replay) {
 std::optional<Answer> ViewerExplaining::perform(Action action, ViewerState& state, Player& player,
                                                 SessionPlayer* replay) {
     if (action == Action::explain) {
-        if (std::exchange(state.explained, {})) return Answer{"Explained"};
-        if (!state.haptic.touchable) return Answer{"No surface to explain an update on"};
+        if (std::exchange(state.ui.explained, {})) return Answer{"Explained"};
+        if (!state.touch.haptic.touchable) return Answer{"No surface to explain an update on"};
         if (replay != nullptr && is_at_its_end(*replay))
             return Answer{"No update comes after this"};
         begin(state, player);
         if (replay != nullptr) take_next_tick(state, *replay);
         return Answer{};
     }
-    if (!state.explained) return std::nullopt;
-    ExplainedNews& news = *state.explained;
+    if (!state.ui.explained) return std::nullopt;
+    ExplainedNews& news = *state.ui.explained;
     switch (action) {
         case Action::step_forward:
             news.runs = false;
@@ -52,9 +52,9 @@ std::optional<Answer> ViewerExplaining::perform(Action action, ViewerState& stat
             if (news.taken >= news.update.steps.size()) news.taken = 0;
             return Answer{};
         case Action::close_topmost:
-            if (!state.message.empty() || state.help_open || state.dialog.shown)
+            if (!state.ui.message.empty() || state.ui.help_open || state.ui.dialog.shown)
                 return std::nullopt;
-            state.explained.reset();
+            state.ui.explained.reset();
             return Answer{};
         default:
             return std::nullopt;
@@ -63,9 +63,9 @@ std::optional<Answer> ViewerExplaining::perform(Action action, ViewerState& stat
 
 void ViewerExplaining::begin(ViewerState& state, Player& player) {
     player.pause();
-    state.explained = ExplainedNews{};
-    proxy_ = state.haptic.touch.proxy;
-    goal_ = state.haptic.touch.goal;
+    state.ui.explained = ExplainedNews{};
+    proxy_ = state.touch.haptic.touch.proxy;
+    goal_ = state.touch.haptic.touch.goal;
     pressed_ = false;
     columns_ = state.media.depth_columns;
     rows_ = state.media.depth_rows;
@@ -76,10 +76,10 @@ void ViewerExplaining::begin(ViewerState& state, Player& player) {
 
 /// The tick shown has been: the update is that of the one after it.
 void ViewerExplaining::take_next_tick(ViewerState& state, SessionPlayer& replay) {
-    proxy_ = state.haptic.touch.proxy;
-    left_tick_ = state.replay->tick.tick;
+    proxy_ = state.touch.haptic.touch.proxy;
+    left_tick_ = state.touch.replay->tick.tick;
     tick_ = -1;
-    *state.explained = ExplainedNews{.held = true};
+    *state.ui.explained = ExplainedNews{.held = true};
     replay.step(1);
 }
 
@@ -95,7 +95,7 @@ Answer ViewerExplaining::step_on(ExplainedNews& news, SessionPlayer* replay, Vie
 }
 
 void ViewerExplaining::follow_hand(const ViewerState& state) {
-    const Touch& touch = state.haptic.touch;
+    const Touch& touch = state.touch.haptic.touch;
     if (pressed_ && !touch.proxy.contact) return;  // lifted: it stays where it was pressed
     pressed_ = touch.proxy.contact;
     goal_ = touch.goal;
@@ -111,7 +111,7 @@ void ViewerExplaining::run(ExplainedNews& news, double now_s) {
 }
 
 void ViewerExplaining::end(ViewerState& state, Camera& camera) {
-    state.explained.reset();
+    state.ui.explained.reset();
     if (before_) camera = *std::exchange(before_, {});
 }
 
@@ -120,20 +120,20 @@ bool ViewerExplaining::has_gone(const DepthBlend& shown, const ViewerState& stat
     if (!shown.makes_surface() || shown.from->depth->columns != columns_ ||
         shown.from->depth->rows != rows_)
         return true;
-    if (!state.replay) return false;
-    const std::int64_t tick = state.replay->tick.tick;
+    if (!state.touch.replay) return false;
+    const std::int64_t tick = state.touch.replay->tick.tick;
     if (tick_ < 0) return tick != left_tick_;
-    return state.replay->playback.playing || tick != tick_;
+    return state.touch.replay->playback.playing || tick != tick_;
 }
 
 /// Only when it depends on something that changed: a long walk costs its square.
 void ViewerExplaining::explain_anew(const DepthBlend& shown, ViewerState& state) {
     const DepthBlend pair = shown.shown();
     Asked asked{pair.from->depth, pair.to->depth, pair.blend, state.shape(),
-                state.bump,       proxy_,         goal_,      state.settings.touch.friction};
+                state.touch.bump,       proxy_,         goal_,      state.settings.touch.friction};
     if (asked_ == asked) return;
     const DepthSurface surface = shown.surface(asked.shape, asked.bump.get());
-    ExplainedNews& news = *state.explained;
+    ExplainedNews& news = *state.ui.explained;
     news.update = explain(surface, proxy_, goal_, asked.friction);
     news.taken = std::min(news.taken, news.update.steps.size());
     asked_ = std::move(asked);
@@ -141,15 +141,15 @@ void ViewerExplaining::explain_anew(const DepthBlend& shown, ViewerState& state)
 
 void ViewerExplaining::advance(const DepthBlend& shown, ViewerState& state, Camera& camera,
                                double now_s) {
-    if (!state.explained) return end(state, camera);
-    const bool reads = state.replay && tick_ < 0;
-    if (reads && state.replay->tick.tick > left_tick_) tick_ = state.replay->tick.tick;
+    if (!state.ui.explained) return end(state, camera);
+    const bool reads = state.touch.replay && tick_ < 0;
+    if (reads && state.touch.replay->tick.tick > left_tick_) tick_ = state.touch.replay->tick.tick;
     if (has_gone(shown, state)) return end(state, camera);
-    ExplainedNews& news = *state.explained;
-    news.waits = state.replay && tick_ < 0;
+    ExplainedNews& news = *state.ui.explained;
+    news.waits = state.touch.replay && tick_ < 0;
     if (news.waits) return;
-    if (state.replay) {
-        goal_ = state.haptic.touch.goal;
+    if (state.touch.replay) {
+        goal_ = state.touch.haptic.touch.goal;
     } else if (!news.held) {
         follow_hand(state);
     }

@@ -62,12 +62,12 @@ std::string new_file_name(const char* ending) {
 std::string picture_name(const ViewerState& state) {
     const fs::path& video =
         state.media.colour_path.empty() ? state.media.depth_path : state.media.colour_path;
-    NameFacts facts{.file = (state.replay ? state.replay->file : video).stem().string(),
-                    .media_s = state.playback.media_s,
-                    .frame = state.playback.frame + 1};
-    if (state.replay) {
-        facts.media_s = state.replay->tick.video_s;
-        facts.frame = static_cast<std::int64_t>(state.replay->tick.frames.from_frame) + 1;
+    NameFacts facts{.file = (state.touch.replay ? state.touch.replay->file : video).stem().string(),
+                    .media_s = state.media.playback.media_s,
+                    .frame = state.media.playback.frame + 1};
+    if (state.touch.replay) {
+        facts.media_s = state.touch.replay->tick.video_s;
+        facts.frame = static_cast<std::int64_t>(state.touch.replay->tick.frames.from_frame) + 1;
     }
     if (facts.file.empty()) facts.file = "dibhr";  // of a folder with a slash
     const std::time_t now = std::time(nullptr);

@@ -44,16 +44,16 @@ constexpr std::pair<Action, bool Requests::*> kRequests[] = {
     {Action::quit, &Requests::quit}};
 
 void close_topmost(ViewerState& state) {
-    if (!state.message.empty()) {
-        state.message.clear();
-    } else if (state.dialog.shown) {
-        state.dialog.shown = false;
-    } else if (!state.doubts.empty() && !state.replay) {
-        state.doubts.clear();  // asked again by the next window
-    } else if (state.depth_offer && !state.depth_offer->progress) {
+    if (!state.ui.message.empty()) {
+        state.ui.message.clear();
+    } else if (state.ui.dialog.shown) {
+        state.ui.dialog.shown = false;
+    } else if (!state.ui.doubts.empty() && !state.touch.replay) {
+        state.ui.doubts.clear();  // asked again by the next window
+    } else if (state.ui.depth_offer && !state.ui.depth_offer->progress) {
         state.requests.depth = DepthWish::close;
     } else {
-        state.help_open = false;
+        state.ui.help_open = false;
     }
 }
 
@@ -209,7 +209,7 @@ std::optional<Answer> move_live(Action action, bool playing, Player& player) {
 }  // namespace
 
 Answer perform(Action action, ViewerState& state, Player& player) {
-    const PlaybackStatus& now = state.playback;
+    const PlaybackStatus& now = state.media.playback;
     if (now.live) {
         if (const auto moved = move_live(action, now.playing, player)) return *moved;
     }
@@ -225,13 +225,13 @@ Answer perform(Action action, ViewerState& state, Player& player) {
     Settings& settings = state.settings;
     switch (action) {
         case Action::toggle_force:
-            state.force_enabled = !state.force_enabled;
-            return {state.force_enabled ? "Force on" : "Force off"};
+            state.touch.force_enabled = !state.touch.force_enabled;
+            return {state.touch.force_enabled ? "Force on" : "Force off"};
         case Action::force_off:
-            state.force_enabled = false;
+            state.touch.force_enabled = false;
             return {"Force off"};
         case Action::centre_workspace:
-            ++state.centred;
+            ++state.touch.centred;
             return {"Hand centred"};
         case Action::mark:
             state.requests.marks.push_back(std::chrono::steady_clock::now());
@@ -263,13 +263,13 @@ Answer perform(Action action, ViewerState& state, Player& player) {
             settings.panes = !settings.panes;
             return {settings.panes ? "Colour and depth above" : "The relief alone"};
         case Action::toggle_ruler:
-            state.ruler ? state.ruler.reset() : static_cast<void>(state.ruler.emplace());
-            return {state.ruler ? "Ruler" : "Ruler off"};
+            state.ui.ruler ? state.ui.ruler.reset() : static_cast<void>(state.ui.ruler.emplace());
+            return {state.ui.ruler ? "Ruler" : "Ruler off"};
         case Action::toggle_statistics:
-            state.statistics = !state.statistics;
-            return {state.statistics ? "Statistics" : "Statistics off"};
+            state.ui.statistics = !state.ui.statistics;
+            return {state.ui.statistics ? "Statistics" : "Statistics off"};
         case Action::toggle_help:
-            state.help_open = !state.help_open;
+            state.ui.help_open = !state.ui.help_open;
             return {};
         case Action::close_topmost:
             close_topmost(state);

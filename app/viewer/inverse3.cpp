@@ -9,7 +9,7 @@ namespace {
 
 inverse3::Tuning tuning_in(const ViewerState& state) {
     const Settings& settings = state.settings;
-    return tuning_of(settings.inverse3, settings.max_force_newton, state.centred);
+    return tuning_of(settings.inverse3, settings.max_force_newton, state.touch.centred);
 }
 
 }  // namespace
@@ -17,13 +17,13 @@ inverse3::Tuning tuning_in(const ViewerState& state) {
 ViewerInverse3::ViewerInverse3(const HandDevice& hand, ViewerState& state)
     : device_(hand.find<inverse3::Inverse3Device>()) {
     if (device_ == nullptr) return;
-    state.inverse3.emplace();
+    state.touch.inverse3.emplace();
     hand_over(state);
 }
 
 std::optional<std::string> ViewerInverse3::take_news(ViewerState& state) {
     if (device_ == nullptr) return {};
-    Inverse3News& news = *state.inverse3;
+    Inverse3News& news = *state.touch.inverse3;
     news.status = device_->status();
     news.asked = true;
     take_ages(news);
@@ -41,7 +41,7 @@ void ViewerInverse3::take_ages(Inverse3News& news) {
 
 std::vector<Action> ViewerInverse3::take_presses(const ViewerState& state) {
     if (device_ == nullptr) return {};
-    return presses_.take(state.inverse3->status.presses, state.settings.inverse3.buttons);
+    return presses_.take(state.touch.inverse3->status.presses, state.settings.inverse3.buttons);
 }
 
 bool ViewerInverse3::tuning_changed(const ViewerState& state) const {
@@ -57,8 +57,8 @@ void ViewerInverse3::hand_over(const ViewerState& state) {
 void ServiceSettings::follow(ViewerState& state) {
     constexpr int kMostTries = 3;
     constexpr std::chrono::seconds kBetween{3};
-    if (!state.inverse3) return;
-    Inverse3News& news = *state.inverse3;
+    if (!state.touch.inverse3) return;
+    Inverse3News& news = *state.touch.inverse3;
     if (auto kept = asking_.take()) news.kept = std::move(*kept);
     if (asking_.under_way()) return;
     if (news.status.id != device_) {

@@ -187,13 +187,13 @@ void ViewerPainting::end(ViewerState& state) {
     maps_.reset();
     before_.clear();
     undone_.clear();
-    state.brush.on = false;
-    state.brush.ring.clear();
+    state.ui.brush.on = false;
+    state.ui.brush.ring.clear();
     show_news(state);
 }
 
 void ViewerPainting::show_news(ViewerState& state) const {
-    Brush& brush = state.brush;
+    Brush& brush = state.ui.brush;
     brush.refusal = refusal_;
     brush.can_undo = !before_.empty();
     brush.can_redo = !undone_.empty();
@@ -213,16 +213,16 @@ void ViewerPainting::use(bool pressed, const std::optional<Vec3>& under, const D
 }
 
 void ViewerPainting::start_stroke(const DepthBlend& shown, ViewerState& state, Player& player) {
-    if (state.playback.playing) player.pause();
+    if (state.media.playback.playing) player.pause();
     const DepthImage& image = *shown.from->depth;
     if (image.columns != columns_ || image.rows != rows_) return;  // of the media before
-    const Brush& brush = state.brush;
+    const Brush& brush = state.ui.brush;
     try {
         stroke_.emplace(maps_ ? *maps_ : TouchMaps{}, lays_of(brush, state.settings.touch, image),
                         BrushTip{0.5 * brush.width * columns_, brush.strength}, columns_, rows_);
     } catch (const InputError& error) {
-        state.message = error.what();
-        state.brush.on = false;
+        state.ui.message = error.what();
+        state.ui.brush.on = false;
     }
 }
 
@@ -337,16 +337,16 @@ std::shared_ptr<const TouchMaps> ViewerPainting::drawn() const {
 
 const Frame* ViewerPainting::tinted(const Frame* frame, const ViewerState& state) {
     const std::shared_ptr<const TouchMaps> maps = drawn();
-    if (!state.brush.on || !maps || frame == nullptr || !frame->colour) return frame;
+    if (!state.ui.brush.on || !maps || frame == nullptr || !frame->colour) return frame;
     const bool is_same =
-        tinted_colour_ == frame->colour && tinted_maps_ == maps && tinted_lays_ == state.brush.lays;
+        tinted_colour_ == frame->colour && tinted_maps_ == maps && tinted_lays_ == state.ui.brush.lays;
     if (!is_same) {
         tinted_ = {};
         tinted_.colour =
-            std::make_shared<const ColourImage>(Tint(*maps, state.brush.lays).over(*frame->colour));
+            std::make_shared<const ColourImage>(Tint(*maps, state.ui.brush.lays).over(*frame->colour));
         tinted_colour_ = frame->colour;
         tinted_maps_ = maps;
-        tinted_lays_ = state.brush.lays;
+        tinted_lays_ = state.ui.brush.lays;
     }
     return &tinted_;
 }

@@ -12,18 +12,18 @@ constexpr int kMostOfPane_px = 1024;  // of a texture's side: a pane is not much
 }  // namespace
 
 void ViewerPanes::show(const DepthBlend& shown, ViewerState& state) {
-    state.panes = {};
+    state.ui.panes = {};
     if (!shows_panes(state) || !shown.makes_surface()) return;
     const Frame& frame = shown.coloured();
     if (frame.colour && !frame.colour->rgb.empty())
-        state.panes.colour = colour_.show(frame.colour, kMostOfPane_px, false);
+        state.ui.panes.colour = colour_.show(frame.colour, kMostOfPane_px, false);
     const ReliefPaint paint = depth_paint(state);
     if (!painted_.is(frame.drawn()) || paint != paint_) {
         depth_picture_ = depth_picture(*frame.drawn(), frame.unseen.get(), paint, kMostOfPane_px);
         painted_.set(frame.drawn());
         paint_ = paint;
     }
-    state.panes.depth = depth_.show(depth_picture_, kMostOfPane_px, false);
+    state.ui.panes.depth = depth_.show(depth_picture_, kMostOfPane_px, false);
 }
 
 }  // namespace dibhr

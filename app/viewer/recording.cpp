@@ -31,8 +31,8 @@ constexpr std::chrono::milliseconds kLastTicks{100};
 /// The one that was asked for; an Inverse3 that touches, by its name.
 std::string device_name(const ViewerState& state) {
     const bool inverse3_touches =
-        state.inverse3 && state.haptic.hand.which == static_cast<std::uint8_t>(Touching::inverse3);
-    return inverse3_touches ? "Haply " + name_of(state.inverse3->status) : state.device.name;
+        state.touch.inverse3 && state.touch.haptic.hand.which == static_cast<std::uint8_t>(Touching::inverse3);
+    return inverse3_touches ? "Haply " + name_of(state.touch.inverse3->status) : state.touch.device.name;
 }
 
 /// What is known of a device, and its numbers, under its own name.
@@ -61,17 +61,17 @@ std::map<std::string, std::string> session_facts(const ViewerState& state) {
     std::map<std::string, std::string> facts{
         {"program", "dibhr " DIBHR_VERSION},
         {"device", device_name(state)},
-        {"device-max-force", number_text(state.device.limits.max_force_newton)},
-        {"device-max-stiffness", number_text(state.device.limits.max_stiffness_newton_per_mm)},
-        {"device-workspace-mm", number_text(state.device.workspace_mm.x) + " x " +
-                                    number_text(state.device.workspace_mm.y) + " x " +
-                                    number_text(state.device.workspace_mm.z)},
+        {"device-max-force", number_text(state.touch.device.limits.max_force_newton)},
+        {"device-max-stiffness", number_text(state.touch.device.limits.max_stiffness_newton_per_mm)},
+        {"device-workspace-mm", number_text(state.touch.device.workspace_mm.x) + " x " +
+                                    number_text(state.touch.device.workspace_mm.y) + " x " +
+                                    number_text(state.touch.device.workspace_mm.z)},
         {"colour", public_name(state.media.colour_path)},
         {"depth", public_name(state.media.depth_path)},
         {"depth-columns", std::to_string(state.media.depth_columns)},
         {"depth-rows", std::to_string(state.media.depth_rows)},
-        {"bump", state.bump_file.string()},
-        {"material", state.material.name},
+        {"bump", state.touch.bump_file.string()},
+        {"material", state.touch.material.name},
         {"max-force", number_text(state.settings.max_force_newton)},
         {"stability", state.settings.stability ? "on" : "off"},
         {"damping-as-needed", state.settings.damping_as_needed ? "yes" : "no"},
@@ -83,10 +83,10 @@ std::map<std::string, std::string> session_facts(const ViewerState& state) {
     facts.emplace("cleaning", name_of(cleaning_on(state.media, state.settings.cleaning).preset));
     facts.emplace("finger", number_text(finger_mm_on(state.media, state.settings.finger_mm)));
     facts.emplace("surface-version", std::to_string(kSurfaceVersion));
-    if (state.falcon)
-        add_facts(facts, "falcon", state_of(state.falcon->status), state.settings.falcon);
-    if (state.inverse3)
-        add_facts(facts, "inverse3", state_of(state.inverse3->status), state.settings.inverse3);
+    if (state.touch.falcon)
+        add_facts(facts, "falcon", state_of(state.touch.falcon->status), state.settings.falcon);
+    if (state.touch.inverse3)
+        add_facts(facts, "inverse3", state_of(state.touch.inverse3->status), state.settings.inverse3);
     return facts;
 }
 
@@ -138,15 +138,15 @@ void ViewerRecording::start_live(const std::filesystem::path& file, ViewerState&
 
 /// All that is touched from here on is in the video.
 void ViewerRecording::begin_if_there(ViewerState& state) {
-    if (!waiting_ || !state.playback.live || state.playback.live->media != waiting_->number) return;
+    if (!waiting_ || !state.media.playback.live || state.media.playback.live->media != waiting_->number) return;
     start(std::exchange(waiting_, {})->file, state);
 }
 
 void ViewerRecording::start(const std::filesystem::path& file, ViewerState& state) {
     TickRecord left_behind;  // of a recording that was stopped
     while (ticks_.pop(left_behind)) continue;
-    participant_ = state.fields.participant.data();
-    note_ = state.fields.note.data();
+    participant_ = state.touch.session_fields.participant.data();
+    note_ = state.touch.session_fields.note.data();
     std::map<std::string, std::string> facts = session_facts(state);
     facts.emplace(kParticipant, participant_);
     facts.emplace(kNote, note_);
@@ -159,11 +159,11 @@ void ViewerRecording::start(const std::filesystem::path& file, ViewerState& stat
     falcon_serial_.clear();
     inverse3_id_.clear();
     ages_told_ = 0;
-    ages_before_ = state.inverse3 ? state.inverse3->ages : PoseAges{};
+    ages_before_ = state.touch.inverse3 ? state.touch.inverse3->ages : PoseAges{};
     device_.clear();
     start_ = std::chrono::steady_clock::now();
-    state.recording_trouble.clear();
-    state.recording.emplace().file = file;
+    state.touch.recording_trouble.clear();
+    state.touch.recording.emplace().file = file;
 }
 
 std::string ViewerRecording::stop(ViewerState& state, const std::string& reason) {
@@ -174,7 +174,7 @@ std::string ViewerRecording::stop(ViewerState& state, const std::string& reason)
         return "Nothing was recorded: no frame came";
     }
     if (!recorder_) return {};
-    finishing_file_ = state.recording->file;
+    finishing_file_ = state.touch.recording->file;
     if (!reason.empty())
         print_warning(finishing_file_.string() + ": the recording ends here, as " + reason);
     if (live_) {
@@ -185,7 +185,7 @@ std::string ViewerRecording::stop(ViewerState& state, const std::string& reason)
                                 });
         opened_.back().grows = false;
         leave();
-        state.recording.reset();
+        state.touch.recording.reset();
         return "Finishing the recording" + (reason.empty() ? "" : ", as " + reason);
     }
     return told(recorder_->finish(), state);
@@ -197,12 +197,12 @@ std::string ViewerRecording::told(const RecorderStatus& recorded, ViewerState& s
         break_off(state, recorded.failure);
         return {};
     }
-    state.recorded_file = finishing_file_;
+    state.touch.recorded_file = finishing_file_;
     leave();
-    state.recording.reset();
-    state.fields.note = {};  // it was about this one
+    state.touch.recording.reset();
+    state.touch.session_fields.note = {};  // it was about this one
     return "Recorded " + std::to_string(recorded.rows) + " ticks into " +
-           state.recorded_file.string();
+           state.touch.recorded_file.string();
 }
 
 std::optional<std::string> ViewerRecording::take_finished(ViewerState& state) {
@@ -213,14 +213,14 @@ std::optional<std::string> ViewerRecording::take_finished(ViewerState& state) {
 }
 
 void ViewerRecording::break_off(ViewerState& state, const std::string& failure) {
-    state.recording_trouble = failure;
+    state.touch.recording_trouble = failure;
     // What is felt from here on nobody could look up: whoever relies on it is to notice.
-    state.force_enabled = false;
-    state.message = failure + ". The force is off until it is switched on again" +
+    state.touch.force_enabled = false;
+    state.ui.message = failure + ". The force is off until it is switched on again" +
                     state.keys.in_brackets(Action::toggle_force) + ".";
     if (failure_.empty()) failure_ = failure;
     leave();
-    state.recording.reset();
+    state.touch.recording.reset();
 }
 
 void ViewerRecording::hand_over(const HapticSettings& settings,
@@ -245,12 +245,12 @@ std::string ViewerRecording::mark(ViewerState& state,
     if (!recorder_)
         return "Nothing is recorded that could be marked" +
                state.keys.told(Action::record, " begins");
-    const char* typed = state.fields.tag.data();
+    const char* typed = state.touch.session_fields.tag.data();
     const std::string tag = *typed == '\0' ? kPlainTag : typed;
     recorder_->mark(tag, {}, moment);
     const std::chrono::duration<double> ago = std::chrono::steady_clock::now() - moment;
     const double t_s = std::max(0.0, now_s() - ago.count());
-    state.recording->marks.push_back({t_s, tag, {}});
+    state.touch.recording->marks.push_back({t_s, tag, {}});
     return "Marked at " + clock_text(t_s) + ": " + tag;
 }
 
@@ -261,35 +261,35 @@ void ViewerRecording::mark(const std::string& tag) {
 void ViewerRecording::take_news(ViewerState& state) {
     begin_if_there(state);
     if (!recorder_) return;
-    const auto tell_changed = [this](const char* key, const TextFields::Field& field,
+    const auto tell_changed = [this](const char* key, const TextField& field,
                                      std::string& told) {
         if (told == field.data()) return;
         told = field.data();
         recorder_->set_fact(key, told);
     };
-    tell_changed(kParticipant, state.fields.participant, participant_);
-    tell_changed(kNote, state.fields.note, note_);
-    const std::string serial = state.falcon ? state.falcon->status.serial : std::string{};
+    tell_changed(kParticipant, state.touch.session_fields.participant, participant_);
+    tell_changed(kNote, state.touch.session_fields.note, note_);
+    const std::string serial = state.touch.falcon ? state.touch.falcon->status.serial : std::string{};
     if (!serial.empty() && serial != falcon_serial_) {
         falcon_serial_ = serial;
         recorder_->set_fact("falcon-serial", serial);
     }
     // As the last one that touched, which may not be the one that was asked for.
     if (const std::string device = device_name(state);
-        device != device_ && device != state.device.name) {
+        device != device_ && device != state.touch.device.name) {
         device_ = device;
         recorder_->set_fact("device", device);
     }
-    const std::string id = state.inverse3 ? state.inverse3->status.id : std::string{};
+    const std::string id = state.touch.inverse3 ? state.touch.inverse3->status.id : std::string{};
     if (!id.empty() && id != inverse3_id_) {
         inverse3_id_ = id;
-        for (const auto& [name, value] : state_of(state.inverse3->status).facts)
+        for (const auto& [name, value] : state_of(state.touch.inverse3->status).facts)
             recorder_->set_fact("inverse3-" + name, value);
     }
     tell_ages(state);
-    state.recording->status = recorder_->status();
-    state.recording->time_s = now_s();
-    std::string failure = state.recording->status.failure;
+    state.touch.recording->status = recorder_->status();
+    state.touch.recording->time_s = now_s();
+    std::string failure = state.touch.recording->status.failure;
     if (const std::string of_video = live_ ? live_->failure() : std::string{}; !of_video.empty())
         failure = "Recording the video of what is live stopped: " + of_video;
     if (!failure.empty()) break_off(state, failure);
@@ -297,8 +297,8 @@ void ViewerRecording::take_news(ViewerState& state) {
 
 /// Of the poses that the recorded ticks used, while the recording goes on.
 void ViewerRecording::tell_ages(const ViewerState& state) {
-    if (!state.inverse3) return;
-    const PoseAges ages = state.inverse3->ages.since(ages_before_);
+    if (!state.touch.inverse3) return;
+    const PoseAges ages = state.touch.inverse3->ages.since(ages_before_);
     if (ages.count() == 0 || ages.count() == ages_told_) return;
     ages_told_ = ages.count();
     for (const auto& [name, part] : {std::pair{"half", 0.5}, {"most", 0.99}, {"worst", 1.0}}) {

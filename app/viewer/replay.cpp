@@ -53,23 +53,23 @@ void ViewerReplay::begin(std::unique_ptr<OpenedSession> opened, const GivenParam
         touch_ = state.settings.touch;
         cleaning_ = state.settings.cleaning;
         in_betweens_ = state.settings.in_betweens;
-        bump_ = state.bump;
-        bump_file_ = state.bump_file;
+        bump_ = state.touch.bump;
+        bump_file_ = state.touch.bump_file;
     }
     const Session& session = opened->session;
     // Of what moves: pairs that stand still have none.
     const bool moves = std::any_of(session.sources().begin(), session.sources().end(),
                                    [](const SessionSource& one) { return one.source.in_betweens; });
     state.settings.in_betweens = moves ? InBetweens::on : InBetweens::off;
-    state.replay = ReplayNews{.file = session.file(),
+    state.touch.replay = ReplayNews{.file = session.file(),
                               .participant = session.fact("participant"),
                               .note = session.fact("note"),
                               .started = session.fact("started"),
                               .device = session.fact("device"),
                               .marks = session.marks()};
-    state.media = opened->frames.description();
-    state.strips = {};
-    state.haptic = {};
+    state.media.describe(opened->frames.description());
+    state.touch.strips = {};
+    state.touch.haptic = {};
     recorded_ =
         session.parameters().empty() ? TouchParameters{} : session.parameters().front().touch;
     TouchParameters wanted = recorded_;
@@ -86,15 +86,15 @@ void ViewerReplay::end(ViewerState& state) {
     if (!player_) return;
     player_.reset();
     outline_.reset();
-    state.replay.reset();
+    state.touch.replay.reset();
     state.settings.touch = touch_;
     state.settings.cleaning = cleaning_;
     state.settings.in_betweens = in_betweens_;
-    state.bump = std::exchange(bump_, nullptr);
-    state.bump_file = bump_file_;
-    state.haptic = {};
-    state.others.clear();
-    state.strips = {};
+    state.touch.bump = std::exchange(bump_, nullptr);
+    state.touch.bump_file = bump_file_;
+    state.touch.haptic = {};
+    state.touch.others.clear();
+    state.touch.strips = {};
 }
 
 void ViewerReplay::advance(ViewerState& state, SessionPlayer::Time now) {
@@ -103,37 +103,37 @@ void ViewerReplay::advance(ViewerState& state, SessionPlayer::Time now) {
         const TickRecord& tick = moment.tick;
         const bool goes_on = tick.tick == passed_tick_ + 1 && !tick.from_zero && !tick.lets_go;
         const double pitch_mm = state.settings.touch.coupling.pixel_pitch_mm;
-        state.strips.add(
+        state.touch.strips.add(
             strip_of(passed_, touch, goes_on ? tick.dt_s : 0.0, tick.lateness_us, pitch_mm));
         passed_ = touch;
         passed_tick_ = tick.tick;
-        if (moment.tick.surface && touch.proxy.bound_met) ++state.haptic.bounds_met;
+        if (moment.tick.surface && touch.proxy.bound_met) ++state.touch.haptic.bounds_met;
     });
-    state.replay->playback = player_->playback();
-    state.replay->contacts = outline_->band();
-    state.replay->computes = chosen_.has_value();
+    state.touch.replay->playback = player_->playback();
+    state.touch.replay->contacts = outline_->band();
+    state.touch.replay->computes = chosen_.has_value();
     if (player_->moment() != nullptr) show(*player_->moment(), state);
 }
 
 void ViewerReplay::show(const SessionMoment& moment, ViewerState& state) {
     const TickRecord& tick = moment.tick;
-    state.replay->tick = tick;
-    state.replay->tick_count = moment.count;
-    state.replay->computed = moment.computed.has_value();
-    state.haptic.touch = touch_of(moment);
-    state.haptic.touchable = tick.surface;
-    state.others = moment.others;
-    state.haptic.hand = {.goal_in_grid = tick.goal,
+    state.touch.replay->tick = tick;
+    state.touch.replay->tick_count = moment.count;
+    state.touch.replay->computed = moment.computed.has_value();
+    state.touch.haptic.touch = touch_of(moment);
+    state.touch.haptic.touchable = tick.surface;
+    state.touch.others = moment.others;
+    state.touch.haptic.hand = {.goal_in_grid = tick.goal,
                          .buttons = tick.buttons,
                          .ready = tick.device_ready,
                          .stand_in = tick.stand_in};
-    state.bump = moment.bump;
+    state.touch.bump = moment.bump;
     if (moment.parameters != nullptr) {
         recorded_ = moment.parameters->touch;
-        state.bump_file = moment.parameters->bump.file;
+        state.touch.bump_file = moment.parameters->bump.file;
     }
     if (!chosen_) state.settings.touch = recorded_;
-    state.haptic.shape = state.settings.touch.shape;
+    state.touch.haptic.shape = state.settings.touch.shape;
     const FrameSource& source = tick.frames.source;
     if (tick.surface) {
         const FrameCleaning cleaning = cleaning_of(source);

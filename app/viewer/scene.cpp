@@ -36,12 +36,12 @@ void add_finger(const DepthBlend& shown, const SurfaceShape& shape, TouchMarkers
 }
 
 TouchMarkers markers_of(const ViewerState& state, const DepthSurface& surface) {
-    const Touch& touch = state.haptic.touch;
+    const Touch& touch = state.touch.haptic.touch;
     const Friction& friction = state.settings.touch.friction;
     TouchMarkers markers;
-    markers.visible = state.haptic.touchable;
+    markers.visible = state.touch.haptic.touchable;
     markers.contact = touch.proxy.contact;
-    markers.catching_up = state.catching_up;
+    markers.catching_up = state.touch.catching_up;
     markers.goal = touch.goal;
     markers.proxy = touch.proxy.position;
     markers.normal = normal_at(surface, touch.proxy.position);
@@ -49,10 +49,10 @@ TouchMarkers markers_of(const ViewerState& state, const DepthSurface& surface) {
         touch.proxy.slipping ? friction.dynamic_coefficient : friction.static_coefficient;
     markers.force_newton = touch.sent_force_newton;
     markers.most_newton =
-        std::min(state.settings.max_force_newton, state.device.limits.max_force_newton);
-    if (state.replay && state.replay->computed) markers.recorded_proxy = state.replay->tick.proxy;
-    if (!state.others.empty()) markers.proxy_tint = tint_of(state.settings.touch.algorithm);
-    for (const AlgorithmProxy& other : state.others)
+        std::min(state.settings.max_force_newton, state.touch.device.limits.max_force_newton);
+    if (state.touch.replay && state.touch.replay->computed) markers.recorded_proxy = state.touch.replay->tick.proxy;
+    if (!state.touch.others.empty()) markers.proxy_tint = tint_of(state.settings.touch.algorithm);
+    for (const AlgorithmProxy& other : state.touch.others)
         markers.others.push_back({other.proxy.position, tint_of(other.algorithm)});
     return markers;
 }
@@ -75,7 +75,7 @@ Dent dent_under(const ViewerState& state, const TouchMarkers& markers, const Dep
 SceneContent scene_content(const ViewerState& state, const DepthBlend& shown) {
     SceneContent content;
     content.shape = state.shape();
-    content.bump = state.bump.get();
+    content.bump = state.touch.bump.get();
     content.look = state.settings.look;
     content.light_wall = state.settings.theme == Theme::light;
     if (!shown.makes_surface()) return content;
@@ -84,9 +84,9 @@ SceneContent scene_content(const ViewerState& state, const DepthBlend& shown) {
     content.maps = shown.from->maps;
     const DepthSurface surface = shown.surface(content.shape, content.bump);
     content.markers = markers_of(state, surface);
-    content.markers.visible = content.markers.visible && !state.explained;
+    content.markers.visible = content.markers.visible && !state.ui.explained;
     add_finger(shown, content.shape, content.markers);
-    if (!state.explained) content.dent = dent_under(state, content.markers, *shown.from->drawn());
+    if (!state.ui.explained) content.dent = dent_under(state, content.markers, *shown.from->drawn());
     return content;
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "app/panels/device_state.hpp"
 #include "app/panels/viewer_state.hpp"
+#include "app/touching/device_state.hpp"
 
 namespace dibhr {
 
@@ -22,7 +22,7 @@ class StageNews {
         if (std::exchange(stage_, stage) == stage) return {};
         // One that comes again and again must not keep moving the panels.
         if (needs_its_person(stage) && shown_ != stage) {
-            state.show_device = true;
+            state.touch.needs_person = true;
             shown_ = stage;
         }
         if (stage != Stage::ready) return {};

@@ -8,9 +8,9 @@
 #include <numbers>
 #include <utility>
 
-#include "app/panels/device_state.hpp"
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
+#include "app/touching/force_law.hpp"
 #include "app/viewer/picture_time.hpp"
 #include "app/window/x_server.hpp"
 #include "core/files/plain_text.hpp"
@@ -70,7 +70,7 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
       pace_(shortest_picture(options.sync, software_)),
       state_{.settings = options.settings,
              .keys = KeyTable(options.settings.keys),
-             .doubts = options.doubts},
+             .ui = {.doubts = options.doubts}},
       falcon_(hand_, state_),
       inverse3_(hand_, state_),
       service_settings_(errands),
@@ -90,13 +90,13 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
     if (software_) let_drawing_give_way();
     window_.on_display_loss([this] { close_without_display(); });
     ending_.watch_display(display_connection());
-    state_.device = hand_.device->specification();
-    state_.haptic.hand = hand_.device->unread();
-    state_.bump = std::move(parts.bump);
-    state_.bump_file = std::move(parts.bump_file);
-    state_.material = std::move(parts.material);
-    state_.materials = material_names();
-    state_.message = capitalised(parts.damage);
+    state_.touch.device = hand_.device->specification();
+    state_.touch.haptic.hand = hand_.device->unread();
+    state_.touch.bump = std::move(parts.bump);
+    state_.touch.bump_file = std::move(parts.bump_file);
+    state_.touch.material = std::move(parts.material);
+    state_.ui.materials = material_names();
+    state_.ui.message = capitalised(parts.damage);
     wear_look();
     if (options.full_screen) window_.toggle_full_screen();
     if (!options.clip.empty()) clip_.start(options.clip, ClipName::replaces, options.pictures_of);
@@ -111,10 +111,10 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
     if (!parts.media) {
         const bool offered = parts.lacks_depth && estimating_.offer(options.open.colour, state_);
         if (!offered)
-            state_.message += (parts.damage.empty() ? "" : "\n\n") + capitalised(parts.trouble);
+            state_.ui.message += (parts.damage.empty() ? "" : "\n\n") + capitalised(parts.trouble);
         return;
     }
-    state_.media = parts.media->description();
+    state_.media.describe(parts.media->description());
     const bool live = state_.media.live;
     if (!options.record.empty() && !live) {
         fit_to_media();  // what is told of a session is what is touched with
@@ -150,7 +150,7 @@ void Viewer::beat() {
 void Viewer::close_without_display() {
     ending_.words().doing("closing without a display");
     desktop_.call_off();
-    state_.message.clear();
+    state_.ui.message.clear();
     loop_.reset();
     estimating_.end();
     explaining_.end(state_, camera_);
@@ -162,7 +162,7 @@ void Viewer::close_without_display() {
     attempt([this] { clip_.finish(ClipEnd::at_once); });
     attempt([this] { recording_.finish(kPatienceAtAnEnd); });
     hand_.device.reset();
-    if (!state_.message.empty()) print_error_line(state_.message);
+    if (!state_.ui.message.empty()) print_error_line(state_.ui.message);
 }
 
 void Viewer::finish() {
@@ -208,20 +208,20 @@ void Viewer::finish() {
 void Viewer::wear_look() {
     const Settings& settings = state_.settings;
     gui_.wear({window_.scale(settings.ui_scale), settings.theme});
-    state_.fonts = gui_.fonts();
-    state_.scale = gui_.scale();
+    state_.ui.fonts = gui_.fonts();
+    state_.ui.scale = gui_.scale();
 }
 
 void Viewer::show_one_picture() {
     wear_look();
     const WindowInput input = window_.take_input();
     beat();
-    state_.in_front = window_.in_front();
+    state_.touch.in_front = window_.in_front();
     take_news();
     take_keys(input);
     take_dropped(input.dropped);
-    state_.window_width = static_cast<float>(window_.framebuffer_size().x);
-    state_.window_height = static_cast<float>(window_.framebuffer_size().y);
+    state_.ui.window_width = static_cast<float>(window_.framebuffer_size().x);
+    state_.ui.window_height = static_cast<float>(window_.framebuffer_size().y);
     const glm::ivec2 viewport = relief_viewport();
     move_hand(input, viewport);
     draw_picture(input);
@@ -247,8 +247,8 @@ void Viewer::draw_picture(const WindowInput& input) {
 }
 
 void Viewer::take_news() {
-    state_.playback = player_.status();
-    if (loop_) state_.haptic = haptic_state_.front();
+    state_.media.playback = player_.status();
+    if (loop_) state_.touch.haptic = haptic_state_.front();
     if (replay_.player() != nullptr) replay_.advance(state_, steady_clock::now());
     follow_others();
     notice_catching_up();
@@ -258,22 +258,22 @@ void Viewer::take_news() {
     service_settings_.follow(state_);
     for (const Action action : falcon_.take_presses(state_)) perform(action);
     for (const Action action : inverse3_.take_presses(state_)) perform(action);
-    state_.touched = state_.touched || state_.haptic.touch.proxy.contact;
-    if (!state_.grants && loop_) state_.grants = loop_->grants();
+    state_.ui.touched = state_.ui.touched || state_.touch.haptic.touch.proxy.contact;
+    if (!state_.touch.grants && loop_) state_.touch.grants = loop_->grants();
     recording_.take_news(state_);
     if (const auto notice = recording_.take_finished(state_)) tell(*notice);
-    for (TickStrip strip; strips_->pop(strip);) state_.strips.add(strip);
-    state_.sound = sound_.state();
-    state_.moves_coils = sound_.moves_coils();
-    state_.pads = pads_.news();
-    state_.pictures_per_s = pace_.pictures_per_s();
+    for (TickStrip strip; strips_->pop(strip);) state_.touch.strips.add(strip);
+    state_.touch.sound = sound_.state();
+    state_.touch.moves_coils = sound_.moves_coils();
+    state_.touch.pads = pads_.news();
+    state_.ui.pictures_per_s = pace_.pictures_per_s();
     take_opened();
     take_desktop_answer();
     follow_live();
     const std::string& failure =
-        state_.replay ? state_.replay->playback.failure : state_.playback.failure;
+        state_.touch.replay ? state_.touch.replay->playback.failure : state_.media.playback.failure;
     if (!failure.empty() && failure != playback_failure_) {
-        state_.message = failure;
+        state_.ui.message = failure;
         print_error_line(failure);
     }
     playback_failure_ = failure;
@@ -289,13 +289,13 @@ void Viewer::take_news() {
 }
 
 void Viewer::follow_others() {
-    if (state_.replay) return;
+    if (state_.touch.replay) return;
     if (handed_.followed) {
         others_.follow(*walked_, player_.picture(), handed_.bump);
     } else {
         others_.forget(*walked_);
     }
-    state_.others = others_.proxies();
+    state_.touch.others = others_.proxies();
 }
 
 void Viewer::make_report(const std::filesystem::path& session) {
@@ -316,36 +316,36 @@ void Viewer::take_report() {
 
 /// Also what happened in the ticks between two pictures.
 void Viewer::notice_catching_up() {
-    const HapticState& haptic = state_.haptic;
+    const HapticState& haptic = state_.touch.haptic;
     if (haptic.catching_up() || haptic.bounds_met > bounds_met_) {
         catching_up_until_s_ = now_s() + kCatchingUpTime_s;
     }
     bounds_met_ = haptic.bounds_met;
-    state_.catching_up = now_s() < catching_up_until_s_;
+    state_.touch.catching_up = now_s() < catching_up_until_s_;
 }
 
 void Viewer::notice_standstill() {
-    const Standstill& last = state_.haptic.standstill;
+    const Standstill& last = state_.touch.haptic.standstill;
     if (last.count > standstills_) tell(text_of(last));
     standstills_ = last.count;
 }
 
 void Viewer::take_keys(const WindowInput& input) {
     // A name typed right after the key that opens is none, even before the field has the keyboard.
-    const bool typing = gui_.wants_keyboard() || state_.dialog.shown;
+    const bool typing = gui_.wants_keyboard() || state_.ui.dialog.shown;
     const std::vector<int> held = state_.keys.held_keys(Action::show_as_recorded);
     const bool as_recorded = !typing && std::any_of(held.begin(), held.end(),
                                                     [this](int key) { return window_.holds(key); });
-    if (as_recorded && !state_.as_recorded && !state_.replay) tell("Depth as recorded");
-    state_.as_recorded = as_recorded;
+    if (as_recorded && !state_.media.as_recorded && !state_.touch.replay) tell("Depth as recorded");
+    state_.media.as_recorded = as_recorded;
     const auto take = [this](Action action, EventTimes::Time at) {
-        if (action == Action::mark && !state_.replay)
+        if (action == Action::mark && !state_.touch.replay)
             state_.requests.marks.push_back(at);
         else
             perform(action);
     };
     for (const KeyPress& press : input.keys) {
-        if (takes_keys(state_.dialog) && state_.message.empty()) take_dialog_key(press);
+        if (takes_keys(state_.ui.dialog) && state_.ui.message.empty()) take_dialog_key(press);
         if (const auto action = state_.keys.action_of_key(press.key, press.control, typing,
                                                           press.repeated, press.shift))
             take(*action, press.at);
@@ -360,9 +360,9 @@ void Viewer::take_keys(const WindowInput& input) {
 
 void Viewer::take_dialog_key(const KeyPress& press) {
     const auto key = list_key(press.key);
-    if (key == ListKey::down) ++state_.dialog.move;
-    if (key == ListKey::up) --state_.dialog.move;
-    if (key == ListKey::take && !press.repeated) state_.dialog.enter = true;
+    if (key == ListKey::down) ++state_.ui.dialog.move;
+    if (key == ListKey::up) --state_.ui.dialog.move;
+    if (key == ListKey::take && !press.repeated) state_.ui.dialog.enter = true;
 }
 
 std::optional<Answer> Viewer::perform_with_files(Action action) {
@@ -397,16 +397,16 @@ std::optional<Answer> Viewer::perform_with_view(Action action) {
 }
 
 std::optional<Answer> Viewer::perform_with_brush(Action action) {
-    Brush& brush = state_.brush;
+    Brush& brush = state_.ui.brush;
     if (action != Action::toggle_brush && action != Action::undo && action != Action::redo)
         return std::nullopt;
-    if (state_.replay) return Answer{"A replay is felt as it was recorded: nothing is painted"};
+    if (state_.touch.replay) return Answer{"A replay is felt as it was recorded: nothing is painted"};
     if (!brush.refusal.empty()) return Answer{brush.refusal};
     if (action == Action::toggle_brush) {
         brush.on = !brush.on;
         if (!brush.on) return Answer{"Brush off"};
-        if (state_.playback.playing) player_.pause();
-        state_.show_paint = true;
+        if (state_.media.playback.playing) player_.pause();
+        state_.ui.show_paint = true;
         return Answer{"Brush: drag over the relief to paint"};
     }
     if (action == Action::undo) {
@@ -427,16 +427,16 @@ void Viewer::perform(Action action) {
     if (!answer) answer = explaining_.perform(action, state_, player_, replay);
     if (!answer && replay != nullptr) answer = perform_in_replay(action, *replay, state_.keys);
     if (!answer) answer = dibhr::perform(action, state_, player_);
-    state_.playback = player_.status();  // the next key of this picture goes on from here
+    state_.media.playback = player_.status();  // the next key of this picture goes on from here
     if (!answer->place && answer->words.empty()) return;
     tell(answer->words);
-    state_.notice_of_place = answer->place;
+    state_.ui.notice_of_place = answer->place;
 }
 
 void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {
     const FrameWindow& frames = player_.picture().front();
     shown_ = frames.at(frames.clock.playback_s(steady_clock::now()));
-    if (state_.replay) shown_ = replay_.shown();
+    if (state_.touch.replay) shown_ = replay_.shown();
     Pointer pointer = window_.pointer();
     const auto on_panes = place_on_panes(state_, pointer.position_px);
     pointer.position_px.y -= panes_height(state_);  // the relief is below them
@@ -445,32 +445,32 @@ void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {
     pressed_deeper_ = pressed_deeper_ || (use.pressed && use.wheel_steps != 0.0);
     pointed_at_.reset();
     const Camera::Ray ray = camera_.ray_under(pointer.position_px, viewport);
-    const bool measures = state_.ruler && !state_.explained;
-    const bool paints = state_.brush.on && !state_.explained && !state_.replay;
+    const bool measures = state_.ui.ruler && !state_.ui.explained;
+    const bool paints = state_.ui.brush.on && !state_.ui.explained && !state_.touch.replay;
     if (use.over_relief && (measures || paints || !use.pressed) && shown_.makes_surface())
-        pointed_at_ = surface_under(ray, shown_.drawn_surface(state_.shape(), state_.bump.get()));
+        pointed_at_ = surface_under(ray, shown_.drawn_surface(state_.shape(), state_.touch.bump.get()));
     if (on_panes && !gui_.wants_pointer() && !use.pressed) pointed_at_ = on_panes;
     if (paints) {
         paint(use);
         use.pressed = false;
     } else if (measures) {  // its clicks touch nothing
-        state_.ruler->press(use.pressed, pointed_at_);
+        state_.ui.ruler->press(use.pressed, pointed_at_);
         use.pressed = false;
     }
     // While a device touches the mouse only points, so that it does not take over pressing.
-    if (hand_.looks_for_device() && !state_.haptic.hand.stand_in) use.pressed = false;
-    if (state_.replay || hand_.mouse == nullptr || !shown_.makes_surface()) return;
-    const DepthSurface surface = shown_.surface(state_.shape(), state_.bump.get());
+    if (hand_.looks_for_device() && !state_.touch.haptic.hand.stand_in) use.pressed = false;
+    if (state_.touch.replay || hand_.mouse == nullptr || !shown_.makes_surface()) return;
+    const DepthSurface surface = shown_.surface(state_.shape(), state_.touch.bump.get());
     hand_.mouse->target().publish(pointer_.target(ray, surface, use));
 }
 
 /// What it paints is not touched meanwhile.
 void Viewer::paint(const PointerUse& use) {
-    Brush& brush = state_.brush;
+    Brush& brush = state_.ui.brush;
     painting_.use(use.pressed, pointed_at_, shown_, state_, player_);
     brush.ring.clear();
     if (!pointed_at_ || !shown_.makes_surface()) return;
-    const DepthSurface surface = shown_.drawn_surface(state_.shape(), state_.bump.get());
+    const DepthSurface surface = shown_.drawn_surface(state_.shape(), state_.touch.bump.get());
     const double radius_px = 0.5 * brush.width * surface.columns();
     constexpr int kCorners = 48;
     for (int k = 0; k < kCorners; ++k) {
@@ -494,14 +494,14 @@ void Viewer::draw_panels(std::span<const KeyPress> pressed) {
     if (state_.settings.panels_visible) draw_panel_column(state_, player_, replay_.player());
     draw_bottom_bar(state_, player_, replay_.player());
     const auto fade = [](float& alpha) { alpha = std::max(0.0F, alpha - 0.03F); };
-    if (state_.touched) fade(hint_alpha_);
+    if (state_.ui.touched) fade(hint_alpha_);
     if (pressed_deeper_) fade(wheel_hint_alpha_);
-    const bool mouse_touches = shown_.makes_surface() && !state_.replay && hand_.mouse != nullptr &&
-                               (!hand_.looks_for_device() || state_.haptic.hand.stand_in);
-    if (mouse_touches && state_.message.empty() && !state_.explained && !state_.ruler &&
-        !state_.brush.on) {
+    const bool mouse_touches = shown_.makes_surface() && !state_.touch.replay && hand_.mouse != nullptr &&
+                               (!hand_.looks_for_device() || state_.touch.haptic.hand.stand_in);
+    if (mouse_touches && state_.ui.message.empty() && !state_.ui.explained && !state_.ui.ruler &&
+        !state_.ui.brush.on) {
         draw_hint(state_, Hint::touch, hint_alpha_);
-        const bool wonders = hint_alpha_ <= 0.0F && state_.haptic.touch.proxy.contact;
+        const bool wonders = hint_alpha_ <= 0.0F && state_.touch.haptic.touch.proxy.contact;
         if (wonders) draw_hint(state_, Hint::press_deeper, wheel_hint_alpha_);
     }
     draw_overlay(state_, now_s());
@@ -525,15 +525,15 @@ void Viewer::draw_panels(std::span<const KeyPress> pressed) {
 
 void Viewer::draw_explained() {
     explaining_.advance(shown_, state_, camera_, now_s());
-    if (!state_.explained) return;
+    if (!state_.ui.explained) return;
     const glm::ivec2 viewport = relief_viewport();
-    const DepthSurface surface = shown_.surface(state_.shape(), state_.bump.get());
+    const DepthSurface surface = shown_.surface(state_.shape(), state_.touch.bump.get());
     draw_explanation(state_, surface,
                      camera_.clip_from_grid(static_cast<double>(viewport.x) / viewport.y));
 }
 
 void Viewer::carry_out_requests() {
-    if (state_.replay) replay_.follow_panels(state_);
+    if (state_.touch.replay) replay_.follow_panels(state_);
     if (const auto notice = browsing_.advance(state_)) tell(*notice);
     const Requests asked = std::exchange(state_.requests, {});
     if (asked.open) open(*asked.open);
@@ -569,21 +569,21 @@ void Viewer::carry_out_requests() {
 /// To the ear, and to the hands that hold a game pad. A replay is not touched.
 void Viewer::let_touch_out() {
     const Settings& settings = state_.settings;
-    const bool to_pads = settings.game_pad && !state_.replay;
+    const bool to_pads = settings.game_pad && !state_.touch.replay;
     sound_.choose(
-        {state_.material.sound, settings.sound_volume},
-        {.speaker = !settings.mute && !state_.replay, .coils = to_pads && state_.pads.has_coils()});
-    pads_.choose(state_.material.sound, to_pads, sound_.moves_coils());
+        {state_.touch.material.sound, settings.sound_volume},
+        {.speaker = !settings.mute && !state_.touch.replay, .coils = to_pads && state_.touch.pads.has_coils()});
+    pads_.choose(state_.touch.material.sound, to_pads, sound_.moves_coils());
 }
 
 void Viewer::hand_over_settings() {
     let_touch_out();
-    if (state_.replay) return;
+    if (state_.touch.replay) return;
     fit_to_media();
-    stretch(state_.bump, state_.media.depth_columns, state_.media.depth_rows,
+    stretch(state_.touch.bump, state_.media.depth_columns, state_.media.depth_rows,
             state_.settings.touch.shape.bump_size_px);
     // As they are wished: the loop holds them to what the hand it reads can stand.
-    HapticSettings asked = asked_settings(state_);
+    HapticSettings asked = asked_settings(state_.settings, state_.touch);
     const bool same = handed_.version > 0 && same_touch(handed_, asked) &&
                       !falcon_.tuning_changed(state_) && !inverse3_.tuning_changed(state_);
     asked.recording = recording_.active();
@@ -591,7 +591,7 @@ void Viewer::hand_over_settings() {
     if (!same || handed_.recording != asked.recording || handed_.followed != asked.followed) {
         asked.version = handed_.version + (same ? 0 : 1);
         handed_ = asked;
-        recording_.hand_over(handed_, state_.bump_file);
+        recording_.hand_over(handed_, state_.touch.bump_file);
         haptic_settings_.publish(handed_);
     }
     // After the above, so that the force is already rising from zero when the goal moves elsewhere.
@@ -599,14 +599,14 @@ void Viewer::hand_over_settings() {
     if (inverse3_.tuning_changed(state_)) inverse3_.hand_over(state_);
     player_.set_motion(
         motion_wanted(state_.settings.touch.carry,
-                      state_.as_recorded ? InBetweens::off : state_.settings.in_betweens));
+                      state_.media.as_recorded ? InBetweens::off : state_.settings.in_betweens));
     player_.set_cleaning(wanted_cleaning());
 }
 
 /// As the panel says; as recorded while the key for it is held.
 CleaningOptions Viewer::wanted_cleaning() const {
     CleaningOptions cleaning = cleaning_on(state_.media, state_.settings.cleaning);
-    if (state_.as_recorded) return {.preset = CleaningPreset::raw};
+    if (state_.media.as_recorded) return {.preset = CleaningPreset::raw};
     const double radius_mm = finger_mm_on(state_.media, state_.settings.finger_mm);
     if (radius_mm > 0.0) cleaning.finger = fingertip_of(radius_mm, state_.settings.touch);
     return cleaning;
@@ -622,19 +622,19 @@ void Viewer::keep_settings() {
         keeper_.look(lasting_settings(), now_s());
         lasting_.look();
     });
-    if (!state_.doubts.empty()) drop_changed(state_.doubts, state_.settings);
+    if (!state_.ui.doubts.empty()) drop_changed(state_.ui.doubts, state_.settings);
 }
 
 /// On what the settings file takes away from what protects the hand.
 void Viewer::take_word(bool agreed) {
-    const std::vector<Doubt> doubts = std::exchange(state_.doubts, {});
+    const std::vector<Doubt> doubts = std::exchange(state_.ui.doubts, {});
     if (!agreed) return keeper_.forget(doubts);
     copy_doubted(doubts, options_.in_file, state_.settings);
     lasting_.add([doubts] { Consent().agree(doubts); });
 }
 
 void Viewer::start_or_stop_recording() {
-    if (state_.replay) {
+    if (state_.touch.replay) {
         tell("A replay is not recorded: open a video to touch");
     } else if (recording_.asked_for()) {
         painting_.hand_over(recording_);
@@ -648,7 +648,7 @@ void Viewer::start_or_stop_recording() {
             const std::string file = new_file_name("dibhr");
             state_.media.live ? recording_.start_live(file, state_)
                               : recording_.start(file, state_);
-            state_.show_session = true;
+            state_.ui.show_session = true;
             tell("Recording into " + file);
         });
     }
@@ -663,7 +663,7 @@ void Viewer::start_or_stop_clip(PictureOf of) {
     } else {
         attempt([&] {
             clip_.start(picture_name(state_) + ".mp4", ClipName::stands_beside, of);
-            state_.notice_until_s = 0.0;  // the sign tells it, which is not in the clip
+            state_.ui.notice_until_s = 0.0;  // the sign tells it, which is not in the clip
         });
     }
 }
@@ -698,8 +698,8 @@ void Viewer::take_last_screenshot() {
 
 /// Messages are set wherever something goes wrong; a banner is what a device lacks.
 void Viewer::keep_told() {
-    log_.keep_change("message", state_.message);
-    log_.keep_change("device", device_banner(state_));
+    log_.keep_change("message", state_.ui.message);
+    log_.keep_change("device", device_banner(state_.settings, state_.touch));
     attempt([this] { log_.write(); });
 }
 
@@ -715,11 +715,11 @@ void Viewer::keep_lateness() {
 }
 
 void Viewer::tell(const std::string& notice) {
-    const bool shown = notice == state_.notice && now_s() < state_.notice_until_s;
+    const bool shown = notice == state_.ui.notice && now_s() < state_.ui.notice_until_s;
     if (!shown) log_.keep("told", notice);
-    state_.notice = notice;
-    state_.notice_of_place = false;
-    state_.notice_until_s = now_s() + kNoticeTime_s;
+    state_.ui.notice = notice;
+    state_.ui.notice_of_place = false;
+    state_.ui.notice_until_s = now_s() + kNoticeTime_s;
 }
 
 double Viewer::now_s() const {
@@ -734,12 +734,12 @@ bool Viewer::over() {
 
 /// And does not begin again.
 bool Viewer::played_to_the_end() const {
-    if (state_.replay) {
-        const SessionPlayback& at = state_.replay->playback;
+    if (state_.touch.replay) {
+        const SessionPlayback& at = state_.touch.replay->playback;
         return !at.playing && !at.looping &&
                at.now_s >= (at.part ? std::min(at.part->to_s, at.end_s) : at.end_s);
     }
-    const PlaybackStatus& at = state_.playback;
+    const PlaybackStatus& at = state_.media.playback;
     if (!at.open || at.playing || at.looping || state_.media.still || !(at.frames_per_s > 0.0))
         return false;
     const double end_s = at.part ? std::min(at.part->to_s, at.duration_s) : at.duration_s;

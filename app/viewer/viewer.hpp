@@ -185,7 +185,7 @@ class Viewer {
         try {
             step();
         } catch (const Error& error) {
-            state_.message = error.what();
+            state_.ui.message = error.what();
         }
     }
     [[nodiscard]] double now_s() const;

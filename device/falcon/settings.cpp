@@ -23,12 +23,6 @@ std::vector<DeviceRow> FalconSettings::rows() {
          &connection.event_character},
         {"slower-upload", kConnection, "Slower firmware loading",
          "140 351 baud instead of 142 857; both are reported to work", &connection.slower_upload},
-        {.name = "force-in-front-only",
-         .topic = "",
-         .label = "Force only while the window is in front",
-         .help = "No force while people work in another window",
-         .value = &force_in_front_only,
-         .protection = Protection{Less::other, "Force only while the window is in front"}},
         {"scale", kWorkspace, "Scale",
          "Image millimetres a hand millimetre. A larger image is softer under the hand: more than "
          "1 N a hand millimetre is never felt",

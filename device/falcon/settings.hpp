@@ -25,7 +25,6 @@ struct FalconSettings final : DeviceSettings {
     Geometry geometry{};
     Motors motors{};
     WorkspaceOptions workspace{};
-    bool force_in_front_only{true};  ///< no force while people work in another window
 
     [[nodiscard]] std::vector<DeviceRow> rows() override;
     [[nodiscard]] DeviceLimits limits() const override;

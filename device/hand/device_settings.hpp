@@ -37,7 +37,7 @@ struct DeviceWord {
 
 struct DeviceRow {
     std::string_view name;   ///< in the settings file: "thigh"
-    std::string_view topic;  ///< a heading of the panel; empty: not among its rows
+    std::string_view topic;  ///< a heading of the panel
     const char* label;       ///< on the panel; of a text: what the empty field says
     const char* help;        ///< meaning, and where the default comes from
     std::variant<bool*, int*, double*, std::string*, ButtonAction*, DeviceWord> value;

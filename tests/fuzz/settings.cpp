@@ -35,7 +35,7 @@ void require_held(Settings settings) {
     static_cast<void>(nobody.hold(settings));
     const SafetyLimits usual;
     test::require_rule(settings.max_force_newton <= usual.max_force_newton && settings.stability &&
-                           settings.falcon.force_in_front_only && nobody.hold(settings).empty(),
+                           settings.force_in_front_only && nobody.hold(settings).empty(),
                        "what protects the hand less is held");
     require_in_range(settings);
 }

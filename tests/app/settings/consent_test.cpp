@@ -176,7 +176,7 @@ TEST_CASE("what a person changes in the window is their word, and is not asked a
     SettingsKeeper keeper(in_file, started, file, writing);
     Settings now = started;
     now.max_force_newton = 7.0;
-    now.falcon.force_in_front_only = false;
+    now.force_in_front_only = false;
     keeper.finish(now);
     writing.finish(std::chrono::seconds(60));
     Settings next = load_settings(file);
@@ -184,7 +184,7 @@ TEST_CASE("what a person changes in the window is their word, and is not asked a
     CHECK(records_of(machine.consent.hold(next)) ==
           std::vector<std::string>{"touch.stability false"});
     CHECK(next.max_force_newton > 6.9);
-    CHECK_FALSE(next.falcon.force_in_front_only);
+    CHECK_FALSE(next.force_in_front_only);
 }
 
 TEST_CASE("a value of the file that a person sets in the window is their word, too", "[consent]") {
@@ -276,15 +276,15 @@ TEST_CASE("whoever keeps the usual values finds them in the file", "[consent]") 
 TEST_CASE("whoever closes the question says nothing, and a replay has none to close", "[consent]") {
     Player player;
     ViewerState state;
-    state.doubts.resize(2);
-    state.help_open = true;
-    state.replay.emplace();
+    state.ui.doubts.resize(2);
+    state.ui.help_open = true;
+    state.touch.replay.emplace();
     perform(Action::close_topmost, state, player);
-    CHECK(state.doubts.size() == 2);
-    CHECK_FALSE(state.help_open);
-    state.replay.reset();
+    CHECK(state.ui.doubts.size() == 2);
+    CHECK_FALSE(state.ui.help_open);
+    state.touch.replay.reset();
     perform(Action::close_topmost, state, player);
-    CHECK(state.doubts.empty());
+    CHECK(state.ui.doubts.empty());
     CHECK_FALSE(state.requests.agreed);
 }
 

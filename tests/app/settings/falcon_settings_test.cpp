@@ -58,7 +58,7 @@ TEST_CASE("what is kept about the Falcon comes back exactly, whatever its serial
                                   GENERATE(false, true), GENERATE(false, true)};
     settings.falcon.buttons = {ButtonAction::none, ButtonAction::clutch, ButtonAction::clutch,
                                ButtonAction::take_screenshot};
-    settings.falcon.force_in_front_only = false;
+    settings.force_in_front_only = false;
     for (const DeviceRow& number : numbers_of(settings.falcon)) {
         value_of(number) = number.lowest + 0.123456789 * (number.highest - number.lowest);
     }

@@ -373,9 +373,9 @@ TEST_CASE("one key takes the force off, also while text is typed, and never puts
     Player player;
     ViewerState state;
     perform(Action::force_off, state, player);
-    CHECK_FALSE(state.force_enabled);
+    CHECK_FALSE(state.touch.force_enabled);
     perform(Action::force_off, state, player);
-    CHECK_FALSE(state.force_enabled);
+    CHECK_FALSE(state.touch.force_enabled);
 }
 
 TEST_CASE("what a text field takes does nothing else while it has the keyboard", "[keys]") {
@@ -414,7 +414,7 @@ TEST_CASE("the speed goes by a tenth or by two, within bounds, and never past th
     Player player;
     ViewerState state;
     const auto told = [&](Action action, double speed) {
-        state.playback.speed = speed;
+        state.media.playback.speed = speed;
         return perform(action, state, player).words;
     };
     CHECK(told(Action::faster, 1.0) == "Speed 1.1x");

@@ -1,11 +1,12 @@
 // What the state of the force devices means for the force, and how it is said in the window.
-#include "app/panels/device_state.hpp"
+#include "app/touching/device_state.hpp"
 
 #include <cstdint>
 #include <string>
 
 #include "app/panels/viewer_state.hpp"
 #include "app/settings/grip_buttons.hpp"
+#include "app/touching/force_law.hpp"
 #include "core/haptics/safety.hpp"
 #include "device/device_or_mouse.hpp"
 #include "device/falcon/packet.hpp"
@@ -49,13 +50,13 @@ TEST_CASE("stiffness is held for the Falcon, and left to the mouse while none an
     ViewerState state;
     state.settings.touch.coupling.stiffness_newton_per_mm = 2.0;
     state.settings.falcon.workspace.scale = 4.0;
-    const auto stiffness = [&state] { return felt_coupling(state).stiffness_newton_per_mm; };
+    const auto stiffness = [&state] { return felt_coupling(state.settings, state.touch).stiffness_newton_per_mm; };
     CHECK_THAT(stiffness(), WithinAbs(2.0, 0.0));
-    state.falcon.emplace();
+    state.touch.falcon.emplace();
     CHECK_THAT(stiffness(), WithinAbs(0.25, 1e-12));  // before it is known what is there
-    state.falcon->asked = true;
+    state.touch.falcon->asked = true;
     CHECK_THAT(stiffness(), WithinAbs(2.0, 0.0));
-    state.falcon->status.stage = GENERATE(falcon::Stage::homing, falcon::Stage::ready);
+    state.touch.falcon->status.stage = GENERATE(falcon::Stage::homing, falcon::Stage::ready);
     CHECK_THAT(stiffness(), WithinAbs(0.25, 1e-12));
 }
 
@@ -63,107 +64,107 @@ TEST_CASE("the stiffness shown for a device that answers late is the one that th
           "[falcon][settings]") {
     ViewerState state;
     state.settings.touch.coupling.stiffness_newton_per_mm = 0.5;
-    state.falcon.emplace().status.stage = falcon::Stage::ready;
-    state.haptic.hand.limits = DeviceLimits{.max_stiffness_newton_per_mm = 0.3};
-    CHECK_THAT(felt_coupling(state).stiffness_newton_per_mm, WithinAbs(0.5, 0.0));  // the mouse's
-    state.haptic.hand.which = static_cast<std::uint8_t>(Touching::falcon);
-    CHECK_THAT(felt_coupling(state).stiffness_newton_per_mm, WithinAbs(0.3, 1e-12));
+    state.touch.falcon.emplace().status.stage = falcon::Stage::ready;
+    state.touch.haptic.hand.limits = DeviceLimits{.max_stiffness_newton_per_mm = 0.3};
+    CHECK_THAT(felt_coupling(state.settings, state.touch).stiffness_newton_per_mm, WithinAbs(0.5, 0.0));  // the mouse's
+    state.touch.haptic.hand.which = static_cast<std::uint8_t>(Touching::falcon);
+    CHECK_THAT(felt_coupling(state.settings, state.touch).stiffness_newton_per_mm, WithinAbs(0.3, 1e-12));
 }
 
 TEST_CASE("only the force of a Falcon waits for the window, and only when it is wished",
           "[falcon][focus]") {
     ViewerState state;
-    state.in_front = false;
-    CHECK_FALSE(waits_for_front(state));  // the mouse touches
-    state.falcon.emplace().asked = true;
-    CHECK_FALSE(waits_for_front(state));  // no Falcon is there
-    state.falcon->status.stage = GENERATE(falcon::Stage::homing, falcon::Stage::ready);
-    CHECK(waits_for_front(state));
-    CHECK_FALSE(asked_settings(state).force_enabled);
-    CHECK(state.force_enabled);  // the person's own switch stays as it is
-    state.in_front = true;
-    CHECK_FALSE(waits_for_front(state));
-    CHECK(asked_settings(state).force_enabled);
-    state.in_front = false;
-    state.settings.falcon.force_in_front_only = false;
-    CHECK_FALSE(waits_for_front(state));
-    state.settings.falcon.force_in_front_only = true;
-    state.replay.emplace();
-    CHECK_FALSE(waits_for_front(state));
+    state.touch.in_front = false;
+    CHECK_FALSE(waits_for_front(state.settings, state.touch));  // the mouse touches
+    state.touch.falcon.emplace().asked = true;
+    CHECK_FALSE(waits_for_front(state.settings, state.touch));  // no Falcon is there
+    state.touch.falcon->status.stage = GENERATE(falcon::Stage::homing, falcon::Stage::ready);
+    CHECK(waits_for_front(state.settings, state.touch));
+    CHECK_FALSE(asked_settings(state.settings, state.touch).force_enabled);
+    CHECK(state.touch.force_enabled);  // the person's own switch stays as it is
+    state.touch.in_front = true;
+    CHECK_FALSE(waits_for_front(state.settings, state.touch));
+    CHECK(asked_settings(state.settings, state.touch).force_enabled);
+    state.touch.in_front = false;
+    state.settings.force_in_front_only = false;
+    CHECK_FALSE(waits_for_front(state.settings, state.touch));
+    state.settings.force_in_front_only = true;
+    state.touch.replay.emplace();
+    CHECK_FALSE(waits_for_front(state.settings, state.touch));
 }
 
 TEST_CASE("a force that waits for the window is told, unless the person has switched it off",
           "[falcon][banner]") {
     ViewerState state;
-    state.falcon.emplace().status.stage = falcon::Stage::ready;
-    state.haptic.hand.which = static_cast<std::uint8_t>(Touching::falcon);
-    state.in_front = false;
-    CHECK(device_banner(state).find("not in front") != std::string::npos);
-    state.force_enabled = false;
-    CHECK(device_banner(state).empty());
+    state.touch.falcon.emplace().status.stage = falcon::Stage::ready;
+    state.touch.haptic.hand.which = static_cast<std::uint8_t>(Touching::falcon);
+    state.touch.in_front = false;
+    CHECK(device_banner(state.settings, state.touch).find("not in front") != std::string::npos);
+    state.touch.force_enabled = false;
+    CHECK(device_banner(state.settings, state.touch).empty());
 }
 
 TEST_CASE("the window says over the relief what an attached or lost Falcon needs",
           "[falcon][banner]") {
     ViewerState state;
-    CHECK(device_banner(state).empty());
-    state.falcon.emplace();
-    state.falcon->status.sentence = "plug it in";
-    CHECK(device_banner(state).empty());  // none has been there: only the panel says so
-    state.falcon->status.trouble = true;  // one could not be brought up
-    CHECK(device_banner(state) == "plug it in");
-    state.falcon->status.trouble = false;
-    state.falcon->was_ready = true;  // one was lost
-    CHECK(device_banner(state) == "plug it in");
-    state.falcon->status.stage = falcon::Stage::ready;
-    CHECK(device_banner(state).empty());
-    state.falcon->was_ready = false;
-    state.falcon->status.stage = GENERATE(falcon::Stage::cannot_open, falcon::Stage::no_firmware,
+    CHECK(device_banner(state.settings, state.touch).empty());
+    state.touch.falcon.emplace();
+    state.touch.falcon->status.sentence = "plug it in";
+    CHECK(device_banner(state.settings, state.touch).empty());  // none has been there: only the panel says so
+    state.touch.falcon->status.trouble = true;  // one could not be brought up
+    CHECK(device_banner(state.settings, state.touch) == "plug it in");
+    state.touch.falcon->status.trouble = false;
+    state.touch.falcon->was_ready = true;  // one was lost
+    CHECK(device_banner(state.settings, state.touch) == "plug it in");
+    state.touch.falcon->status.stage = falcon::Stage::ready;
+    CHECK(device_banner(state.settings, state.touch).empty());
+    state.touch.falcon->was_ready = false;
+    state.touch.falcon->status.stage = GENERATE(falcon::Stage::cannot_open, falcon::Stage::no_firmware,
                                           falcon::Stage::loading, falcon::Stage::homing);
-    CHECK(device_banner(state) == "plug it in");
+    CHECK(device_banner(state.settings, state.touch) == "plug it in");
 }
 
 TEST_CASE("a held clutch is told as such, and only of a Falcon that touches", "[falcon][banner]") {
     ViewerState state;
-    state.haptic.hand.buttons = bit_of(Button::centre);
-    CHECK_FALSE(clutched(state));  // the mouse's button
-    state.falcon.emplace();
-    CHECK_FALSE(clutched(state));
-    state.haptic.hand.which = static_cast<std::uint8_t>(Touching::falcon);
-    state.falcon->status.stage = falcon::Stage::ready;
-    CHECK(clutched(state));
-    state.haptic.hand.stand_in = true;
-    CHECK_FALSE(clutched(state));
-    state.haptic.hand = {.buttons = bit_of(Button::plus)};
-    CHECK_FALSE(clutched(state));
+    state.touch.haptic.hand.buttons = bit_of(Button::centre);
+    CHECK_FALSE(clutched(state.settings, state.touch));  // the mouse's button
+    state.touch.falcon.emplace();
+    CHECK_FALSE(clutched(state.settings, state.touch));
+    state.touch.haptic.hand.which = static_cast<std::uint8_t>(Touching::falcon);
+    state.touch.falcon->status.stage = falcon::Stage::ready;
+    CHECK(clutched(state.settings, state.touch));
+    state.touch.haptic.hand.stand_in = true;
+    CHECK_FALSE(clutched(state.settings, state.touch));
+    state.touch.haptic.hand = {.buttons = bit_of(Button::plus)};
+    CHECK_FALSE(clutched(state.settings, state.touch));
 }
 
 TEST_CASE("the window says over the relief what an Inverse3 that is there lacks",
           "[inverse3][banner]") {
     ViewerState state;
-    inverse3::Status& status = state.inverse3.emplace().status;
+    inverse3::Status& status = state.touch.inverse3.emplace().status;
     status.sentence = "do this";
-    CHECK(device_banner(state).empty());  // no service, and nobody asked for one
-    CHECK_FALSE(inverse3_in_sight(state));
+    CHECK(device_banner(state.settings, state.touch).empty());  // no service, and nobody asked for one
+    CHECK_FALSE(inverse3_in_sight(state.touch));
     status.stage = inverse3::Stage::no_device;
-    CHECK(device_banner(state).empty());
+    CHECK(device_banner(state.settings, state.touch).empty());
     status.stage = GENERATE(inverse3::Stage::no_power, inverse3::Stage::not_calibrated,
                             inverse3::Stage::locked, inverse3::Stage::in_use, inverse3::Stage::deaf,
                             inverse3::Stage::too_old, inverse3::Stage::not_understood);
-    CHECK(device_banner(state) == "do this");
-    CHECK(inverse3_in_sight(state));
+    CHECK(device_banner(state.settings, state.touch) == "do this");
+    CHECK(inverse3_in_sight(state.touch));
     status.stage = inverse3::Stage::ready;
-    CHECK(device_banner(state).empty());
+    CHECK(device_banner(state.settings, state.touch).empty());
 }
 
 TEST_CASE("what the Falcon lacks is not said while an Inverse3 touches", "[inverse3][banner]") {
     ViewerState state;
-    state.falcon.emplace().status.stage = falcon::Stage::homing;
-    state.falcon->status.sentence = "pull it out";
-    state.inverse3.emplace().status.stage = inverse3::Stage::ready;
-    CHECK(device_banner(state) == "pull it out");
-    state.haptic.hand.which = static_cast<std::uint8_t>(Touching::inverse3);
-    CHECK(device_banner(state).empty());
-    state.haptic.hand.buttons = 1;
-    CHECK(clutched(state));  // its own button A, not the Falcon's
+    state.touch.falcon.emplace().status.stage = falcon::Stage::homing;
+    state.touch.falcon->status.sentence = "pull it out";
+    state.touch.inverse3.emplace().status.stage = inverse3::Stage::ready;
+    CHECK(device_banner(state.settings, state.touch) == "pull it out");
+    state.touch.haptic.hand.which = static_cast<std::uint8_t>(Touching::inverse3);
+    CHECK(device_banner(state.settings, state.touch).empty());
+    state.touch.haptic.hand.buttons = 1;
+    CHECK(clutched(state.settings, state.touch));  // its own button A, not the Falcon's
 }

@@ -22,8 +22,8 @@ class ExplainedScene {
             }));
         state_.media.depth_columns = state_.media.depth_rows = kSide;
         state_.settings.touch.friction = {0.2, 0.1};
-        state_.haptic.touchable = true;
-        state_.haptic.shape = state_.settings.touch.shape;
+        state_.touch.haptic.touchable = true;
+        state_.touch.haptic.shape = state_.settings.touch.shape;
         camera_.frame_relief(kSide, kSide, 255.0);
         move_hand({10.0, 10.0, 120.0});
         move_hand({10.3, 10.2, 80.0});
@@ -31,8 +31,8 @@ class ExplainedScene {
 
     /// One update, as the loop makes it.
     void move_hand(Vec3 goal) {
-        state_.haptic.touch.goal = goal;
-        state_.haptic.touch.proxy = hand_.update(surface(), goal, state_.settings.touch.friction);
+        state_.touch.haptic.touch.goal = goal;
+        state_.touch.haptic.touch.proxy = hand_.update(surface(), goal, state_.settings.touch.friction);
     }
 
     /// What an update to there would give, which is not made.
@@ -46,7 +46,7 @@ class ExplainedScene {
     }
     const ExplainedNews& show(double now_s = 0.0) {
         explaining_.advance(blend(), state_, camera_, now_s);
-        return *state_.explained;
+        return *state_.ui.explained;
     }
     ViewerState& state() { return state_; }
     [[nodiscard]] glm::dmat4 view() const { return camera_.clip_from_grid(1.5); }

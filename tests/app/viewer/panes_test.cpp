@@ -35,8 +35,8 @@ ViewerState panes_on() {
     ViewerState state;
     state.settings.panels_visible = false;
     state.settings.panes = true;
-    state.window_width = kWidth;
-    state.window_height = kHeight;
+    state.ui.window_width = kWidth;
+    state.ui.window_height = kHeight;
     state.media.depth_columns = kColumns;
     state.media.depth_rows = kRows;
     return state;

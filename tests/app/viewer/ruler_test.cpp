@@ -15,11 +15,11 @@ TEST_CASE("a ruler says how far two points are apart, in pixels, under the hand 
           "[ruler]") {
     ViewerState state;
     state.settings.touch.coupling.pixel_pitch_mm = 0.5;
-    state.ruler.emplace();
+    state.ui.ruler.emplace();
     CHECK(contains(ruler_text(state), "click two points"));
-    state.ruler->ends = {{.column = 10, .row = 20, .nearness = 0.25, .elevation_px = 5.0}};
+    state.ui.ruler->ends = {{.column = 10, .row = 20, .nearness = 0.25, .elevation_px = 5.0}};
     CHECK(contains(ruler_text(state), "the other point"));
-    state.ruler->ends.push_back({.column = 13, .row = 24, .nearness = 0.75, .elevation_px = 17.0});
+    state.ui.ruler->ends.push_back({.column = 13, .row = 24, .nearness = 0.75, .elevation_px = 17.0});
     CHECK(ruler_text(state) == "Ruler   13.0 px, 6.50 mm");
     DepthMeaning meaning;
     meaning.unit.value = DepthUnit::mm;
@@ -27,7 +27,7 @@ TEST_CASE("a ruler says how far two points are apart, in pixels, under the hand 
     meaning.range.value = {500.0, 1500.0};
     state.media.meaning = meaning;
     CHECK(contains(ruler_text(state), "500 mm of depth"));
-    state.ruler->ends[1].unseen = true;
+    state.ui.ruler->ends[1].unseen = true;
     CHECK(contains(ruler_text(state), "no data"));
 }
 

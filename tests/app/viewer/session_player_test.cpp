@@ -154,29 +154,29 @@ TEST_CASE(
     };
     replay.player()->pause();
     replay.player()->seek(before.t_s);
-    show_until([&] { return state.replay->tick.tick == before.tick && state.haptic.touchable; });
+    show_until([&] { return state.touch.replay->tick.tick == before.tick && state.touch.haptic.touchable; });
     const glm::dmat4 view = camera.clip_from_grid(1.5);
 
     REQUIRE(explaining.perform(Action::explain, state, player, replay.player()));
-    show_until([&] { return !state.explained || !state.explained->waits; });
-    REQUIRE(state.explained);
-    CHECK(state.replay->tick.tick == next.tick);
-    CHECK(state.explained->update.result.position == next.proxy);
-    CHECK(state.explained->update.result.moves == next.moves);
+    show_until([&] { return !state.ui.explained || !state.ui.explained->waits; });
+    REQUIRE(state.ui.explained);
+    CHECK(state.touch.replay->tick.tick == next.tick);
+    CHECK(state.ui.explained->update.result.position == next.proxy);
+    CHECK(state.ui.explained->update.result.moves == next.moves);
     CHECK(camera.clip_from_grid(1.5) != view);
 
     SECTION("by a seek") {
         replay.player()->seek(ticks.back().t_s);
-        show_until([&] { return state.replay->tick.tick == ticks.back().tick; });
+        show_until([&] { return state.touch.replay->tick.tick == ticks.back().tick; });
         const auto answer = explaining.perform(Action::explain, state, player, replay.player());
         REQUIRE(answer);
         CHECK(answer->words == "No update comes after this");
     }
     SECTION("by playing on") {
         replay.player()->play();
-        show_until([&] { return state.replay->tick.tick != next.tick; });
+        show_until([&] { return state.touch.replay->tick.tick != next.tick; });
     }
-    CHECK_FALSE(state.explained);
+    CHECK_FALSE(state.ui.explained);
     CHECK(camera.clip_from_grid(1.5) == view);
 }
 
@@ -425,11 +425,11 @@ TEST_CASE("participant, note and marks are kept as they were typed, before and w
     Player player;
     ViewerRecording recording(*ticks, words, player);
     const auto state = std::make_unique<ViewerState>();
-    const auto type = [](TextFields::Field& field, const std::string& text) {
+    const auto type = [](TextField& field, const std::string& text) {
         std::strncpy(field.data(), text.c_str(), field.size() - 1);
     };
     CHECK(recording.mark(*state).find("Ctrl+R") != std::string::npos);
-    type(state->fields.participant, "P07");
+    type(state->touch.session_fields.participant, "P07");
     recording.start(folder / "mine.dibhr", *state);
     REQUIRE(recording.active());
     recording.hand_over({.recording = true, .version = 1}, {});
@@ -440,17 +440,17 @@ TEST_CASE("participant, note and marks are kept as they were typed, before and w
                              .settings = 1,
                              .surface = false}));
     }
-    type(state->fields.note, note);
-    type(state->fields.tag, note);
+    type(state->touch.session_fields.note, note);
+    type(state->touch.session_fields.tag, note);
     recording.take_news(*state);
     CHECK(recording.mark(*state).find(note) != std::string::npos);
-    type(state->fields.tag, "");
+    type(state->touch.session_fields.tag, "");
     recording.mark(*state);
-    REQUIRE(state->recording);
-    CHECK(state->recording->marks.size() == 2);
+    REQUIRE(state->touch.recording);
+    CHECK(state->touch.recording->marks.size() == 2);
     CHECK(recording.stop(*state).find("Recorded 50 ticks") == 0);
     CHECK_FALSE(recording.active());
-    CHECK_FALSE(state->recording);
+    CHECK_FALSE(state->touch.recording);
     const Session session(folder / "mine.dibhr");
     CHECK(session.fact("participant") == "P07");
     CHECK(session.fact("note") == note);

@@ -1,0 +1,70 @@
+// The force law.
+#include "app/touching/force_law.hpp"
+
+#include "app/touching/device_state.hpp"
+#include "core/haptics/safety.hpp"
+#include "core/haptics/stability.hpp"
+
+namespace dibhr {
+
+namespace {
+
+double scale_of_hand(const Settings& settings, const TouchState& touch) {
+    const bool inverse3_alone = touch.inverse3 && !touch.falcon;
+    return inverse3_alone || touching(touch) == Touching::inverse3
+               ? settings.inverse3.tuning.workspace.scale
+               : settings.falcon.workspace.scale;
+}
+
+}  // namespace
+
+const DeviceLimits& limits_of_hand(const TouchState& touch) {
+    const auto& now = touch.haptic.hand.limits;
+    return now ? *now : touch.device.limits;
+}
+
+Coupling asked_coupling(const Settings& settings, const TouchState& touch) {
+    const Coupling& chosen = settings.touch.coupling;
+    if (touch.replay || !settings.stability || !settings.damping_as_needed) return chosen;
+    const DeviceLimits& hand = limits_of_hand(touch);
+    const double felt_stiffness = held_coupling(chosen, hand).stiffness_newton_per_mm;
+    return stable_coupling(chosen, felt_stiffness, hand.dynamics);
+}
+
+Coupling felt_coupling(const Settings& settings, const TouchState& touch) {
+    const Coupling asked = asked_coupling(settings, touch);
+    if (!may_touch(touch)) return asked;
+    // The loop knows the device's delay, too.
+    if (a_device_touches(touch)) return held_coupling(asked, limits_of_hand(touch));
+    return held_coupling(asked, at_scale(touch.device.limits, scale_of_hand(settings, touch)));
+}
+
+HapticSettings asked_settings(const Settings& settings, const TouchState& touch) {
+    HapticSettings asked{
+        .parameters = settings.touch,
+        .limits = {.max_force_newton = settings.max_force_newton, .stability = settings.stability},
+        .force_enabled = touch.force_enabled && !waits_for_front(settings, touch),
+        .bump = touch.bump,
+    };
+    asked.parameters.coupling = asked_coupling(settings, touch);
+    return asked;
+}
+
+bool waits_for_front(const Settings& settings, const TouchState& touch) {
+    return !touch.in_front && settings.force_in_front_only && may_touch(touch);
+}
+
+bool clutched(const Settings& settings, const TouchState& touch) {
+    if (!a_device_touches(touch)) return false;
+    const ButtonActions& buttons =
+        touching(touch) == Touching::inverse3 ? settings.inverse3.buttons : settings.falcon.buttons;
+    return (touch.haptic.hand.buttons & unsigned{buttons_for(ButtonAction::clutch, buttons)}) != 0;
+}
+
+std::string device_banner(const Settings& settings, const TouchState& touch) {
+    if (touch.force_enabled && a_device_touches(touch) && waits_for_front(settings, touch))
+        return "force off: the window is not in front. Click it, and the force rises again";
+    return lacking_text(touch);
+}
+
+}  // namespace dibhr
